@@ -92,11 +92,6 @@ class FAIRING_PG_mesh(bpy.types.PropertyGroup):
         size=2,
         options={"HIDDEN"},
     )
-    active_colour: StringProperty(
-        name="Active Colour",
-        description="The colour attribute that was active before",
-        options={"HIDDEN"},
-    )
 
 
 def remember(

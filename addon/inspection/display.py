@@ -81,25 +81,19 @@ def write_colours(mesh: Mesh, mode: str, settings: Any) -> None:
         limits = measures.value_range(
             values, inner, signed, settings.range_low, settings.range_high
         )
-    _remember_active(mesh)
     rgba = measures.colours_of(values, limits, signed)
     fill_layer(make_layer(mesh, COLOUR, "FLOAT_COLOR", "POINT"), rgba)
-    mesh.color_attributes.active_color = mesh.color_attributes[COLOUR]  # what Solid shading shows
     mesh.discrete_fairing.curvature_range = limits
     mesh.update()
 
 
 def remove_values(mesh: Mesh) -> None:
-    """Takes all of it off the mesh again and makes the colours active that were."""
+    """Takes all of it off the mesh again."""
     for name in (*VALUES.values(), INNER, COLOUR):
         attribute = mesh.attributes.get(name)
         if attribute is not None:
             mesh.attributes.remove(attribute)
-    before = mesh.color_attributes.get(mesh.discrete_fairing.active_colour)
-    if before is not None:
-        mesh.color_attributes.active_color = before
-    for name in ("active_colour", "curvature_range"):
-        mesh.discrete_fairing.property_unset(name)
+    mesh.discrete_fairing.property_unset("curvature_range")
 
 
 def legend(mesh: Mesh) -> tuple[float, ...] | None:
@@ -113,12 +107,6 @@ def value_text(scene: Scene, mode: str, value: float) -> str:
     if mode == "DEVIATION":
         return length_text(scene, value)
     return curvature_text(scene, value, 1 if mode == "MEAN" else 2)
-
-
-def _remember_active(mesh: Mesh) -> None:
-    active = mesh.color_attributes.active_color
-    if active is not None and active.name != COLOUR:
-        mesh.discrete_fairing.active_colour = active.name
 
 
 def show(target: Object, mode: str, settings: Any) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Stripes in Solid and Wireframe and in Edit Mode, and section curves: drawn over the viewport.
+"""Section curves and their combs: drawn over the viewport.
 
 What is drawn hangs on the object's settings alone. Points on the graphics card are a cache: every
 change of a mesh, undo and a new file throw it away, and the next drawing makes it anew.
@@ -19,49 +19,10 @@ from .. import events
 from ..blender import Object, all_objects, current_context
 from ..mesh.object import Reference, changed_keys, session_key
 from .drawn import Drawn
-from .overlay_arrays import lines_of, pulled, surface_of, uniforms
-from .stripes import STRIPES
+from .overlay_arrays import lines_of, pulled, surface_of
 
 gpu: Any = _gpu  # whose stubs say little of it
 batch_for_shader: Any = _batch.batch_for_shader
-
-# viewports whose shading shows no material
-SHADINGS = {"SOLID", "WIREFRAME"}
-
-_THROUGH = 0.75  # in Edit Mode: vertices and edges are to be seen through dark stripes
-
-_STRUCT = """
-struct Look {
-  mat4 model_view;
-  mat4 projection;
-  mat4 normals;
-  mat4 room;
-  vec4 axis;   /* w: 1 for the mirrored ray, 0 for the normal */
-  vec4 wave;   /* waves, level, width; w: 1 in perspective */
-  vec4 dark;
-  vec4 light;  /* w: opacity */
-};
-"""
-_VERTEX = """
-void main() {
-  vec4 seen = look.model_view * vec4(position, 1.0);
-  at = seen.xyz;
-  turned = mat3(look.normals) * normal;
-  gl_Position = look.projection * seen;
-}
-"""
-_FRAGMENT = """
-void main() {
-  vec3 ray = look.wave.w > 0.5 ? normalize(at) : vec3(0.0, 0.0, -1.0);
-  vec3 n = normalize(turned);
-  n = dot(n, ray) > 0.0 ? -n : n;
-  vec3 along = normalize(mat3(look.room) * (look.axis.w > 0.5 ? reflect(ray, n) : n));
-  float phase = look.wave.x * asin(clamp(dot(along, look.axis.xyz), -1.0, 1.0));
-  float blur = max(look.wave.z, 0.7 * fwidth(phase));
-  float tone = smoothstep(look.wave.y - blur, look.wave.y + blur, sin(phase));
-  colour = vec4(mix(look.dark.rgb, look.light.rgb, tone), look.light.w);
-}
-"""
 
 
 @dataclass
@@ -70,20 +31,17 @@ class _Entry:
 
     surface: Drawn
     smooth: bool
-    stripes: Any = None
-    uniforms: Any = None
     lines: dict[tuple[Any, ...], list[tuple[Any, tuple[float, ...]]]] = field(default_factory=dict)
 
 
 _entries: dict[int | str, _Entry] = {}
 _shown: list[Reference] | None = None  # objects with something to draw; None: to be looked for
 _count = 0  # of the file's objects, when they were looked through
-_shader: Any = None
 _handle: Any = None
 
 
 def is_on() -> bool:
-    """Whether anything is ever drawn: in a window, by a graphics card that takes the shader."""
+    """Whether anything is ever drawn: in a window."""
     return _handle is not None
 
 
@@ -112,13 +70,12 @@ def _objects() -> Iterable[Object]:
     count = len(bpy.data.objects)
     if _shown is None or count != _count:
         _count = count
-        _shown = [Reference(o) for o in all_objects() if o.type == "MESH" and _shows_anything(o)]
+        _shown = [
+            Reference(o)
+            for o in all_objects()
+            if o.type == "MESH" and o.discrete_fairing_inspection.sections
+        ]
     return [found for reference in _shown if (found := reference.find()) is not None]
-
-
-def _shows_anything(target: Object) -> bool:
-    shown = target.discrete_fairing_inspection
-    return shown.mode in STRIPES or shown.sections
 
 
 def _draw() -> None:
@@ -128,14 +85,11 @@ def _draw() -> None:
         return
     for target in _objects():
         if target.mode in {"OBJECT", "EDIT"} and target.visible_in_viewport_get(space):
-            _draw_object(context, target, space, view)
+            _draw_object(context, target, view)
 
 
-def _draw_object(context: Any, target: Object, space: Any, view: Any) -> None:
-    shown, settings = target.discrete_fairing_inspection, context.scene.discrete_fairing_inspection
-    striped = shown.mode in STRIPES and space.shading.type in SHADINGS
-    if not striped and not shown.sections:
-        return
+def _draw_object(context: Any, target: Object, view: Any) -> None:
+    settings = context.scene.discrete_fairing_inspection
     key = session_key(target)
     entry = _entries.get(key)
     if entry is None or entry.smooth != settings.smooth:
@@ -143,47 +97,14 @@ def _draw_object(context: Any, target: Object, space: Any, view: Any) -> None:
         entry = _entries[key] = _Entry(surface, settings.smooth)
     if not len(entry.surface.triangles):
         return
-    projection = pulled(np.array(view.window_matrix), view.view_distance)
     gpu.state.depth_test_set("LESS_EQUAL")
     gpu.state.blend_set("ALPHA")
     try:
-        if striped:
-            gpu.state.depth_mask_set(True)
-            _draw_stripes(entry, target, settings, np.array(view.view_matrix), projection)
-        if shown.sections:
-            _draw_lines(entry, target, settings, pulled(projection, view.view_distance))
+        projection = pulled(np.array(view.window_matrix), view.view_distance)
+        _draw_lines(entry, target, settings, projection)
     finally:
-        gpu.state.depth_mask_set(False)
         gpu.state.depth_test_set("NONE")
         gpu.state.blend_set("NONE")
-
-
-def _draw_stripes(
-    entry: _Entry, target: Object, settings: Any, view: np.ndarray, projection: np.ndarray
-) -> None:
-    values = uniforms(
-        target.discrete_fairing_inspection.mode,
-        settings,
-        np.array(target.matrix_world),
-        view,
-        projection,
-    )
-    values[-1] = _THROUGH if target.mode == "EDIT" else 1.0
-    data = gpu.types.Buffer("FLOAT", len(values), values)
-    if entry.stripes is None:
-        surface = entry.surface
-        entry.stripes = batch_for_shader(
-            _shader,
-            "TRIS",
-            {"position": surface.points, "normal": surface.normals},
-            indices=surface.triangles,
-        )
-        entry.uniforms = gpu.types.GPUUniformBuf(data)
-    else:
-        entry.uniforms.update(data)
-    _shader.bind()
-    _shader.uniform_block("look", entry.uniforms)
-    entry.stripes.draw(_shader)
 
 
 def _draw_lines(entry: _Entry, target: Object, settings: Any, projection: np.ndarray) -> None:
@@ -210,22 +131,6 @@ def _draw_lines(entry: _Entry, target: Object, settings: Any, projection: np.nda
         for batch, colour in entry.lines[key]:
             shader.uniform_float("color", colour)
             batch.draw(shader)
-
-
-def _make_shader() -> Any:
-    info = gpu.types.GPUShaderCreateInfo()
-    info.typedef_source(_STRUCT)
-    info.uniform_buf(0, "Look", "look")
-    info.vertex_in(0, "VEC3", "position")
-    info.vertex_in(1, "VEC3", "normal")
-    between = gpu.types.GPUStageInterfaceInfo("fairing_stripes")
-    between.smooth("VEC3", "at")
-    between.smooth("VEC3", "turned")
-    info.vertex_out(between)
-    info.fragment_out(0, "VEC4", "colour")
-    info.vertex_source(_VERTEX)
-    info.fragment_source(_FRAGMENT)
-    return gpu.shader.create_from_info(info)
 
 
 def _note_changes(_scene: Any, depsgraph: bpy.types.Depsgraph) -> None:
@@ -255,29 +160,19 @@ _HANDLERS = {
 }
 
 
-def _start() -> None:
-    """From a timer: while Blender starts there is no graphics card yet."""
-    global _shader, _handle
-    _shader = _make_shader()
-    _handle = bpy.types.SpaceView3D.draw_handler_add(_draw, (), "WINDOW", "POST_VIEW")
-
-
 def register() -> None:
+    global _handle
     if bpy.app.background:
         return
-    # persistent: Blender may be about to open a file, which ends other timers
-    bpy.app.timers.register(_start, first_interval=0.0, persistent=True)
+    _handle = bpy.types.SpaceView3D.draw_handler_add(_draw, (), "WINDOW", "POST_VIEW")
     events.listen(_HANDLERS)
 
 
 def unregister() -> None:
-    global _shader, _handle
+    global _handle
     if bpy.app.background:
         return
     events.ignore(_HANDLERS)
-    if bpy.app.timers.is_registered(_start):
-        bpy.app.timers.unregister(_start)
-    if _handle is not None:
-        bpy.types.SpaceView3D.draw_handler_remove(_handle, "WINDOW")
-    _shader = _handle = None
+    bpy.types.SpaceView3D.draw_handler_remove(_handle, "WINDOW")
+    _handle = None
     _forget()

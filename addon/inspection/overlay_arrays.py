@@ -9,11 +9,10 @@ import numpy as np
 from ..blender import Object
 from .drawn import Drawn, drawn
 from .sections import combs, sections, segments, teeth
-from .stripes import DARK, LIGHT, stripes_of
 
 CURVE, COMB, TOOTH = (0.02, 0.02, 0.02, 1.0), (0.85, 0.3, 0.05, 1.0), (0.85, 0.3, 0.05, 0.5)
 
-_PULL = 1e-3  # towards the eye, a share of the distance: else surface and stripes would mix
+_PULL = 1e-3  # towards the eye, a share of the distance: else surface and lines would mix
 
 
 def surface_of(target: Object, depsgraph: bpy.types.Depsgraph, smooth: bool = False) -> Drawn:
@@ -62,28 +61,6 @@ def lines_of(surface: Drawn, settings: Any) -> list[tuple[np.ndarray, tuple[floa
         ends = combs(found, diagonal, settings.comb_scale)
         lines += [(teeth(found, ends), TOOTH), (segments(ends), COMB)]
     return [line for line in lines if len(line[0])]
-
-
-def uniforms(
-    mode: str, settings: Any, world: np.ndarray, view: np.ndarray, projection: np.ndarray
-) -> np.ndarray:
-    """(80,) float32: the shader's `Look`, matrices by columns, but for the opacity."""
-    stripes = stripes_of(mode, settings)
-    model_view = view @ world
-    normals, room = np.eye(4), np.eye(4)
-    normals[:3, :3] = np.linalg.pinv(model_view[:3, :3]).T
-    if not stripes.by_view:
-        room[:3, :3] = np.linalg.pinv(model_view[:3, :3])
-    perspective = float(projection[3, 3] == 0.0)
-    rows = (
-        (*stripes.axis, float(stripes.mirrored)),
-        (stripes.waves, stripes.level, stripes.width, perspective),
-        (*DARK, 1.0),
-        (*LIGHT, 1.0),
-    )
-    matrices = (model_view, projection, normals, room)
-    parts = [matrix.T.ravel() for matrix in matrices] + [np.array(row) for row in rows]
-    return np.concatenate(parts).astype(np.float32)
 
 
 def pulled(projection: np.ndarray, distance: float) -> np.ndarray:

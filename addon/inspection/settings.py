@@ -70,7 +70,6 @@ def _mode_changed(group: Any, _context: Context) -> None:
     target = group.id_data
     if isinstance(target.data, Mesh):
         display.show(target, group.mode, scene_of(target).discrete_fairing_inspection)
-    overlay.shown_changed()
 
 
 def _sections_changed(_group: Any, _context: Context) -> None:

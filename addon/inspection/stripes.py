@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What stripes are, in numbers that material and overlay share: plain arrays, no Blender.
+"""What stripes are, in numbers: plain arrays, no Blender.
 
 A direction is seen at each point: that of the mirrored ray, or for isophotes that of the normal. Its
 angle from the plane across the axis of the room makes a wave; where it is low the surface is dark.
@@ -8,8 +8,6 @@ angle from the plane across the axis of the room makes a wave; where it is low t
 from dataclasses import dataclass
 from math import cos, pi, sin
 from typing import Any
-
-import numpy as np
 
 # modes of inspection that show stripes
 STRIPES = ("ZEBRA", "LINES", "ISOPHOTES")
@@ -41,15 +39,3 @@ def stripes_of(mode: str, settings: Any) -> Stripes:
         mirrored=mode != "ISOPHOTES",
         by_view=by_view,
     )
-
-
-def tones(stripes: Stripes, normals: np.ndarray, rays: np.ndarray) -> np.ndarray:
-    """(n,) from 0, dark, to 1, light, at points with unit `normals` (n, 3) that are seen along unit
-    `rays` (n, 3), both in the room. The shader's formula, but for its pixels' size.
-    """
-    facing = np.einsum("ij,ij->i", rays, normals)[:, None]
-    seen = rays - 2.0 * facing * normals if stripes.mirrored else -np.sign(facing) * normals
-    angle = np.arcsin(np.clip(seen @ np.array(stripes.axis), -1.0, 1.0))
-    wave = np.sin(stripes.waves * angle)
-    t = np.clip((wave - stripes.level) / (2.0 * stripes.width) + 0.5, 0.0, 1.0)
-    return t * t * (3.0 - 2.0 * t)

@@ -10,20 +10,13 @@ from typing import Any
 import bpy
 from bpy.props import StringProperty
 
-from . import overlay
-from .display import VALUES
-
-_BEFORE = "discrete_fairing_before"  # of a viewport's shading: its type and colours
+_BEFORE = "discrete_fairing_before"  # of a viewport's shading: its type
 
 
 def shows(space: Any, mode: str) -> bool:
     """Whether the viewport `space` shows objects in a `mode` of inspection; others have no shading."""
     shading = getattr(space, "shading", None)
-    if mode == "NONE" or shading is None or shading.type in {"MATERIAL", "RENDERED"}:
-        return True
-    if mode not in VALUES:
-        return overlay.is_on()
-    return shading.type == "SOLID" and shading.color_type == "VERTEX"
+    return mode == "NONE" or shading is None or shading.type in {"MATERIAL", "RENDERED"}
 
 
 def show(space: Any, mode: str) -> None:
@@ -31,17 +24,8 @@ def show(space: Any, mode: str) -> None:
     if mode == "NONE":
         _restore(space)
     elif not shows(space, mode):
-        # from one mode to the next, what was before the first one counts
-        if not getattr(space.shading, _BEFORE):
-            setattr(space.shading, _BEFORE, f"{space.shading.type} {space.shading.color_type}")
-        switch(space, "ATTRIBUTE" if mode in VALUES else "MATERIAL")
-
-
-def switch(space: Any, shading: str) -> None:
-    """To MATERIAL preview, or Solid by colour ATTRIBUTE."""
-    space.shading.type = "MATERIAL" if shading == "MATERIAL" else "SOLID"
-    if shading == "ATTRIBUTE":
-        space.shading.color_type = "VERTEX"
+        setattr(space.shading, _BEFORE, space.shading.type)
+        space.shading.type = "MATERIAL"
 
 
 def _restore(space: Any) -> None:
@@ -50,9 +34,8 @@ def _restore(space: Any) -> None:
     if shading is None or not before:
         return
     setattr(shading, _BEFORE, "")
-    for name, value in zip(("type", "color_type"), before):
-        with suppress(TypeError):  # files may hold any text
-            setattr(shading, name, value)
+    with suppress(TypeError):  # files may hold any text
+        shading.type = before[0]
 
 
 def register() -> None:

@@ -102,19 +102,10 @@ class OBJECT_OT_fairing_measure(_Inspecting, bpy.types.Operator):
 
 
 class OBJECT_OT_fairing_viewport(ExplainedPoll, bpy.types.Operator):
-    """Switch this viewport so that what is inspected can be seen"""
+    """Switch this viewport to Material Preview, which shows stripes and colours, until Off switches it back"""
 
     bl_idname = "object.fairing_viewport"
     bl_label = "Show in This Viewport"
-
-    shading: EnumProperty(
-        name="Shading",
-        description="How the viewport is drawn",
-        items=(
-            ("MATERIAL", "Material Preview", "Stripes and colours, as in a render"),
-            ("ATTRIBUTE", "Solid with Attribute", "Curvature colours in Solid shading"),
-        ),
-    )
 
     @staticmethod
     def poll_reason(context: Context) -> str:
@@ -124,7 +115,7 @@ class OBJECT_OT_fairing_viewport(ExplainedPoll, bpy.types.Operator):
         )
 
     def execute(self, context: Context) -> Answer:
-        viewport_shading.switch(cast(Any, context.space_data), self.shading)
+        viewport_shading.show(context.space_data, "ZEBRA")
         return {"FINISHED"}
 
 

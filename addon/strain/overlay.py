@@ -116,7 +116,7 @@ def _draw_source(source: Object, strained: Strained, length: float, view: Any) -
     if entry.times != times:
         entry.times, entry.needles = times, _needle_batch(strained, times)
     projection = np.array(view.window_matrix)
-    for _ in range(2):  # over the stripes, which are pulled by one of these
+    for _ in range(2):  # over section curves, which are pulled by one of these
         projection = pulled(projection, view.view_distance)
     opacity = _FAINT if known.is_behind(source) else 1.0
     gpu.state.blend_set("ALPHA")

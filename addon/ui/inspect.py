@@ -89,10 +89,7 @@ def _draw_viewport(layout: bpy.types.UILayout, context: Context, mode: str) -> N
     if viewport_shading.shows(context.space_data, mode):
         return
     draw_notice(layout, "This viewport's shading does not show it", icon="INFO")
-    row = layout.row(align=True)
-    row.operator("object.fairing_viewport", text="Material Preview").shading = "MATERIAL"
-    if mode in VALUES:
-        row.operator("object.fairing_viewport", text="Solid").shading = "ATTRIBUTE"
+    layout.operator("object.fairing_viewport", text="Material Preview")
 
 
 _ENDS = {

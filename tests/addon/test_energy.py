@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The choice of energy: what it makes, where it is remembered, what is said of unfinished runs."""
 
+from dataclasses import replace
+
 import bpy
 import numpy as np
 import pytest
@@ -85,7 +87,7 @@ def test_a_flat_surface_needs_no_step():
 
 def job_that_stopped(warnings=(), converged=False):
     job = Job(bpy.context, add("Box", *CUBE), Settings.of(bpy.context.scene.discrete_fairing))
-    job.settings.energy = "TOTAL_CURVATURE"
+    job.settings = replace(job.settings, energy="TOTAL_CURVATURE")
     job.compute()
     levels = [
         {"converged": not converged, "steps": [STEP]},

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The operator from end to end: what the source carries arrives on the new object."""
 
+from dataclasses import replace
+
 import bpy
 import numpy as np
 import pytest
@@ -9,6 +11,7 @@ from scenes import CUBE, activate, add, add_suzanne, fair, positions
 from addon.choices import ENERGIES
 from addon.job import Job
 from addon.mesh.modifiers import inspection_modifier
+from addon.settings import Settings
 
 
 def test_uv_groups_and_materials_arrive():
@@ -88,8 +91,8 @@ def test_symmetry_is_exact_with_every_energy(energy):
 
 def test_a_surface_that_is_not_symmetric_is_noted():
     add("Box", *CUBE)
-    job = Job(bpy.context, bpy.context.object, bpy.context.scene.discrete_fairing)
-    job.settings.keep_symmetry = False
+    job = Job(bpy.context, bpy.context.object, Settings.of(bpy.context.scene.discrete_fairing))
+    job.settings = replace(job.settings, keep_symmetry=False)
     job.compute()
     assert not any("symmetric" in note for note in job.notes)
     job.result.vertices[8:, 1] += 0.1
@@ -145,7 +148,7 @@ def test_notes_are_told(capfd):
 
 @pytest.mark.parametrize(("peak", "said"), [(30e6, False), (3e9, True)])
 def test_little_memory_is_not_worth_a_word(peak, said):
-    job = Job(bpy.context, add("Box", *CUBE), bpy.context.scene.discrete_fairing)
+    job = Job(bpy.context, add("Box", *CUBE), Settings.of(bpy.context.scene.discrete_fairing))
     job.compute()
     notice = {
         "code": "MEMORY_EXCEEDED",
@@ -159,7 +162,7 @@ def test_little_memory_is_not_worth_a_word(peak, said):
 
 def test_a_source_that_is_deleted_meanwhile_is_noticed():
     source = add("Box", *CUBE)
-    job = Job(bpy.context, source, bpy.context.scene.discrete_fairing)
+    job = Job(bpy.context, source, Settings.of(bpy.context.scene.discrete_fairing))
     job.compute()
     assert job.is_writable()
     bpy.data.objects.remove(source)
@@ -175,7 +178,7 @@ def test_undo_meanwhile_is_no_deletion(again):
     bpy.ops.ed.undo_push(message="before")
     bpy.context.view_layer.objects.active.location.x += 1.0
     bpy.ops.ed.undo_push(message="after")
-    job = Job(bpy.context, source, bpy.context.scene.discrete_fairing, target)
+    job = Job(bpy.context, source, Settings.of(bpy.context.scene.discrete_fairing), target)
     job.compute()
     bpy.ops.ed.undo()
     assert job.is_writable()

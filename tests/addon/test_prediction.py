@@ -13,6 +13,7 @@ from addon.freshness import UNFINISHED, why_stale
 from addon.job import Job
 from addon.operators import fair as fairing
 from addon.operators import redo as redoing
+from addon.settings import Settings
 from addon.ui import main
 
 ENERGY = "TOTAL_CURVATURE"
@@ -49,7 +50,7 @@ def test_a_run_is_noted_and_the_panel_says_seconds(monkeypatch):
     source.hide_set(False)
     activate(source)
     assert "768 triangles" in draw(main.VIEW3D_PT_fairing)
-    job = Job(bpy.context, source, bpy.context.scene.discrete_fairing)
+    job = Job(bpy.context, source, Settings.of(bpy.context.scene.discrete_fairing))
     prediction.note("THIN_PLATE", 768, 12.0, job._source.key)
     assert "768 triangles, about 12 s" in draw(main.VIEW3D_PT_fairing)
     assert job.predicted_seconds == pytest.approx(12.0)
@@ -96,7 +97,7 @@ def test_where_even_a_small_surface_takes_too_long(redo, monkeypatch):
 
 def test_redo_shows_a_small_surface_and_recompute_the_whole_one(redo, monkeypatch):
     source = add("Box", *CUBE)
-    key = Job(bpy.context, source, bpy.context.scene.discrete_fairing)._source.key
+    key = Job(bpy.context, source, Settings.of(bpy.context.scene.discrete_fairing))._source.key
     prediction.note("THIN_PLATE", 12 * 4**4, 1.0, key)  # a second at level 4
     target = fair(levels=5)
     assert len(target.data.polygons) == 6 * 4**3, "a quarter of a second"
@@ -109,7 +110,7 @@ def test_redo_shows_a_small_surface_and_recompute_the_whole_one(redo, monkeypatc
 
 def test_a_slow_energy_is_stood_in_for(redo, monkeypatch):
     source = add("Box", *CUBE)
-    key = Job(bpy.context, source, bpy.context.scene.discrete_fairing)._source.key
+    key = Job(bpy.context, source, Settings.of(bpy.context.scene.discrete_fairing))._source.key
     prediction.note(ENERGY, 12 * 4, 10.0, key)
     target = fair(levels=3, energy=ENERGY)
     assert target.discrete_fairing.energy == ENERGY and len(target.data.polygons) == 6 * 4**3

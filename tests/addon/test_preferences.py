@@ -81,7 +81,7 @@ def test_blender_is_asked_on_its_own_thread_alone(monkeypatch):
         Job(bpy.context, source, settings),
         StrainJob(bpy.context, source),
         EaseJob(bpy.context, source, Wish("AUTOMATIC", 0.0, 3, False, False)),
-        InPlaceJob(bpy.context, source, scene.discrete_fairing, wish),
+        InPlaceJob(bpy.context, source, settings, wish),
     ]
     queue = Queue(jobs, core.module().Monitor)
     queue.start()

@@ -10,6 +10,7 @@ from scenes import activate, add
 from addon import prediction
 from addon.job import Job
 from addon.live import pace, registry
+from addon.settings import Settings
 from addon.ui import main
 
 
@@ -111,10 +112,10 @@ def test_seconds_count_both_halves_and_triangles_those_that_come(energy):
     source = half_bowl()
     settings = bpy.context.scene.discrete_fairing
     settings.levels, settings.energy = 6, energy
-    alone = Job(bpy.context, source, settings)
+    alone = Job(bpy.context, source, Settings.of(settings))
     said = draw(main.VIEW3D_PT_fairing)
     settings.symmetry_plane = "X"
-    half = Job(bpy.context, source, settings)
+    half = Job(bpy.context, source, Settings.of(settings))
     assert half.predicted_seconds == 2 * alone.predicted_seconds
     assert half.triangles == alone.triangles
     expected = f"{alone.triangles:,} triangles, {prediction.text(half.predicted_seconds)}"

@@ -8,6 +8,7 @@ gets that time to draw and to take events.
 """
 
 import contextlib
+import importlib
 import inspect
 import os
 import subprocess
@@ -21,6 +22,19 @@ import bpy
 EXTENSION = "bl_ext.user_default.discrete_fairing"
 _BUTTON = 12  # pixels: less than a button is high
 DRAWN = 60.0  # seconds until the viewport must have been drawn: on a busy machine it takes its time
+
+
+def module(name):
+    """One of the extension's own."""
+    return importlib.import_module(f"{EXTENSION}.{name}")
+
+
+def until(done, patience=120.0):
+    """Waits, at most so many seconds; a generator."""
+    begun = perf_counter()
+    while not done():
+        assert perf_counter() - begun < patience, "it does not come"
+        yield 0.05
 
 
 def fresh_scene(empty=True):

@@ -66,14 +66,13 @@ def test_zebra_and_curvature_are_seen():
         **view, active_object=result, object=result, selected_objects=[result]
     ):
         assert bpy.ops.object.fairing_inspect(mode="ZEBRA") == {"FINISHED"}
-        assert bpy.ops.object.fairing_viewport(shading="MATERIAL") == {"FINISHED"}
+        assert bpy.ops.object.fairing_viewport() == {"FINISHED"}
         assert bpy.ops.object.fairing_measure() == {"FINISHED"}
     yield from wait_for_shading("inspect", STRIPES)
     with bpy.context.temp_override(
         **view, active_object=result, object=result, selected_objects=[result]
     ):
         assert bpy.ops.object.fairing_inspect(mode="MEAN") == {"FINISHED"}
-        assert bpy.ops.object.fairing_viewport(shading="ATTRIBUTE") == {"FINISHED"}
     yield 2.0
     harness.photograph("curvature")
     with bpy.context.temp_override(

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Clean Scan in a window: a list of what was done, one step of undo; bad rims with buttons that mend them."""
 
-import importlib
 import sys
 from pathlib import Path
 from time import perf_counter
@@ -14,10 +13,6 @@ import harness
 import numpy as np
 
 PATIENCE = 300.0  # seconds until a run must have ended
-
-
-def module(name):
-    return importlib.import_module(f"{harness.EXTENSION}.{name}")
 
 
 def scan():
@@ -56,7 +51,7 @@ def call(operator, **options):
 
 def until_it_ends():
     begun = perf_counter()
-    while module("queue").running():
+    while harness.module("queue").running():
         assert perf_counter() - begun < PATIENCE, "the run does not end"
         yield 0.05
     yield 0.5
@@ -77,7 +72,7 @@ def test_a_scan_is_closed_and_undo_brings_it_back():
     call("fairing_clean")
     yield from until_it_ends()
     target = bpy.context.object
-    said = module("check.defects").recall_cleaned(target)
+    said = harness.module("check.defects").recall_cleaned(target)
     assert said[-1].startswith("Watertight: yes; volume 4.1"), said
     assert "m³; left: nothing" in said[-1], said
     assert border_edges(target) == 0
@@ -111,7 +106,7 @@ def test_bad_rims_have_buttons_that_mend_them():
         yield from until_it_ends()
     except RuntimeError as error:
         assert "1 hole left" in str(error), error
-    defects, stale = module("check.defects").recall_defects(target)
+    defects, stale = harness.module("check.defects").recall_defects(target)
     assert defects[-1]["code"] == "VERTEX_ON_EDGE" and not stale, defects
     yield from harness.unfold_panels("VIEW3D_PT_fairing_inspect", "VIEW3D_PT_fairing_check")
     yield from harness.show_the_end_of_the_sidebar()

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Fill Hole Fair in a window: from the list of Check, in Edit Mode, and over faces that are to go."""
 
-import importlib
 import sys
 from pathlib import Path
 from time import perf_counter
@@ -14,10 +13,6 @@ import harness
 import numpy as np
 
 PATIENCE = 300.0  # seconds until a run must have ended
-
-
-def module(name):
-    return importlib.import_module(f"{harness.EXTENSION}.{name}")
 
 
 def ball_with_holes():
@@ -68,7 +63,7 @@ def call(operator, **options):
 
 def until_it_ends():
     begun = perf_counter()
-    while module("queue").running():
+    while harness.module("queue").running():
         assert perf_counter() - begun < PATIENCE, "the run does not end"
         yield 0.05
     yield 0.5
@@ -82,12 +77,12 @@ def test_check_lists_holes_and_fills_one():
         region.tag_redraw()
     yield 1.0
     harness.photograph("fill_listed")
-    large, small = module("check.defects").recall_holes(target)
+    large, small = harness.module("check.defects").recall_holes(target)
     assert small["edges"] < large["edges"]
     call("fairing_fill", edge=small["at"])
     yield from until_it_ends()
     assert open_edges(target) == large["edges"]
-    assert module("check.defects").recall_holes(target) == [large]
+    assert harness.module("check.defects").recall_holes(target) == [large]
     harness.photograph("fill_one_filled")
     with bpy.context.temp_override(**harness.view()):
         bpy.ops.ed.undo()

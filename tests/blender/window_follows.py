@@ -1,30 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What stands in for a modifier, in a real window: the badge, Live over frames, Live that stays on in the file."""
 
-import importlib
 import sys
 import tempfile
 from pathlib import Path
-from time import perf_counter
 
 sys.path.insert(0, str(Path(__file__).parent))
 
 import bpy
 import harness
-
-PATIENCE = 60.0  # seconds
-
-
-def until(done):
-    """Waits; a generator."""
-    begun = perf_counter()
-    while not done():
-        assert perf_counter() - begun < PATIENCE, "it does not come"
-        yield 0.1
-
-
-def module(name):
-    return importlib.import_module(f"{harness.EXTENSION}.{name}")
 
 
 def surface(levels=2, **settings):
@@ -41,13 +25,15 @@ def test_a_badge_and_one_button_for_all():
     source, target = yield from surface()
     source.data.vertices[0].co.z += 1.0
     source.data.update()
-    stale = module("freshness").stale_surfaces
-    yield from until(lambda: list(stale()) == [target])
+    stale = harness.module("freshness").stale_surfaces
+    yield from harness.until(lambda: list(stale()) == [target])
     yield 1.0
     harness.photograph("badge")
     with bpy.context.temp_override(**harness.view()):
         bpy.ops.object.fairing_recompute_stale("INVOKE_DEFAULT")
-    yield from until(lambda: module("queue").running() is None and not list(stale()))
+    yield from harness.until(
+        lambda: harness.module("queue").running() is None and not list(stale())
+    )
     assert (target.data.vertices[0].co - source.data.vertices[0].co).length == 0.0
 
 
@@ -69,7 +55,7 @@ def test_frames_are_followed():
     yield 1.0
     assert abs(target.data.vertices[0].co.z - before - 1.0) < 1e-5
     target.discrete_fairing_live.on = False
-    yield from until(lambda: source.display_type != "WIRE")
+    yield from harness.until(lambda: source.display_type != "WIRE")
 
 
 def test_live_stays_on_in_the_file():
@@ -87,7 +73,7 @@ def test_live_stays_on_in_the_file():
     assert target.discrete_fairing_live.on
     source.data.vertices[0].co.z += 1.0
     source.data.update()
-    yield from until(
+    yield from harness.until(
         lambda: (target.data.vertices[0].co - source.data.vertices[0].co).length == 0.0
     )
     yield from harness.open_sidebar("Fairing")

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Fair Selected Faces in Place in a window: the view lives meanwhile, ESC and Cancel end it, undo takes it back."""
 
-import importlib
 import sys
 from pathlib import Path
 from time import perf_counter
@@ -18,13 +17,9 @@ MARGIN = 2  # rows at the border that are not selected
 PATIENCE = 300.0  # seconds until a run must have ended
 
 
-def module(name):
-    return importlib.import_module(f"{harness.EXTENSION}.{name}")
-
-
 def running():
     """The extension's queue at work, or None."""
-    return module("queue").running()
+    return harness.module("queue").running()
 
 
 def positions(target):

@@ -2,7 +2,6 @@
 """Adjust Last Operation with a large surface: a small one at once, the whole one by Recompute. Prints the longest stop."""
 
 import contextlib
-import importlib
 import sys
 from pathlib import Path
 from time import perf_counter
@@ -12,13 +11,8 @@ sys.path.insert(0, str(Path(__file__).parent))
 import bpy
 import harness
 
-PATIENCE = 120.0  # seconds until a surface must be whole
 STOP = 1.0  # seconds, twice what nobody would wait: undo and drawing by the processor are in it
 SUZANNE = 500  # faces that she has at least
-
-
-def module(name):
-    return importlib.import_module(f"{harness.EXTENSION}.{name}")
 
 
 def surface():
@@ -39,16 +33,8 @@ def first_surface(levels):
     yield 1.5
     harness.photograph("search")
     harness.xdotool("key", "Return")
-    yield from until(lambda: "Suzanne Fair" in bpy.data.objects)
+    yield from harness.until(lambda: "Suzanne Fair" in bpy.data.objects)
     yield 2.0
-
-
-def until(done):
-    """Waits; a generator."""
-    begun = perf_counter()
-    while not done():
-        assert perf_counter() - begun < PATIENCE, "it does not come"
-        yield 0.05
 
 
 @contextlib.contextmanager
@@ -76,12 +62,12 @@ def test_search_takes_the_settings_of_the_panel():
 
 def test_redo_shows_a_small_surface_and_recompute_the_whole_one():
     yield from first_surface(2)
-    module("prediction").note("THIN_PLATE", 1000, 1.0, None)  # a slow machine
-    module("prediction")._of_mesh.clear()
+    harness.module("prediction").note("THIN_PLATE", 1000, 1.0, None)  # a slow machine
+    harness.module("prediction")._of_mesh.clear()
     with stops() as gaps:
         for level in (3, 4):
             yield from harness.raise_levels(surface)
-            yield from until(lambda level=level: surface().discrete_fairing.levels == level)
+            yield from harness.until(lambda level=level: surface().discrete_fairing.levels == level)
             yield 0.5
             assert len(surface().data.polygons) < SUZANNE * 4**2, "it has waited for the whole one"
     print(f"longest stop of the window in the meantime: {max(gaps):.2f} s")
@@ -90,7 +76,7 @@ def test_redo_shows_a_small_surface_and_recompute_the_whole_one():
     assert surface().discrete_fairing.unfinished
     with bpy.context.temp_override(**harness.view()):
         bpy.ops.object.fairing_recompute("INVOKE_DEFAULT", True)
-    yield from until(lambda: not surface().discrete_fairing.unfinished)
+    yield from harness.until(lambda: not surface().discrete_fairing.unfinished)
     assert len(surface().data.polygons) >= SUZANNE * 4**4
     for _ in range(2):
         with bpy.context.temp_override(**harness.view()):

@@ -1,31 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Undo beside runs that write outside of any step, and what else a run must leave alone in a window."""
 
-import importlib
 import sys
 import tempfile
 from pathlib import Path
-from time import perf_counter
 
 sys.path.insert(0, str(Path(__file__).parent))
 
 import bpy
 import harness
 
-PATIENCE = 120.0  # seconds until a surface must be there
 SUZANNE = 500  # faces that she has at least
-
-
-def module(name):
-    return importlib.import_module(f"{harness.EXTENSION}.{name}")
-
-
-def until(done):
-    """Waits; a generator."""
-    begun = perf_counter()
-    while not done():
-        assert perf_counter() - begun < PATIENCE, "it does not come"
-        yield 0.05
 
 
 def surface():
@@ -57,7 +42,7 @@ def test_fair_for_is_undone_alone():
         bpy.ops.ed.undo_push(message="moved")
         bpy.context.scene.discrete_fairing.levels = 1
         press(bpy.ops.object.fairing_for, purpose=purpose)
-        yield from until(surface)
+        yield from harness.until(surface)
         yield 1.0
         undo()
         yield 0.5
@@ -73,7 +58,7 @@ def test_what_undo_takes_from_the_last_full_level_of_live_is_said():
     press(bpy.ops.object.fairing_live, state="ON")
     yield 0.5
     press(bpy.ops.object.fairing_live, state="OFF")
-    yield from until(lambda: not module("live.registry").sessions())
+    yield from harness.until(lambda: not harness.module("live.registry").sessions())
     whole = len(surface().data.polygons)
     assert whole >= SUZANNE * 4**3 and not surface().discrete_fairing.unfinished
     with bpy.context.temp_override(**harness.view()):
@@ -90,18 +75,18 @@ def test_a_run_that_ends_while_another_mesh_is_sculpted():
     with bpy.context.temp_override(**harness.view()):
         bpy.ops.mesh.primitive_uv_sphere_add()
         bpy.ops.object.mode_set(mode="SCULPT")
-    yield from until(surface)
+    yield from harness.until(surface)
     yield 0.5
     assert bpy.context.mode == "SCULPT" and bpy.context.active_object.name == "Sphere"
 
 
 def begin_run(energy):
     """One in the background, as on a slow machine."""
-    module("prediction").note(energy, 1000, 1.0, None)
+    harness.module("prediction").note(energy, 1000, 1.0, None)
     settings = bpy.context.scene.discrete_fairing
     settings.levels, settings.energy = 3, energy
     press(bpy.ops.object.fairing_surface)
-    assert module("queue").running() is not None
+    assert harness.module("queue").running() is not None
 
 
 def test_a_run_over_two_workspaces():
@@ -110,17 +95,17 @@ def test_a_run_over_two_workspaces():
     yield 0.3
     window = bpy.context.window_manager.windows[0]
     window.workspace = bpy.data.workspaces["Modeling"]
-    yield from until(surface)
+    yield from harness.until(surface)
     yield 0.5
     harness.photograph("status_of_the_other_workspace")
     window.workspace = bpy.data.workspaces["Layout"]
     yield 1.0
     harness.photograph("status_of_the_first_workspace")
-    assert module("queue").running() is None
+    assert harness.module("queue").running() is None
 
 
 def test_overlays_begin_where_blender_opens_with_a_file():
-    overlays = [module("inspection.overlay"), module("strain.overlay")]
+    overlays = [harness.module("inspection.overlay"), harness.module("strain.overlay")]
     assert all(overlay.is_on() for overlay in overlays)
     with tempfile.TemporaryDirectory() as folder:
         path = str(Path(folder) / "start.blend")
@@ -129,7 +114,7 @@ def test_overlays_begin_where_blender_opens_with_a_file():
             overlay.unregister()
             overlay.register()
         bpy.ops.wm.open_mainfile(filepath=path)
-        yield from until(lambda: all(overlay.is_on() for overlay in overlays))
+        yield from harness.until(lambda: all(overlay.is_on() for overlay in overlays))
 
 
 harness.run_in_window(globals())

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is drawn over the viewport, as arrays: stripes, section curves and combs; and deviation."""
+"""What is drawn over the viewport, as arrays: section curves and combs; and deviation."""
 
 from types import SimpleNamespace
 
@@ -10,7 +10,6 @@ from scenes import CUBE, activate, add
 
 from addon.inspection import overlay_arrays, sections
 from addon.inspection.drawn import drawn
-from addon.inspection.stripes import stripes_of, tones
 
 
 def ball(radius=2.0, subdivisions=5):
@@ -21,11 +20,6 @@ def ball(radius=2.0, subdivisions=5):
 
 def surface(target):
     return overlay_arrays.surface_of(target, bpy.context.evaluated_depsgraph_get())
-
-
-def settings(**changed):
-    known = {"stripes": 4, "direction": 0.0, "sharpness": 1.0, "fixed_to": "VIEW"}
-    return SimpleNamespace(**{**known, **changed})
 
 
 def test_corners_share_points_where_the_surface_is_smooth():
@@ -65,44 +59,8 @@ def test_the_edits_of_edit_mode_are_drawn():
     )
 
 
-def test_isophotes_follow_the_normal_alone_and_zebra_the_mirrored_ray():
-    angles = np.radians(np.linspace(-80, 80, 1601))
-    normals = np.stack([np.zeros_like(angles), np.sin(angles), np.cos(angles)], axis=1)
-    rays = np.tile([0.0, 0.0, -1.0], (len(angles), 1))
-    isophotes = tones(stripes_of("ISOPHOTES", settings()), normals, rays)
-    assert np.array_equal(isophotes > 0.5, np.sin(8 * angles) > 0), "4 pairs over half a turn"
-    # seen from where else, or from behind, an isophote stays
-    aside = np.tile([0.0, 0.6, -0.8], (len(angles), 1))
-    facing = np.einsum("ij,ij->i", aside, normals) < 0
-    moved = tones(stripes_of("ISOPHOTES", settings()), normals, aside)
-    assert np.array_equal(moved[facing], isophotes[facing])
-    assert np.array_equal(tones(stripes_of("ISOPHOTES", settings()), -normals, rays), isophotes)
-    # a mirror turns a ray twice as far as itself
-    near = np.abs(angles) < np.pi / 4 - 0.01
-    zebra = tones(stripes_of("ZEBRA", settings()), normals, rays)
-    assert np.array_equal(zebra[near] > 0.5, (np.sin(16 * angles) > 0)[near])
-    lines = tones(stripes_of("LINES", settings()), normals, rays)
-    assert 0.05 < np.mean(lines[near] < 0.5) < 0.25, "thin dark lines"
-    assert np.all(zebra[lines < 0.5] < 0.5), "in the middle of zebra's dark stripes"
-
-
-def test_the_shader_gets_what_the_formula_says():
-    view = np.eye(4)
-    view[:3, 3] = 1.0, 2.0, -9.0
-    world = np.diag([2.0, 3.0, 4.0, 1.0])
-    flat = np.diag([1.0, 1.0, -0.1, 1.0])
-    values = overlay_arrays.uniforms("LINES", settings(fixed_to="OBJECT"), world, view, flat)
-    assert values.shape == (80,) and values.dtype == np.float32
-    matrices = values[:64].reshape(4, 4, 4).transpose(0, 2, 1)
-    assert np.allclose(matrices[0], view @ world) and np.allclose(matrices[1], flat)
-    assert np.allclose(matrices[2][:3, :3], np.diag([1 / 2, 1 / 3, 1 / 4]))
-    assert np.allclose(matrices[3][:3, :3] @ (view @ world)[:3, :3], np.eye(3), atol=1e-6)
-    assert values[67] == 1.0 and values[71] == 0.0, "mirrored, orthographic"
-    assert values[68] == 8.0 and values[69] == pytest.approx(-np.cos(0.15 * np.pi))
-
-
 @pytest.mark.parametrize("perspective", [True, False])
-def test_stripes_are_pulled_to_the_eye_in_depth_alone(perspective):
+def test_lines_are_pulled_to_the_eye_in_depth_alone(perspective):
     projection = np.diag([1.5, 1.5, -0.02, 1.0])
     if perspective:
         projection = np.diag([1.5, 1.5, -1.01, 0.0])
