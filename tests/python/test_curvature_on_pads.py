@@ -65,12 +65,6 @@ def test_corrections_of_the_loads_are_counted():
         )
 
 
-def test_bits_do_not_depend_on_threads():
-    mesh = meshes.creature()
-    one, two = (fair(mesh, levels=3, pad_size=0.5, threads=t) for t in (1, 2))
-    assert np.array_equal(one.vertices, two.vertices)
-
-
 def test_minimum_variation_starts_from_there_and_varies_less():
     mesh = meshes.creature()
     result = tight.fair(*mesh, levels=2, energy="minimum_variation", pad_size=0.5)

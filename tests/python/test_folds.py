@@ -68,12 +68,6 @@ def test_fewer_folds_and_never_more(seed):
     assert last["folds"] < last["folds_before"]
 
 
-def test_any_number_of_threads():
-    one, two = (fair(meshes.rough_ball(), 2, threads=threads) for threads in (1, 2))
-    assert one.report["curvature"] == two.report["curvature"]
-    assert one.vertices.tobytes() == two.vertices.tobytes()
-
-
 @pytest.mark.parametrize("name", ["icosahedron", "cube", "dodecahedron", "house", "fan8", "roof"])
 def test_no_folds_no_cure(name):
     last = fair(meshes.ALL[name](), 3).report["curvature"][-1]
@@ -157,11 +151,6 @@ def test_the_thin_plate_has_no_folds_of_its_own(name):
     result = df.fair(*mesh, levels, **options)
     assert own_folds(result, mesh) == 0
     assert result.vertices[: len(mesh[0])].tobytes() == mesh[0].tobytes()
-
-
-def test_a_plate_is_unfolded_by_any_number_of_threads():
-    one, two = (df.fair(*folding.rounded_box(), 2, threads=threads) for threads in (1, 2))
-    assert one.vertices.tobytes() == two.vertices.tobytes()
 
 
 def test_a_mix_of_shapes_is_unfolded_as_they_are():

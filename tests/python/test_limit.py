@@ -159,16 +159,6 @@ def test_in_its_own_metric_the_plate_is_nearer_to_the_sphere(pad_size):
     assert own < 0.75 * control  # 0.73 of it on point forces
 
 
-@pytest.mark.parametrize("threads", [1, 3])
-def test_its_metric_is_the_same_for_any_number_of_threads(threads):
-    vertices, faces = HOUSE
-    options = {"interpolation": "limit", "tension": 0.3}
-    np.testing.assert_array_equal(
-        df.fair(vertices, faces, 4, threads=threads, **options).vertices,
-        df.fair(vertices, faces, 4, threads=2, **options).vertices,
-    )
-
-
 def snout(sides, thickness):
     """A flat wedge whose tip is far ahead of a fine rim: its front is of long, thin triangles."""
     turn = 2 * np.pi * np.arange(sides) / sides

@@ -58,13 +58,6 @@ def test_a_patch_of_a_sphere_is_found():
     assert error("minimum_variation") < 5e-5 < 5e-4 < error("total_curvature") < error("thin_plate")
 
 
-def test_threads_leave_no_trace():
-    one, two = (
-        tight.fair(*meshes.creature(), 2, "minimum_variation", threads=t).vertices for t in (1, 2)
-    )
-    assert np.array_equal(one, two)
-
-
 def test_a_flat_mesh_stays_flat():
     vertices, faces = meshes.flat_patch()
     result = tight.fair(vertices, faces, 2, "minimum_variation")

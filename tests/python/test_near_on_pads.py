@@ -198,12 +198,6 @@ def test_a_solver_gives_the_surface_that_fair_gives(option):
     assert np.abs(dragged.vertices - shape).max() < (1e-5 if "weights" in option else 1e-12) * size
 
 
-def test_the_number_of_threads_is_nothing_to_the_bits():
-    mesh = meshes.creature()
-    one, two = (near(mesh, tolerance=0.01, threads=threads) for threads in (1, 2))
-    assert one.vertices.tobytes() == two.vertices.tobytes()
-
-
 def test_a_run_can_be_cancelled():
     with pytest.raises(df.FairingError) as caught:
         near(meshes.creature(), 6, tolerance=0.01, progress=lambda *_: False)

@@ -88,31 +88,6 @@ def test_forces_are_read_from_the_whole_residual(name, levels, most):
     assert finest["iterations"] <= most
 
 
-@pytest.mark.parametrize("size", (0.5, 1.0))
-def test_threads_leave_no_trace(size):
-    mesh = meshes.creature()
-    one, two, five = (tight.fair(*mesh, levels=3, pad_size=size, threads=t) for t in (1, 2, 5))
-    assert np.array_equal(one.vertices, two.vertices)
-    assert np.array_equal(one.vertices, five.vertices)
-
-
-def test_a_plane_stays_one():
-    vertices, faces = meshes.flat_patch()
-    result = tight.fair(vertices, faces, levels=3, pad_size=0.5)
-    assert np.abs(result.vertices[:, 2]).max() < 1e-9
-    assert result.report["converged"]
-
-
-def test_a_symmetric_mesh_stays_symmetric():
-    vertices, faces = meshes.cube()
-    points = tight.fair(vertices, faces, levels=3, pad_size=0.5, relative_residual=1e-11).vertices
-    for axis in range(3):
-        image = points.copy()
-        image[:, axis] *= -1
-        nearest = np.linalg.norm(points[:, None] - image[None], axis=2).min(1)
-        assert nearest.max() < 1e-7
-
-
 @pytest.mark.parametrize("joint", ("position", "tangent", "curvature"))
 def test_regions_leave_the_rest_alone(joint):
     columns = 9

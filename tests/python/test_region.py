@@ -225,15 +225,6 @@ def test_a_turned_mesh_gives_the_turned_surface(joint):
     assert np.abs(after - (30 * before[:, [2, 0, 1]] + [5, 7, -9])).max() < 30 * 1e-7
 
 
-def test_same_bits_for_any_number_of_threads():
-    vertices, faces = meshes.creature()
-    one, three = (
-        fair(vertices, faces, 3, region=range(30), joint="curvature", threads=t).vertices
-        for t in (1, 3)
-    )
-    assert np.array_equal(one, three)
-
-
 @pytest.mark.parametrize("joint", JOINTS)
 def test_bad_faces_outside_do_no_harm(joint):
     vertices, faces = meshes.cut_quads(meshes.grid(6, 6))

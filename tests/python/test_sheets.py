@@ -231,14 +231,6 @@ def test_regions(pages, joint):
         assert np.abs(along - (a + (b - a) * np.arange(1, 5)[:, None] / 4)).max() <= 1e-12
 
 
-def test_any_number_of_threads_gives_the_same_bits():
-    (vertices, faces), _ = bulkhead()
-    for energy in ("thin_plate", "total_curvature"):
-        one, two = (df.fair(vertices, faces, 3, energy=energy, threads=k) for k in (1, 2))
-        assert np.array_equal(one.vertices, two.vertices)
-        assert np.array_equal(one.faces[1], two.faces[1])
-
-
 def test_the_order_of_faces_changes_nothing():
     vertices, faces, _ = book(3, triangles=True)
     order = np.random.default_rng(3).permutation(len(faces))

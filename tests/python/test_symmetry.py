@@ -19,9 +19,11 @@ MODES = [
     {"interpolation": "approximate", "tolerance": 0.1},
     {"epsilon": 0.05},
 ]
+STEPS = {"energy": "total_curvature"}
+TAUT = [{"tension": 0.5, "boundary": name} for name in ("curve", "linear", "free")]
 
 
-@pytest.mark.parametrize("mode", MODES, ids=str)
+@pytest.mark.parametrize("mode", [*MODES, STEPS], ids=str)
 @pytest.mark.parametrize("mesh", [meshes.grid, meshes.flat_patch], ids=["quads", "triangles"])
 def test_planar_stays_planar(mesh, mode):
     vertices, faces = mesh()
@@ -31,15 +33,25 @@ def test_planar_stays_planar(mesh, mode):
     assert np.abs(height).max() <= 1e-9 * size_of(vertices)
 
 
-@pytest.mark.parametrize("mode", MODES, ids=str)
-def test_a_coordinate_that_is_zero_stays_zero(mode):
+@pytest.mark.parametrize(
+    "mode",
+    [*MODES, {"pad_size": 0.5}, *TAUT, STEPS, *(STEPS | taut for taut in TAUT)],
+    ids=str,
+)
+@pytest.mark.parametrize("mesh", [meshes.grid, meshes.flat_patch], ids=["quads", "triangles"])
+def test_a_coordinate_that_is_zero_stays_zero(mesh, mode):
     """No rotation, no rounding: x and y do not leak into z."""
-    vertices, faces = meshes.flat_patch()
-    assert not tight.fair(vertices, faces, 3, **mode).vertices[:, 2].any()
+    vertices, faces = mesh()
+    result = tight.fair(vertices, faces, 3, **mode)
+    assert not result.vertices[:, 2].any() and result.report["converged"]
 
 
-@pytest.mark.parametrize("mode", [*MODES, {"crease_angle": 0.8}], ids=str)
-@pytest.mark.parametrize("levels", [1, 2, 3])
+@pytest.mark.parametrize(
+    "levels, mode",
+    [(levels, mode) for levels in (1, 2, 3) for mode in [*MODES, {"crease_angle": 0.8}, STEPS]]
+    + [(2, STEPS | {"metric_exponent": 1.0}), (2, STEPS | {"crease_angle": 0.8})],
+    ids=str,
+)
 def test_mirror_symmetric_stays_so(levels, mode):
     vertices, faces = meshes.creature()
     result = tight.fair(vertices, faces, levels, **mode)
@@ -47,11 +59,11 @@ def test_mirror_symmetric_stays_so(levels, mode):
 
 
 @pytest.mark.parametrize("name", ["icosahedron", "octahedron", "cube"])
-@pytest.mark.parametrize("exponent", [0.5, 1.0])
-def test_platonic_symmetry(name, exponent):
+@pytest.mark.parametrize("mode", [{}, {"metric_exponent": 1.0}, {"pad_size": 0.5}, STEPS], ids=str)
+def test_platonic_symmetry(name, mode):
     """The three coordinate planes mirror each of these."""
     vertices, faces = meshes.ALL[name]()
-    result = tight.fair(vertices, faces, 3, metric_exponent=exponent)
+    result = tight.fair(vertices, faces, 3, **mode)
     for axis in range(3):
         flip = np.ones(3)
         flip[axis] = -1

@@ -3,8 +3,11 @@
 
 import control_meshes as meshes
 import discrete_fairing as df
+import folding_meshes as folding
 import numpy as np
 import pytest
+from sheet_meshes import bulkhead
+from test_limit import HOUSE
 
 CASES = {
     "closed": (meshes.creature, 4, {}),
@@ -22,6 +25,30 @@ CASES = {
     "polygons": (meshes.dodecahedron, 4, {}),
     "pole": (lambda: meshes.closed_pole(60), 3, {}),
     "back_leg": (meshes.creature, 2, {"method": "back_leg"}),
+}
+TIGHT = {"pad_size": 0.0, "relative_residual": 1e-8, "measure": True}
+STEPS = {**TIGHT, "energy": "total_curvature"}
+NEAR = {"interpolation": "approximate", "tolerance": 0.01}
+# With what else a surface may be asked for; by the residual that the tests of it have.
+MORE = {
+    "pads": (meshes.creature, 3, TIGHT | {"pad_size": 0.5}),
+    "wide_pads": (meshes.creature, 3, TIGHT | {"pad_size": 1.0}),
+    "near_on_pads": (meshes.creature, 3, TIGHT | NEAR | {"pad_size": 0.5}),
+    "tension": (meshes.creature, 3, TIGHT | {"tension": 0.5}),
+    "region": (meshes.creature, 3, TIGHT | {"region": range(30), "joint": "curvature"}),
+    "limit": (lambda: HOUSE, 4, {"interpolation": "limit", "tension": 0.3}),
+    "sheets": (lambda: bulkhead()[0], 3, {}),
+    "folds": (folding.rounded_box, 2, {}),
+    "steps_on_sheets": (lambda: bulkhead()[0], 3, {"energy": "total_curvature"}),
+    "steps_on_folds": (meshes.rough_ball, 2, STEPS),
+    "steps_on_pads": (meshes.creature, 3, STEPS | {"pad_size": 0.5}),
+    "steps_near": (meshes.creature, 2, STEPS | NEAR | {"pad_size": 1.0}),
+    "steps_under_tension": (meshes.creature, 3, STEPS | {"tension": 0.5}),
+    "variation": (meshes.creature, 2, TIGHT | {"energy": "minimum_variation"}),
+    **{
+        f"steps_on_{name}": (meshes.ALL[name], 2 if name == "creature" else 3, STEPS)
+        for name in sorted({*meshes.ALL} - {"grid", "single_triangle", "three_handles"})
+    },
 }
 TIMED = {"seconds", "threads", "predicted_bytes", "peak_bytes"}
 
@@ -45,6 +72,13 @@ def test_any_number_of_threads(name):
         assert other.report["threads"] == threads
         assert same(one, other), f"{threads} threads"
         assert lasting(one.report) == lasting(other.report), f"{threads} threads"
+
+
+@pytest.mark.parametrize("name", MORE)
+def test_any_number_of_threads_with_more(name):
+    mesh, levels, options = MORE[name]
+    one, other = (df.fair(*mesh(), levels, threads=threads, **options) for threads in (1, 3))
+    assert same(one, other) and lasting(one.report) == lasting(other.report)
 
 
 @pytest.mark.parametrize("name", ["closed", "tolerance", "creases", "open"])
