@@ -39,15 +39,41 @@ def with_row(array, row, value):
     return changed
 
 
-def test_empty_mesh():
-    assert_refused("EMPTY_MESH", [], np.empty((0, 3)), np.empty((0, 3), int))
-    assert_refused("EMPTY_MESH", [], [], [])
-    assert_refused("EMPTY_MESH", [], np.empty((0, 3)), FACES)
+EMPTY, NO_FACES, FLIPPED = np.empty((0, 3)), np.empty((0, 3), int), FACES.copy()
+FLIPPED[[3, 11]] = FLIPPED[[3, 11], ::-1]
+TURNED = FACES[7:8, [1, 2, 0]]
+GRID = meshes.grid(2, 2)[0]
+CUT = meshes.cut_quads(meshes.grid(2, 2))[1]
+NEEDLE = np.array([[0, 0, 0], [1, 0, 0], [0.5, 1e-14, 0]])
+FIRST, SECOND = sorted(FACES[6, :2].tolist())
 
 
-def test_no_faces():
-    assert_refused("NO_FACES", [], POINTS, np.empty((0, 3), int))
-    assert_refused("NO_FACES", [], POINTS, [])
+@pytest.mark.parametrize(
+    "code, elements, vertices, faces",
+    [
+        ("EMPTY_MESH", [], EMPTY, NO_FACES),
+        ("EMPTY_MESH", [], [], []),
+        ("EMPTY_MESH", [], EMPTY, FACES),
+        ("NO_FACES", [], POINTS, NO_FACES),
+        ("NO_FACES", [], POINTS, []),
+        ("REPEATED_VERTEX", [2], POINTS, with_row(FACES, 2, [1, 1, 5])),
+        ("REPEATED_VERTEX", [0], POINTS, [[0, 1, 2, 1], *as_lists(FACES)]),
+        ("DUPLICATE_FACE", [4, 20], POINTS, np.concatenate([FACES, FACES[4:5]])),
+        ("DUPLICATE_FACE", [7, 20], POINTS, np.concatenate([FACES, TURNED])),
+        ("DUPLICATE_FACE", [7, 20], POINTS, np.concatenate([FACES, TURNED[:, ::-1]])),
+        ("INCONSISTENT_ORIENTATION", [3, 11], POINTS, FLIPPED),
+        (
+            "DEGENERATE_FACE",
+            [8],
+            np.concatenate([GRID, [[0.5, 0.0, 0.0]]]),
+            np.concatenate([CUT, [[1, 0, 9]]]),
+        ),
+        ("DEGENERATE_FACE", [0], NEEDLE, [[0, 1, 2]]),
+        ("COINCIDENT_VERTICES", [FIRST, SECOND], with_row(POINTS, SECOND, POINTS[FIRST]), FACES),
+    ],
+)
+def test_defects(code, elements, vertices, faces):
+    assert_refused(code, elements, vertices, faces)
 
 
 @pytest.mark.parametrize("value", [NAN, INF, -INF, 1e200])
@@ -69,30 +95,10 @@ def test_unsigned_index_that_does_not_fit():
     assert_refused("INDEX_OUT_OF_RANGE", [5], POINTS, faces)
 
 
-def test_repeated_vertex_in_a_face():
-    assert_refused("REPEATED_VERTEX", [2], POINTS, with_row(FACES, 2, [1, 1, 5]))
-    assert_refused("REPEATED_VERTEX", [0], POINTS, [[0, 1, 2, 1], *as_lists(FACES)])
-
-
-def test_duplicate_face():
-    assert_refused("DUPLICATE_FACE", [4, 20], POINTS, np.concatenate([FACES, FACES[4:5]]))
-    turned = FACES[7:8, [1, 2, 0]]
-    assert_refused("DUPLICATE_FACE", [7, 20], POINTS, np.concatenate([FACES, turned]))
-    assert_refused("DUPLICATE_FACE", [7, 20], POINTS, np.concatenate([FACES, turned[:, ::-1]]))
-
-
-def test_inconsistent_orientation():
-    faces = FACES.copy()
-    faces[[3, 11]] = faces[[3, 11], ::-1]
-    assert_refused("INCONSISTENT_ORIENTATION", [3, 11], POINTS, faces)
-
-
 def test_orientation_repaired_on_request():
-    faces = FACES.copy()
-    faces[[3, 11]] = faces[[3, 11], ::-1]
-    before = faces.copy()
-    result = df.fair(POINTS, faces, 2, repair="mend")
-    assert list(result.report["flipped_faces"]) == [3, 11] and np.array_equal(faces, before)
+    before = FLIPPED.copy()
+    result = df.fair(POINTS, FLIPPED, 2, repair="mend")
+    assert list(result.report["flipped_faces"]) == [3, 11] and np.array_equal(FLIPPED, before)
     corner = result.vertices[result.triangles]
     volume = np.linalg.det(corner).sum() / 6
     assert volume > 3
@@ -101,24 +107,9 @@ def test_orientation_repaired_on_request():
     assert np.abs(np.sort(sound.vertices, 0) - np.sort(result.vertices, 0)).max() < 1e-8
 
 
-def test_zero_area_triangle():
-    vertices, faces = meshes.grid(2, 2)
-    cut = meshes.cut_quads((vertices, faces))[1]
-    flat = np.concatenate([vertices, [[0.5, 0.0, 0.0]]])
-    assert_refused("DEGENERATE_FACE", [8], flat, np.concatenate([cut, [[1, 0, 9]]]))
-
-
 def test_area_is_judged_by_shape_and_not_by_size():
     assert df.fair(1e-30 * POINTS, FACES, 1).report["converged"]
     assert df.fair(1e-7 * POINTS + 5.0, FACES, 1).report["converged"]
-    needle = np.array([[0, 0, 0], [1, 0, 0], [0.5, 1e-14, 0]])
-    assert_refused("DEGENERATE_FACE", [0], needle, [[0, 1, 2]])
-
-
-def test_coincident_vertices_of_one_face():
-    a, b = sorted(FACES[6, :2].tolist())
-    error = refusal(with_row(POINTS, b, POINTS[a]), FACES)
-    assert (error.code, sorted(error.elements)) == ("COINCIDENT_VERTICES", [a, b])
 
 
 def test_coincident_vertices_apart_are_a_warning():
