@@ -198,12 +198,6 @@ def test_a_solver_gives_the_surface_that_fair_gives(option):
     assert np.abs(dragged.vertices - shape).max() < (1e-5 if "weights" in option else 1e-12) * size
 
 
-def test_a_run_can_be_cancelled():
-    with pytest.raises(df.FairingError) as caught:
-        near(meshes.creature(), 6, tolerance=0.01, progress=lambda *_: False)
-    assert caught.value.code == "CANCELLED"
-
-
 @pytest.mark.parametrize("tolerance", [0.7, 1.5, 3.0])
 def test_a_tolerance_beyond_the_faces_settles_too(tolerance):
     vertices, faces = meshes.creature()

@@ -126,22 +126,6 @@ def test_curves_depend_on_their_own_vertices_alone():
         assert pads.report["converged"]
 
 
-def test_a_solver_follows_moved_vertices():
-    vertices, faces = meshes.creature()
-    solver = tight.Solver(vertices, faces, levels=3, pad_size=0.5)
-    assert np.array_equal(
-        solver.solve().vertices, tight.fair(vertices, faces, levels=3, pad_size=0.5).vertices
-    )
-    moved = vertices.copy()
-    for _ in range(4):
-        moved[10] += [0.02, 0.01, 0]
-        result = solver.solve(moved)
-        alone = tight.fair(vertices, faces, levels=3, pad_size=0.5, shapes=moved[None]).shapes[0]
-        assert result.report["warm"] and result.report["converged"]
-        assert np.array_equal(result.vertices[: len(moved)], moved)
-        assert np.abs(result.vertices - alone).max() < 5e-5 * np.ptp(vertices)
-
-
 def ball_and_its_images():
     """A round ball, and of each vertex the one on the other side of x = 0."""
     vertices, faces = meshes.rough_ball(roughness=0)
@@ -262,12 +246,6 @@ def test_widths_stay_while_vertices_move():
 def test_sizes_beyond_the_faces_are_refused(size):
     with pytest.raises(df.FairingError, match="pad_size"):
         tight.fair(*meshes.cube(), pad_size=size)
-
-
-def test_a_run_on_pads_can_be_cancelled():
-    with pytest.raises(df.FairingError) as caught:
-        tight.fair(*meshes.creature(), levels=6, pad_size=0.5, progress=lambda *_: False)
-    assert caught.value.code == "CANCELLED"
 
 
 @pytest.mark.parametrize("levels", (4, 5))

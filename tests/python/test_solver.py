@@ -15,6 +15,8 @@ SETTINGS = {
     "linear boundary": {"boundary": "linear"},
     "creases": {"crease_angle": 0.8, "corner_angle": 1.0},
     "region": {"region": [0, 1], "joint": "curvature"},
+    "pads": {"pad_size": 0.5},
+    "tension": {"tension": 0.6},
     "tolerance": {"interpolation": "approximate", "tolerance": 0.04},
     "epsilon": {"epsilon": 0.02},
     "total curvature": {"energy": "total_curvature"},
@@ -25,7 +27,15 @@ SETTINGS = {
         "tolerance": 0.04,
     },
 }
-LINEAR = ["plain", "free boundary", "linear boundary", "creases", "region"]
+LINEAR = {
+    "plain": 1e-6,
+    "free boundary": 1e-6,
+    "linear boundary": 1e-6,
+    "creases": 1e-6,
+    "region": 1e-6,
+    "pads": 5e-5,  # whose loads are found to a tolerance of their own
+    "tension": 1e-4,  # whose metric is that of the first positions
+}
 
 
 @pytest.mark.parametrize("kind", SETTINGS)
@@ -66,7 +76,7 @@ def test_moved_surfaces_are_those_of_shapes(name, kind):
     for positions, surface in zip(way, expected, strict=True):
         result = solver.solve(positions)
         assert np.array_equal(result.vertices[: len(vertices)], positions)
-        assert np.abs(result.vertices - surface).max() < 1e-6 * size_of(positions)
+        assert np.abs(result.vertices - surface).max() < LINEAR[kind] * size_of(positions)
         assert result.report["warm"] and result.report["converged"]
         assert result.report["residuals"][-1] <= 1e-8
 

@@ -193,20 +193,6 @@ def test_a_region_knows_nothing_of_the_rest(joint, energy):
     assert result.report["converged"]
 
 
-def test_a_solver_follows_moved_vertices():
-    vertices, faces = meshes.creature()
-    options = {"levels": 3, "tension": 0.6}
-    solver = tight.Solver(vertices, faces, **options)
-    assert np.array_equal(solver.solve().vertices, tight.fair(vertices, faces, **options).vertices)
-    moved = vertices.copy()
-    for _ in range(3):
-        moved[0] += 0.02 * size_of(vertices)
-        followed = solver.solve(moved)
-        assert followed.report["warm"]
-        alone = tight.fair(vertices, faces, shapes=moved[None], **options).shapes[0]
-        assert np.abs(followed.vertices - alone).max() < 1e-4 * size_of(vertices)
-
-
 def test_a_solver_follows_by_steps():
     vertices, faces = meshes.creature()
     options = {"levels": 3, "energy": "total_curvature", "tension": 0.3}
