@@ -3,9 +3,7 @@
 
 # of the operator, the panel and the command line alike
 DEFAULT_ENERGY = "THIN_PLATE"
-ENERGY_MEANING = (
-    "What makes the surface fair: least bending, least curvature, or reflections that flow evenly"
-)
+ENERGY_MEANING = "What is minimized: bending, total curvature, or the change of curvature"
 
 # numbered, because files keep the number
 ENERGIES = (
@@ -18,13 +16,13 @@ ENERGIES = (
     (
         "TOTAL_CURVATURE",
         "Curvature",
-        "The roundest surface, with the least curvature in all: vertices on a sphere give the sphere",
+        "The least total curvature: vertices on a sphere give the sphere",
         1,
     ),
     (
         "MINIMUM_VARIATION",
         "Flow Lines",
-        "The calmest reflections: curvature changes as little as possible along the surface",
+        "Curvature changes as little as possible along the surface, so that reflections are even",
         2,
     ),
 )
@@ -33,9 +31,9 @@ ENERGY_NAMES = {key: name for key, name, *_ in ENERGIES}
 
 # what the panel has room for. What they cost is said once, by the prediction
 ENERGY_MEANINGS = {
-    "THIN_PLATE": "Flattens a little in between",
+    "THIN_PLATE": "A little flat between vertices",
     "TOTAL_CURVATURE": "Roundest: spheres stay spheres",
-    "MINIMUM_VARIATION": "Calmest reflections",
+    "MINIMUM_VARIATION": "Most even reflections",
 }
 
 # for buttons side by side
@@ -59,7 +57,7 @@ INTERPOLATIONS = (
     (
         "APPROXIMATE",
         "Near",
-        "Bends as little as the tolerance of each vertex allows; for scattered or wrong points take Ease Control Mesh",
+        "Bends as little as the tolerance of each vertex allows; for scattered or wrong points use Ease Control Mesh",
         1,
     ),
     (
@@ -84,7 +82,7 @@ REPAIRS = (
     (
         "MEND",
         "Mend",
-        "Fairs the mesh without its defects, such as double faces, leaves the source as it is, and says what was done",
+        "Fairs a copy without defects, such as duplicate faces, and says what was done; the source stays",
     ),
     ("REFUSE", "Refuse", "Fairs no mesh that has such defects, and says where they are"),
 )
@@ -107,7 +105,7 @@ BOUNDARIES = (
     (
         "FREE",
         "Free",
-        "Open borders go where the surface takes them, fixed only at their vertices",
+        "Open borders follow the surface and are fixed only at their vertices",
         2,
     ),
 )
@@ -116,13 +114,13 @@ BOUNDARIES = (
 EDGE_BOUNDARIES = (
     ("CURVE", "Smooth", "Part of a smooth curve through the vertices of the border", 1),
     ("LINEAR", "Straight", "The edge stays straight", 2),
-    ("FREE", "Free", "Between its vertices the edge goes where the surface takes it", 3),
-    ("SURFACE", "As the Surface", "As the setting Boundary says for the whole surface", 0),
+    ("FREE", "Free", "Between its vertices the edge follows the surface", 3),
+    ("SURFACE", "As the Surface", "As the setting Boundary of the whole surface", 0),
 )
 
 # what the mesh is half of; its mirror image lies across the object's own plane
 SYMMETRY_PLANES = (
-    ("NONE", "None", "The mesh is all there is"),
+    ("NONE", "None", "The mesh is complete"),
     ("X", "X", "The border in the plane x = 0 meets the mirror image of the mesh without a joint"),
     ("Y", "Y", "The border in the plane y = 0 meets the mirror image of the mesh without a joint"),
     ("Z", "Z", "The border in the plane z = 0 meets the mirror image of the mesh without a joint"),
@@ -130,7 +128,7 @@ SYMMETRY_PLANES = (
 
 MESH_SOURCES = (
     ("ORIGINAL", "As Modelled", "The mesh itself, as Edit Mode shows it"),
-    ("EVALUATED", "With Modifiers", "What the modifiers of the source make of its mesh"),
+    ("EVALUATED", "With Modifiers", "The result of the source's modifiers"),
 )
 
 JOINTS = (

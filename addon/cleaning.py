@@ -24,24 +24,24 @@ STEPS = (
     (
         "mend",
         "Bad Faces",
-        "Duplicate faces go, and faces without area; vertices without a face too",
+        "Removes duplicate faces, faces without area and vertices without a face",
     ),
-    ("join", "Join Borders", "Border edges that lie on one another become one"),
-    ("fins", "Fins", "Sheets that hang on an edge of the surface go"),
-    ("normals", "Normals", "Faces that point the wrong way are flipped"),
+    ("join", "Join Borders", "Joins border edges that lie on one another"),
+    ("fins", "Fins", "Removes sheets that are attached to an edge of the surface"),
+    ("normals", "Normals", "Flips faces that point the wrong way"),
     (
         "inner",
         "Inner Parts",
-        "Parts inside of others go, but for hollows with a surface of their own",
+        "Removes parts inside others; hollows stay",
     ),
-    ("pinched", "Pinched Vertices", "Parts that touch in a vertex or an edge are separated there"),
+    ("pinched", "Pinched Vertices", "Separates parts that touch in a vertex or an edge"),
     (
         "spikes",
         "Spikes",
-        "Tips higher than 1.6 edges are pressed down; creased and sharp ones stay",
+        "Flattens tips higher than 1.6 edges; creased and sharp ones stay",
     ),
-    ("folds", "Folds", "Faces that point away from all faces around are laid flat"),
-    ("fill", "Holes", "Holes are closed by a surface that goes on from the faces around"),
+    ("folds", "Folds", "Flattens faces that point away from all faces around"),
+    ("fill", "Holes", "Fills holes with a surface that continues the faces around"),
 )
 
 

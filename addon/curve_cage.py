@@ -39,7 +39,7 @@ class CageSettings:
 
     snap: FloatProperty(
         name="Snap",
-        description="Curves no farther apart than this meet, in scene units; 0 takes a hundredth of the usual curve's size",
+        description="Curves no farther apart than this meet, in scene units; 0: a hundredth of a typical curve's size",
         default=0.0,
         min=0.0,
         soft_max=1.0,
@@ -58,7 +58,7 @@ class CageSettings:
     )
     closed: BoolProperty(
         name="Close",
-        description="Open ends, as those of a tube, are filled too; a sheet's outside would be one as well",
+        description="Fills open ends too, as of a tube, and the outside of a sheet",
         default=False,
         update=_look_again,
     )
@@ -80,7 +80,7 @@ class FAIRING_PG_curves(CageSettings, bpy.types.PropertyGroup):
     curves: CollectionProperty(type=FAIRING_PG_curve)
     remarks: StringProperty(
         name="Remarks",
-        description="What of the curves did not take part, and where, a line each",
+        description="Which curves were not used, and where, one a line",
         options={"HIDDEN"},
     )
     counts: StringProperty(
@@ -90,7 +90,7 @@ class FAIRING_PG_curves(CageSettings, bpy.types.PropertyGroup):
     )
     sharp: BoolProperty(
         name="Sharp",
-        description="A surface from curves has an edge along this one; it is smooth across all others",
+        description="The surface has a sharp edge along this curve, and is smooth across all others",
         default=False,
         update=_told,
     )

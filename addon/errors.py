@@ -11,7 +11,7 @@ from .settings import AnySettings
 VERTEX_ON_EDGE = (
     "VERTEX_ON_EDGE"  # the core says DEGENERATE_FACE, of a hole whose rim has no width there
 )
-_OR_MEND = ", or let Defects be Mend"
+_OR_MEND = ", or set Defects to Mend"
 # Of every code that a user of Blender can meet; an order first, as refusals begin with it.
 REMEDIES = {
     "EMPTY_MESH": "Add a mesh with faces",
@@ -46,14 +46,14 @@ _UNRESOLVED_TAUTER = "Move or add vertices there, crease the edges where it turn
 WITHOUT_MENDING = {code: text.removesuffix(_OR_MEND) for code, text in REMEDIES.items()}
 OF_HOLES = WITHOUT_MENDING | {
     "BAD_OPTION": "Select the hole without its islands, or fill it by hand",
-    "NONMANIFOLD_EDGE": "Delete the faces at its rim that are too many",
+    "NONMANIFOLD_EDGE": "Delete the surplus faces at its rim",
     "NONMANIFOLD_VERTEX": "Fill it by hand, or separate its rim there (V)",
     "REPEATED_VERTEX": "Cut it there into two holes",
     "TOO_LARGE": "Lower Density, or fill it in parts",
 }
 # code: what is wrong with one, with several
 _WHAT = {
-    "NON_FINITE": ("vertex has no proper position", "vertices have no proper position"),
+    "NON_FINITE": ("vertex has no finite position", "vertices have no finite position"),
     "REPEATED_VERTEX": ("face uses a vertex twice", "faces use a vertex twice"),
     "DUPLICATE_FACE": ("face lies on another one", "faces lie on one another"),
     "NONMANIFOLD_EDGE": ("edge joins more than two faces", "edges join more than two faces"),
@@ -62,8 +62,8 @@ _WHAT = {
         "vertices join parts that touch only there",
     ),
     "INCONSISTENT_ORIENTATION": (
-        "face looks the other way than its neighbours",
-        "faces look the other way than their neighbours",
+        "face points against its neighbours",
+        "faces point against their neighbours",
     ),
     "DEGENERATE_FACE": ("face has no area", "faces have no area"),
     "COINCIDENT_VERTICES": (
@@ -86,8 +86,8 @@ _WHAT = {
         "faces have patches that miss the tolerance",
     ),
     "SURFACE_TOLERANCE": (
-        "face has a surface that still moves by more than the tolerance from level to level",
-        "faces have a surface that still moves by more than the tolerance from level to level",
+        "face has a surface that still changes by more than the tolerance from level to level",
+        "faces have a surface that still changes by more than the tolerance from level to level",
     ),
 }
 _WHOLE = {
@@ -169,15 +169,15 @@ def explained(object_name: str, remedies: Mapping[str, str] = REMEDIES) -> Itera
 _UNFINISHED = {
     "NOT_CONVERGED": (
         "Use fewer levels, or set Fairness to Bending, for an exact answer",
-        "The surface is good to use, but could still be a little calmer",
+        "The surface can be used, but could be a little fairer",
     ),
     "NOT_CONVERGED_TOLERANCE": (
         "Lower the tolerance for an exact answer",
-        "The tolerance is kept, but the surface could still be a little calmer",
+        "The tolerance is kept, but the surface could be a little fairer",
     ),
     "NOT_CONVERGED_TURNED_OVER": (
         "Turn the fixed normals towards the faces around them, or free them",
-        "At one of them the surface has turned over",
+        "At one of them the surface is flipped",
     ),
     "NOT_CONVERGED_NORMALS": (
         "Fix fewer normals, or turn them towards the faces around",
@@ -185,15 +185,15 @@ _UNFINISHED = {
     ),
     "NOT_CONVERGED_PADS": (
         "Lower Hold Softly for an exact answer",
-        "The surface is good to use, but could still be a little calmer around its vertices",
+        "The surface can be used, but could be a little fairer around its vertices",
     ),
     "NOT_CONVERGED_SWOLLEN": (
         "Set Fairness to Bending: most of the surface would swell to a bubble",
-        "You have the surface that Bending makes",
+        "This is the surface of Bending",
     ),
     "NOT_CONVERGED_START": (
         "Use fewer levels, or set Fairness to Bending",
-        "No fairer surface was found than the one to begin with, which you have now",
+        "No fairer surface was found than the initial one, which you have now",
     ),
 }
 
@@ -235,7 +235,7 @@ def unfinished_text(object_name: str, energy: str, face: int, ratio: float, fold
     """
     return (
         f"{object_name}: Even out the thinnest faces of the source, or set Fairness to Bending, for an exact answer. "
-        f"The surface is good to use, but {energy} could still make it a little calmer. "
+        f"The surface can be used, but {energy} could make it a little fairer. "
         f"Face {face} is the thinnest, {ratio:.3g} times as long as high; the sharpest fold has {fold:.0f}°."
     )
 
@@ -304,14 +304,14 @@ _DONE = {
         "faces with vertices that do not exist dropped",
     ),
     "NON_FINITE": (
-        "vertex without a proper position moved",
-        "vertices without a proper position moved",
+        "vertex without a finite position moved",
+        "vertices without a finite position moved",
     ),
     "REPEATED_VERTEX": ("face freed of a doubled corner", "faces freed of doubled corners"),
     "COINCIDENT_VERTICES": ("vertex merged", "vertices merged"),
     "DUPLICATE_FACE": ("duplicate face dropped", "duplicate faces dropped"),
     "DEGENERATE_FACE": ("face without area dissolved", "faces without area dissolved"),
-    "INCONSISTENT_ORIENTATION": ("face turned", "faces turned"),
+    "INCONSISTENT_ORIENTATION": ("face flipped", "faces flipped"),
 }
 REPAIR_CODES = frozenset(_DONE)
 

@@ -281,8 +281,8 @@ def _why_none(wish: Wish, editing: bool, unclear: int, loops: int, units: Units)
 def _unclear_text(count: int) -> str:
     begin = "1 border edge is" if count == 1 else f"{count:,} border edges are"
     return (
-        f"Run Check Mesh, which shows where: {begin} around no hole, as more than two faces meet there at "
-        "an edge, or faces beside look different ways"
+        f"Run Check Mesh, which shows where: {begin} around no hole, because more than two faces meet "
+        "there at an edge, or faces point different ways"
     )
 
 
@@ -314,12 +314,12 @@ def doubts(done: list[Filling]) -> list[str]:
     said = [_unclear_text(unclear)] if unclear else []
     if plates:
         said.append(
-            f"{count_text(plates)} filled with least bending: the fairness chosen found no surface there"
+            f"{count_text(plates)} filled with Bending: the chosen Fairness found no surface there"
         )
     plain = sum(f.plain for f in done)
     if plain:
         said.append(
-            f"{count_text(plain)} filled by plain triangles: everything fairer folds at this rim"
+            f"{count_text(plain)} filled with flat triangles: every fairer surface folds at this rim"
         )
     if folded:
         said.append(

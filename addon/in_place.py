@@ -214,7 +214,7 @@ class InPlaceJob:
         if not self._wish.measured:
             return []
         noise = self.result.noise
-        return [f"{self.name}: noise of {self._units.lengths(noise)(noise)} (rms) taken off."]
+        return [f"{self.name}: noise of {self._units.lengths(noise)(noise)} (rms) removed."]
 
     def why_outdated(self, context: Context) -> str:
         """Why what was computed does not fit any more, in one sentence; empty if it does."""

@@ -93,10 +93,10 @@ class Job:
         self.notes = list(self.data.notes)  # what the user may want to know, a sentence each
         if "shapes" in self.arguments and self.settings.energy != "THIN_PLATE":
             self.notes.append(
-                "Each shape key is faired by itself. Values in between blend these surfaces, which only Bending keeps fair."
+                "Each shape key is faired separately. Mixtures of them are fair with Bending only."
             )
         if self.arrays.normals is not None and not core.takes_normals(self.settings):
-            self.notes.append("Fixed normals are left out: only Bending holds them.")
+            self.notes.append("Fixed normals are not used: only Bending supports them.")
         self.pieces: int | None = None  # faired one after another; None: as a whole
         self.spread: core.Spread | None = None  # how pieces are faired otherwise
         self.result: Any = None

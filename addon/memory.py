@@ -24,7 +24,7 @@ _parsed: dict[tuple[str, str], tuple[str, dict[str, Any] | None]] = {}
 def why_unfit(target: Object, source: Object) -> str:
     """Why `source` cannot control the surface `target`, in one sentence; empty if it can."""
     if source.type != "MESH":
-        return f"'{source.name}' is no mesh: choose a mesh object as the source"
+        return f"'{source.name}' is not a mesh: choose a mesh object as the source"
     seen, above = set(), cast(Object | None, source)
     while above is not None and above.type == "MESH" and above not in seen:
         if above == target:
@@ -70,7 +70,7 @@ class FAIRING_PG_surface(KeptSettings, bpy.types.PropertyGroup):
     )
     follow_transform: BoolProperty(
         name="Follow Transform",
-        description="Moves, turns and scales with its source, each until you do so with the surface itself",
+        description="Moves, turns and scales with its source, until you transform the surface yourself",
         default=True,
     )
     unfinished: BoolProperty(

@@ -33,7 +33,7 @@ class DiscreteFairingPreferences(bpy.types.AddonPreferences):
     )
     memory_limit: IntProperty(
         name="Memory Limit (MB)",
-        description="Refuses results that would need more megabytes than this, or if 0 than three quarters of the memory",
+        description="Refuses runs that need more megabytes than this; 0: three quarters of the memory",
         default=Defaults.memory_limit,
         min=0,
         soft_max=65536,

@@ -26,7 +26,7 @@ PURPOSES = (
     (
         "PANEL",
         "Panel",
-        "Bonnets, doors, wings: where Subdivision Surface passes, with calmer reflections; corners stay (Bending)",
+        "Bonnets, doors, wings: through the points where Subdivision Surface passes; corners stay (Bending)",
         1,
     ),
     (
@@ -44,7 +44,7 @@ PURPOSES = (
     (
         "SCAN_PATCH",
         "Scan Patch",
-        "Measured faces in place: takes the noise off the selected ones, or in Object Mode all, and adds no faces",
+        "Measured faces: removes the noise of the selected ones, in Object Mode of all; adds no faces",
         4,
     ),
     (

@@ -24,7 +24,7 @@ class PatchSettings:
 
     fit_tolerance: FloatProperty(
         name="Tolerance",
-        description="The farthest that a patch may be from the fair surface, as a share of the surface's size",
+        description="Largest distance of a patch from the fair surface, as a share of its size",
         default=1e-4,
         min=1e-7,
         max=0.1,
@@ -32,7 +32,7 @@ class PatchSettings:
     )
     fit_angle: FloatProperty(
         name="Angle",
-        description="The sharpest angle at which two patches may meet where there is no crease",
+        description="Largest angle between two patches where there is no crease",
         default=radians(0.05),
         min=radians(0.001),
         max=radians(10.0),
@@ -41,7 +41,7 @@ class PatchSettings:
     )
     fit_levels: IntProperty(
         name="Levels",
-        description="How often faces are split before patches are fitted, or 0 for as often as the tolerance needs",
+        description="Levels before patches are fitted; 0: as many as the tolerance needs",
         default=0,
         min=0,
         max=8,
@@ -56,7 +56,7 @@ class StepSettings(PatchSettings):
     )
     insist: BoolProperty(
         name="Write Faulty Faces",
-        description="Writes surfaces that fold or turn too sharply for patches, too, with red patches there",
+        description="Also writes surfaces that fold or turn too sharply for patches; those patches are red",
         default=False,
     )
 

@@ -63,8 +63,8 @@ def shares_of(
 def own_keys_text(name: str, own: Sequence[str]) -> str:
     keys = f"{'key' if len(own) == 1 else 'keys'} {', '.join(own)}"
     return (
-        f"{name}: Set the {keys} to 0, or give the source such a key and make the surface anew. Patches are fitted to "
-        f"the fair surface, which knows nothing of the {keys} of its mesh."
+        f"{name}: Set the {keys} to 0, or give the source such a key and make the surface again. Patches are fitted to "
+        f"the fair surface, which does not have the {keys} of its mesh."
     )
 
 

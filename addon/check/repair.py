@@ -110,7 +110,7 @@ def _tiny(bm: bmesh.types.BMesh) -> float:
 
 
 _REPAIRS: dict[str, tuple[str, Callable[[bmesh.types.BMesh, list[Any]], None]]] = {
-    "INCONSISTENT_ORIENTATION": ("Turn Faces Over", _flip),
+    "INCONSISTENT_ORIENTATION": ("Flip Faces", _flip),
     "COINCIDENT_VERTICES": ("Merge by Distance", _merge),
     "REPEATED_VERTEX": ("Degenerate Dissolve", _dissolve),
     "DEGENERATE_FACE": ("Degenerate Dissolve", _dissolve),

@@ -21,29 +21,29 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         "--clean",
         action="store_true",
-        help="make a closed surface of each mesh, in the place of fairing it: what does not belong to it goes, what "
-        "is wrong is mended, holes are filled [off]",
+        help="make a closed surface of each mesh instead of fairing it: remove loose parts, mend defects, "
+        "fill holes [off]",
     )
     group.add_argument(
         "--clean-without",
         action="append",
         choices=_NAMES,
         metavar="STEP",
-        help=f"leave a step out; can be said several times: {', '.join(_NAMES)} [all are taken]",
+        help=f"leave out a step; may be repeated: {', '.join(_NAMES)} [none]",
     )
     group.add_argument(
         "--clean-islands",
         type=_SHARE,
         metavar="X",
-        help="parts shorter than this share of the longest go, by the diagonals of their boxes; 0: none "
+        help="remove parts whose box has a diagonal below this share of the longest; 0: none "
         f"[{DEFAULTS['clean_islands']:g}]",
     )
     group.add_argument(
         "--clean-noise",
         type=_passes,
         metavar="N",
-        help="auto takes off as much noise around each vertex as the scan there allows; a number is passes of a "
-        f"filter, faster and everywhere the same, up to 1000: ten do for most scans [{DEFAULTS['clean_noise']}]",
+        help="auto: remove noise by an amount chosen around each vertex; a number: passes of a filter, the same "
+        f"everywhere, up to 1000; ten are enough for most scans [{DEFAULTS['clean_noise']}]",
     )
 
 

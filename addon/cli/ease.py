@@ -45,8 +45,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         "--ease",
         action="store_true",
-        help="first move the vertices so that their scatter goes and the shape stays, as much as they say "
-        "themselves [off]",
+        help="first remove the scatter of the vertices, by an amount estimated from them [off]",
     )
     group.add_argument(
         "--ease-tolerance",
@@ -57,8 +56,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         "--strain",
         metavar="FILE.csv",
-        help="write a table of the vertices: how far the surface would spring away at each, were it let go, "
-        "and with --ease where it has been moved; for several inputs a pattern with {name}",
+        help="write a table of the vertices: how far the surface would move at each if that vertex were released, "
+        "and with --ease where it was moved; for several inputs a pattern with {name}",
     )
 
 
@@ -72,7 +71,7 @@ def wanted_of(arguments: argparse.Namespace, ways: Sequence[Place]) -> Wanted:
             if getattr(arguments, other):
                 raise ValueError(f"{named} is for fairing, and --{other} does not fair: call twice")
         if arguments.pieces is not None:
-            raise ValueError(f"{named} needs the whole mesh, and --pieces never has it")
+            raise ValueError(f"{named} needs the whole mesh and cannot be used with --pieces")
     amount = "AUTOMATIC" if bound is None else "TOLERANCE"
     return Wanted(
         Wish(amount, bound or 0.0) if eases else None,

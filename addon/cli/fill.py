@@ -27,8 +27,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         "--fill",
         action="store_true",
-        help="close the holes of each mesh, and write it otherwise as it is, in the place of fairing it; "
-        "of the settings only --energy counts then [off; energy: total_curvature]",
+        help="fill the holes of each mesh instead of fairing it; of the settings only --energy is used "
+        "then [off; energy: total_curvature]",
     )
     names = [identifier.lower() for identifier, *_ in JOINTS]
     group.add_argument(
@@ -41,20 +41,20 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--fill-density",
         type=_DENSITY,
         metavar="X",
-        help="new edges are so many times as short as those of the rim; 0: no new vertices "
+        help="how many times finer than the rim the filling is; 0: no new vertices "
         f"[{DEFAULTS['fill_density']:g}]",
     )
     group.add_argument(
         "--fill-noisy",
         action="store_true",
         default=None,
-        help="the faces around are measured: more of them say how a filling goes on, and none exactly",
+        help="the faces around are measured: read six rings of them, none exactly",
     )
     group.add_argument(
         "--fill-quads",
         action="store_true",
         default=None,
-        help="in holes among quads a grid of quads, where the rim allows that; else triangles",
+        help="fill holes among quads with a grid of quads if the rim allows it, else with triangles",
     )
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is done with meshes in the place of fairing: `--fill` or `--clean`, and what goes with which."""
+"""What is done with meshes instead of fairing: `--fill` or `--clean`, and what goes with which."""
 
 import argparse
 from collections.abc import Sequence
@@ -33,8 +33,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--largest-hole",
         type=_WIDTH,
         metavar="LENGTH",
-        help="holes of which two vertices of the rim are farther apart stay open, in the file's unit; 0: the "
-        f"borders of sheets stay open, and no others [{_OF_BOTH['largest_hole']:g}]",
+        help="holes wider than this between two vertices of the rim stay open, in the file's unit; 0: only the "
+        f"borders of sheets stay open [{_OF_BOTH['largest_hole']:g}]",
     )
     fill.add_options(parser)
     clean.add_options(parser)

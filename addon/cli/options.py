@@ -52,7 +52,7 @@ _GROUPS = {
 _PROGRAM = "blender --background --command discrete_fairing"
 _DESCRIPTION = """\
 Fairs every mesh of each input file and writes the refined surfaces to the output. Files are OBJ, PLY or STL, by their
-names; OUT may also be a file of spline patches for CAD, as STEP. Coordinates stay what they are: no axes are
+names; OUT may also be a file of spline patches for CAD, as STEP. Coordinates are unchanged: no axes are
 swapped, no units converted, whatever the formats."""
 _EXAMPLES = f"""\
 examples:
@@ -187,7 +187,7 @@ def _choice(_name: str, prop: Any) -> dict[str, Any]:
     def parse(text: str) -> str:
         word = text.replace("-", "_")  # as options themselves are spelled
         if word not in spelled:
-            raise argparse.ArgumentTypeError(f"{text!r} is none of {', '.join(spelled)}")
+            raise argparse.ArgumentTypeError(f"{text!r} is not one of {', '.join(spelled)}")
         return spelled[word].identifier
 
     return {"type": parse, "metavar": "|".join(spelled), "help": _help(prop, shown, listed)}
@@ -280,7 +280,7 @@ def parser(version: str) -> argparse.ArgumentParser:
         "--pieces",
         type=_whole_number,
         metavar="N",
-        help="fair each mesh in so many pieces, one after another, in the memory of one; needs the Python package "
+        help="fair each mesh in this number of pieces, in the memory of one; needs the Python package "
         "pymetis [whole]",
     )
     made.add_argument(
@@ -288,12 +288,12 @@ def parser(version: str) -> argparse.ArgumentParser:
         type=_whole_number,
         default=1,
         metavar="N",
-        help="so many files at a time, each by a Blender of its own; with --pieces so many pieces at a time [1]",
+        help="files at a time, each in a Blender of its own; with --pieces, pieces at a time [1]",
     )
     made.add_argument(
         "--scheduler",
         metavar="tcp://HOST:PORT",
-        help="the same on the workers of a Dask cluster, which see the files under the same names; needs the Python "
+        help="the same on the workers of a Dask cluster, which have the files under the same names; needs the Python "
         "package distributed [none]",
     )
     made.add_argument("--only", type=_share, metavar="FIRST:END", help=argparse.SUPPRESS)

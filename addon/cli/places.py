@@ -53,7 +53,7 @@ def _expanded(name: str) -> list[str]:
     root = Path(Path(name).anchor)
     found = sorted(str(path) for path in root.glob(str(Path(name).relative_to(root.anchor))))
     if not found:
-        raise BadPlaces(f"No file is called like {name}.")
+        raise BadPlaces(f"No file matches {name}.")
     return found
 
 

@@ -28,27 +28,26 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--fit-tolerance",
         type=_POSITIVE,
         metavar="X",
-        help="the farthest that a patch may be from the fair surface, as a share of its size "
+        help="largest distance of a patch from the fair surface, as a share of its size "
         f"[{_TOLERANCE:g}]",
     )
     group.add_argument(
         "--fit-angle",
         type=_POSITIVE,
         metavar="DEGREES",
-        help=f"the sharpest angle at which two patches may meet where there is no crease [{_ANGLE}]",
+        help=f"largest angle between two patches where there is no crease [{_ANGLE}]",
     )
     group.add_argument(
         "--unit",
         choices=[unit.lower() for unit in METRES],
         metavar="|".join(unit.lower() for unit in METRES),
-        help=f"the unit that the coordinates are in; they do not change [{_UNIT}]",
+        help=f"the unit of the coordinates; they do not change [{_UNIT}]",
     )
     group.add_argument(
         "--insist",
         action="store_true",
         default=None,
-        help="write a surface that folds or turns too sharply for patches all the same; its patches "
-        "are red there",
+        help="also write a surface that folds or turns too sharply for patches; its patches are red there",
     )
 
 

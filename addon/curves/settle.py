@@ -57,7 +57,7 @@ def covered(
         raise JobError("Draw curves that cross each other first. There is none with two points.")
     for curve in curves:
         if not np.isfinite(curve.pieces).all():
-            raise JobError(f"Delete the point of '{curve.name}' that has no proper position.")
+            raise JobError(f"Delete the point of '{curve.name}' that has no finite position.")
     found = find_cells(network(curves, wish.snap), wish.closed)
     if not found.cells:
         raise JobError(none_text(found.network, text))

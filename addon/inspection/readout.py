@@ -23,18 +23,15 @@ ROWS: tuple[tuple[str, str, str | Callable[[Scene, float], str]], ...] = (
     ("Largest curvature", "largest_curvature", curvature_text),
     ("98 % lie below", "curvature_98", curvature_text),
     ("Worst fold", "worst_fold", "{:.2f}°"),
-    ("… sharp ones too", "worst_fold_with_sharp", "{:.2f}°"),
-    ("Off the vertices", "deviation", length_text),
+    ("With sharp edges", "worst_fold_with_sharp", "{:.2f}°"),
+    ("Off vertices", "deviation", length_text),
     ("Steps", "steps", "{}"),
     ("Left to gain", "left", "{:.2g} %"),
     ("Faces", "faces", "{:,}"),
 )
 _FORMS = {key: form for _, key, form in ROWS}
 # said wherever there is a column Before
-NO_SURFACE = (
-    "Before is the control mesh. Its few vertices are no surface: they say nothing of curvature, "
-    "and its folds are those between flat faces."
-)
+NO_SURFACE = "Before is the control mesh: too coarse for curvature, and its folds are those between flat faces."
 _OF_SURFACES = {"total_curvature", "largest_curvature", "curvature_98"}
 
 
@@ -53,7 +50,7 @@ def take(context: Context, target: Object, source: Object | None = None) -> dict
     after |= {"steps": core.step_count(report), "left": left}
     if source is not None:
         before, control = _measured(context, source)
-        # on its few vertices a coarse mesh always looks calmer than it is
+        # on few vertices the measured curvature is always too small
         before |= dict.fromkeys(_OF_SURFACES)
         shape = world_shape(target)
         after["deviation"] = largest_deviation(shape.of(control), shape.of(positions))

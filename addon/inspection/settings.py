@@ -93,7 +93,7 @@ def _range_changed(group: Any, _context: Context) -> None:
 
 
 def _drawing_changed(group: Any, _context: Context) -> None:
-    """Of all objects of this scene: one that another scene has too shows what was said last."""
+    """Of all objects of this scene; an object in two scenes shows the last choice."""
     for target in group.id_data.objects:
         if target.type == "MESH":
             display.redraw(target, group)
@@ -127,13 +127,13 @@ class FAIRING_PG_inspection(bpy.types.PropertyGroup):
 
     key: IntProperty(
         name="Key",
-        description="Tells the materials of this scene from those of others",
+        description="Distinguishes the materials of this scene from those of others",
         options={"HIDDEN"},
     )
 
     stripes: IntProperty(
         name="Stripes",
-        description="How many pairs of light and dark stripes there are: more of them find smaller faults",
+        description="Number of pairs of light and dark stripes: more stripes show smaller faults",
         default=10,
         min=1,
         max=200,
@@ -151,7 +151,7 @@ class FAIRING_PG_inspection(bpy.types.PropertyGroup):
     )
     sharpness: FloatProperty(
         name="Sharpness",
-        description="How sharp the edges of the stripes are: soft ones are calmer on coarse meshes",
+        description="Sharpness of the edges of the stripes: softer edges suit coarse meshes",
         default=0.95,
         min=0.0,
         max=1.0,
@@ -230,14 +230,14 @@ class FAIRING_PG_inspection(bpy.types.PropertyGroup):
     )
     deviation_object: PointerProperty(
         name="Measured from",
-        description="The mesh object that distances are measured from, or the vertices of the source if there is none",
+        description="The mesh object from which distances are measured; if empty, the vertices of the source",
         type=bpy.types.Object,
         poll=_is_mesh,
         update=_deviation_changed,
     )
     section_axes: EnumProperty(
         name="Planes across",
-        description="The axes of the object that the planes stand across, several with Shift",
+        description="The axes of the object across which the planes cut, several with Shift",
         items=(
             ("X", "X", "Planes across the object's x axis"),
             ("Y", "Y", "Planes across the object's y axis"),
@@ -264,7 +264,7 @@ class FAIRING_PG_inspection(bpy.types.PropertyGroup):
     )
     comb_scale: FloatProperty(
         name="Comb Scale",
-        description="How many times longer the teeth are than usual",
+        description="Scales the length of the teeth",
         default=1.0,
         min=0.0,
         soft_max=5.0,

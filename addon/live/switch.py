@@ -199,7 +199,7 @@ class FAIRING_PG_live(bpy.types.PropertyGroup):
     )
     cage_as_wire: BoolProperty(
         name="Cage as Wire",
-        description="While Live is on, the source is shown as wire, so that the surface is seen through it",
+        description="Shows the source as wire while Live is on, so that the surface is visible",
         default=True,
         update=_cage_changed,
     )

@@ -104,7 +104,7 @@ def _drop_subdivision(target: Object) -> list[str]:
     notes = []
     for modifier in [m for m in target.modifiers if m.type == "SUBSURF"]:
         notes.append(
-            f"The modifier '{modifier.name}' is not copied: the surface passes where it would already."
+            f"The modifier '{modifier.name}' is not copied: the surface already passes where it would."
         )
         target.modifiers.remove(modifier)
     return notes

@@ -129,7 +129,7 @@ def write_own(target: Object, own: OwnData, in_handler: bool = False) -> list[st
     _choose_active(target, own)
     notes = own.notes + ([] if in_handler else own.write_keys(target))
     if lost:
-        notes.append(f"{_listed(lost)} dropped: the edges of the surface are others now.")
+        notes.append(f"{_listed(lost)} dropped: the surface has other edges now.")
     moved = [attribute.name for attribute in own.attributes if attribute.name not in lost]
     moved += [group.name for group in own.groups] + [key.name for key, *_ in own.keys]
     if moved and not samples.same:

@@ -74,7 +74,7 @@ def _evaluated(context: Context, source: Object) -> Iterator[Object]:
     """`source` with its modifiers applied.
 
     Blender evaluates no object that is hidden, disabled, excluded or not in the scene, so a copy
-    that is none of that stands in meanwhile.
+    that is not one of that stands in meanwhile.
     """
     if source.visible_get():
         yield source.evaluated_get(context.evaluated_depsgraph_get())

@@ -157,7 +157,7 @@ def mixed(keys: ShapeKeys, weights: Callable[[str], np.ndarray]) -> np.ndarray:
 
 
 def key_positions(source: Object, name: str, vertex_count: int) -> np.ndarray | None:
-    """(n, 3) of the key by that `name`; None if there is none of so many vertices."""
+    """(n, 3) of the key by that `name`; None if there is not one of so many vertices."""
     keys = read_shape_keys(source, vertex_count)
     names = [key.name for key in keys.keys] if keys else []
     return keys.positions[names.index(name)] if keys and name in names else None

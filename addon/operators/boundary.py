@@ -24,7 +24,7 @@ class _OfEdges(ExplainedPoll):
 
 
 class OBJECT_OT_fairing_boundary(_OfEdges, bpy.types.Operator):
-    """Make the selected edges of open borders smooth, straight or free, whatever the surface's setting says"""
+    """Make the selected edges of open borders smooth, straight or free, whatever the setting Boundary is"""
 
     bl_idname = "object.fairing_boundary"
     bl_label = "Boundary of Edges"
@@ -48,7 +48,7 @@ class OBJECT_OT_fairing_boundary(_OfEdges, bpy.types.Operator):
 
 
 class OBJECT_OT_fairing_select_boundary(_OfEdges, bpy.types.Operator):
-    """Select the border edges that were made so by Boundary of Edges"""
+    """Select the border edges that have this Boundary of Edges"""
 
     bl_idname = "object.fairing_select_boundary"
     bl_label = "Select Boundary of Edges"

@@ -9,7 +9,7 @@ from ..queue import running
 
 
 class OBJECT_OT_fairing_cancel(ExplainedPoll, bpy.types.Operator):
-    """End the fairing that goes on at this moment, as ESC does, and change nothing"""
+    """End the present run, as ESC does, and change nothing"""
 
     bl_idname = "object.fairing_cancel"
     bl_label = "Cancel"

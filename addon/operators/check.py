@@ -99,7 +99,7 @@ class OBJECT_OT_fairing_select_defect(_AtDefect, bpy.types.Operator):
 
 
 class OBJECT_OT_fairing_repair(_AtDefect, bpy.types.Operator):
-    """Repair this defect in the mesh itself, which Undo takes back"""
+    """Repair this defect in the mesh itself; Undo restores it"""
 
     bl_idname = "object.fairing_repair"
     bl_label = "Repair"
@@ -127,7 +127,7 @@ class OBJECT_OT_fairing_repair(_AtDefect, bpy.types.Operator):
 
 
 class OBJECT_OT_fairing_select_hole(_Checking, bpy.types.Operator):
-    """Select the edges around this hole in Edit Mode, and look at them"""
+    """Select the edges around this hole in Edit Mode, and bring them into view"""
 
     bl_idname = "object.fairing_select_hole"
     bl_label = "Show Hole"

@@ -16,7 +16,7 @@ from .fill_holes import LargestHole
 
 
 class OBJECT_OT_fairing_clean(LargestHole, WholeFairing, bpy.types.Operator):
-    """Make a closed surface of a scan: drop what does not belong to it, mend it, fill its holes, and list what was done"""
+    """Make a closed surface of a scan: remove loose parts, mend defects, fill holes, and list what was done"""
 
     bl_idname = "object.fairing_clean"
     bl_label = "Clean Scan"
@@ -34,7 +34,7 @@ class OBJECT_OT_fairing_clean(LargestHole, WholeFairing, bpy.types.Operator):
     fill: BoolProperty(name=STEPS[8][1], description=STEPS[8][2], default=True)
     islands: FloatProperty(
         name="Islands",
-        description="Parts shorter than this share of the longest go, by the diagonals of their boxes",
+        description="Removes parts whose box has a diagonal below this share of the longest",
         default=0.1,
         min=0.0,
         max=1.0,
@@ -48,19 +48,19 @@ class OBJECT_OT_fairing_clean(LargestHole, WholeFairing, bpy.types.Operator):
             (
                 "AUTO",
                 "Take Off",
-                "As much is taken off around each vertex as the scan there allows: edges stay sharp, details stay",
+                "Removes noise by an amount chosen around each vertex: edges and details stay sharp",
             ),
             (
                 "PASSES",
                 "Fast",
-                "So many passes of a filter, everywhere the same: edges are rounded",
+                "Runs a number of filter passes, the same everywhere: edges are rounded",
             ),
         ),
         default="NONE",
     )
     passes: IntProperty(
         name="Passes",
-        description="Ten do for a scan whose noise is a tenth of its edges",
+        description="Ten are enough for a scan whose noise is a tenth of its edges",
         default=10,
         min=1,
         max=1000,

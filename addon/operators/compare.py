@@ -22,7 +22,7 @@ _GAP = 1.15  # from one to the next, in widths of the source
 
 
 class OBJECT_OT_fairing_compare(Fairing, bpy.types.Operator):
-    """Make a surface by each kind of fairness with the settings of the panel, in a row beside this mesh, and measure them"""
+    """Make a surface with each kind of fairness and the settings of the panel, in a row beside this mesh, and measure them"""
 
     bl_idname = "object.fairing_compare"
     bl_label = "Compare Fairness"

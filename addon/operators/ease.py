@@ -40,7 +40,7 @@ class _Easing(WholeFairing):
 
 
 class OBJECT_OT_fairing_ease(_Easing, bpy.types.Operator):
-    """Move vertices a little, as the shape key Eased, so that the surface is fair: scatter goes, wrong offsets come right"""
+    """Move vertices a little, as the shape key Eased: removes scatter and corrects wrong offsets"""
 
     bl_idname = "object.fairing_ease"
     bl_label = "Ease Control Mesh"
@@ -53,17 +53,17 @@ class OBJECT_OT_fairing_ease(_Easing, bpy.types.Operator):
             (
                 "AUTOMATIC",
                 "Automatic",
-                "As much as takes the scatter off and leaves the shape: found from the vertices themselves",
+                "Removes the scatter and keeps the shape: the amount is estimated from the vertices",
             ),
             (
                 "TOLERANCE",
                 "Within Tolerance",
-                "As fair as can be, with no vertex moved farther than the tolerance",
+                "As fair as possible, with no vertex moved farther than the tolerance",
             ),
             (
                 "WORST",
                 "Worst Vertices",
-                "The most strained alone, each to where the surface wants it",
+                "Only the most strained, each to the surface through the others",
             ),
         ),
     )
@@ -113,7 +113,7 @@ class OBJECT_OT_fairing_ease(_Easing, bpy.types.Operator):
         if poll_reason(context):
             return poll_reason(context)
         if context.mode != "OBJECT":
-            return "Press Tab first, or take Ease Selected: the whole control mesh is eased in Object Mode"
+            return "Press Tab first, or use Ease Selected: the whole control mesh is eased in Object Mode"
         return mesh_poll_reason(sources_at_hand(context))
 
     def draw(self, _context: Context) -> None:
@@ -143,7 +143,7 @@ class OBJECT_OT_fairing_ease(_Easing, bpy.types.Operator):
 
 
 class OBJECT_OT_fairing_ease_selected(_Easing, bpy.types.Operator):
-    """Move selected vertices, but for those on borders and creases, to where the surface through all others wants them"""
+    """Move selected vertices, except on borders and creases, to the surface through all others"""
 
     bl_idname = "object.fairing_ease_selected"
     bl_label = "Ease Selected"
@@ -151,7 +151,7 @@ class OBJECT_OT_fairing_ease_selected(_Easing, bpy.types.Operator):
 
     factor: FloatProperty(
         name="Factor",
-        description="How far the vertices go, up to 1, where the surface wants them",
+        description="How far the vertices move: at 1 to the surface through the others",
         default=1.0,
         soft_min=0.0,
         soft_max=1.0,

@@ -215,7 +215,7 @@ class WholeFairing(Fairing):
 
 
 class OBJECT_OT_fairing_surface(FairSurface, bpy.types.Operator):
-    """Make the fairest surface through the vertices of this mesh as a new object, and leave the mesh as it is"""
+    """Make the fairest surface through the vertices of this mesh as a new object; the mesh is unchanged"""
 
     bl_idname = "object.fairing_surface"
     bl_options = {"REGISTER", "UNDO", "PRESET"}
@@ -278,7 +278,7 @@ class OBJECT_OT_fairing_recompute_stale(Fairing, bpy.types.Operator):
 
 
 class OBJECT_OT_fairing_show_source(ExplainedPoll, bpy.types.Operator):
-    """Show the source of this surface and select it, to work on its vertices"""
+    """Show the source of this surface and select it, to edit its vertices"""
 
     bl_idname = "object.fairing_show_source"
     bl_label = "Show Source"

@@ -21,7 +21,7 @@ class LargestHole:
 
     largest: FloatProperty(
         name="Largest Hole",
-        description="Wider holes stay open, by the farthest two vertices of their rims; 0 fills all but borders of sheets",
+        description="Holes wider than this between two vertices of the rim stay open; 0 fills all but borders of sheets",
         default=0.0,
         min=0.0,
         subtype="DISTANCE",
@@ -29,7 +29,7 @@ class LargestHole:
 
 
 class OBJECT_OT_fairing_fill(LargestHole, WholeFairing, bpy.types.Operator):
-    """Close holes so that nobody sees where they were: all small ones, or in Edit Mode those that are selected"""
+    """Fill holes with a fair continuation of the faces around: all small ones, or in Edit Mode the selected ones"""
 
     bl_idname = "object.fairing_fill"
     bl_label = "Fill Hole Fair"
@@ -44,13 +44,13 @@ class OBJECT_OT_fairing_fill(LargestHole, WholeFairing, bpy.types.Operator):
     )
     energy: EnumProperty(
         name="Fairness",
-        description="What makes the filling fair: Curvature gives half a sphere back",
+        description="What the filling minimizes: Curvature restores half a sphere",
         items=ENERGIES,
         default="TOTAL_CURVATURE",
     )
     density: FloatProperty(
         name="Density",
-        description="How many times as fine as the rim the filling is, or 0 for no new vertices",
+        description="How many times finer than the rim the filling is; 0: no new vertices",
         default=1.0,
         min=0.0,
         max=100.0,
@@ -58,12 +58,12 @@ class OBJECT_OT_fairing_fill(LargestHole, WholeFairing, bpy.types.Operator):
     )
     noisy: BoolProperty(
         name="Noisy Rim",
-        description="The faces around are measured: six rings of them say how the surface goes on, so that their noise is not carried on",
+        description="For measured faces: reads six rings around the hole, so that their noise does not continue",
         default=False,
     )
     quads: BoolProperty(
         name="Quads",
-        description="In a hole among quads a grid of quads, where its rim allows that; else triangles",
+        description="Fills a hole among quads with a grid of quads if its rim allows it, else with triangles",
         default=False,
     )
 

@@ -59,7 +59,7 @@ class OBJECT_OT_fairing_fix_normal(_OfVertices, bpy.types.Operator):
 
 
 class OBJECT_OT_fairing_free_normal(_OfVertices, bpy.types.Operator):
-    """Let the surface find its own normal at the selected vertices"""
+    """Remove the fixed normal at the selected vertices"""
 
     bl_idname = "object.fairing_free_normal"
     bl_label = "Free Normal"

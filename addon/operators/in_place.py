@@ -20,8 +20,8 @@ from .fair import WholeFairing, poll_reason
 def _joints() -> tuple[tuple[str, str, str], ...]:
     meanings = {
         "POSITION": "Only the rim of the selection is held: any angle there (G0)",
-        "TANGENT": "The selection goes on in the direction of the faces around it (G1)",
-        "CURVATURE": "The selection goes on in the bend of the faces around it (like G2)",
+        "TANGENT": "The selection continues the direction of the faces around it (G1)",
+        "CURVATURE": "The selection continues the curvature of the faces around it (like G2)",
     }
     return tuple((key, name, meanings[key]) for key, name, _ in JOINTS)
 
@@ -30,12 +30,12 @@ VERTICES = (
     (
         "FREE",
         "Free",
-        "They go to where the surface is fairest, wherever they were: for bumps and holes",
+        "They move to the fairest surface, wherever they were: for bumps and holes",
     ),
     (
         "MEASURED",
         "Measured",
-        "They are data with noise: the surface passes near them, and they move to it, but for edges marked sharp",
+        "They are noisy data: they move to a surface near them, except at edges marked sharp",
     ),
 )
 
@@ -59,7 +59,7 @@ class InPlace(WholeFairing):
     )
     factor: FloatProperty(
         name="Factor",
-        description="How far the vertices go to where the surface is fairest",
+        description="How far the vertices move towards the fairest surface",
         default=1.0,
         min=0.0,
         max=1.0,
@@ -67,17 +67,17 @@ class InPlace(WholeFairing):
     )
     release: BoolProperty(
         name="Move Vertices",
-        description="The vertices of the selection move too, or if off the surface passes through them",
+        description="Moves the vertices of the selection too; off: the surface passes through them",
         default=False,
     )
     vertices: EnumProperty(
         name="Vertices",
-        description="What the vertices inside of the selection are",
+        description="How the vertices inside the selection are treated",
         items=VERTICES,
     )
     noise: FloatProperty(
         name="Noise",
-        description="How far measured vertices are moved in scene units, root mean square, or 0 to find it from them",
+        description="Noise of measured vertices in scene units, root mean square; 0: estimated from them",
         default=0.0,
         min=0.0,
         soft_max=1.0,
@@ -152,7 +152,7 @@ class InPlace(WholeFairing):
 
 
 class OBJECT_OT_fairing_in_place(InPlace, bpy.types.Operator):
-    """Fair the selected faces of this mesh itself: move their vertices, or refine them too, and nothing around"""
+    """Fair the selected faces of this mesh itself: move their vertices, or refine them too; the rest is unchanged"""
 
     bl_idname = "object.fairing_in_place"
     bl_label = "Fair Selected Faces in Place"
@@ -174,7 +174,7 @@ class OBJECT_OT_fairing_in_place(InPlace, bpy.types.Operator):
 
 
 class OBJECT_OT_fairing_scan(InPlace, bpy.types.Operator):
-    """Take the noise off the selected meshes themselves, of all their faces but edges marked sharp"""
+    """Remove the noise of the selected meshes, except at edges marked sharp"""
 
     bl_idname = "object.fairing_scan"
     bl_label = "Fair Scan in Place"
@@ -182,7 +182,7 @@ class OBJECT_OT_fairing_scan(InPlace, bpy.types.Operator):
 
     vertices: EnumProperty(
         name="Vertices",
-        description="What the vertices of the scan are",
+        description="How the vertices of the scan are treated",
         items=VERTICES,
         default="MEASURED",
     )
@@ -200,8 +200,8 @@ class OBJECT_OT_fairing_scan(InPlace, bpy.types.Operator):
         for target in objects:
             if target.data.shape_keys:
                 raise JobError(
-                    f"{target.name}: Press Tab, select all, and take Fair Selected Faces in Place. In Object "
-                    "Mode a mesh with shape keys stays as it is."
+                    f"{target.name}: Press Tab, select all, and use Fair Selected Faces in Place. In Object "
+                    "Mode, meshes with shape keys are not changed."
                 )
         return objects
 

@@ -17,7 +17,7 @@ _MODES = {"OBJECT", "EDIT_MESH", "SCULPT"}
 
 
 class OBJECT_OT_fairing_live(ExplainedPoll, bpy.types.Operator):
-    """Let the surface follow while you edit the control mesh, and make one if there is none yet"""
+    """Update the surface while you edit the control mesh; makes one if there is none"""
 
     bl_idname = "object.fairing_live"
     bl_label = "Live"

@@ -28,7 +28,7 @@ def _settings_as_operator(context: Context) -> Any:
 
 
 class OBJECT_OT_fairing_preset_apply(bpy.types.Operator):
-    """Take over the settings of this preset"""
+    """Apply the settings of this preset"""
 
     bl_idname = "object.fairing_preset_apply"
     bl_label = "Apply Fairing Preset"
@@ -47,7 +47,7 @@ class OBJECT_OT_fairing_preset_apply(bpy.types.Operator):
 
 
 class OBJECT_OT_fairing_preset_add(AddPresetBase, bpy.types.Operator):
-    """Keep the settings of the panel under a name, or remove a name"""
+    """Save the settings of the panel under a name, or remove a name"""
 
     bl_idname = "object.fairing_preset_add"
     bl_label = "Add Fairing Preset"

@@ -20,7 +20,7 @@ _UNDO = True
 
 
 class OBJECT_OT_fairing_for(ExplainedPoll, bpy.types.Operator):
-    """Fair the selected meshes with the settings of a purpose, which the panel shows afterwards"""
+    """Fair the selected meshes with the settings of a purpose; the panel then shows them"""
 
     bl_idname = "object.fairing_for"
     bl_label = "Fair for"

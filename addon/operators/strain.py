@@ -59,7 +59,7 @@ class _Straining(WholeFairing):
 
 
 class OBJECT_OT_fairing_strain(ExplainedPoll, bpy.types.Operator):
-    """Show or hide how far the surface would spring away at each vertex, were it let go: wrong offsets stand out"""
+    """Show how far the surface would move at each vertex if that vertex were released: wrong offsets stand out"""
 
     bl_idname = "object.fairing_strain"
     bl_label = "Inspect: Strain"
@@ -80,7 +80,7 @@ def _reason_to_select(context: Context) -> str:
 
 
 class OBJECT_OT_fairing_select_strained(_Straining, bpy.types.Operator):
-    """Select in Edit Mode the vertices that spoil the surface, the most strained ones"""
+    """Select in Edit Mode the vertices with the largest strain"""
 
     bl_idname = "object.fairing_select_strained"
     bl_label = "Select Strained"
@@ -96,11 +96,11 @@ class OBJECT_OT_fairing_select_strained(_Straining, bpy.types.Operator):
         items=(
             (
                 "FLOOR",
-                "Out of Line",
-                "Those that strain by more than scatter explains, and the strain of their neighbours",
+                "Outliers",
+                "Vertices whose strain exceeds the scatter and that of their neighbours",
             ),
             ("COUNT", "The Worst", "So many"),
-            ("THRESHOLD", "By More than", "Those that strain by more than a length"),
+            ("THRESHOLD", "By More than", "Vertices whose strain exceeds a length"),
         ),
     )
     count: IntProperty(
@@ -108,7 +108,7 @@ class OBJECT_OT_fairing_select_strained(_Straining, bpy.types.Operator):
     )
     threshold: FloatProperty(
         name="Strain",
-        description="Vertices that strain by more than this are selected",
+        description="Selects vertices whose strain exceeds this",
         default=0.01,
         min=0.0,
         soft_max=1.0,

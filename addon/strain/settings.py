@@ -25,7 +25,7 @@ class FAIRING_PG_strain(bpy.types.PropertyGroup):
 
     show: BoolProperty(
         name="Show Strain",
-        description="Draws a line at each vertex: how far the surface would spring away there, were this vertex let go",
+        description="Draws a line at each vertex: how far the surface would move there if this vertex were released",
         update=_show_changed,
         options=set(),
     )
@@ -35,8 +35,8 @@ class FAIRING_PG_strain_drawing(bpy.types.PropertyGroup):
     """Kept with the scene."""
 
     needle_length: FloatProperty(
-        name="Longest Line (Edges)",
-        description="How long the longest line may be drawn, in mean edges of the mesh",
+        name="Longest Line",
+        description="Length at which the longest line is drawn, in mean edges of the mesh",
         default=1.0,
         min=0.0,
         soft_max=5.0,
@@ -44,7 +44,7 @@ class FAIRING_PG_strain_drawing(bpy.types.PropertyGroup):
     )
     label_count: IntProperty(
         name="Labels",
-        description="How many of the worst vertices are named beside their lines, and listed",
+        description="How many of the worst vertices have a label and are listed",
         default=10,
         min=0,
         max=1000,

@@ -21,7 +21,7 @@ class Strained:
     # below it
     floor: float
     edge_length: float  # the mean one, in scene units
-    # (k,) ids of the vertices that are out of line, the worst first; None: all above the floor
+    # (k,) ids of the outliers, the worst first; None: all above the floor
     standing_out: np.ndarray | None = None
 
     @cached_property
@@ -36,7 +36,7 @@ class Strained:
 
     @cached_property
     def wrong(self) -> np.ndarray:
-        """(k,) ids of the vertices that are out of line, the worst first."""
+        """(k,) ids of the outliers, the worst first."""
         return above(self.lengths, self.floor) if self.standing_out is None else self.standing_out
 
     def worst(self, count: int) -> np.ndarray:

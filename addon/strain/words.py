@@ -40,7 +40,7 @@ def moved(moves: np.ndarray, text: Text) -> str:
     order = np.argsort(-moves, kind="stable")
     order = order[moves[order] > 0]
     if not len(order):
-        return "No vertex moved: the surface passes where they are"
+        return "No vertex moved: the surface already passes through them"
     return f"{count(len(order))} moved: {listed(order, moves, text)}"
 
 
@@ -53,11 +53,11 @@ def eased(
     text: Text,
 ) -> str:
     """Of easing by itself. `noise`: the scatter, a length; `strain`: (n,) before; `wrong`: (k,) ids of
-    vertices out of line, the worst first; `floor`: what is scatter.
+    outliers, the worst first; `floor`: what is scatter.
     """
     if not moves.any():
-        return "No vertex moved: there is no scatter to be told from the shape"
-    said = [f"Offsets are scattered by about {text(noise)}."]
+        return "No vertex moved: scatter cannot be distinguished from the shape"
+    said = [f"The scatter is about {text(noise)}."]
     if len(wrong):
         held = count(int((~np.isnan(strain)).sum()))
         are = "is" if len(wrong) == 1 else "are"
@@ -71,7 +71,9 @@ def eased(
 def moved_within(moves: np.ndarray, tolerance: float, strain: np.ndarray, text: Text) -> str:
     """Of easing within a `tolerance`; `strain`: (n,) before."""
     if not moves.any():
-        return f"No vertex moved: none may, or all strain less than {text(tolerance)} allows"
+        return (
+            f"No vertex moved: none may move, or there is nothing to ease within {text(tolerance)}"
+        )
     beyond = int((np.abs(strain[~np.isnan(strain)]) > tolerance).sum())
     said = f"{count(int((moves > 0).sum()))} moved by at most {text(tolerance)}. {_largest(moves, text)}."
     if beyond:

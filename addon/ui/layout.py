@@ -128,7 +128,7 @@ def _draw_pads(layout: bpy.types.UILayout, settings: FairingSettings) -> None:
     row.active = not start_only
     row.prop(settings, "pad_size")
     if start_only:
-        _reason(layout, "It helps the start only")
+        _reason(layout, "Used for the start only")
     else:
         draw_ends(layout, settings.energy, f"{settings.energy}_SOFTLY")
 

@@ -239,7 +239,7 @@ def vertices_text(settings: FairingSettings, sources: list[Object]) -> str:
         return ""
     if all(limit):
         return "Limit: has Subdivision Surface"
-    return "Limit where Subdivision Surface is" if any(limit) else "Through every vertex"
+    return "Limit with Subdivision Surface" if any(limit) else "Through every vertex"
 
 
 def missing_groups(settings: FairingSettings, sources: list[Object]) -> dict[str, str]:

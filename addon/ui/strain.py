@@ -51,13 +51,13 @@ def _draw_worst(layout: Any, context: Context, source: Object, strained: Straine
     if not len(strained.held):
         draw_notice(
             layout,
-            "No vertex can be let go: all are corners, or lie on straight borders",
+            "No vertex can be released: all are corners, or lie on straight borders",
             icon="INFO",
         )
         return
     times = magnification(strained, drawing.needle_length)
     column = layout.column(align=True)
-    column.label(text=f"Out of line: {len(strained.wrong)} of {len(strained.held):,}")
+    column.label(text=f"Outliers: {len(strained.wrong)} of {len(strained.held):,}")
     column.label(text=f"Up to {text(strained.floor)} is scatter")
     if source.discrete_fairing_strain.show and times > 1.0:
         column.label(text=f"Lines are {times:g} times as long")

@@ -100,7 +100,7 @@ def test_it_is_said_in_words(capsys):
     write_dunes("in.obj", scattered())
     assert run("in.obj", "out.obj", "--ease") == 0
     said = capsys.readouterr().err
-    assert "in.obj: Dune0: Offsets are scattered by about 0.0" in said
+    assert "in.obj: Dune0: The scatter is about 0.0" in said
     assert f"at vertex {WRONG}" in said
     assert run("in.obj", "out.obj", "--ease", "--quiet") == 0
     assert not capsys.readouterr().err

@@ -233,7 +233,7 @@ def test_readout_has_before_and_after():
     rows = {
         label: (before, after) for label, before, after in readout.table(record, bpy.context.scene)
     }
-    assert rows["Worst fold"][1] == "90.00°" and rows["Off the vertices"] == ("", "0.1 m")
+    assert rows["Worst fold"][1] == "90.00°" and rows["Off vertices"] == ("", "0.1 m")
     for label in ("Total curvature", "Largest curvature", "98 % lie below"):
         before, after = rows[label]
         assert before == "" and float(after.split()[0]) > 0, "of a coarse mesh it says nothing"

@@ -208,7 +208,7 @@ def test_the_words_are_those_of_the_run(core):
     off = abs(job.result.strain_before[WRONG])
     assert off == pytest.approx(OFF, rel=0.02)
     assert said.startswith(
-        f"Offsets are scattered by about 0.010. 1 of {held} vertices is off by more: 31 by {off:.3f}."
+        f"The scatter is about 0.010. 1 of {held} vertices is off by more: 31 by {off:.3f}."
     )
 
 

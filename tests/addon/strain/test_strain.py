@@ -208,7 +208,7 @@ def test_the_panel_lists_the_worst():
     VIEW3D_PT_fairing_strain.draw(panel, bpy.context)
     log = [str(line) for line in panel.layout.log]
     assert sum("object.fairing_go_to_strained" in line for line in log) == 10
-    assert f"Out of line: 1 of {len(known.found_of(source).held)}" in log
+    assert f"Outliers: 1 of {len(known.found_of(source).held)}" in log
     assert any("inwards" in line for line in log)
 
 
