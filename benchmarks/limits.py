@@ -49,6 +49,7 @@ def tables(result: dict[str, Any]) -> dict[str, str]:
         "limits": beside_subdivision(
             result,
             [
+                ("through the cage", "thin plate, *Through*"),
                 ("limit", "thin plate"),
                 ("Character", "*Character*"),
                 ("limit, total curvature", "total curvature"),

@@ -97,25 +97,6 @@ def defaults(size: int, levels: int, repeats: int, threads: int) -> dict[str, An
     return timed(body, repeats)
 
 
-def warm(size: int, levels: int, repeats: int, threads: int) -> dict[str, Any]:
-    """One control vertex moves by a tenth of an edge, to and fro; the solver knows the mesh."""
-    import discrete_fairing as df
-
-    vertices, faces = control_meshes.sphere(size)
-    solver = df.Solver(vertices, faces, levels=levels, relative_residual=TOLERANCE, threads=threads)
-    solver.solve()
-    moved = vertices.copy()
-    moved[0] += 0.1 * np.linalg.norm(vertices[faces[0, 0]] - vertices[faces[0, 1]])
-    positions = [moved, vertices]
-
-    def body() -> dict[str, Any]:
-        positions.reverse()
-        report = solver.solve(positions[0]).report
-        return {"iterations": [level["iterations"] for level in report["levels"]]}
-
-    return timed(body, 2 * repeats)
-
-
 def libigl(size: int, levels: int, repeats: int) -> dict[str, Any]:
     """harmonic with k = 2: cotangent Laplacian, lumped mass, min_quad_with_fixed on Eigen's
     LDLT."""
@@ -140,7 +121,6 @@ def manifold(size: int, levels: int, repeats: int) -> dict[str, Any]:
 CHILDREN = {
     "ours": ours,
     "defaults": defaults,
-    "warm": warm,
     "libigl": libigl,
     "manifold": manifold,
 }
@@ -198,7 +178,6 @@ def measure(case: tuple[int, int], slow: set[str]) -> dict[str, Any]:
     for threads, on in THREADS.items():
         found[f"ours{on}"] = child("ours", case, repeats, threads)
         found[f"ours, default settings{on}"] = child("defaults", case, repeats, threads)
-        found[f"ours, warm{on}"] = child("warm", case, repeats, threads)
         entry = same_system(case, repeats, threads, threads == 1 and triangles <= LARGEST_FOR_LDLT)
         if "note" in entry:
             found[f"CHOLMOD{on}"] = entry
@@ -251,7 +230,6 @@ def peers_table(result: dict[str, Any]) -> str:
         "ours, one thread": "ours, one thread",
         "ours, two threads": "ours, two",
         "ours, default settings, two threads": "ours, default settings, two",
-        "ours, warm, one thread": "ours, warm, one thread",
     }
     theirs = {
         "CHOLMOD": "CHOLMOD, one thread",

@@ -3,7 +3,7 @@
 
     .venv/bin/python examples/gallery.py                      all of them, to docs/images/gallery/
     .venv/bin/python examples/gallery.py octahedron hull      only those named
-    .venv/bin/python examples/gallery.py sphere_from_four_points    the README's first picture
+    .venv/bin/python examples/gallery.py sphere_from_four_points    the sphere through four points
     .venv/bin/python examples/gallery.py pads                 Bob on point forces and on pads
 
 Bob, the cat's head, the hand, Spot and the fish are not part of the project: `--meshes FOLDER` says where `bob_small.ply`,

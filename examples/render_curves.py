@@ -30,8 +30,6 @@ LEVELS = 4
 SHAPES = {
     "crossing": (curve_networks.crossing, View(3.3, turn=28, elevation=35, height=0.3, stripes=9)),
     "hull": (curve_networks.hull, View(3.6, turn=38, elevation=24, height=0.4, stripes=9)),
-    "bonnet": (curve_networks.bonnet, View(3.3, turn=28, elevation=35, height=0.25, stripes=12)),
-    "star": (curve_networks.star, View(3.0, turn=10, elevation=38, height=0.2, stripes=9)),
 }
 
 

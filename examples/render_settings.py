@@ -40,7 +40,6 @@ class Figure:
     view: View
     variants: tuple
     common: dict = field(default_factory=dict)  # settings of all variants
-    shows_source: bool = False  # beside the surface, where it has not been hidden
 
 
 def _values(name, *values, label="{}", **others):
@@ -100,30 +99,12 @@ FIGURES = {
         ),
         SMOOTH | {"symmetry_plane": "Y"},
     ),
-    "pads": Figure(
-        meshes.pebble,
-        View(2.7, look="zebra", height=0.65, stripes=8),
-        _values("pad_size", 0, 0.5, 1, label="Hold Softly {}"),
-        SMOOTH | {"levels": 5},
-    ),
     "tension": Figure(
         meshes.finned,
         View(5.2, turn=35, elevation=20, height=1.5),
         (
             Variant("Control mesh", as_it_is=True),
             *_values("tension", 0, 0.3, 1, label="Tension {}", energy="TOTAL_CURVATURE"),
-        ),
-        SMOOTH,
-    ),
-    "boundary": Figure(
-        meshes.tent,
-        View(3.2, turn=20, elevation=30, height=0.85),
-        (
-            Variant("Control mesh", as_it_is=True),
-            Variant("Keep Corners", {"boundary": "CORNERS"}),
-            Variant("Smooth", {"boundary": "CURVE"}),
-            Variant("Straight", {"boundary": "LINEAR"}),
-            Variant("Free", {"boundary": "FREE"}),
         ),
         SMOOTH,
     ),
@@ -218,15 +199,6 @@ FIGURES = {
         (Variant("As Modelled"), Variant("With Modifiers", {"mesh_source": "EVALUATED"})),
         SMOOTH | {"levels": 3},
     ),
-    "shade_smooth": Figure(
-        meshes.suzanne,
-        View(3.1, turn=20, height=0.85),
-        (
-            Variant("Shade Smooth off", {"shade_smooth": False}),
-            Variant("Shade Smooth on", {"shade_smooth": True}),
-        ),
-        {"levels": 2, "energy": "THIN_PLATE"},
-    ),
     "shape_keys": Figure(
         meshes.suzanne_with_key,
         View(3.6, turn=10, height=1.15),
@@ -243,13 +215,6 @@ FIGURES = {
         ),
         SMOOTH,
     ),
-    "hide_source": Figure(
-        meshes.suzanne,
-        View(3.1, turn=20, height=0.85),
-        (Variant("Hide Source off", {"hide_source": False}), Variant("Hide Source on")),
-        SMOOTH | {"levels": 3},
-        shows_source=True,
-    ),
 }
 
 
@@ -262,9 +227,6 @@ def draw_variant(figure, variant, tile):
         surfaces = [bpy.context.active_object]
         if surfaces[0].data.shape_keys:
             surfaces[0].data.shape_keys.key_blocks[1].value = variant.key
-        if figure.shows_source and not control.hide_get():
-            surfaces.insert(0, control)  # with wires, to tell it from the surface
-            wired = True
     render_tile(tile, variant.label, figure.view, control, surfaces, wired)
 
 

@@ -149,19 +149,6 @@ def scan():
     return control
 
 
-def pebble(parts=2):
-    """A flattened ball of even quads, calm itself: any mark is the surface's."""
-    bpy.ops.mesh.primitive_cube_add(size=2)
-    control = bpy.context.object
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="SELECT")
-    bpy.ops.mesh.subdivide(number_cuts=parts - 1)
-    bpy.ops.object.mode_set(mode="OBJECT")
-    for vertex in control.data.vertices:
-        vertex.co = np.multiply(vertex.co.normalized(), (1.25, 0.85, 0.7))
-    return control
-
-
 def finned():
     """A body with a thin fin."""
     fin = {(2, 0, 1), (2, 0, 2), (3, 0, 2)}

@@ -55,11 +55,10 @@ class Watch {
     try {
       const py::object kind = py::module_::import("discrete_fairing.errors").attr("MemoryWarning");
       char text[160];
-      std::snprintf(
-          text, sizeof text,
-          "This run is going to take at least %.3g MB, more than the %.3g MB predicted: a "
-          "level has proved hard.",
-          double(bytes) / megabyte, double(news_.predicted()) / megabyte);
+      std::snprintf(text, sizeof text,
+                    "This run will take at least %.3g MB, more than the %.3g MB predicted: a "
+                    "level has proved hard.",
+                    double(bytes) / megabyte, double(news_.predicted()) / megabyte);
       if (PyErr_WarnEx(kind.ptr(), text, 2) != 0) throw py::error_already_set();
     } catch (...) {
       failure_ = std::current_exception();
@@ -167,8 +166,8 @@ bool Runner::is_left_behind() const { return process_ != current_process(); }
 void Runner::require_own_process() const {
   if (is_left_behind())
     throw FairingError(ErrorCode::forked,
-                       {"This belongs to the process that the present one was forked from; its "
-                        "threads have stayed there.",
+                       {"This belongs to the process from which the present one was forked; its "
+                        "threads are there.",
                         "Make another solver here."});
 }
 

@@ -21,8 +21,8 @@ class Solver {
       : corners_(copy_of(corners)), offsets_(copy_of(offsets)) {
     if (!runner_.has_thread())
       throw FairingError(ErrorCode::no_thread,
-                         {"The system starts no further thread, and a solver needs one.",
-                          "End other programs, or use fair(), which can do without."});
+                         {"A thread could not be started, and a solver needs one.",
+                          "End other programs, or use fair(), which works without."});
     const std::vector<double> coordinates = copy_of(vertices);
     call([&] { solver_ = std::make_unique<FairSolver>(mesh_of(coordinates), options, monitor_); });
   }

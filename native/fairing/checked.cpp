@@ -16,8 +16,8 @@ void require_two_sides(const std::vector<Warning>& warnings) {
       throw FairingError(
           ErrorCode::non_orientable,
           {"{face} {belongs|belong} to a surface with only one side, like a Möbius strip.",
-           "Only the thin plate takes it: for the other energies a surface needs normals that "
-           "agree all over. Use energy=\"thin_plate\", or cut it open."},
+           "Only the thin plate accepts it: the other energies need normals that agree "
+           "everywhere. Use energy=\"thin_plate\", or cut it open."},
           warning.elements);
 }
 

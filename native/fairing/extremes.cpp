@@ -67,7 +67,7 @@ void require_in_reach(const ControlMesh& mesh, const ControlPositions& control) 
   if (far.empty()) return;
   throw FairingError(
       ErrorCode::too_extreme,
-      {"{vertex} {lies|lie} so far from the mesh that no digits would be left to the rest.",
+      {"{vertex} {lies|lie} so far from the mesh that the rest would have no digits left.",
        "Move or delete them."},
       std::move(far));
 }

@@ -65,7 +65,7 @@ void report_normals(const ChosenNormals& normals, const LevelReport& finest, Rep
   if (normals.left.empty()) return;
   report.warnings.push_back({"NORMAL_NOT_FIXED",
                              "{vertex} {has|have} a normal that is not fixed: on curves, and where "
-                             "sheets touch, the surface takes none.",
+                             "sheets touch, normals are not used.",
                              normals.left, ElementKind::vertex});
 }
 

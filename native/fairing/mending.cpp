@@ -200,10 +200,9 @@ void Mending::restore(Report& report) const {
     report.pads.widths[v] = report.pads.widths[std::size_t(mended_.vertex_origin[v])];
   report.repairs = mended_.acts;
   if (options_.repair == Repair::mend && !report.flipped_faces.empty())
-    report.repairs.push_back(
-        {name(ErrorCode::inconsistent_orientation),
-         "{face} looked the other way than the neighbours and {was|were} turned over.",
-         report.flipped_faces, ElementKind::face});
+    report.repairs.push_back({name(ErrorCode::inconsistent_orientation),
+                              "{face} pointed against the neighbours and {was|were} flipped.",
+                              report.flipped_faces, ElementKind::face});
 }
 
 // Vertices that were merged have no face, but are not left over.

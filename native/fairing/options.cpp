@@ -69,7 +69,7 @@ void check_normals(const PolygonMesh& mesh, const FairOptions& o) {
   if (!o.has_normals()) return;
   if (o.energy != Energy::thin_plate)
     refuse(
-        "normals are for the thin plate, whose couples they need; use energy=\"thin_plate\", or "
+        "normals are for the thin plate only; use energy=\"thin_plate\", or "
         "free the normals.");
 }
 
@@ -156,7 +156,7 @@ void check_options(const PolygonMesh& mesh, const FairOptions& o) {
   check_normals(mesh, o);
   if (o.tension > 0 && o.energy == Energy::minimum_variation)
     refuse(
-        "tension has no part in minimum variation, whose steps it would burst on crumpled meshes; "
+        "tension cannot be used with minimum variation; "
         "use energy=\"thin_plate\" or energy=\"total_curvature\", or set tension to 0.");
   check_paper(o);
   if (o.weights.empty()) return;

@@ -16,20 +16,20 @@ namespace fairing {
 FairOptions options_of_strain(const FairOptions& given) {
   if (given.energy == Energy::minimum_variation)
     throw FairingError(ErrorCode::bad_option,
-                       {"energy=\"minimum_variation\" has no strain: its control vertices stand on "
-                        "no pads, so no loads tell of them.",
+                       {"energy=\"minimum_variation\" has no strain: its control vertices have "
+                        "no pads.",
                         "Use energy=\"thin_plate\"."});
   if (given.energy != Energy::thin_plate)
     throw FairingError(ErrorCode::bad_option,
                        {"Strain is that of the thin plate.", "Use energy=\"thin_plate\"."});
   if (given.interpolation != Interpolation::exact)
-    throw FairingError(ErrorCode::bad_option,
-                       {"Strain asks how control vertices that stay fight the surface.",
-                        "Use interpolation=\"exact\"."});
+    throw FairingError(ErrorCode::bad_option, {"Strain needs control vertices that stay.",
+                                               "Use interpolation=\"exact\"."});
   if (!(given.width_of_pads() > 0))
-    throw FairingError(ErrorCode::bad_option,
-                       "Strain is read off the loads on pads, and there are none: use a pad_size "
-                       "over 0, no epsilon, and multigrid.");
+    throw FairingError(
+        ErrorCode::bad_option,
+        "Strain is computed from the loads on pads, and there are none: use a pad_size "
+        "over 0, no epsilon, and multigrid.");
   FairOptions options = given;
   options.levels = std::clamp(given.levels, 1, Couples::first_level);
   options.shapes = {};

@@ -27,7 +27,7 @@ void warn_of_memory(const MemoryLedger& ledger, Report& report) {
   if (!news || !news->told()) return;
   char text[200];
   std::snprintf(text, sizeof text,
-                "This took %.3g MB where %.3g MB were predicted: some levels proved hard.",
+                "This took %.3g MB; %.3g MB were predicted. Some levels proved hard.",
                 double(report.peak_bytes) / megabyte, double(report.predicted_bytes) / megabyte);
   report.warnings.push_back({"MEMORY_EXCEEDED", text, {}, ElementKind::mesh});
 }
@@ -54,8 +54,8 @@ Warning of_plate(const LevelReport& level, const FairOptions& options) {
   if (level.normal_angle > std::numbers::pi / 2)
     return warning("NOT_CONVERGED_TURNED_OVER",
                    "Turn that normal towards the faces around it, or free it.",
-                   "On level %d the surface has turned over at a fixed normal: it looks to the "
-                   "other side, up to %.3g degrees away.",
+                   "On level %d the surface is flipped at a fixed normal: it points up to %.3g "
+                   "degrees away.",
                    level.level, level.normal_angle / degree);
   if (level.normal_angle > largest_angle_left)
     return warning(
@@ -87,17 +87,18 @@ Warning of_steps(const CurvatureLevelReport& level, const FairOptions& options) 
         level.level);
   if (level.kept_start)
     return warning("NOT_CONVERGED_START", "Use fewer levels or the thin plate.",
-                   "On level %d the steps made the surface worse, so it was left as they found it.",
+                   "On level %d the steps made the surface worse, so their start was kept.",
                    level.level);
   if (level.constraint_gap > gap_wanted) return of_tolerance(level.level, level.constraint_gap);
   if (!std::isfinite(level.left))
-    return warning("NOT_CONVERGED", "Use fewer levels or the thin plate.",
-                   "On level %d no step made the surface any fairer, and nobody knows how much is "
-                   "left to move.",
-                   level.level);
+    return warning(
+        "NOT_CONVERGED", "Use fewer levels or the thin plate.",
+        "On level %d no step made the surface fairer, and the distance from the solution "
+        "is unknown.",
+        level.level);
   return warning("NOT_CONVERGED", "The surface is usable; more steps or fewer levels come nearer.",
-                 "On level %d the steps stopped after %zu with some %.1e of the mesh's size left "
-                 "to move (target: %.1e).",
+                 "On level %d the steps stopped after %zu at about %.1e of the mesh's size "
+                 "from the solution (target: %.1e).",
                  level.level, level.steps.size(), level.left, options.step_tolerance_wanted());
 }
 

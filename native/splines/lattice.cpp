@@ -20,7 +20,7 @@ void require_ids(std::span<const std::int32_t> ids, std::size_t points) {
     if (ids[k] < 0 || std::size_t(ids[k]) >= points)
       throw FairingError(ErrorCode::index_out_of_range, "A refined face has the vertex " +
                                                             std::to_string(ids[k]) +
-                                                            ", which is none of its surface.");
+                                                            ", which is not in its surface.");
   }
 }
 
@@ -49,7 +49,7 @@ Lattice::Lattice(const RefinedSurface& surface) : surface_(surface), n_(1) {
   const std::size_t cells = std::size_t(n_) * std::size_t(n_);
   if (surface.vertices.size() % 3 || surface.triangles.size() % (3 * cells) ||
       surface.quads.size() % (4 * cells) || surface.crease_edges.size() % 2)
-    throw FairingError(ErrorCode::bad_shape, "The refined faces are no whole control faces.");
+    throw FairingError(ErrorCode::bad_shape, "The refined faces are not complete control faces.");
   triangle_faces_ = Index(surface.triangles.size() / (3 * cells));
   quad_faces_ = Index(surface.quads.size() / (4 * cells));
   require_ids(surface.triangles, points());

@@ -103,7 +103,7 @@ def test_an_error_names_the_faces_that_are_there():
     source = half_bowl()
     activate(source)
     source.data.polygons[7].flip()
-    with pytest.raises(RuntimeError, match=r"1 face \(7\) looks the other way"):
+    with pytest.raises(RuntimeError, match=r"1 face \(7\) points against the neighbours"):
         bpy.ops.object.fairing_surface(levels=1, symmetry_plane="X", repair="REFUSE")
 
 

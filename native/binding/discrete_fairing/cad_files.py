@@ -64,7 +64,7 @@ def _scaled(patches: object, factor: float, k: int) -> SplinePatches:
     """Times `factor`; no reader takes numbers that are not finite."""
     if not isinstance(patches, SplinePatches):
         raise fairing_error(
-            "BAD_OPTION", f"patches has {patches!r}; it must be what fit_patches() returned."
+            "BAD_OPTION", f"patches has {patches!r}; it must be the result of fit_patches()."
         )
     with np.errstate(over="ignore", invalid="ignore"):
         scaled = patches.scaled(factor)

@@ -100,7 +100,7 @@ def denoise(
         )
     if len(corners) and not 0 <= corners.min() <= corners.max() < len(points):
         raise fairing_error(
-            "INDEX_OUT_OF_RANGE", f"A face has a vertex that is none of {len(points)}."
+            "INDEX_OUT_OF_RANGE", f"A face has a vertex that is not among the {len(points)}."
         )
     return denoised(points, corners, offsets, stays, amount, passes)
 

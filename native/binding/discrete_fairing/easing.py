@@ -164,7 +164,7 @@ def _amount(amount: float | None, most: int | None) -> float:
         or not isinstance(amount, (int, float, np.number))
         or not amount >= 0
     ):
-        raise fairing_error("BAD_OPTION", f"amount is {amount!r}; it must be a number from 0 on.")
+        raise fairing_error("BAD_OPTION", f"amount is {amount!r}; it must be 0 or more.")
     return float(min(amount, 1e6))
 
 
@@ -176,5 +176,5 @@ def _most(most: int | None, tolerance: ArrayLike | None) -> int:
             "BAD_OPTION", "most and tolerance exclude each other.", cure="Give one."
         )
     if isinstance(most, bool) or not isinstance(most, (int, np.integer)) or most < 1:
-        raise fairing_error("BAD_OPTION", f"most is {most!r}; it must be an integer from 1 on.")
+        raise fairing_error("BAD_OPTION", f"most is {most!r}; it must be an integer, 1 or more.")
     return min(int(most), 2**31 - 1)

@@ -30,7 +30,7 @@ def native_options(settings: Mapping[str, Any]) -> _native.Options:
     options, given = _native.Options(), {}
     for name, value in settings.items():
         if name not in SETTINGS:
-            raise TypeError(f"{name!r} is no setting; there are {', '.join(SETTINGS)}")
+            raise TypeError(f"{name!r} is not a setting; the settings are {', '.join(SETTINGS)}")
         if value is not None or name not in OPTIONAL:
             given[name] = SETTINGS[name](name, value)
     if "interpolation" not in given and ("weights" in given or np.any(given.get("tolerance", 0))):

@@ -78,17 +78,17 @@ def quad_filling(
     end of a sentence.
     """
     if len(hole) > 1:
-        return "there are islands in it"
+        return "it has islands"
     loop = np.array(hole[0])
     if len(loop) % 2:
-        return f"its rim has {len(loop)} edges, which is no even number"
+        return f"its rim has {len(loop)} edges, which is odd"
     beside = mesh.touching(loop)
     if (mesh.offsets[beside + 1] - mesh.offsets[beside] != 4).any():
         return "not all faces around are quads"
     count = len(mesh.points)
     own, quads = grid_of(loop, mesh.points, *four_corners(mesh, loop), count)
     if _joins_again(mesh, loop, quads):
-        return "a grid would have an edge that is there already"
+        return "a grid would repeat an existing edge"
     near = NearHole(mesh, own, quads, count)
     moved, made, _ = near.faired(wanted.energy, wanted.joint, wanted.noisy, watchers)
     least, most = _angles(near.corners(moved))

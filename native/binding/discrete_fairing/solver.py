@@ -150,7 +150,7 @@ class Solver:
             self._native.require_own_process()  # a fork keeps the lock of whoever was at work
             raise fairing_error(
                 "BUSY",
-                "The solver is at work in another call.",
+                "The solver is running another call.",
                 cure="Wait for it, or make another solver.",
             )
         try:

@@ -34,7 +34,7 @@ void require_mendable(const PolygonMesh& mesh) {
   if (!bad.empty())
     throw FairingError(ErrorCode::non_finite,
                        {"{vertex} {has|have} a coordinate that is NaN, infinite or beyond 1e100, "
-                        "and faces: no program could tell where the surface is.",
+                        "and faces: the surface there is unknown.",
                         "Delete or move them."},
                        bad);
 }
@@ -125,7 +125,7 @@ class Mender {
 
   [[noreturn]] void refuse_nothing_left() const {
     throw FairingError(ErrorCode::no_faces,
-                       "No face has an area: the mesh is nothing but points and lines.");
+                       "No face has an area: the mesh has only points and lines.");
   }
 
   // Vertices that have no position of their own any more go where a used one is.

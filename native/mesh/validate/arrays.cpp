@@ -22,9 +22,10 @@ bool cut_faces(std::span<const std::int64_t> offsets, std::size_t corners) {
 }
 
 Defect bad_offsets() {
-  return Defect(ErrorCode::bad_shape,
-                "The face offsets must ascend from 0 to the number of corners, one more than there "
-                "are faces.");
+  return Defect(
+      ErrorCode::bad_shape,
+      "The face offsets must increase from 0 to the number of corners, one more than there "
+      "are faces.");
 }
 
 Defect too_many() {
@@ -39,7 +40,7 @@ bool check_sizes(const PolygonMesh& mesh, Defects& found) {
     found.emplace_back(ErrorCode::empty_mesh, "The mesh has no vertices.");
   else if (mesh.coordinates.size() % 3 != 0)
     found.emplace_back(ErrorCode::bad_shape,
-                       "The coordinates must come in threes: x, y, z for each vertex.");
+                       "The coordinates must be triples: x, y, z for each vertex.");
   else if (mesh.offsets.size() < 2 && mesh.corners.empty())
     found.emplace_back(ErrorCode::no_faces, "The mesh has no faces: there is no surface to fair.");
   else if (!cut_faces(mesh.offsets, mesh.corners.size()))

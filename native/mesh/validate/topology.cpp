@@ -122,13 +122,13 @@ void check_orientation(const Orientation& orientation, bool repair, Defects& fou
   if (!one_sided.empty())
     found.emplace_back(ErrorCode::non_orientable,
                        Message{"{face} {belongs|belong} to a surface with only one side, like a "
-                               "Möbius strip: no turning of faces can help.",
-                               "Only the thin plate takes it; cut it open for other energies."},
+                               "Möbius strip: flipping faces cannot help.",
+                               "Only the thin plate accepts it; cut it open for other energies."},
                        one_sided, Severity::warning);
   if (!to_flip.empty())
     found.emplace_back(ErrorCode::inconsistent_orientation,
-                       Message{"{face} {looks|look} the other way than the neighbours.",
-                               "Recalculate the normals, or ask for the repair."},
+                       Message{"{face} {points|point} against the neighbours.",
+                               "Recalculate the normals, or use repair=\"mend\"."},
                        to_flip, repair ? Severity::warning : Severity::error);
 }
 

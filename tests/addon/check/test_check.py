@@ -207,7 +207,7 @@ def test_the_panel_says_what_is_wrong_and_offers_the_repair():
 
     check_panel.VIEW3D_PT_fairing_check.draw(Panel, bpy.context)
     text = " ".join(Panel.layout.log)
-    assert "1 face looks the other way" in text and "Flip Faces" in text and "Shift N" in text
+    assert "1 face points against" in text and "Flip Faces" in text and "Shift N" in text
 
 
 def files():

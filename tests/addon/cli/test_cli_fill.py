@@ -109,7 +109,7 @@ def test_quads_are_heard_and_their_lack_is_warned_of():
     assert [bool(h["why_triangles"]) for h in holes] == [h["edges"] == [3] for h in holes]
     (warning,) = entry["warnings"]
     assert warning.endswith(
-        "1 hole filled with triangles: its rim has 3 edges, which is no even number."
+        "1 hole filled with triangles: its rim has 3 edges, which is odd."
     )
 
 

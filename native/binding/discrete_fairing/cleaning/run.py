@@ -30,7 +30,7 @@ class Act:
     count: int
         How many elements it concerned.
     text: str
-        Both in words, as "3 spikes pressed down".
+        Both in words, as "3 spikes flattened".
     """
 
     step: str
@@ -225,10 +225,10 @@ def clean(
     return found
 
 
-TURNED = "face turned over", "faces turned over"
+TURNED = "face flipped", "faces flipped"
 SPLIT = (
-    "vertex where parts touched doubled",
-    "vertices where parts touched doubled",
+    "vertex split where parts touched",
+    "vertices split where parts touched",
 )
 _CODES = {
     "BAD_SHAPE": (
@@ -236,10 +236,10 @@ _CODES = {
         "faces of fewer than three corners dropped",
     ),
     "INDEX_OUT_OF_RANGE": (
-        "face that named no vertex of the mesh dropped",
-        "faces that named no vertex of the mesh dropped",
+        "face with missing vertices dropped",
+        "faces with missing vertices dropped",
     ),
-    "NON_FINITE": ("vertex without a place dropped", "vertices without a place dropped"),
+    "NON_FINITE": ("vertex without a finite position dropped", "vertices without a finite position dropped"),
     "REPEATED_VERTEX": ("doubled corner dropped", "faces with doubled corners mended"),
     "COINCIDENT_VERTICES": ("vertex of a face merged", "vertices of faces merged"),
     "DUPLICATE_FACE": ("duplicate face dropped", "duplicate faces dropped"),
@@ -349,8 +349,8 @@ class _Run:
     def press(self, fixed: np.ndarray, spikes: bool, folds: bool, filled: bool = False) -> None:
         held = self.held(fixed)
         self.state, tips, folded = shape.flattened(self.state, held, spikes, folds, filled)
-        self.note("spikes", tips, "spike pressed down", "spikes pressed down")
-        self.note("folds", folded, "folded face laid flat", "folded faces laid flat")
+        self.note("spikes", tips, "spike flattened", "spikes flattened")
+        self.note("folds", folded, "folded face flattened", "folded faces flattened")
 
     def fill(self, largest: float, settings: dict[str, Any]) -> list[Any]:
         before = len(self.state.face_origin)

@@ -86,7 +86,7 @@ class Whole:
         if numbering.size >= 2**31:
             raise fairing_error(
                 "TOO_LARGE",
-                f"The surface has {numbering.size} points, and a mesh in memory holds less than "
+                f"The surface has {numbering.size} points; a mesh in memory holds fewer than "
                 "2**31.",
                 cure="Keep it in parts.",
             )
@@ -113,7 +113,7 @@ class Whole:
         ):
             raise fairing_error("BAD_OPTION", "The parts are of different surfaces.")
         if part.index in self.reports:
-            raise fairing_error("BAD_OPTION", f"Part {part.index} is there twice.")
+            raise fairing_error("BAD_OPTION", f"Part {part.index} is given twice.")
         part.write_into(self.vertices)
         for shape, vertices in enumerate(self.shapes):
             part.of_shape(shape).write_into(vertices)

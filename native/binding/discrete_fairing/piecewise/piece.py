@@ -150,12 +150,12 @@ class Piece(Record):
         here = ids[own.face]
         there = np.where(np.isin(self.face, self.vertex_id), self.face, -1)
         if here.shape != there.shape:
-            raise RuntimeError("The piece's polygons are split otherwise than the whole's.")
+            raise RuntimeError("The piece's polygons are split differently from the whole's.")
         size = 3 + (self.face[:, 3] >= 0)
         turned = here[np.arange(len(here))[:, None], turned_corners(size)]
         mirrored = (here != there).any(axis=1)
         if (turned[mirrored] != there[mirrored]).any():
-            raise RuntimeError("The piece's faces are numbered otherwise than the whole's.")
+            raise RuntimeError("The piece's faces are numbered differently from the whole's.")
         return mirrored
 
     def _vertices(
