@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A vertex moves: what a warm solver takes for the next surface, on pads and on point forces.
 
-Three vertices in turn, twelve moves each, by a hundredth of the mesh's size; processor time on one
+Three vertices in turn, twelve moves each, by a hundredth of the mesh's size; CPU time on one
 thread, default settings.
 """
 

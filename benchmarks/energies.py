@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What total curvature costs beside the thin plate, and pads beside point forces: default settings,
-processor time on one thread, in turns.
+CPU time on one thread, in turns.
 """
 
 from collections.abc import Callable

@@ -69,7 +69,7 @@ def run(edges: tuple[int, ...] = EDGES) -> dict[str, Any]:
 
 
 def lengths_table(result: dict[str, Any]) -> str:
-    """Seconds of the processor against the length of a ragged loop."""
+    """CPU seconds against the length of a ragged loop."""
     heads = ["edges", "triangles between them alone", "all of it", "new faces", "folds"]
     rows = [
         [

@@ -5,7 +5,7 @@ own: two of these libraries may not bear each other.
     python fill_rivals.py MAKER IN.npz OUT.npz
 
 IN has `vertices` (n, 3), `faces` (m, 3) and `hole` (k,), ids around it; OUT has `vertices` and `faces`
-of the whole mesh, the old vertices first, and the seconds of the processor that the call alone took.
+of the whole mesh, the old vertices first, and the CPU seconds that the call alone took.
 """
 
 import subprocess

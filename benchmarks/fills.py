@@ -92,7 +92,7 @@ def _islands() -> dict[str, Any]:
 
 
 def _seconds() -> dict[str, Any]:
-    """Of the processor, for caps of 53 degrees' width, by the length of the loop."""
+    """In CPU seconds, for caps of 53 degrees' width, by the length of the loop."""
     result: dict[str, Any] = {}
     slow: set[str] = set()
     for m in AROUND:
@@ -171,7 +171,7 @@ def rims_table(result: dict[str, Any]) -> str:
 
 
 def seconds_table(result: dict[str, Any]) -> str:
-    """Seconds of the processor against the length of a round rim."""
+    """CPU seconds against the length of a round rim."""
     found = result["seconds"]
     tools = [TOOL_NAMES[tool] for tool in next(iter(found.values()))]
     rows = [

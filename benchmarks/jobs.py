@@ -84,7 +84,7 @@ def judged(points: np.ndarray, triangles: np.ndarray, height: Height) -> dict[st
 
 
 def surfaces(points: np.ndarray, faces: list[list[int]]) -> Iterator[tuple[str, Any, float]]:
-    """Name, (points, triangles), seconds of the processor."""
+    """Name, (points, triangles), CPU seconds."""
     yield "Subdivision Surface", rivals.catmull_clark(points, faces, LEVELS), 0.0
     corners = [0, 6, 56, 62]
     for name, options in SETTINGS.items():

@@ -218,7 +218,7 @@ def run() -> dict[str, Any]:
 def pieces_table(result: dict[str, Any]) -> str:
     """Surfaces made in pieces, by their size."""
     heads = ["triangles", "pieces", "a worker's peak, all its memory"]
-    heads += ["time", "processor", "on disk", "largest jump / size"]
+    heads += ["wall time", "CPU time", "on disk", "largest jump / size"]
     rows = []
     for s in result["sizes"]:
         work, share = s["work"], s["judge"]["jump"]["share"]

@@ -30,7 +30,7 @@ SPHERE = 8 * np.pi  # ∫ κ₁² + κ₂² of any sphere; no closed surface wit
 REPEATS, ENOUGH = (
     3,
     1.0,
-)  # runs, of which the shortest counts; processor seconds after which one will do
+)  # runs, of which the shortest counts; CPU seconds after which one will do
 
 
 # seconds are the processor's, of all threads together: other work on the machine hardly moves them

@@ -88,7 +88,7 @@ LABELS = {
 
 def sizes_table(result: dict[str, Any]) -> str:
     """Processor time and memory by the number of triangles."""
-    heads = ["control mesh", "triangles", "seconds of the processor"]
+    heads = ["control mesh", "triangles", "CPU seconds"]
     heads += ["iterations", "bytes a triangle"]
     rows = [
         [

@@ -4,7 +4,7 @@
     PYTHONPATH=build/py python benchmarks/splines.py [names …]
 
 Prints one row a surface: its level, patches, spans a patch, distances over the size, angles between
-normals across edges in degrees, and the processor time of the fit alone. With Open CASCADE
+normals across edges in degrees, and the CPU time of the fit alone. With Open CASCADE
 installed, STEP files are read back: validity, solids, free edges, and volume against the patches'.
 """
 

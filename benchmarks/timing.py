@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Competitors in turns (A B A B …), by the wall clock and by the processor's.
+"""Competitors in turns (A B A B …), in wall and CPU time.
 
-On a machine that does other work as well the wall clock tells little; processor seconds of a run on
+On a machine that does other work as well the wall clock tells little; CPU seconds of a run on
 one thread are then the steadier figure, and on all threads they bound the wall time of an idle
 machine from above.
 """
@@ -13,7 +13,7 @@ from typing import Any
 
 
 def measured(body: Callable[[], Any]) -> tuple[Any, float, float]:
-    """The body's value, wall seconds and processor seconds (all threads together)."""
+    """The body's value, wall seconds and CPU seconds (all threads together)."""
     wall, processor = time.perf_counter(), time.process_time()
     value = body()
     return value, time.perf_counter() - wall, time.process_time() - processor

@@ -108,9 +108,7 @@ def test_quads_are_heard_and_their_lack_is_warned_of():
     assert sorted((h["edges"], h["faces"]) for h in holes) == [([3], 1), ([4], 1), ([24], 36)]
     assert [bool(h["why_triangles"]) for h in holes] == [h["edges"] == [3] for h in holes]
     (warning,) = entry["warnings"]
-    assert warning.endswith(
-        "1 hole filled with triangles: its rim has 3 edges, which is odd."
-    )
+    assert warning.endswith("1 hole filled with triangles: its rim has 3 edges, which is odd.")
 
 
 def test_what_passes_through_the_mesh_is_warned_of():

@@ -255,7 +255,8 @@ def test_an_error_leaves_the_last_surface_and_it_goes_on():
     follow()
     assert np.array_equal(positions(target.data), before)
     assert (
-        "against the neighbours" in target.discrete_fairing_live.status and target.discrete_fairing_live.on
+        "against the neighbours" in target.discrete_fairing_live.status
+        and target.discrete_fairing_live.on
     )
     assert not session(target).is_waiting, "no full level of what cannot be faired"
     source.data.clear_geometry()
