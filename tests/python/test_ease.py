@@ -195,7 +195,7 @@ def test_any_threads_give_the_same_bits():
     [
         ({"tolerance": -1.0}, "length"),
         ({"tolerance": [1.0, 2.0]}, "length"),
-        ({"most": 0}, "from 1 on"),
+        ({"most": 0}, "1 or more"),
         ({"most": 1, "tolerance": 1.0}, "exclude"),
         ({"fixed": [True]}, "bools"),
         ({"energy": "minimum_variation"}, "no pads"),

@@ -93,7 +93,7 @@ def test_an_odd_rim_and_triangles_around():
     odd = faces[:beside] + faces[beside + 1 :] + ([[b, c, d]] if e == hole[3] else [[b, d, e]])
     loop = next(h for h in df.find_holes(points, odd) if hole[0] in h)
     assert len(loop) == len(hole) + 1
-    assert "even" in df.fill_holes(points, odd, holes=[loop], quads=True).holes[0].why_triangles
+    assert "odd" in df.fill_holes(points, odd, holes=[loop], quads=True).holes[0].why_triangles
     split = faces[:beside] + faces[beside + 1 :] + [[b, c, d], [b, d, e]]
     told = df.fill_holes(points, split, holes=[hole], quads=True).holes[0].why_triangles
     assert told == "not all faces around are quads"

@@ -42,7 +42,7 @@ def test_what_may_be_none_is_the_default_then():
 
 
 def test_a_name_that_is_no_setting_is_refused():
-    with pytest.raises(TypeError, match="'padsize' is no setting"):
+    with pytest.raises(TypeError, match="'padsize' is not a setting"):
         df.fair([[0, 0, 0]], [], padsize=1.0)
     assert "pad_size" in SETTINGS
 

@@ -212,7 +212,7 @@ def test_the_command_line_refuses_on_request(tmp_path, monkeypatch, capfd):
     (tmp_path / "in.obj").write_text("\n".join(lines[:14]) + "\n")
     assert run("in.obj", "out.obj", "--levels", 1, "--repair", "refuse") == 1
     assert run("in.obj", "out.obj", "--levels", 1, "--repair", "mend") == 0
-    assert "mended: 1 face turned" in capfd.readouterr().err
+    assert "mended: 1 face flipped" in capfd.readouterr().err
     assert run("in.obj", "out.obj", "--repair", "refuse", "--weld", 0) == 2
     assert run("in.obj", "out.obj", "--weld", -1) == 2
 
