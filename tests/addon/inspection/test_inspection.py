@@ -245,13 +245,13 @@ def test_the_panel_says_that_control_vertices_are_no_surface():
     activate(target)
     record = readout.take(bpy.context, target, source)
     said = " ".join(draw())
-    assert "vertices are no surface" in said
+    assert "too coarse for curvature" in said
     old = record | {"before": {"largest_curvature": 0.5, "curvature_98": 0.25}}
     assert all(before == "" for _, before, _ in readout.table(old, bpy.context.scene)), (
         "older files have more"
     )
     readout.take(bpy.context, target)
-    assert "no surface" not in " ".join(draw())
+    assert "too coarse" not in " ".join(draw())
 
 
 def test_readout_says_how_the_steps_went():
