@@ -37,8 +37,8 @@ def _vertex_values(settings: Any, context: Context, _typed: str) -> list[tuple[s
 
 
 def _sources(settings: Any, context: Context) -> list[Object]:
-    """Whose names are meant: the source of the surface that remembers `settings`, or that of the
-    one just made, else the mesh objects at hand.
+    """The objects whose groups the names refer to: the source of the surface that has these
+    `settings`, or of the active one, else the selected mesh objects.
     """
     active = context.active_object
     owner = getattr(settings, "source", None)
@@ -108,7 +108,7 @@ class FairingSettings:
     )
     pad_size: FloatProperty(
         name="Hold Softly",
-        description="Takes away the marks of vertices in reflections: at 0 each holds one point, at 1 the faces around it",
+        description="Removes the marks of vertices in reflections: at 0 each holds the surface at a point, at 1 over the faces around",
         default=1.0,
         min=0.0,
         max=1.0,
@@ -150,7 +150,7 @@ class FairingSettings:
     )
     keep_symmetry: BoolProperty(
         name="Keep Symmetry",
-        description="Where the source is its own mirror image in the object's X, Y or Z, so is the surface, to the last digit",
+        description="If the source is its own mirror image in the object's X, Y or Z, the surface is too, to the last digit",
         default=True,
     )
 
@@ -201,7 +201,7 @@ class FairingSettings:
 
     metric_exponent: FloatProperty(
         name="Spacing",
-        description="How much uneven faces shape the surface: at 1 they keep their proportions, at 0 all count the same",
+        description="How strongly edge lengths shape the surface: at 1 faces keep their proportions, at 0 all count the same",
         default=0.5,
         min=0.0,
         max=1.0,
@@ -233,17 +233,17 @@ class FairingSettings:
     )
     hide_source: BoolProperty(
         name="Hide Source",
-        description="Hides the source afterwards, because both overlap, until Show Source brings it back",
+        description="Hides the source afterwards, because both overlap; Show Source shows it again",
         default=True,
     )
     shade_smooth: BoolProperty(
         name="Shade Smooth",
-        description="Shades all faces smooth but for creases and sharp edges, or if off each like the face it comes from",
+        description="Shades all faces smooth except at creases and sharp edges; off: each like its source face",
         default=True,
     )
     memory_limit: IntProperty(
         name="Memory Limit (MB)",
-        description="Refuses results that would need more megabytes than this, or if 0 than the preferences allow",
+        description="Refuses runs that need more megabytes than this; 0: the limit in the preferences",
         default=0,
         min=0,
         soft_max=65536,

@@ -35,7 +35,7 @@ class _Inspecting(ExplainedPoll):
 
 
 class OBJECT_OT_fairing_inspect(_Inspecting, bpy.types.Operator):
-    """Show the selected objects in stripes or curvature colours, until Off brings their own materials back"""
+    """Show the selected objects in stripes or curvature colours; Off restores their own materials"""
 
     bl_idname = "object.fairing_inspect"
     bl_label = "Inspect Surface"
@@ -78,7 +78,7 @@ def _has_reference(context: Context) -> bool:
 
 
 class OBJECT_OT_fairing_refresh(_Inspecting, bpy.types.Operator):
-    """Measure what the colours show anew, after the mesh was changed"""
+    """Measure the colours again after the mesh has changed"""
 
     bl_idname = "object.fairing_refresh"
     bl_label = "Refresh Colours"
@@ -90,7 +90,7 @@ class OBJECT_OT_fairing_refresh(_Inspecting, bpy.types.Operator):
 
 
 class OBJECT_OT_fairing_measure(_Inspecting, bpy.types.Operator):
-    """Measure how fair the selected surfaces are, and the meshes they were made from"""
+    """Measure the fairness of the selected surfaces and of their sources"""
 
     bl_idname = "object.fairing_measure"
     bl_label = "Measure"

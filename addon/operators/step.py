@@ -49,7 +49,7 @@ class _Fitting(fair.Fairing, PatchSettings):
 
 
 class EXPORT_SCENE_OT_fairing_step(ByFileBrowser, StepSettings, _Fitting, bpy.types.Operator):
-    """Write the selected objects as spline patches for CAD: surfaces by their own settings, meshes by the scene's"""
+    """Export the selected objects as spline patches: surfaces with their own settings, meshes with the scene's"""
 
     bl_idname = "export_scene.fairing_step"
     bl_label = "Export Fair Surface"
@@ -83,7 +83,7 @@ class EXPORT_SCENE_OT_fairing_step(ByFileBrowser, StepSettings, _Fitting, bpy.ty
             names = ", ".join(job.name for job in faulty)
             self.report(
                 {"ERROR"},
-                f"Smooth the faces that Check lists in the panel of the source, or take Write Faulty Faces. "
+                f"Smooth the faces that Check lists in the panel of the source, or use Write Faulty Faces. "
                 f"Nothing was written: the surface of {names} folds or turns too sharply for patches.",
             )
             return {"CANCELLED"}
@@ -102,7 +102,7 @@ class EXPORT_SCENE_OT_fairing_step(ByFileBrowser, StepSettings, _Fitting, bpy.ty
 
 
 class OBJECT_OT_fairing_show_patches(_Fitting, bpy.types.Operator):
-    """Make a NURBS surface of the spline patches that CAD will get, beside the surface"""
+    """Show the spline patches of the export as a NURBS surface beside this one"""
 
     bl_idname = "object.fairing_show_patches"
     bl_label = "Show Patches"

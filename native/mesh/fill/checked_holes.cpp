@@ -30,8 +30,8 @@ void require_simple(const Hole& hole) {
     for (const std::int64_t v : loop)
       if (!seen.insert(v).second)
         throw FairingError(ErrorCode::repeated_vertex,
-                           {"The rim comes by {vertex} twice.", "Cut it there into two holes."},
-                           {v}, ElementKind::vertex);
+                           {"The rim passes {vertex} twice.", "Cut it there into two holes."}, {v},
+                           ElementKind::vertex);
   if (seen.size() > longest_hole)
     throw FairingError(ErrorCode::too_large, too_long_text(seen.size()));
 }
@@ -51,7 +51,7 @@ std::vector<std::int64_t> first_missing(const HoleLoop& loop, const Rims& rims, 
   if (rims.is_border(edge[0], edge[1]))
     throw FairingError(
         ErrorCode::inconsistent_orientation,
-        {"Faces at {edge} of the rim look different ways.", "Recalculate their normals."}, edge,
+        {"Faces at {edge} of the rim point different ways.", "Recalculate their normals."}, edge,
         ElementKind::edge);
   const std::string why = rims.are_joined(edge[0], edge[1]) ? "{has|have} faces on both sides"
                                                             : "{is|are} not in the mesh";
@@ -71,8 +71,7 @@ void require_manifold(const HoleLoop& loop, const HalfEdges& half_edges) {
   if (!found.empty())
     throw FairingError(
         ErrorCode::nonmanifold_edge,
-        {"More than two faces meet at {edge} of the rim.", "Delete the faces that are too many."},
-        found);
+        {"More than two faces meet at {edge} of the rim.", "Delete the surplus faces."}, found);
 }
 
 // Each side may be on one loop alone.
@@ -93,8 +92,8 @@ void check_loop(HoleLoop& loop, const HalfEdges& half_edges, const Rims& rims, c
     if (used.contains(Rims::side(a, b)))
       throw FairingError(
           ErrorCode::bad_option,
-          {"{edge} of the rim {is|are} of another hole too.", "Name each hole once."}, {a, b},
-          ElementKind::edge);
+          {"{edge} of the rim {belongs|belong} to another hole too.", "Name each hole once."},
+          {a, b}, ElementKind::edge);
   }
 }
 

@@ -251,15 +251,15 @@ void require_areas(const Patch& patch, const OneHole& hole) {
         ids = {hole.ids()[std::size_t(a)], hole.ids()[std::size_t(b)]};
     std::sort(ids.begin(), ids.end());
     if (!ids.empty())
-      throw FairingError(ErrorCode::coincident_vertices,
-                         {"{vertex} of the rim lie on one another, and nothing is between.",
-                          "Merge them by distance."},
-                         ids);
+      throw FairingError(
+          ErrorCode::coincident_vertices,
+          {"{vertex} of the rim coincide; the hole has no width there.", "Merge them by distance."},
+          ids);
     if (const Index middle = t[(longest + 2) % 3]; middle < patch.rim)
       ids = {hole.ids()[std::size_t(middle)]};
     throw FairingError(
         ErrorCode::degenerate_face,
-        {"{vertex} of the rim {lies|lie} on another edge of it, and nothing is between.",
+        {"{vertex} of the rim {lies|lie} on another edge of it; the hole has no width there.",
          "Cut that edge at the vertex."},
         ids, ElementKind::vertex);
   }

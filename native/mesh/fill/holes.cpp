@@ -122,11 +122,11 @@ HoleLoop from_least(const Loop& loop) {
 FairingError why_unclear(bool torn, std::vector<std::int64_t> edges) {
   if (torn)
     return {ErrorCode::nonmanifold_edge,
-            {"More than two faces meet beside {edge}, so that nobody can tell what a hole is.",
-             "Delete the faces that are too many."},
+            {"More than two faces meet beside {edge}, so holes are not defined.",
+             "Delete the surplus faces."},
             std::move(edges)};
   return {ErrorCode::inconsistent_orientation,
-          {"Faces look different ways beside {edge}, so that nobody can tell what a hole is.",
+          {"Faces point different ways beside {edge}, so holes are not defined.",
            "Recalculate their normals."},
           std::move(edges),
           ElementKind::edge};
