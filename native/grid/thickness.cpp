@@ -1,33 +1,84 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "grid/thickness.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
 
+#include "base/angle.h"
 #include "base/points.h"
 
 namespace fairing {
 namespace {
 
-// A body is thin where a face is wider than the body is thick there: round ones, of which a cube is
-// the coarsest, are not. Thinner and thicker by this share is what a designer sees (measured: a fair
-// section through 8 points of a circle changes it by 8 %, a hollowed leading edge by 24 to 86 %).
+// A body is thin where a face is wider than the body is thick there. Thinner and thicker by this share
+// than one that is rounded off is what a designer sees (measured: a fair section through 8 points of a
+// circle changes it by 8 %, a hollowed leading edge by 24 to 86 %). And what swells is a body, no ear
+// or lip of it, where this share of the area does (measured: 9 animals, mugs and cases up to 12 %,
+// boxes and slabs 37 to 96 %).
 constexpr double seen_share = 0.2;
 // A bubble is thicker by so many thicknesses (measured: coarse levels of what becomes a sphere come to
 // 1.3, bubbles in boxes of six quads begin at 8; by one, a hull of 8 points lost its sphere).
 constexpr double lost_change = 4;
 
-// How far the middle of the face has left its plane, along its normal.
-double departure(const GridLevel& grid, Index f, const FacePlane& plane, const double* x) {
+// The point in the middle of the face.
+Vec3 middle(const GridLevel& grid, Index f, const double* x) {
   const int n = grid.n();
   const auto at = [&](int i, int j) { return point_at(x, grid.face_point(f, i, j)); };
-  if (grid.mesh().faces[std::size_t(f)].quad())
-    return plane.normal.dot(at(n / 2, n / 2) - plane.middle);
+  if (grid.mesh().faces[std::size_t(f)].quad()) return at(n / 2, n / 2);
   // around the middle, or in the middles of sides where no point lies inside
   const int near = n / 4, far = n / 2;
-  const Vec3 middle = n > 2 ? Vec3((at(near, near) + at(far, near) + at(near, far)) / 3)
-                            : Vec3((at(1, 0) + at(1, 1) + at(0, 1)) / 3);
-  return plane.normal.dot(middle - plane.middle);
+  return n > 2 ? Vec3((at(near, near) + at(far, near) + at(near, far)) / 3)
+               : Vec3((at(1, 0) + at(1, 1) + at(0, 1)) / 3);
+}
+
+// The point of the face that is nearest to the line behind a middle, which is not its own.
+Vec3 behind(const GridLevel& grid, Index f, const FacePlane& line, const double* x) {
+  const int n = grid.n();
+  const bool quad = grid.mesh().faces[std::size_t(f)].quad();
+  Vec3 nearest;
+  double least = std::numeric_limits<double>::infinity();
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= (quad ? n : n - j); ++i) {
+      const Vec3 point = point_at(x, grid.face_point(f, i, j));
+      const double off = line.normal.cross(point - line.middle).squaredNorm();
+      if (off < least) least = off, nearest = point;
+    }
+  return nearest;
+}
+
+// How far the middle of the face lies inside its side i.
+double inside(const Face& face, std::size_t i, const FacePlane& plane, const double* x) {
+  const Vec3 from = point_at(x, face.vertex[i]);
+  const Vec3 along = point_at(x, face.vertex[(i + 1) % std::size_t(face.size)]) - from;
+  return (plane.middle - from).cross(unit_or_zero(along)).norm();
+}
+
+// By how much edges that are rounded off lift the middle of the face: where an arc takes the place of
+// two sides that turn by an angle, it rises by half a side times the tangent of the angle's quarter.
+// That reaches into the face as far as the face beyond the edge is wide.
+double rounding_off(const ControlMesh& mesh, std::size_t f, std::span<const FacePlane> planes,
+                    const double* x) {
+  const Face& face = mesh.faces[f];
+  double sum = 0;
+  for (std::size_t i = 0; i < std::size_t(face.size); ++i) {
+    const Side& side = mesh.sides[std::size_t(face.first_side) + i];
+    const Edge& edge = mesh.edges[std::size_t(side.edge)];
+    if (edge.boundary() || mesh.feature_edge[std::size_t(side.edge)]) continue;
+    const Side& other = mesh.sides[std::size_t(edge.side[side.reversed ? 0 : 1])];
+    const FacePlane &here = planes[f], &beyond = planes[std::size_t(other.face)];
+    const Vec3 along = point_at(x, edge.vertex[1]) - point_at(x, edge.vertex[0]);
+    const double turn = std::copysign(angle_between(here.normal, beyond.normal),
+                                      here.normal.cross(beyond.normal).dot(along)) *
+                        (side.reversed ? -1 : 1);
+    const double half = inside(face, i, here, x);
+    const double width = 2 * std::min(half, inside(mesh.faces[std::size_t(other.face)],
+                                                   std::size_t(other.local), beyond, x));
+    sum += std::tan(turn / 4) * width * width / std::max(half, width);
+  }
+  return sum / face.size;
 }
 
 }  // namespace
@@ -35,29 +86,51 @@ double departure(const GridLevel& grid, Index f, const FacePlane& plane, const d
 Thickness::Thickness(const ControlMesh& mesh, std::span<const Vec3> control, Workers& workers)
     : mesh_(mesh) {
   for (const Face& face : mesh.faces) planes_.push_back(plane_of(face, control));
-  for (const FacePlane& plane : planes_) area_ += plane.area;
+  for (std::size_t f = 0; f < planes_.size(); ++f)
+    if (mesh.face_part(Index(f)) == RegionPart::inside) area_ += planes_[f].area;
   opposite_ = opposite_faces(mesh, control, planes_, workers);
 }
 
 ThicknessChange Thickness::of(const GridLevel& grid, Workers& workers, const double* x) const {
   ThicknessChange out;
   if (grid.n() == 1) return out;
-  std::vector<double> away(planes_.size());
-  workers.for_parts(away.size(), 1024, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t f = begin; f < end; ++f) away[f] = departure(grid, Index(f), planes_[f], x);
+  // Of each face, how far its middle has left its plane, and the point behind it the opposite one.
+  std::vector<double> away(planes_.size()), away_behind(planes_.size());
+  workers.for_parts(away.size(), 64, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      const Index o = opposite_[f].face;
+      if (o < 0) continue;
+      const auto departure = [&](std::size_t side, const Vec3& point) {
+        return planes_[side].normal.dot(point - planes_[side].middle);
+      };
+      away[f] = departure(f, middle(grid, Index(f), x));
+      away_behind[f] = departure(std::size_t(o), behind(grid, o, planes_[f], x));
+    }
   });
+  std::vector<std::pair<Index, double>> seen;
+  double swollen = 0;
   for (std::size_t f = 0; f < planes_.size(); ++f) {
     const Opposite& opposite = opposite_[f];
     if (opposite.face < 0 || mesh_.face_part(Index(f)) != RegionPart::inside) continue;
     const auto o = std::size_t(opposite.face);
     const double facing = std::abs(planes_[f].normal.dot(planes_[o].normal));
-    const double change = (away[f] + facing * away[o]) / opposite.distance;
+    const double change = (away[f] + facing * away_behind[f]) / opposite.distance;
+    const double rounded =
+        (rounding_off(mesh_, f, planes_, x) + facing * rounding_off(mesh_, o, planes_, x)) /
+        opposite.distance;
+    const double otherwise =
+        change - std::clamp(change, std::min(0.0, rounded), std::max(0.0, rounded));
     const double square = opposite.distance * opposite.distance;
     const bool is_thin = planes_[f].area > (1 + seen_share) * square;
-    if (!(std::abs(change) > (is_thin ? seen_share : 1.0))) continue;
-    out.faces.push_back(Index(f));
-    if (std::abs(change) > std::abs(out.worst)) out.worst = change;
+    if (!(std::abs(otherwise) > (is_thin ? seen_share : 1.0))) continue;
+    seen.emplace_back(Index(f), change);
+    if (change > 0) swollen += planes_[f].area / area_;
     if (std::abs(change) > lost_change) out.lost += planes_[f].area / area_;
+  }
+  for (const auto& [face, change] : seen) {
+    if (change > 0 && swollen < seen_share) continue;
+    out.faces.push_back(face);
+    if (std::abs(change) > std::abs(out.worst)) out.worst = change;
   }
   return out;
 }

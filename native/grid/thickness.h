@@ -13,12 +13,13 @@ namespace fairing {
 
 // Of a surface against its control mesh.
 struct ThicknessChange {
-  // Control faces behind which the surface has another thickness than the mesh: by over a fifth where
-  // the mesh is thin, and by more than the whole thickness anywhere.
+  // Control faces behind which the surface has another thickness than the mesh with its edges rounded
+  // off: by over a fifth where the mesh is thin, by more than the whole thickness elsewhere. Those
+  // behind which it is thicker only where they are a fifth of the area.
   std::vector<Index> faces;
   // The largest change among them, in thicknesses of the mesh there; below zero: thinner.
   double worst = 0;
-  // The share of the mesh's area behind which it is by more than four times the thickness, or turned
+  // The share of the area that is faired behind which it is by more than four times the thickness, or turned
   // inside out by as much.
   double lost = 0;
 
@@ -38,7 +39,7 @@ class Thickness {
   const ControlMesh& mesh_;
   std::vector<FacePlane> planes_;
   std::vector<Opposite> opposite_;
-  double area_ = 0;
+  double area_ = 0;  // that is faired
 };
 
 }  // namespace fairing
