@@ -209,6 +209,7 @@ _CURES = {
     "tension": "raise Tension",
     "metric_exponent": "set Spacing to ¼",
     "interpolation": "set Vertices to Limit",
+    "creases": "crease the edges where it turns",
     "vertices": "add vertices there",
 }
 

@@ -102,7 +102,8 @@ Warning of_steps(const CurvatureLevelReport& level, const FairOptions& options) 
                  level.level, level.steps.size(), level.left, options.step_tolerance_wanted());
 }
 
-// Of cures, those that have not been taken. Tension and limit positions hold what swells. What is
+// Of cures, those that have not been taken. Tension and limit positions hold what swells, and creases
+// what its sharp edges lift (measured: a wing with caps, 18 times as thick; exact with creases). What is
 // hollow spans long faces across a tight turn, which lengths to a smaller exponent make more even
 // (measured: a wing, at 0.25); tension would draw it in further.
 std::string cure_of_thickness(const FairOptions& options, bool is_thicker) {
@@ -113,6 +114,7 @@ std::string cure_of_thickness(const FairOptions& options, bool is_thicker) {
     cures.push_back("more tension");
   if (is_thicker && options.interpolation == Interpolation::exact)
     cures.push_back("interpolation=\"limit\"");
+  if (is_thicker) cures.push_back("creases where it turns");
   cures.push_back("more vertices there");
   std::string text = "Use " + cures[0];
   for (std::size_t i = 1; i < cures.size(); ++i)

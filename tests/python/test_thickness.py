@@ -61,6 +61,7 @@ def test_a_thin_box_that_swells_says_so_and_names_the_cure(sides, energy):
     assert warning["kind"] == "face" and len(warning["elements"]) >= 2
     assert ("thin_plate" in warning["message"]) == (energy != "thin_plate")
     assert "vertices there" in warning["message"]
+    assert ("creases" in warning["message"]) != ("metric_exponent" in warning["message"])
 
 
 @pytest.mark.parametrize("sides", [(1, 1, 0.5), (1, 0.5, 0.5), (1, 0.2, 0.2)])
