@@ -32,6 +32,7 @@ _AVERAGES = 8
 # and by four times what its neighbours are. Of 60 spikes of 1.5 mm in noise of 0.15 it finds 58, on casting and bust.
 _SPIKE, _OVER_NEIGHBOURS = 5.0, 4.0
 _OF_MEDIAN = 1.4826022185056018  # a normal deviation, over the median of its size
+_FARTHEST = 1e15  # of heights in noises; its square, summed over neighbours, is a float32 still
 # Shares of the way to the mean of the neighbours, there and back again: what is longer than some seven
 # edges keeps its size [Taubin 1995: a pass band of 0.1].
 _THERE, _BACK = 0.6307, -0.6732
@@ -181,12 +182,14 @@ class _Heights:
         self, off: np.ndarray, amounts: np.ndarray, degree: int
     ) -> tuple[np.ndarray, np.ndarray]:
         """(n, amounts) heights, and how much of its own noise each vertex keeps. Both are -t K / (1 + t K²)
-        of what is off: by Chebyshev's polynomials, for K is from 0 to 2.
+        of what is off: by Chebyshev's polynomials, for K is from 0 to 2. In half the width, as noise has no
+        seven digits: nearly all of the time is for reading what neighbours have.
         """
-        free = self._free[:, None].astype(float)
-        before = free * np.stack([off, self._stars.off_mean(self._signs)], axis=1)
+        free = self._free[:, None].astype(np.float32)
+        both = np.stack([off, self._stars.off_mean(self._signs)], axis=1)
+        before = free * both.clip(-_FARTHEST, _FARTHEST).astype(np.float32)
         shares = np.array(
-            [chebinterpolate(_spline, degree, (amount,)) for amount in amounts.tolist()]
+            [chebinterpolate(_spline, degree, (amount,)) for amount in amounts.tolist()], np.float32
         )
         now = -free * self._stars.mean(before)
         found = shares[:, 0, None, None] * before + shares[:, 1, None, None] * now
@@ -194,14 +197,14 @@ class _Heights:
             before, now = now, -2 * free * self._stars.mean(now) - before
             for one, share in zip(found, of_degree):
                 one += share * now
-        kept = 1 - found[:, :, 1] * self._signs
+        kept = 1 - found[:, :, 1] * self._signs.astype(np.float32)
         return -found[:, :, 0].T, np.ascontiguousarray(kept.T)
 
-    def _spikes(self, heights: np.ndarray, kept: np.ndarray, noise: float) -> np.ndarray:
-        """The worst first. None on a border, where two neighbours tell too little."""
+    def _spikes(self, heights: np.ndarray, kept: np.ndarray) -> np.ndarray:
+        """The worst first, of heights in noises. None on a border, where two neighbours tell too little."""
         chosen = self._free & ~self._stars.on_border
         share = float(kept[chosen].mean()) if chosen.any() else 0.0
-        sizes = np.abs(heights) / (noise * max(1.0 - share, 1e-9))
+        sizes = np.abs(heights) / max(1.0 - share, 1e-9)
         beside = _OVER_NEIGHBOURS * self._stars.mean(sizes)
         spikes = np.flatnonzero((sizes > np.maximum(_SPIKE, beside)) & chosen)
         return spikes[np.argsort(-sizes[spikes], kind="stable")]
@@ -210,25 +213,28 @@ class _Heights:
         """(n,): the heights of all amounts, each by how near it is to the truth around a vertex. And the
         spikes, which go to the mean of their neighbours first, and are no data.
         """
-        heights, kept = self._filtered(self._off, _AMOUNTS[:1], _DEGREE_OF_FIRST)
-        spikes = self._spikes(heights[:, 0], kept[:, 0], noise)
-        off, placed = self._off, np.zeros(len(heights))
+        given = self._off / noise  # what follows is in noises
+        heights, kept = self._filtered(given, _AMOUNTS[:1], _DEGREE_OF_FIRST)
+        spikes = self._spikes(heights[:, 0], kept[:, 0])
+        off, placed = given, np.zeros(len(heights))
         for _ in range(2):  # some spikes are side by side
             placed[spikes] -= off[spikes]
-            off = self._off + self._stars.off_mean(placed)
+            off = given + self._stars.off_mean(placed)
         heights, kept = self._filtered(off, _AMOUNTS, _DEGREE)
-        counted = self._free.astype(float)
+        counted = self._free.astype(np.float32)
         counted[spikes] = 0.0
-        risk = counted[:, None] * (heights**2 - noise**2 + 2 * noise**2 * kept)
-        risk = self._averaged(np.column_stack([risk, counted, self._signs]))
+        risk = counted[:, None] * (heights**2 - 1 + 2 * kept)
+        signs = self._signs.astype(np.float32)
+        risk = self._averaged(np.column_stack([risk, counted, signs]))
         # what the averages make of noise of one, as so many independent vertices would
-        vertices = 1.0 / np.mean(risk[:, -1] ** 2)
-        risk = risk[:, :-2] / np.maximum(risk[:, -2:-1], 1e-300)
+        vertices = 1.0 / np.mean(risk[:, -1] ** 2, dtype=float)
+        risk = risk[:, :-2] / np.maximum(risk[:, -2:-1], np.float32(1e-30))
         # no amount leaves all the noise
-        least = np.minimum(risk.min(axis=1, keepdims=True), noise**2)
-        trust = np.exp(-vertices * (risk - least) / (4 * noise**2))
-        of_none = np.exp(-vertices * (noise**2 - least[:, 0]) / (4 * noise**2))
-        return placed + (trust * heights).sum(1) / (trust.sum(1) + of_none), spikes
+        least = np.minimum(risk.min(axis=1, keepdims=True), 1)
+        trust = np.exp(-vertices * (risk - least) / 4)
+        of_none = np.exp(-vertices * (1 - least[:, 0]) / 4)
+        taken = placed + (trust * heights).sum(1) / (trust.sum(1) + of_none)
+        return noise * taken, spikes
 
     def _averaged(self, values: np.ndarray) -> np.ndarray:
         """The last mean is with a vertex' own: on quads the neighbours of neighbours are only every other."""

@@ -50,13 +50,14 @@ class Stars:
         return values[self._rank]
 
     def mean(self, values: np.ndarray) -> np.ndarray:
-        """Of the neighbours; (n,) or (n, k). Its own where a vertex has none."""
+        """Of the neighbours; (n,) or (n, k), in the precision of `values`. Its own where a vertex has none."""
         found = values.copy()
         if self._ranks:
             found[: len(self._ranks[0])] = values.take(self._ranks[0], axis=0)
         for ranks in self._ranks[1:]:
             found[: len(ranks)] += values.take(ranks, axis=0)
-        found *= self._shares.reshape(-1, *[1] * (values.ndim - 1))
+        shares = self._shares.astype(values.dtype, copy=False)
+        found *= shares.reshape(-1, *[1] * (values.ndim - 1))
         return found
 
     def off_mean(self, values: np.ndarray) -> np.ndarray:
