@@ -78,7 +78,7 @@ def all_scenes() -> Iterable[Scene]:
 
 
 def scene_of(target: Object) -> Scene:
-    """The scene whose settings count for `target`: that of the window at hand if it has the object, else
+    """The scene whose settings count for `target`: that of the current window if it has the object, else
     another one that has. Handlers and timers may be called with any window's.
     """
     here, owners = current_context().scene, cast(Any, target).users_scene

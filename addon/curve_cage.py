@@ -27,7 +27,7 @@ HOLD = "On Curves"  # a vertex group: strength 1, which holds, on curves, nothin
 
 
 def _look_again(settings: Any, _context: Context) -> None:
-    """Live follows what its curves do: they are told that something is new."""
+    """Live follows what its curves do: they get the change."""
     for curve in (
         curves_of(cast(Any, settings).id_data) if isinstance(settings, FAIRING_PG_curves) else ()
     ):

@@ -41,7 +41,7 @@ def _relay(name: str) -> Listener:
         for listener in tuple(_listeners[name]):
             try:
                 listener(*told)
-            except Exception:  # as Blender does: the others are told all the same
+            except Exception:  # as Blender does: the others still run
                 traceback.print_exc()
 
     return tell

@@ -131,7 +131,7 @@ def stale_surfaces(source: Object | None = None) -> Iterator[Object]:
 
 
 def is_own(target: Object) -> bool:
-    """Whether its mesh can be made anew: not of linked data, which overrides have too."""
+    """Whether its mesh can be made again: not of linked data, which overrides have too."""
     return not (target.library or target.data.library)
 
 

@@ -44,7 +44,7 @@ class Wish:
     joint: str  # POSITION, TANGENT, CURVATURE
     energy: str
     tension: float
-    release: bool  # whether the vertices of the selection move; always, where no others come
+    release: bool  # whether the vertices of the selection move; unless the caller passes others
     factor: float = 1.0  # how far they go
     measured: bool = False  # whether they are data, and the surface passes near them
     noise: float = 0.0  # of these, rms along the normals, a length; 0: found out

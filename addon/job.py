@@ -170,7 +170,7 @@ class Job:
 
     @property
     def source(self) -> Object | None:
-        """Found anew each time: a long run leaves time for undo, and to delete it; None then."""
+        """Found again each time: a long run leaves time for undo, and to delete it; None then."""
         return self._source.find()
 
     @property

@@ -50,7 +50,7 @@ def forget() -> None:
 
 
 def text(predicted: float) -> str:
-    """`about 20 s`; empty where nobody need wait."""
+    """`about 20 s`; empty if the run is short."""
     if predicted <= PATIENCE:
         return ""
     if predicted < 99.5:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is drawn anew when something has changed that Blender does not know of."""
+"""What is drawn again when something has changed that Blender does not know of."""
 
 from collections.abc import Hashable
 from time import monotonic

@@ -146,7 +146,7 @@ def surface_hash(vertices: np.ndarray, faces: Any, options: dict[str, Any]) -> s
 
 
 def dragged() -> Iterator[tuple[str, str]]:
-    """A Solver's surfaces while a vertex is dragged, and after it was built anew about the last
+    """A Solver's surfaces while a vertex is dragged, and after it was built again about the last
     positions."""
     vertices, faces = from_tests.small_meshes().creature()
     for energy in ENERGIES[:2]:

@@ -2,7 +2,7 @@
 """Scattered offsets: what Near and easing do to their error, and when strain finds the wrong one.
 
 All inner vertices are off by a normal scatter along the shape's normal. With one more of them off by
-six times as much, the most strained one is let go. Lengths are in control edges, of hulls in metres.
+six times as much, the most strained one is released. Lengths are in control edges, of hulls in metres.
 """
 
 from collections.abc import Callable
@@ -146,7 +146,7 @@ def errors_of(mesh: Mesh, scatter: float, seed: int) -> dict[str, Any]:
 
 def planted_in(mesh: Mesh, scatter: float, seed: int) -> tuple[bool, float]:
     """Whether the wrong vertex is the most strained, and how much of the way it goes back when the
-    worst is let go; NaN where that is another."""
+    worst is released; NaN where that is another."""
     truth, faces = mesh
     random, ids = np.random.default_rng(seed), inside(mesh)
     measured, along = truth.copy(), normals(mesh)

@@ -13,7 +13,7 @@ LISTING = "index.json"
 
 
 def generate(blender: RealBlender, zips: list[Path], folder: Path) -> None:
-    """Fills `folder`, which is made anew, with the zips, the listing and the page."""
+    """Fills `folder`, which is made again, with the zips, the listing and the page."""
     shared = blender.exchange / "repository"
     shutil.rmtree(shared, ignore_errors=True)
     shared.mkdir()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The extension's own zip, installed and used in every real Blender at hand, without a window and in one."""
+"""The extension's own zip, installed and used in every real Blender that is available, without a window and in one."""
 
 import re
 import shutil
@@ -145,7 +145,7 @@ def or_why(get: Callable[[], RealBlender]) -> RealBlender | str:
 
 
 def prepared() -> dict[str, RealBlender | str]:
-    """Each Blender at hand with the extension installed, or why there is none.
+    """Each Blender that is available with the extension installed, or why there is none.
 
     The systems in folders are made side by side, as each waits for the network and for one processor; the extension
     is installed in one after the other, since compilers use all cores.

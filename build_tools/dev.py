@@ -86,7 +86,7 @@ def fuzz(minutes: float) -> int:
 
 
 def extension(wheels: Path | None, all_platforms: bool) -> int:
-    """One zip for each platform, of the wheels in a folder or compiled here; else for each Python at hand."""
+    """One zip for each platform, of the wheels in a folder or compiled here; else for each Python that is available."""
     import extension as packing
 
     setup_tools()

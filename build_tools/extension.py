@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The extension's zips, one for each platform: staged, then built and validated by Blender itself.
 
-Blender wants `__init__.py` beside the manifest, so what lies in addon/ and at the root is laid out anew.
+Blender wants `__init__.py` beside the manifest, so what lies in addon/ and at the root is laid out again.
 """
 
 import re

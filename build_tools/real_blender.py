@@ -141,7 +141,7 @@ def of_debian(root: DebianRoot) -> RealBlender:
 
 
 def places() -> dict[str, Callable[[], RealBlender]]:
-    """How to get at each Blender at hand, by the name of its place; those of Debian always are."""
+    """How to reach each Blender that is available, by the name of its place; those of Debian always are."""
     found: dict[str, Callable[[], RealBlender]] = {
         root.suite: partial(of_debian, root) for root in ROOTS
     }

@@ -32,7 +32,7 @@ def add_three(static: Path) -> None:
 
 
 def add_models(static: Path) -> None:
-    """The models; made anew when the package, the add-on or the examples have changed. Without bpy the page has pictures."""
+    """The models; made again when the package, the add-on or the examples have changed. Without bpy the page has pictures."""
     if not has_bpy():
         say(
             "bpy exists for Python 3.11 only: the site has no surfaces to turn, but their pictures."

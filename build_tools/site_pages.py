@@ -23,7 +23,7 @@ STAGED_FOLDERS = ["docs", "benchmarks/results"]
 
 
 def stage() -> None:
-    """Lays the sources of the pages out anew."""
+    """Lays the sources of the pages out again."""
     shutil.rmtree(SOURCE, ignore_errors=True)
     shutil.copytree(ROOT / "docs" / "site", SOURCE)
     for name in STAGED:

@@ -5,7 +5,7 @@ In Blender: open this file in the Text Editor and press Run Script; the mesh is 
 In Python: `vertices, faces = offsets.mesh(offsets.read(PATH))`.
 
 The table is made up, as a yard would send it: half-breadths and heights of eight lines at eleven stations, in millimetres,
-taken off with a scatter of 2 mm; three are wrong by 18 mm (`WRONG`). `python offsets.py` writes it anew.
+taken off with a scatter of 2 mm; three are wrong by 18 mm (`WRONG`). `python offsets.py` writes it again.
 """
 
 import csv

@@ -2,7 +2,7 @@
 """What is wrong with a surface that came out: it crosses itself, runs away, or folds.
 
 Steps that have converged may have ended in such a surface all the same. Computed with the job, on
-any thread; `mathutils` is no part of Blender's data.
+any thread; `mathutils` is not part of Blender's data.
 """
 
 from dataclasses import dataclass

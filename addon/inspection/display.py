@@ -129,7 +129,7 @@ def show(target: Object, mode: str, settings: Any) -> None:
 
 
 def refresh(target: Object, settings: Any) -> None:
-    """Measures anew what `target` shows; for after its mesh was changed or replaced.
+    """Measures again what `target` shows; for after its mesh was changed or replaced.
 
     Nothing to do if it shows itself.
     """
@@ -139,7 +139,7 @@ def refresh(target: Object, settings: Any) -> None:
 
 
 def remeasure(target: Object, settings: Any) -> None:
-    """Measures anew what `target` shows in colours, after its points have moved and where that is
+    """Measures again what `target` shows in colours, after its points have moved and where that is
     quick: during a drag. `refresh` does the rest afterwards.
 
     Nothing to do if it shows none.

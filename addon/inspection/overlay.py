@@ -2,7 +2,7 @@
 """Section curves and their combs: drawn over the viewport.
 
 What is drawn hangs on the object's settings alone. Points on the graphics card are a cache: every
-change of a mesh, undo and a new file throw it away, and the next drawing makes it anew.
+change of a mesh, undo and a new file throw it away, and the next drawing makes it again.
 """
 
 from collections.abc import Iterable

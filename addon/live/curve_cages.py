@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Live surfaces over curves: their control meshes are made anew before the surfaces are."""
+"""Live surfaces over curves: their control meshes are made again before the surfaces are."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def refreshed(sessions: Iterable[Session], changed: Collection[int | str]) -> set[int | str]:
-    """Keys of the control meshes that were made anew, since one of their curves is among the `changed`
+    """Keys of the control meshes that were made again, since one of their curves is among the `changed`
     data-blocks.
     """
     found: dict[int | str, str] = {}  # control mesh: why it could not be

@@ -192,7 +192,7 @@ class Session:
             self._prepare(source, arrays, depsgraph)
 
     def _prepare(self, source: Object, arrays: ControlArrays, depsgraph: Update) -> bool:
-        """Makes a solver unless the one at hand is for the same mesh and settings; whether it did."""
+        """Makes a solver unless the present one is for the same mesh and settings; whether it did."""
         if self._settings.use_selection and (
             self._region is None or not core.same_faces(arrays, self._arrays)
         ):

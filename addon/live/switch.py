@@ -87,7 +87,7 @@ def live_surfaces_of(source: Object) -> list[Object]:
 
 
 def look_again(source: Object) -> None:
-    """Live surfaces of `source` are made anew with what Blender does not say has changed, such as new
+    """Live surfaces of `source` are made again with what Blender does not say has changed, such as new
     shape keys.
     """
     for target in live_surfaces_of(source):

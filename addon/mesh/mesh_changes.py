@@ -42,7 +42,7 @@ def watch(context: Context, mesh: Mesh) -> list[int]:
 
 
 def coarse_triangles(mesh: Mesh) -> int:
-    """Triangles that `mesh` stands for, for drawing: counted anew when its numbers of faces or
+    """Triangles that `mesh` stands for, for drawing: counted again when its numbers of faces or
     corners are others. In Edit Mode as of the last update.
     """
     now = (len(mesh.loops), len(mesh.polygons))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a faired surface has of its own: it stays while the surface is computed anew.
+"""What a faired surface has of its own: it stays while the surface is computed again.
 
 Its own are the vertex groups, attributes, UV maps, colours, marks and shape keys that do not bear
 the name of one of the source. Materials, custom properties and modifiers stay where they are.
@@ -46,7 +46,7 @@ def carried_names(data: SurfaceData, keys: ShapeKeys | None) -> Names:
 
 @dataclass(frozen=True)
 class OwnData:
-    """Read before the mesh of a surface is made anew."""
+    """Read before the mesh of a surface is made again."""
 
     mesh: Any  # ControlArrays
     attributes: list[Attribute]

@@ -243,7 +243,7 @@ def put_key(target: Object, name: str, positions: np.ndarray) -> None:
 
 @dataclass(frozen=True)
 class KeyAnimation:
-    """What animates the shape keys of a mesh, kept alive while they are made anew."""
+    """What animates the shape keys of a mesh, kept alive while they are made again."""
 
     spare: int | str  # key of a copy of the mesh, with its keys and their drivers
 
@@ -257,7 +257,7 @@ class KeyAnimation:
 
     def give(self, target: Object, last: bool = True) -> list[str]:
         """Lets it animate the keys of `target`; what is lost, a sentence each. `last`: whether they are
-        not made anew again.
+        not made twice.
         """
         spare, notes = self._mesh(), []
         new = target.data.shape_keys

@@ -44,7 +44,7 @@ def write_hole(bm: Any, patch: Patch, rim: list[Any], places: np.ndarray) -> lis
         for corner, v in zip(face.loops, corners, strict=True):
             if beside[nearest[v]] is not None:
                 corner.copy_from(beside[nearest[v]])
-        # anew: to copy to a corner ends what Python knew of it
+        # again: to copy to a corner ends what Python knew of it
         for corner, v in zip(face.loops, corners, strict=True):
             for write, rows in of_corners:
                 write(corner, rows[v].tolist())

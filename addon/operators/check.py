@@ -71,7 +71,7 @@ class _AtDefect(_Checking):
     def _defect(
         self, context: Context
     ) -> tuple[Object, dict[str, Any] | None, list[dict[str, Any]]]:
-        """(object, defect, all its defects), checked anew if the mesh was changed since; the defect
+        """(object, defect, all its defects), checked again if the mesh was changed since; the defect
         is None if it is gone.
         """
         target = cast(Object, context.active_object)

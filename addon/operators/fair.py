@@ -84,7 +84,7 @@ class Fairing(ExplainedPoll, ModalRun):
 
     def _begin_small(self, context: Context, tried: list[Job]) -> Answer:
         """Makes surfaces with fewer levels at once, which Recompute makes whole; where not even that is
-        quick enough, the same run begins anew in the background.
+        quick enough, the same run begins again in the background.
         """
         jobs = self._unused(context, tried)
         if jobs is None:
@@ -200,7 +200,7 @@ class FairSurface(Fairing, FairingSettings):
 
 
 class WholeFairing(Fairing):
-    """A run that has nothing smaller to show: where it takes long, Adjust Last Operation begins it anew."""
+    """A run that has nothing smaller to show: where it takes long, Adjust Last Operation begins it again."""
 
     def _begin_small(self, context: Context, _tried: list[Job]) -> Answer:
         redo.repeat_soon(context, self)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Buttons of the inspection: show, measure anew, read out, and turn the viewport so that it shows."""
+"""Buttons of the inspection: show, measure again, read out, and turn the viewport so that it shows."""
 
 from typing import Any, cast
 

@@ -19,7 +19,7 @@ from ..settings import NAMES
 from ..ui.main import settings_at_hand
 
 _FOLDER = str(FOLDER.parent)  # the one that holds presets/
-# belongs to the work at hand, not to the kind of thing that is made
+# belongs to the present work, not to the kind of thing that is made
 NOT_KEPT = {"use_selection", "tolerance_group", "pull_group", "symmetry_plane", "memory_limit"}
 
 

@@ -40,8 +40,8 @@ def _small(job: Job, budget: float) -> Settings:
 
 
 def invoke_soon(context: Context, operator: Any, properties: dict[str, Any]) -> None:
-    """Calls an operator of bpy.ops as its button does, in the window at hand, once Blender is done with the
-    present one; not at all where a run has begun meanwhile.
+    """Calls an operator of bpy.ops as its button does, from the current window, after the current one
+    returns; not at all where a run has begun meanwhile.
     """
     window = context.window
     if window is None:
@@ -59,7 +59,7 @@ def invoke_soon(context: Context, operator: Any, properties: dict[str, Any]) -> 
 
 def repeat_soon(context: Context, operator: Any) -> None:
     """Lets `operator`, which Adjust Last Operation has called and which would take too long there,
-    begin anew with the same properties, in the background with its bar.
+    begin again with the same properties, in the background with its bar.
     """
     call = getattr(bpy.ops.object, operator.bl_idname.rpartition("_OT_")[2])
     invoke_soon(context, call, operator.as_keywords())

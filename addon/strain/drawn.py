@@ -62,7 +62,7 @@ def labels(
     strained: Strained, count: int, times: float, text: Callable[[float], str]
 ) -> list[tuple[np.ndarray, str, bool]]:
     """Where each of the `count` worst has its label (3,), what that says: `31: 4.2 mm`, and whether
-    the vertex is out of line; `text` says a length.
+    the vertex is an outlier; `text` says a length.
     """
     ids, wrong = strained.worst(count), set(strained.wrong.tolist())
     places = tips(strained, ids, times)

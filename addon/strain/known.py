@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What was measured last of each source, and the timer that measures anew what is shown.
+"""What was measured last of each source, and the timer that measures again what is shown.
 
 It exists while Blender runs. Nothing runs while nothing is shown; without a window, operators alone
 measure.
@@ -29,13 +29,13 @@ BRIEF = 0.3  # seconds; what takes longer waits until nobody drags, and ends whe
 
 
 class _Watch:
-    """The strain of one source: measured, and perhaps being measured anew."""
+    """The strain of one source: measured, and perhaps being measured again."""
 
     def __init__(self, reference: Reference) -> None:
         self.reference = reference
         self.stale = True  # whether anything may have changed since
         self.error = ""
-        self.job: StrainJob | None = None  # that of the result at hand
+        self.job: StrainJob | None = None  # that of the present result
         self._settings: Settings | None = None
         self._next: StrainJob | None = None
         self._queue: Queue | None = None
@@ -136,7 +136,7 @@ def found_of(source: Object) -> Strained | None:
 
 
 def is_behind(source: Object) -> bool:
-    """Whether what is known is being measured anew."""
+    """Whether what is known is being measured again."""
     watch = _watches.get(session_key(source))
     return watch is not None and (watch.is_measured or watch.stale)
 

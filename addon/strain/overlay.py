@@ -34,7 +34,7 @@ _LINE = 2.5  # pixels, of a needle
 _TEXT = 12.0  # points
 _BEHIND = 0.25  # opacity of dots that the surface hides
 _INWARDS = 0.65  # and of needles: those inwards all are, among them perhaps the worst
-_FAINT = 0.4  # and of what is being measured anew, and of labels of what is not out of line
+_FAINT = 0.4  # and of what is being measured again, and of labels of vertices that are not outliers
 _AWAY = 8  # pixels from a needle to its label
 
 _VERTEX = """

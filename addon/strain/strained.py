@@ -9,8 +9,8 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Strained:
-    """A control mesh of n vertices, and how far the surface would spring away at each of them, were
-    that one let go: less what a fair shape strains beside its borders, and what worse neighbours do.
+    """A control mesh of n vertices, and how far the surface would move at each of them if
+    that vertex were released: less what a fair shape strains beside its borders, and what worse neighbours do.
     """
 
     positions: np.ndarray  # (n, 3) in the coordinates of the object

@@ -44,7 +44,7 @@ class Denoised:
     vertices: (n, 3) float64, mesh units, the new positions.
     moves: (n,) float64, mesh units, how far each vertex has moved.
     noise: float, mesh units: root mean square distance of a vertex from the surface; NaN with `passes`.
-    rejected: (k,) int64, spikes, the worst first: their places are told from their neighbours alone.
+    rejected: (k,) int64, spikes, the worst first: their places follow from their neighbours alone.
     """
 
     def __init__(

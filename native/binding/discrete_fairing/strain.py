@@ -22,7 +22,7 @@ OF_SCATTER, OF_MEDIAN = 1.35, 1.4826
 
 
 class Strain:
-    """How far the surface would spring away at each of n control vertices, were that one let go.
+    """How far the surface would move at each of n control vertices if that vertex were released.
 
     lengths: (n,) float64, mesh units, along the control mesh's normal: above zero outwards. On
     curves the whole way, of the curve by itself: above zero on the normal's side. NaN at corners,

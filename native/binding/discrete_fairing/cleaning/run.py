@@ -239,7 +239,10 @@ _CODES = {
         "face with missing vertices dropped",
         "faces with missing vertices dropped",
     ),
-    "NON_FINITE": ("vertex without a finite position dropped", "vertices without a finite position dropped"),
+    "NON_FINITE": (
+        "vertex without a finite position dropped",
+        "vertices without a finite position dropped",
+    ),
     "REPEATED_VERTEX": ("doubled corner dropped", "faces with doubled corners mended"),
     "COINCIDENT_VERTICES": ("vertex of a face merged", "vertices of faces merged"),
     "DUPLICATE_FACE": ("duplicate face dropped", "duplicate faces dropped"),

@@ -38,7 +38,9 @@ class Record:
     @classmethod
     def load(cls, path: str | PathLike) -> Self:
         """Reads what save() has written. Raises OSError, and FairingError BAD_OPTION for other files."""
-        wrong = fairing_error("BAD_OPTION", f"{path} does not hold a {cls.__name__} of discrete_fairing.")
+        wrong = fairing_error(
+            "BAD_OPTION", f"{path} does not hold a {cls.__name__} of discrete_fairing."
+        )
         try:
             with _opened(path) as stored:
                 plain = json.loads(str(stored["json"]))

@@ -46,7 +46,8 @@ def checked(given: dict[str, Any], levels: int) -> tuple[dict[str, Any], _native
     for name in OF_RUN:
         if name in given:
             raise fairing_error(
-                "BAD_OPTION", f"{name} is not a setting of pieces(); give it to fair() of each piece."
+                "BAD_OPTION",
+                f"{name} is not a setting of pieces(); give it to fair() of each piece.",
             )
     settings["levels"] = whole("levels", levels)
     return settings, native_options(settings)
