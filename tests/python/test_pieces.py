@@ -265,16 +265,16 @@ def test_parts_that_do_not_belong_together_are_refused(tmp_path):
     for wrong, message in (
         ([], "no parts"),
         (parts[:2], "missing: 2"),
-        ([*parts, parts[1]], "Part 1 is there twice"),
+        ([*parts, parts[1]], "Part 1 is given twice"),
         ([*parts[:2], other], "different surfaces"),
     ):
         with pytest.raises(df.FairingError, match=message):
             df.join(wrong)
     (tmp_path / "part.npz").write_bytes(b"no archive")
-    with pytest.raises(df.FairingError, match="holds no Part"):
+    with pytest.raises(df.FairingError, match="does not hold a Part"):
         df.Part.load(tmp_path / "part.npz")
     parts[0].save(tmp_path / "part.npz")
-    with pytest.raises(df.FairingError, match="holds no Piece"):
+    with pytest.raises(df.FairingError, match="does not hold a Piece"):
         df.Piece.load(tmp_path / "part.npz")
 
 
@@ -413,7 +413,7 @@ def test_zarr_groups_hold_pieces_and_parts(tmp_path):
     group = zarr.open_group(names[1])
     assert group["triangle_points"].dtype == np.float32  # any other program reads them
     del group.attrs["json"]  # as it is while a worker writes
-    with pytest.raises(df.FairingError, match="holds no Part") as caught:
+    with pytest.raises(df.FairingError, match="does not hold a Part") as caught:
         df.Part.load(names[1])
     assert caught.value.code == "BAD_OPTION"
     with pytest.raises(OSError):
