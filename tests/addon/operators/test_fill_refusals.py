@@ -33,7 +33,7 @@ def with_a_fin():
 def test_the_other_hole_is_filled_and_this_one_said(capfd):
     target = with_a_fin()
     assert bpy.ops.object.fairing_fill() == {"FINISHED"}
-    assert "around no hole, as more than two faces meet there" in capfd.readouterr().out
+    assert "around no hole, because more than two faces meet there" in capfd.readouterr().out
     assert not is_closed(target.data)
     assert borders(target, lambda z: z < 0) == []
 
@@ -42,7 +42,7 @@ def test_alone_it_is_refused_in_object_and_edit_mode():
     target = with_a_fin()
     assert bpy.ops.object.fairing_fill() == {"FINISHED"}
     faces = len(target.data.polygons)
-    with pytest.raises(RuntimeError, match="around no hole, as more than two"):
+    with pytest.raises(RuntimeError, match="around no hole, because more than two"):
         bpy.ops.object.fairing_fill()
     edit(target, "EDGE", borders(target, lambda z: z > 0)[:1])
     with pytest.raises(RuntimeError, match="1 border edge is around no hole"):

@@ -283,4 +283,4 @@ def test_what_is_grey_says_why():
     add("Box", *CUBE)
     bpy.context.scene.discrete_fairing.energy = "MINIMUM_VARIATION"
     said = draw(main.VIEW3D_PT_fairing)
-    assert "It helps the start only" in said and "Not with this fairness" in said
+    assert "Used for the start only" in said and "Not with this fairness" in said
