@@ -111,10 +111,13 @@ class Race {
     options.levels = options_.levels;
     ThinPlateSolver system(mesh_, ChartMaker(mesh_), stencils_, unknowns_, {}, options, workers_,
                            monitor_);
+    const PlateData data{mesh_.positions, curves_};
+    BallConstraints constraints = system.begin({mesh_, mesh_.positions, unknowns_});
     std::vector<LevelReport> reports;
-    system.solve_nested(
-        {mesh_.positions, curves_}, {mesh_, mesh_.positions, unknowns_}, x, reports,
-        [](const double*) {}, [](int, Array<double>&) {});
+    PlateSurface surface;
+    for (int level = system.levels().base(); level <= system.levels().top(); ++level)
+      surface = system.solve_level(level, data, constraints, surface, reports, {});
+    x = std::move(surface.x);
     return reports.back().iterations;
   }
 

@@ -110,7 +110,8 @@ AssembledSystem CurvatureLevel::assemble() const {
   std::vector<double> root(large.centre.size(), 1.0);  // of the diagonal of L
   if (varies())
     for (std::size_t k = 0; k < root.size(); ++k) {
-      const RowRun<const float> run = variation_->connection.rows().of(vertex_run(large.centre[k]));
+      const RowRun<const float> run =
+          variation_->connection->rows().of(vertex_run(large.centre[k]));
       root[k] = std::sqrt(double(run.at(0, 0, 0)) + share_);
     }
   visit_rows(rows_, [&](Index p, const RowRun<const float>& run, std::size_t i,
@@ -132,7 +133,7 @@ AssembledSystem CurvatureLevel::assemble() const {
   entries = {};
   const MatrixBytes held(jacobian);
   if (varies()) {
-    const SparseMatrix connection = connection_matrix(variation_->connection.rows(), share_);
+    const SparseMatrix connection = connection_matrix(variation_->connection->rows(), share_);
     const MatrixBytes connection_held(connection);
     const auto take_turned = [&](Index c, Index row, double entry) {
       const Index k = large.find(row / 3);

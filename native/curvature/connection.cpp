@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <utility>
 
 #include "parallel/cancel.h"
 
@@ -101,8 +102,9 @@ struct SurfaceGather {
 
 }  // namespace
 
-double Connection::set(const Surface& surface, const double* tensor, Workers& workers,
-                       double* force) {
+Connection::Connection(RingJacobian cotangents, const Surface& surface, const double* tensor,
+                       Workers& workers, double* force)
+    : rows_(std::move(cotangents)) {
   const GridLevel& grid = rows_.grid();
   ElementSums energy(grid.mesh());
   for_each_run(
@@ -119,7 +121,7 @@ double Connection::set(const Surface& surface, const double* tensor, Workers& wo
           energy.of(run) += set_point(rows, i, point(0), point, force + 3 * (run.first + i));
         }
       });
-  return energy.total();
+  energy_ = energy.total();
 }
 
 void Connection::apply(double damping, Workers& workers, const double* y, double* z) const {

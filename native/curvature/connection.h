@@ -13,21 +13,19 @@ namespace fairing {
 // the root of its point's area; points without an area count for nothing.
 class Connection {
  public:
-  explicit Connection(const GridLevel& grid) : rows_(grid) {}
-
-  // The edges' cotangent weights, slot by slot; whoever walks the rings writes them.
-  RingJacobian& weights() { return rows_; }
-
   struct Surface {
     const double* x;       // 3 a point
     const double* normal;  // 3 a point
     const double* axis;    // the chart's u axis in space
     const double* area;    // 1 a point; zero: no fit
   };
-  // L about a surface whose weights() are written; they are used up. Negative weights count as
-  // zero: there are few, and without them L is positive. force <- L tensor for unscaled tensors,
-  // over the root of the area; returns tensor . L tensor.
-  double set(const Surface& surface, const double* tensor, Workers& workers, double* force);
+  // L about a surface. `cotangents` are the edges' weights, in the first row of each point, slot by
+  // slot; their memory becomes L's. Negative ones count as zero: there are few, and without them L is
+  // positive. force <- L tensor for unscaled tensors, over the root of the area.
+  Connection(RingJacobian cotangents, const Surface& surface, const double* tensor,
+             Workers& workers, double* force);
+  // tensor . L tensor
+  double energy() const { return energy_; }
 
   // z <- (L + damping) y
   void apply(double damping, Workers& workers, const double* y, double* z) const;
@@ -39,8 +37,12 @@ class Connection {
   // twice the angle between the charts.
   const RingJacobian& rows() const { return rows_; }
 
+  // The memory, for another surface's cotangents.
+  RingJacobian release() && { return std::move(rows_); }
+
  private:
   RingJacobian rows_;
+  double energy_ = 0;
 };
 
 }  // namespace fairing

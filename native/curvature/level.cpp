@@ -51,7 +51,7 @@ void CurvatureLevel::apply(const double* x, double* y) {
     moment.resize(3 * grid_.size());
     turned.resize(3 * grid_.size());
     take_moments(rows_, shared_.workers, x, moment.data());
-    variation_->connection.apply(share_, shared_.workers, moment.data(), turned.data());
+    variation_->connection->apply(share_, shared_.workers, moment.data(), turned.data());
     apply_transposed(rows_, shared_.unknowns, shared_.workers, shared_.double_slots, turned.data(),
                      y);
     if (is_tense()) area_->add_product(shared_.unknowns, shared_.workers, x, y);
@@ -93,7 +93,7 @@ void CurvatureLevel::apply_between(const float* x, float* y) {
   Array<float> scaled(grid_.size());
   for_each_index(shared_.workers, grid_.size(),
                  [&](std::size_t i) { scaled[i] = of.root[i] * x[i]; });
-  of.connection.apply_to_scalar(shared_.workers, scaled.data(), y);
+  of.connection->apply_to_scalar(shared_.workers, scaled.data(), y);
   for_each_run(grid_, shared_.workers, [&](const Run& run) {
     const bool is_unknown = shared_.unknowns.has(run);
     for (std::size_t i = run.first; i < run.first + run.count; ++i)
@@ -139,17 +139,22 @@ void CurvatureLevel::write_lines(LineBand& band, Workers& workers) {
 }
 
 void CurvatureLevel::set_damping(const Array<float>& mu, double share) {
+  if (mu.empty() && damping_.empty() && share == share_) return;
   if (std::exchange(share_, share) != share) update_diagonal();
-  damping_.clear();
+  damping_.resize(mu.size());
+  for (std::size_t i = 0; i < damping_.size(); ++i) damping_[i] = mu[i] * diagonal_[i];
+  invert_diagonal();
+}
+
+void CurvatureLevel::invert_diagonal() {
+  ++version_.numbers;
   inverse_diagonal_.resize(grid_.size());
-  if (!mu.empty()) {
-    damping_.resize(grid_.size());
-    for (std::size_t i = 0; i < damping_.size(); ++i) damping_[i] = mu[i] * diagonal_[i];
-  }
   for (std::size_t i = 0; i < inverse_diagonal_.size(); ++i) invert_diagonal(i);
 }
 
 void CurvatureLevel::set_weights(const VertexWeights& weights) {
+  if (weights == weights_) return;
+  ++version_.numbers;
   const std::size_t changed = std::max(weights_.size(), weights.size());
   weights_ = weights;
   for (std::size_t v = 0; v < std::min(changed, diagonal_.size()); ++v) invert_diagonal(v);
@@ -168,7 +173,7 @@ void CurvatureLevel::update_diagonal() {
   Array<float> weight;
   if (varies()) {
     weight.resize(points);
-    visit_rows(variation_->connection.rows(),
+    visit_rows(variation_->connection->rows(),
                [&](Index p, const RowRun<const float>& run, std::size_t i, const auto&) {
                  weight[std::size_t(p)] = run.at(0, 0, i) + float(share_);
                });

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "constraints/pads.h"
 #include "curvature/area.h"
@@ -82,6 +83,10 @@ class CurvatureLevel final : public LevelOperator {
   // From here on mu_i K_ii is added to the diagonal; empty: nothing. Minimum variation: K has
   // `share` of W beside L.
   void set_damping(const Array<float>& mu, double share = 0);
+  // Coarser levels are about another surface too, so that eigenvalues are others.
+  void spectrum_changed() { ++version_.spectrum; }
+  // Other control vertices are unknowns from here on; K has to be linearized.
+  void unknowns_changed() { ++version_.unknowns; }
   // Of springs at control vertices along the normals; empty: none.
   void set_weights(const VertexWeights& weights);
   const VertexWeights& weights() const { return weights_; }
@@ -105,9 +110,11 @@ class CurvatureLevel final : public LevelOperator {
 
  private:
   struct Tensors;
-  double connect(const double* x, const Tensors& tensors, const double* normal, double* force);
+  double connect(RingJacobian cotangents, const double* x, const Tensors& tensors,
+                 const double* normal, double* force);
   void find_between(const Array<double>& area);
   void update_diagonal();
+  void invert_diagonal();
   NormalMatrix& square() const;
   void apply_rows(const double* x, double* y);
   void apply_rows(const float* x, float* y);
@@ -137,9 +144,7 @@ class CurvatureLevel final : public LevelOperator {
   };
   mutable Square square_;
   struct Variation {
-    explicit Variation(const GridLevel& grid) : connection(grid) {}
-
-    Connection connection;
+    std::optional<Connection> connection;
     Array<float> root;            // of points' areas
     Array<float> beside_border;   // what S has there beside C, on its diagonal
     Array<float> cycle_diagonal;  // of J^T W J

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // CurvatureLevel::linearize(): energy, force and rows of all points about a surface.
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "curvature/level.h"
 #include "curvature/rings.h"
@@ -139,9 +141,14 @@ double CurvatureLevel::linearize(const double* x, const Functional& functional,
   const RegionWeight region_weight(grid_);
   const Array<float> lifts = area_lifts(grid_, shared_.workers, x);
   const float* lift = lifts.empty() ? nullptr : lifts.data();
-  if (varies() && !variation_) variation_ = std::make_unique<Variation>(grid_);
   Tensors tensors;
-  if (varies()) tensors.resize(grid_.size());
+  std::optional<RingJacobian> edge_weights;
+  if (varies()) {
+    if (!variation_) variation_ = std::make_unique<Variation>();
+    auto& before = variation_->connection;
+    edge_weights.emplace(before ? std::move(*before).release() : RingJacobian(grid_));
+    tensors.resize(grid_.size());
+  }
   ElementSums energy(mesh);
   Linearization own;
   Linearization& to = out ? *out : own;
@@ -181,8 +188,7 @@ double CurvatureLevel::linearize(const double* x, const Functional& functional,
     if (!has_fit(mesh, run)) return clear_points(run.first, run.count);
     PointScratch& point = gather.point;
     const RowRun<float> rows = rows_.of(run);
-    const RowRun<float> cotangents =
-        varies() ? variation_->connection.weights().of(run) : RowRun<float>{};
+    const RowRun<float> cotangents = edge_weights ? edge_weights->of(run) : RowRun<float>{};
     const auto weight = [&](std::size_t i) { return weight_at(region_weight, run, i); };
     const auto store_alone = [&](std::size_t i, const RingInSpace& ring, bool closed) {
       const double e = point.store(ring, closed, energy_, weight(i), rows, i, force);
@@ -231,7 +237,8 @@ double CurvatureLevel::linearize(const double* x, const Functional& functional,
 
   bending_ = energy.total();
   if (varies()) {
-    const double variation = connect(x, tensors, to.normal.data(), to.force.data());
+    const double variation =
+        connect(std::move(*edge_weights), x, tensors, to.normal.data(), to.force.data());
     if (std::isfinite(bending_)) bending_ = variation;
     find_between(tensors.area);
   }
@@ -243,22 +250,23 @@ double CurvatureLevel::linearize(const double* x, const Functional& functional,
     tension_ = 0;
   }
   update_diagonal();
-  set_damping({});
+  damping_.clear();
+  invert_diagonal();
   return fairness();
 }
 
 // L about the surface, and with it the force: minus J^T L M. Returns the energy M . L M.
-double CurvatureLevel::connect(const double* x, const Tensors& tensors, const double* normal,
-                               double* force) {
+double CurvatureLevel::connect(RingJacobian cotangents, const double* x, const Tensors& tensors,
+                               const double* normal, double* force) {
   const std::size_t points = grid_.size();
   Array<double> moment(3 * points);
-  const double energy =
-      variation_->connection.set({x, normal, tensors.axis.data(), tensors.area.data()},
-                                 tensors.shape.data(), shared_.workers, moment.data());
+  const Connection::Surface surface{x, normal, tensors.axis.data(), tensors.area.data()};
+  variation_->connection.emplace(std::move(cotangents), surface, tensors.shape.data(),
+                                 shared_.workers, moment.data());
   for_each_index(shared_.workers, 3 * points, [&](std::size_t i) { moment[i] = -moment[i]; });
   apply_transposed(rows_, shared_.unknowns, shared_.workers, shared_.double_slots, moment.data(),
                    force);
-  return energy;
+  return variation_->connection->energy();
 }
 
 }  // namespace fairing

@@ -45,15 +45,16 @@ double GaussNewtonSystem::share_left(int level, const Functional& functional) co
 void GaussNewtonSystem::let_go(Unknowns unknowns, int level, LinearizedSurface& surface) {
   constraints_ = nullptr;
   shared_.unknowns = std::move(unknowns);
-  for (const auto& op : operators_) op->set_weights({});
+  for (const auto& op : operators_) {
+    op->set_weights({});
+    op->unknowns_changed();
+  }
   linearize(level, surface);
   linearize_below(level, surface);
-  hierarchy_->change_unknowns(std::size_t(level - base_));
 }
 
-void GaussNewtonSystem::set_weights(int level, bool spectrum) {
+void GaussNewtonSystem::set_weights(int level) {
   for (int l = base_; l <= level; ++l) op(l).set_weights(constraints_->weights());
-  hierarchy_->refresh(std::size_t(level - base_), spectrum);
 }
 
 // The coarsest level's K knows control vertices alone.
@@ -120,7 +121,7 @@ LevelSolve GaussNewtonSystem::solve_held(int level, const LinearizedSurface& abo
             transfers_, level, rows, workers(), r,
             [this](int l) { return hierarchy_->room(std::size_t(l - base_)); }, sums);
       },
-      [&](const VertexWeights&) { set_weights(level, false); },
+      [&](const VertexWeights&) { set_weights(level); },
       [&](const double*) { return about.energy; }};
   Array<double> r(h.size());
   const LevelSolve solved =

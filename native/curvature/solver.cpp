@@ -40,6 +40,7 @@ GaussNewtonSolver::GaussNewtonSolver(const ControlMesh& mesh,
       system_(mesh, levels, base, stencils, unknowns, options,
               constraints_.any() ? &constraints_ : nullptr, std::move(mirrors), workers, monitor),
       iterate_{system_},
+      next_level_(base),
       folded_faces_(folded_control_faces(mesh, constraints_.targets(), workers)),
       thickness_(mesh, constraints_.targets(), workers),
       steps_(iterate_, options_),
@@ -47,10 +48,11 @@ GaussNewtonSolver::GaussNewtonSolver(const ControlMesh& mesh,
       rough_(iterate_, unfolding_, steps_),
       variation_(iterate_, steps_) {}
 
-CurvatureLevelReport GaussNewtonSolver::solve_level(int level, const Array<double>& plate) {
+CurvatureLevelReport GaussNewtonSolver::solve_next_level(const Array<double>& plate,
+                                                         Array<double>& finest) {
+  const int level = next_level_++;
   CurvatureLevelReport report;
   report.level = level;
-  if (level < system_.base()) return report;
   const StepWork before = system_.work(level);
   if (pads_.take()) iterate_.current.held.loads.clear();
   const std::span<const Vec3> given =
@@ -58,8 +60,7 @@ CurvatureLevelReport GaussNewtonSolver::solve_level(int level, const Array<doubl
   choose_start(iterate_, level, pads_.now(), plate, below_.plate, given, report);
   const StepStart start{iterate_.current.points, iterate_.current.held, report};
   const bool is_plain = solve_total_curvature(start, plate, report);
-  below_ = {{plate.begin(), plate.begin() + std::ptrdiff_t(start.points.size())},
-            is_plain,
+  below_ = {plate, is_plain,
             report.swollen ||
                 (!is_finest() &&
                  thickness_.of(iterate_.grid(), iterate_.workers(), surface().data()).is_bubble())};
@@ -69,6 +70,7 @@ CurvatureLevelReport GaussNewtonSolver::solve_level(int level, const Array<doubl
   }
   leave_out_tension(start, plate, report);
   report.work = system_.work(level) - before;
+  if (is_finest()) finest = std::move(surface());
   return report;
 }
 
@@ -183,9 +185,7 @@ void GaussNewtonSolver::keep_start_if_worse(const StepStart& start, const Array<
 
 void GaussNewtonSolver::keep(const Array<double>& x, const StepStart& start,
                              CurvatureLevelReport& report) {
-  const std::size_t size = start.points.size();
   surface() = x;
-  surface().resize(size);
   system_.symmetrizer().points(iterate_.grid(), surface());
   iterate_.current.held = start.held;
   iterate_.linearize();
@@ -216,17 +216,17 @@ bool GaussNewtonSolver::is_settled(const CurvatureLevelReport& report) {
 // Where steps had to be damped, or control vertices take part in them, all levels are needed.
 bool GaussNewtonSolver::can_move() const { return solved_.is_sound && !constraints_.any(); }
 
-void GaussNewtonSolver::leave_plate(const Array<double>& plate) {
-  for_each_index(iterate_.workers(), surface().size(),
-                 [&](std::size_t i) { surface()[i] -= plate[i]; });
+bool GaussNewtonSolver::solve_moved(Mirrors mirrors, Array<double>& found,
+                                    CurvatureLevelReport& report) {
+  std::swap(surface(), found);
+  const bool is_sound = steps_go_well(std::move(mirrors), report);
+  std::swap(surface(), found);
+  return is_sound;
 }
 
-bool GaussNewtonSolver::solve_moved(const Array<double>& plate, Mirrors mirrors,
-                                    CurvatureLevelReport& report) {
+bool GaussNewtonSolver::steps_go_well(Mirrors mirrors, CurvatureLevelReport& report) {
   system_.symmetrizer().set_mirrors(std::move(mirrors));
   folded_faces_ = folded_control_faces(system_.mesh(), constraints_.targets(), iterate_.workers());
-  for_each_index(iterate_.workers(), surface().size(),
-                 [&](std::size_t i) { surface()[i] += plate[i]; });
   system_.symmetrizer().points(iterate_.grid(), surface());
   iterate_.linearize();
   report.level = iterate_.level;

@@ -23,26 +23,22 @@ class GaussNewtonSolver {
                     const GaussNewtonOptions& options, IntervalConstraints constraints,
                     const Pads* pads, Mirrors mirrors, Workers& workers, Monitor& monitor);
 
-  // The surface of a level, from `plate`, the thin plate's (3 numbers a point, in working
-  // coordinates). Levels have to come in order; on each but the first the level below helps to
-  // start. Throws ErrorCode::cancelled, and std::bad_alloc; the solver is of no use then.
-  CurvatureLevelReport solve_level(int level, const Array<double>& plate);
+  // The surface of the next level, from `base` on, from `plate`, the thin plate's (3 numbers a point,
+  // in working coordinates); on each but the first the level below helps to start. `finest` <- the
+  // finest level's. Throws ErrorCode::cancelled, and std::bad_alloc; the solver is of no use then.
+  CurvatureLevelReport solve_next_level(const Array<double>& plate, Array<double>& finest);
 
   // The finest level's surface again after control vertices have moved, by steps on that level
-  // alone, from the surface before: leave_plate() subtracts the thin plate's surface of before,
-  // solve_moved() adds the present one. False: the steps do not go well that way, and another
-  // solver has to solve level by level. Both need can_move(). Throws as solve_level().
+  // alone, from `surface`, which it improves. False: the steps do not go well that way, and another
+  // solver has to solve level by level. It needs can_move(). Throws as solve_next_level().
   bool can_move() const;
-  void leave_plate(const Array<double>& plate);
-  bool solve_moved(const Array<double>& plate, Mirrors mirrors, CurvatureLevelReport& report);
+  bool solve_moved(Mirrors mirrors, Array<double>& surface, CurvatureLevelReport& report);
 
   // What control vertices stand on, after the levels so far; null: on none.
   const Pads* pads() { return pads_.now(); }
 
-  // The latest level's surface: 3 numbers a point.
-  Array<double>& surface() { return iterate_.current.points; }
-
  private:
+  Array<double>& surface() { return iterate_.current.points; }  // of the latest level
   // What control vertices stand on: a copy of the pads given, some of which go.
   struct OwnPads {
     const Pads* given;  // null: on none
@@ -93,6 +89,7 @@ class GaussNewtonSolver {
   double energy_bound(const CurvatureLevelReport& report);
   // Whether steps of less than the thin plate's energy have come near a solution.
   bool is_settled(const CurvatureLevelReport& report);
+  bool steps_go_well(Mirrors mirrors, CurvatureLevelReport& report);
   // Whether a part of the surface x lies far from the mesh.
   bool is_thrown(const Array<double>& x, const Array<double>& plate);
   void keep_start_if_worse(const StepStart& start, const Array<double>& plate,
@@ -109,6 +106,7 @@ class GaussNewtonSolver {
   OwnPads pads_;
   GaussNewtonSystem system_;
   SurfaceIterate iterate_;
+  int next_level_;
   std::vector<std::uint8_t> folded_faces_;  // of the control mesh
   Thickness thickness_;
   CurvatureSteps steps_;

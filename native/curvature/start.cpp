@@ -82,10 +82,8 @@ class Candidates {
 
 void start_at_plate(SurfaceIterate& iterate, int level, const Array<double>& plate) {
   iterate.level = level;
-  Array<double>& x = iterate.current.points;
-  x.resize(3 * iterate.grid().size());
-  for_each_index(iterate.workers(), x.size(), [&](std::size_t i) { x[i] = plate[i]; });
-  iterate.system.symmetrizer().points(iterate.grid(), x);
+  iterate.current.points = plate;
+  iterate.system.symmetrizer().points(iterate.grid(), iterate.current.points);
 }
 
 void choose_start(SurfaceIterate& iterate, int level, Pads* pads, const Array<double>& plate,

@@ -17,37 +17,6 @@ namespace {
 // than another linearization at a shorter length.
 constexpr double least_length = 1.0 / 8;
 
-bool search(StepMethod& method, const StepCount& count, StepReport& step) {
-  for (step.length = 1; step.length >= least_length; step.length /= 2) {
-    const double energy = method.try_length(step, count);
-    const bool is_finite = std::isfinite(energy) && std::isfinite(step.movement);
-    if (is_finite && method.is_acceptable(step, energy)) return true;
-  }
-  step.length = 0;
-  return false;
-}
-
-}  // namespace
-
-void run_steps(StepMethod& method, int most, CurvatureLevelReport& report) {
-  StepCount count;
-  report.last_steps = 0;
-  while (count.total() < most && method.begin(report)) {
-    ++report.last_steps;
-    StepReport& step = report.steps.emplace_back();
-    method.find_step(step);
-    if (search(method, count, step)) {
-      ++count.accepted;
-      if (method.accept(step, count, report)) return;
-    } else {
-      ++count.rejected;
-      if (!method.reject()) return;
-    }
-  }
-}
-
-namespace {
-
 // The share of the energy that two damped steps have to gain together.
 constexpr double worthwhile_gain = 0.005;
 // Damped steps: the energy may rise by this share of the decrement. Along a right step it does so
@@ -121,12 +90,13 @@ Bending bending_of(const LinearizedSurface& surface, Workers& workers) {
   return {sum(workers, shape.size() / 4, square), sum(workers, shape.size() / 4, area)};
 }
 
-class GaussNewtonMethod final : public StepMethod {
+// A direction, the longest share of it that is acceptable, and the same again from there.
+class StepLoop {
  public:
   // `damping` is null for plain steps. `patience`: steps in which plain_decrement has to be reached;
   // 0: any number.
-  GaussNewtonMethod(SurfaceIterate& iterate, const Functional& functional, LocalDamping* damping,
-                    const StepEnd& end, int patience)
+  StepLoop(SurfaceIterate& iterate, const Functional& functional, LocalDamping* damping,
+           const StepEnd& end, int patience)
       : it_(iterate),
         damping_(damping),
         end_(end),
@@ -138,24 +108,52 @@ class GaussNewtonMethod final : public StepMethod {
     flat_ = flat_energy_about(it_.current, it_.workers());
   }
 
-  bool begin(CurvatureLevelReport& report) override {
-    report.converged = it_.current.energy < flat_energy;
-    if (report.converged) report.left = 0;
-    if (report.converged || !std::isfinite(it_.current.energy)) return false;
-    it_.system.report_progress(it_.level, report.steps.size());
-    return true;
+  // Steps until one is the last, or `most` have been tried. Every step is added to report.steps; a
+  // rejected one has length 0. Damped steps go on after one: damping has grown.
+  void run(int most, CurvatureLevelReport& report) {
+    report.last_steps = 0;
+    while (report.last_steps < most && is_bent(report)) {
+      it_.system.report_progress(it_.level, report.steps.size());
+      ++report.last_steps;
+      StepReport& step = report.steps.emplace_back();
+      find_step(step);
+      if (finds_length(step)) {
+        if (is_last(step, report)) return;
+      } else {
+        reject();
+        if (!damping_) return;
+      }
+    }
   }
 
-  void find_step(StepReport& step) override {
+ private:
+  // Else nothing is left to gain.
+  bool is_bent(CurvatureLevelReport& report) const {
+    report.converged = it_.current.energy < flat_energy;
+    if (report.converged) report.left = 0;
+    return !report.converged && std::isfinite(it_.current.energy);
+  }
+
+  // An energy that is not finite is no step's.
+  bool finds_length(StepReport& step) {
+    for (step.length = 1; step.length >= least_length; step.length /= 2) {
+      const double energy = try_length(step);
+      if (std::isfinite(energy) && std::isfinite(step.movement) && is_acceptable(step, energy))
+        return true;
+    }
+    step.length = 0;
+    return false;
+  }
+
+  void find_step(StepReport& step) {
     if (!varies()) held_ = it_.current.held;
-    const bool fresh =
-        (damping_ && !varies()) || it_.needs_coarse_levels(remainder_.last_decrement());
-    if (fresh) it_.system.linearize_below(it_.level, it_.current);
+    if ((damping_ && !varies()) || it_.needs_coarse_levels(remainder_.last_decrement()))
+      it_.system.linearize_below(it_.level, it_.current);
     it_.system.set_damping(it_.level, damping_ ? damping_->mu() : Array<float>{},
                            varies() ? share_for_long_waves() : 0);
     step.variation = varies();
     step.energy = it_.current.energy;
-    const double gain = it_.system.solve(it_.level, it_.current, fresh, it_.step, held_, step);
+    const double gain = it_.system.solve(it_.level, it_.current, it_.step, held_, step);
     const double share = gain / scale();
     const bool is_of_use = share > -plain_decrement * plain_decrement;  // else it is no rounding
     step.decrement =
@@ -164,26 +162,27 @@ class GaussNewtonMethod final : public StepMethod {
     if (damping_) it_.op().predict(it_.current.linearization.shape, it_.step.data(), predicted_);
   }
 
-  double try_length(StepReport& step, const StepCount& count) override {
+  // The potential: the energy less the work of the loads, which a step on pads goes down.
+  double try_length(StepReport& step) {
     const double energy = it_.try_step(step.length);
     step.movement = it_.movement(step.length);
     const bool judges = damping_ && step.length == 1 && (is_checked(step) || end_.decrement == 0);
     if (judges && damping_->judge(predicted_, it_.current.linearization, it_.trial.linearization,
-                                  count.rejected, count.accepted, step.decrement))
+                                  rejected_, accepted_, step.decrement))
       anderson_.forget();
     const double potential = energy - 2 * step.length * step.load_work;
     gain_ = it_.current.energy - potential;
     return potential;
   }
 
-  // `energy`: less the work of the loads, which is the potential that a step on pads goes down.
-  bool is_acceptable(const StepReport& step, double energy) const override {
+  bool is_acceptable(const StepReport& step, double energy) const {
     return !is_checked(step) ||
            !(energy > it_.current.energy + allowed_rise * step.decrement * scale());
   }
 
-  bool accept(const StepReport& step, const StepCount& count,
-              CurvatureLevelReport& report) override {
+  // Goes to the latest trial. Returns whether that is the end.
+  bool is_last(const StepReport& step, CurvatureLevelReport& report) {
+    ++accepted_;
     if (step.length != 1) anderson_.took_share(step.length);
     std::swap(it_.current, it_.trial);
     if (!varies()) it_.current.held = held_;
@@ -193,7 +192,7 @@ class GaussNewtonMethod final : public StepMethod {
     if (it_.system.is_bound()) report.constraint_gap = step.constraint_gap;
     report.converged &= step.constraint_gap <= it_.system.wanted_gap(it_.level);
     const bool too_late =
-        patience_ > 0 && count.total() >= patience_ && step.decrement > plain_decrement;
+        patience_ > 0 && accepted_ >= patience_ && step.decrement > plain_decrement;
     flat_ = flat_energy_about(it_.current, it_.workers());
     // Where linear solves end too early for a step to lessen the decrement by half, the next ones
     // would gain as little.
@@ -201,14 +200,13 @@ class GaussNewtonMethod final : public StepMethod {
     return report.converged || too_late || is_stuck || leads_nowhere(step);
   }
 
-  bool reject() override {
+  void reject() {
+    ++rejected_;
     anderson_.forget();
     it_.linearize();
     remainder_.forget();
-    return damping_ != nullptr;
   }
 
- private:
   bool varies() const {
     return it_.current.functional.energy == CurvatureEnergy::minimum_variation;
   }
@@ -266,7 +264,7 @@ class GaussNewtonMethod final : public StepMethod {
   double flat_ = 0;  // an energy that counts for nothing
   // Of the potential: by the latest trial, by the last step, by all steps, and the most so far.
   double gain_ = 0, last_gain_ = 0, gained_ = 0, most_gained_ = 0;
-  int climbed_ = 0, damped_ = 0;  // steps
+  int accepted_ = 0, rejected_ = 0, climbed_ = 0, damped_ = 0;  // steps
 };
 
 }  // namespace
@@ -286,18 +284,17 @@ bool is_near(const CurvatureLevelReport& report, double decrement) {
 void CurvatureSteps::run(Pads* pads, LocalDamping* damping, const StepEnd& end, int patience,
                          CurvatureLevelReport& report) {
   // Local damping compares tensors in space.
-  GaussNewtonMethod method(iterate_, {CurvatureEnergy::total_curvature, pads, damping != nullptr},
-                           damping, end, patience);
-  run_steps(method, options_.max_steps, report);
+  StepLoop(iterate_, {CurvatureEnergy::total_curvature, pads, damping != nullptr}, damping, end,
+           patience)
+      .run(options_.max_steps, report);
   report.energy = iterate_.op().fairness();
 }
 
 void CurvatureSteps::run_variation(const StepEnd& end, CurvatureLevelReport& report) {
   LocalDamping damping(iterate_.grid(), iterate_.system.shared().unknowns, iterate_.workers());
-  GaussNewtonMethod method(iterate_, of_variation, &damping, end, 0);
   const std::size_t before = report.steps.size();
   try {
-    run_steps(method, options_.max_steps, report);
+    StepLoop(iterate_, of_variation, &damping, end, 0).run(options_.max_steps, report);
   } catch (const FairingError& error) {
     // where variation hardly sees what vertices leave open, its system has no factor: the surface that
     // there is stands
@@ -316,9 +313,9 @@ void CurvatureSteps::run_plain(Pads* pads, const StepEnd& end, int patience,
 
 void CurvatureSteps::run_damped(Pads* pads, const StepStart& start, const Array<float>& filled,
                                 CurvatureLevelReport& report) {
+  iterate_.current = {};
   iterate_.current.points = start.points;
   iterate_.current.held = start.held;
-  iterate_.current.number = 0;
   report = start.report;
   report.damped = true;
   LocalDamping damping(iterate_.grid(), iterate_.system.shared().unknowns, iterate_.workers());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Gauss-Newton steps on one level: first the loop that all kinds of steps share, then those to the
-// least total curvature and to the least variation of curvature.
+// Gauss-Newton steps on one level: to the least total curvature, and to the least variation of
+// curvature.
 #pragma once
 
 #include "base/rounding.h"
@@ -9,45 +9,6 @@
 #include "curvature/system.h"
 
 namespace fairing {
-
-// One loop for all kinds of Gauss-Newton steps (run_steps): a direction, a line search that halves,
-// and what is done about a step that no length makes acceptable. It knows nothing of surfaces; a
-// StepMethod says what a step is.
-
-struct StepCount {
-  int accepted = 0, rejected = 0;
-
-  int total() const { return accepted + rejected; }
-};
-
-class StepMethod {
- public:
-  virtual ~StepMethod() = default;
-
-  // Before a step. False: nothing is left to gain, and `report` says so.
-  virtual bool begin(CurvatureLevelReport& report) = 0;
-
-  // The full step from where the iteration is; sets `step` but for its length and movement.
-  virtual void find_step(StepReport& step) = 0;
-
-  // The energy that the share step.length of the step leads to; sets step.movement. `count` is of
-  // the steps before. The full step is always tried first, then its half, and so on.
-  virtual double try_length(StepReport& step, const StepCount& count) = 0;
-  // Asked of finite energies and movements only; no step to others is taken.
-  virtual bool is_acceptable(const StepReport& step, double energy) const = 0;
-
-  // The iteration goes to the latest trial. `count` includes the step. Returns whether the steps
-  // have come to their end; `report` says whether they have converged.
-  virtual bool accept(const StepReport& step, const StepCount& count,
-                      CurvatureLevelReport& report) = 0;
-
-  // The iteration stays where it is. Returns whether there is another step to try from there.
-  virtual bool reject() = 0;
-};
-
-// Steps until one is the last, or `most` have been tried, or several rejected. Every step is added
-// to report.steps; a rejected one has length 0. What the method throws passes through.
-void run_steps(StepMethod& method, int most, CurvatureLevelReport& report);
 
 // Which steps are the last ones: those of a decrement, or else, where `decrement` is zero, those
 // after which less than `movement` is left to move; and two damped ones that together gain less than

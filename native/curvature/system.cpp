@@ -19,11 +19,13 @@ constexpr int most_of_variation = 24;
 
 constexpr double progress_begin = 0.3, progress_end = 0.85;  // of the whole run
 
-HierarchyOptions hierarchy_options(const Unknowns& unknowns, const GaussNewtonOptions& options) {
+HierarchyOptions hierarchy_options(const Unknowns& unknowns, const GaussNewtonOptions& options,
+                                   bool keeps_factors) {
   HierarchyOptions out;
   out.smoother_degree = options.solve.smoother_degree;
   out.always_factor = unknowns.any_vertex;
   out.cheap_factor = direct_limit_of_steps;
+  out.keeps_factors = keeps_factors;
   // As for the thin plate: the area's share of the diagonal falls from level to level.
   if (options.tension > 0) ++out.settled;
   return out;
@@ -67,7 +69,8 @@ GaussNewtonSystem::GaussNewtonSystem(const ControlMesh& mesh,
     all.push_back({*operators_.back(), l > base ? transfers_.back().get() : nullptr,
                    count_unknowns(grid(l), unknowns)});
   }
-  hierarchy_ = std::make_unique<Hierarchy>(workers, hierarchy_options(unknowns, options), all);
+  hierarchy_ =
+      std::make_unique<Hierarchy>(workers, hierarchy_options(unknowns, options, !constraints), all);
 }
 
 GaussNewtonSystem::~GaussNewtonSystem() = default;
@@ -79,6 +82,7 @@ void GaussNewtonSystem::linearize(int level, LinearizedSurface& surface) {
 }
 
 void GaussNewtonSystem::linearize_below(int level, const LinearizedSurface& about) {
+  op(level).spectrum_changed();
   const Array<double>* fine = &about.points;
   Array<double> buffer[2];
   for (int l = level - 1; l >= base_; --l) {
@@ -87,6 +91,7 @@ void GaussNewtonSystem::linearize_below(int level, const LinearizedSurface& abou
     coarse.resize(3 * grid(l).size());
     inject<3>(grid(l), grid(l + 1), workers(), fine->data(), coarse.data());
     op(l).linearize(coarse.data(), {});  // of total curvature, which cycles are of
+    op(l).spectrum_changed();
     fine = &coarse;
   }
 }
@@ -115,16 +120,14 @@ PcgLimits GaussNewtonSystem::limits(const Functional& functional) const {
   return limits;
 }
 
-double GaussNewtonSystem::solve(int level, const LinearizedSurface& about, bool fresh,
-                                Array<double>& h, Multipliers<1>& held, StepReport& report) {
+double GaussNewtonSystem::solve(int level, const LinearizedSurface& about, Array<double>& h,
+                                Multipliers<1>& held, StepReport& report) {
   const std::size_t points = grid(level).size(), index = std::size_t(level - base_);
   const Functional& functional = about.functional;
   h.assign(points, 0.0);
   if (constraints_) {
     linearize_about(about, held);
-    set_weights(level, fresh);
-  } else {
-    hierarchy_->refresh_lazily(index, fresh);
+    set_weights(level);
   }
   LevelSolve solved;
   Array<double> of_held;  // what holds control vertices, in the force

@@ -103,11 +103,10 @@ class GaussNewtonSystem {
   // Solves K h = force to a hundredth of the residual; h is symmetrized. Where control vertices
   // stand on pads or are held otherwise, the force has the loads' part beside it (solve_held.cpp):
   // `held` takes corrections, from that of the step before; empty loads start as those that fit
-  // best. `fresh`: coarse levels have been linearized, or damped, since the last solve. The linear
-  // solve's part of `report` is set. Returns h . K h = force . h, by which a full step would lower a
+  // best. The linear solve's part of `report` is set. Returns h . K h = force . h, by which a full step would lower a
   // quadratic energy; below zero where the solve, or the loads, have found nothing of use.
-  double solve(int level, const LinearizedSurface& about, bool fresh, Array<double>& h,
-               Multipliers<1>& held, StepReport& report);
+  double solve(int level, const LinearizedSurface& about, Array<double>& h, Multipliers<1>& held,
+               StepReport& report);
 
   // All that `level` has taken so far.
   StepWork work(int level) const;
@@ -118,8 +117,8 @@ class GaussNewtonSystem {
  private:
   PcgLimits limits(const Functional& functional) const;
   void linearize_about(const LinearizedSurface& about, const Multipliers<1>& held);
-  // The springs' present weights, on all levels up to `level`. `spectrum`: as for the hierarchy.
-  void set_weights(int level, bool spectrum);
+  // The springs' present weights, on all levels up to `level`.
+  void set_weights(int level);
   HeldLimits held_limits(int level, const Functional& functional) const;
   // `of_held`: the forces of loads and springs.
   LevelSolve solve_held(int level, const LinearizedSurface& about, Array<double>& h,

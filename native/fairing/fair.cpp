@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// fair() and FairSolver take the same steps, all of them FairingSystems': solve, release, write.
+// fair() and FairSolver take the same steps, both of them FairingSystems': solve, write.
 // fair() gives each surface away; FairSolver keeps it for the next start.
 #include "fairing/fair.h"
 
@@ -15,11 +15,6 @@
 
 namespace fairing {
 namespace {
-
-// The residual to which the thin plate's surface is solved where Gauss-Newton steps only start from
-// it. It balances conjugate gradients on a surface that is left anyway against steps from a worse
-// one.
-constexpr double start_tolerance = 1e-3;
 
 // A shape may repeat the mesh or an earlier shape, as unused shape keys do: the number of the first
 // surface with the same positions, 0 for the mesh itself and s + 1 for shape s; -1: none. Handed
@@ -40,10 +35,11 @@ std::ptrdiff_t same_before(const PolygonMesh& input, const FairOptions& options,
 // points <- one surface from nothing, in world coordinates, its sheets joined.
 void fair_once(FairingSystems& systems, const ControlPositions& control, bool measured,
                Stopwatch& watch, Report& report, Array<double>& points) {
-  PlateState state = systems.solve(control, measured, watch, report, points);
-  systems.move_surface(points);
-  systems.release(control, std::move(state), watch, report, points);
-  systems.write(control, measured, watch, report, points.data(), points.data());
+  Surface surface = systems.solve(control, measured, watch, report);
+  systems.forget_steps();
+  if (!surface.curved.empty()) surface.plate = {};
+  systems.write(control, measured, watch, report, surface, surface.points().data());
+  points = std::move(surface.points());
   const Weld weld(systems.finest());
   if (!weld.needed()) return;
   weld.join(points.data(), points.data());
@@ -242,10 +238,7 @@ Report FairSolver::solve_mended(std::span<const double> coordinates, double* out
     if (!coordinates.empty()) set_control(coordinates);
     solve_basis_first(watch);
     report.warm = !recent_.empty() && !options.has_tolerance() && solve_from_last(watch, report);
-    if (report.warm)
-      systems_->report_held(report);
-    else
-      solve_from_nothing(watch, report);
+    if (!report.warm) solve_from_nothing(watch, report);
     write(watch, report, out);
     systems_->plate().keep_smoother();
     was_far_out_ = lies_far_out(problem_->mesh, control_);
@@ -256,63 +249,31 @@ Report FairSolver::solve_mended(std::span<const double> coordinates, double* out
   });
 }
 
-// What a surface depends on, in working coordinates: where it is held, and the cage where it is drawn to
-// that one's limit surface.
-std::vector<Vec3> FairSolver::positions_of(const ControlPositions& control) const {
-  std::vector<Vec3> out = control.working;
-  if (problem_->held.surface) {
-    const std::vector<Vec3> cage = control.cage_in(problem_->frame);
-    out.insert(out.end(), cage.begin(), cage.end());
-  }
-  return out;
-}
-
 // The metric of a limit surface, and where folds of a plate are filled, are those of the basis,
 // whatever is solved first: then shapes mix, and nothing depends on what was solved before.
 void FairSolver::solve_basis_first(Stopwatch& watch) {
   const ControlPositions& basis = problem_->basis;
   const bool has_metric =
       !problem_->held.surface || systems_->plate().levels().is_measured(problem_->options.levels);
-  if ((has_metric && systems_->knows_folds()) || positions_of(control_) == positions_of(basis))
+  if ((has_metric && systems_->knows_folds()) ||
+      systems_->positions_of(control_) == systems_->positions_of(basis))
     return;
   Report unused = built_;
-  recent_.state() = systems_->solve(basis, false, watch, unused, recent_.surface());
-  recent_.remember(positions_of(basis));
+  recent_.surface() = systems_->solve(basis, false, watch, unused);
+  recent_.remember(systems_->positions_of(basis));
   Array<double> upright;
-  systems_->find_folds_of_basis(recent_.surface().data(), upright);
+  systems_->find_folds_of_basis(recent_.surface().plate.data(), upright);
 }
 
 void FairSolver::solve_from_nothing(Stopwatch& watch, Report& report) {
   recent_.forget();
-  recent_.state() =
-      systems_->solve(control_, problem_->options.measure, watch, report, recent_.surface());
-  recent_.remember(positions_of(control_));
+  recent_.surface() = systems_->solve(control_, problem_->options.measure, watch, report);
+  recent_.remember(systems_->positions_of(control_));
 }
 
 // False where that does not go well: the report is as before then.
 bool FairSolver::solve_from_last(Stopwatch& watch, Report& report) {
-  const FairOptions& options = problem_->options;
-  watch.enter(Phase::solve, 0);
-  GaussNewtonSolver* const gauss_newton = systems_->gauss_newton();
-  if (gauss_newton && !gauss_newton->can_move()) return false;
-  if (gauss_newton) gauss_newton->leave_plate(recent_.surface());
-  recent_.extrapolate(positions_of(control_));
-  const double tolerance = gauss_newton ? std::max(options.solve.relative_residual, start_tolerance)
-                                        : options.solve.relative_residual;
-  const std::span<const Vec3> before = recent_.extrapolated();
-  const std::span<const Vec3> held = before.first(control_.working.size());
-  const Array<double> goal = systems_->goal_of(before.subspan(held.size()), held);
-  systems_->plate().solve_moved({held, control_.working_curves, &goal}, systems_->data_of(control_),
-                                tolerance, recent_.state(), recent_.surface(), report.levels,
-                                [&](const double* start) {
-                                  if (options.measure)
-                                    systems_->measure_prediction(start, watch, report);
-                                });
-  recent_.remember(positions_of(control_));
-  if (!gauss_newton) return true;
-  CurvatureLevelReport& steps = report.curvature.emplace_back();
-  if (gauss_newton->solve_moved(recent_.surface(), problem_->mirrors_of(control_), steps))
-    return true;
+  if (systems_->solve_moved(control_, recent_, watch, report)) return true;
   report.levels.clear();
   report.curvature.clear();
   return false;
@@ -321,17 +282,10 @@ bool FairSolver::solve_from_last(Stopwatch& watch, Report& report) {
 void FairSolver::write(Stopwatch& watch, Report& report, double* out) {
   const FairOptions& options = problem_->options;
   warn_unconverged(report, options, "", report);
-  GaussNewtonSolver* const gauss_newton = systems_->gauss_newton();
-  const Array<double>* x = gauss_newton ? &gauss_newton->surface() : &recent_.surface();
-  if (options.paper.epsilon > 0 && !gauss_newton) {
-    released_ = recent_.surface();
-    systems_->release(control_, recent_.state(), watch, report, released_);
-    x = &released_;
-  }
   const Weld weld(systems_->finest());
   if (weld.needed()) apart_.resize(3 * systems_->finest().size());
   double* const world = weld.needed() ? apart_.data() : out;
-  systems_->write(control_, options.measure, watch, report, x->data(), world);
+  systems_->write(control_, options.measure, watch, report, recent_.surface(), world);
   if (weld.needed()) weld.join(world, out);
 }
 

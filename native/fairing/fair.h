@@ -8,7 +8,6 @@
 
 #include "fairing/mending.h"
 #include "fairing/output.h"
-#include "fairing/recent_surfaces.h"
 #include "fairing/systems.h"
 #include "fairing/weld.h"
 
@@ -63,7 +62,6 @@ class FairSolver {
   Report solve_mended(std::span<const double> coordinates, double* out);
   void rebase_mended(const PolygonMesh& input);
   void set_control(std::span<const double> coordinates);
-  std::vector<Vec3> positions_of(const ControlPositions& control) const;
   void solve_basis_first(Stopwatch& watch);
   void solve_from_nothing(Stopwatch& watch, Report& report);
   bool solve_from_last(Stopwatch& watch, Report& report);
@@ -82,7 +80,6 @@ class FairSolver {
   ControlPositions control_;  // of the last call; solvers hold on to its arrays
   RecentSurfaces recent_;
   bool was_far_out_ = false;  // the last surface is no start for another (fairing/extremes.h)
-  Array<double> released_;    // the last surface, its control vertices released by epsilon
   Array<double> apart_;       // the last surface in world coordinates, where it has several sheets
 };
 

@@ -77,7 +77,7 @@ void RecentSurfaces::extrapolate(std::span<const Vec3> positions) {
     positions_ = earlier_positions_;
     has_earlier_ = true;
   }
-  Loads& loads = state_.loads;
+  Loads& loads = surface_.state.loads;
   earlier_loads_.resize(loads.size(), Vec3::Zero());
   for (std::size_t v = 0; v < loads.size(); ++v) {
     const Vec3 last = loads[v];
@@ -86,19 +86,19 @@ void RecentSurfaces::extrapolate(std::span<const Vec3> positions) {
       loads[v] += coefficients.bottomRows<3>().transpose() * (last - earlier_loads_[v]);
     if (another_kind) earlier_loads_[v] = last;
   }
-  if (earlier_surface_.size() != surface_.size()) earlier_surface_.resize(surface_.size());
-  workers_.for_parts(
-      surface_.size() / 3, vector_grain / 3, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-          Eigen::Map<Vec3> x(surface_.data() + 3 * i), earlier(earlier_surface_.data() + 3 * i);
-          const Vec3 last = x;
-          Vec3 p = last + coefficients.row(0).transpose() +
-                   coefficients.middleRows<3>(1).transpose() * last;
-          if (had_earlier) p += coefficients.bottomRows<3>().transpose() * (last - earlier);
-          if (another_kind) earlier = last;
-          x = p;
-        }
-      });
+  Array<double>& plate = surface_.plate;
+  earlier_plate_.resize(plate.size());
+  workers_.for_parts(plate.size() / 3, vector_grain / 3, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      Eigen::Map<Vec3> x(plate.data() + 3 * i), earlier(earlier_plate_.data() + 3 * i);
+      const Vec3 last = x;
+      Vec3 p =
+          last + coefficients.row(0).transpose() + coefficients.middleRows<3>(1).transpose() * last;
+      if (had_earlier) p += coefficients.bottomRows<3>().transpose() * (last - earlier);
+      if (another_kind) earlier = last;
+      x = p;
+    }
+  });
 }
 
 }  // namespace fairing

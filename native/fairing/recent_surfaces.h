@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "base/types.h"
+#include "fairing/surface.h"
 #include "parallel/memory.h"
 #include "parallel/workers.h"
-#include "thin_plate/plate_state.h"
 
 namespace fairing {
 
@@ -31,19 +31,21 @@ class RecentSurfaces {
   explicit RecentSurfaces(Workers& workers) : workers_(workers) {}
 
   bool empty() const { return !known_; }
-  void forget() { known_ = has_earlier_ = false; }
+  void forget() {
+    known_ = has_earlier_ = false;
+    surface_ = {};
+    earlier_plate_ = {};
+  }
 
-  // The last surface, 3 numbers a point; to be overwritten by the next one before remember().
-  Array<double>& surface() { return surface_; }
-  // What holds it. Loads on pads (constraints/pads.h) change as the surface does, but for translations.
-  PlateState& state() { return state_; }
+  // The last surface, to be overwritten by the next one before remember().
+  Surface& surface() { return surface_; }
   // surface() is that of these control positions.
   void remember(std::span<const Vec3> positions);
 
-  // surface() <- x' for the p' of the form above nearest to these positions, by least squares over
-  // the control vertices. May throw FairingError(cancelled) and bad_alloc.
+  // surface().plate <- x' for the p' of the form above nearest to these positions, by least squares over
+  // the control vertices; its loads on pads change alike, but for translations. May throw FairingError(cancelled) and bad_alloc.
   void extrapolate(std::span<const Vec3> positions);
-  // That p': whose surface surface() now is.
+  // That p': whose plate surface() now has.
   const std::vector<Vec3>& extrapolated() const { return extrapolated_; }
 
  private:
@@ -55,8 +57,8 @@ class RecentSurfaces {
   bool known_ = false, has_earlier_ = false;
   std::vector<Vec3> positions_, earlier_positions_, extrapolated_;
   // The earlier surface is from before the present kind of change: p - p* grows while that lasts.
-  Array<double> surface_, earlier_surface_;
-  PlateState state_;
+  Surface surface_;
+  Array<double> earlier_plate_;
   Loads earlier_loads_;
 };
 

@@ -40,8 +40,8 @@ FairOptions options_of_strain(const FairOptions& given) {
 PlateLoads solve_loads(const FairingProblem& problem, FairingSystems& systems,
                        const ControlPositions& control, Stopwatch& watch) {
   Report report;
-  Array<double> surface;
-  PlateState state = systems.solve(control, false, watch, report, surface);
+  Surface surface = systems.solve(control, false, watch, report);
+  PlateState& state = surface.state;
   PlateLoads out{state.loads, {}};
   ThinPlateSolver& plate = systems.plate();
   if (plate.pads()) {
@@ -50,7 +50,7 @@ PlateLoads solve_loads(const FairingProblem& problem, FairingSystems& systems,
     const CountedBytes counted(moments.size() * sizeof(double));
     if (!moments.empty())
       plate.solve_again(PlateData{control.working, control.working_curves},
-                        problem.options.solve.relative_residual, state, surface, 0, moments);
+                        problem.options.solve.relative_residual, state, surface.plate, 0, moments);
   }
   out.turned = std::move(state.loads);
   return out;

@@ -14,9 +14,15 @@
 #include "grid/linear.h"
 #include "paper/back_leg.h"
 #include "paper/release.h"
+#include "parallel/reductions.h"
 
 namespace fairing {
 namespace {
+
+// The residual to which the thin plate's surface is solved where Gauss-Newton steps only start from
+// it. It balances conjugate gradients on a surface that is left anyway against steps from a worse
+// one.
+constexpr double start_tolerance = 1e-3;
 
 PadReport report_of(const Pads& pads, std::size_t vertices, double unit) {
   PadReport out;
@@ -69,12 +75,11 @@ PlateData FairingSystems::data_of(const ControlPositions& control) {
 }
 
 void FairingSystems::drop() {
-  gauss_newton_.reset();
+  steps_.reset();
   plate_.reset();
 }
 
-std::unique_ptr<GaussNewtonSolver> FairingSystems::make_gauss_newton(
-    const ControlPositions& control) {
+std::unique_ptr<GaussNewtonSolver> FairingSystems::make_steps(const ControlPositions& control) {
   ThinPlateLevels& levels = plate().levels();
   if (problem_.options.energy == Energy::thin_plate || levels.base() > problem_.options.levels)
     return nullptr;
@@ -98,26 +103,53 @@ std::unique_ptr<GaussNewtonSolver> FairingSystems::make_gauss_newton(
       problem_.mirrors_of(control), *problem_.workers, monitor_);
 }
 
-PlateState FairingSystems::solve(const ControlPositions& control, bool measured, Stopwatch& watch,
-                                 Report& report, Array<double>& x) {
+std::vector<Vec3> FairingSystems::positions_of(const ControlPositions& control) const {
+  std::vector<Vec3> out = control.working;
+  if (problem_.held.surface) {
+    const std::vector<Vec3> cage = control.cage_in(problem_.frame);
+    out.insert(out.end(), cage.begin(), cage.end());
+  }
+  return out;
+}
+
+ThinPlateSolver::OnPrediction FairingSystems::on_prediction(bool measured, Stopwatch& watch,
+                                                            Report& report) {
+  if (!measured) return {};
+  return [&](const double* start) {
+    watch.enter(Phase::measure, 0.125);
+    report.prediction = energies(start);
+    watch.enter(Phase::solve, 0.25);
+  };
+}
+
+void FairingSystems::solve_levels(const ControlPositions& control,
+                                  const ThinPlateSolver::OnPrediction& predicted, Report& report,
+                                  Surface& out) {
+  const PlateData data = data_of(control);
+  BallConstraints constraints =
+      plate().begin(problem_.constraints_of(control, problem_.units.weight));
+  PlateSurface surface;
+  for (int level = plate().levels().base(); level <= plate().levels().top(); ++level) {
+    surface = plate().solve_level(level, data, constraints, surface, report.levels, predicted);
+    if (steps_) report.curvature.push_back(steps_->solve_next_level(surface.x, out.curved));
+  }
+  out.plate = std::move(surface.x);
+  out.state = std::move(surface.state);
+}
+
+Surface FairingSystems::solve(const ControlPositions& control, bool measured, Stopwatch& watch,
+                              Report& report) {
   watch.enter(Phase::solve, 0);
-  gauss_newton_.reset();
-  gauss_newton_ = make_gauss_newton(control);
-  const auto on_prediction = [&](const double* start) {
-    if (measured) measure_prediction(start, watch, report);
-  };
-  const auto on_level = [&](int level, Array<double>& points) {
-    if (gauss_newton_) report.curvature.push_back(gauss_newton_->solve_level(level, points));
-  };
+  steps_.reset();
+  steps_ = make_steps(control);
+  const auto predicted = on_prediction(measured, watch, report);
   const PaperOptions& paper = problem_.options.paper;
-  PlateState state;
+  Surface out;
   if (paper.method == Method::back_leg)
-    solve_back_leg(plate().levels(), data_of(control), paper.sweeps, monitor_, x, report.levels,
-                   on_prediction);
+    solve_back_leg(plate().levels(), data_of(control), paper.sweeps, monitor_, out.plate,
+                   report.levels, predicted);
   else
-    state = plate().solve_nested(data_of(control),
-                                 problem_.constraints_of(control, problem_.units.weight), x,
-                                 report.levels, on_prediction, on_level);
+    solve_levels(control, predicted, report, out);
   for (const LevelReport& level : report.levels)
     report.constraint_rounds += level.constraint_rounds;
   report.constraint_gap = report.levels.back().constraint_gap;
@@ -126,31 +158,45 @@ PlateState FairingSystems::solve(const ControlPositions& control, bool measured,
     report.constraint_gap = level.constraint_gap;
   }
   report_held(report);
-  return state;
+  return out;
+}
+
+// The steps' surface goes along with the plate's.
+bool FairingSystems::solve_moved(const ControlPositions& control, RecentSurfaces& recent,
+                                 Stopwatch& watch, Report& report) {
+  const FairOptions& options = problem_.options;
+  watch.enter(Phase::solve, 0);
+  if (steps_ && !steps_->can_move()) return false;
+  Surface& surface = recent.surface();
+  const auto add_plate = [&](double sign) {
+    for_each_index(*problem_.workers, surface.curved.size(),
+                   [&](std::size_t i) { surface.curved[i] += sign * surface.plate[i]; });
+  };
+  add_plate(-1);
+  const std::vector<Vec3> positions = positions_of(control);
+  recent.extrapolate(positions);
+  const double tolerance = steps_ ? std::max(options.solve.relative_residual, start_tolerance)
+                                  : options.solve.relative_residual;
+  const std::span<const Vec3> before = recent.extrapolated();
+  const std::span<const Vec3> held = before.first(control.working.size());
+  const Array<double> goal = goal_of(before.subspan(held.size()), held);
+  plate().solve_moved({held, control.working_curves, &goal}, data_of(control), tolerance,
+                      surface.state, surface.plate, report.levels,
+                      on_prediction(options.measure, watch, report));
+  recent.remember(positions);
+  add_plate(1);
+  if (steps_ && !steps_->solve_moved(problem_.mirrors_of(control), surface.curved,
+                                     report.curvature.emplace_back()))
+    return false;
+  report_held(report);
+  return true;
 }
 
 void FairingSystems::report_held(Report& report) {
-  const Pads* const pads =
-      gauss_newton_ && gauss_newton_->pads() ? gauss_newton_->pads() : plate().pads();
+  const Pads* const pads = steps_ && steps_->pads() ? steps_->pads() : plate().pads();
   if (pads)
     report.pads = report_of(*pads, std::size_t(problem_.mesh.input_vertices), problem_.frame.scale);
   report_normals(problem_.normals, report.levels.back(), report);
-}
-
-void FairingSystems::move_surface(Array<double>& x) {
-  if (!gauss_newton_) return;
-  std::swap(x, gauss_newton_->surface());
-  gauss_newton_.reset();
-}
-
-void FairingSystems::release(const ControlPositions& control, PlateState state, Stopwatch& watch,
-                             Report& report, Array<double>& x) {
-  const double epsilon = problem_.options.paper.epsilon;
-  if (!(epsilon > 0) || problem_.options.energy != Energy::thin_plate) return;
-  watch.enter(Phase::constrain, 0.75);
-  report.constraint_rounds +=
-      release_control_vertices(plate(), data_of(control), epsilon / problem_.frame.scale,
-                               problem_.options.solve.relative_residual, state, x);
 }
 
 // The energy of working coordinates in the unit of world ones.
@@ -161,12 +207,6 @@ SurfaceEnergies FairingSystems::energies(const double* x) {
   e.total_curvature =
       problem_.options.measure ? total_curvature(finest(), *problem_.workers, x) : NAN;
   return e;
-}
-
-void FairingSystems::measure_prediction(const double* start, Stopwatch& watch, Report& report) {
-  watch.enter(Phase::measure, 0.125);
-  report.prediction = energies(start);
-  watch.enter(Phase::solve, 0.25);
 }
 
 void FairingSystems::find_folds_of_basis(const double* x, Array<double>& upright) {
@@ -203,7 +243,18 @@ FairingSystems::Upright FairingSystems::unfolded(const ControlPositions& control
 }
 
 void FairingSystems::write(const ControlPositions& control, bool measured, Stopwatch& watch,
-                           Report& report, const double* x, double* world) {
+                           Report& report, const Surface& surface, double* world) {
+  const double* x = surface.points().data();
+  Array<double> released;
+  if (releases()) {
+    watch.enter(Phase::constrain, 0.75);
+    released = surface.plate;
+    PlateState state = surface.state;
+    report.constraint_rounds += release_control_vertices(
+        plate(), data_of(control), problem_.options.paper.epsilon / problem_.frame.scale,
+        problem_.options.solve.relative_residual, state, released);
+    x = released.data();
+  }
   const Upright upright = unfolded(control, report, x);
   x = upright.x;
   warn_of_thickness(finest(), *problem_.workers, x, problem_.options, report);

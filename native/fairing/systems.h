@@ -8,6 +8,7 @@
 
 #include "curvature/solver.h"
 #include "fairing/problem.h"
+#include "fairing/recent_surfaces.h"
 #include "fairing/unfold_plate.h"
 #include "thin_plate/solver.h"
 
@@ -23,43 +24,29 @@ class FairingSystems {
   // The thin plate's, built again where it has been dropped. Its smoother adapts to the surfaces
   // that are solved until keep_smoother().
   ThinPlateSolver& plate();
-  // What the thin plate's surface of these positions is to come up to. Valid until the next call, and
-  // as long as `control` is.
-  PlateData data_of(const ControlPositions& control);
-  // The limit surface of a cage in working coordinates on the finest level, with control vertices where
-  // they are held; empty where nothing is drawn to it.
-  Array<double> goal_of(std::span<const Vec3> cage, std::span<const Vec3> held);
+  // What a surface depends on, in working coordinates: where it is held, and the cage where it is drawn to
+  // that one's limit surface.
+  std::vector<Vec3> positions_of(const ControlPositions& control) const;
   const GridLevel& finest() { return plate().levels().grid(problem_.options.levels); }
   // Gives the memory of all of them back.
   void drop();
 
-  // One surface from nothing, level by level: the thin plate's into x, 3 numbers a point in working
-  // coordinates; that of a curvature energy is gauss_newton()->surface(), and `control` must
-  // outlive it. Reports levels, steps and rounds; the prediction's energies only where they are to
-  // be `measured`. Returns what holds the plate.
-  PlateState solve(const ControlPositions& control, bool measured, Stopwatch& watch, Report& report,
-                   Array<double>& x);
+  // One surface from nothing, level by level: the thin plate's, then Gauss-Newton steps from there for a
+  // curvature energy. Reports levels, steps and rounds; the prediction's energies only where they are to
+  // be `measured`.
+  Surface solve(const ControlPositions& control, bool measured, Stopwatch& watch, Report& report);
+  // The same from the last surface, which these systems have found, to the finest level's alone. False:
+  // that does not go well, and solve() has to. `control` must outlive the next call.
+  bool solve_moved(const ControlPositions& control, RecentSurfaces& recent, Stopwatch& watch,
+                   Report& report);
+  // Frees what only solve_moved() needs.
+  void forget_steps() { steps_.reset(); }
 
-  // What solve() has built for a curvature energy; null for the thin plate.
-  GaussNewtonSolver* gauss_newton() { return gauss_newton_.get(); }
-  // x <- the surface that solve() has found, given x as solve() left it. Frees gauss_newton().
-  void move_surface(Array<double>& x);
-  // How wide the pads of the latest surface are, and how its fixed normals came out.
-  void report_held(Report& report);
-
-  // The thin plate's surface x, held by `state`, after control vertices have been released by
-  // epsilon; the same where that is not asked for.
-  void release(const ControlPositions& control, PlateState state, Stopwatch& watch, Report& report,
-               Array<double>& x);
-
-  // For use during a solve: the energies of its start x on the finest level.
-  void measure_prediction(const double* x, Stopwatch& watch, Report& report);
-
-  // The surface x, in working coordinates, to `world`, which may be the same array; its energies,
-  // where they are to be `measured`, its deviation and what is to be said of its thickness to `report`. Throws too_extreme where the
-  // surface is not finite.
+  // The surface to `world`, which may be the array of its points, with control vertices released by
+  // epsilon where that is asked for; its energies, where they are to be `measured`, its deviation and
+  // what is to be said of its thickness to `report`. Throws too_extreme where the surface is not finite.
   void write(const ControlPositions& control, bool measured, Stopwatch& watch, Report& report,
-             const double* x, double* world);
+             const Surface& surface, double* world);
 
   // Whether it is known where a plate's folds are filled, or no plate is the surface.
   bool knows_folds() const {
@@ -77,13 +64,28 @@ class FairingSystems {
     std::optional<ControlPositions> control{};
   };
   Upright unfolded(const ControlPositions& control, Report& report, const double* x);
+  // What the thin plate's surface of these positions is to come up to. Valid until the next call, and
+  // as long as `control` is.
+  PlateData data_of(const ControlPositions& control);
+  // The limit surface of a cage in working coordinates on the finest level, with control vertices where
+  // they are held; empty where nothing is drawn to it.
+  Array<double> goal_of(std::span<const Vec3> cage, std::span<const Vec3> held);
+  std::unique_ptr<GaussNewtonSolver> make_steps(const ControlPositions& control);
+  void solve_levels(const ControlPositions& control, const ThinPlateSolver::OnPrediction& predicted,
+                    Report& report, Surface& out);
+  // How wide the pads of the latest surface are, and how its fixed normals came out.
+  void report_held(Report& report);
   SurfaceEnergies energies(const double* x);
-  std::unique_ptr<GaussNewtonSolver> make_gauss_newton(const ControlPositions& control);
+  // During a solve: the energies of its start x on the finest level, where they are to be `measured`.
+  ThinPlateSolver::OnPrediction on_prediction(bool measured, Stopwatch& watch, Report& report);
+  bool releases() const {
+    return problem_.options.paper.epsilon > 0 && problem_.options.energy == Energy::thin_plate;
+  }
 
   const FairingProblem& problem_;
   Monitor& monitor_;
   std::unique_ptr<ThinPlateSolver> plate_;
-  std::unique_ptr<GaussNewtonSolver> gauss_newton_;
+  std::unique_ptr<GaussNewtonSolver> steps_;  // of a curvature energy, once a surface is solved
   // Of the basis, once that has been solved; other positions get the same linear map, so that mixes of
   // shapes are shapes of mixes.
   std::optional<PlateRepair> repair_;

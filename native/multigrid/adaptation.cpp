@@ -80,7 +80,7 @@ bool Hierarchy::is_too_hard(std::size_t index, const PcgLimits& limits) const {
 void Hierarchy::promote_to_coarsest(std::size_t index) {
   coarse_ =
       std::make_unique<CoarseSolver>(*cycle_.levels[index].op, workers_, unknowns_[index], true);
-  is_factor_old_ = false;
+  factored_ = cycle_.levels[index].op->version();
   ++factors_;
   cycle_.coarse = coarse_.get();
   cycle_.base = index;

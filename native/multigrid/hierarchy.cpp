@@ -56,38 +56,37 @@ Hierarchy::Hierarchy(Workers& workers, const HierarchyOptions& options,
                                            options_.always_factor);
   cycle_.coarse = coarse_.get();
   cycle_.base = end;
+  factored_ = cycle_.levels[end].op->version();
   factors_ += coarse_->direct();
 }
 
-void Hierarchy::refresh(std::size_t top, bool spectrum) {
-  if (coarse_->direct() && top >= cycle_.base) refactor();
-  refactor_lines(top);
-  if (spectrum)
-    for (std::size_t l = 0; l <= top; ++l) cycle_.levels[l].largest_eigenvalue = 0;
+// Lines keep their points unless others are unknowns. A level's eigenvalue follows from those below.
+void Hierarchy::update(std::size_t top) {
+  int spectrum = 0;
+  for (std::size_t l = 0; l <= top; ++l) {
+    CycleLevel& level = cycle_.levels[l];
+    const OperatorVersion& now = level.op->version();
+    if (now.unknowns != level.version.unknowns) level.lines.reset();
+    if (level.lines && now.numbers != level.version.numbers) level.lines->refactor();
+    level.version = now;
+    spectrum += now.spectrum;
+    if (std::exchange(level.spectrum, spectrum) != spectrum) level.largest_eigenvalue = 0;
+  }
 }
 
-void Hierarchy::refresh_lazily(std::size_t top, bool fresh) {
-  if (top == cycle_.base && coarse_->direct() && (!fresh || unknowns_[top] > most_refactored))
-    is_factor_old_ = true;
-  else if (fresh)
-    refresh(top, true);
-  else if (cycle_.levels[top].lines)
-    cycle_.levels[top].lines->refactor();
+bool Hierarchy::is_factor_old() const {
+  return coarse_->direct() && factored_.numbers != cycle_.levels[cycle_.base].op->version().numbers;
 }
 
-void Hierarchy::change_unknowns(std::size_t top) {
-  for (CycleLevel& level : cycle_.levels) level.lines.reset();
-  refresh(top, true);
-}
-
-void Hierarchy::refactor_lines(std::size_t top) {
-  for (std::size_t l = 0; l <= top; ++l)
-    if (cycle_.levels[l].lines) cycle_.levels[l].lines->refactor();
+bool Hierarchy::may_keep_factor() const {
+  const OperatorVersion& now = cycle_.levels[cycle_.base].op->version();
+  return options_.keeps_factors && now.unknowns == factored_.unknowns &&
+         (now.spectrum == factored_.spectrum || unknowns_[cycle_.base] > most_refactored);
 }
 
 void Hierarchy::refactor() {
   coarse_->refactor();
-  is_factor_old_ = false;
+  factored_ = cycle_.levels[cycle_.base].op->version();
   ++factors_;
 }
 
@@ -99,9 +98,13 @@ LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits, const Li
     solve_direct(solver, limits, system, out);
     return out;
   }
-  if (index == cycle_.base && coarse_->direct()) {
-    if (is_factor_old_ && solve_by_old_factor(limits, system, out)) return out;
-    if (is_factor_old_) refactor();
+  update(index);
+  const bool solves = index == cycle_.base && coarse_->direct();
+  if (is_factor_old()) {
+    if (solves && may_keep_factor() && solve_by_old_factor(limits, system, out)) return out;
+    refactor();
+  }
+  if (solves) {
     solve_direct(*coarse_, limits, system, out);
     if (out.converged) return out;
   }

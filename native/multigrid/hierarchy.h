@@ -25,6 +25,9 @@ constexpr int usual_degree = 3;
 struct HierarchyOptions {
   int smoother_degree = 0;     // 0: chosen from how the solves go, beginning with the usual one
   bool always_factor = false;  // the coarsest level is ill-conditioned, however large
+  // Whether operators change as from one step of many to the next: a factor of the level that is solved
+  // on then goes on as a preconditioner as long as it serves.
+  bool keeps_factors = false;
   // Unknowns of a level up to which a factor costs little.
   std::size_t cheap_factor = direct_limit_of_hard;
   // From this level on, the coarsest being 0, the largest eigenvalue is that of the level below.
@@ -63,15 +66,6 @@ class Hierarchy {
   // From here on the smoother adapts to nothing.
   void keep_smoother() { adapts_ = false; }
 
-  // Call after operators have changed on the levels up to `top`. `spectrum`: so much that the
-  // largest eigenvalues have.
-  void refresh(std::size_t top, bool spectrum);
-  // After the operator of level `top` has changed as from one step of many to the next, and those
-  // below with it where they are `fresh`: a factor of that level itself goes on as a preconditioner
-  // as long as it serves.
-  void refresh_lazily(std::size_t top, bool fresh);
-  // Call after the operators have taken other unknowns: lines that others are on are sought anew.
-  void change_unknowns(std::size_t top);
   // How often a level has been factored.
   int factors() const { return factors_; }
 
@@ -87,8 +81,11 @@ class Hierarchy {
                      double solve_gain);
 
  private:
+  // Brings what is kept of the operators up to their versions, but for the factor.
+  void update(std::size_t top);
+  bool is_factor_old() const;
+  bool may_keep_factor() const;
   void refactor();
-  void refactor_lines(std::size_t top);
   PcgResult iterate(std::size_t index, const PcgLimits& limits, const LinearSystem& system,
                     const std::function<void(const PcgResult&)>& each, LevelSolve& out);
   bool solve_by_old_factor(const PcgLimits& limits, const LinearSystem& system, LevelSolve& out);
@@ -117,7 +114,7 @@ class Hierarchy {
   std::vector<std::size_t> unknowns_;
   VCycle cycle_;
   std::unique_ptr<CoarseSolver> coarse_;
-  bool is_factor_old_ = false;  // of another K than its level's
+  OperatorVersion factored_;  // the version that the factor is of
   int factors_ = 0;
   int degree_of_two_ = 0;  // the smoother's, where two cycles precondition (LinearSystem::between)
   PcgState pcg_;

@@ -65,6 +65,13 @@ struct SmoothingStep {
   bool adds_d;
 };
 
+// How often an operator has changed: what is kept of it is as old as the count that it was made at.
+struct OperatorVersion {
+  int numbers = 0;   // of K
+  int spectrum = 0;  // K, by so much that its largest eigenvalue is another
+  int unknowns = 0;  // which points are unknowns
+};
+
 // A symmetric positive definite operator on the unknown points of a level. Vectors hold
 // components() interleaved numbers a point, which the operator does not mix: x, y and z, or one
 // displacement. Results are zero on points that are not unknowns. All calls throw where the run has
@@ -89,10 +96,15 @@ class LevelOperator {
   virtual void relax(const SmoothingStep& step, Workers& workers);
   virtual void subtract_product(const float* x, float* room, float* y, Workers& workers);
 
+  const OperatorVersion& version() const { return version_; }
+
   virtual AssembledSystem assemble() const = 0;  // small levels only
   // Offers K's couplings where lines are still sought, and adds its numbers along them. Where nothing
   // is offered, the smoother has no lines.
   virtual void write_lines(LineBand&, Workers&) {}
+
+ protected:
+  OperatorVersion version_;  // for those who change K to count up
 };
 
 }  // namespace fairing

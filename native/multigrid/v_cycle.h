@@ -68,7 +68,9 @@ struct CycleLevel {
   LevelOperator* op = nullptr;
   LevelTransfer* transfer = nullptr;  // to the next coarser level; null on the coarsest
   std::unique_ptr<LineJacobi> lines;  // of the smoother; null: not yet sought
-  double largest_eigenvalue = 0;
+  double largest_eigenvalue = 0;      // 0: unknown
+  OperatorVersion version{};          // that the lines are of
+  int spectrum = 0;  // that the eigenvalue is of: counted on all levels up to this one
   SmootherState state;
 };
 

@@ -48,6 +48,7 @@ class ThinPlateLevel final : public LevelOperator {
     surface_ = std::make_unique<SurfaceDifferences>(grid_, shared_.stencils, metric,
                                                     shared_.unknowns, shared_.workers);
     matrix_ = PlateMatrix::make(grid_, *surface_, shared_.unknowns, shared_.workers);
+    ++version_.spectrum;
     update();
   }
   bool is_measured() const { return surface_ != nullptr; }
@@ -132,6 +133,7 @@ class ThinPlateLevel final : public LevelOperator {
  private:
   // The diagonal, of K and weights as they are now.
   void update() {
+    ++version_.numbers;
     if (matrix_) {
       matrix_->set_weights(weights_);
       inverse_diagonal_ = matrix_->inverse_diagonal(shared_.workers);

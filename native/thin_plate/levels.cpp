@@ -85,7 +85,6 @@ ThinPlateLevels::ThinPlateLevels(const ControlMesh& mesh, const Stencils& stenci
 
 void ThinPlateLevels::set_weights(const VertexWeights& weights, int level) {
   for (int l = base_; l <= level; ++l) operators_[index(l)]->set_weights(weights);
-  hierarchy_->refresh(index(level), false);
 }
 
 void ThinPlateLevels::put_fixed(int level, const PlateData& data, double* x) const {
@@ -125,7 +124,6 @@ void ThinPlateLevels::restrict_to_vertices(int level, const double* r, std::span
 void ThinPlateLevels::measure(int level, const double* x, const ThinPlateOptions::Pull& pull) {
   const Array<float> own = on_level<1>(grids_, level, *pull.of_points, workers());
   operators_[index(level)]->measure({x, own.data(), pull.exponent});
-  hierarchy_->refresh(index(level), true);
 }
 
 Array<double> ThinPlateLevels::goal(int level, const PlateData& data) {

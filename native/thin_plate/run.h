@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One surface's way up the levels: what a nested solve, that of a difference, and one on the finest
-// level alone have in common.
+// One level of the plate: what a level of a nested solve, of that of a difference, and a solve on the
+// finest level alone have in common.
 #pragma once
 
 #include "constraints/held_solve.h"
@@ -12,11 +12,9 @@ struct ThinPlateSolver::Run {
   ThinPlateSolver& solver;
   const PlateData& data;
   PlateState& state;
-  Array<double>& x;                  // of the present level, with room for the finest
+  Array<double>& x;                  // of the level
   Array<double> r{};                 // its residual
-  Array<double> below{};             // the surface of the level below
   Array<double> goal{};              // that it is drawn to; or empty
-  Loads forces_below{};              // of its hats, where they say how loads change; or empty
   double rough_force = 0;            // of what loads carry: the forces that may be left anyway
   std::span<const double> forces{};  // on the points of the finest level; or empty
 
@@ -25,12 +23,11 @@ struct ThinPlateSolver::Run {
   int top() const { return levels().top(); }
   std::size_t size(int level) const { return 3 * levels().grid(level).size(); }
 
-  // What x holds is of the level below: it is kept, and x gets room. Then the level's metric, where
-  // it is to have that of a surface: of its start, on the coarsest level of the goal.
-  void begin(int level);
-  void take_metric(int level);
-  // State and x <- the start of a level. `foretells`: whether forces say how loads change.
-  void start(int level, bool foretells);
+  // x and r get room. Then the level's metric, where it is to have that of a surface: of its start, on
+  // the coarsest level of the goal.
+  void begin(int level, const PlateSurface& below);
+  // State, forces and x <- the start of a level. `foretells`: whether forces say how loads change.
+  void start(int level, bool foretells, const PlateSurface& below, Loads& forces);
 
   PcgLimits limits(int level, double tolerance, double energy, double* room);
 

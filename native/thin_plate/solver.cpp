@@ -28,25 +28,22 @@ ThinPlateSolver::ThinPlateSolver(const ControlMesh& mesh, const ChartMaker& char
       levels_(mesh, stencils, std::move(unknowns), weights, options, workers, monitor),
       supports_(charts, options, levels_) {}
 
-void ThinPlateSolver::Run::begin(int level) {
-  x.resize(size(top()));
-  below.resize(level > base() ? size(level - 1) : 0);
-  for_each_index(levels().workers(), below.size(), [&](std::size_t i) { below[i] = x[i]; });
-  r.resize(size(top()));
+void ThinPlateSolver::Run::begin(int level, const PlateSurface& below) {
+  x.resize(size(level));
+  r.resize(size(level));
   goal = levels().goal(level, data);
-  take_metric(level);
-}
-
-void ThinPlateSolver::Run::take_metric(int level) {
   const ThinPlateOptions::Pull& pull = solver.options_.pull;
   if (!pull.of_points || levels().is_measured(level)) return;
-  if (level > base()) levels().start(level, data, below, x);
+  if (level > base()) levels().start(level, data, below.x, x);
   levels().measure(level, level > base() ? x.data() : goal.data(), pull);
 }
 
-void ThinPlateSolver::Run::start(int level, bool foretells) {
-  solver.supports_.start(level, foretells, state, forces_below);
-  levels().start(level, data, below, x);
+void ThinPlateSolver::Run::start(int level, bool foretells, const PlateSurface& below,
+                                 Loads& forces) {
+  state = level > base() ? below.state : solver.supports_.unheld();
+  forces = below.forces;
+  solver.supports_.start(level, foretells, state, forces);
+  levels().start(level, data, below.x, x);
 }
 
 // `room` for a surface: the control polyhedron.
@@ -77,53 +74,54 @@ void ThinPlateSolver::Run::report_done(int level, double done) const {
   solver.monitor_.report(Phase::solve, share);
 }
 
-PlateState ThinPlateSolver::solve_nested(const PlateData& data, ControlConstraints held,
-                                         Array<double>& x, std::vector<LevelReport>& reports,
-                                         const OnPrediction& on_prediction,
-                                         const OnLevel& on_level) {
-  BallConstraints balls(std::move(held), supports_.stiffness());
-  BallConstraints* const constraints = balls.active() ? &balls : nullptr;
-  if (levels_.weights(levels_.top()) != balls.weights())
-    levels_.set_weights(balls.weights(), levels_.top());
-  const auto tolerance = [&](int level) {
-    return level >= levels_.top() ? options_.solve.relative_residual
-                                  : std::max(coarse_tolerance, options_.solve.relative_residual);
-  };
-  PlateState state = supports_.unheld();
-  Run run{*this, data, state, x};
-  double energy_below = 0;  // energies hardly change from level to level
-  for (int l = run.base(); l <= run.top(); ++l) {
-    monitor_.report(Phase::solve, std::pow(share_of_coarser, run.top() - l + 1));
-    if (constraints && l > run.base()) {
-      constraints->renew_springs(x.data());
-      levels_.set_weights(constraints->weights(), l);
-    }
-    run.begin(l);
-    PcgLimits limits = run.limits(l, tolerance(l), energy_below, x.data());
-    const Loads loads = state.loads, forces_below = run.forces_below;
-    run.start(l, !constraints);
-    if (l == run.top() && on_prediction) on_prediction(x.data());
-    if (l == run.base()) limits.energy_scale = std::sqrt(levels_.energy(l, x.data()));
-    if (l == run.top()) state.limits = limits;
-    Run::Solved solved = run.solve(l, limits, constraints);
-    if (supports_.deactivate_diverged_pads(l, data.targets, x.data())) {
-      state.loads = loads;
-      run.forces_below = forces_below;
-      run.start(l, !constraints);
-      const LevelReport diverged = solved.report;
-      solved = run.solve(l, limits, constraints);
-      solved.report.iterations += diverged.iterations;
-      solved.report.pad_corrections += diverged.pad_corrections;
-    }
-    reports.push_back(solved.report);
-    if (l < run.top()) {
-      energy_below = levels_.energy(l, x.data());
-      levels_.hierarchy().choose_degree(solved.equivalent, tolerance(l), tolerance(l + 1),
-                                        solve_gain);
-    }
-    on_level(l, x);
+BallConstraints ThinPlateSolver::begin(ControlConstraints held) {
+  BallConstraints out(std::move(held), supports_.stiffness());
+  if (levels_.weights(levels_.top()) != out.weights())
+    levels_.set_weights(out.weights(), levels_.top());
+  return out;
+}
+
+double ThinPlateSolver::tolerance_of(int level) const {
+  const double wanted = options_.solve.relative_residual;
+  return level >= levels_.top() ? wanted : std::max(coarse_tolerance, wanted);
+}
+
+PlateSurface ThinPlateSolver::solve_level(int level, const PlateData& data,
+                                          BallConstraints& constraints, const PlateSurface& below,
+                                          std::vector<LevelReport>& reports,
+                                          const OnPrediction& on_prediction) {
+  const bool is_base = level == levels_.base(), is_top = level == levels_.top();
+  monitor_.report(Phase::solve, std::pow(share_of_coarser, levels_.top() - level + 1));
+  BallConstraints* const active = constraints.active() ? &constraints : nullptr;
+  if (active && !is_base) {
+    active->renew_springs(below.x.data());
+    levels_.set_weights(active->weights(), level);
   }
-  return state;
+  PlateSurface out;
+  Run run{*this, data, out.state, out.x};
+  run.begin(level, below);
+  PcgLimits limits = run.limits(level, tolerance_of(level), below.energy, out.x.data());
+  run.start(level, !active, below, out.forces);
+  if (is_top && on_prediction) on_prediction(out.x.data());
+  // Energies hardly change from level to level.
+  if (is_base) limits.energy_scale = std::sqrt(levels_.energy(level, out.x.data()));
+  if (is_top) out.state.limits = limits;
+  Run::Solved solved = run.solve(level, limits, active);
+  if (supports_.deactivate_diverged_pads(level, data.targets, out.x.data())) {
+    run.start(level, !active, below, out.forces);
+    if (is_top) out.state.limits = limits;
+    const LevelReport diverged = solved.report;
+    solved = run.solve(level, limits, active);
+    solved.report.iterations += diverged.iterations;
+    solved.report.pad_corrections += diverged.pad_corrections;
+  }
+  reports.push_back(solved.report);
+  if (!is_top) {
+    out.energy = levels_.energy(level, out.x.data());
+    levels_.hierarchy().choose_degree(solved.equivalent, tolerance_of(level),
+                                      tolerance_of(level + 1), solve_gain);
+  }
+  return out;
 }
 
 void ThinPlateSolver::solve_moved(const PlateData& before, const PlateData& data, double tolerance,
@@ -184,17 +182,18 @@ void ThinPlateSolver::add_difference(const PlateData& before, const PlateData& d
   rough.from_start = true;
   rough.noise = state.limits.noise;
   rough.max_iterations = options_.solve.max_iterations;
-  PlateState change = supports_.unheld();
-  Array<double> difference;
-  Run run{*this, moving, change, difference};
-  for (int l = run.base(); l <= run.top(); ++l) {
-    run.begin(l);
-    run.start(l, true);
+  PlateSurface change;
+  for (int l = levels_.base(); l <= levels_.top(); ++l) {
+    const PlateSurface below = std::exchange(change, {});
+    Run run{*this, moving, change.state, change.x};
+    run.begin(l, below);
+    run.start(l, true, below, change.forces);
     if (l < run.top()) reports.push_back(run.solve(l, rough, nullptr).report);
   }
-  for_each_index(levels_.workers(), x.size(), [&](std::size_t i) { x[i] += difference[i]; });
-  for (std::size_t v = 0; v < state.loads.size(); ++v) state.loads[v] += change.loads[v];
-  for (std::size_t c = 0; c < state.moments.size(); ++c) state.moments[c] += change.moments[c];
+  for_each_index(levels_.workers(), x.size(), [&](std::size_t i) { x[i] += change.x[i]; });
+  for (std::size_t v = 0; v < state.loads.size(); ++v) state.loads[v] += change.state.loads[v];
+  for (std::size_t c = 0; c < state.moments.size(); ++c)
+    state.moments[c] += change.state.moments[c];
 }
 
 LevelReport ThinPlateSolver::solve_again(const PlateData& data, double tolerance, PlateState& state,

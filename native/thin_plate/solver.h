@@ -6,18 +6,24 @@
 #include <functional>
 #include <vector>
 
+#include "constraints/ball_constraints.h"
 #include "thin_plate/supports.h"
 
 namespace fairing {
 
-class ControlConstraints;
+// The surface of one level, which the next level's starts from.
+struct PlateSurface {
+  Array<double> x;  // 3 numbers a point
+  PlateState state;
+  Loads forces{};     // of its hats, where they say how loads change; or empty
+  double energy = 0;  // 0 on the finest level
+};
 
 // The thin plate of a control mesh, in working coordinates. Builds every level once; solves as often
 // as weights or control positions change. Throws what its levels throw.
 class ThinPlateSolver {
  public:
   using OnPrediction = std::function<void(const double* x)>;
-  using OnLevel = std::function<void(int level, Array<double>& x)>;
 
   // `charts` are those of the stencils. All references but to charts and options must outlive the
   // solver.
@@ -32,18 +38,20 @@ class ThinPlateSolver {
   // Likewise; null where no normal is fixed.
   std::shared_ptr<const LevelCouples> couples() { return supports_.couples(levels_.top()); }
 
-  // Of a surface that nothing holds yet.
-  PlateState unheld() const { return supports_.unheld(); }
-
   // From here on the smoother stays as it is, so that a surface depends on its own shape alone.
   void keep_smoother() { levels_.hierarchy().keep_smoother(); }
 
-  // Full multigrid: from the control polyhedron to the solution on the finest level. Where `held` is
-  // active, weights are chosen on each level. `on_prediction` sees the finest level's start; `on_level`
-  // may change x after each level's solve.
-  PlateState solve_nested(const PlateData& data, ControlConstraints held, Array<double>& x,
-                          std::vector<LevelReport>& reports, const OnPrediction& on_prediction,
-                          const OnLevel& on_level);
+  // Of a surface that nothing holds yet.
+  PlateState unheld() const { return supports_.unheld(); }
+
+  // What holds control vertices that move, with its first weights on all levels.
+  BallConstraints begin(ControlConstraints held);
+  // One level of full multigrid: the solution from that of the level below, on the coarsest from the
+  // control polyhedron. Constraints that are active choose the level's weights. `on_prediction` sees
+  // the start.
+  PlateSurface solve_level(int level, const PlateData& data, BallConstraints& constraints,
+                           const PlateSurface& below, std::vector<LevelReport>& reports,
+                           const OnPrediction& on_prediction);
 
   // From x, a surface of `before`, whose curves do not count, that has left this state, to that of `data`
   // on the finest level, to `tolerance`: the difference first, roughly and level by level.
@@ -60,6 +68,7 @@ class ThinPlateSolver {
 
  private:
   struct Run;
+  double tolerance_of(int level) const;
   void add_difference(const PlateData& before, const PlateData& data, PlateState& state,
                       Array<double>& x, std::vector<LevelReport>& reports);
 

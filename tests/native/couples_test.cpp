@@ -139,8 +139,8 @@ TEST(Couples, HoldTheNormals) {
       const std::unique_ptr<const FairingProblem> problem =
           make_problem(bent.view(), options, watch, report);
       FairingSystems run(*problem, monitor);
-      Array<double> x;
-      const PlateState state = run.solve(problem->basis, false, watch, report, x);
+      const Surface surface = run.solve(problem->basis, false, watch, report);
+      const Array<double>& x = surface.plate;
       ThinPlateSolver& system = run.plate();
       ThinPlateShared& shared = system.levels().shared();
       ASSERT_NE(system.couples(), nullptr);
@@ -154,8 +154,8 @@ TEST(Couples, HoldTheNormals) {
       std::vector<double> forces(3 * grid.size()), held(3 * grid.size(), 0.0);
       apply_thin_plate(grid, shared.double_rows, rows, {}, *problem->workers, shared.double_slots,
                        x.data(), forces.data());
-      if (system.hats()) system.hats()->add_loads(state.loads, held.data());
-      system.couples()->add(state.moments, held.data());
+      if (system.hats()) system.hats()->add_loads(surface.state.loads, held.data());
+      system.couples()->add(surface.state.moments, held.data());
       double largest = 0, left = 0;
       for (std::size_t i = 0; i < held.size(); ++i) {
         largest = std::max(largest, std::abs(held[i]));

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The Gauss-Newton solver's parts alone: the step loop on a problem in one variable, and which start
-// a level takes.
+// The Gauss-Newton solver's parts alone: which start a level takes, and steps from there.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -39,109 +38,6 @@ TEST(LeftToMove, BeginsAnewAfterARejectedStep) {
   left.forget();
   EXPECT_EQ(left.last_decrement(), 0);
   EXPECT_EQ(left.after(0.01, 0.5, true), 0.5);
-}
-
-// Minimizes (x - target)^2 by steps that are `stretch` times the right one.
-class Parabola final : public StepMethod {
- public:
-  double x = 0, target = 1, stretch = 1;
-  bool goes_on_after_rejection = true;
-  std::vector<int> rejected_before;  // as each full step saw it
-
-  bool begin(CurvatureLevelReport& report) override {
-    report.converged = energy(x) < 1e-12;
-    return !report.converged;
-  }
-  void find_step(StepReport& step) override {
-    direction_ = stretch * (target - x);
-    step.energy = energy(x);
-  }
-  double try_length(StepReport& step, const StepCount& count) override {
-    if (step.length == 1) rejected_before.push_back(count.rejected);
-    trial_ = x + step.length * direction_;
-    step.movement = std::abs(trial_ - x);
-    return energy(trial_);
-  }
-  bool is_acceptable(const StepReport& step, double energy) const override {
-    return energy < step.energy;
-  }
-  bool accept(const StepReport& step, const StepCount& count, CurvatureLevelReport&) override {
-    x = trial_;
-    accepted = count.accepted;
-    return step.movement < smallest;
-  }
-  bool reject() override {
-    stretch /= shrink;
-    return goes_on_after_rejection;
-  }
-
-  int accepted = 0;
-  double smallest = 0, shrink = 4;
-
- private:
-  double energy(double at) const { return (at - target) * (at - target); }
-  double direction_ = 0, trial_ = 0;
-};
-
-TEST(StepLoop, EndsWhereNothingIsLeft) {
-  Parabola method;
-  CurvatureLevelReport report;
-  run_steps(method, 10, report);
-  EXPECT_EQ(method.x, 1);
-  EXPECT_TRUE(report.converged);
-  ASSERT_EQ(report.steps.size(), 1);
-  EXPECT_EQ(report.steps[0].length, 1);
-}
-
-TEST(StepLoop, HalvesStepsThatAreTooLong) {
-  Parabola method;
-  method.stretch = 3;  // half of it gains, all of it does not
-  method.smallest = 10;
-  CurvatureLevelReport report;
-  run_steps(method, 10, report);
-  ASSERT_EQ(report.steps.size(), 1);  // the first one is as small as was asked
-  EXPECT_EQ(report.steps[0].length, 0.5);
-  EXPECT_EQ(method.x, 1.5);
-}
-
-TEST(StepLoop, TriesAgainWhereNoLengthWillDo) {
-  Parabola method;
-  method.stretch =
-      40;  // an eighth of it is five times too long; after a quarter of that it will do
-  CurvatureLevelReport report;
-  run_steps(method, 3, report);
-  ASSERT_EQ(report.steps.size(), 3);
-  EXPECT_EQ(report.steps[0].length, 0);
-  EXPECT_EQ(report.steps[1].length, 0.125);
-  EXPECT_EQ(method.rejected_before, (std::vector<int>{0, 1, 1}));
-  EXPECT_EQ(method.accepted, 2);
-  EXPECT_EQ(method.x, 0.9375);
-}
-
-TEST(StepLoop, GivesUp) {
-  Parabola uphill;
-  uphill.stretch = -1;
-  CurvatureLevelReport report;
-  run_steps(uphill, 10, report);
-  EXPECT_EQ(report.steps.size(), 10);  // rejections
-  EXPECT_EQ(uphill.x, 0);
-  EXPECT_FALSE(report.converged);
-
-  Parabola once;
-  once.stretch = -1;
-  once.goes_on_after_rejection = false;
-  CurvatureLevelReport of_one;
-  run_steps(once, 10, of_one);
-  EXPECT_EQ(of_one.steps.size(), 1);
-}
-
-TEST(StepLoop, TakesAtMostSoManySteps) {
-  Parabola method;
-  method.stretch = 0.5;
-  CurvatureLevelReport report;
-  run_steps(method, 3, report);
-  EXPECT_EQ(report.steps.size(), 3);
-  EXPECT_EQ(method.x, 0.875);
 }
 
 // Levels 0 to 3 of an octahedron, whose vertices are given.
@@ -216,6 +112,57 @@ TEST(Start, StaysThePlateWhereTheSolutionBelowIsWorse) {
   EXPECT_EQ(iterate.current.points, plate);
   EXPECT_NE(iterate.current.number,
             iterate.op().linearizations());  // the other candidate's is later
+}
+
+// A step to where all is flat, or from a surface that is nowhere, is none.
+TEST(Steps, EndWhereNothingIsLeft) {
+  Levels levels;
+  SurfaceIterate iterate{*levels.system};
+  CurvatureSteps steps(iterate, levels.options);
+  CurvatureLevelReport report;
+  choose_start(iterate, 2, nullptr, levels.sphere(2), {}, {}, report);
+  steps.run_plain(nullptr, steps.accurate_end(), long_patience, report);
+  EXPECT_TRUE(report.converged);
+  const std::size_t count = report.steps.size();
+  EXPECT_LT(count, 8);
+  steps.run_plain(nullptr, steps.accurate_end(), long_patience, report);
+  EXPECT_LE(report.steps.size(), count + 2);  // from there it is near
+
+  for (double& x : iterate.current.points) x = NAN;
+  iterate.linearize();
+  CurvatureLevelReport nowhere;
+  steps.run_plain(nullptr, steps.accurate_end(), long_patience, nowhere);
+  EXPECT_TRUE(nowhere.steps.empty());
+  EXPECT_FALSE(nowhere.converged);
+}
+
+// Damped ones go down, however crumpled the start; there are as many as are allowed, rejected ones
+// among them.
+TEST(Steps, AreShortenedUntilTheyGoDown) {
+  Levels levels;
+  levels.options.max_steps = 4;
+  bool any_shorter = false;
+  for (const double roughness : {0.1, 0.4, 0.8}) {
+    SurfaceIterate iterate{*levels.system};
+    CurvatureSteps steps(iterate, levels.options);
+    CurvatureLevelReport report;
+    Array<double> rough = levels.sphere(3);
+    for (std::size_t i = 3 * std::size_t(levels.mesh.vertex_count()); i < rough.size(); ++i)
+      rough[i] *= 1 + roughness * std::sin(double(i * i));
+    choose_start(iterate, 3, nullptr, rough, {}, {}, report);
+    const StepStart start{iterate.current.points, {}, report};
+    steps.run_damped(nullptr, start, {}, report);
+    EXPECT_EQ(report.last_steps, int(report.steps.size()));
+    EXPECT_LE(report.steps.size(), 4);
+    double energy = report.start_energy;
+    for (const StepReport& step : report.steps) {
+      EXPECT_LE(step.energy, 1.001 * energy) << roughness;
+      energy = step.energy;
+      any_shorter |= step.length < 1;
+    }
+    EXPECT_LT(report.energy, report.start_energy) << roughness;
+  }
+  EXPECT_TRUE(any_shorter);
 }
 
 }  // namespace

@@ -293,8 +293,8 @@ TEST(Pads, HoldTheSurface) {
       const std::unique_ptr<const FairingProblem> problem =
           make_problem(bent.view(), options, watch, report);
       FairingSystems run(*problem, monitor);
-      Array<double> x;
-      const PlateState state = run.solve(problem->basis, false, watch, report, x);
+      const Surface surface = run.solve(problem->basis, false, watch, report);
+      const Array<double>& x = surface.plate;
       ThinPlateSolver& system = run.plate();
       ThinPlateShared& shared = system.levels().shared();
       const GridLevel& grid = run.finest();
@@ -305,7 +305,7 @@ TEST(Pads, HoldTheSurface) {
       std::vector<double> forces(3 * grid.size()), loads(3 * grid.size(), 0.0);
       apply_thin_plate(grid, shared.double_rows, system.pads()->rows(), {}, *problem->workers,
                        shared.double_slots, x.data(), forces.data());
-      system.hats()->add_loads(state.loads, loads.data());
+      system.hats()->add_loads(surface.state.loads, loads.data());
       double largest = 0, left = 0;
       for (std::size_t i = 0; i < loads.size(); ++i) {
         largest = std::max(largest, std::abs(loads[i]));
