@@ -17,7 +17,7 @@ constexpr int lane_count = 4;
 // point itself, the others counter-clockwise. Readable for lane_count - 1 points beyond the run.
 struct RunRings {
   int size = 0;  // neighbours, at most 8
-  bool far[most_slots] = {};
+  std::uint8_t far[most_slots] = {};
   const double* at[most_slots][3] = {};
   const float* lift[most_slots] = {};  // null: none
 };

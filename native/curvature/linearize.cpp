@@ -193,8 +193,7 @@ double CurvatureLevel::linearize(const double* x, const Functional& functional,
     const auto store_alone = [&](std::size_t i, const RingInSpace& ring, bool closed) {
       const double e = point.store(ring, closed, energy_, weight(i), rows, i, force);
       const Vec3& normal = point.rows.point.normal;
-      const Vec3 axis = wants_axis ? chart_axis(normal, ring.view(true).offset, point.rows.chart)
-                                   : Vec3(Vec3::Zero());
+      const Vec3 axis = wants_axis ? chart_axis(normal, point.rows.chart) : Vec3(Vec3::Zero());
       put_point(run.first + i, normal, point.rows.shape, point.root, axis);
       if (varies()) point.store_cotangents(ring, cotangents, i);
       return e;

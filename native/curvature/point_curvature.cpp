@@ -1,74 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "curvature/point_curvature.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "stencil/angle.h"
-#include "stencil/fit.h"
+#include "curvature/ring_fan.h"
 
 namespace fairing {
 namespace {
 
-// A neighbour with the reciprocal of its squared distance.
-struct Neighbour {
-  Vec3 p;
-  double square, inverse;
-  explicit Neighbour(const Vec3& offset)
-      : p(offset), square(offset.squaredNorm()), inverse(1 / square) {}
-};
-
-// What two neighbours span at p_i.
-struct Wedge {
-  Vec3 cross;
-  double sine, cosine;  // times both lengths
-  Wedge(const Neighbour& a, const Neighbour& b)
-      : cross(a.p.cross(b.p)), sine(cross.norm()), cosine(a.p.dot(b.p)) {}
-};
-
-// Sums over the triangles between the point and its ring.
-struct Fan {
-  Vec3 normal = Vec3::Zero();
-  Vec3 laplacian = Vec3::Zero();  // half cotangents times offsets
-  double circumcentric = 0, barycentric = 0;
-  std::vector<double>& cotangent;
-
-  explicit Fan(std::vector<double>& c) : cotangent(c) {}
-
-  void add(const Neighbour& a, std::size_t a_place, const Neighbour& b, std::size_t b_place,
-           const Wedge& wedge, double weight) {
-    if (!(wedge.sine * wedge.sine > thinnest_ring_square * a.square * b.square)) return;
-    normal += (weight * a.inverse * b.inverse) * wedge.cross;
-    const double scale = 0.5 * weight / wedge.sine;
-    const double at_a = scale * (a.square - wedge.cosine), at_b = scale * (b.square - wedge.cosine);
-    laplacian += at_b * a.p + at_a * b.p;
-    cotangent[a_place] += at_b;
-    cotangent[b_place] += at_a;
-    circumcentric += 0.25 * (at_b * a.square + at_a * b.square);
-    barycentric += weight / 6 * wedge.sine;
-  }
-};
-
-// The product of two turns.
-Vec2 turned(const Vec2& a, const Vec2& b) {
-  return {a.x() * b.x() - a.y() * b.y(), a.x() * b.y() + a.y() * b.x()};
-}
-
-// On entry chart[j] is the unit vector of the angle between neighbours j - 1 and j, and angle[j]
-// its size, for j > 0. `total` angles become a full turn.
-void lay_out(std::span<Vec2> chart, std::span<const double> angle, double total,
-             const SurfaceRing& ring) {
-  const double excess = full_turn / total - 1;
-  Vec2 direction(1, 0), correction;
-  chart[0] = direction * ring.offset[0].norm();
-  for (std::size_t j = 1; j < chart.size(); ++j) {
-    small_turn(excess * angle[j], correction.x(), correction.y());
-    direction = turned(direction, turned(chart[j], correction));
-    chart[j] = direction * ring.offset[j].norm();
-  }
-}
+using Fan = RingFan<double>;
 
 // Of an open ring, which few points have.
 Vec3 open_hessian(const SurfaceChart& chart) {
@@ -79,40 +21,21 @@ Vec3 open_hessian(const SurfaceChart& chart) {
   return hessian;
 }
 
-// Sums over the ring; false where two points coincide. `angle`, if wanted: into chart.ring and
-// chart.height, for lay_out(), and their total.
+// False where a neighbour is at the point itself. `angles`: whether they are wanted.
 template <bool angles>
-bool sum_up(const SurfaceRing& ring, SurfaceChart& chart, Fan& fan, double& total) {
+bool sum_up(const SurfaceRing& ring, SurfaceChart& chart, Fan& fan) {
   const std::size_t size = ring.offset.size();
-  if (size == 0) return false;
-  chart.ring.resize(size);
-  chart.height.resize(size);
-  chart.cotangent.assign(size, 0.0);
-  const Neighbour first(ring.offset[0]);
-  Neighbour a = first;
-  if (!(a.square > ring_nearest)) return false;
-  const std::size_t end = ring.closed ? size : size - 1;
-  for (std::size_t j = 1; j <= end; ++j) {
-    const std::size_t here = j < size ? j : 0;
-    const Neighbour b = here ? Neighbour(ring.offset[j]) : first;
-    if (!(b.square > ring_nearest)) return false;
-    const Wedge wedge(a, b);
-    fan.add(a, j - 1, b, here, wedge, ring.far[j - 1] || ring.far[here] ? 0.5 : 1.0);
-    if (ring.far[here]) {
-      const std::size_t next = here + 1 < size ? here + 1 : 0;
-      const Neighbour c(ring.offset[next]);
-      if (!(c.square > ring_nearest)) return false;
-      fan.add(a, j - 1, c, next, Wedge(a, c), 0.5);
-    }
-    if constexpr (angles) {
-      const double inverse = std::sqrt(a.inverse * b.inverse);
-      chart.ring[here] = Vec2(wedge.cosine * inverse, wedge.sine * inverse);
-      chart.height[here] = angle_of(chart.ring[here].y(), chart.ring[here].x(), 1);
-      total += chart.height[here];
-    }
-    a = b;
+  chart.neighbour.resize(size);
+  bool apart = size > 0;
+  for (std::size_t j = 0; j < size; ++j) {
+    const Vec3& p = ring.offset[j];
+    chart.neighbour[j].p = {p.x(), p.y(), p.z()};
+    Fan::measure(chart.neighbour[j], apart);
   }
-  return true;
+  fan.at = chart.neighbour.data();
+  fan.size = int(size);
+  if (apart) fan.sum_up<angles>(ring.far.data(), ring.closed, apart);
+  return apart;
 }
 
 // Of a ring whose sums give no curvature: none where it has shrunk to nothing, but infinite where
@@ -123,44 +46,48 @@ PointCurvature without_shape(const SurfaceRing& ring) {
   return {};
 }
 
-void lift_cotangents(const SurfaceRing& ring, SurfaceChart& chart, Fan& fan) {
-  for (std::size_t j = 0; j < ring.offset.size(); ++j) {
-    double& cotangent = chart.cotangent[j];
-    const double extra = std::max(ring.own_lift, ring.lift[j]) * std::max(-cotangent, 0.0);
-    cotangent += extra;
-    fan.laplacian += extra * ring.offset[j];
-    fan.circumcentric += 0.25 * extra * ring.offset[j].squaredNorm();
+// What the fits read of it.
+void read_chart(const SurfaceRing& ring, const Fan& fan, const Vec3& normal, SurfaceChart& chart) {
+  const std::size_t size = ring.offset.size();
+  for (auto* numbers : {&chart.height, &chart.weight, &chart.rest, &chart.cotangent})
+    numbers->resize(size);
+  chart.ring.resize(size);
+  for (std::size_t j = 0; j < size; ++j) {
+    const RingNeighbour<double>& n = fan.at[j];
+    chart.ring[j] = n.radius * Vec2(n.turn.cosine, n.turn.sine);
+    chart.height[j] = normal.dot(ring.offset[j]);
+    chart.weight[j] = n.weight;
+    chart.cotangent[j] = n.cotangent;
   }
 }
 
 }  // namespace
 
 float area_lift(const SurfaceRing& ring, SurfaceChart& chart) {
-  Fan fan(chart.cotangent);
-  double total = 0;
-  if (!ring.closed || !sum_up<false>(ring, chart, fan, total)) return 0;
+  Fan fan{};
+  if (!ring.closed || !sum_up<false>(ring, chart, fan)) return 0;
   const double missing = least_area_share * fan.barycentric - fan.circumcentric;
   if (!(missing > 0)) return 0;
   double negative = 0;
-  for (std::size_t j = 0; j < ring.offset.size(); ++j)
-    negative += 0.25 * std::max(-chart.cotangent[j], 0.0) * ring.offset[j].squaredNorm();
+  for (const RingNeighbour<double>& n : chart.neighbour)
+    negative += 0.25 * std::max(-n.cotangent, 0.0) * n.square;
   return negative > missing ? float(missing / negative) : 1.0f;
 }
 
 PointCurvature point_curvature(const SurfaceRing& ring, SurfaceChart& chart) {
-  const std::size_t size = ring.offset.size();
-  Fan fan(chart.cotangent);
-  double total = 0;
-  if (!sum_up<true>(ring, chart, fan, total)) return without_shape(ring);
-  chart.rest.resize(size);
-  chart.weight.resize(size);
-  if (!ring.lift.empty()) lift_cotangents(ring, chart, fan);
+  Fan fan{};
+  if (!sum_up<true>(ring, chart, fan)) return without_shape(ring);
+  if (!ring.lift.empty())
+    fan.lift([&](int j, double& share) {
+      share = double(std::max(ring.own_lift, ring.lift[std::size_t(j)]));
+    });
+  bool usable = true;
+  fan.normalize(usable);
+  if (!usable) return without_shape(ring);
   PointCurvature out;
-  const double length = fan.normal.norm();
-  if (!(length > 0 && total > 0 && std::isfinite(length))) return without_shape(ring);
-  out.normal = fan.normal / length;
-  lay_out(chart.ring, chart.height, ring.closed ? total : full_turn, ring);
-  for (std::size_t j = 0; j < size; ++j) chart.height[j] = out.normal.dot(ring.offset[j]);
+  out.normal = {fan.normal.x, fan.normal.y, fan.normal.z};
+  fan.lay_out(ring.closed ? fan.total : full_turn, ring.far.data(), usable);
+  read_chart(ring, fan, out.normal, chart);
 
   if (!ring.closed) {
     const Vec3 hessian = open_hessian(chart);
@@ -169,17 +96,17 @@ PointCurvature point_curvature(const SurfaceRing& ring, SurfaceChart& chart) {
     out.trace_free = {hessian[1], hessian[2]};
     return out;
   }
-  for (std::size_t j = 0; j < size; ++j)
-    chart.weight[j] = (ring.far[j] ? far_corner_weight : 1.0) / chart.ring[j].squaredNorm();
   out.area = std::max(fan.circumcentric, least_area_share * fan.barycentric);
-  out.trace = out.normal.dot(fan.laplacian) / out.area;
+  double of_cotangents;
+  Fan::dot(fan.normal, fan.laplacian, of_cotangents);
+  out.trace = of_cotangents / out.area;
   if (out.area != fan.circumcentric)
     out.trace += (1 - fan.circumcentric / out.area) * std::numbers::sqrt2 *
                  fitted_hessian(chart.ring, chart.height, chart.weight)[0];
   // What the trace explains is not the trace-free part's; the same where the ring determines a
   // quadratic.
-  for (std::size_t j = 0; j < size; ++j)
-    chart.rest[j] = chart.height[j] - 0.25 * out.trace * chart.ring[j].squaredNorm();
+  for (std::size_t j = 0; j < chart.rest.size(); ++j)
+    chart.rest[j] = chart.height[j] - 0.25 * out.trace * fan.at[j].square;
   const Vec3 hessian = fitted_hessian(chart.ring, chart.rest, chart.weight);
   out.trace_free = {hessian[1], hessian[2]};
   return out;
@@ -212,17 +139,13 @@ void linearize(const SurfaceRing& ring, CurvatureEnergy energy, ShapeRows& out) 
   for (const Vec3& row : out.row) out.own -= row;
 }
 
-Vec3 chart_axis(const Vec3& normal, std::span<const Vec3> ring, const SurfaceChart& chart) {
-  if (ring.empty()) return Vec3::Zero();
-  const Vec3 u = (ring[0] - ring[0].dot(normal) * normal).normalized(), v = normal.cross(u);
-  Vec2 turn = Vec2::Zero();
-  for (std::size_t j = 0; j < ring.size(); ++j) {
-    const Vec2 d = Vec2(ring[j].dot(u), ring[j].dot(v)).normalized(),
-               c = chart.ring[j].normalized();
-    turn += Vec2(d.dot(c), d.y() * c.x() - d.x() * c.y());
-  }
-  turn.normalize();
-  return turn.x() * u + turn.y() * v;
+Vec3 chart_axis(const Vec3& normal, SurfaceChart& chart) {
+  if (chart.neighbour.empty()) return Vec3::Zero();
+  Fan fan{
+      chart.neighbour.data(), int(chart.neighbour.size()), {normal.x(), normal.y(), normal.z()}};
+  Fan::Vector axis;
+  fan.find_axis(axis);
+  return {axis.x, axis.y, axis.z};
 }
 
 }  // namespace fairing

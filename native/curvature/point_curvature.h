@@ -50,6 +50,23 @@ struct SurfaceRing {
   float own_lift = 0;
 };
 
+// A neighbour on the way to a chart, of one point or of a pack of them (ring_fan.h).
+template <class N>
+struct RingNeighbour {
+  struct Vector {
+    N x, y, z;
+  };
+  struct Turn {
+    N cosine, sine;
+  };
+
+  Vector p;                                   // p_j - p_i
+  N square, radius, inverse, inverse_radius;  // its length, squared, and reciprocals
+  Turn turn;            // from the neighbour before; once laid out, the direction in the chart
+  N angle;              // of that turn
+  N cotangent, weight;  // as in SurfaceChart
+};
+
 // The chart of a ring: the exponential map of the surface itself. Edge lengths are radii; the
 // angles between neighbours are summed from the first one, which lies on the u axis, and scaled to
 // a full turn.
@@ -59,6 +76,7 @@ struct SurfaceChart {
   std::vector<double> weight;     // of the neighbours in the fit of the trace-free part
   std::vector<double> rest;       // the heights without the trace's part
   std::vector<double> cotangent;  // half the cotangents across the edge to p_j, added up
+  std::vector<RingNeighbour<double>> neighbour;
 };
 
 struct PointCurvature {
@@ -145,6 +163,6 @@ void linearize(const SurfaceRing& ring, CurvatureEnergy energy, ShapeRows& out);
 // The chart's u axis in space. Charts scale their angles to a full turn, so that no neighbour's
 // direction agrees with the chart's but by chance; the axis is where all of them agree best,
 // whichever neighbour the chart started from.
-Vec3 chart_axis(const Vec3& normal, std::span<const Vec3> ring, const SurfaceChart& chart);
+Vec3 chart_axis(const Vec3& normal, SurfaceChart& chart);
 
 }  // namespace fairing

@@ -65,45 +65,25 @@ bool round_fit(const std::vector<Vec2>& ring, FitRows& rows) {
   return true;
 }
 
-Vec3 orthonormal(double uu, double uv, double vv) {
-  return {root_half * (uu + vv), root_half * (uu - vv), std::numbers::sqrt2 * uv};
-}
-
 using Round = RoundFit<double>;
 
 // False where the ring does not determine a quadratic. No weights: all are one.
 bool make(std::span<const Vec2> ring, std::span<const double> weight, Round& fit) {
   if (ring.size() < 5) return false;
-  double uu = 0, uv = 0, vv = 0;
-  for (std::size_t j = 0; j < ring.size(); ++j) {
-    const Vec2 &p = ring[j], q = weight.empty() ? p : Vec2(weight[j] * p);
-    uu += q.x() * p.x();
-    uv += q.x() * p.y();
-    vv += q.y() * p.y();
-  }
   bool determined = true;
   const auto neighbour = [&](int j, double& u, double& v, double& w) {
     u = ring[std::size_t(j)].x();
     v = ring[std::size_t(j)].y();
     w = weight.empty() ? 1.0 : weight[std::size_t(j)];
   };
-  fit.make(int(ring.size()), uu, uv, vv, neighbour, determined);
+  fit.make(int(ring.size()), neighbour, determined);
   return determined;
 }
 
-// sum += neighbour p's terms times g.
-void add(const Round& fit, const Vec2& p, double g, Round::Term& sum) {
-  Round::Term t;
-  fit.term(p.x(), p.y(), t);
-  sum.x += g * t.x, sum.y += g * t.y, sum.a += g * t.a, sum.b += g * t.b, sum.c += g * t.c;
-}
-
 Vec3 hessian(const Round& fit, const Round::Term& sum) {
-  double xx, xy, yy;
-  fit.solve(sum, xx, xy, yy);
-  const double w0 = fit.w0, w1 = fit.w1, w2 = fit.w2;
-  return orthonormal(w0 * w0 * xx + 2 * w0 * w1 * xy + w1 * w1 * yy, w2 * (w0 * xy + w1 * yy),
-                     w2 * w2 * yy);
+  Vec3 out;
+  fit.hessian(sum, out[0], out[1], out[2]);
+  return out;
 }
 
 }  // namespace
@@ -136,7 +116,8 @@ Vec3 fitted_hessian(std::span<const Vec2> ring, std::span<const double> differen
   if (!make(ring, weight, round)) return StagedHessian(ring)(difference);
   Round::Term sum;
   for (std::size_t j = 0; j < ring.size(); ++j)
-    add(round, ring[j], weight.empty() ? difference[j] : weight[j] * difference[j], sum);
+    round.add(ring[j].x(), ring[j].y(), weight.empty() ? difference[j] : weight[j] * difference[j],
+              sum);
   return hessian(round, sum);
 }
 
@@ -147,7 +128,7 @@ void hessian_rows(std::span<const Vec2> ring, std::span<const double> weight,
   if (make(ring, weight, round)) {
     for (std::size_t j = 0; j < ring.size(); ++j) {
       Round::Term sum;
-      add(round, ring[j], weight.empty() ? 1.0 : weight[j], sum);
+      round.add(ring[j].x(), ring[j].y(), weight.empty() ? 1.0 : weight[j], sum);
       rows[j] = hessian(round, sum);
     }
     return;

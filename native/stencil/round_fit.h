@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cmath>
+#include <numbers>
+#include <type_traits>
 
 #include "base/simd.h"
 #include "stencil/fit.h"
@@ -16,22 +18,23 @@ namespace fairing {
 //
 //   a = x^2 + y^2,    b = x^2 - y^2,    c = 2 x y.
 //
-// N is double or a pack; S a single number of it. A pack divides by each pivot once, and multiplies
-// from then on; a number divides.
+// N is double or a pack; S a single number of it.
 template <class N, class S = N>
 struct RoundFit {
-  static constexpr bool is_pack = sizeof(N) != sizeof(S);
-
   // A neighbour's x, y, a, b, c, or sums of such.
   struct Term {
     N x{}, y{}, a{}, b{}, c{};
   };
-  // uu, uv, vv: the ring's weighted second moments. ring(j, u, v, weight) sets the coordinates and
-  // the weight of neighbour j. `determined` &= whether, and in which lanes, they determine a
-  // quadratic; elsewhere nothing of the fit may be used.
+  // ring(j, u, v, weight) sets the coordinates and the weight of neighbour j. `determined` &= whether,
+  // and in which lanes, they determine a quadratic; elsewhere nothing of the fit may be used.
   template <class Ring, class Mask>
-  DF_INLINE void make(int size, const N& uu, const N& uv, const N& vv, const Ring& ring,
-                      Mask& determined) {
+  DF_INLINE void make(int size, const Ring& ring, Mask& determined) {
+    N uu{}, uv{}, vv{};
+    for (int j = 0; j < size; ++j) {
+      N u, v, weight;
+      ring(j, u, v, weight);
+      uu += weight * u * u, uv += weight * u * v, vv += weight * v * v;
+    }
     determined &= uu > S(0);
     const N rest = vv - uv * uv / uu;
     determined &= rest > S(thinnest_ring_square) * uu;
@@ -65,11 +68,42 @@ struct RoundFit {
     determined &= (d1 > least) & ((d1 - least) * (t22 - least) > t12 * t12);
     l21 = t12 / d1;
     const N d2 = t22 - l21 * t12;
-    set_pivot(s00, pivot[0]);
-    set_pivot(d1, pivot[1]);
-    set_pivot(d2, pivot[2]);
+    inverse[0] = S(1) / s00;
+    inverse[1] = S(1) / d1;
+    inverse[2] = S(1) / d2;
   }
 
+  // sum += what a neighbour there has, times g.
+  DF_INLINE void add(const N& u, const N& v, const N& g, Term& sum) const {
+    Term t;
+    term(u, v, t);
+    sum.x += g * t.x, sum.y += g * t.y, sum.a += g * t.a, sum.b += g * t.b, sum.c += g * t.c;
+  }
+
+  // The Hessian, in the components of stencil/fit.h, of the quadratic whose right-hand side `sum` is:
+  // of the neighbours' terms times their weights and differences.
+  DF_INLINE void hessian(const Term& sum, N& trace, N& difference, N& mixed) const {
+    const N r0 = sum.a - each * (sum.x * xa + sum.y * ya),
+            r1 = sum.b - each * (sum.x * xb + sum.y * yb),
+            r2 = sum.c - each * (sum.x * xc + sum.y * yc);
+    const N z1 = r1 - l10 * r0;
+    const N c2 = inverse[2] * (r2 - l20 * r0 - l21 * z1);
+    const N c1 = inverse[1] * z1 - l21 * c2;
+    const N c0 = inverse[0] * r0 - l10 * c1 - l20 * c2;
+    const N xx = S(2) * (c0 + c1), xy = S(2) * c2, yy = S(2) * (c0 - c1);
+    const N uu = w0 * w0 * xx + S(2) * w0 * w1 * xy + w1 * w1 * yy, vv = w2 * w2 * yy;
+    trace = S(root_half) * (uu + vv);
+    difference = S(root_half) * (uu - vv);
+    mixed = S(std::numbers::sqrt2) * (w2 * (w0 * xy + w1 * yy));
+  }
+
+ private:
+  DF_INLINE static void root(const N& of, N& out) {
+    if constexpr (std::is_arithmetic_v<N>)
+      out = std::sqrt(of);
+    else
+      for (int l = 0; l < int(sizeof(N) / sizeof(S)); ++l) out[l] = std::sqrt(of[l]);
+  }
   DF_INLINE void term(const N& u, const N& v, Term& t) const {
     t.x = w0 * u;
     t.y = w1 * u + w2 * v;
@@ -79,51 +113,11 @@ struct RoundFit {
     t.c = S(2) * t.x * t.y;
   }
 
-  // The second derivatives by x and y of the quadratic whose right-hand side `sum` is: of the
-  // neighbours' terms times their weights and differences.
-  DF_INLINE void solve(const Term& sum, N& xx, N& xy, N& yy) const {
-    const N r0 = sum.a - each * (sum.x * xa + sum.y * ya),
-            r1 = sum.b - each * (sum.x * xb + sum.y * yb),
-            r2 = sum.c - each * (sum.x * xc + sum.y * yc);
-    const N z1 = r1 - l10 * r0;
-    N c0, c1, c2;
-    divide(r2 - l20 * r0 - l21 * z1, pivot[2], c2);
-    divide(z1, pivot[1], c1);
-    c1 = c1 - l21 * c2;
-    divide(r0, pivot[0], c0);
-    c0 = c0 - l10 * c1 - l20 * c2;
-    xx = S(2) * (c0 + c1);
-    xy = S(2) * c2;
-    yy = S(2) * (c0 - c1);
-  }
-
-  N w0, w1, w2;
-
- private:
-  DF_INLINE static void root(const N& of, N& out) {
-    if constexpr (is_pack) {
-      for (int l = 0; l < int(sizeof(N) / sizeof(S)); ++l) out[l] = std::sqrt(of[l]);
-    } else {
-      out = std::sqrt(of);
-    }
-  }
-  DF_INLINE static void set_pivot(const N& value, N& out) {
-    if constexpr (is_pack)
-      out = S(1) / value;
-    else
-      out = value;
-  }
-  DF_INLINE static void divide(const N& x, const N& by, N& out) {
-    if constexpr (is_pack)
-      out = x * by;
-    else
-      out = x / by;
-  }
-
   S each;
+  N w0, w1, w2;
   N xa, ya, xb, yb, xc, yc;
   N l10, l20, l21;
-  N pivot[3];
+  N inverse[3];  // of the pivots
 };
 
 }  // namespace fairing
