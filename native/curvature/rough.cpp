@@ -51,7 +51,7 @@ void RoughSteps::polish(CurvatureLevelReport& report) {
   if (!is_near(report, damped_decrement)) return;
   LinearizedSurface before = it_.current;
   CurvatureLevelReport polished = report;
-  steps_.polish(longest_climb, report.energy, polished);
+  steps_.polish(longest_climb, polished);
   polished.folds = unfolding_.find().count();
   if (polished.folds <= report.folds)
     report = std::move(polished);

@@ -19,12 +19,10 @@ class RoughSteps {
   // were not as near to a solution). `report` begins anew with it. Throws ErrorCode::cancelled.
   void run(Pads* pads, const StepStart& start, CurvatureLevelReport& report);
 
-  // Takes away the pads within which the surface turns too far for them.
-  void leave_turned(Pads& pads);
-
  private:
   void run_on_points(const StepStart& start, CurvatureLevelReport& report);
   void go_onto(Pads& pads, const StepStart& start, CurvatureLevelReport& report);
+  void leave_turned(Pads& pads);
   void leave_all(Pads& pads);
   void leave(Pads& pads, std::size_t v);
   // Plain steps to the end, where these make no folds.

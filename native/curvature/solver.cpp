@@ -104,7 +104,7 @@ void GaussNewtonSolver::vary(bool is_plain, CurvatureLevelReport& report) {
 bool GaussNewtonSolver::step(const StepStart& start, CurvatureLevelReport& report) {
   if (below_.is_plain) steps_.run_plain(pads_.now(), end(), long_patience, report);
   const bool is_plain = below_.is_plain && is_settled(report);
-  if (is_plain && is_finest()) leave_folds(report);
+  if (is_plain && is_finest()) report.folds_before = report.folds = unfolding_.find().count();
   if (is_lost(is_plain)) return false;
   if (is_plain && report.folds == 0) return true;
   const Found plain = found(report);
@@ -114,18 +114,6 @@ bool GaussNewtonSolver::step(const StepStart& start, CurvatureLevelReport& repor
     return false;
   go_back_to(plain, report);
   return true;
-}
-
-// Where the surface of plain steps folds, pads cannot hold it: without them it may not.
-void GaussNewtonSolver::leave_folds(CurvatureLevelReport& report) {
-  report.folds_before = report.folds = unfolding_.find().count();
-  if (report.folds == 0 || !pads_.now()) return;
-  const Found folded = found(report);
-  rough_.leave_turned(*pads_.now());
-  iterate_.linearize();  // other pads
-  steps_.run_plain(pads_.now(), end(), short_patience, report);
-  report.folds = unfolding_.find().count();
-  if (!is_settled(report) || report.folds >= folded.report.folds) go_back_to(folded, report);
 }
 
 bool GaussNewtonSolver::OwnPads::take() {
@@ -155,7 +143,7 @@ void GaussNewtonSolver::end_constraints(CurvatureLevelReport& report) {
   if (any_moved) constraints_.enforce(surface().data());
   iterate_.current.held.bounds.clear();
   system_.let_go(constraints_.without_held(), iterate_.level, iterate_.current);
-  if (any_moved) steps_.polish(short_patience, iterate_.current.energy, report);
+  if (any_moved) steps_.polish(short_patience, report);
 }
 
 double GaussNewtonSolver::tension_of(const Array<double>& x) {

@@ -71,8 +71,6 @@ class GaussNewtonSolver {
   void go_back_to(const Found& found, CurvatureLevelReport& report);
 
   StepEnd end();
-  // On the finest level: counts folds; where there are any, pads beside them go, if that helps.
-  void leave_folds(CurvatureLevelReport& report);
   // The hold ends, in the system too: its control vertices stay where they are from here on. The
   // surface follows by a few plain steps, if these settle.
   void end_constraints(CurvatureLevelReport& report);

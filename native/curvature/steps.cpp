@@ -323,24 +323,15 @@ void CurvatureSteps::run_damped(Pads* pads, const StepStart& start, const Array<
   run(pads, &damping, {damped_decrement, 0, worthwhile_gain}, 0, report);
 }
 
-template <class Steps>
-void CurvatureSteps::try_on(Steps&& steps, double decrement, double energy,
-                            CurvatureLevelReport& report) {
+void CurvatureSteps::polish(int patience, CurvatureLevelReport& report) {
   LinearizedSurface before = iterate_.current;
   CurvatureLevelReport after = report;
   after.converged = false;
-  steps(after);
-  if (is_near(after, decrement) && after.energy <= equal_energy * energy)
+  run_plain(iterate_.current.functional.pads, accurate_end(), patience, after);
+  if (is_near(after, plain_decrement) && after.energy <= equal_energy * before.energy)
     report = std::move(after);
   else
     iterate_.current = std::move(before);
-}
-
-void CurvatureSteps::polish(int patience, double energy, CurvatureLevelReport& report) {
-  Pads* const pads = iterate_.current.functional.pads;
-  try_on(
-      [&](CurvatureLevelReport& polished) { run_plain(pads, accurate_end(), patience, polished); },
-      plain_decrement, energy, report);
 }
 
 }  // namespace fairing

@@ -89,8 +89,8 @@ class CurvatureSteps {
   void run_variation(const StepEnd& end, CurvatureLevelReport& report);
 
   // Plain steps to the step tolerance, on what the surface stands on. Unless they come near it, with
-  // hardly more energy than `energy`, surface and report are as before.
-  void polish(int patience, double energy, CurvatureLevelReport& report);
+  // hardly more energy, surface and report are as before.
+  void polish(int patience, CurvatureLevelReport& report);
 
   // Where the surface is as near to the solution as was promised.
   StepEnd accurate_end() const { return {0, options_.step_tolerance}; }
@@ -98,9 +98,6 @@ class CurvatureSteps {
  private:
   void run(Pads* pads, LocalDamping* damping, const StepEnd& end, int patience,
            CurvatureLevelReport& report);
-  // Takes back what `steps` have done unless they come to that decrement, with hardly more energy.
-  template <class Steps>
-  void try_on(Steps&& steps, double decrement, double energy, CurvatureLevelReport& report);
 
   SurfaceIterate& iterate_;
   const GaussNewtonOptions& options_;
