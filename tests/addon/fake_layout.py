@@ -41,10 +41,10 @@ class Layout:
         assert 0.0 <= factor <= 1.0
         self.log.append(text)
 
-    def operator(self, name, **_):
+    def operator(self, name, text="", **_):
         module, function = name.split(".")
         assert function in dir(getattr(bpy.ops, module))
-        self.log.append(name)
+        self.log += [name, text] if text else [name]
         return self.button
 
     def menu(self, name, **_):
@@ -55,8 +55,8 @@ class Layout:
         """The operator properties that the panel fills in."""
 
 
-def draw(cls):
-    """What a panel class draws in the present context, as a list of labels, properties and
+def draw(cls, context=None):
+    """What a panel class draws in the present context, or another, as a list of labels, properties and
     operators.
     """
 
@@ -67,5 +67,5 @@ def draw(cls):
     for name in dir(cls):
         if name.startswith(("draw_", "_")) and not name.startswith("__"):
             setattr(instance, name, getattr(cls, name))
-    cls.draw(instance, bpy.context)
+    cls.draw(instance, context or bpy.context)
     return instance.layout.log

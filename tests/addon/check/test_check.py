@@ -6,6 +6,7 @@ from pathlib import Path
 import bmesh
 import bpy
 import pytest
+from fake_layout import draw
 from scenes import CUBE, activate, add
 
 from addon import errors
@@ -179,34 +180,11 @@ def test_words_count_and_every_repair_has_a_remedy():
         assert errors.remedy(code)
 
 
-class Layout:
-    """Stands for bpy.types.UILayout: remembers labels and buttons."""
-
-    def __init__(self, log=None):
-        self.log = [] if log is None else log
-
-    def row(self, **_):
-        return Layout(self.log)
-
-    column = box = row
-
-    def label(self, text="", **_):
-        self.log.append(text)
-
-    def operator(self, name, text="", **_):
-        self.log.append(text or name)
-        return Layout()
-
-
 def test_the_panel_says_what_is_wrong_and_offers_the_repair():
     add("Box", *FLIPPED)
     check()
 
-    class Panel:
-        layout = Layout()
-
-    check_panel.VIEW3D_PT_fairing_check.draw(Panel, bpy.context)
-    text = " ".join(Panel.layout.log)
+    text = " ".join(draw(check_panel.VIEW3D_PT_fairing_check))
     assert "1 face points against" in text and "Flip Faces" in text and "Shift N" in text
 
 

@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
+from fake_layout import draw
 from scenes import CUBE, activate, add, add_suzanne, snapshot
 
 from addon.inspection import display, measures, readout
@@ -244,14 +245,14 @@ def test_the_panel_says_that_control_vertices_are_no_surface():
     source, target = faired_pair()
     activate(target)
     record = readout.take(bpy.context, target, source)
-    said = " ".join(draw())
+    said = " ".join(drawn())
     assert "too coarse for curvature" in said
     old = record | {"before": {"largest_curvature": 0.5, "curvature_98": 0.25}}
     assert all(before == "" for _, before, _ in readout.table(old, bpy.context.scene)), (
         "older files have more"
     )
     readout.take(bpy.context, target)
-    assert "too coarse" not in " ".join(draw())
+    assert "too coarse" not in " ".join(drawn())
 
 
 def test_readout_says_how_the_steps_went():
@@ -305,58 +306,31 @@ def test_source_of_a_result():
     assert source_of(target) == source and source_of(source) is None
 
 
-class Layout:
-    """Stands for bpy.types.UILayout: remembers texts, refuses properties that do not exist."""
-
-    def __init__(self, log=None):
-        self.log = [] if log is None else log
-
-    def row(self, **_):
-        return Layout(self.log)
-
-    column = box = split = row
-
-    def label(self, text="", **_):
-        self.log.append(text)
-
-    def prop(self, owner, name, **_):
-        assert name in owner.bl_rna.properties
-        self.log.append(name)
-
-    def operator(self, name, text="", **_):
-        self.log.append(text or name)
-        return Layout()
-
-
-def draw(shading="SOLID"):
-    class Panel:
-        layout = Layout()
-
+def drawn(shading="SOLID"):
     space = SimpleNamespace(shading=SimpleNamespace(type=shading))
     context = SimpleNamespace(
         active_object=bpy.context.active_object, scene=bpy.context.scene, space_data=space
     )
-    panel.VIEW3D_PT_fairing_inspect.draw(Panel, context)
-    return Panel.layout.log
+    return draw(panel.VIEW3D_PT_fairing_inspect, context)
 
 
 def test_panel_shows_the_controls_of_what_is_shown():
     box = add("Box", *CUBE)
-    assert "stripes" not in draw()
+    assert "stripes" not in drawn()
     show(box, "ZEBRA")
     assert (
-        "stripes" in draw()
-        and "Material Preview" in draw()
-        and "Material Preview" not in draw("MATERIAL")
+        "stripes" in drawn()
+        and "Material Preview" in drawn()
+        and "Material Preview" not in drawn("MATERIAL")
     )
     show(box, "MEAN")
     assert (
-        "range_low" in draw()
-        and "Material Preview" in draw()
-        and any("hollow" in t for t in draw())
+        "range_low" in drawn()
+        and "Material Preview" in drawn()
+        and any("hollow" in t for t in drawn())
     )
     bpy.ops.object.fairing_measure()
-    assert "Worst fold" in draw() and "90.00°" in draw()
+    assert "Worst fold" in drawn() and "90.00°" in drawn()
 
 
 def test_what_is_measured_is_that_of_the_world():
