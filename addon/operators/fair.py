@@ -83,8 +83,8 @@ class Fairing(ExplainedPoll, ModalRun):
         return {"CANCELLED"} if jobs is None else self.start(context, jobs)
 
     def _begin_small(self, context: Context, tried: list[Job]) -> Answer:
-        """Makes surfaces with fewer levels at once, which Recompute makes whole; where not even that is
-        quick enough, the same run begins again in the background.
+        """Makes surfaces with fewer levels at once, which Recompute makes whole. Where not even that is quick
+        enough, nothing is made: then Blender puts back what was there.
         """
         jobs = self._unused(context, tried)
         if jobs is None:
@@ -92,8 +92,9 @@ class Fairing(ExplainedPoll, ModalRun):
         try:
             answer = self._block(context, redo.small_jobs(context, jobs), Deadline(redo.BUDGET))
         except JobCancelled:
-            redo.repeat_soon(context, self)
-            return {"FINISHED"}
+            said = "This takes too long here: set it in the panel, and press Recompute"
+            self.report({"ERROR"}, said)
+            return {"CANCELLED"}
         if answer == {"FINISHED"}:
             for target, job in zip(self._written, jobs, strict=True):
                 copy_settings(job.settings, target.discrete_fairing)
