@@ -7,96 +7,105 @@ The data's way: `operators` → `job` → `mesh` (read) → `core` → `transfer
 window, `cad` makes spline patches of it.
 """
 
-from . import cli, curve_cage, freshness, memory, preferences, properties, queue
-from .inspection import overlay, viewport_shading
-from .inspection import settings as inspection_settings
-from .live import handlers, kept, switch, undo
-from .mesh import mesh_changes
-from .operators import (
-    boundary,
-    cancel,
-    check,
-    clean,
-    compare,
-    curves,
-    ease,
-    fair,
-    faults,
-    fill_holes,
-    fixed_normals,
-    in_place,
-    inspect,
-    live,
-    presets,
-    purposes,
-    step,
-)
-from .operators import strain as strain_operators
-from .strain import known as known_strain
-from .strain import overlay as strain_overlay
-from .strain import settings as strain_settings
-from .ui import check as check_panel
-from .ui import compare as compare_panel
-from .ui import curves as curves_panel
-from .ui import inspect as inspect_panel
-from .ui import main as main_panel
-from .ui import menus, outliner, pictures
-from .ui import strain as strain_panel
+from types import ModuleType
 
-_MODULES = (
-    properties,
-    memory,
-    curve_cage,
-    preferences,
-    inspection_settings,
-    overlay,
-    viewport_shading,
-    strain_settings,
-    known_strain,
-    strain_overlay,
-    mesh_changes,
-    freshness,
-    switch,
-    handlers,
-    kept,
-    undo,
-    fair,
-    faults,
-    fill_holes,
-    cancel,
-    in_place,
-    curves,
-    boundary,
-    fixed_normals,
-    compare,
-    live,
-    check,
-    clean,
-    inspect,
-    strain_operators,
-    ease,
-    presets,
-    purposes,
-    pictures,
-    step,
-    main_panel,
-    curves_panel,
-    inspect_panel,
-    strain_panel,
-    check_panel,
-    compare_panel,
-    menus,
-    outliner,
-    cli,
-)
+
+def _modules() -> tuple[ModuleType, ...]:
+    """In the order of registration. Imported here, for the package's own names stay those of its parts:
+    `addon.in_place` is no operator's module.
+    """
+    from . import cli, curve_cage, freshness, memory, preferences, properties
+    from .inspection import overlay, viewport_shading
+    from .inspection import settings as inspection_settings
+    from .live import handlers, kept, switch, undo
+    from .mesh import mesh_changes
+    from .operators import (
+        boundary,
+        cancel,
+        check,
+        clean,
+        compare,
+        curves,
+        ease,
+        fair,
+        faults,
+        fill_holes,
+        fixed_normals,
+        in_place,
+        inspect,
+        live,
+        presets,
+        purposes,
+        step,
+    )
+    from .operators import strain as strain_operators
+    from .strain import known as known_strain
+    from .strain import overlay as strain_overlay
+    from .strain import settings as strain_settings
+    from .ui import check as check_panel
+    from .ui import compare as compare_panel
+    from .ui import curves as curves_panel
+    from .ui import inspect as inspect_panel
+    from .ui import main as main_panel
+    from .ui import menus, outliner, pictures
+    from .ui import strain as strain_panel
+
+    return (
+        properties,
+        memory,
+        curve_cage,
+        preferences,
+        inspection_settings,
+        overlay,
+        viewport_shading,
+        strain_settings,
+        known_strain,
+        strain_overlay,
+        mesh_changes,
+        freshness,
+        switch,
+        handlers,
+        kept,
+        undo,
+        fair,
+        faults,
+        fill_holes,
+        cancel,
+        in_place,
+        curves,
+        boundary,
+        fixed_normals,
+        compare,
+        live,
+        check,
+        clean,
+        inspect,
+        strain_operators,
+        ease,
+        presets,
+        purposes,
+        pictures,
+        step,
+        main_panel,
+        curves_panel,
+        inspect_panel,
+        strain_panel,
+        check_panel,
+        compare_panel,
+        menus,
+        outliner,
+        cli,
+    )
 
 
 def register() -> None:
-    for module in _MODULES:
+    for module in _modules():
         module.register()
 
 
 def unregister() -> None:
+    from . import queue
+
     queue.end_all()
-    for module in reversed(_MODULES):
+    for module in reversed(_modules()):
         module.unregister()

@@ -46,7 +46,7 @@ STEPS = (
 
 
 @dataclass(frozen=True)
-class Wish:
+class CleanOptions:
     """Arguments of discrete_fairing.clean."""
 
     steps: dict[str, bool]
@@ -58,8 +58,8 @@ class Wish:
 class CleanJob:
     """One object: read, cleaned on any thread, then written."""
 
-    def __init__(self, context: Context, target: Object, wish: Wish) -> None:
-        self.name, self._target, self._wish = target.name, Reference(target), wish
+    def __init__(self, context: Context, target: Object, options: CleanOptions) -> None:
+        self.name, self._target, self._options = target.name, Reference(target), options
         self._shape, self._units = world_shape(target), Units.of(context.scene)
         self.result: Any = None
         with control_mesh(context, target) as mesh:
@@ -85,11 +85,11 @@ class CleanJob:
             self.result = core.module().clean(
                 self._shape.of(arrays.positions),
                 (arrays.corners.astype(np.int64), arrays.offsets.astype(np.int64)),
-                islands=self._wish.islands,
-                largest=self._wish.largest,
-                noise=self._wish.noise,
+                islands=self._options.islands,
+                largest=self._options.largest,
+                noise=self._options.noise,
                 fixed=_marked(arrays),
-                **self._wish.steps,
+                **self._options.steps,
                 **watchers,
             )
         self._taken = perf_counter() - begun

@@ -89,14 +89,14 @@ def fair_arguments(
     preferences: Any,
     region: np.ndarray | None = None,
     shapes: np.ndarray | None = None,
-    shares: np.ndarray | None = None,
+    tolerance_factors: np.ndarray | None = None,
     pulls: np.ndarray | None = None,
     edge_length: float = 0.0,
 ) -> dict[str, Any]:
     """Keyword arguments for `discrete_fairing.fair`, `vertices` and `faces` included.
 
     `region`: (r,) ids of the faces to fair, None for all. `shapes`: (k, n, 3) further positions,
-    such as shape keys. `shares`: (n,) of the tolerance at each vertex, None for all of it.
+    such as shape keys. `tolerance_factors`: (n,) of the tolerance at each vertex, None for all of it.
     `pulls`: (n,) weights, None for none. `edge_length`: what a relative tolerance is a share of.
 
     Nothing is measured: who shows a number asks for it.
@@ -111,7 +111,7 @@ def fair_arguments(
         "metric_exponent": settings.metric_exponent,
         # what Automatic means is known where the source is
         "interpolation": settings.interpolation.lower().replace("auto", "exact"),
-        "tolerance": allowed if shares is None else allowed * shares,
+        "tolerance": allowed if tolerance_factors is None else allowed * tolerance_factors,
         "pad_size": settings.pad_size,
         # the steps of minimum variation would burst under it
         "tension": 0.0 if settings.energy == "MINIMUM_VARIATION" else settings.tension,
@@ -203,18 +203,18 @@ def faired(
     run = {name: own.pop(name) for name in ("threads", "memory_limit")} | monitor
     cut = module().pieces(**own, count=pieces)
     if spread is not None:
-        return module().join(_told(spread(cut, run["memory_limit"]), len(cut), progress))
+        return module().join(_counted(spread(cut, run["memory_limit"]), len(cut), progress))
 
-    def told(index: int) -> Callable[[float, str], bool | None]:
+    def watch(index: int) -> Callable[[float, str], bool | None]:
         def tell(fraction: float, phase: str) -> bool | None:
             return progress((index + fraction) / len(cut), phase) if progress else None
 
         return tell
 
-    return module().join(piece.fair(**run, progress=told(piece.index)) for piece in cut)
+    return module().join(piece.fair(**run, progress=watch(piece.index)) for piece in cut)
 
 
-def _told(
+def _counted(
     parts: Iterable[Any], count: int, progress: Callable[[float, str], bool | None] | None
 ) -> Iterator[Any]:
     for done, part in enumerate(parts):
@@ -233,7 +233,7 @@ def patch_arguments(fairing: Mapping[str, Any], options: PatchOptions) -> dict[s
         "tolerance": options.fit_tolerance,
         "normal_tolerance": options.fit_angle,
         "levels": options.fit_levels or None,
-        "insist": options.insist,
+        "force": options.force,
     }
 
 

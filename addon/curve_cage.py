@@ -17,7 +17,7 @@ from bpy.props import (
 
 from .blender import Context, Mesh, Object, attach, current_context, detach
 from .curves.cubics import Curve
-from .curves.settle import Covered, Wish, covered
+from .curves.settle import Covered, CoverOptions, covered
 from .errors import JobError
 from .mesh.object import collections_for, session_key
 from .mesh.read_curves import read_curves
@@ -115,7 +115,7 @@ def made_of(cage: Object) -> tuple[list[np.ndarray], Hashable]:
     """All that its mesh depends on: to see whether that has changed."""
     curves = _read(curves_of(cage))
     return [curve.pieces for curve in curves], (
-        _wish(cage.discrete_fairing_curves),
+        _options(cage.discrete_fairing_curves),
         tuple(curve.sharp for curve in curves),
     )
 
@@ -127,7 +127,7 @@ def new_cage(
     none.
     """
     curves = _read(sources)
-    found = covered(curves, _wish(settings), text=_text(curves))
+    found = covered(curves, _options(settings), text=_text(curves))
     cage = cast(Object, bpy.data.objects.new(name, bpy.data.meshes.new(name)))
     for collection in collections_for(context):
         collection.objects.link(cage)
@@ -150,7 +150,7 @@ def follow(cage: Object) -> Covered:
             f"Leave Edit Mode (Tab): '{cage.name}' is being edited, but follows its curves."
         )
     group, curves = cage.discrete_fairing_curves, _read(sources)
-    found = covered(curves, _wish(group), _counts(group), _text(curves))
+    found = covered(curves, _options(group), _counts(group), _text(curves))
     _fill(cage, found)
     return found
 
@@ -165,8 +165,8 @@ def _read(sources: Sequence[Object]) -> list[Curve]:
     return [curve for source in sources for curve in read_curves(source)]
 
 
-def _wish(settings: Any) -> Wish:
-    return Wish(settings.snap, settings.per_side, settings.closed)
+def _options(settings: Any) -> CoverOptions:
+    return CoverOptions(settings.snap, settings.per_side, settings.closed)
 
 
 def remarks_of(cage: Object) -> list[str]:

@@ -226,8 +226,8 @@ def warning_text(object_name: str, warning: Mapping[str, Any]) -> str:
     """One of the core's warnings, in words for the user."""
     if warning["code"] == "THICKNESS_CHANGED":
         return f"{object_name}: {' '.join(map(_sentence, _thickness_text(warning)))}"
-    told = _UNFINISHED.get(warning["code"], (warning["message"],))
-    return f"{object_name}: {' '.join(map(_sentence, told))}"
+    sentences = _UNFINISHED.get(warning["code"], (warning["message"],))
+    return f"{object_name}: {' '.join(map(_sentence, sentences))}"
 
 
 def unfinished_text(object_name: str, energy: str, face: int, ratio: float, fold: float) -> str:

@@ -37,10 +37,10 @@ def ignore(wanted: Mapping[str, Listener]) -> None:
 
 def _relay(name: str) -> Listener:
     @persistent
-    def tell(*told: Any) -> None:
+    def tell(*arguments: Any) -> None:
         for listener in tuple(_listeners[name]):
             try:
-                listener(*told)
+                listener(*arguments)
             except Exception:  # as Blender does: the others still run
                 traceback.print_exc()
 

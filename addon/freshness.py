@@ -20,7 +20,7 @@ from .core import ControlArrays
 from .errors import JobError
 from .memory import FAIRING_PG_surface, source_of
 from .mesh.object import Reference, changed_keys, session_key
-from .mesh.read import control_mesh, read_mesh, tolerance_shares, vertex_pulls
+from .mesh.read import control_mesh, read_mesh, tolerance_factors, vertex_pulls
 from .mesh.shape_keys import ShapeKeys, read_shape_keys
 from .mesh.world_shape import world_shape
 from .redraw import tag_outliners, tag_sidebars
@@ -56,7 +56,7 @@ class OwnMesh:
             arrays = read_mesh(mesh)
             selection = shown_selection(mesh) if settings.use_selection else None
             with suppress(JobError):
-                values.append(tolerance_shares(source, mesh, settings))
+                values.append(tolerance_factors(source, mesh, settings))
                 values.append(vertex_pulls(source, mesh, settings))
         keys = read_shape_keys(source, len(arrays.positions)) if settings.use_shape_keys else None
         return cls(arrays, selection, tuple(values), keys)
@@ -172,9 +172,9 @@ def _checksum(
     parts = (read or OwnMesh.read(context, source, settings)).parts
     words: list[Any] = [world_shape(source).rows]
     if curve_cage.is_cage(source):
-        pieces, wish = curve_cage.made_of(source)
+        pieces, options = curve_cage.made_of(source)
         parts += pieces
-        words.append(wish)
+        words.append(options)
     if is_evaluated(settings):
         words += [_values(modifier) for modifier in source.modifiers]
     total = zlib.crc32(repr(words).encode())
@@ -205,7 +205,7 @@ def _note_changes(_scene: Scene, depsgraph: bpy.types.Depsgraph) -> None:
         _unread.update(_watched.get(key, ()))
 
 
-def _distrust(*_: Any) -> None:
+def _mark_all_unread(*_: Any) -> None:
     """After undo anything may have changed."""
     _unread.update(_surfaces)
 
@@ -221,8 +221,8 @@ def _begin(*_: Any) -> None:
 
 _HANDLERS = {
     "depsgraph_update_post": _note_changes,
-    "undo_post": _distrust,
-    "redo_post": _distrust,
+    "undo_post": _mark_all_unread,
+    "redo_post": _mark_all_unread,
     "load_post": _begin,
 }
 

@@ -34,7 +34,7 @@ NO_HOLE, LARGER_HOLES = "NO_HOLE", "LARGER_HOLES"
 
 
 @dataclass(frozen=True)
-class Wish:
+class FillOptions:
     joint: str  # POSITION, TANGENT, CURVATURE
     energy: str
     density: float
@@ -105,9 +105,9 @@ class HoleJob:
     filled becomes `error`, so that other objects need not suffer.
     """
 
-    def __init__(self, context: Context, target: Object, wish: Wish) -> None:
+    def __init__(self, context: Context, target: Object, options: FillOptions) -> None:
         """Reads; JobError says why that cannot be."""
-        self.name, self._target, self._wish = target.name, Reference(target), wish
+        self.name, self._target, self._options = target.name, Reference(target), options
         self._mode, self._shape = target.mode, world_shape(target)
         self.result: Any = None
         self.error: JobError | None = None  # why nothing can be filled
@@ -116,10 +116,10 @@ class HoleJob:
             self._begun = Begun.of("Fill", target, arrays)
             gone = np.zeros(len(arrays.face_sizes), bool)
             edges = np.zeros(len(arrays.edges), bool)
-            if self._editing and wish.edge is None:
+            if self._editing and options.edge is None:
                 mesh.polygons.foreach_get("select", gone)
                 mesh.edges.foreach_get("select", edges)
-            if not wish.replaces:
+            if not options.replaces:
                 gone[:] = False
         self._gone = gone
         self._points = self._shape.of(arrays.positions)
@@ -128,16 +128,16 @@ class HoleJob:
             holes = holes_in(self._points, self._faces)
         loops = [loop for hole in holes for loop in hole]
         unclear = unclear_edges(arrays, gone, loops)
-        if self._editing and not wish.replaces:  # those that somebody has selected
+        if self._editing and not options.replaces:  # those that somebody has selected
             chosen = set(map(frozenset, arrays.edges[edges].tolist()))
             unclear = [side for side in unclear if side in chosen]
         self._unclear, units = len(unclear), Units.of(context.scene)
-        if wish.edge is not None:
-            side = frozenset(wish.edge)
+        if options.edge is not None:
+            side = frozenset(options.edge)
             self._holes = [hole for hole in holes if any(side in sides_of(loop) for loop in hole)]
         elif not self._editing:
-            self._holes = _no_wider(self._points, self._faces, holes, wish.largest)
-        elif wish.replaces:
+            self._holes = _no_wider(self._points, self._faces, holes, options.largest)
+        elif options.replaces:
             self._holes = where_faces_were(arrays, gone, loops)
         else:
             self._holes = [
@@ -146,9 +146,9 @@ class HoleJob:
                 if any(not chosen.isdisjoint(sides_of(loop)) for loop in hole)
             ]
         if not self._holes:
-            code, why = _why_none(wish, self._editing, self._unclear, len(loops), units)
+            code, why = _why_none(options, self._editing, self._unclear, len(loops), units)
             raise JobError(f"{self.name}: {why}", code)
-        self.triangles = sum(_triangles_in(sum(map(len, h)), wish.density) for h in self._holes)
+        self.triangles = sum(_triangles_in(sum(map(len, h)), options.density) for h in self._holes)
 
     @property
     def _editing(self) -> bool:
@@ -162,7 +162,7 @@ class HoleJob:
     @property
     def predicted_seconds(self) -> float:
         """How long `compute` will take."""
-        return prediction.seconds(self._wish.energy, self.triangles, self._key)
+        return prediction.seconds(self._options.energy, self.triangles, self._key)
 
     def compute(self, **watchers: Any) -> None:
         """Runs the core; `watchers` are its `monitor` and `progress`."""
@@ -183,11 +183,11 @@ class HoleJob:
             self._points,
             self._faces,
             holes=self._holes,
-            joint=self._wish.joint.lower(),
-            energy=self._wish.energy.lower(),
-            density=self._wish.density,
-            rim="noisy" if self._wish.noisy else "exact",
-            quads=self._wish.quads,
+            joint=self._options.joint.lower(),
+            energy=self._options.energy.lower(),
+            density=self._options.density,
+            rim="noisy" if self._options.noisy else "exact",
+            quads=self._options.quads,
             **watchers,
         )
         return Filled.of(found, self._points, self._shape)
@@ -204,11 +204,11 @@ class HoleJob:
             select_nothing(target)
         with edited(target) as bm:
             _write(bm, np.flatnonzero(self._gone), patches, self.result.places)
-        prediction.note(self._wish.energy, self.triangles, self._taken, self._key)
+        prediction.note(self._options.energy, self.triangles, self._taken, self._key)
         return Filling(
             len(holes),
             sum(len(patch.faces) for patch in patches),
-            sum(h.energy not in (self._wish.energy.lower(), "none") for h in holes),
+            sum(h.energy not in (self._options.energy.lower(), "none") for h in holes),
             sum(h.energy == "none" and not h.converged for h in holes),
             sum(h.folds > 0 for h in holes),
             sum(h.crossings > 0 for h in holes),
@@ -234,7 +234,7 @@ class HoleJob:
         filled, and edges around no hole, with buttons that select and mend them.
         """
         target = self._target.find()
-        if target is None or not (self.skipped or self._unclear or self._wish.edge is not None):
+        if target is None or not (self.skipped or self._unclear or self._options.edge is not None):
             return
         known = check_object(context, target)
         if self.skipped:
@@ -258,21 +258,23 @@ def _no_wider(
     return [[loop.tolist() for loop in hole] for hole in wanted]
 
 
-def _why_none(wish: Wish, editing: bool, unclear: int, loops: int, units: Units) -> tuple[str, str]:
+def _why_none(
+    options: FillOptions, editing: bool, unclear: int, loops: int, units: Units
+) -> tuple[str, str]:
     """The code, and a sentence."""
-    if wish.edge is not None:
+    if options.edge is not None:
         return NO_HOLE, "Press Check Mesh again: this hole is no longer there"
     if unclear:
         return NO_HOLE, _unclear_text(unclear)
     if not editing and not loops:
         return NO_HOLE, "Delete faces first: there is no hole, every edge has a face on both sides"
-    if not editing and wish.largest > 0.0:
-        most = units.lengths(wish.largest)(wish.largest)
+    if not editing and options.largest > 0.0:
+        most = units.lengths(options.largest)(options.largest)
         return LARGER_HOLES, f"Raise Largest Hole: there is no hole of a width of at most {most}"
     if not editing:
         why = "Set Largest Hole to a width, or select the border in Edit Mode: it seems to be that of a sheet"
         return LARGER_HOLES, why
-    if wish.replaces:
+    if options.replaces:
         return NO_HOLE, "Select faces with others around them: the selected ones leave no hole"
     why = "Select a border edge of a hole, or in Face Mode faces to be replaced: no such edge is selected"
     return NO_HOLE, why
@@ -307,7 +309,7 @@ def count_text(count: int) -> str:
     return "1 hole" if count == 1 else f"{count:,} holes"
 
 
-def doubts(done: list[Filling]) -> list[str]:
+def fill_warnings(done: list[Filling]) -> list[str]:
     """What their user should know of fillings, a sentence each."""
     plates, folded = sum(f.plates for f in done), sum(f.folded for f in done)
     unclear = sum(f.unclear for f in done)

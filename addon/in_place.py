@@ -26,7 +26,7 @@ from .mesh.shape_keys import dependent_keys
 from .mesh.world_shape import world_shape
 from .preferences import of_runs
 from .settings import Settings
-from .transfer.carrier import Carrier
+from .transfer.attributes import AttributeTransfer
 from .transfer.cut_out import CutOut, cut_out, grown, inside
 from .units import Units
 
@@ -39,7 +39,7 @@ _RINGS_REFINED = 2
 
 
 @dataclass(frozen=True)
-class Wish:
+class InPlaceOptions:
     levels: int  # 0: vertices move, the faces stay
     joint: str  # POSITION, TANGENT, CURVATURE
     energy: str
@@ -73,11 +73,13 @@ class Faired:
 class InPlaceJob:
     """The selected faces of one object in Edit Mode: read, computed on any thread, then applied."""
 
-    def __init__(self, context: Context, source: Object, settings: Settings, wish: Wish) -> None:
+    def __init__(
+        self, context: Context, source: Object, settings: Settings, options: InPlaceOptions
+    ) -> None:
         """Reads; JobError says why that cannot be. In Object Mode all faces are meant. `settings`: what counts as a crease, and the rest
-        that `wish` does not say.
+        that `options` does not say.
         """
-        self.name, self._source, self._wish = source.name, Reference(source), wish
+        self.name, self._source, self._options = source.name, Reference(source), options
         self._units = Units.of(context.scene)
         self._preferences = of_runs()  # arguments are also made on the thread that computes
         self.result: Any = None
@@ -86,12 +88,12 @@ class InPlaceJob:
         self._begun = Begun.of("Fair", source, self._arrays)
         near = grown(self._arrays, chosen, self._rings)
         free = inside(self._arrays, chosen)
-        _refuse(source.name, self._arrays, chosen, free, wish)
+        _refuse(source.name, self._arrays, chosen, free, options)
         self._chosen = chosen
         self._part = part = cut_out(self._arrays, near)
-        refined = wish.levels > 0
+        refined = options.levels > 0
         region = np.flatnonzero(chosen[part.faces]).astype(np.int32) if refined else None
-        self._asked = asked = _settings(settings, wish)
+        self._asked = asked = _settings(settings, options)
         self.triangles = size.triangle_count(part.arrays.face_sizes, asked.levels)
         self._arguments = self._arguments_of(part.arrays, region)
         if settings.boundary == "CORNERS":  # those of the mesh: the selection's own are none
@@ -100,7 +102,7 @@ class InPlaceJob:
             given = self._arguments["corner_vertices"]
             self._arguments["corner_vertices"] = np.union1d(given, np.flatnonzero(corners))
         self._free = free[part.vertices]
-        if wish.moves and not wish.measured:
+        if options.moves and not options.measured:
             self._arguments["interpolation"] = "approximate"
             self._arguments["weights"] = np.where(free[part.vertices], 0.0, np.inf)
 
@@ -110,7 +112,7 @@ class InPlaceJob:
 
     @property
     def _rings(self) -> int:
-        return _RINGS_REFINED if self._wish.levels else _RINGS[self._wish.joint]
+        return _RINGS_REFINED if self._options.levels else _RINGS[self._options.joint]
 
     def _smoothed(self, watchers: dict[str, Any]) -> tuple[Any, float]:
         """What was measured, without its noise, at level 0; and how large that was. The amount is
@@ -125,9 +127,9 @@ class InPlaceJob:
             free = inside(part, tried)[small.vertices] & self._free[small.vertices]
         else:
             own, free = arguments, self._free
-        told = watchers.get("progress"), watchers.get("monitor"), arguments["threads"]
-        runs = core.module().watching.SeveralRuns(*told)
-        found = measured.amount(own, free, self._wish.noise, runs)
+        watched = watchers.get("progress"), watchers.get("monitor"), arguments["threads"]
+        runs = core.module().watching.SeveralRuns(*watched)
+        found = measured.amount(own, free, self._options.noise, runs)
         made = measured.smoothed(part, self._arguments_of, self._free, found.weight, runs)
         return made, found.noise
 
@@ -139,7 +141,7 @@ class InPlaceJob:
     @property
     def predicted_seconds(self) -> float:
         """How long `compute` will take."""
-        return prediction.seconds(self._wish.energy, self.triangles, self._key)
+        return prediction.seconds(self._options.energy, self.triangles, self._key)
 
     @staticmethod
     def _read(context: Context, source: Object) -> tuple[core.ControlArrays, np.ndarray]:
@@ -156,21 +158,21 @@ class InPlaceJob:
         arguments, part = self._arguments, self._part
         noise, moved = 0.0, {}
         with errors.explained(self.name, errors.WITHOUT_MENDING):
-            if self._wish.measured:
+            if self._options.measured:
                 result, noise = self._smoothed(watchers)
                 moved = {"vertices": self._part_of_the_way(result.vertices, arguments["vertices"])}
-            if self._wish.levels or not self._wish.measured:
+            if self._options.levels or not self._options.measured:
                 result = core.module().fair(**arguments | moved, **watchers)
         self._report = result.report
-        if not (moved and self._wish.levels):
+        if not (moved and self._options.levels):
             result.vertices = self._part_of_the_way(result.vertices, arguments["vertices"])
         points = self._shape.back(result.vertices, arguments["vertices"], part.arrays.positions)
-        unseen = 0 if self._wish.measured else _UNSEEN_LEVELS
-        carrier = Carrier(result, part.arrays, self._wish.levels or unseen)
+        unseen = 0 if self._options.measured else _UNSEEN_LEVELS
+        transfer = AttributeTransfer(result, part.arrays, self._options.levels or unseen)
         world = self._shape.of_arrays(part.arrays)
-        levels = self._wish.levels
+        levels = self._options.levels
         labels = np.random.default_rng(0).random((len(part.vertices) if levels else 0, 3))
-        splits = _split_faces(carrier, part) if levels else {}
+        splits = _split_faces(transfer, part) if levels else {}
         if any(not common for index, common in splits.items() if self._chosen[index]):
             raise JobError(
                 f"{self.name}: Triangulate faces of many corners (Ctrl T). "
@@ -178,8 +180,8 @@ class InPlaceJob:
             )
         chosen = np.flatnonzero(self._chosen)
         theirs = self._chosen[part.faces]
-        faults = find_faults_in_place(result, carrier, world, theirs, self._wish)
-        spread = carrier.point(labels) if levels else labels
+        faults = find_faults_in_place(result, transfer, world, theirs, self._options)
+        spread = transfer.point(labels) if levels else labels
         self.result = Faired(part, chosen, points, splits, spread, levels, faults, noise)
         self._taken = perf_counter() - begun
 
@@ -187,23 +189,23 @@ class InPlaceJob:
         """`vertices` with the first of them, those of the part, between where they were `before` and
         where they are fairest; to the bit where they stay.
         """
-        if self._wish.factor == 1.0:
+        if self._options.factor == 1.0:
             return vertices
         vertices = vertices.copy()
-        vertices[: len(before)] = before + self._wish.factor * (vertices[: len(before)] - before)
+        vertices[: len(before)] = before + self._options.factor * (vertices[: len(before)] - before)
         return vertices
 
     def warnings(self) -> list[str]:
         """What the user should know of a finished job, a sentence each."""
         world = self._shape.of_arrays(self._part.arrays)
         sentences = run_warnings(
-            self.name, self._report, self._wish.energy, world, self._part.faces
+            self.name, self._report, self._options.energy, world, self._part.faces
         )
         counts = self.result.faults.counts
         if counts:
             # Near is no choice here, nor are Fairness and Tension where noise alone is taken off
             settings = replace(self._asked, interpolation="APPROXIMATE")
-            if self._wish.measured and not self._wish.levels:
+            if self._options.measured and not self._options.levels:
                 settings = replace(settings, energy="THIN_PLATE", tension=1.0)
             sentences.append(errors.faults_in_place_text(self.name, counts, settings))
         return sentences
@@ -211,7 +213,7 @@ class InPlaceJob:
     @property
     def notes(self) -> list[str]:
         """What the user may want to know of a finished job, a sentence each."""
-        if not self._wish.measured:
+        if not self._options.measured:
             return []
         noise = self.result.noise
         return [f"{self.name}: noise of {self._units.lengths(noise)(noise)} (rms) removed."]
@@ -223,13 +225,13 @@ class InPlaceJob:
     def apply(self) -> None:
         """Moves, and with levels refines, the faces."""
         apply(cast(Object, self._source.find()), self.result)
-        prediction.note(self._wish.energy, self.triangles, self._taken, self._key)
+        prediction.note(self._options.energy, self.triangles, self._taken, self._key)
 
 
-def _split_faces(carrier: Carrier, part: CutOut) -> dict[int, list[int]]:
+def _split_faces(transfer: AttributeTransfer, part: CutOut) -> dict[int, list[int]]:
     """The core splits polygons of five corners and more, and quads that are warped too much."""
     found: dict[int, list[int]] = {}
-    for patch in carrier.patches:
+    for patch in transfer.patches:
         if patch.faces.size == 3:
             pairs = zip(patch.faces.polygon.tolist(), patch.faces.vertices.tolist(), strict=True)
             for polygon, corners in pairs:
@@ -239,13 +241,15 @@ def _split_faces(carrier: Carrier, part: CutOut) -> dict[int, list[int]]:
     return {int(part.faces[polygon]): common for polygon, common in found.items()}
 
 
-def _refuse(name: str, arrays: Any, chosen: np.ndarray, free: np.ndarray, wish: Wish) -> None:
-    if not wish.levels and not free.any():
+def _refuse(
+    name: str, arrays: Any, chosen: np.ndarray, free: np.ndarray, options: InPlaceOptions
+) -> None:
+    if not options.levels and not free.any():
         raise JobError(
             f"{name}: Select more faces, or raise Levels. "
             "No vertex lies inside of the selection, so none can move."
         )
-    if wish.moves and not wish.measured and floats(arrays, free):
+    if options.moves and not options.measured and floats(arrays, free):
         raise JobError(
             f"{name}: Leave out some faces of each part. One is selected whole, so nothing holds it."
         )
@@ -264,16 +268,16 @@ def floats(arrays: Any, free: np.ndarray) -> bool:
         held = reached
 
 
-def _settings(settings: Settings, wish: Wish) -> Settings:
-    unseen = 0 if wish.measured else _UNSEEN_LEVELS
+def _settings(settings: Settings, options: InPlaceOptions) -> Settings:
+    unseen = 0 if options.measured else _UNSEEN_LEVELS
     return replace(
         settings,
-        levels=wish.levels or unseen,
+        levels=options.levels or unseen,
         # a scan has no creases but those that somebody has marked
-        use_sharp_edges=settings.use_sharp_edges or wish.measured,
-        joint=wish.joint,
-        energy=wish.energy,
-        tension=wish.tension,
+        use_sharp_edges=settings.use_sharp_edges or options.measured,
+        joint=options.joint,
+        energy=options.energy,
+        tension=options.tension,
         interpolation="EXACT",
         boundary="CURVE" if settings.boundary == "CORNERS" else settings.boundary,
         repair="REFUSE",

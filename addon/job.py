@@ -22,13 +22,13 @@ from .mesh.layers import read_data, write_data
 from .mesh.modifiers import copy_modifiers, without_inspection
 from .mesh.object import Reference, new_object
 from .mesh.own import OwnData, carried_names, read_own, write_own
-from .mesh.read import control_mesh, read_mesh, selected_faces, tolerance_shares, vertex_pulls
+from .mesh.read import control_mesh, read_mesh, selected_faces, tolerance_factors, vertex_pulls
 from .mesh.shape_keys import write_shape_keys
 from .mesh.world_shape import world_shape
 from .mesh.write import attributes_left_out, refill_mesh, write_mesh, write_pad_sizes
 from .preferences import preferences
 from .settings import Settings, halves, is_evaluated, is_limit, wants_modifiers
-from .transfer.carrier import Carrier
+from .transfer.attributes import AttributeTransfer
 from .transfer.lattice import edge_table, fine_edges
 from .transfer.mirror import find_mirrors, symmetrize, uneven_axes
 from .transfer.seams import seam_pairs
@@ -63,7 +63,7 @@ class Job:
         ):
             self.arrays = read_mesh(mesh)
             self.data = read_data(source, mesh, evaluated)
-            shares = tolerance_shares(source, mesh, self.settings)
+            factors = tolerance_factors(source, mesh, self.settings)
             pulls = vertex_pulls(source, mesh, self.settings)
             selection = freshness.shown_selection(mesh) if self.settings.use_selection else None
             if selection is None:
@@ -71,7 +71,7 @@ class Job:
             elif region is None:
                 region = selected_faces(mesh, self.name)
         self.keys = self.data.shape_keys if self.settings.use_shape_keys else None
-        own = freshness.OwnMesh(self.arrays, selection, (shares, pulls), self.keys)
+        own = freshness.OwnMesh(self.arrays, selection, (factors, pulls), self.keys)
         self._made = freshness.made_of(context, source, self.settings, None if evaluated else own)
         self.shape = world_shape(source)
         world = self.shape.of_arrays(self.arrays)
@@ -86,7 +86,7 @@ class Job:
             preferences(),
             region,
             self.shape.of(self.keys.shapes) if self.keys else None,
-            shares,
+            factors,
             pulls,
             self.edge_length,
         )
@@ -106,11 +106,11 @@ class Job:
         begun = perf_counter()
         with errors.explained(self.name):
             self.result = core.faired(self.arguments, self.pieces, self.spread, **watchers)
-        self.carrier = Carrier(self.result, self.arrays, self.settings.levels)
+        self.transfer = AttributeTransfer(self.result, self.arrays, self.settings.levels)
         self._edges = edge_table(self.result.faces)
         self._at_tolerance = core.at_tolerance(self.arguments, self.result.vertices)
         world = self.shape.of_arrays(self.arrays)
-        self.faults = find_faults(self.result, self.carrier, world)
+        self.faults = find_faults(self.result, self.transfer, world)
         self._to_object()
         mended = errors.repairs_text(self.result.report["repairs"])
         if mended:
@@ -156,7 +156,7 @@ class Job:
         corners = arguments["corner_vertices"]
         if result.mended is not None:
             corners = result.mended.vertex_origin[corners]
-        mirrors, notes = find_mirrors(self.carrier, self.arrays, result.crease_edges, corners)
+        mirrors, notes = find_mirrors(self.transfer, self.arrays, result.crease_edges, corners)
         self.notes += notes
         self.notes += [
             f"The mesh is symmetric in {axis} but its surface is not, by more than rounding: no exact symmetry."
@@ -201,8 +201,8 @@ class Job:
             target = old
             own = own or read_own(target, carried, memory.recall(target, "carried") or {})
             refill_mesh(target, result, sharp_pairs, self._edges)
-        write_data(target, self.data, self.carrier, attributes_left_out(settings))
-        write_pad_sizes(target.data, result, self.carrier)
+        write_data(target, self.data, self.transfer, attributes_left_out(settings))
+        write_pad_sizes(target.data, result, self.transfer)
         if self.keys:
             write_shape_keys(target, self.keys, result.shapes, source)
         if own is not None:
@@ -251,8 +251,8 @@ def run_warnings(
         for warning in report["warnings"]
         if warning["code"] != "MEMORY_EXCEEDED" or report["peak_bytes"] >= NOTICED_MEMORY
     ]
-    told = any(map(errors.is_unfinished, report["warnings"]))
-    if not told and not core.has_converged(report):
+    explained = any(map(errors.is_unfinished, report["warnings"]))
+    if not explained and not core.has_converged(report):
         face, ratio = measures.thinnest_face(control)
         face = face if ids is None else int(ids[face])
         fold = measures.worst_folds(control)[1]

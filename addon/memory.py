@@ -132,7 +132,7 @@ def source_of(target: Object) -> Object | None:
     return target.discrete_fairing.source
 
 
-def source_at_hand(context: Context) -> Object | None:
+def active_source(context: Context) -> Object | None:
     """The mesh that the active object is, or is made from."""
     active = context.active_object
     if active is None or active.type != "MESH":

@@ -76,7 +76,7 @@ class PatchOptions:
     fit_angle: float
     fit_levels: int  # 0: as many as the tolerance needs
     # whether faces that fold or turn too sharply get patches: what is shown and not written is never refused
-    insist: bool = True
+    force: bool = True
     unit: str = "MM"  # of the file
 
 

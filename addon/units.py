@@ -36,12 +36,12 @@ class Units:
 
     @classmethod
     def of(cls, scene: Any) -> "Units":
-        told = scene.unit_settings
-        if told.system == "NONE":
+        settings = scene.unit_settings
+        if settings.system == "NONE":
             return cls((), 1.0)
-        named = _METRIC if told.system == "METRIC" else _IMPERIAL
-        chosen = named.get(told.length_unit)  # none where the scene leaves it open: ADAPTIVE
-        return cls((chosen,) if chosen else tuple(named.values()), told.scale_length)
+        named = _METRIC if settings.system == "METRIC" else _IMPERIAL
+        chosen = named.get(settings.length_unit)  # none where the scene leaves it open: ADAPTIVE
+        return cls((chosen,) if chosen else tuple(named.values()), settings.scale_length)
 
     def lengths(self, longest: float, digits: int = DIGITS) -> Text:
         """What writes lengths in scene units, all of a list in the one unit that suits its `longest`."""

@@ -29,7 +29,7 @@ def exists(source: Object, mesh: Mesh, name: str) -> bool:
     return name in source.vertex_groups or _is_float(mesh.attributes.get(name))
 
 
-def shares(source: Object, mesh: Mesh, name: str) -> np.ndarray:
+def factors(source: Object, mesh: Mesh, name: str) -> np.ndarray:
     """(n,) float64, from 0 to 1: what is called `name` on `mesh`, which is that of the object
     `source` or what its modifiers make of it. 0 outside of a group.
 

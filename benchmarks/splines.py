@@ -60,7 +60,7 @@ def surfaces():
 
 def row(name: str, mesh, options) -> str:
     start = time.process_time()
-    patches = df.fit_patches(*mesh, insist=True, threads=1, **options)
+    patches = df.fit_patches(*mesh, force=True, threads=1, **options)
     whole = time.process_time() - start
     result, level = patches.result, patches.levels
     start = time.process_time()

@@ -56,7 +56,7 @@ def draw(make, options, view, path):
     points = mesh.vertices.copy()
     points[:, :2] -= (points.max(axis=0) + points.min(axis=0))[:2] / 2
     patches = df.fit_patches(
-        points, mesh.faces, crease_edges=mesh.crease_edges, levels=LEVELS, insist=True, **options
+        points, mesh.faces, crease_edges=mesh.crease_edges, levels=LEVELS, force=True, **options
     )
     with TemporaryDirectory() as folder:
         tiles = [Path(folder) / f"{i}.png" for i in range(3)]

@@ -54,7 +54,7 @@ class StepSettings(PatchSettings):
     unit: EnumProperty(
         name="Unit", description="The unit of lengths in the file", items=UNITS, default="MM"
     )
-    insist: BoolProperty(
+    force: BoolProperty(
         name="Write Faulty Faces",
         description="Also writes surfaces that fold or turn too sharply for patches; those patches are red",
         default=False,

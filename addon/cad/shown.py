@@ -14,8 +14,8 @@ from ..blender import Context, Object
 from ..errors import JobError
 from ..inspection.curvature import cross, unit
 from ..mesh.read import control_mesh, read_mesh
-from ..mesh.shape_keys import ShapeKeys, mixed, read_shape_keys, shares
-from ..transfer.carrier import Carrier
+from ..mesh.shape_keys import ShapeKeys, influences, mixed, read_shape_keys
+from ..transfer.attributes import AttributeTransfer
 from ..transfer.lattice import Cells, make_cells
 
 Share = float | np.ndarray  # of a shape: one number, or one a control vertex
@@ -32,7 +32,7 @@ def shown_mesh(context: Context, shown: Object) -> core.ControlArrays:
         positions = mixed(
             keys,
             lambda group: (
-                vertex_values.shares(shown, mesh, group)
+                vertex_values.factors(shown, mesh, group)
                 if group in shown.vertex_groups
                 else np.ones(count)
             ),
@@ -43,7 +43,7 @@ def shown_mesh(context: Context, shown: Object) -> core.ControlArrays:
 def shares_of(
     shown: Object, keys: ShapeKeys, groups: Sequence[Any], vertex_count: int
 ) -> dict[int, Share]:
-    """As `shares` has them: how much of each of the source's `keys` the sliders of `shown`, by the same
+    """As `influences` has them: how much of each of the source's `keys` the sliders of `shown`, by the same
     names, mix. `groups`: the vertex groups of the source. Raises JobError where keys of `shown` itself
     take part: the surface that is fitted knows nothing of them.
     """
@@ -51,7 +51,7 @@ def shares_of(
     if its is None:
         return {}
     dense = {group.name: group.dense(vertex_count) for group in groups}
-    found = shares(its, lambda name: dense.get(name, np.ones(vertex_count, np.float32)))
+    found = influences(its, lambda name: dense.get(name, np.ones(vertex_count, np.float32)))
     places = {key.name: place for place, key in enumerate(keys.keys)}
     names = {place: its.keys[place].name for place in found}
     own = [name for name in names.values() if name not in places]
@@ -74,13 +74,13 @@ class Blend:
     """
 
     def __init__(self, arrays: core.ControlArrays, of_shapes: Sequence[Share]) -> None:
-        self._arrays, self._shares = arrays, of_shapes
+        self._arrays, self._influences = arrays, of_shapes
 
     def __call__(self, result: Any, levels: int) -> np.ndarray:
         found = result.vertices.copy()
-        for share, shape in zip(self._shares, result.shapes, strict=True):
+        for share, shape in zip(self._influences, result.shapes, strict=True):
             if np.ndim(share):
-                share = Carrier(result, self._arrays, levels).point(np.asarray(share))
+                share = AttributeTransfer(result, self._arrays, levels).point(np.asarray(share))
             found += share * (shape - result.vertices)
         return found
 
@@ -96,8 +96,8 @@ def distance(
     `control`, with its `vertices` (N, 3), and the `mesh` shown, in the same coordinates, at the points
     of both. None where the mesh has other faces than such a surface.
     """
-    carrier = Carrier(result, control, levels)
-    pairs = _same_points(carrier, levels, mesh.corners)
+    transfer = AttributeTransfer(result, control, levels)
+    pairs = _same_points(transfer, levels, mesh.corners)
     if pairs is None:
         return None
     there, here = pairs
@@ -107,17 +107,17 @@ def distance(
 
 
 def _same_points(
-    carrier: Carrier, levels: int, corners: np.ndarray
+    transfer: AttributeTransfer, levels: int, corners: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray] | None:
     """Ids of the vertices of a refined mesh with the `corners` (c,), of any level, and of the vertices
-    of `carrier` at the same places of the control mesh; None where it has other faces.
+    of `transfer` at the same places of the control mesh; None where it has other faces.
     """
-    at_level_0 = sum(patch.fine.size for patch in carrier.patches) >> 2 * levels
+    at_level_0 = sum(patch.fine.size for patch in transfer.patches) >> 2 * levels
     own = next((k for k in range(levels + 9) if at_level_0 << 2 * k == len(corners)), None)
     if own is None or not at_level_0:
         return None
     common, first, pairs = min(own, levels), 0, []
-    for patch in carrier.patches:
+    for patch in transfer.patches:
         faces, size = len(patch.faces.polygon), patch.faces.size
         last = first + (faces * size << 2 * own)
         cells = make_cells(size, own)

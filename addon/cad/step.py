@@ -9,7 +9,7 @@ from .fit import PatchJob
 from .settings import METRES
 
 # errors are told in millimetres where the file is metric
-_TOLD = {"IN": ("in", "IN"), "FT": ("in", "IN")}
+_SYMBOLS = {"IN": ("in", "IN"), "FT": ("in", "IN")}
 
 
 def write_jobs(path: str, jobs: Sequence[PatchJob], unit: str, scale: float) -> None:
@@ -28,14 +28,14 @@ def summary(jobs: Sequence[PatchJob], unit: str, scale: float) -> str:
     """`96 patches, 0.008 mm off, 0.02° at edges, 0.2 mm from the mesh shown`, of all jobs, the worst of
     them; the last where a surface is fitted, and at which levels the mesh would show it, where it has fewer.
     """
-    told, each = _TOLD.get(unit, ("mm", "MM"))
+    symbol, each = _SYMBOLS.get(unit, ("mm", "MM"))
     factor = scale * METRES[unit] / METRES[each]
     apart = [job.apart for job in jobs if job.apart is not None]
     farthest = max(jobs, key=lambda job: job.apart or 0.0)
     return words.summary(
         sum(len(job.patches) for job in jobs),
         max(job.off for job in jobs) * factor,
-        told,
+        symbol,
         max(job.angle for job in jobs),
         max(apart) * factor if apart else None,
     ) + _finer_text(farthest)

@@ -16,7 +16,7 @@ from ..core import ControlArrays, folds
 from ..inspection.curvature import cross
 from ..mesh.layers import fill_layer, layer_values, make_layer
 from ..mesh.write import FAULTS
-from ..transfer.carrier import Carrier
+from ..transfer.attributes import AttributeTransfer
 from ..transfer.coarse import coarse_triangles
 from .folds import folded, folded_in_place
 
@@ -58,83 +58,89 @@ def faulty_vertices(mesh: Mesh) -> np.ndarray:
     return np.flatnonzero(marked)
 
 
-def find_faults(result: Any, carrier: Carrier, control: ControlArrays) -> Faults:
+def find_faults(result: Any, transfer: AttributeTransfer, control: ControlArrays) -> Faults:
     """Of the core's `result` for the mesh `control`, both in the same coordinates."""
     none = np.zeros(len(result.vertices), bool)
-    before = carrier.point(control.positions)
+    before = transfer.point(control.positions)
     return Faults(
-        _crossing(result.vertices, before, carrier),
-        _departure(result.vertices, carrier, control) > FAR,
+        _crossing(result.vertices, before, transfer),
+        _departure(result.vertices, transfer, control) > FAR,
         folded(result.vertices, result.triangles) if folds(result.report) else none,
     )
 
 
 def find_faults_in_place(
-    result: Any, carrier: Carrier, control: ControlArrays, chosen: np.ndarray, wish: Any
+    result: Any,
+    transfer: AttributeTransfer,
+    control: ControlArrays,
+    chosen: np.ndarray,
+    options: Any,
 ) -> Faults:
-    """The same of the `chosen` (m,) bool faces of a part of a mesh, faired by `wish` (in_place.Wish).
+    """The same of the `chosen` (m,) bool faces of a part of a mesh, faired by `options` (in_place.InPlaceOptions).
 
     With no levels only the part's own vertices count. Where these move, they go as far as they may,
     which is no fault.
     """
-    before, vertices = carrier.point(control.positions), result.vertices
-    if not wish.levels:
-        vertices = carrier.point(vertices[: len(control.positions)])
-    joined = wish.joint != "POSITION"
+    before, vertices = transfer.point(control.positions), result.vertices
+    if not options.levels:
+        vertices = transfer.point(vertices[: len(control.positions)])
+    joined = options.joint != "POSITION"
     near = np.zeros(len(vertices), bool)
     return Faults(
-        _crossing(vertices, before, carrier),
-        near if wish.moves else _departure(vertices, carrier, control) > FAR,
-        folded_in_place(result, vertices, before, carrier, chosen, wish.levels, joined),
+        _crossing(vertices, before, transfer),
+        near if options.moves else _departure(vertices, transfer, control) > FAR,
+        folded_in_place(result, vertices, before, transfer, chosen, options.levels, joined),
     )
 
 
-def _departure(vertices: np.ndarray, carrier: Carrier, control: ControlArrays) -> np.ndarray:
+def _departure(
+    vertices: np.ndarray, transfer: AttributeTransfer, control: ControlArrays
+) -> np.ndarray:
     """(N,) from each vertex to its place on the control mesh, in lengths of the edges around."""
     ends = control.positions[control.edges]
     length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
     count = len(control.positions)
     sums = np.bincount(control.edges.ravel(), np.repeat(length, 2), count)
     size = sums / np.maximum(np.bincount(control.edges.ravel(), minlength=count), 1)
-    away = np.linalg.norm(vertices - carrier.point(control.positions), axis=1)
-    around = carrier.point(size).ravel()
+    away = np.linalg.norm(vertices - transfer.point(control.positions), axis=1)
+    around = transfer.point(size).ravel()
     return away / np.where(around > 0.0, around, np.inf)
 
 
-def _crossing(vertices: np.ndarray, before: np.ndarray, carrier: Carrier) -> np.ndarray:
+def _crossing(vertices: np.ndarray, before: np.ndarray, transfer: AttributeTransfer) -> np.ndarray:
     """(N,) bool: where the surface at `vertices` crosses itself and the control mesh, `before`, does
     not.
     """
     marked = np.zeros(len(vertices), bool)
-    coarsest, owner = coarse_triangles(carrier, 0)
+    coarsest, owner = coarse_triangles(transfer, 0)
     if not 0 < len(coarsest) <= MOST:
         return marked
     everywhere = np.ones(owner.max() + 1, bool)
-    triangles, pairs, faces = _look(vertices, carrier, len(coarsest), everywhere)
+    triangles, pairs, faces = _look(vertices, transfer, len(coarsest), everywhere)
     if len(pairs):
         excused = _Excused(before, coarsest, owner)
         pairs = excused.leave_out(pairs, faces)
-    if len(pairs) and len(triangles) < carrier.triangle_count:
+    if len(pairs) and len(triangles) < transfer.triangle_count:
         # two close walls may seem to cross by few points only: a second look, nearer
         involved = np.zeros_like(everywhere)
         involved[faces[pairs]] = True
         count = int(involved[owner].sum())
-        triangles, pairs, faces = _look(vertices, carrier, count, involved)
+        triangles, pairs, faces = _look(vertices, transfer, count, involved)
         pairs = excused.leave_out(pairs, faces)
     marked[triangles[pairs]] = True
     return marked
 
 
 def _look(
-    vertices: np.ndarray, carrier: Carrier, count: int, chosen: np.ndarray
+    vertices: np.ndarray, transfer: AttributeTransfer, count: int, chosen: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Triangles (t, 3) over the `chosen` control faces, which are `count` triangles, as fine as may
     be; pairs (p, 2) of those that cross; and (t,) the control face of each.
     """
     levels = 0
-    while levels < carrier.levels and count * 4 ** (levels + 1) <= MOST:
+    while levels < transfer.levels and count * 4 ** (levels + 1) <= MOST:
         levels += 1
-    triangles, faces = coarse_triangles(carrier, levels)
+    triangles, faces = coarse_triangles(transfer, levels)
     here = chosen[faces]
     triangles, faces = triangles[here], faces[here]
     return triangles, _pairs(vertices, triangles), faces
@@ -208,9 +214,9 @@ class _Excused:
         """The `pairs` (p, 2) of triangles, of control `faces` (t,), that are to be told."""
         ends = faces[pairs]
         parts = self._part[ends]
-        told = [_ordered(a, b) not in self._parts for a, b in parts.tolist()]
+        crossing = [_ordered(a, b) not in self._parts for a, b in parts.tolist()]
         same = parts[:, 0] == parts[:, 1]
-        return pairs[np.array(told, bool) & ~(same & self._near[ends].all(axis=1))]
+        return pairs[np.array(crossing, bool) & ~(same & self._near[ends].all(axis=1))]
 
 
 def _on_others(vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from ..inspection.curvature import cross, unit
-from ..transfer.carrier import Carrier
+from ..transfer.attributes import AttributeTransfer
 from ..transfer.coarse import coarse_triangles
 from ..transfer.lattice import fine_edges, pair_keys
 
@@ -20,7 +20,7 @@ def folded_in_place(
     result: Any,
     vertices: np.ndarray,
     before: np.ndarray,
-    carrier: Carrier,
+    transfer: AttributeTransfer,
     chosen: np.ndarray,
     levels: int,
     joined: bool,
@@ -29,25 +29,25 @@ def folded_in_place(
     `levels` refinements and with its points at `vertices` (N, 3).
 
     `joined`: whether they are to meet the faces around smoothly; otherwise any angle is right there.
-    Creases are folds by wish, and inside of the chosen faces those of the control mesh, which is at
+    Creases are folds by choice, and inside of the chosen faces those of the control mesh, which is at
     `before`, and of the faces at them are none of the surface's doing.
     """
-    polygon = np.concatenate([patch.faces.polygon for patch in carrier.patches])
-    coarsest, owner = coarse_triangles(carrier, 0)
+    polygon = np.concatenate([patch.faces.polygon for patch in transfer.patches])
+    coarsest, owner = coarse_triangles(transfer, 0)
     theirs = chosen[polygon]
     edges, sides = _folds(before, coarsest)
     at = _at(vertices, edges[theirs[owner[sides]].all(axis=1)])
     excused = np.zeros(len(polygon), bool)
     excused[owner[at[coarsest].any(axis=1)]] = True
-    triangles, face = coarse_triangles(carrier, levels)
+    triangles, face = coarse_triangles(transfer, levels)
     edges, sides = _folds(vertices, triangles)
     inside = theirs[face[sides]]
-    told = inside.all(axis=1) & ~excused[face[sides]].any(axis=1)
+    counted = inside.all(axis=1) & ~excused[face[sides]].any(axis=1)
     if joined:
-        told |= inside.any(axis=1) & ~inside.all(axis=1)
+        counted |= inside.any(axis=1) & ~inside.all(axis=1)
     pairs = result.crease_edges
     creases = fine_edges(result.faces, pairs, levels) if levels else pairs
-    return _at(vertices, edges[told & ~np.isin(pair_keys(edges), pair_keys(creases))])
+    return _at(vertices, edges[counted & ~np.isin(pair_keys(edges), pair_keys(creases))])
 
 
 def _at(vertices: np.ndarray, edges: np.ndarray) -> np.ndarray:

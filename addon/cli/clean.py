@@ -6,7 +6,7 @@ from math import isfinite
 from typing import Any
 
 from ..blender import Object, current_context
-from ..cleaning import STEPS, CleanJob, Wish
+from ..cleaning import STEPS, CleanJob, CleanOptions
 from .numbers import number
 from .report import counts
 
@@ -47,26 +47,26 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def wish_of(said: dict[str, Any]) -> Wish:
+def options_of(said: dict[str, Any]) -> CleanOptions:
     """From the options that were said, or their defaults."""
     steps = {name: name not in said["clean_without"] for name in _NAMES}
-    return Wish(steps, said["clean_islands"], said["largest_hole"], said["clean_noise"])
+    return CleanOptions(steps, said["clean_islands"], said["largest_hole"], said["clean_noise"])
 
 
-def shown(wish: Wish) -> dict[str, Any]:
+def shown(options: CleanOptions) -> dict[str, Any]:
     """For the report."""
     return {
-        "clean_without": [name for name in _NAMES if not wish.steps[name]],
-        "clean_islands": wish.islands,
-        "clean_noise": wish.noise,
-        "largest_hole": wish.largest,
+        "clean_without": [name for name in _NAMES if not options.steps[name]],
+        "clean_islands": options.islands,
+        "clean_noise": options.noise,
+        "largest_hole": options.largest,
     }
 
 
-def run(source: Object, wish: Wish, **watchers: Any) -> tuple[dict[str, Any], list[str]]:
+def run(source: Object, options: CleanOptions, **watchers: Any) -> tuple[dict[str, Any], list[str]]:
     """Cleans the mesh of an object; its entry for the report, and what is left as a warning."""
     entry: dict[str, Any] = {"name": source.name, "control": counts(source.data)}
-    job = CleanJob(current_context(), source, wish)
+    job = CleanJob(current_context(), source, options)
     job.compute(**watchers)
     said, found = job.apply(current_context()), job.result
     entry["result"] = counts(source.data)

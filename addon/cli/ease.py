@@ -16,7 +16,7 @@ from ..blender import Object, current_context
 from ..errors import JobError
 from ..settings import Settings
 from ..strain import table
-from ..strain.ease import EaseJob, Wish
+from ..strain.ease import EaseJob, EaseOptions
 from ..strain.measure import StrainJob
 from ..strain.strained import Strained
 from ..units import digits_of
@@ -28,16 +28,16 @@ _LENGTH = number("a length above 0", lambda value: 0.0 < value < inf)
 
 
 @dataclass(frozen=True)
-class Wanted:
+class PrepareOptions:
     """What is asked of the control meshes of each input."""
 
-    wish: Wish | None  # None: they stay as they are
+    options: EaseOptions | None  # None: they stay as they are
     tables: tuple[Path, ...] | None  # one an input: of strain; None: none is written
 
     @property
     def runs(self) -> int:
         """Of each mesh, beside fairing it."""
-        return (self.wish is not None) + (self.tables is not None)
+        return (self.options is not None) + (self.tables is not None)
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -61,7 +61,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def wanted_of(arguments: argparse.Namespace, ways: Sequence[Place]) -> Wanted:
+def options_of(arguments: argparse.Namespace, files: Sequence[Place]) -> PrepareOptions:
     """What was said. Raises ValueError where options contradict, and BadPlaces."""
     bound = arguments.ease_tolerance
     eases = arguments.ease or bound is not None
@@ -73,31 +73,31 @@ def wanted_of(arguments: argparse.Namespace, ways: Sequence[Place]) -> Wanted:
         if arguments.pieces is not None:
             raise ValueError(f"{named} needs the whole mesh and cannot be used with --pieces")
     amount = "AUTOMATIC" if bound is None else "TOLERANCE"
-    return Wanted(
-        Wish(amount, bound or 0.0) if eases else None,
-        tables(arguments.strain, ways, arguments.json) if arguments.strain is not None else None,
+    return PrepareOptions(
+        EaseOptions(amount, bound or 0.0) if eases else None,
+        tables(arguments.strain, files, arguments.json) if arguments.strain is not None else None,
     )
 
 
-def shown(wanted: Wanted) -> dict[str, Any]:
+def shown(prepare: PrepareOptions) -> dict[str, Any]:
     """For the report: nothing, unless the mesh is eased."""
-    if wanted.wish is None:
+    if prepare.options is None:
         return {}
-    within = wanted.wish.amount == "TOLERANCE"
-    return {"ease": True, "ease_tolerance": wanted.wish.tolerance if within else None}
+    within = prepare.options.amount == "TOLERANCE"
+    return {"ease": True, "ease_tolerance": prepare.options.tolerance if within else None}
 
 
 class Preparing:
     """The meshes of one file, before they are faired."""
 
-    def __init__(self, wanted: Wanted, settings: Settings, asked: dict[str, Any]) -> None:
+    def __init__(self, prepare: PrepareOptions, settings: Settings, asked: dict[str, Any]) -> None:
         """`asked`: arguments of the core in the place of those that the settings make."""
-        self._wanted, self._settings, self._asked = wanted, settings, asked
+        self._asked_for, self._settings, self._asked = prepare, settings, asked
 
     def run(
         self, sources: Sequence[Object], done: Callable[[], None], **watchers: Any
     ) -> tuple[list[dict[str, Any]], list[table.Table]]:
-        """Eases the meshes if that is wanted, and measures their strain if that is. Calls `done` after
+        """Eases the meshes if that is asked for, and measures their strain if that is. Calls `done` after
         each run. Of each source what the report says, and of each its table.
         """
         entries: list[dict[str, Any]] = []
@@ -119,7 +119,7 @@ class Preparing:
     def _strained(
         self, source: Object, done: Callable[[], None], watchers: dict[str, Any]
     ) -> Strained | None:
-        if self._wanted.tables is None:
+        if self._asked_for.tables is None:
             return None
         job = StrainJob(current_context(), source, settings=self._settings)
         job.arguments |= self._asked
@@ -130,9 +130,9 @@ class Preparing:
     def _eased(
         self, source: Object, done: Callable[[], None], watchers: dict[str, Any]
     ) -> EaseJob | None:
-        if self._wanted.wish is None:
+        if self._asked_for.options is None:
             return None
-        job = EaseJob(current_context(), source, self._wanted.wish, self._settings)
+        job = EaseJob(current_context(), source, self._asked_for.options, self._settings)
         job.arguments |= self._asked
         job.compute(**watchers)
         source.data.vertices.foreach_set("co", np.float32(job.positions).ravel())
@@ -141,9 +141,9 @@ class Preparing:
         return job
 
 
-def require_one(sources: Sequence[Object], wanted: Wanted) -> None:
+def require_one(sources: Sequence[Object], prepare: PrepareOptions) -> None:
     """Raises JobError where a table would have the vertices of several meshes."""
-    if wanted.tables is not None and len(sources) > 1:
+    if prepare.tables is not None and len(sources) > 1:
         raise JobError(
             f"--strain: Give each mesh a file of its own. The table is of one, and this file has {len(sources)}: "
             f"{', '.join(source.name for source in sources)}."

@@ -7,7 +7,7 @@ from typing import Any
 from ..blender import Object, current_context
 from ..choices import JOINTS
 from ..errors import JobError
-from ..holes import LARGER_HOLES, NO_HOLE, HoleJob, Wish, doubts
+from ..holes import LARGER_HOLES, NO_HOLE, FillOptions, HoleJob, fill_warnings
 from .numbers import number
 from .report import counts
 
@@ -58,9 +58,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def wish_of(said: dict[str, Any]) -> Wish:
+def options_of(said: dict[str, Any]) -> FillOptions:
     """From the options that were said, or their defaults."""
-    return Wish(
+    return FillOptions(
         said["fill_joint"].upper(),
         said["energy"],
         said["fill_density"],
@@ -71,25 +71,25 @@ def wish_of(said: dict[str, Any]) -> Wish:
     )
 
 
-def shown(wish: Wish) -> dict[str, Any]:
+def shown(options: FillOptions) -> dict[str, Any]:
     """For the report."""
     return {
-        "energy": wish.energy,
-        "fill_joint": wish.joint,
-        "fill_density": wish.density,
-        "fill_noisy": wish.noisy,
-        "fill_quads": wish.quads,
-        "largest_hole": wish.largest,
+        "energy": options.energy,
+        "fill_joint": options.joint,
+        "fill_density": options.density,
+        "fill_noisy": options.noisy,
+        "fill_quads": options.quads,
+        "largest_hole": options.largest,
     }
 
 
-def run(source: Object, wish: Wish, **watchers: Any) -> tuple[dict[str, Any], list[str]]:
+def run(source: Object, options: FillOptions, **watchers: Any) -> tuple[dict[str, Any], list[str]]:
     """Closes the holes of an object; its entry for the report, and warnings. Raises JobError where
     they cannot be closed; to have none is no error.
     """
     entry: dict[str, Any] = {"name": source.name, "control": counts(source.data)}
     try:
-        job = HoleJob(current_context(), source, wish)
+        job = HoleJob(current_context(), source, options)
     except JobError as error:
         if error.code not in (NO_HOLE, LARGER_HOLES):
             raise
@@ -112,7 +112,7 @@ def run(source: Object, wish: Wish, **watchers: Any) -> tuple[dict[str, Any], li
         for hole in job.result.holes
     ]
     entry |= {"result": counts(source.data), "report": {"holes": holes}}
-    said = [job.left_text, *doubts([done])]
+    said = [job.left_text, *fill_warnings([done])]
     return entry, [f"{source.name}: {sentence}." for sentence in said if sentence]
 
 

@@ -19,7 +19,7 @@ from ..cad.fit import PatchJob
 from ..errors import JobError, repairs_text
 from ..job import Job
 from ..settings import PatchOptions, Settings
-from . import ease, engines, mending, report, step
+from . import ease, executors, mending, report, step
 from .files import FileError, read_file, write_file, write_text
 from .options import parser, settings_of, shown
 from .places import BadPlaces, Place, is_cad, is_there, no_report_over, places
@@ -31,14 +31,14 @@ ALL_DONE, SOME_FAILED, WRONG_USAGE, NO_NATIVE_MODULE, INTERRUPTED = 0, 1, 2, 3, 
 def main(argv: list[str]) -> int:
     """The exit code. `argv`: what follows the command's name."""
     try:
-        arguments, settings, ways = _understand(argv)
+        arguments, settings, files = _understand(argv)
     except SystemExit as end:  # argparse's, after --help, --version and errors
         return int(end.code or ALL_DONE)
     if core.why_missing():
         _say(core.why_missing())
         return NO_NATIVE_MODULE
     with _standard_output(arguments.json) as output, _interruptible():
-        records, exit_code = _run_all(arguments, settings, ways, argv)
+        records, exit_code = _run_all(arguments, settings, files, argv)
         return _write_report(arguments.json, output, exit_code, records)
 
 
@@ -48,16 +48,16 @@ def _understand(argv: list[str]) -> tuple[argparse.Namespace, Settings, list[Pla
     arguments = made.parse_intermixed_args(argv)
     try:
         settings = settings_of(arguments)
-        ways = places(arguments.inputs, arguments.output, arguments.format)
-        arguments.prepared = ease.wanted_of(arguments, ways)
-        arguments.tables = dict(zip(ways, arguments.prepared.tables or ()))
-        ways = ways[arguments.only] if arguments.only else ways
+        files = places(arguments.inputs, arguments.output, arguments.format)
+        arguments.prepared = ease.options_of(arguments, files)
+        arguments.tables = dict(zip(files, arguments.prepared.tables or ()))
+        files = files[arguments.only] if arguments.only else files
         if arguments.scheduler is not None and arguments.jobs > 1:
             raise ValueError("give one of --jobs and --scheduler: a cluster has workers of its own")
-        no_report_over(arguments.json, ways)
-        arguments.patches = step.options_of(arguments, settings, ways)
-        arguments.mending = mending.asked_of(arguments, ways)
-        return arguments, settings, ways
+        no_report_over(arguments.json, files)
+        arguments.patches = step.options_of(arguments, settings, files)
+        arguments.mending = mending.asked_of(arguments, files)
+        return arguments, settings, files
     except (ValueError, BadPlaces) as error:
         made.error(str(error))
 
@@ -65,26 +65,26 @@ def _understand(argv: list[str]) -> tuple[argparse.Namespace, Settings, list[Pla
 def _run_all(
     arguments: argparse.Namespace,
     settings: Settings,
-    ways: list[Place],
+    files: list[Place],
     argv: Sequence[str],
 ) -> tuple[list[dict[str, Any]], int]:
     """Records of all inputs, also of those that an interruption left, and the exit code."""
-    told = shown(settings) | ease.shown(arguments.prepared)
+    reported = shown(settings) | ease.shown(arguments.prepared)
     if arguments.mending is not None:
-        told = arguments.mending.module.shown(arguments.mending.wish)
-    records = [report.new_record(way, told) for way in ways]
-    table = _Table(arguments, ways, records, settings.energy)
-    spread = engines.is_spread(arguments)
+        reported = arguments.mending.module.shown(arguments.mending.options)
+    records = [report.new_record(file, reported) for file in files]
+    table = _Table(arguments, files, records, settings.energy)
+    spread = executors.is_spread(arguments)
     try:
-        with engines.engine(arguments) if spread else nullcontext() as engine:
-            if engine is not None and arguments.pieces is None:
-                _run_shares(engine, argv, records, table)
+        with executors.executor(arguments) if spread else nullcontext() as executor:
+            if executor is not None and arguments.pieces is None:
+                _run_batches(executor, argv, records, table)
             else:
-                arguments.spread = engine and engine.faired
-                for index, way in enumerate(ways):
-                    _run_one(way, records[index], arguments, settings)
+                arguments.spread = executor and executor.faired
+                for index, file in enumerate(files):
+                    _run_one(file, records[index], arguments, settings)
                     table.line(index)
-    except engines.NoEngine as error:
+    except executors.NoExecutor as error:
         _say(f"error: {error}")
         return records, SOME_FAILED
     except KeyboardInterrupt:
@@ -110,13 +110,13 @@ class _Table:
     def __init__(
         self,
         arguments: argparse.Namespace,
-        ways: list[Place],
+        files: list[Place],
         records: list[dict[str, Any]],
         energy: str,
     ) -> None:
         self.is_wanted = not arguments.quiet
         self._mends = getattr(arguments.mending, "module", None)
-        self._ways, self._records = ways, records
+        self._files, self._records = files, records
         self._width = max((len(record["input"]) for record in records), default=0)
         if self.is_wanted:
             _say(self._head(arguments, energy))
@@ -137,14 +137,17 @@ class _Table:
         """The module that knows what a line of the table says."""
         if self._mends:
             return self._mends
-        return step if is_cad(self._ways[index].target) else report
+        return step if is_cad(self._files[index].target) else report
 
 
-def _run_shares(
-    engine: engines.Engine, argv: Sequence[str], records: list[dict[str, Any]], table: _Table
+def _run_batches(
+    executor: executors.TaskExecutor,
+    argv: Sequence[str],
+    records: list[dict[str, Any]],
+    table: _Table,
 ) -> None:
     """All files, side by side; says of each what this process would have said."""
-    for share, found in engines.run_files(engine, argv, len(records)):
+    for share, found in executors.run_files(executor, argv, len(records)):
         for k, index in enumerate(share):
             record = records[index]
             if isinstance(found, str):
@@ -173,41 +176,41 @@ def _say_eased(name: object, entry: dict[str, Any]) -> None:
 
 
 def _run_one(
-    way: Place, record: dict[str, Any], arguments: argparse.Namespace, settings: Settings
+    file: Place, record: dict[str, Any], arguments: argparse.Namespace, settings: Settings
 ) -> None:
     """Fairs one file, and notes in its record how that went."""
     start = time.perf_counter()
     try:
-        for path in (way.target, arguments.tables.get(way)):
+        for path in (file.target, arguments.tables.get(file)):
             if arguments.overwrite is False and path is not None and is_there(path):
                 raise FileError("EXISTS", f"{path} exists, and is kept.")
         if arguments.mending is None:
-            _fair_file(way, record, arguments, settings)
+            _fair_file(file, record, arguments, settings)
         else:
-            _mend_file(way, record, arguments)
+            _mend_file(file, record, arguments)
         record["status"] = report.DONE
     except (FileError, JobError) as error:
         _fail(
             record,
             *_code_and_elements(error),
-            f"{way.source}: {error}" if isinstance(error, JobError) else str(error),
+            f"{file.source}: {error}" if isinstance(error, JobError) else str(error),
         )
     except Exception as error:  # a fault of ours: the other inputs need not suffer
         traceback.print_exc()
-        _fail(record, "INTERNAL", (), f"{way.source}: {type(error).__name__}: {error}")
+        _fail(record, "INTERNAL", (), f"{file.source}: {type(error).__name__}: {error}")
     finally:
         record["seconds"] = round(time.perf_counter() - start, 3)
 
 
 def _fair_file(
-    way: Place, record: dict[str, Any], arguments: argparse.Namespace, settings: Settings
+    file: Place, record: dict[str, Any], arguments: argparse.Namespace, settings: Settings
 ) -> None:
-    sources = read_file(way.source, arguments.merge)
+    sources = read_file(file.source, arguments.merge)
     prepared = arguments.prepared
     ease.require_one(sources, prepared)
-    progress = Progress(sys.stderr, str(way.source), len(sources) * (1 + prepared.runs))
+    progress = Progress(sys.stderr, str(file.source), len(sources) * (1 + prepared.runs))
     watchers: dict[str, Any] = {} if arguments.quiet else {"progress": progress}
-    patches = arguments.patches if is_cad(way.target) else None
+    patches = arguments.patches if is_cad(file.target) else None
     is_read = not arguments.quiet or arguments.json is not None
     asked = {
         name: value
@@ -230,32 +233,34 @@ def _fair_file(
         step.require_patches(jobs)
     for job, source, entry in zip(jobs, sources, entries):
         if not arguments.quiet:
-            _say_mended(way.source, job.result.report["repairs"])
-            _say_eased(way.source, entry | {"name": source.name})
+            _say_mended(file.source, job.result.report["repairs"])
+            _say_eased(file.source, entry | {"name": source.name})
         for warning in job.warnings():
             record["warnings"].append(warning)
-            _say(f"{way.source}: warning: {warning}")
+            _say(f"{file.source}: warning: {warning}")
         is_patches = isinstance(job, PatchJob)
         done = step.object_entry(job) if is_patches else _replace(job, source)
         record["objects"].append(done | entry)
     if patches is None:
-        write_file(way.target)
+        write_file(file.target)
     else:
-        step.write_step_file(way, jobs, patches)
+        step.write_step_file(file, jobs, patches)
     for found in tables:
-        ease.write_table(arguments.tables[way], found)
+        ease.write_table(arguments.tables[file], found)
 
 
-def _mend_file(way: Place, record: dict[str, Any], arguments: argparse.Namespace) -> None:
-    sources = read_file(way.source, arguments.merge)
-    progress = Progress(sys.stderr, str(way.source), len(sources))
+def _mend_file(file: Place, record: dict[str, Any], arguments: argparse.Namespace) -> None:
+    sources = read_file(file.source, arguments.merge)
+    progress = Progress(sys.stderr, str(file.source), len(sources))
     watchers: dict[str, Any] = {} if arguments.quiet else {"progress": progress}
     if arguments.threads is not None:
         watchers["threads"] = arguments.threads
     warnings: list[str] = []
     try:
         for source in sources:
-            entry, said = arguments.mending.module.run(source, arguments.mending.wish, **watchers)
+            entry, said = arguments.mending.module.run(
+                source, arguments.mending.options, **watchers
+            )
             record["objects"].append(entry)
             warnings += said
             progress.next_run()
@@ -263,8 +268,8 @@ def _mend_file(way: Place, record: dict[str, Any], arguments: argparse.Namespace
         progress.clear()
     for warning in warnings:
         record["warnings"].append(warning)
-        _say(f"{way.source}: warning: {warning}")
-    write_file(way.target)
+        _say(f"{file.source}: warning: {warning}")
+    write_file(file.target)
 
 
 def _job(source: Object, settings: Settings, patches: PatchOptions | None) -> Any:

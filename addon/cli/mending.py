@@ -24,7 +24,7 @@ class Mending:
     """One of them: the `module` that knows its words, and what it is asked for."""
 
     module: Any
-    wish: Any
+    options: Any
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -40,7 +40,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     clean.add_options(parser)
 
 
-def asked_of(arguments: argparse.Namespace, ways: Sequence[Place]) -> Mending | None:
+def asked_of(arguments: argparse.Namespace, files: Sequence[Place]) -> Mending | None:
     """What is asked for; None where meshes are faired. Raises ValueError where options contradict."""
     names = [name for name in _MODULES if getattr(arguments, name)]
     if len(names) > 1:
@@ -61,7 +61,7 @@ def asked_of(arguments: argparse.Namespace, ways: Sequence[Place]) -> Mending | 
         raise ValueError(
             f"{_option(found[0])} is for fairing, and --{name} does not fair: call twice"
         )
-    if any(is_cad(way.target) for way in ways):
+    if any(is_cad(file.target) for file in files):
         raise ValueError(f"--{name} writes meshes: OUT cannot be a STEP file")
     defaults = _MODULES[name].DEFAULTS | _OF_BOTH
     said = {
@@ -69,7 +69,7 @@ def asked_of(arguments: argparse.Namespace, ways: Sequence[Place]) -> Mending | 
         for key, default in defaults.items()
     }
     said["energy"] = getattr(arguments, "energy", fill.ENERGY)
-    return Mending(_MODULES[name], _MODULES[name].wish_of(said))
+    return Mending(_MODULES[name], _MODULES[name].options_of(said))
 
 
 def _option(name: str) -> str:

@@ -323,7 +323,7 @@ class _Formatter(argparse.RawDescriptionHelpFormatter):
 
 
 def _share(text: str) -> slice:
-    """Of the inputs, for one task of an engine."""
+    """Of the inputs, for one task of an executor."""
     first, end = map(int, text.split(":"))
     return slice(first, end)
 

@@ -106,9 +106,9 @@ def _accuracy(reports: list[Mapping[str, Any]], energy: str) -> str:
 
 
 def _energy(report: Mapping[str, Any], record: dict[str, Any], state: str) -> float:
-    # before and after are told for two energies; the third makes little of the total curvature too
-    told = "thin_plate" if record["settings"]["energy"] == "THIN_PLATE" else "total_curvature"
-    return _number(report.get("energy", {}).get(state, {}).get(told, nan))
+    # before and after are reported for two energies; the third makes little of the total curvature too
+    energy = "thin_plate" if record["settings"]["energy"] == "THIN_PLATE" else "total_curvature"
+    return _number(report.get("energy", {}).get(state, {}).get(energy, nan))
 
 
 def _number(value: float | None) -> float:

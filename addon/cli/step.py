@@ -17,7 +17,7 @@ from .numbers import number
 from .places import Place, is_cad
 
 _TOLERANCE, _ANGLE, _UNIT = 1e-4, 0.05, "mm"
-_ONLY_HERE = ("fit_tolerance", "fit_angle", "unit", "insist")
+_ONLY_HERE = ("fit_tolerance", "fit_angle", "unit", "force")
 
 _POSITIVE = number("a number above 0 and below 90", lambda value: 0.0 < value < 90.0)
 
@@ -44,7 +44,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         help=f"the unit of the coordinates; they do not change [{_UNIT}]",
     )
     group.add_argument(
-        "--insist",
+        "--force",
         action="store_true",
         default=None,
         help="also write a surface that folds or turns too sharply for patches; its patches are red there",
@@ -52,12 +52,12 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def options_of(
-    arguments: argparse.Namespace, settings: Settings, ways: Sequence[Place]
+    arguments: argparse.Namespace, settings: Settings, files: Sequence[Place]
 ) -> PatchOptions | None:
     """What is asked of files for CAD; None where none is written. Raises ValueError if that is said
     all the same.
     """
-    if not any(is_cad(way.target) for way in ways):
+    if not any(is_cad(file.target) for file in files):
         for name in _ONLY_HERE:
             if getattr(arguments, name) is not None:
                 raise ValueError(f"--{name.replace('_', '-')} needs an output that ends in .step")
@@ -68,7 +68,7 @@ def options_of(
         fit_tolerance=arguments.fit_tolerance or _TOLERANCE,
         fit_angle=radians(arguments.fit_angle or _ANGLE),
         fit_levels=settings.levels if "levels" in vars(arguments) else 0,
-        insist=bool(arguments.insist),
+        force=bool(arguments.force),
         unit=arguments.unit or _UNIT,
     )
 
@@ -78,16 +78,16 @@ def require_patches(jobs: Sequence[PatchJob]) -> None:
     faulty = refused(jobs)
     if faulty:
         raise JobError(
-            words.together(job.warnings()[0] for job in faulty) + " --insist writes them red.",
+            words.together(job.warnings()[0] for job in faulty) + " --force writes them red.",
             "UNRESOLVED",
             "face",
             faulty[0].refused,
         )
 
 
-def write_step_file(way: Place, jobs: Sequence[PatchJob], options: PatchOptions) -> None:
+def write_step_file(file: Place, jobs: Sequence[PatchJob], options: PatchOptions) -> None:
     """All parts as one file, coordinates as they are."""
-    write_whole(way.target, lambda path: write_jobs(path, jobs, options.unit, 1.0))
+    write_whole(file.target, lambda path: write_jobs(path, jobs, options.unit, 1.0))
 
 
 def object_entry(job: PatchJob) -> dict[str, Any]:

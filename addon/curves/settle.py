@@ -22,7 +22,7 @@ MOST_FACES = 50_000  # of the control mesh: more are a slip in Edges
 
 
 @dataclass(frozen=True)
-class Wish:
+class CoverOptions:
     snap: float = 0.0  # the distance at which curves meet; 0: a hundredth of the usual curve's size
     per_side: int = 4  # edges on the shorter sides of cells; longer ones have more
     closed: bool = False  # whether what looks like the outside of a sheet is a cell, too
@@ -47,7 +47,10 @@ class Covered:
 
 
 def covered(
-    curves: Sequence[Curve], wish: Wish, before: np.ndarray | None = None, text: Text = plain
+    curves: Sequence[Curve],
+    options: CoverOptions,
+    before: np.ndarray | None = None,
+    text: Text = plain,
 ) -> Covered:
     """The control mesh over the network of `curves`; JobError says why there is none. `before`: the
     numbers of edges that an earlier one had on its arcs. `text` says lengths.
@@ -58,10 +61,10 @@ def covered(
     for curve in curves:
         if not np.isfinite(curve.pieces).all():
             raise JobError(f"Delete the point of '{curve.name}' that has no finite position.")
-    found = find_cells(network(curves, wish.snap), wish.closed)
+    found = find_cells(network(curves, options.snap), options.closed)
     if not found.cells:
         raise JobError(none_text(found.network, text))
-    mesh = control_mesh(found, wish.per_side, before)
+    mesh = control_mesh(found, options.per_side, before)
     if len(mesh.faces) > MOST_FACES:
         raise JobError(
             "Lower Edges per Side, or leave out very short or very long curves. The control mesh would "

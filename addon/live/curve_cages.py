@@ -35,7 +35,7 @@ def refreshed(sessions: Iterable[Session], changed: Collection[int | str]) -> se
 
 def _followed(cage: Object) -> str:
     try:
-        with registry.quiet(), errors.explained(cage.name):
+        with registry.ignoring_updates(), errors.explained(cage.name):
             curve_cage.follow(cage)
     except JobError as error:
         return str(error)

@@ -86,7 +86,7 @@ def guarded(session: Session, step: Callable[[Session], object]) -> None:
         registry.remove(session, gone)
         return
     try:
-        with registry.quiet():
+        with registry.ignoring_updates():
             step(session)
     except Exception as error:
         registry.give_up(
@@ -96,7 +96,7 @@ def guarded(session: Session, step: Callable[[Session], object]) -> None:
 
 
 def _follow(_scene: Scene, depsgraph: bpy.types.Depsgraph) -> None:
-    if not registry.sessions() or registry.is_quiet():
+    if not registry.sessions() or registry.ignores_updates():
         return
     reshaped = changed_keys(depsgraph, moved=False)
     reshaped |= curve_cages.refreshed(
@@ -117,7 +117,7 @@ def _follow_frame(_scene: Scene, depsgraph: bpy.types.Depsgraph) -> None:
     """Shape keys, armatures and drivers of another frame: Blender does not name all that they
     change.
     """
-    if registry.is_quiet():
+    if registry.ignores_updates():
         return
 
     def step(session: Session) -> None:
@@ -143,9 +143,9 @@ def _before_undo(*_: Any) -> None:
         session.cancel_full(wait=True)
 
 
-def _distrust_all(*_: Any) -> None:
+def _mark_all_stale(*_: Any) -> None:
     for session in registry.sessions():
-        session.distrust()
+        session.mark_stale()
 
 
 def _render_begins(scene: Scene | None = None, *_: Any) -> None:
@@ -158,7 +158,7 @@ def _render_ends(*_: Any) -> None:
     """May come on another thread: the timer does the rest."""
     global _rendering
     _rendering = False
-    _distrust_all()
+    _mark_all_stale()
 
 
 def _end_all(*_: Any) -> None:
@@ -175,8 +175,8 @@ _HANDLERS = {
     "frame_change_post": _follow_frame,
     "undo_pre": _before_undo,
     "redo_pre": _before_undo,
-    "undo_post": _distrust_all,
-    "redo_post": _distrust_all,
+    "undo_post": _mark_all_stale,
+    "redo_post": _mark_all_stale,
     "render_init": _render_begins,
     "render_complete": _render_ends,
     "render_cancel": _render_ends,

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 _sessions: dict[int | str, Session] = {}  # target key: Session
 _endings: dict[int | str, str] = {}  # target key: why it ended by itself, a sentence
 _known: dict[int | str, Reference] = {}  # those that are or were live since the file was opened
-_quiet = 0
+_ignoring = 0
 
 
 def is_in_a_scene(target: Object) -> bool:
@@ -106,15 +106,15 @@ def why_ended(target: Object) -> str:
 
 
 @contextmanager
-def quiet() -> Iterator[None]:
+def ignoring_updates() -> Iterator[None]:
     """Inside the `with`, what changes is our own doing."""
-    global _quiet
-    _quiet += 1
+    global _ignoring
+    _ignoring += 1
     try:
         yield
     finally:
-        _quiet -= 1
+        _ignoring -= 1
 
 
-def is_quiet() -> bool:
-    return _quiet > 0
+def ignores_updates() -> bool:
+    return _ignoring > 0

@@ -20,7 +20,7 @@ from ..memory import source_of
 from ..mesh.layers import read_data
 from ..mesh.object import Reference, session_key
 from ..mesh.own import OwnData, carried_names, read_own, write_own
-from ..mesh.read import control_mesh, read_mesh, selected_faces, tolerance_shares, vertex_pulls
+from ..mesh.read import control_mesh, read_mesh, selected_faces, tolerance_factors, vertex_pulls
 from ..mesh.world_shape import WorldShape, world_shape
 from ..mesh.write import has_faces_of, rebuild_mesh, write_positions
 from ..preferences import preferences
@@ -70,7 +70,7 @@ class Session:
         self._settings: Any = None
         self._shape = WorldShape(None)
         self._region: np.ndarray | None = None
-        self._shares: np.ndarray | None = None
+        self._tolerance_factors: np.ndarray | None = None
         self._pulls: np.ndarray | None = None
         # of the mesh that the solver was made for: a drag does not change it
         self._edge_length = 0.0
@@ -102,7 +102,7 @@ class Session:
             return True
         return not self._has_settings_of(source, target)
 
-    def distrust(self) -> None:
+    def mark_stale(self) -> None:
         """Anything may have changed unseen, as by undo. Only notes it: for any thread."""
         self._stale, self._mesh = True, None
 
@@ -145,7 +145,7 @@ class Session:
         with self._mesh_now(source, depsgraph) as mesh:
             arrays = read_mesh(mesh)
             if not self._has_values_of(arrays):
-                self._shares = tolerance_shares(source, mesh, self._settings)
+                self._tolerance_factors = tolerance_factors(source, mesh, self._settings)
                 self._pulls = vertex_pulls(source, mesh, self._settings)
         clock.lap("read")
         is_new = self._prepare(source, arrays, depsgraph)
@@ -208,7 +208,7 @@ class Session:
             self._settings,
             preferences(),
             self._region,
-            shares=self._shares,
+            tolerance_factors=self._tolerance_factors,
             pulls=self._pulls,
             edge_length=self._edge_length,
         )

@@ -68,7 +68,7 @@ def switch_off(target: Object, context: Context) -> None:
         handlers.complete(session, context)
 
 
-def surfaces_at_hand(context: Context) -> list[Object]:
+def active_surfaces(context: Context) -> list[Object]:
     """The faired objects that the active object stands for: itself, or what is made of it (all live
     ones, else the last).
     """
@@ -93,7 +93,7 @@ def look_again(source: Object) -> None:
     for target in live_surfaces_of(source):
         session = registry.session_of(target)
         if session is not None:
-            session.distrust()
+            session.mark_stale()
 
 
 def surfaces_of(source: Object) -> list[Object]:

@@ -13,7 +13,7 @@ import bpy
 import numpy as np
 
 from ..blender import Mesh, Object
-from ..transfer.carrier import Carrier
+from ..transfer.attributes import AttributeTransfer
 
 _PASSING = "discrete_fairing_weight"
 
@@ -62,7 +62,7 @@ def write_groups(
     target: Object,
     groups: list[VertexGroup],
     active: int,
-    carrier: Carrier,
+    transfer: AttributeTransfer,
     operators: bool = True,
 ) -> None:
     """Gives the object `target`, itself in Object Mode, the vertex `groups` (list of VertexGroup)
@@ -72,7 +72,7 @@ def write_groups(
     """
     target.vertex_groups.clear()
     for group in groups:
-        weights = carrier.point(group.dense(carrier.control_count)).ravel()
+        weights = transfer.point(group.dense(transfer.control_count)).ravel()
         write_group(target, group, weights, group.vertices[group.weights == 0.0], operators)
     if groups:
         target.vertex_groups.active_index = active

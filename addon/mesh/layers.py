@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..blender import Mesh, Object
-from ..transfer.carrier import Carrier
+from ..transfer.attributes import AttributeTransfer
 from .groups import VertexGroup, read_groups, write_groups
 from .shape_keys import ShapeKeys, read_shape_keys
 
@@ -207,7 +207,7 @@ def _losses(
 def write_attributes(
     mesh: Mesh,
     attributes: list[Attribute],
-    carrier: Carrier,
+    transfer: AttributeTransfer,
     origin: np.ndarray,
     leave_out: Collection[str] = (),
 ) -> None:
@@ -217,7 +217,7 @@ def write_attributes(
     """
     for attribute in attributes:
         if attribute.name not in leave_out:
-            _write_attribute(mesh, attribute, _carried(attribute, carrier, origin))
+            _write_attribute(mesh, attribute, _carried(attribute, transfer, origin))
 
 
 def inherit(values: np.ndarray, origin: np.ndarray) -> np.ndarray:
@@ -230,17 +230,17 @@ def inherit(values: np.ndarray, origin: np.ndarray) -> np.ndarray:
     return out
 
 
-def _carried(attribute: Attribute, carrier: Carrier, origin: np.ndarray) -> np.ndarray:
+def _carried(attribute: Attribute, transfer: AttributeTransfer, origin: np.ndarray) -> np.ndarray:
     values, mixable = attribute.values, STORAGE[attribute.data_type].mixable
     if attribute.domain == "EDGE":
         return inherit(values, origin)
     if attribute.domain == "FACE":
-        return carrier.face(values)
+        return transfer.face(values)
     if attribute.domain == "CORNER":
-        return carrier.corner(values) if mixable else carrier.pick_corner(values)
+        return transfer.corner(values) if mixable else transfer.pick_corner(values)
     if attribute.name in OWN_VERTICES_ONLY:
-        return carrier.own_point(values)
-    return carrier.point(values) if mixable else carrier.pick_point(values)
+        return transfer.own_point(values)
+    return transfer.point(values) if mixable else transfer.pick_point(values)
 
 
 def _write_attribute(mesh: Mesh, attribute: Attribute, values: np.ndarray) -> None:
@@ -253,25 +253,25 @@ def _write_attribute(mesh: Mesh, attribute: Attribute, values: np.ndarray) -> No
 def write_data(
     target: Object,
     data: SurfaceData,
-    carrier: Carrier,
+    transfer: AttributeTransfer,
     leave_out: Collection[str] = (),
     operators: bool = True,
 ) -> None:
     """Gives the object `target`, in Object Mode with the refined mesh, what `data` (SurfaceData)
-    holds; `carrier`: Carrier.
+    holds; `transfer`: AttributeTransfer.
 
     `operators`: see groups.py. Attributes named in `leave_out` are not written. Sharp edges add up with those that are there.
     Shape keys: see shape_keys.py; they come last, since attributes of a mesh that has them are
     harder to change.
     """
     mesh = target.data
-    origin = carrier.edge_origin(_corner_edges(mesh), len(mesh.edges))
-    write_attributes(mesh, data.attributes, carrier, origin, leave_out)
+    origin = transfer.edge_origin(_corner_edges(mesh), len(mesh.edges))
+    write_attributes(mesh, data.attributes, transfer, origin, leave_out)
     for name, values in data.edge_marks.items():
         mesh.edges.foreach_set(name, inherit(values, origin))
     for name, values in data.face_marks.items():
-        mesh.polygons.foreach_set(name, carrier.face(values))
-    write_groups(target, data.groups, data.active_group, carrier, operators)
+        mesh.polygons.foreach_set(name, transfer.face(values))
+    write_groups(target, data.groups, data.active_group, transfer, operators)
     _choose_active(mesh, data)
     mesh.update()
 

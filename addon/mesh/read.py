@@ -160,14 +160,14 @@ def selected_faces(mesh: Mesh, source_name: str) -> np.ndarray:
     return found
 
 
-def tolerance_shares(source: Object, mesh: Mesh, settings: AnySettings) -> np.ndarray | None:
+def tolerance_factors(source: Object, mesh: Mesh, settings: AnySettings) -> np.ndarray | None:
     """(n,) from 0 to 1: the part of the tolerance that each vertex of `mesh` has; None: all of it.
 
     JobError if `source` has nothing by the name that the settings say.
     """
     if not (is_near(settings) and settings.tolerance_group):
         return None
-    return vertex_values.shares(source, mesh, settings.tolerance_group)
+    return vertex_values.factors(source, mesh, settings.tolerance_group)
 
 
 def vertex_pulls(source: Object, mesh: Mesh, settings: AnySettings) -> np.ndarray | None:

@@ -86,7 +86,9 @@ def _positions(block: bpy.types.ShapeKey) -> np.ndarray:
     return values.reshape(-1, 3).astype(np.float64)
 
 
-def shares(keys: ShapeKeys, weights: Callable[[str], np.ndarray]) -> dict[int, float | np.ndarray]:
+def influences(
+    keys: ShapeKeys, weights: Callable[[str], np.ndarray]
+) -> dict[int, float | np.ndarray]:
     """How much of each key but the first, by its place, the sliders mix, or the time of absolute keys:
     the shape is the first key plus so much of what the others differ from it, a number or one a vertex.
     `weights`: (n,) of a vertex group by its name.
@@ -94,7 +96,7 @@ def shares(keys: ShapeKeys, weights: Callable[[str], np.ndarray]) -> dict[int, f
     if keys.show_only:
         return {keys.active: 1.0} if keys.active else {}
     if not keys.use_relative:
-        return _absolute_shares(keys)
+        return _absolute_influences(keys)
     found: dict[int, float | np.ndarray] = {}
     for place, key in enumerate(keys.keys):
         value = 0.0 if key.settings["mute"] else key.settings["value"]
@@ -108,7 +110,7 @@ def shares(keys: ShapeKeys, weights: Callable[[str], np.ndarray]) -> dict[int, f
     return found
 
 
-def _absolute_shares(keys: ShapeKeys) -> dict[int, float | np.ndarray]:
+def _absolute_influences(keys: ShapeKeys) -> dict[int, float | np.ndarray]:
     """The same of absolute keys: between two of them, by the curve that each of the two asks for."""
     frames = [key.frame for key in keys.keys]
     kinds = [key.settings["interpolation"] for key in keys.keys]
@@ -149,9 +151,9 @@ def _curve_weights(at: float, kind: str) -> tuple[float, float, float, float]:
 
 
 def mixed(keys: ShapeKeys, weights: Callable[[str], np.ndarray]) -> np.ndarray:
-    """(n, 3): the shape that the sliders make of `keys`; `weights` as of `shares`."""
+    """(n, 3): the shape that the sliders make of `keys`; `weights` as of `influences`."""
     first, shape = keys.positions[0], keys.positions[0].copy()
-    for place, share in shares(keys, weights).items():
+    for place, share in influences(keys, weights).items():
         shape += np.reshape(share, (-1, 1)) * (keys.positions[place] - first)
     return shape
 

@@ -10,7 +10,7 @@ import numpy as np
 from ..blender import Mesh, Object
 from ..core import ControlArrays
 from ..settings import Settings
-from ..transfer.carrier import Carrier
+from ..transfer.attributes import AttributeTransfer
 from ..transfer.lattice import fine_edges, mark_pairs
 from ..transfer.seams import seam_pairs
 from .boundary_marks import BOUNDARY
@@ -74,9 +74,9 @@ def rebuild_mesh(
     """
     creases = fine_edges(result.faces, result.crease_edges, level)
     refill_mesh(target, result, np.concatenate([creases, seam_pairs(result, arrays, settings)]))
-    carrier = Carrier(result, arrays, level)
-    write_data(target, data, carrier, attributes_left_out(settings), operators=False)
-    write_pad_sizes(target.data, result, carrier)
+    transfer = AttributeTransfer(result, arrays, level)
+    write_data(target, data, transfer, attributes_left_out(settings), operators=False)
+    write_pad_sizes(target.data, result, transfer)
 
 
 def refill_mesh(
@@ -98,13 +98,13 @@ def attributes_left_out(settings: Settings) -> tuple[str, ...]:
     return (*made, "sharp_face") if settings.shade_smooth else made
 
 
-def write_pad_sizes(mesh: Mesh, result: Any, carrier: Carrier) -> None:
+def write_pad_sizes(mesh: Mesh, result: Any, transfer: AttributeTransfer) -> None:
     """Gives `mesh` the widths of the pads that hold its control vertices, where any of them gave
     way.
     """
     pads = result.report["pads"]
     if pads["gone"]:
-        widths = carrier.point(np.asarray(pads["widths"], np.float32))
+        widths = transfer.point(np.asarray(pads["widths"], np.float32))
         fill_layer(make_layer(mesh, PAD_SIZES, "FLOAT", "POINT"), widths.ravel())
 
 

@@ -8,7 +8,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
 from ..blender import Answer, Context, registration
-from ..cleaning import STEPS, CleanJob, Wish
+from ..cleaning import STEPS, CleanJob, CleanOptions
 from ..mesh.read import source_objects
 from ..poll import mesh_poll_reason
 from .fair import WholeFairing, poll_reason
@@ -87,9 +87,9 @@ class OBJECT_OT_fairing_clean(LargestHole, WholeFairing, bpy.types.Operator):
     def make_jobs(self, context: Context) -> list[CleanJob]:
         steps = {name: bool(getattr(self, name)) for name, *_ in STEPS}
         noise = {"NONE": 0, "AUTO": "auto", "PASSES": self.passes}[self.noise]
-        wish = Wish(steps, self.islands, self.largest, noise)
+        options = CleanOptions(steps, self.islands, self.largest, noise)
         targets = {target.data: target for target in source_objects(context)}.values()
-        return [CleanJob(context, target, wish) for target in targets]
+        return [CleanJob(context, target, options) for target in targets]
 
     def finish(self, context: Context, jobs: Sequence[CleanJob]) -> Answer:
         """Changes the meshes, if nobody else has meanwhile."""

@@ -12,9 +12,9 @@ from ..blender import Context, Object, registration
 from ..choices import ENERGIES
 from ..inspection import readout
 from ..job import Job
-from ..memory import source_at_hand
+from ..memory import active_source
 from ..settings import Settings
-from ..ui.main import settings_at_hand
+from ..ui.main import active_settings
 from .fair import Fairing, poll_reason
 
 MEASURED = 250_000  # triangles: larger surfaces wait for Measure
@@ -31,12 +31,12 @@ class OBJECT_OT_fairing_compare(Fairing, bpy.types.Operator):
     @staticmethod
     def poll_reason(context: Context) -> str:
         return poll_reason(context) or (
-            "" if source_at_hand(context) else "Select a mesh object first"
+            "" if active_source(context) else "Select a mesh object first"
         )
 
     def make_jobs(self, context: Context) -> list[Job]:
-        source = cast(Object, source_at_hand(context))
-        settings = Settings.of(settings_at_hand(context))
+        source = cast(Object, active_source(context))
+        settings = Settings.of(active_settings(context))
         return [Job(context, source, replace(settings, energy=e)) for e, *_ in ENERGIES]
 
     def after(self, context: Context, jobs: Sequence[Job]) -> None:

@@ -11,12 +11,12 @@ from ..blender import Answer, Context, registration
 from ..mesh.object import select_only
 from ..mesh.read import source_objects
 from ..poll import edit_mode_reason, mesh_poll_reason
-from ..strain.ease import EaseJob, EaseSelectedJob, Wish
+from ..strain.ease import EaseJob, EaseOptions, EaseSelectedJob
 from ..ui.main import fairing_operator
 from ..units import Units
 from . import redo
 from .fair import WholeFairing, poll_reason
-from .strain import sources_at_hand
+from .strain import active_sources
 
 
 class _Easing(WholeFairing):
@@ -114,7 +114,7 @@ class OBJECT_OT_fairing_ease(_Easing, bpy.types.Operator):
             return poll_reason(context)
         if context.mode != "OBJECT":
             return "Press Tab first, or use Ease Selected: the whole control mesh is eased in Object Mode"
-        return mesh_poll_reason(sources_at_hand(context))
+        return mesh_poll_reason(active_sources(context))
 
     def draw(self, _context: Context) -> None:
         layout = cast(bpy.types.UILayout, self.layout)
@@ -129,8 +129,10 @@ class OBJECT_OT_fairing_ease(_Easing, bpy.types.Operator):
         layout.prop(self, "result")
 
     def make_jobs(self, context: Context) -> list[Any]:
-        wish = Wish(self.amount, self.tolerance, self.count, self.use_selection, self.go_on)
-        return [EaseJob(context, source, wish) for source in sources_at_hand(context)]
+        options = EaseOptions(
+            self.amount, self.tolerance, self.count, self.use_selection, self.go_on
+        )
+        return [EaseJob(context, source, options) for source in active_sources(context)]
 
     def write(self, context: Context, jobs: list[Any]) -> None:
         if self.result == "SHAPE_KEY":

@@ -10,7 +10,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntVectorProper
 from ..blender import Answer, Context, Object, registration
 from ..choices import ENERGIES, JOINTS
 from ..errors import JobError
-from ..holes import Filling, HoleJob, Wish, count_text, doubts
+from ..holes import Filling, FillOptions, HoleJob, count_text, fill_warnings
 from ..mesh.read import source_objects
 from ..poll import mesh_poll_reason
 from .fair import WholeFairing, poll_reason
@@ -97,7 +97,7 @@ class OBJECT_OT_fairing_fill(LargestHole, WholeFairing, bpy.types.Operator):
         targets = (
             source_objects(context) if named is None else [cast(Object, context.active_object)]
         )
-        wish = Wish(
+        options = FillOptions(
             self.joint,
             self.energy,
             self.density,
@@ -111,7 +111,7 @@ class OBJECT_OT_fairing_fill(LargestHole, WholeFairing, bpy.types.Operator):
         self._reasons: list[str] = []
         for target in targets:
             try:
-                jobs.append(HoleJob(context, target, wish))
+                jobs.append(HoleJob(context, target, options))
             except JobError as error:
                 self._reasons.append(str(error))
         if not jobs:
@@ -136,7 +136,7 @@ class OBJECT_OT_fairing_fill(LargestHole, WholeFairing, bpy.types.Operator):
             return {"CANCELLED"}
         reasons += [f"{job.name}: {job.left_text}" for job in ready if job.left_text]
         self.report({"INFO"}, _said(done))
-        for sentence in reasons + doubts(done):
+        for sentence in reasons + fill_warnings(done):
             self.report({"WARNING"}, sentence)
         return {"FINISHED"}
 

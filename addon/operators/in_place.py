@@ -119,7 +119,7 @@ class InPlace(WholeFairing):
             layout.prop(self, "tension")
 
     def make_jobs(self, context: Context) -> list[in_place.InPlaceJob]:
-        wish = in_place.Wish(
+        options = in_place.InPlaceOptions(
             self.levels,
             self.joint,
             self.energy,
@@ -131,7 +131,8 @@ class InPlace(WholeFairing):
         )
         settings = Settings.of(context.scene.discrete_fairing)
         return [
-            in_place.InPlaceJob(context, target, settings, wish) for target in self.targets(context)
+            in_place.InPlaceJob(context, target, settings, options)
+            for target in self.targets(context)
         ]
 
     def targets(self, context: Context) -> list[Object]:

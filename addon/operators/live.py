@@ -45,7 +45,7 @@ class OBJECT_OT_fairing_live(ExplainedPoll, bpy.types.Operator):
         return switch.poll_reason(active) if active.discrete_fairing.source is not None else ""
 
     def execute(self, context: Context) -> Answer:
-        targets = switch.surfaces_at_hand(context)
+        targets = switch.active_surfaces(context)
         on = self.state == "ON" or (self.state == "TOGGLE" and not any(map(switch.is_on, targets)))
         if not on:
             for target in targets:

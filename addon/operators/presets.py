@@ -16,7 +16,7 @@ from ..blender import Answer, Context, registration
 from ..properties import bring_up_to_date
 from ..purposes import FOLDER, PRESET_FOLDER
 from ..settings import NAMES
-from ..ui.main import settings_at_hand
+from ..ui.main import active_settings
 
 _FOLDER = str(FOLDER.parent)  # the one that holds presets/
 # belongs to the present work, not to the kind of thing that is made
@@ -24,7 +24,7 @@ NOT_KEPT = {"use_selection", "tolerance_group", "pull_group", "symmetry_plane", 
 
 
 def _settings_as_operator(context: Context) -> Any:
-    return context.temp_override(active_operator=settings_at_hand(context))
+    return context.temp_override(active_operator=active_settings(context))
 
 
 class OBJECT_OT_fairing_preset_apply(bpy.types.Operator):
@@ -42,7 +42,7 @@ class OBJECT_OT_fairing_preset_apply(bpy.types.Operator):
         with _settings_as_operator(context):
             execute: Any = bpy.ops.script.execute_preset  # whose stub says None
             answer = execute(filepath=self.filepath, menu_idname="VIEW3D_PT_fairing_presets")
-        bring_up_to_date(settings_at_hand(context))
+        bring_up_to_date(active_settings(context))
         return answer
 
 

@@ -12,7 +12,7 @@ from ..mesh.read import source_objects
 from ..poll import ExplainedPoll
 from ..purposes import EASED_FIRST, PURPOSES, preset_file
 from ..settings import Settings
-from ..ui.main import fairing_operator, remembered, settings_at_hand
+from ..ui.main import active_settings, fairing_operator, remembered
 from .fair import poll_reason
 
 # an operator that another one calls leaves no step of undo by itself; from a script's call none does
@@ -66,7 +66,7 @@ class OBJECT_OT_fairing_for(ExplainedPoll, bpy.types.Operator):
             operators.fairing_ease(how)
         if how == "INVOKE_DEFAULT" or remembered(context) is not None:
             return fairing_operator(context)(how, _UNDO)
-        settings = asdict(Settings.of(settings_at_hand(context)))
+        settings = asdict(Settings.of(active_settings(context)))
         return operators.fairing_surface(how, _UNDO, **settings)
 
 

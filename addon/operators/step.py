@@ -60,7 +60,7 @@ class EXPORT_SCENE_OT_fairing_step(ByFileBrowser, StepSettings, _Fitting, bpy.ty
     filter_glob: StringProperty(default="*.step;*.stp", options={"HIDDEN"})
 
     def patch_options(self) -> PatchOptions:
-        return replace(super().patch_options(), insist=self.insist)
+        return replace(super().patch_options(), force=self.force)
 
     def begin(self, context: Context) -> Answer:
         jobs = self._prepare(context)

@@ -12,7 +12,7 @@ from mathutils import Vector
 from .. import core
 from ..blender import Answer, Context, Object, registration
 from ..check.defects import select_defects, select_in_all
-from ..memory import source_at_hand
+from ..memory import active_source
 from ..mesh.object import why_not_here
 from ..mesh.shape_keys import EASED, key_positions
 from ..mesh.world_shape import world_matrix
@@ -25,11 +25,11 @@ from .by_browser import ByFileBrowser
 from .fair import WholeFairing, poll_reason
 
 
-def sources_at_hand(context: Context) -> list[Object]:
+def active_sources(context: Context) -> list[Object]:
     """What the active object is or is made from; in Edit Mode all meshes that are edited."""
     if context.mode == "EDIT_MESH":
         return list(context.objects_in_mode_unique_data)
-    source = source_at_hand(context)
+    source = active_source(context)
     return [] if source is None else [source]
 
 
@@ -40,10 +40,10 @@ class _Straining(WholeFairing):
 
     @staticmethod
     def poll_reason(context: Context) -> str:
-        return poll_reason(context) or mesh_poll_reason(sources_at_hand(context))
+        return poll_reason(context) or mesh_poll_reason(active_sources(context))
 
     def make_jobs(self, context: Context) -> list[Any]:
-        return [known.job_for(context, source) for source in sources_at_hand(context)]
+        return [known.job_for(context, source) for source in active_sources(context)]
 
     def finish(self, context: Context, jobs: Sequence[Any]) -> Answer:
         for job in jobs:
@@ -68,7 +68,7 @@ class OBJECT_OT_fairing_strain(ExplainedPoll, bpy.types.Operator):
     poll_reason = staticmethod(_Straining.poll_reason)
 
     def execute(self, context: Context) -> Answer:
-        sources = sources_at_hand(context)
+        sources = active_sources(context)
         show = not all(source.discrete_fairing_strain.show for source in sources)
         for source in sources:
             source.discrete_fairing_strain.show = show
@@ -76,7 +76,7 @@ class OBJECT_OT_fairing_strain(ExplainedPoll, bpy.types.Operator):
 
 
 def _reason_to_select(context: Context) -> str:
-    return _Straining.poll_reason(context) or why_not_here(context, sources_at_hand(context))
+    return _Straining.poll_reason(context) or why_not_here(context, active_sources(context))
 
 
 class OBJECT_OT_fairing_select_strained(_Straining, bpy.types.Operator):
@@ -158,7 +158,7 @@ class OBJECT_OT_fairing_go_to_strained(ExplainedPoll, bpy.types.Operator):
     poll_reason = staticmethod(_reason_to_select)
 
     def execute(self, context: Context) -> Answer:
-        source = cast(Object, source_at_hand(context))
+        source = cast(Object, active_source(context))
         if not select_defects(context, source, "vertex", [self.vertex]):
             self.report(
                 {"ERROR"}, f"Choose another vertex: {source.name} has no vertex {self.vertex}"
@@ -185,7 +185,7 @@ class OBJECT_OT_fairing_strain_table(ByFileBrowser, _Straining, bpy.types.Operat
 
     def make_jobs(self, context: Context) -> list[Any]:
         """Of the mesh itself, whatever its shape keys make of it."""
-        return [StrainJob(context, cast(Object, source_at_hand(context)), as_mixed=False)]
+        return [StrainJob(context, cast(Object, active_source(context)), as_mixed=False)]
 
     def finish(self, context: Context, jobs: Sequence[Any]) -> Answer:
         (job,) = jobs

@@ -35,7 +35,7 @@ def colours(strained: Strained, ids: np.ndarray) -> np.ndarray:
 
 def tips(strained: Strained, ids: np.ndarray, times: float) -> np.ndarray:
     """(k, 3) float32: where the needles of the vertices `ids` end, `times` as long as they are."""
-    return (strained.positions[ids] + times * strained.ways[ids]).astype(np.float32)
+    return (strained.positions[ids] + times * strained.directions[ids]).astype(np.float32)
 
 
 def needles(strained: Strained, times: float) -> tuple[np.ndarray, np.ndarray]:

@@ -27,7 +27,7 @@ _LEVELS = 2  # that the core computes on
 
 
 @dataclass(frozen=True)
-class Wish:
+class EaseOptions:
     amount: str  # AUTOMATIC, TOLERANCE, WORST
     tolerance: float = 0.0  # in scene units
     count: int = 1
@@ -106,14 +106,18 @@ class _Moving:
 
 
 class EaseJob(_Moving):
-    """As `wish` says, of the mesh itself, whatever its shape keys make of it."""
+    """As `options` says, of the mesh itself, whatever its shape keys make of it."""
 
     def __init__(
-        self, context: Context, source: Object, wish: Wish, settings: Settings | None = None
+        self,
+        context: Context,
+        source: Object,
+        options: EaseOptions,
+        settings: Settings | None = None,
     ) -> None:
-        super().__init__(context, source, wish.go_on, settings)
-        self._wish = wish
-        if wish.use_selection and not self.selected.any():
+        super().__init__(context, source, options.go_on, settings)
+        self._options = options
+        if options.use_selection and not self.selected.any():
             raise JobError(
                 f"{self.name}: Select the vertices that may move in Edit Mode, or switch off Selected "
                 "Vertices Only. No vertex is selected."
@@ -125,12 +129,12 @@ class EaseJob(_Moving):
             )
 
     def _run(self, watchers: dict[str, Any]) -> Any:
-        wish = self._wish
+        options = self._options
         return core.module().ease(
             **core.plate_arguments(self.arguments),
-            tolerance=wish.tolerance if wish.amount == "TOLERANCE" else None,
-            most=wish.count if wish.amount == "WORST" else None,
-            fixed=~self.selected if wish.use_selection else None,
+            tolerance=options.tolerance if options.amount == "TOLERANCE" else None,
+            most=options.count if options.amount == "WORST" else None,
+            fixed=~self.selected if options.use_selection else None,
             **watchers,
         )
 
@@ -139,12 +143,12 @@ class EaseJob(_Moving):
 
     def said(self, text: words.Text) -> str:
         """What was done, in words."""
-        eased, wish = self.result, self._wish
+        eased, options = self.result, self._options
         before = eased.strain_before
-        if wish.amount == "WORST":
+        if options.amount == "WORST":
             return words.moved(self.moves, text)
-        if wish.amount == "TOLERANCE":
-            return words.moved_within(self.moves, wish.tolerance, before, text)
+        if options.amount == "TOLERANCE":
+            return words.moved_within(self.moves, options.tolerance, before, text)
         return words.eased(eased.noise, self.moves, before, eased.wrong, eased.floor, text)
 
     def write_key(self) -> None:

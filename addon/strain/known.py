@@ -213,15 +213,15 @@ def _note_changes(_scene: Any, depsgraph: bpy.types.Depsgraph) -> None:
             watch.stale = True
 
 
-def _distrust(*_: Any) -> None:
+def _mark_stale(*_: Any) -> None:
     for watch in _watches.values():
         watch.stale = True
 
 
-def _distrust_all(*_: Any) -> None:
+def _mark_all_stale(*_: Any) -> None:
     """What is shown, too."""
     shown_changed()
-    _distrust()
+    _mark_stale()
 
 
 def _forget(*_: Any) -> None:
@@ -239,9 +239,9 @@ def _resume(*_: Any) -> None:
 
 _HANDLERS = {
     "depsgraph_update_post": _note_changes,
-    "frame_change_post": _distrust,
-    "undo_post": _distrust_all,
-    "redo_post": _distrust_all,
+    "frame_change_post": _mark_stale,
+    "undo_post": _mark_all_stale,
+    "redo_post": _mark_all_stale,
     "load_pre": _forget,
     "load_post": _resume,
 }

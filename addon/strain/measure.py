@@ -109,4 +109,4 @@ def _as_mixed(source: Object, mesh: Mesh, positions: np.ndarray) -> np.ndarray:
     keys = None if source.mode == "EDIT" else read_shape_keys(source, len(positions))
     if keys is None:
         return positions
-    return mixed(keys, lambda group: vertex_values.shares(source, mesh, group))
+    return mixed(keys, lambda group: vertex_values.factors(source, mesh, group))

@@ -14,7 +14,7 @@ class Strained:
     """
 
     positions: np.ndarray  # (n, 3) in the coordinates of the object
-    ways: np.ndarray  # (n, 3) of the surface, in the same
+    directions: np.ndarray  # (n, 3) of the surface, in the same
     # (n,) in scene units, above zero outwards; NaN at corners and on straight borders
     lengths: np.ndarray
     # In scene units: strains that are nothing but scatter, or a fair shape between its vertices, are

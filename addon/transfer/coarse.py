@@ -3,17 +3,17 @@
 
 import numpy as np
 
-from .carrier import Carrier, Patch
+from .attributes import AttributeTransfer, Patch
 from .lattice import make_cells
 
 
-def coarse_triangles(carrier: Carrier, levels: int) -> tuple[np.ndarray, np.ndarray]:
+def coarse_triangles(transfer: AttributeTransfer, levels: int) -> tuple[np.ndarray, np.ndarray]:
     """(t, 3) triangles of refined vertices as after `levels` refinements, at most those that there
-    were, and (t,) the control face of each, by its place among those of `carrier`. Quads are cut.
+    were, and (t,) the control face of each, by its place among those of `transfer`. Quads are cut.
     """
     triangles, owners = [np.empty((0, 3), np.int32)], [np.empty(0, np.int64)]
     start = 0
-    for patch in carrier.patches:
+    for patch in transfer.patches:
         faces = _coarse_faces(patch, levels)
         each = faces.shape[1]
         halves = [[0, 1, 2]] if faces.shape[2] == 3 else [[0, 1, 2], [0, 2, 3]]

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from ..core import ControlArrays
-from .carrier import Carrier, Patch
+from .attributes import AttributeTransfer, Patch
 from .lattice import Cells, pair_keys
 
 AXES = "XYZ"
@@ -214,7 +214,7 @@ def _turned_points(cells: Cells, turn: int) -> np.ndarray:
 
 
 def find_mirrors(
-    carrier: Carrier,
+    transfer: AttributeTransfer,
     arrays: ControlArrays,
     crease_edges: np.ndarray | Sequence[Any] = (),
     corner_vertices: np.ndarray | Sequence[Any] = (),
@@ -222,17 +222,17 @@ def find_mirrors(
     """The planes x = 0, y = 0, z = 0 across which control mesh and features are symmetric: (list of
     Mirror, notes).
 
-    `carrier`: Carrier; `arrays`: the control mesh; `crease_edges` (k, 2) and `corner_vertices`
+    `transfer`: AttributeTransfer; `arrays`: the control mesh; `crease_edges` (k, 2) and `corner_vertices`
     (c,): control vertices.
     """
     found, notes = [], []
-    used = carrier.used_vertices()
+    used = transfer.used_vertices()
     for axis in range(3):
         opposites = opposite(arrays.positions, axis, used)
         flat = not arrays.positions[used, axis].any()
         if opposites is None or flat:
             continue
-        mirror = refined_mirror(carrier.patches, opposites, axis, carrier.vertex_count)
+        mirror = refined_mirror(transfer.patches, opposites, axis, transfer.vertex_count)
         if mirror is None or not maps_positions(mirror, arrays.positions):
             notes.append(
                 f"The vertices are symmetric in {AXES[axis]} but the faces are not: no exact symmetry."

@@ -73,7 +73,7 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
             _draw_repairs(layout, context.active_object)
         elif followed is not None:
             layout.label(text=f"Live: {followed.name}", icon="REC")
-        settings = settings_at_hand(context)
+        settings = active_settings(context)
         if memory is None and followed is None:
             _draw_purposes(layout)
         sources = _sources(context, memory)
@@ -165,7 +165,7 @@ def live_surface(context: Context) -> Object | None:
     return followers[0] if followers else None
 
 
-def settings_at_hand(context: Context) -> KeptSettings:
+def active_settings(context: Context) -> KeptSettings:
     """Those of the faired surface that is active, or that follows the active object; else those for
     the next one.
     """

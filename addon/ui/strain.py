@@ -6,7 +6,7 @@ from typing import Any
 import bpy
 
 from ..blender import Context, Object, registration
-from ..memory import source_at_hand
+from ..memory import active_source
 from ..strain import known
 from ..strain.drawn import magnification
 from ..strain.strained import Strained
@@ -22,7 +22,7 @@ class VIEW3D_PT_fairing_strain(Folded, bpy.types.Panel):
         layout: Any = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
-        source = source_at_hand(context)
+        source = active_source(context)
         if source is None:
             layout.operator("object.fairing_strain")
             return

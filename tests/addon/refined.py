@@ -10,7 +10,7 @@ import numpy as np
 from addon.mesh.layers import read_data, write_data
 from addon.mesh.read import read_mesh
 from addon.mesh.write import write_mesh
-from addon.transfer.carrier import Carrier
+from addon.transfer.attributes import AttributeTransfer
 
 NO_PAIRS = np.empty((0, 2), np.int32)
 
@@ -18,12 +18,12 @@ NO_PAIRS = np.empty((0, 2), np.int32)
 def refine(source, levels=2, leave_out=(), sharp_pairs=NO_PAIRS, **settings):
     """The refined object `target` of `source`, and all that went into it."""
     arrays, data = read_mesh(source.data), read_data(source, source.data)
-    result, carrier = core_run(arrays, levels, **settings)
+    result, transfer = core_run(arrays, levels, **settings)
     target = bpy.data.objects.new("Refined", write_mesh("Refined", result, sharp_pairs))
     bpy.context.collection.objects.link(target)
-    write_data(target, data, carrier, leave_out)
+    write_data(target, data, transfer, leave_out)
     return SimpleNamespace(
-        target=target, mesh=target.data, data=data, arrays=arrays, result=result, carrier=carrier
+        target=target, mesh=target.data, data=data, arrays=arrays, result=result, transfer=transfer
     )
 
 
@@ -31,11 +31,11 @@ def core_run(arrays, levels, **settings):
     result = discrete_fairing.fair(
         arrays.positions, (arrays.corners, arrays.offsets), levels, measure=False, **settings
     )
-    return result, Carrier(result, arrays, levels)
+    return result, AttributeTransfer(result, arrays, levels)
 
 
 def control_arrays(positions, polygons):
-    """What Carrier needs of a control mesh that is given by hand."""
+    """What AttributeTransfer needs of a control mesh that is given by hand."""
     sides = {tuple(sorted(s)) for p in polygons for s in zip(p, (*p[1:], p[0]))}
     return SimpleNamespace(
         positions=np.array(positions, float),

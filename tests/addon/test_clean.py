@@ -10,7 +10,7 @@ from hole_scenes import ball, is_closed, radii
 from scenes import activate, positions
 
 from addon.check.defects import recall_cleaned, recall_defects
-from addon.cleaning import CleanJob, Wish
+from addon.cleaning import CleanJob, CleanOptions
 from addon.ui.check import VIEW3D_PT_fairing_check
 
 
@@ -153,7 +153,7 @@ def test_faces_that_cross_are_listed_with_a_button_that_selects_them():
 
 def test_a_run_whose_mesh_is_gone_says_so():
     target = spoiled()
-    job = CleanJob(bpy.context, target, Wish({}, 0.1, 0.0, 0))
+    job = CleanJob(bpy.context, target, CleanOptions({}, 0.1, 0.0, 0))
     assert job.why_outdated(bpy.context) == ""
     target.scale.x = 2.0
     bpy.context.view_layer.update()

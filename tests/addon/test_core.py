@@ -95,8 +95,8 @@ def test_a_mesh_without_faces_has_no_edges_to_measure():
 
 def test_shares_of_the_tolerance():
     near = settings(interpolation="APPROXIMATE", tolerance=0.5, tolerance_unit="SCENE")
-    shares = np.array([0.0, 0.25, 1.0, 0.0])
-    given = fair_arguments(triangle(), near, Defaults, shares=shares)
+    tolerance_factors = np.array([0.0, 0.25, 1.0, 0.0])
+    given = fair_arguments(triangle(), near, Defaults, tolerance_factors=tolerance_factors)
     assert given["tolerance"].tolist() == [0.0, 0.125, 0.5, 0.0]
 
 

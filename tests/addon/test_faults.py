@@ -75,22 +75,22 @@ def test_suzanne_is_not_blamed_for_what_her_mesh_does():
 def test_fine_surfaces_are_looked_at_by_fewer_points(most, monkeypatch):
     job = computed(add("Mug", *mug(wall=0.07)), energy="TOTAL_CURVATURE", levels=2)
     monkeypatch.setattr(faults, "MOST", most)
-    found = faults.find_faults(job.result, job.carrier, job.arrays)
-    assert job.carrier.triangle_count == 1536 and found.counts["crossing"] > 20
+    found = faults.find_faults(job.result, job.transfer, job.arrays)
+    assert job.transfer.triangle_count == 1536 and found.counts["crossing"] > 20
     plain = computed(add("Thin", *mug(wall=0.07)), energy="THIN_PLATE", levels=3)
-    assert faults.find_faults(plain.result, plain.carrier, plain.arrays).counts == {}
+    assert faults.find_faults(plain.result, plain.transfer, plain.arrays).counts == {}
 
 
 def test_a_coarse_lattice_is_part_of_the_fine_one():
     job = computed(add("Box", *CUBE), levels=3)
-    triangles, owner = coarse_triangles(job.carrier, 0)
+    triangles, owner = coarse_triangles(job.transfer, 0)
     assert len(triangles) == 12 and np.array_equal(np.unique(triangles), np.arange(8))
     assert np.array_equal(np.bincount(owner), [2] * 6)
-    finest, _ = coarse_triangles(job.carrier, 3)
+    finest, _ = coarse_triangles(job.transfer, 3)
     assert {tuple(sorted(t)) for t in finest.tolist()} >= {
         tuple(sorted(t)) for t in job.result.faces[1][:, :3].tolist()
     }
-    middle, owner = coarse_triangles(job.carrier, 1)
+    middle, owner = coarse_triangles(job.transfer, 1)
     assert len(middle) == 48 and len(np.unique(middle)) == 6 * 4 + 2
 
 

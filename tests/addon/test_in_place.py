@@ -9,7 +9,7 @@ import pytest
 from scenes import CUBE, activate, add
 
 from addon import prediction
-from addon.in_place import InPlaceJob, Wish
+from addon.in_place import InPlaceJob, InPlaceOptions
 from addon.inspection.curvature import faces_of_edges
 from addon.inspection.measures import fold_angles
 from addon.mesh.read import read_mesh
@@ -271,9 +271,9 @@ def test_faces_of_many_corners_are_refined_as_the_core_splits_them():
 
 def begun(target, **options):
     """A job as the button begins it, before it is computed."""
-    wish = {"levels": 0, "joint": "TANGENT", "energy": "THIN_PLATE", "tension": 0.0}
-    wish = Wish(**wish | {"release": False} | options)
-    return InPlaceJob(bpy.context, target, Settings.of(bpy.context.scene.discrete_fairing), wish)
+    plain = {"levels": 0, "joint": "TANGENT", "energy": "THIN_PLATE", "tension": 0.0}
+    asked = InPlaceOptions(**plain | {"release": False} | options)
+    return InPlaceJob(bpy.context, target, Settings.of(bpy.context.scene.discrete_fairing), asked)
 
 
 def test_a_long_run_is_computed_beside_the_window_and_applied_at_its_end():

@@ -10,13 +10,12 @@ from scenes import CUBE, add
 
 from addon import core, preferences
 from addon.core import fair_arguments
-from addon.in_place import InPlaceJob
-from addon.in_place import Wish as ScanWish
+from addon.in_place import InPlaceJob, InPlaceOptions
 from addon.job import Job
 from addon.mesh.read import read_mesh
 from addon.queue import Queue
 from addon.settings import Settings
-from addon.strain.ease import EaseJob, Wish
+from addon.strain.ease import EaseJob, EaseOptions
 from addon.strain.measure import StrainJob
 
 
@@ -76,12 +75,12 @@ def test_blender_is_asked_on_its_own_thread_alone(monkeypatch):
     bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=3)
     source, scene = bpy.context.object, bpy.context.scene
     settings = Settings.of(scene.discrete_fairing)
-    wish = ScanWish(0, "TANGENT", "THIN_PLATE", 0.0, release=False, measured=True)
+    options = InPlaceOptions(0, "TANGENT", "THIN_PLATE", 0.0, release=False, measured=True)
     jobs = [
         Job(bpy.context, source, settings),
         StrainJob(bpy.context, source),
-        EaseJob(bpy.context, source, Wish("AUTOMATIC", 0.0, 3, False, False)),
-        InPlaceJob(bpy.context, source, settings, wish),
+        EaseJob(bpy.context, source, EaseOptions("AUTOMATIC", 0.0, 3, False, False)),
+        InPlaceJob(bpy.context, source, settings, options),
     ]
     queue = Queue(jobs, core.module().Monitor)
     queue.start()

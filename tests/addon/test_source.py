@@ -72,7 +72,7 @@ def test_the_panel_of_a_source_has_the_settings_of_what_follows_it():
     activate(source)
     scene, log = bpy.context.scene.discrete_fairing, draw(main.VIEW3D_PT_fairing)
     assert f"Live: {target.name}" in log and "object.fairing_surface" not in log
-    settings = main.settings_at_hand(bpy.context)
+    settings = main.active_settings(bpy.context)
     assert settings == target.discrete_fairing != scene
     before = positions(target.data)
     settings.energy = "TOTAL_CURVATURE"
@@ -80,7 +80,7 @@ def test_the_panel_of_a_source_has_the_settings_of_what_follows_it():
     assert not np.array_equal(positions(target.data), before)
     bpy.ops.object.fairing_live(state="OFF")
     assert "object.fairing_surface" in draw(main.VIEW3D_PT_fairing)
-    assert main.settings_at_hand(bpy.context) == scene
+    assert main.active_settings(bpy.context) == scene
 
 
 def test_with_modifiers_of_a_hidden_source_is_refused_in_words():
@@ -95,6 +95,6 @@ def test_with_modifiers_of_a_hidden_source_is_refused_in_words():
     assert len(target.data.polygons) == 12 * 4**3
     source.hide_viewport = False
     follow()
-    session(target).distrust()
+    session(target).mark_stale()
     handlers.on_timer()
     assert not session(target).trouble and len(target.data.polygons) == 12 * 4**3

@@ -16,7 +16,7 @@ from addon.freshness import why_stale
 from addon.job import Job
 from addon.live import session as live_session
 from addon.memory import keep, recall
-from addon.mesh.read import control_mesh, tolerance_shares
+from addon.mesh.read import control_mesh, tolerance_factors
 from addon.properties import FairingSettings, _vertex_values
 from addon.settings import Settings
 
@@ -162,7 +162,7 @@ def test_a_group_is_read_in_edit_mode(make):
     bpy.ops.object.mode_set(mode="EDIT")
     settings = SimpleNamespace(interpolation="APPROXIMATE", tolerance_group="Loose")
     with control_mesh(bpy.context, source) as mesh:
-        assert tolerance_shares(source, mesh, settings).tolist() == [1.0, 0.5, *[0.0] * 6]
+        assert tolerance_factors(source, mesh, settings).tolist() == [1.0, 0.5, *[0.0] * 6]
 
 
 def test_recompute_reads_the_group_again():
@@ -227,10 +227,10 @@ def test_a_group_means_nothing_where_all_vertices_are_held():
 def test_values_are_from_nothing_to_all():
     source = add("Box", *CUBE)
     add_attribute(source, [-1.0, 0.25, 2.0, *[0.5] * 5])
-    found = vertex_values.shares(source, source.data, "Loose")
+    found = vertex_values.factors(source, source.data, "Loose")
     assert found.tolist() == [0.0, 0.25, 1.0, *[0.5] * 5]
     add_group(source, {3: 0.75})
-    found = vertex_values.shares(source, source.data, "Loose")
+    found = vertex_values.factors(source, source.data, "Loose")
     assert found.tolist() == [0, 0, 0, 0.75, 0, 0, 0, 0], "the group, of two with one name"
 
 
@@ -241,7 +241,7 @@ def test_other_attributes_are_none(data_type, domain):
     source = add("Box", *CUBE)
     source.data.attributes.new("Loose", data_type, domain)
     with pytest.raises(JobError, match="Loose"):
-        vertex_values.shares(source, source.data, "Loose")
+        vertex_values.factors(source, source.data, "Loose")
     assert "Loose" not in dict(vertex_values.names(source))
 
 
@@ -300,8 +300,8 @@ def test_live_reads_no_group_while_a_mouse_drags(monkeypatch):
     group.add(range(8), 0.5, "REPLACE")
     target = fair(levels=1, tolerance=0.1, tolerance_group="Loose")
     live(target)
-    read, asked = vertex_values.shares, []
-    monkeypatch.setattr(vertex_values, "shares", lambda *of: asked.append(of) or read(*of))
+    read, asked = vertex_values.factors, []
+    monkeypatch.setattr(vertex_values, "factors", lambda *of: asked.append(of) or read(*of))
     monkeypatch.setattr(live_session, "is_dragging", lambda _: True)
     for _ in range(3):
         move(source, by=0.1)

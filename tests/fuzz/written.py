@@ -12,8 +12,8 @@ import discrete_fairing as df
 import numpy as np
 from hypothesis import strategies as st
 
-CUBE = df.fit_patches(*meshes.cube(), levels=2, insist=True, tolerance=0.1)
-OPEN = df.fit_patches(*meshes.grid(1, 1), levels=2, insist=True, tolerance=0.1)
+CUBE = df.fit_patches(*meshes.cube(), levels=2, force=True, tolerance=0.1)
+OPEN = df.fit_patches(*meshes.grid(1, 1), levels=2, force=True, tolerance=0.1)
 REFUSALS = {"BAD_OPTION", "BAD_SHAPE"}
 
 ODD = st.sampled_from((None, True, 3, -1.0, math.nan, math.inf, b"a", "", (), [[]], {}, object()))

@@ -81,7 +81,7 @@ def test_patches_follow_the_poles_of_curvature_at_vertices(mesh, levels):
 
 @pytest.mark.parametrize("valence", range(3, 13))
 def test_patches_meet_at_vertices_of_any_valence(valence):
-    patches = df.fit_patches(*star(valence), levels=6, insist=True)
+    patches = df.fit_patches(*star(valence), levels=6, force=True)
     assert not len(patches.unmet_by_fit) and not len(patches.unresolved)
     assert patches.largest_angle <= patches.normal_tolerance
     assert patches.largest_residual <= 1e-4 * patches.size
@@ -114,7 +114,7 @@ def test_what_is_said_is_what_others_find(mesh):
     points of each patch by a basis of NumPy's own, are those of the report.
     """
     (points, faces), creases = mesh()
-    patches = df.fit_patches(points, faces, levels=5, crease_edges=creases, insist=True)
+    patches = df.fit_patches(points, faces, levels=5, crease_edges=creases, force=True)
     t = np.linspace(0, 1, 13)
     at = [evaluate(patches, p, t, t)[0].reshape(-1, 3) for p in range(len(patches))]
     result = patches.result
@@ -178,7 +178,7 @@ def test_a_tip_lower_than_the_tolerance_is_no_fold():
     ever smaller ones.
     """
     points, faces = control_meshes.tetrahedron()
-    exact = df.fit_patches(points, faces, levels=7, insist=True)
+    exact = df.fit_patches(points, faces, levels=7, force=True)
     assert exact.unresolved.tolist() == [0, 1, 2, 3]
     patches = df.fit_patches(points, faces, levels=7, tolerance=5e-4)
     assert not len(patches.unmet)
@@ -274,7 +274,7 @@ def test_creases_are_edges(fitted):
 
 def test_any_number_of_threads_gives_the_same_bits():
     mesh = control_meshes.random_hull(12)
-    one, many = (df.fit_patches(*mesh, levels=4, threads=k, insist=True) for k in (1, 3))
+    one, many = (df.fit_patches(*mesh, levels=4, threads=k, force=True) for k in (1, 3))
     assert one.patch_points.tobytes() == many.patch_points.tobytes()
     assert one.edge_points.tobytes() == many.edge_points.tobytes()
     assert one.edge_angles.tobytes() == many.edge_angles.tobytes()
@@ -294,7 +294,7 @@ def test_a_surface_that_is_not_resolved_is_refused_by_name():
     assert caught.value.kind == "face"
     beside = {f for f, face in enumerate(faces) if 12 in face}
     assert beside & set(caught.value.elements)
-    patches = df.fit_patches(points, faces, levels=3, insist=True)
+    patches = df.fit_patches(points, faces, levels=3, force=True)
     assert set(caught.value.elements) <= set(patches.unresolved.tolist())
 
 
@@ -323,7 +323,7 @@ def test_kinks_are_the_same_whichever_way_they_look(axis):
     up = np.divide(axis, np.linalg.norm(axis))
     across = np.cross(up, [1, 0, 0]) / np.linalg.norm(np.cross(up, [1, 0, 0]))
     turned = points @ np.stack([np.cross(across, up), across, up])
-    patches = df.fit_patches(turned, faces, levels=4, boundary="linear", insist=True)
+    patches = df.fit_patches(turned, faces, levels=4, boundary="linear", force=True)
     assert not len(patches.unresolved)
     assert np.degrees(patches.turned.max()) < 10
 
@@ -385,7 +385,7 @@ def test_a_fold_that_stays_is_not_refined(monkeypatch):
     monkeypatch.setattr(
         fitting, "fair", lambda p, f, level, **o: levels.append(level) or fair(p, f, level, **o)
     )
-    patches = df.fit_patches(points, [(0, 1, 2, 3), (1, 4, 5, 2)], insist=True)
+    patches = df.fit_patches(points, [(0, 1, 2, 3), (1, 4, 5, 2)], force=True)
     assert len(patches.unresolved)
     assert levels == [fitting.FIRST_LEVEL - 1, fitting.FIRST_LEVEL]
 

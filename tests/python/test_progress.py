@@ -82,7 +82,7 @@ def test_phases_of_patches():
     """Those of the surface first, then their own, to the end."""
     seen = []
     df.fit_patches(
-        *meshes.random_hull(), levels=5, insist=True, progress=lambda *heard: seen.append(heard)
+        *meshes.random_hull(), levels=5, force=True, progress=lambda *heard: seen.append(heard)
     )
     fractions, phases = zip(*seen)
     assert set(phases) <= set(PHASES) and phases[-2:] == ("patches", "done")
@@ -93,7 +93,7 @@ def test_phases_of_patches():
 @pytest.mark.parametrize("reports", [1, 4])
 def test_cancelling_while_patches_are_fitted(reports):
     """At once, and the same call goes through afterwards, with the same bits."""
-    mesh, options = meshes.random_hull(), {"levels": 5, "tolerance": 1e-7, "insist": True}
+    mesh, options = meshes.random_hull(), {"levels": 5, "tolerance": 1e-7, "force": True}
     before, began = df.fit_patches(*mesh, **options), []
 
     def stop(fraction, phase):

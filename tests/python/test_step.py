@@ -32,7 +32,7 @@ def cube():
 @pytest.mark.parametrize("name", SURFACES)
 def test_open_cascade_reads_it_back(tmp_path, name):
     mesh, options = SURFACES[name]
-    patches = df.fit_patches(*mesh, insist=True, **options)
+    patches = df.fit_patches(*mesh, force=True, **options)
     df.write_step(tmp_path / "a.step", patches, unit="mm")
     read = step_files.read(tmp_path / "a.step")
     assert read.valid

@@ -90,7 +90,7 @@ OTHERS = [
 @cache
 def fitted(of):
     mesh, options = of()
-    return df.fit_patches(*mesh, insist=True, **options)
+    return df.fit_patches(*mesh, force=True, **options)
 
 
 @pytest.mark.parametrize("of", [*CLOSED, *OTHERS])

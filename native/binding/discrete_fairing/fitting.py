@@ -43,7 +43,7 @@ def fit_patches(
     tolerance: float = 1e-4,
     normal_tolerance: float = 8e-4,
     levels: int | None = None,
-    insist: bool = False,
+    force: bool = False,
     fair_tolerance: float | ArrayLike | None = None,
     blend: Callable[[Result, int], np.ndarray] | None = None,
     threads: int = 0,
@@ -66,7 +66,7 @@ def fit_patches(
         How often the mesh is refined before patches are fitted. None: 5, or more where a tolerance
         asks for it and the surface stays below 300 000 points, or 1 200 000 where faces miss the
         tolerance; less for very large meshes.
-    insist : bool
+    force : bool
         Return patches also where the refined surface folds or is not resolved. Their input faces
         are in patches.unresolved then.
     fair_tolerance : float or (n,) float, mesh units
@@ -88,7 +88,7 @@ def fit_patches(
         As fair() does. UNRESOLVED where the refined surface folds, or turns by more than 20 degrees
         between two of its faces; `elements` are the input faces there.
     """
-    run = _Run(tolerance, normal_tolerance, switch("insist", insist))
+    run = _Run(tolerance, normal_tolerance, switch("force", force))
     check_watchers(progress, monitor)
     if fair_tolerance is not None:
         options["tolerance"] = fair_tolerance
@@ -167,7 +167,7 @@ def _at_own_level(
             continue
         last = next_count > MOST_POINTS_FOR_FACES
         sharp = run.sharp_faces(result, at, runs.run(done, done))
-        if sharp and not run.insist:  # its patches would be refused
+        if sharp and not run.force:  # its patches would be refused
             if not last:
                 continue
             if best is None:
@@ -175,7 +175,7 @@ def _at_own_level(
             break
         part = 1.0 if last else done + 0.5 * (1 - done)
         # a whole fit is worth its time only if the faces that had no patches have some now
-        folded: ArrayLike = [] if best is None or run.insist else best.unresolved.tolist()
+        folded: ArrayLike = [] if best is None or run.force else best.unresolved.tolist()
         if folded and run.still_folded(result, at, folded, runs.run(done, part)):
             done = part
             if last:
@@ -206,10 +206,10 @@ def _finest(count: Callable[[int], int], level: int) -> int:
 class _Run:
     """What is asked of patches."""
 
-    def __init__(self, tolerance: object, normal_tolerance: object, insist: bool):
+    def __init__(self, tolerance: object, normal_tolerance: object, force: bool):
         self.tolerance = real("tolerance", tolerance)
         self.normal_tolerance = real("normal_tolerance", normal_tolerance)
-        self.insist = insist
+        self.force = force
         for name in ("tolerance", "normal_tolerance"):
             if getattr(self, name) <= 0:
                 raise fairing_error(
@@ -316,13 +316,13 @@ class _Run:
         return patches
 
     def refuse(self, faces: list[int]) -> None:
-        if faces and not self.insist:
+        if faces and not self.force:
             raise fairing_error(
                 "UNRESOLVED",
                 "{face} {has|have} a surface that folds or turns too sharply for patches.",
                 faces,
                 "face",
-                "Move or add control vertices, crease the edges there, or give insist=True.",
+                "Move or add control vertices, crease the edges there, or give force=True.",
             )
 
 

@@ -147,7 +147,7 @@ def test_no_patch_is_fitted_in_vain(tmp_path, monkeypatch):
 def test_who_insists_gets_the_faces_marked(tmp_path, capfd):
     add("Leaf", *FOLDED)
     path = tmp_path / "leaf.step"
-    assert export(path, insist=True) == {"FINISHED"}
+    assert export(path, force=True) == {"FINISHED"}
     assert "COLOUR_RGB('',1.0,0.0,0.0)" in path.read_text()
     assert "2 faces have a surface that folds" in capfd.readouterr().out
 

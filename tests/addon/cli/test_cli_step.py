@@ -57,7 +57,7 @@ def test_a_fold_is_refused_unless_somebody_insists():
     assert Path("out.step").read_text() == "old"
     assert run("leaf.obj", "new/out.step") == 1 and not Path("new").exists()
     assert {path.name for path in Path().iterdir()} == {"leaf.obj", "out.step", "report.json"}
-    code, (entry,) = entries("leaf.obj", "out.step", "--insist")
+    code, (entry,) = entries("leaf.obj", "out.step", "--force")
     assert code == 0 and entry["objects"][0]["report"]["unresolved"] == [0, 1]
     assert "COLOUR_RGB('',1.0,0.0,0.0)" in Path("out.step").read_text()
 

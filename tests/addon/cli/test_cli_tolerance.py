@@ -44,7 +44,7 @@ def write_ply_with(name, property_name, values):
 def test_a_property_of_a_ply_file_is_a_tolerance_group():
     write_ply_with("in.ply", "loose", [0.25] * 4 + [1.0] * 4)
     (box,) = command.read_file(Path("in.ply"))
-    assert vertex_values.shares(box, box.data, "loose").tolist() == [0.25] * 4 + [1.0] * 4
+    assert vertex_values.factors(box, box.data, "loose").tolist() == [0.25] * 4 + [1.0] * 4
 
 
 def test_a_group_on_the_command_line():

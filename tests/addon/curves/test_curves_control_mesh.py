@@ -11,7 +11,7 @@ from addon.curves.cells import find_cells
 from addon.curves.control_mesh import control_mesh, coons
 from addon.curves.cubics import points_at
 from addon.curves.network import network
-from addon.curves.settle import Wish, covered
+from addon.curves.settle import CoverOptions, covered
 from addon.errors import JobError
 
 df = pytest.importorskip("discrete_fairing")
@@ -73,14 +73,14 @@ def test_a_coons_patch_reproduces_its_sides_and_a_saddle():
 
 
 def test_three_great_circles_are_a_sphere():
-    mesh = covered(networks.great_circles(), Wish()).mesh
+    mesh = covered(networks.great_circles(), CoverOptions()).mesh
     surface = faired(mesh)
     assert np.abs(np.linalg.norm(surface.vertices, axis=1) - 1).max() < 5e-4
 
 
 def test_the_missing_section_comes_back():
     """The surface between its neighbours is that of the whole bonnet."""
-    surface = faired(covered(networks.bonnet(), Wish()).mesh)
+    surface = faired(covered(networks.bonnet(), CoverOptions()).mesh)
     x, y, z = surface.vertices.T
     assert np.abs(z - networks.crown(x, y)).max() < 2e-3
 
@@ -89,7 +89,7 @@ def test_the_surface_passes_the_curves_between_their_vertices():
     curves = networks.three_by_four()
     gaps = []
     for per_side in (2, 4):
-        surface = faired(covered(curves, Wish(per_side=per_side)).mesh, levels=3)
+        surface = faired(covered(curves, CoverOptions(per_side=per_side)).mesh, levels=3)
         dense = points_at(curves[1].pieces, np.linspace(0.5, curves[1].end - 0.5, 60))
         gaps.append(max(np.linalg.norm(surface.vertices - p, axis=1).min() for p in dense))
     assert gaps[1] < gaps[0] < 0.03
@@ -97,7 +97,7 @@ def test_the_surface_passes_the_curves_between_their_vertices():
 
 def test_free_vertices_have_settled():
     """To fair the mesh once more hardly moves them."""
-    mesh = covered(networks.bonnet(), Wish()).mesh
+    mesh = covered(networks.bonnet(), CoverOptions()).mesh
     surface = faired(mesh, "thin_plate", 1)
     assert np.abs(surface.vertices[: len(mesh.points)] - mesh.points).max() < 2e-3
     assert 0 < mesh.held.sum() < len(mesh.points)
@@ -106,10 +106,10 @@ def test_free_vertices_have_settled():
 def test_a_sharp_curve_is_an_edge():
     curves = networks.three_by_four()
     bent = [replace(c, pieces=_folded(c.pieces), sharp=c.name == "Row 1") for c in curves]
-    mesh = covered(bent, Wish()).mesh
+    mesh = covered(bent, CoverOptions()).mesh
     assert len(mesh.sharp) and mesh.held[mesh.sharp].all()
     assert np.abs(mesh.points[mesh.sharp][..., 1]).max() < 1e-6
-    soft = covered([replace(c, sharp=False) for c in bent], Wish()).mesh
+    soft = covered([replace(c, sharp=False) for c in bent], CoverOptions()).mesh
     # beside the fold the sharp surface follows the planes, the smooth one is round
     off = [_off_the_fold(faired(m).vertices) for m in (mesh, soft)]
     assert off[0] < 1e-3 < 4e-3 < off[1]
@@ -144,32 +144,36 @@ def test_it_looks_outwards_and_up():
 
 def test_what_is_no_network_is_refused_in_words():
     with pytest.raises(JobError, match="No two of them come nearer"):
-        covered(networks.bonnet()[:4], Wish())
+        covered(networks.bonnet()[:4], CoverOptions())
     with pytest.raises(JobError, match="none with two points"):
-        covered([], Wish())
+        covered([], CoverOptions())
     wrong = networks.polygon(3)
     wrong[0].pieces[0, 0, 0] = np.nan
     with pytest.raises(JobError, match="the point of 'Side 0'"):
-        covered(wrong, Wish())
+        covered(wrong, CoverOptions())
     with pytest.raises(JobError, match="Lower Edges per Side"):
-        covered(networks.three_by_four(), Wish(per_side=400))
+        covered(networks.three_by_four(), CoverOptions(per_side=400))
 
 
 def test_a_mesh_keeps_its_faces_while_curves_are_drawn_about():
     curves = networks.three_by_four()
-    first = covered(curves, Wish()).mesh
+    first = covered(curves, CoverOptions()).mesh
     stretched = [c if c.name != "Column 2" else networks.across(c.name, 0.55) for c in curves]
-    assert not np.array_equal(covered(stretched, Wish()).mesh.counts, first.counts)
-    second = covered(stretched, Wish(), first.counts).mesh
+    assert not np.array_equal(covered(stretched, CoverOptions()).mesh.counts, first.counts)
+    second = covered(stretched, CoverOptions(), first.counts).mesh
     assert np.array_equal(second.faces, first.faces)
-    assert len(covered(curves, Wish(per_side=8), first.counts).mesh.faces) > 3 * len(first.faces)
+    assert len(covered(curves, CoverOptions(per_side=8), first.counts).mesh.faces) > 3 * len(
+        first.faces
+    )
 
 
 def test_a_closed_end_does_not_swell():
     """A tube of radius 1 with both its ends filled: free, minimum variation swells them by 1.03."""
-    mesh = covered(networks.tube(), Wish(closed=True)).mesh
+    mesh = covered(networks.tube(), CoverOptions(closed=True)).mesh
     surface = faired(mesh, levels=1)
     low, high = mesh.points.min(axis=0), mesh.points.max(axis=0)
     points = surface.vertices
     assert (points > low - 0.1).all() and (points < high + 0.1).all()
-    assert not covered(networks.loop(), Wish()).mesh.held.all(), "a sheet within a loop is free"
+    assert not covered(networks.loop(), CoverOptions()).mesh.held.all(), (
+        "a sheet within a loop is free"
+    )

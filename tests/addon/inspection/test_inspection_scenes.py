@@ -102,9 +102,6 @@ def test_a_viewport_that_shows_it_is_left_alone():
     viewport_shading.show(space, "ZEBRA")
     viewport_shading.show(space, "NONE")
     assert now(space) == ("RENDERED", "MATERIAL")
-    plain = viewport("SOLID", "VERTEX")
-    viewport_shading.show(plain, "GAUSS")
-    assert now(plain) == ("SOLID", "VERTEX")
 
 
 def test_zebra_in_edit_mode():

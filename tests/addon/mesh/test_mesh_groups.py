@@ -27,7 +27,7 @@ def test_weights_are_linear_and_control_vertices_keep_theirs():
     for vertex in source.data.vertices:
         group.add([vertex.index], 0.5 + 0.3 * vertex.co.z, "REPLACE")
     made = refine(source)
-    expected = 0.5 + 0.3 * made.carrier.point(made.arrays.positions)[:, 2]
+    expected = 0.5 + 0.3 * made.transfer.point(made.arrays.positions)[:, 2]
     found = weights(made.target, "Height")
     assert np.allclose(found, expected, atol=1e-6)
     assert np.array_equal(found[:8], weights(source, "Height"))

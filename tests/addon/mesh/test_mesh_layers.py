@@ -73,7 +73,7 @@ def on_control_edges(made):
     """(refined edges,) bool, found by the positions of a cube: two coordinates of either end are 1
     in size.
     """
-    linear = made.carrier.point(made.arrays.positions)
+    linear = made.transfer.point(made.arrays.positions)
     a, b = linear[edge_vertices(made.mesh)].transpose(1, 0, 2)
     return ((np.abs(a) == 1) & (a == b)).sum(axis=1) >= 2
 
@@ -251,7 +251,7 @@ def test_seams_and_freestyle_marks():
 
 def on_rim(made):
     """The edges around the face x = -1 of the cube: 4 pieces of each of its 4 edges."""
-    linear = made.carrier.point(made.arrays.positions)
+    linear = made.transfer.point(made.arrays.positions)
     ends = linear[edge_vertices(made.mesh)]
     found = on_control_edges(made) & (ends[:, :, 0] == -1).all(axis=1)
     assert found.sum() == 16
@@ -316,7 +316,7 @@ def test_polygons_of_all_sizes():
     linear = np.array(points) @ (0.5, -0.25, 0)
     given.data.foreach_set("value", linear[corner_vertices(source.data)].astype(np.float32))
     made = refine(source, 2)
-    expected = made.carrier.point(made.arrays.positions)[corner_vertices(made.mesh)] @ (
+    expected = made.transfer.point(made.arrays.positions)[corner_vertices(made.mesh)] @ (
         0.5,
         -0.25,
         0,

@@ -31,7 +31,7 @@ def source():
 def shaped(source):
     """The refined object with keys that are refined linearly."""
     made = refine(source)
-    made.shapes = [made.carrier.point(shape) for shape in made.data.shape_keys.shapes]
+    made.shapes = [made.transfer.point(shape) for shape in made.data.shape_keys.shapes]
     write_shape_keys(made.target, made.data.shape_keys, made.shapes, source)
     return made
 

@@ -162,8 +162,8 @@ def test_why_one_of_several_cannot_be_filled_is_said(capfd):
 
 def test_edits_during_a_run_stay():
     target = without(ball(), lambda c: c[2] > 0.7)
-    wish = holes.Wish("CURVATURE", "TOTAL_CURVATURE", 1.0, 0.0, False)
-    job = holes.HoleJob(bpy.context, target, wish)
+    options = holes.FillOptions("CURVATURE", "TOTAL_CURVATURE", 1.0, 0.0, False)
+    job = holes.HoleJob(bpy.context, target, options)
     job.compute()
     assert job.why_outdated(bpy.context) == ""
     target.data.vertices[0].co[0] += 0.1
@@ -172,8 +172,8 @@ def test_edits_during_a_run_stay():
 
 def test_a_cancelled_run_changes_nothing():
     target = without(ball(), lambda c: c[2] > 0.7)
-    wish = holes.Wish("CURVATURE", "TOTAL_CURVATURE", 1.0, 0.0, False)
-    job = holes.HoleJob(bpy.context, target, wish)
+    options = holes.FillOptions("CURVATURE", "TOTAL_CURVATURE", 1.0, 0.0, False)
+    job = holes.HoleJob(bpy.context, target, options)
     monitor = core.module().Monitor()
     monitor.cancel()
     with pytest.raises(JobCancelled):

@@ -11,7 +11,7 @@ from dunes import OFF, WRONG, add_dune, dune
 from scenes import activate, fair, positions, snapshot
 
 from addon.mesh.shape_keys import EASED
-from addon.strain.ease import EaseJob, Wish
+from addon.strain.ease import EaseJob, EaseOptions
 
 
 @pytest.fixture
@@ -181,7 +181,7 @@ def test_with_modifiers_live_follows_the_slider(core):
 
 def test_a_mesh_that_was_edited_meanwhile_is_left_alone(core):
     source = add_dune()
-    job = EaseJob(bpy.context, source, Wish("AUTOMATIC"))
+    job = EaseJob(bpy.context, source, EaseOptions("AUTOMATIC"))
     job.compute()
     assert job.why_outdated(bpy.context) == ""
     source.data.vertices[3].co.z += 1.0
@@ -201,7 +201,7 @@ def test_edit_mode_has_its_own(core):
 
 def test_the_words_are_those_of_the_run(core):
     add_dune()
-    job = EaseJob(bpy.context, bpy.context.object, Wish("AUTOMATIC"))
+    job = EaseJob(bpy.context, bpy.context.object, EaseOptions("AUTOMATIC"))
     job.compute()
     said = job.said(lambda length: f"{length:.3f}")
     held = int((~np.isnan(job.result.strain_before)).sum())

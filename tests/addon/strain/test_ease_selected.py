@@ -35,7 +35,7 @@ def places(source):
 def ways(source):
     job = StrainJob(bpy.context, source)
     job.compute()
-    return job.result.ways
+    return job.result.directions
 
 
 def test_the_wrong_one_goes_back_as_far_as_it_strains_and_no_other_moves():

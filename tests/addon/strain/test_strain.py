@@ -53,7 +53,7 @@ def test_lengths_are_those_in_the_world_and_ways_those_of_the_object():
     bpy.context.view_layer.update()
     it = measured(large)
     assert it.lengths[WRONG] == pytest.approx(2.0 * plain.lengths[WRONG], rel=1e-4)
-    assert it.ways[WRONG] == pytest.approx(plain.ways[WRONG], rel=1e-3, abs=1e-5)
+    assert it.directions[WRONG] == pytest.approx(plain.directions[WRONG], rel=1e-3, abs=1e-5)
 
 
 def test_edits_of_edit_mode_and_sliders_count():

@@ -40,12 +40,12 @@ def house():
 
 
 def run(arrays, levels=3, **settings):
-    result, carrier = core_run(arrays, levels, **settings)
-    mirrors, notes = find_mirrors(carrier, arrays, result.crease_edges)
+    result, transfer = core_run(arrays, levels, **settings)
+    mirrors, notes = find_mirrors(transfer, arrays, result.crease_edges)
     return SimpleNamespace(
         arrays=arrays,
         result=result,
-        carrier=carrier,
+        transfer=transfer,
         mirrors=mirrors,
         notes=notes,
         vertices=symmetrize(result.vertices, mirrors, arrays.positions),
@@ -119,9 +119,9 @@ def test_creases_break_it_with_a_note():
 
 def test_corners_break_it():
     arrays = house()
-    _, carrier = core_run(arrays, 1)
-    assert len(find_mirrors(carrier, arrays, corner_vertices=[2, 5])[0]) == 1
-    assert len(find_mirrors(carrier, arrays, corner_vertices=[2])[0]) == 0
+    _, transfer = core_run(arrays, 1)
+    assert len(find_mirrors(transfer, arrays, corner_vertices=[2, 5])[0]) == 1
+    assert len(find_mirrors(transfer, arrays, corner_vertices=[2])[0]) == 0
 
 
 def test_keys_that_are_not_symmetric_are_left_alone():

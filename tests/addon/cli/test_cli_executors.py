@@ -14,7 +14,7 @@ import pytest
 from cli_files import write_obj, write_ply
 from cli_runs import CORE, PROCESS, ROOT, entries, run
 
-from addon.cli import engines
+from addon.cli import executors
 from addon.cli import main as command
 
 
@@ -23,7 +23,7 @@ def folder(tmp_path, monkeypatch):
     """Every test in a folder of its own; what starts the command once more is not Blender here."""
     monkeypatch.chdir(tmp_path)
     program = f"import sys; sys.path[:0] = {[str(ROOT), str(CORE)]}\n{PROCESS}"
-    monkeypatch.setattr(engines, "blender_again", lambda: [sys.executable, "-c", program])
+    monkeypatch.setattr(executors, "blender_again", lambda: [sys.executable, "-c", program])
     return tmp_path
 
 
@@ -102,7 +102,7 @@ def test_one_bad_file_does_not_harm_the_others(capfd):
 def test_a_process_that_dies_is_told(capfd, monkeypatch):
     names = three_files()
     program = "import os, sys; sys.stderr.write('no more'); os._exit(9)"
-    monkeypatch.setattr(engines, "blender_again", lambda: [sys.executable, "-c", program])
+    monkeypatch.setattr(executors, "blender_again", lambda: [sys.executable, "-c", program])
     code, records = entries(*names, "out/", "--jobs", 2)
     assert code == command.SOME_FAILED
     assert {record["status"] for record in records} == {"failed"}
@@ -150,7 +150,7 @@ def test_no_scheduler_there(online, capfd):
     assert "No Dask scheduler answers at tcp://127.0.0.1:9" in capfd.readouterr().err
 
 
-def test_one_engine_is_enough(capfd):
+def test_one_executor_is_enough(capfd):
     write_obj("in.obj")
     assert run("in.obj", "out.obj", "--jobs", 2, "--scheduler", "tcp://127.0.0.1:9") == 2
     assert "give one of --jobs and --scheduler" in capfd.readouterr().err
@@ -163,7 +163,7 @@ def test_an_interruption_ends_all_processes(capfd):
     threading.Timer(1.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
     begun = time.monotonic()
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(engines, "blender_again", lambda: [sys.executable, "-c", sleeper])
+        patch.setattr(executors, "blender_again", lambda: [sys.executable, "-c", sleeper])
         code, records = entries(*names, "out/", "--jobs", 2)
     assert code == command.INTERRUPTED and time.monotonic() - begun < 60
     assert {record["status"] for record in records} == {"cancelled"}
@@ -174,7 +174,7 @@ def test_an_interruption_ends_all_processes(capfd):
 
 def test_shares_cover_all_inputs_once():
     for count, workers in ((1, 4), (5, 2), (1000, 3), (17, 16)):
-        parts = engines.shares(count, workers)
+        parts = executors.batches(count, workers)
         assert [k for share in parts for k in share] == list(range(count))
         assert max(map(len, parts)) <= 16
 

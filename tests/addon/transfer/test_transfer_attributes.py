@@ -8,7 +8,7 @@ import pytest
 from refined import control_arrays, core_run
 from test_transfer_lattice import TRIANGLE_ROWS, quad_cells, triangle_cells
 
-from addon.transfer.carrier import Carrier
+from addon.transfer.attributes import AttributeTransfer
 
 HEXAGON = [(np.cos(a), np.sin(a), 0) for a in np.arange(6) * np.pi / 3]
 # a lopsided hexagon, a quad and a triangle in a plane; vertex 9 belongs to no face
@@ -27,8 +27,8 @@ LEVELS = [0, 1, 3]
 
 def mixed(levels=2):
     arrays = control_arrays(POSITIONS, POLYGONS)
-    result, carrier = core_run(arrays, levels)
-    return arrays, result, carrier
+    result, transfer = core_run(arrays, levels)
+    return arrays, result, transfer
 
 
 def refined_corners(result):
@@ -36,7 +36,7 @@ def refined_corners(result):
 
 
 def by_hand(cells):
-    """A carrier for one face whose 16 cells are written down; its control vertices have the ids of
+    """A transfer for one face whose 16 cells are written down; its control vertices have the ids of
     its corners.
     """
     size = cells.shape[1]
@@ -57,62 +57,62 @@ def by_hand(cells):
         mended=None,
     )
     arrays = control_arrays(np.eye(size, 3), [list(range(size))])
-    return Carrier(result, arrays, 2), order
+    return AttributeTransfer(result, arrays, 2), order
 
 
 def test_triangle_is_linear():
-    carrier, order = by_hand(triangle_cells())
+    transfer, order = by_hand(triangle_cells())
     at = {
         order[v]: (i / 4, j / 4) for j, row in enumerate(TRIANGLE_ROWS) for i, v in enumerate(row)
     }
-    found = carrier.point(np.array([(0, 0), (1, 0), (0, 1)], np.float32))
+    found = transfer.point(np.array([(0, 0), (1, 0), (0, 1)], np.float32))
     assert np.array_equal(found, [at[v] for v in range(len(at))])
 
 
 def test_quad_is_bilinear():
-    carrier, order = by_hand(quad_cells())
+    transfer, order = by_hand(quad_cells())
     at = {order[5 * j + i]: (i / 4, j / 4, i * j / 16) for j in range(5) for i in range(5)}
-    found = carrier.point(np.array([(0, 0, 0), (1, 0, 0), (1, 1, 1), (0, 1, 0)], np.float32))
+    found = transfer.point(np.array([(0, 0, 0), (1, 0, 0), (1, 1, 1), (0, 1, 0)], np.float32))
     assert np.array_equal(found, [at[v] for v in range(25)])
 
 
 @pytest.mark.parametrize("levels", LEVELS)
 def test_constants_stay_to_the_bit(levels):
-    arrays, _, carrier = mixed(levels)
+    arrays, _, transfer = mixed(levels)
     for value in np.float32([0.1, 1 / 3, 1e-30, 7e20]):
-        assert (carrier.corner(np.full(len(arrays.corners), value)) == value).all()
-        used = carrier.point(np.full(len(POSITIONS), value))
+        assert (transfer.corner(np.full(len(arrays.corners), value)) == value).all()
+        used = transfer.point(np.full(len(POSITIONS), value))
         assert (used == value).all()
 
 
 @pytest.mark.parametrize("levels", LEVELS)
 def test_control_vertices_keep_their_values(levels):
-    _, _, carrier = mixed(levels)
+    _, _, transfer = mixed(levels)
     given = np.random.default_rng(1).normal(size=(len(POSITIONS), 3)).astype(np.float32)
-    assert np.array_equal(carrier.point(given)[: len(given)], given)
+    assert np.array_equal(transfer.point(given)[: len(given)], given)
 
 
 @pytest.mark.parametrize("levels", LEVELS)
 def test_corners_and_points_agree_where_nothing_is_cut(levels):
-    arrays, result, carrier = mixed(levels)
+    arrays, result, transfer = mixed(levels)
     given = np.random.default_rng(2).random((len(POSITIONS), 2), np.float32)
-    corners = carrier.corner(given[arrays.corners])
-    assert np.allclose(corners, carrier.point(given)[refined_corners(result)], rtol=0, atol=1e-7)
+    corners = transfer.corner(given[arrays.corners])
+    assert np.allclose(corners, transfer.point(given)[refined_corners(result)], rtol=0, atol=1e-7)
 
 
 def test_corners_come_from_their_own_polygon():
-    arrays, result, carrier = mixed()
+    arrays, result, transfer = mixed()
     polygon = np.repeat(np.arange(3), np.diff(arrays.offsets)).astype(np.float32)
     origin = np.concatenate(
         [np.repeat(result.triangle_polygon, 3), np.repeat(result.quad_polygon, 4)]
     )
-    assert np.array_equal(carrier.corner(polygon)[:, 0], origin)
-    assert np.array_equal(carrier.pick_corner(polygon), origin)
+    assert np.array_equal(transfer.corner(polygon)[:, 0], origin)
+    assert np.array_equal(transfer.pick_corner(polygon), origin)
 
 
 def test_polygon_centre_is_its_centroid():
-    arrays, _, carrier = mixed(0)
-    centre = carrier.point(arrays.positions)[len(POSITIONS)]
+    arrays, _, transfer = mixed(0)
+    centre = transfer.point(arrays.positions)[len(POSITIONS)]
     x, y, _ = arrays.positions[:6].T
     cross = x * np.roll(y, -1) - np.roll(x, -1) * y
     area = cross.sum() / 2
@@ -124,15 +124,15 @@ def test_polygon_centre_is_its_centroid():
 
 
 def test_faces_inherit():
-    _, result, carrier = mixed()
+    _, result, transfer = mixed()
     given = np.array(["a", "b", "c"], object)
     expected = given[np.concatenate([result.triangle_polygon, result.quad_polygon])]
-    assert carrier.face(given).tolist() == expected.tolist()
+    assert transfer.face(given).tolist() == expected.tolist()
 
 
 def test_picked_points_are_the_nearest():
-    carrier, order = by_hand(quad_cells())
-    found = carrier.pick_point(np.array([10, 20, 30, 40]))
+    transfer, order = by_hand(quad_cells())
+    found = transfer.pick_point(np.array([10, 20, 30, 40]))
     at = {5 * j + i: found[order[5 * j + i]] for j in range(5) for i in range(5)}
     # ties go to the lowest id: 0 | 1 along the first side, 0 in the middle
     assert [at[i] for i in range(5)] == [10, 10, 10, 20, 20]
@@ -141,34 +141,36 @@ def test_picked_points_are_the_nearest():
 
 
 def test_picked_corners_agree_with_picked_points():
-    arrays, result, carrier = mixed(3)
+    arrays, result, transfer = mixed(3)
     ids = np.arange(len(POSITIONS))
-    points = carrier.pick_point(ids)
-    corners = carrier.pick_corner(arrays.corners)
+    points = transfer.pick_point(ids)
+    corners = transfer.pick_corner(arrays.corners)
     assert np.array_equal(points[refined_corners(result)], corners)
     assert set(points[refined_corners(result)]) == set(range(9))
     assert np.array_equal(points[: len(ids)], ids)  # vertex 9 too, which no face uses
 
 
 def test_picked_around_a_centre():
-    _, _, carrier = mixed(0)
-    assert carrier.pick_point(np.arange(10) + 5)[10] == 5  # vertex 0 is the lowest of the hexagon's
+    _, _, transfer = mixed(0)
+    assert (
+        transfer.pick_point(np.arange(10) + 5)[10] == 5
+    )  # vertex 0 is the lowest of the hexagon's
 
 
 def test_own_points_only():
-    _, result, carrier = mixed()
-    found = carrier.own_point(np.ones(len(POSITIONS), np.float32))
+    _, result, transfer = mixed()
+    found = transfer.own_point(np.ones(len(POSITIONS), np.float32))
     assert found[: len(POSITIONS)].all() and not found[len(POSITIONS) :].any()
     assert len(found) == len(result.vertices)
 
 
 @pytest.mark.parametrize("levels", LEVELS)
 def test_edges(levels):
-    arrays, result, carrier = mixed(levels)
+    arrays, result, transfer = mixed(levels)
     corners = [faces for faces in result.faces if len(faces)]
     pairs = np.concatenate([np.stack([f, np.roll(f, -1, 1)], 2).reshape(-1, 2) for f in corners])
     edges, corner_edge = np.unique(np.sort(pairs, axis=1), axis=0, return_inverse=True)
-    origin = carrier.edge_origin(corner_edge.ravel(), len(edges))
+    origin = transfer.edge_origin(corner_edge.ravel(), len(edges))
     count = np.bincount(origin[origin >= 0], minlength=len(arrays.edges))
     assert (count == 2**levels).all()
     for e, (a, b) in enumerate(arrays.edges):  # each is a path from a to b
@@ -181,10 +183,10 @@ def test_turned_faces():
     arrays = control_arrays(
         [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (2, 0, 0)], [[0, 1, 2, 3], [1, 2, 4]]
     )
-    result, carrier = core_run(arrays, 1, repair="mend")
+    result, transfer = core_run(arrays, 1, repair="mend")
     assert result.report["flipped_faces"]
-    found = carrier.corner(arrays.positions[arrays.corners])
-    assert np.allclose(found, carrier.point(arrays.positions)[refined_corners(result)])
+    found = transfer.corner(arrays.positions[arrays.corners])
+    assert np.allclose(found, transfer.point(arrays.positions)[refined_corners(result)])
 
 
 def test_only_triangles():

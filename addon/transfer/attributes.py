@@ -115,7 +115,7 @@ def _nearest(cells: Cells) -> np.ndarray:
     return np.stack([plain, fan])
 
 
-class Carrier:
+class AttributeTransfer:
     """Carries values from the n vertices, c corners, m faces and e edges of a control mesh to a
     refined one.
 

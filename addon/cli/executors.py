@@ -30,14 +30,14 @@ _TASKS_A_WORKER = 4  # so that no worker waits long for the last one
 _LAST_WORDS = 2000  # characters of what a process has said that left no report
 
 
-class NoEngine(Exception):
+class NoExecutor(Exception):
     """Why there is none, as a sentence."""
 
 
 # A worker of a cluster runs subprocess.run itself: it needs Blender and this extension, and no code
 # of ours beside.
 @dataclass(frozen=True)
-class Engine:
+class TaskExecutor:
     """Where tasks run. `run_words`: as subprocess.run, of what a worker is to start."""
 
     executor: Executor
@@ -58,7 +58,7 @@ def is_spread(arguments: Namespace) -> bool:
 
 
 @contextmanager
-def engine(arguments: Namespace) -> Iterator[Engine]:
+def executor(arguments: Namespace) -> Iterator[TaskExecutor]:
     """The one that was asked for. An error ends what runs, and what has not begun is left."""
     with _dask(arguments) if arguments.scheduler else _local(arguments) as found:
         try:
@@ -71,17 +71,19 @@ def engine(arguments: Namespace) -> Iterator[Engine]:
 
 
 @contextmanager
-def _local(arguments: Namespace) -> Iterator[Engine]:
+def _local(arguments: Namespace) -> Iterator[TaskExecutor]:
     count = arguments.jobs
     if arguments.pieces is not None:
         spawn = multiprocessing.get_context("spawn")
         with ProcessPoolExecutor(count, mp_context=spawn) as pool:
-            yield Engine(pool, count, _threads(arguments))
+            yield TaskExecutor(pool, count, _threads(arguments))
         return
     running: set[subprocess.Popen] = set()
     with ThreadPoolExecutor(count) as pool:  # each waits for a process of its own
         try:
-            yield Engine(pool, count, _threads(arguments), lambda *a, **k: _run(running, *a, **k))
+            yield TaskExecutor(
+                pool, count, _threads(arguments), lambda *a, **k: _run(running, *a, **k)
+            )
         finally:
             for process in list(running):
                 process.terminate()
@@ -102,29 +104,29 @@ def _run(
 
 
 @contextmanager
-def _dask(arguments: Namespace) -> Iterator[Engine]:
+def _dask(arguments: Namespace) -> Iterator[TaskExecutor]:
     address = arguments.scheduler
     if not bpy.app.online_access:
-        raise NoEngine(
+        raise NoExecutor(
             "--scheduler needs Blender's online access: allow it in Preferences > System > Network, "
             "or start Blender with --online-mode before --command."
         )
     try:
         import distributed
     except ImportError as error:
-        raise NoEngine(
+        raise NoExecutor(
             f"--scheduler needs the package distributed in Blender's own Python ({error})."
         ) from error
     try:
         client: Any = distributed.Client(address, timeout="10s")  # type: ignore[no-untyped-call]
     except (OSError, TimeoutError, ValueError) as error:
-        raise NoEngine(f"No Dask scheduler answers at {address} ({error}).") from error
+        raise NoExecutor(f"No Dask scheduler answers at {address} ({error}).") from error
     with client:
         workers = sum(client.nthreads().values())
         if not workers:
-            raise NoEngine(f"The Dask scheduler at {address} has no workers.")
+            raise NoExecutor(f"The Dask scheduler at {address} has no workers.")
         with client.get_executor(retries=_MORE_TRIES, pure=False) as executor:
-            yield Engine(executor, workers, _threads(arguments))
+            yield TaskExecutor(executor, workers, _threads(arguments))
 
 
 def _threads(arguments: Namespace) -> int:
@@ -134,7 +136,7 @@ def _threads(arguments: Namespace) -> int:
     return 1 if arguments.scheduler else max(1, (os.cpu_count() or 1) // arguments.jobs)
 
 
-def shares(count: int, workers: int) -> list[range]:
+def batches(count: int, workers: int) -> list[range]:
     """`count` inputs as tasks of neighbours."""
     size = min(_MOST_FILES, max(1, count // (_TASKS_A_WORKER * workers)))
     return [range(first, min(first + size, count)) for first in range(0, count, size)]
@@ -148,7 +150,7 @@ def blender_again() -> list[str]:
 
 
 def run_files(
-    made: Engine, words: Sequence[str], count: int
+    made: TaskExecutor, words: Sequence[str], count: int
 ) -> Iterator[tuple[range, list[dict[str, Any]] | str]]:
     """Runs this command, given as `words`, for all of `count` inputs, a share a task.
 
@@ -156,7 +158,7 @@ def run_files(
     none. Files are read and written by who runs the task, in the folder of this process.
     """
     tasks: dict[Future, range] = {}
-    for share in shares(count, made.workers):
+    for share in batches(count, made.workers):
         own = [
             *blender_again(),
             *words,
@@ -175,7 +177,9 @@ def run_files(
 def _records(task: Future, count: int) -> list[dict[str, Any]] | str:
     try:
         done = task.result()
-    except Exception as error:  # the engine's: no such program there, a worker that dies each time
+    except (
+        Exception
+    ) as error:  # the executor's: no such program there, a worker that dies each time
         return f"{type(error).__name__}: {error}"
     found: list[dict[str, Any]] = []
     with suppress(ValueError, KeyError):
