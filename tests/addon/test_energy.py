@@ -133,7 +133,7 @@ def test_it_is_told_once():
 def test_a_note_says_that_shape_keys_only_blend(capfd):
     source = add_with_key()
     assert len(fair(levels=1, energy="TOTAL_CURVATURE").data.shape_keys.key_blocks) == 2
-    assert "Each shape key is faired by itself" in capfd.readouterr().out
+    assert "Each shape key is faired separately" in capfd.readouterr().out
     again(source, levels=1, energy="THIN_PLATE")
     again(source, levels=1, energy="TOTAL_CURVATURE", use_shape_keys=False)
     again(add("Plain", *CUBE), levels=1, energy="TOTAL_CURVATURE")

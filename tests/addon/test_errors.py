@@ -109,7 +109,7 @@ def test_every_code_has_a_remedy_or_speaks_for_itself():
         "Wire: Fill the edges with faces (F in Edit Mode). The mesh has no faces."
     )
     turned = fairing_error("INCONSISTENT_ORIENTATION", "no")
-    mend = "or let Defects be Mend"
+    mend = "or set Defects to Mend"
     assert mend in errors.error_text("Wire", turned)
     assert mend not in errors.error_text("Wire", turned, errors.WITHOUT_MENDING)
     assert errors.error_text("Wire", fairing_error("SOMETHING_NEW", "no")) == "Wire: no."

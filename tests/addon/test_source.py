@@ -23,12 +23,12 @@ def test_a_camera_is_refused_in_words():
     add("Box", *CUBE)
     target = fair(levels=1)
     target.discrete_fairing.source = camera = add_camera()
-    assert "is no mesh" in why_unfit(target, camera)
+    assert "is not a mesh" in why_unfit(target, camera)
     log = draw(main.VIEW3D_PT_fairing)
-    assert any("no mesh" in line for line in log)
+    assert any("not a mesh" in line for line in log)
     for operator in (bpy.ops.object.fairing_recompute, bpy.ops.object.fairing_show_source):
         assert not operator.poll()
-    with pytest.raises(RuntimeError, match="is no mesh"):
+    with pytest.raises(RuntimeError, match="is not a mesh"):
         bpy.ops.object.fairing_recompute()
 
 

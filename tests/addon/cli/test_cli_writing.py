@@ -226,5 +226,5 @@ def test_patterns_are_expanded():
     ]
     Path("[x].obj").write_text("v 0 0 0")
     assert [str(place.source) for place in places(["[x].obj"], "out/")] == ["[x].obj"]
-    with pytest.raises(BadPlaces, match="No file is called like"):
+    with pytest.raises(BadPlaces, match="No file matches"):
         places(["*.stl"], "out/")
