@@ -11,6 +11,8 @@ import bpy
 import harness
 import numpy as np
 
+COMPILED = 120.0  # seconds until shaders must be there
+
 
 def pixels(name):
     """(h, w, 3) uint8 of the middle of the viewport, as X shows it."""
@@ -85,8 +87,8 @@ def test_stripes_and_back():
 
 
 def striped(name, least):
-    """How often stripes change, once there are so many: shaders take their time; a generator."""
-    yield from harness.until(lambda: changes(pixels(name)) >= least)
+    """How often stripes change, once there are so many: shaders take their time to compile. A generator."""
+    yield from harness.photograph_until(name, lambda _: changes(pixels(name)) >= least, COMPILED)
     return changes(pixels(name))
 
 
