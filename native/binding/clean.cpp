@@ -7,9 +7,9 @@
 #include "binding/bindings.h"
 #include "binding/report.h"
 #include "binding/runner.h"
-#include "mesh/groups.h"
 #include "mesh/mend/mend.h"
 #include "mesh/orientation.h"
+#include "mesh/union_find.h"
 
 namespace py = pybind11;
 
@@ -50,7 +50,7 @@ py::array joined(std::size_t count, const Ids& pairs) {
   Array<std::int32_t> leads(count);
   {
     const py::gil_scoped_release release;
-    Groups groups(count);
+    UnionFind groups(count);
     for (std::size_t k = 0; k + 1 < ids.size(); k += 2)
       groups.unite(Index(ids[k]), Index(ids[k + 1]));
     for (std::size_t i = 0; i < count; ++i) leads[i] = groups.lead(Index(i));

@@ -134,7 +134,10 @@ py::dict predicted_size(std::int64_t vertices, const Ids& corners, const Ids& of
                         std::size_t shapes, Energy energy) {
   const OwnedPolygonMesh faces = copy_of({}, corners, offsets);
   require_faces(faces.corners, faces.offsets);
-  return to_python(predict_size(vertices, faces.corners, faces.offsets, levels, shapes, energy));
+  FairOptions options;
+  options.levels = levels;
+  options.energy = energy;
+  return to_python(predict_size(vertices, faces.corners, faces.offsets, shapes, options));
 }
 
 std::string text_of(const std::string& sentence, const std::string& kind,

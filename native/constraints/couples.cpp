@@ -20,15 +20,6 @@ Index neighbour(const ControlMesh& mesh, const Spoke& spoke) {
 
 }  // namespace
 
-std::size_t Couples::bytes(const ControlMesh& mesh, const std::vector<FixedNormal>& normals) {
-  std::size_t arms = 0, neighbours = 0;
-  for (const FixedNormal& fixed : normals) {
-    arms += mesh.ring(fixed.vertex).size();
-    neighbours += std::size_t(ring_size(mesh, fixed.vertex));
-  }
-  return arms * sizeof(Arm) + neighbours * sizeof(Vec2);
-}
-
 Couples::Couples(const ControlMesh& mesh, const ChartMaker& charts,
                  std::vector<FixedNormal> normals, Workers& workers)
     : mesh_(mesh), workers_(workers), normals_(std::move(normals)) {

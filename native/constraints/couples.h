@@ -36,8 +36,6 @@ class Couples {
   // Positions of `mesh` in working coordinates.
   Couples(const ControlMesh& mesh, const ChartMaker& charts, std::vector<FixedNormal> normals,
           Workers& workers);
-  // Of the long arrays, for normals at vertices of this mesh.
-  static std::size_t bytes(const ControlMesh& mesh, const std::vector<FixedNormal>& normals);
 
   std::size_t size() const { return normals_.size(); }
   const Vec3& normal(std::size_t c) const { return normals_[c].normal; }

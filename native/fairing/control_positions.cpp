@@ -60,8 +60,8 @@ ControlPositions in_both_systems(const ControlMesh& mesh, std::vector<Vec3> worl
 
 // Handed points take the place of those that a piece of the chain would have. `surface`: 0 for the
 // mesh, s + 1 for shape s.
-void take_handed(const ControlMesh& mesh, const HandedCurves& handed, std::size_t surface,
-                 FeatureCurves& curves) {
+void set_handed(const ControlMesh& mesh, const HandedCurves& handed, std::size_t surface,
+                FeatureCurves& curves) {
   const auto inner = std::size_t(curves.points_per_edge);
   const std::size_t size = 3 * inner * handed.edges.size();
   if (size == 0 ? !handed.points.empty()
@@ -118,7 +118,7 @@ ControlPositions positions_of_mesh(const ControlMesh& mesh, std::vector<Vec3> wo
                                    const Frame& frame, int subdivisions, double exponent,
                                    const HandedCurves& handed) {
   FeatureCurves curves = refine_feature_edges(mesh, world, world, subdivisions, exponent);
-  take_handed(mesh, handed, 0, curves);
+  set_handed(mesh, handed, 0, curves);
   return in_both_systems(mesh, std::move(world), std::move(curves), frame);
 }
 
@@ -138,7 +138,7 @@ ControlPositions positions_of_shape(const ControlMesh& mesh, std::span<const Vec
                                     std::size_t shape) {
   std::vector<Vec3> world = all_positions(mesh, basis_world, coordinates);
   FeatureCurves curves = refine_feature_edges(mesh, basis_world, world, subdivisions, exponent);
-  if (!handed.edges.empty()) take_handed(mesh, handed, shape + 1, curves);
+  if (!handed.edges.empty()) set_handed(mesh, handed, shape + 1, curves);
   return in_both_systems(mesh, std::move(world), std::move(curves), frame);
 }
 

@@ -103,7 +103,7 @@ class Easing {
 
   EaseResult run() {
     monitor_.enter_part(0, 0.25);
-    StrainGauge::require_room(*problem_, rings_between_probes);
+    StrainGauge::require_room(*problem_, rings_between_probes, report_.predicted_bytes);
     ControlPositions control = problem_->basis;
     PlateLoads plate = loads_of(control);
     measure_matrix();

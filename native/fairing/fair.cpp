@@ -40,10 +40,10 @@ void fair_once(FairingSystems& systems, const ControlPositions& control, bool me
   if (!surface.curved.empty()) surface.plate = {};
   systems.write(control, measured, watch, report, surface, surface.points().data());
   points = std::move(surface.points());
-  const Weld weld(systems.finest());
-  if (!weld.needed()) return;
-  weld.join(points.data(), points.data());
-  points.resize(3 * weld.size());
+  const JoinedSheets joined(systems.finest());
+  if (!joined.needed()) return;
+  joined.join(points.data(), points.data());
+  points.resize(3 * joined.size());
 }
 
 void fair_shapes(const FairingProblem& problem, FairingSystems& systems, const PolygonMesh& input,
@@ -282,11 +282,11 @@ bool FairSolver::solve_from_last(Stopwatch& watch, Report& report) {
 void FairSolver::write(Stopwatch& watch, Report& report, double* out) {
   const FairOptions& options = problem_->options;
   warn_unconverged(report, options, "", report);
-  const Weld weld(systems_->finest());
-  if (weld.needed()) apart_.resize(3 * systems_->finest().size());
-  double* const world = weld.needed() ? apart_.data() : out;
+  const JoinedSheets joined(systems_->finest());
+  if (joined.needed()) apart_.resize(3 * systems_->finest().size());
+  double* const world = joined.needed() ? apart_.data() : out;
   systems_->write(control_, options.measure, watch, report, recent_.surface(), world);
-  if (weld.needed()) weld.join(world, out);
+  if (joined.needed()) joined.join(world, out);
 }
 
 OutputFaces FairSolver::faces() {

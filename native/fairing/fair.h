@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "fairing/joined_sheets.h"
 #include "fairing/mending.h"
 #include "fairing/output.h"
 #include "fairing/systems.h"
-#include "fairing/weld.h"
 
 namespace fairing {
 
@@ -40,7 +40,7 @@ class FairSolver {
   FairSolver(const PolygonMesh& input, const FairOptions& options, Monitor& monitor);
 
   // Of a surface, its sheets joined.
-  std::size_t points() { return Weld(systems_->finest()).size(); }
+  std::size_t points() { return JoinedSheets(systems_->finest()).size(); }
 
   // out <- the surface of these positions, 3 numbers an input vertex (empty: as last), with charts,
   // stencils and parameters of curves as built: 3 numbers a point. The first is that of fair().

@@ -10,13 +10,13 @@
 
 namespace fairing {
 std::vector<double> HeldPositions::of(std::span<const double> coordinates) const {
-  if (at_limits) return limits.of(coordinates);
+  if (limits) return limits->vertex_limits(coordinates);
   return {coordinates.begin(), coordinates.end()};
 }
 
 // Where limit positions fall together the charts would have no shape.
 void check_held(const HeldPositions& held, const PolygonMesh& input, Repair repair) {
-  if (!held.at_limits) return;
+  if (!held.limits) return;
   const std::vector<double> limits = held.of(input.coordinates);
   try {
     check({limits, input.corners, input.offsets}, {repair == Repair::mend});
@@ -32,9 +32,10 @@ HeldMesh held_positions(const PolygonMesh& input, const ControlMesh& mesh,
                         const FairOptions& options) {
   if (options.interpolation != Interpolation::limit) return {.world = mesh.positions};
   const SharpRules rules(mesh, options.features.corner_vertices, options.sharpness);
-  HeldPositions rule{true, LimitPositions(input, mesh, rules)};
-  if (options.energy == Energy::thin_plate)
-    rule.surface = std::make_shared<LimitSurface>(input, mesh, rules, options.levels);
+  const bool draws = options.energy == Energy::thin_plate;
+  const int steps = draws ? LimitSurface::steps(mesh, options.levels) : 1;
+  HeldPositions rule{std::make_shared<CatmullClark>(input, mesh, rules, steps)};
+  if (draws) rule.surface = std::make_shared<LimitSurface>(rule.limits);
   check_held(rule, input, options.repair);
   const std::vector<double> moved = rule.of(input.coordinates);
   return {std::move(rule), all_positions(mesh, mesh.positions, moved)};

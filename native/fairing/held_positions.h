@@ -10,13 +10,11 @@
 #include "fairing/options.h"
 #include "grid/limit_surface.h"
 #include "mesh/control_mesh.h"
-#include "mesh/limit_positions.h"
 
 namespace fairing {
 
 struct HeldPositions {
-  bool at_limits = false;
-  LimitPositions limits{};                        // where that is so
+  std::shared_ptr<const CatmullClark> limits{};   // at the limit positions of these; null: not so
   std::shared_ptr<const LimitSurface> surface{};  // where the thin plate is drawn to it
 
   // Of other positions of the input's vertices, 3 numbers each: where these are held.

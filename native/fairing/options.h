@@ -18,7 +18,7 @@
 namespace fairing {
 
 // Whether control vertices stay, move within a tolerance or against weights, or go to where
-// Catmull-Clark subdivision would take them (mesh/limit_positions.h) and stay there.
+// Catmull-Clark subdivision would take them (mesh/catmull_clark.h) and stay there.
 enum class Interpolation { exact, approximate, limit };
 
 // The quantity to minimise.

@@ -22,7 +22,7 @@ std::int32_t joined(const ControlMesh& mesh, Index v) {
   return original < mesh.input_vertices ? original : original - Index(mesh.copies.vertex.size());
 }
 
-void take_faces(const ControlMesh& mesh, Outline& out) {
+void set_faces(const ControlMesh& mesh, Outline& out) {
   for (Index f = 0; f < mesh.first_copied_face(); ++f) {
     stop_if_cancelled(std::size_t(f));
     const Face& face = mesh.faces[std::size_t(f)];
@@ -37,7 +37,7 @@ void take_faces(const ControlMesh& mesh, Outline& out) {
   }
 }
 
-void take_edges(const ControlMesh& mesh, Outline& out) {
+void set_edges(const ControlMesh& mesh, Outline& out) {
   for (Index e = 0; e < mesh.first_copied_edge(); ++e) {
     stop_if_cancelled(std::size_t(e));
     const Edge& edge = mesh.edges[std::size_t(e)];
@@ -54,7 +54,7 @@ void take_edges(const ControlMesh& mesh, Outline& out) {
 }
 
 // Curves and centres, of the mesh and of each shape. `held`: where the mesh is, one a control vertex.
-void take_surfaces(const ControlMesh& mesh, const HeldMesh& held, double exponent, Outline& out) {
+void set_surfaces(const ControlMesh& mesh, const HeldMesh& held, double exponent, Outline& out) {
   const int subdivisions = 1 << out.options.levels;
   const auto append = [&](const FeatureCurves& curves, std::span<const Vec3> world) {
     for (Index c = mesh.first_centre(); c < mesh.first_copied_centre(); ++c) {
@@ -90,11 +90,11 @@ Outline outline_of(const Mending& mending) {
   out.report.sheets = sheets_of(mesh);
   out.mesh = with_flipped(mending.mesh(), out.report.flipped_faces);
   if (mending.mended()) out.mended = *mending.mended();
-  take_faces(mesh, out);
-  take_edges(mesh, out);
+  set_faces(mesh, out);
+  set_edges(mesh, out);
   const double exponent = options.paper.metric_exponent(options.metric_exponent);
   HeldMesh held = held_positions(mending.mesh(), mesh, options);
-  take_surfaces(mesh, held, exponent, out);
+  set_surfaces(mesh, held, exponent, out);
   mesh.positions = std::move(held.world);
   out.units = measure_units(mesh, exponent);
   mending.restore(out.report);

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "base/points.h"
-#include "fairing/weld.h"
+#include "fairing/joined_sheets.h"
 #include "grid/accumulate.h"
 #include "grid/linear.h"
 #include "parallel/cancel.h"
@@ -24,10 +24,10 @@ void row_ids(const GridLevel& grid, Index f, bool quad, int j, std::vector<std::
   ids[std::size_t(last)] = grid.face_point(f, last, j);
 }
 
-void join_sheets(const Weld& weld, Workers& workers, Array<std::int32_t>& ids) {
-  if (!weld.needed()) return;
+void join_sheets(const JoinedSheets& joined, Workers& workers, Array<std::int32_t>& ids) {
+  if (!joined.needed()) return;
   workers.for_parts(ids.size(), vector_grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) ids[k] = weld(ids[k]);
+    for (std::size_t k = begin; k < end; ++k) ids[k] = joined(ids[k]);
   });
 }
 
@@ -76,8 +76,8 @@ OutputFaces make_faces(const GridLevel& grid, Workers& workers) {
       }
     }
   });
-  join_sheets(Weld(grid), workers, out.triangles);
-  join_sheets(Weld(grid), workers, out.quads);
+  join_sheets(JoinedSheets(grid), workers, out.triangles);
+  join_sheets(JoinedSheets(grid), workers, out.quads);
   return out;
 }
 

@@ -11,39 +11,15 @@
 #include "fairing/unknowns.h"
 #include "fairing/warnings.h"
 #include "mesh/validate/check.h"
-#include "thin_plate/surface_differences.h"
 
 namespace fairing {
 namespace {
 
-// Of the plate's differences in the metric of a surface.
-std::int64_t bytes_on_surface(const ControlMesh& mesh, int levels) {
-  std::int64_t quads = 0, points = 0;
-  for (const Face& face : mesh.faces) quads += face.quad();
-  const auto faces = std::int64_t(mesh.faces.size());
-  for (int l = 0; l <= levels; ++l)
-    points +=
-        grid_size(mesh.vertex_count(), std::int64_t(mesh.edges.size()), faces - quads, quads, l);
-  return points * SurfaceDifferences::bytes(2 * quads > faces);
-}
-
-// Of a run, as far as it can be counted, `held` and what mending took included.
-RunSize size_of(const FairingProblem& problem, const PolygonMesh& input, std::int64_t held) {
-  const FairOptions& options = problem.options;
-  RunSize size = predict_size(problem.mesh, problem.unknowns, options.levels,
-                              options.shape_count(input.coordinates.size()), options.energy,
-                              options.tension > 0, options.paper.method == Method::back_leg);
-  const auto add = [&](std::int64_t more) {
-    size.bytes += std::min(more, std::numeric_limits<std::int64_t>::max() - size.bytes);
-  };
-  add(held);
-  add(std::int64_t(Couples::bytes(problem.mesh, problem.normals.fixed)));
-  if (options.interpolation == Interpolation::limit)
-    add(std::int64_t(LimitPositions::bytes(input)));
-  if (options.interpolation == Interpolation::limit && options.energy == Energy::thin_plate) {
-    add(bytes_on_surface(problem.mesh, options.levels));
-    add(LimitSurface::bytes(input, problem.mesh, options.levels));
-  }
+// Of a run, `held` and what mending took included.
+RunSize size_of(const PolygonMesh& input, const FairOptions& options, std::int64_t held) {
+  RunSize size = predict_size(input.vertex_count(), input.corners, input.offsets,
+                              options.shape_count(input.coordinates.size()), options);
+  size.bytes += std::min(held, std::numeric_limits<std::int64_t>::max() - size.bytes);
   size.bytes = std::max(size.bytes, std::int64_t(MemoryLedger::highest()));
   return size;
 }
@@ -104,7 +80,10 @@ std::unique_ptr<const FairingProblem> make_problem(const PolygonMesh& input,
   check_options(input, options);
   check_input(input, options, watch, report);
   check_shapes(input, options.shapes);
-  require_fit(input, options);
+  const RunSize size = size_of(input, options, held);
+  require_fit(size, options);
+  report.predicted_bytes = std::size_t(size.bytes);
+  expect_memory(report);
 
   watch.enter(Phase::hierarchy, 0);
   auto workers = std::make_shared<Workers>(options.threads);
@@ -119,10 +98,6 @@ std::unique_ptr<const FairingProblem> make_problem(const PolygonMesh& input,
   report.sheets = sheets_of(problem->mesh);
   problem->unknowns = choose_unknowns(problem->mesh, options);
   problem->normals = choose_normals(problem->mesh, options);
-  const RunSize size = size_of(*problem, input, held);
-  require_fit(size, options);
-  report.predicted_bytes = std::size_t(size.bytes);
-  expect_memory(report);
   const auto& given = problem->mesh.positions;
   std::vector<Vec3> cage(given.begin(), given.begin() + problem->mesh.input_vertices);
   HeldMesh held_mesh = held_positions(input, problem->mesh, options);

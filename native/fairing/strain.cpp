@@ -70,7 +70,7 @@ Strain strain_once(const PolygonMesh& mesh, const FairOptions& options, Monitor&
   Report report;
   Stopwatch watch(report, monitor);
   const std::unique_ptr<const FairingProblem> problem = make_problem(mesh, options, watch, report);
-  StrainGauge::require_room(*problem, rings_apart);
+  StrainGauge::require_room(*problem, rings_apart, report.predicted_bytes);
   FairingSystems systems(*problem, monitor);
   const PlateLoads loads = solve_loads(*problem, systems, problem->basis, watch);
   const StrainGauge gauge(*problem, systems.plate(), rings_apart);

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "fairing/memory_plan.h"
 #include "fairing/symmetry.h"
 #include "mesh/normal.h"
 #include "strain/excess.h"
@@ -82,11 +81,10 @@ void StrainGauge::find_images() {
       }
 }
 
-void StrainGauge::require_room(const FairingProblem& problem, int rings_apart) {
+void StrainGauge::require_room(const FairingProblem& problem, int rings_apart,
+                               std::size_t surface) {
   const auto vertices = std::size_t(problem.mesh.input_vertices);
   const std::size_t matrix = bytes_of_load_matrix(vertices, rings_apart);
-  const auto surface =
-      std::size_t(predict_size(problem.mesh, problem.unknowns, problem.options.levels).bytes);
   if (surface + matrix <= problem.options.bytes_allowed()) return;
   throw FairingError(ErrorCode::too_large,
                      {"The loads that " + std::to_string(vertices) + " vertices ask for take " +

@@ -43,8 +43,9 @@ class StrainGauge {
   StrainGauge(const FairingProblem& problem, ThinPlateSolver& solver, int rings_apart,
               const OnPart& on_part = {});
 
-  // Throws too_large where the memory that is allowed does not hold the matrix beside the surface's.
-  static void require_room(const FairingProblem& problem, int rings_apart);
+  // Throws too_large where the memory that is allowed does not hold the matrix beside the surface's
+  // bytes, which are predicted.
+  static void require_room(const FairingProblem& problem, int rings_apart, std::size_t surface);
 
   const CurveLoads& curves() const { return curves_; }
   // What strains: input vertices on pads, ascending, then the middles() of curves that are faired. The

@@ -17,10 +17,6 @@ bool all_quads(const ControlMesh& control) {
                      [](const Face& face) { return face.quad(); });
 }
 
-int steps_for(const ControlMesh& control, int levels) {
-  return std::max(1, levels + (all_quads(control) ? 0 : 1));
-}
-
 }  // namespace
 
 // Where the points of one control face are on its polygon. In steps of 1/n of a side:
@@ -110,14 +106,14 @@ class LimitSurface::FaceMap {
   bool known_;
 };
 
-LimitSurface::LimitSurface(const PolygonMesh& mesh, const ControlMesh& control,
-                           const SharpRules& rules, int levels)
-    : subdivision_(mesh, control, rules, steps_for(control, levels)) {}
+int LimitSurface::steps(const ControlMesh& control, int levels) {
+  return std::max(1, levels + (all_quads(control) ? 0 : 1));
+}
 
 Array<double> LimitSurface::at_points(const GridLevel& grid, std::span<const double> cage,
                                       std::span<const Vec3> held, Workers& workers) const {
   const ControlMesh& mesh = grid.mesh();
-  const Array<double> limits = subdivision_.limits(cage);
+  const Array<double> limits = subdivision_->limits(cage);
   Array<double> x(3 * grid.size());
   refine_linearly(grid, held, workers, x.data());
   const auto put = [&](const FaceMap& map, GridPoint at, Index p) {
@@ -125,7 +121,7 @@ Array<double> LimitSurface::at_points(const GridLevel& grid, std::span<const dou
   };
   for (Index c = mesh.first_centre(); c < mesh.vertex_count(); ++c) {
     const Spoke& spoke = mesh.ring(c)[0];
-    const FaceMap map(subdivision_, grid, spoke.face);
+    const FaceMap map(*subdivision_, grid, spoke.face);
     if (map.known()) put(map, closed_point(false, grid.n(), spoke.corner, 0, 0), c);
   }
   for_edge_parts(grid, workers, [&](Index begin, Index end) {
@@ -133,7 +129,7 @@ Array<double> LimitSurface::at_points(const GridLevel& grid, std::span<const dou
       for (const Index s : mesh.edges[std::size_t(e)].side) {
         if (s < 0) continue;
         const Side& side = mesh.sides[std::size_t(s)];
-        const FaceMap map(subdivision_, grid, side.face);
+        const FaceMap map(*subdivision_, grid, side.face);
         if (!map.known()) continue;
         const bool quad = mesh.faces[std::size_t(side.face)].quad();
         for (int k = 1; k < grid.n(); ++k)
@@ -143,7 +139,7 @@ Array<double> LimitSurface::at_points(const GridLevel& grid, std::span<const dou
   });
   for_face_parts(grid, workers, [&](Index begin, Index end) {
     for (Index f = begin; f < end; ++f) {
-      const FaceMap map(subdivision_, grid, f);
+      const FaceMap map(*subdivision_, grid, f);
       if (!map.known()) continue;
       for_face_runs(grid, f, [&](const Run& run) {
         for (int i = 1; i <= int(run.count); ++i) put(map, {i, run.row}, Index(run.first) + i - 1);
@@ -151,10 +147,6 @@ Array<double> LimitSurface::at_points(const GridLevel& grid, std::span<const dou
     }
   });
   return x;
-}
-
-std::int64_t LimitSurface::bytes(const PolygonMesh& mesh, const ControlMesh& control, int levels) {
-  return CatmullClark::bytes(std::int64_t(mesh.corners.size()), steps_for(control, levels));
 }
 
 Array<float> hold_of_thin_faces(const GridLevel& grid, std::span<const Vec3> control,

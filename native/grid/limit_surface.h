@@ -3,6 +3,10 @@
 // is to be drawn to it.
 #pragma once
 
+#include <memory>
+#include <span>
+#include <utility>
+
 #include "grid/grid_level.h"
 #include "mesh/catmull_clark.h"
 #include "parallel/workers.h"
@@ -11,9 +15,12 @@ namespace fairing {
 
 class LimitSurface {
  public:
-  // `control` is made of `mesh`; `levels`: of the finest grid. Throws where the run has been cancelled.
-  LimitSurface(const PolygonMesh& mesh, const ControlMesh& control, const SharpRules& rules,
-               int levels);
+  // How many steps of subdivision the finest grid of a control mesh takes.
+  static int steps(const ControlMesh& control, int levels);
+
+  // `subdivision`: of the input, by so many steps.
+  explicit LimitSurface(std::shared_ptr<const CatmullClark> subdivision)
+      : subdivision_(std::move(subdivision)) {}
 
   // 3 numbers a point of the finest grid. `cage`: those of the input's vertices. Control vertices are
   // where they are `held`. So are, on flat faces between them, the polygons that were cut otherwise
@@ -21,12 +28,9 @@ class LimitSurface {
   Array<double> at_points(const GridLevel& grid, std::span<const double> cage,
                           std::span<const Vec3> held, Workers& workers) const;
 
-  // What is kept and taken at the most.
-  static std::int64_t bytes(const PolygonMesh& mesh, const ControlMesh& control, int levels);
-
  private:
   class FaceMap;
-  CatmullClark subdivision_;
+  std::shared_ptr<const CatmullClark> subdivision_;
 };
 
 // How a plate is to be held on a surface so that it does not wave where faces are thin. At a point whose

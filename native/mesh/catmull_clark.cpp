@@ -4,6 +4,7 @@
 #include "mesh/catmull_clark.h"
 
 #include "base/points.h"
+#include "mesh/limit_ring.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
@@ -13,17 +14,6 @@ using Points = Array<double>;
 
 Eigen::Map<Vec3> at(Points& x, std::size_t p) { return Eigen::Map<Vec3>(x.data() + 3 * p); }
 Vec3 at(std::span<const double> x, std::size_t p) { return point_at(x, std::int64_t(p)); }
-
-// What a vertex's rules come to: each by `position(rule, steps)`, from `steps` on.
-template <class Position>
-Vec3 by_rules(const AroundVertex& sharp, int steps, const Position& position) {
-  const VertexRule now = rule_of(sharp, steps), next = rule_of(sharp, steps + 1);
-  const double share =
-      now == next || now == VertexRule::smooth ? 1 : share_of_sharper(sharp, steps);
-  Vec3 out = share * position(now, steps);
-  if (share < 1) out += (1 - share) * position(next, steps + 1);
-  return out;
-}
 
 }  // namespace
 
@@ -56,6 +46,8 @@ void CatmullClark::set_polygons(const PolygonMesh& mesh, const ControlMesh& cont
                                 const SharpRules& rules) {
   Level& level = levels_.emplace_back();
   level.vertices = Index(mesh.vertex_count());
+  for (Index v = 0; v < level.vertices; ++v)
+    if (control.vertex_part(v) != RegionPart::inside) stays_.push_back(v);
   level.vertex.assign(mesh.corners.begin(), mesh.corners.end());
   level.edge.resize(level.vertex.size());
   std::vector<std::pair<VertexPair, std::size_t>> sides(level.vertex.size());
@@ -230,9 +222,8 @@ Array<double> CatmullClark::step(std::size_t l, std::span<const double> x) const
   return out;
 }
 
-// x: the points after the last step.
-Array<double> CatmullClark::to_limit(std::span<const double> x) const {
-  const std::size_t l = levels_.size() - 1;
+// x: the points after that level's step.
+Array<double> CatmullClark::to_limit(std::size_t l, std::span<const double> x) const {
   const Level& level = levels_[l];
   const auto vertices = std::size_t(level.vertices);
   const auto edge = [&](std::size_t k) { return vertices + std::size_t(level.edge[k]); };
@@ -296,15 +287,61 @@ Array<double> CatmullClark::to_limit(std::span<const double> x) const {
 Array<double> CatmullClark::limits(std::span<const double> cage) const {
   Points x(cage.begin(), cage.end());
   for (std::size_t l = 0; l < levels_.size(); ++l) x = step(l, x);
-  return to_limit(x);
+  return to_limit(levels_.size() - 1, x);
 }
 
-std::int64_t CatmullClark::bytes(std::int64_t corners, int steps) {
-  const auto index = std::int64_t(sizeof(Index)), point = std::int64_t(3 * sizeof(double));
-  // before the last step: two numbers a corner, two an edge, of which there are half as many; coarser
-  // levels have a third of that. After it as many points as corners, twice.
-  const std::int64_t before = steps > 1 ? corners << (2 * (steps - 1)) : corners;
-  return before * (3 * index * 4 / 3 + 2 * point + index);
+std::vector<double> CatmullClark::vertex_limits(std::span<const double> cage) const {
+  const Array<double> x = step(0, cage), all = to_limit(0, x);
+  std::vector<double> limits(all.begin(), all.begin() + std::ptrdiff_t(cage.size()));
+  put_exact_limits(x, limits);
+  for (const Index v : stays_)
+    std::copy_n(cage.begin() + 3 * std::ptrdiff_t(v), 3, limits.begin() + 3 * std::ptrdiff_t(v));
+  return limits;
+}
+
+// Of vertices whose limit takes many steps: on their rings alone. x: the points after the first step.
+void CatmullClark::put_exact_limits(std::span<const double> x, std::vector<double>& limits) const {
+  const Level& level = levels_[0];
+  const auto vertices = std::size_t(level.vertices);
+  std::vector<Index> which(vertices, -1);                // of the rings
+  std::vector<std::vector<std::array<Index, 3>>> rings;  // of each corner: both edges, the face
+  std::vector<const Special*> specials;
+  for (const Special& special : level.specials)
+    if (takes_many_steps(special.sharp)) {
+      which[std::size_t(special.vertex)] = Index(rings.size());
+      rings.emplace_back();
+      specials.push_back(&special);
+    }
+  if (rings.empty()) return;
+  for_each_corner(0, [&](std::size_t f, std::size_t k, std::size_t before) {
+    if (const Index r = which[std::size_t(level.vertex[k])]; r >= 0)
+      rings[std::size_t(r)].push_back({level.edge[before], level.edge[k], Index(f)});
+  });
+  for (std::size_t r = 0; r < rings.size(); ++r) {
+    stop_if_cancelled(r);
+    const Special& special = *specials[r];
+    LimitRing ring{at(x, std::size_t(special.vertex)), {}, {}};
+    AroundVertex sharp{special.sharp.vertex, {}};
+    std::vector<Index> edges;
+    const auto spoke = [&](Index e) {
+      const auto known = std::ranges::find(edges, e);
+      const auto i = std::size_t(known - edges.begin());
+      if (known != edges.end()) return i;
+      edges.push_back(e);
+      ring.spokes.push_back(at(x, vertices + std::size_t(e)));
+      const auto own = std::ranges::find(special.spokes, e);
+      sharp.spokes.push_back(own == special.spokes.end()
+                                 ? 0
+                                 : special.sharp.spokes[std::size_t(own - special.spokes.begin())]);
+      return i;
+    };
+    for (const auto& [a, b, f] : rings[r]) {
+      const std::size_t first = spoke(a), second = spoke(b);
+      ring.quads.push_back({at(x, level.size() + std::size_t(f)), {first, second}});
+    }
+    const Vec3 limit = limit_of(std::move(ring), sharp);
+    std::copy_n(limit.data(), 3, limits.data() + 3 * std::size_t(special.vertex));
+  }
 }
 
 }  // namespace fairing

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Catmull-Clark subdivision of a whole mesh, its points taken to the limit [Halstead, Kass, DeRose
-// 1993], with creases, borders, corners and semi-sharp edges as mesh/sharpness.h has them. A linear
-// map of the vertices: its tables serve for all positions of one mesh.
+// 1993, §3], with creases, borders, corners and semi-sharp edges as mesh/sharpness.h has them. A
+// linear map of the vertices: its tables serve for all positions of one mesh.
 #pragma once
 
 #include <array>
@@ -35,9 +35,9 @@ class CatmullClark {
   // The limits of the points, 3 numbers each, of those of the vertices. With semi-sharp edges that
   // the steps do not use up, and where creases end, this is the limit up to a trace of the last step.
   Array<double> limits(std::span<const double> cage) const;
-
-  // What is kept and, for a moment, taken to compute limits, at the most.
-  static std::int64_t bytes(std::int64_t corners, int steps);
+  // The limit positions of the vertices alone, 3 numbers each, exact for all of them. Where the rules
+  // keep a vertex, and outside the region, positions stay, to the last bit.
+  std::vector<double> vertex_limits(std::span<const double> cage) const;
 
  private:
   // What is sharp about a vertex.
@@ -69,9 +69,11 @@ class CatmullClark {
   template <class Visit>
   void for_each_corner(std::size_t level, Visit&& visit) const;
   Array<double> step(std::size_t level, std::span<const double> x) const;
-  Array<double> to_limit(std::span<const double> x) const;
+  Array<double> to_limit(std::size_t level, std::span<const double> x) const;
+  void put_exact_limits(std::span<const double> x, std::vector<double>& limits) const;
 
   Array<Index> first_;         // of the polygons' corners
+  std::vector<Index> stays_;   // vertices that are not inside the region
   std::vector<Level> levels_;  // before each step
 };
 

@@ -16,7 +16,7 @@
 namespace fairing {
 namespace {
 
-void take_faces(const SplitMesh& split, ControlMesh& control) {
+void set_faces(const SplitMesh& split, ControlMesh& control) {
   Index sides = 0;
   control.faces.reserve(split.faces.size());
   for (const SplitFace& face : split.faces) {
@@ -157,7 +157,7 @@ ControlMesh make_control_mesh(const PolygonMesh& mesh, const FeatureOptions& fea
   for (Index v = 0; v < control.first_centre(); ++v)
     control.positions.push_back(point_at(sheets.coordinates, v));
   control.positions.insert(control.positions.end(), split.centres.begin(), split.centres.end());
-  take_faces(split, control);
+  set_faces(split, control);
   connect_faces(control);
   find_copied_edges(control);
   index_spokes(control);

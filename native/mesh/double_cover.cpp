@@ -21,7 +21,7 @@ class Lifter {
   }
 
   // For the faces of a polygon, until the next one.
-  void take_polygon(Index f) {
+  void add_polygon(Index f) {
     const auto begin = std::size_t(mesh_.offsets[std::size_t(f)]),
                end = std::size_t(mesh_.offsets[std::size_t(f) + 1]);
     for (std::size_t k = begin; k < end; ++k)
@@ -82,7 +82,7 @@ std::vector<Index> lift_faces(const PolygonMesh& mesh, const DoubleCover& cover,
     stop_if_cancelled(f);
     SplitFace& face = split.faces[f];
     if (!cover.has(face.polygon)) continue;
-    lifter.take_polygon(face.polygon);
+    lifter.add_polygon(face.polygon);
     second.push_back(lifter.half(face, true));
     face = lifter.half(face, false);
     repeated.push_back(Index(f));

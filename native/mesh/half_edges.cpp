@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "mesh/buckets.h"
+#include "mesh/counting_sort.h"
 
 namespace fairing {
 
@@ -35,7 +35,7 @@ void HalfEdges::find_twins() {
   const auto ends = [&](std::size_t k) {
     return std::minmax({from(std::int32_t(k)), from(next(std::int32_t(k)))});
   };
-  Buckets<Side> sides(
+  CountingSort<Side> sides(
       std::size_t(mesh_.vertex_count()), face_.size(), [&](std::size_t k) { return ends(k).first; },
       [&](std::size_t k) { return Side{std::int32_t(ends(k).second), std::int32_t(k)}; });
   sides.for_equal([](const Side& a, const Side& b) { return a.high < b.high; },

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "mesh/groups.h"
 #include "mesh/half_edges.h"
+#include "mesh/union_find.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
@@ -158,7 +158,7 @@ void find_copied_edges(ControlMesh& control) {
 
 JoinedVertices::JoinedVertices(const ControlMesh& control) {
   if (control.copies.edge.empty()) return;
-  Groups groups(control.positions.size());
+  UnionFind groups(control.positions.size());
   for (Index e = control.first_copied_edge(); e < Index(control.edges.size()); ++e)
     for (std::size_t h = 0; h < 2; ++h)
       groups.unite(control.edges[std::size_t(e)].vertex[h],
@@ -172,7 +172,7 @@ JoinedVertices::JoinedVertices(const ControlMesh& control) {
 }
 
 SheetNumbers number_sheets(const ControlMesh& control) {
-  Groups groups(control.positions.size());
+  UnionFind groups(control.positions.size());
   for (std::size_t e = 0; e < control.edges.size(); ++e) {
     stop_if_cancelled(e);
     groups.unite(control.edges[e].vertex[0], control.edges[e].vertex[1]);

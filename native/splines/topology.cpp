@@ -5,7 +5,7 @@
 #include <set>
 #include <unordered_map>
 
-#include "mesh/groups.h"
+#include "mesh/union_find.h"
 #include "mesh/vertex_pair.h"
 #include "parallel/cancel.h"
 
@@ -54,7 +54,7 @@ void find_kinds(const Lattice& lattice, Topology& out) {
 // Corners at one vertex that smooth edges join.
 void find_sectors(const Lattice& lattice, Topology& out) {
   const auto corner = [](Index f, int c) { return 4 * f + c; };
-  Groups groups(4 * std::size_t(lattice.faces()));
+  UnionFind groups(4 * std::size_t(lattice.faces()));
   for (const ControlEdge& edge : out.edges) {
     if (edge.kind != EdgeKind::smooth) continue;
     const SideUse &a = edge.uses[0], &b = edge.uses[1];

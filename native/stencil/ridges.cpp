@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "base/angle.h"
-#include "mesh/groups.h"
 #include "mesh/opposite.h"
+#include "mesh/union_find.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
@@ -147,7 +147,7 @@ class Ridges {
   using Next = std::pair<double, std::size_t>;
 
   const ControlMesh& mesh_;
-  Groups strips_;
+  UnionFind strips_;
   std::vector<FacePlane> planes_;
   std::vector<double> shares_;
   std::priority_queue<Next, std::vector<Next>, std::greater<>> next_;

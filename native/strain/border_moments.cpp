@@ -90,7 +90,7 @@ class Row {
   void bend(bool closed, std::vector<double>& forces) {
     if (beside_.empty()) return;
     if (forces.empty()) forces.resize(3 * grid_.size());
-    take_medians(closed);
+    set_medians(closed);
     for (const Side* side : sides_) bend_face(*side, forces);
   }
 
@@ -127,7 +127,7 @@ class Row {
     return m > 0 && beside_[0].vertex == v ? &beside_[0] : nullptr;
   }
 
-  void take_medians(bool closed) {
+  void set_medians(bool closed) {
     const std::size_t m = beside_.size();
     std::vector<double> own;
     for (const Beside& each : beside_) own.push_back(each.bend / each.edges);

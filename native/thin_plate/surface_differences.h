@@ -63,17 +63,6 @@ class SurfaceDifferences {
   // The products that all rows are summed from.
   std::size_t products() const;
 
-  // Bytes a point, of triangles' grids or of quads': what is kept, the goal, and what a matrix takes more
-  // than in the control metric, where equal rows share their numbers.
-  static constexpr std::int64_t bytes(bool quads) {
-    constexpr std::int64_t places_and_unshared = 109;  // measured
-    const auto of = [](auto number, int count) { return std::int64_t(sizeof(number)) * count; };
-    const std::int64_t pull = of(float(), 1) + of(double(), 3), moments = of(double(), 9),
-                       member =
-                           of(float(), 3) + of(RingTable::Member(), 1) + of(RingPlaces::Place(), 1);
-    return places_and_unshared + pull + moments + member * (quads ? 9 : 7);
-  }
-
  private:
   void write_rows(const SurfaceMetric& metric, Workers& workers);
   template <class T>

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "base/points.h"
-#include "mesh/limit_positions.h"
 
 namespace fairing::test {
 namespace {
@@ -27,8 +26,8 @@ TEST(CatmullClark, LimitsDoNotDependOnTheSteps) {
   const ControlMesh control = make_control_mesh(mesh.view(), features);
   for (const double sharpness : {0.0, 0.4, 1.7}) {
     const SharpRules rules(control, {}, {{{{5, 6}, {6, 9}}, {sharpness, sharpness}}, {}});
-    const LimitPositions exact(mesh.view(), control, rules);
-    const std::vector<double> at = exact.of(mesh.coordinates);
+    const CatmullClark one(mesh.view(), control, rules, 1);
+    const std::vector<double> at = one.vertex_limits(mesh.coordinates);
     const CatmullClark coarse(mesh.view(), control, rules, 3), fine(mesh.view(), control, rules, 5);
     const Array<double> few = coarse.limits(mesh.coordinates), many = fine.limits(mesh.coordinates);
     for (Index v = 0; v < 10; ++v) expect_near(point_at(few, v), point_at(at, v));

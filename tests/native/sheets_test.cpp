@@ -8,8 +8,8 @@
 
 #include "control_mesh_invariants.h"
 #include "curves/feature_curves.h"
+#include "fairing/joined_sheets.h"
 #include "fairing/output.h"
-#include "fairing/weld.h"
 #include "mesh/validate/check.h"
 #include "meshes.h"
 
@@ -71,7 +71,7 @@ TEST(Sheets, AMobiusStripIsThereTwice) {
   EXPECT_TRUE(crease_edges(mesh).empty());
   for (int level = 0; level < 4; ++level) {
     const GridLevel grid(mesh, level);
-    EXPECT_EQ(Weld(grid).size(), std::size_t(grid_size(10, 15, 0, 5, level)));
+    EXPECT_EQ(JoinedSheets(grid).size(), std::size_t(grid_size(10, 15, 0, 5, level)));
   }
 }
 
@@ -153,19 +153,19 @@ TEST(Sheets, WeldedPointsAreAllThereOnce) {
        {three_on_an_edge(), two_cubes(), hourglass(), plate_with_fins(), grid(2, 2)}) {
     const ControlMesh mesh = build(input);
     const GridLevel grid(mesh, 2);
-    const Weld weld(grid);
-    EXPECT_EQ(weld.needed(), !mesh.copies.vertex.empty());
-    std::vector<double> points(3 * grid.size()), welded(3 * weld.size());
+    const JoinedSheets joined(grid);
+    EXPECT_EQ(joined.needed(), !mesh.copies.vertex.empty());
+    std::vector<double> points(3 * grid.size()), welded(3 * joined.size());
     std::set<Index> ids;
     for (Index p = 0; p < Index(grid.size()); ++p) {
-      ids.insert(weld(p));
-      for (std::size_t a = 0; a < 3; ++a) points[3 * std::size_t(p) + a] = weld(p);
+      ids.insert(joined(p));
+      for (std::size_t a = 0; a < 3; ++a) points[3 * std::size_t(p) + a] = joined(p);
     }
-    EXPECT_EQ(ids.size(), weld.size());
-    EXPECT_EQ(std::size_t(*ids.rbegin()) + 1, weld.size());
-    weld.join(points.data(), welded.data());
+    EXPECT_EQ(ids.size(), joined.size());
+    EXPECT_EQ(std::size_t(*ids.rbegin()) + 1, joined.size());
+    joined.join(points.data(), welded.data());
     for (std::size_t i = 0; i < welded.size(); ++i) EXPECT_EQ(welded[i], double(i / 3));
-    weld.join(points.data(), points.data());
+    joined.join(points.data(), points.data());
     EXPECT_TRUE(std::equal(welded.begin(), welded.end(), points.begin()));
   }
 }

@@ -26,21 +26,27 @@ def test_levels_quadruple_memory():
     assert all(3.0 < fine / coarse < 4.2 for coarse, fine in zip(peaks, peaks[1:]))
 
 
+def assert_bounded(report):
+    """The prediction is a bound, and up to twice the peak."""
+    few = 2**16  # bytes of what does not grow with the mesh
+    assert report["peak_bytes"] <= report["predicted_bytes"] <= 2 * report["peak_bytes"] + few
+
+
 @pytest.mark.parametrize("levels", [1, 2, 3, 4, 5])
 @pytest.mark.parametrize(
     "name", ["icosahedron", "random_hull", "torus_quads", "wavy_patch", "creature", "dodecahedron"]
 )
 def test_prediction_bounds_the_peak(name, levels):
-    report = tight.fair(*meshes.ALL[name](), levels, relative_residual=1e-2, threads=1).report
-    assert report["peak_bytes"] <= report["predicted_bytes"] <= 2.5 * report["peak_bytes"]
+    assert_bounded(
+        tight.fair(*meshes.ALL[name](), levels, relative_residual=1e-2, threads=1).report
+    )
 
 
 @pytest.mark.parametrize(
     "option", [{"tolerance": 0.02}, {"weights": [1.0] * 98}], ids=["tolerance", "weights"]
 )
 def test_prediction_bounds_the_peak_of_approximation(option):
-    report = tight.fair(*meshes.creature(), 3, interpolation="approximate", **option).report
-    assert report["peak_bytes"] <= report["predicted_bytes"] <= 2.5 * report["peak_bytes"]
+    assert_bounded(tight.fair(*meshes.creature(), 3, interpolation="approximate", **option).report)
 
 
 @pytest.mark.parametrize("levels", [1, 2, 4])
@@ -51,7 +57,7 @@ def test_prediction_bounds_the_peak_of_limit(name, levels):
     solver = df.Solver(vertices, faces, levels, interpolation="limit", threads=1)
     first = solver.solve(vertices).report
     later = solver.solve(np.asarray(vertices) * [1, 1, 1.01]).report
-    assert first["peak_bytes"] <= first["predicted_bytes"] <= 2.5 * first["peak_bytes"]
+    assert_bounded(first)
     assert later["peak_bytes"] <= later["predicted_bytes"]
 
 
@@ -65,22 +71,19 @@ def test_predicted_size_counts_the_boundary(name):
 @pytest.mark.parametrize("energy", ["total_curvature", "minimum_variation"])
 @pytest.mark.parametrize("name", ["random_hull", "torus_quads", "wavy_patch"])
 def test_prediction_bounds_the_peak_of_steps(name, energy):
-    """Not tightly: a level that proves hard is factored, and nobody knows before."""
     vertices, faces = meshes.ALL[name]()
     report = tight.fair(vertices, faces, 3, energy, threads=1).report
-    assert report["peak_bytes"] <= report["predicted_bytes"] <= 8 * report["peak_bytes"]
-    assert (
-        df.predicted_size(len(vertices), faces, 3, energy=energy)["bytes"] >= report["peak_bytes"]
-    )
+    assert_bounded(report)
+    alone = df.predicted_size(len(vertices), faces, 3, energy=energy)["bytes"]
+    assert alone == report["predicted_bytes"]
 
 
-@pytest.mark.parametrize("levels, most", [(1, 1.3), (2, 1.35)])
+@pytest.mark.parametrize("levels", [1, 2])
 @pytest.mark.parametrize("tolerance", [0.0, 0.02])
-def test_many_faces_on_few_levels(levels, most, tolerance):
+def test_many_faces_on_few_levels(levels, tolerance):
     """The rows of level 1 are the most there, and control vertices that move are factored."""
     near = {"interpolation": "approximate", "tolerance": tolerance} if tolerance else {}
-    report = df.fair(*meshes.torus(96, 48), levels, threads=1, **near).report
-    assert 0.9 <= report["predicted_bytes"] / report["peak_bytes"] <= most
+    assert_bounded(df.fair(*meshes.torus(96, 48), levels, threads=1, **near).report)
 
 
 def poles():
@@ -109,9 +112,8 @@ def egg():
     ids=["thin faces", "quads, 3", "quads, 4", "creature", "9,700 points", "even"],
 )
 def test_what_proves_hard_is_expected(mesh, levels, energy):
-    """Lines on thin faces, and the factor of a level of minimum variation but on even ones."""
-    report = df.fair(*mesh, levels, energy, threads=1).report
-    assert 0.9 <= report["predicted_bytes"] / report["peak_bytes"] <= 1.3
+    """Lines on thin faces, and minimum variation but on even ones."""
+    assert_bounded(df.fair(*mesh, levels, energy, threads=1).report)
 
 
 def test_the_mended_mesh_is_counted():
@@ -227,8 +229,7 @@ PLANNED = {
 def test_the_plan_is_near_the_peak(name, levels):
     """Whatever is fixed, merged away or apart."""
     mesh, options = PLANNED[name]
-    report = df.fair(*mesh, levels, threads=1, **options).report
-    assert 0.9 <= report["predicted_bytes"] / report["peak_bytes"] <= 1.5
+    assert_bounded(df.fair(*mesh, levels, threads=1, **options).report)
 
 
 def test_vertices_merged_away_make_no_run_too_large():
@@ -236,10 +237,10 @@ def test_vertices_merged_away_make_no_run_too_large():
     points, faces = soup(BALL)
     options = {"repair": "mend", "weld": 0.0, "threads": 1}
     peak = df.fair(points, faces, 2, **options).report["peak_bytes"]
-    again = df.fair(points, faces, 2, memory_limit=int(1.4 * peak), **options)
+    again = df.fair(points, faces, 2, memory_limit=2 * peak, **options)
     assert again.report["peak_bytes"] == peak
     clean = df.fair(*BALL, 2, threads=1).report["predicted_bytes"]
-    assert df.predicted_size(len(points), BALL[1], 2)["bytes"] < 1.7 * clean
+    assert df.predicted_size(len(points), BALL[1], 2)["bytes"] < 2 * clean
 
 
 @pytest.mark.parametrize("path", shared_files("good", *SUFFIXES))
@@ -248,6 +249,4 @@ def test_the_plan_is_near_the_peak_of_real_meshes(path):
     for levels in (2, 3):
         if len(faces) * 4**levels <= MOST_CELLS:
             report = df.fair(vertices, faces, levels, threads=1, repair="mend").report
-            few = 2**15  # bytes of what does not grow with the mesh
-            assert report["predicted_bytes"] / report["peak_bytes"] >= 0.85
-            assert report["predicted_bytes"] <= 1.6 * report["peak_bytes"] + few
+            assert_bounded(report)

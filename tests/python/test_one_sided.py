@@ -176,8 +176,7 @@ def test_the_cover_is_counted_from_faces_alone(name):
     assert result.report["sheets"]["one_sided"] == 1
     assert size["vertices"] == len(result.vertices)
     assert size["triangles"] == len(result.triangles)
-    # faces alone do not tell which are thin
-    assert 0.9 * result.report["peak_bytes"] <= size["bytes"] <= result.report["predicted_bytes"]
+    assert result.report["peak_bytes"] <= size["bytes"] == result.report["predicted_bytes"]
 
 
 def test_beside_other_sheets():

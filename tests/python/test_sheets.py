@@ -265,7 +265,7 @@ def test_sizes_are_predicted():
         assert size["vertices"] == len(result.vertices)
         assert size["triangles"] == len(result.triangles)
         assert result.report["peak_bytes"] <= result.report["predicted_bytes"]
-        assert 0.9 <= size["bytes"] / result.report["predicted_bytes"] <= 1.1
+        assert size["bytes"] == result.report["predicted_bytes"]
 
 
 @pytest.mark.parametrize("path", shared_files("bad/nonmanifold", *SUFFIXES))

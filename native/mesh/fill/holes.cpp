@@ -8,8 +8,8 @@
 #include <set>
 
 #include "base/points.h"
-#include "mesh/groups.h"
 #include "mesh/mend/loops.h"
+#include "mesh/union_find.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
@@ -135,7 +135,7 @@ FairingError why_unclear(bool torn, std::vector<std::int64_t> edges) {
 // Of border edges (half-edges), by those that share vertices.
 std::vector<FairingError> unclear(const std::vector<std::int32_t>& left, const Walks& walks,
                                   const HalfEdges& half_edges) {
-  Groups groups(left.size());
+  UnionFind groups(left.size());
   std::map<std::int64_t, Index> at;  // a vertex, to the first edge there
   const auto ends = [&](std::size_t i) {
     return std::pair<std::int64_t, std::int64_t>(half_edges.from(half_edges.next(left[i])),

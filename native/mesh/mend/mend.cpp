@@ -50,7 +50,7 @@ class Mender {
     const bool welded = options_.weld >= 0 && weld(mesh_, options_.weld, merges_),
                merged = merge_within_faces(mesh_, merges_);
     if (!welded && !merged && nothing_wrong()) return {};
-    take_faces();
+    set_faces();
     drop_duplicates();
     Dissolved dissolved = dissolve_flat_faces(mesh_.coordinates, loops_);
     if (!dissolved.faces.empty()) drop_duplicates();
@@ -76,7 +76,7 @@ class Mender {
            non_finite_vertices(mesh_.coordinates).empty();
   }
 
-  void take_faces() {
+  void set_faces() {
     loops_.reserve(std::size_t(mesh_.face_count()), mesh_.corners.size());
     std::vector<MendCorner> walk;
     for (std::int64_t f = 0; f < mesh_.face_count(); ++f) {
@@ -187,7 +187,7 @@ class Mender {
 
   const PolygonMesh& mesh_;
   const MendOptions& options_;
-  Groups merges_;
+  UnionFind merges_;
   Loops loops_;
   Ids few_, absent_, repeated_, flat_, duplicates_, merged_, lost_, far_;
   MendedMesh out_;

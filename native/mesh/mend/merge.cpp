@@ -59,7 +59,7 @@ double largest_coordinate_of(const PolygonMesh& mesh, const std::vector<std::uin
 }
 
 // A face with its vertices as they are now, each once where it comes twice in a row.
-void current_face(const PolygonMesh& mesh, std::int64_t f, Groups& merges, Ids& face) {
+void current_face(const PolygonMesh& mesh, std::int64_t f, UnionFind& merges, Ids& face) {
   face.clear();
   for (const std::int64_t v : mesh.face(f)) {
     const std::int64_t lead = merges.lead(Index(v));
@@ -68,7 +68,7 @@ void current_face(const PolygonMesh& mesh, std::int64_t f, Groups& merges, Ids& 
   while (face.size() > 1 && face.front() == face.back()) face.pop_back();
 }
 
-bool unite_touching(const PolygonMesh& mesh, const Ids& face, Groups& merges) {
+bool unite_touching(const PolygonMesh& mesh, const Ids& face, UnionFind& merges) {
   bool any = false;
   Ids sorted = face;
   std::sort(sorted.begin(), sorted.end(), [&](std::int64_t a, std::int64_t b) {
@@ -82,7 +82,7 @@ bool unite_touching(const PolygonMesh& mesh, const Ids& face, Groups& merges) {
   return any;
 }
 
-bool unite_short_sides(const PolygonMesh& mesh, const Ids& face, Groups& merges) {
+bool unite_short_sides(const PolygonMesh& mesh, const Ids& face, UnionFind& merges) {
   if (face.size() < 3 || !has_no_area(mesh.coordinates, face)) return false;
   const auto side = [&](std::size_t i) {
     return (point(mesh, face[i]) - point(mesh, face[(i + 1) % face.size()])).norm();
@@ -100,7 +100,7 @@ bool unite_short_sides(const PolygonMesh& mesh, const Ids& face, Groups& merges)
 
 }  // namespace
 
-bool weld(const PolygonMesh& mesh, double distance, Groups& merges) {
+bool weld(const PolygonMesh& mesh, double distance, UnionFind& merges) {
   const std::vector<std::uint8_t> used = used_vertices(mesh);
   // Cubes of rounding errors' size would be without number.
   using Limits = std::numeric_limits<double>;
@@ -130,7 +130,7 @@ bool weld(const PolygonMesh& mesh, double distance, Groups& merges) {
 }
 
 // What was merged may leave another side without length, in the next round.
-bool merge_within_faces(const PolygonMesh& mesh, Groups& merges) {
+bool merge_within_faces(const PolygonMesh& mesh, UnionFind& merges) {
   Ids face;
   bool any = false;
   for (bool again = true; again;) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 
-#include "mesh/buckets.h"
+#include "mesh/counting_sort.h"
 #include "mesh/validate/checks.h"
 #include "parallel/cancel.h"
 
@@ -61,8 +61,8 @@ std::vector<SameVertices> faces_with_same_vertices(const PolygonMesh& mesh) {
     for (std::int64_t v : mesh.face(print.face)) print.hash += scramble(std::uint64_t(v));
     return print;
   };
-  Buckets<Print> prints(std::size_t(mesh.vertex_count()), std::size_t(mesh.face_count()), lowest,
-                        print_of);
+  CountingSort<Print> prints(std::size_t(mesh.vertex_count()), std::size_t(mesh.face_count()),
+                             lowest, print_of);
   std::vector<SameVertices> found;
   prints.for_equal([](const Print& a, const Print& b) { return a.hash < b.hash; },
                    [&](std::span<const Print> same_hash) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Numbers that become one, such as vertices of one part.
+// Union-find: numbers that become one, such as the vertices of one part.
 #pragma once
 
 #include <algorithm>
@@ -11,10 +11,10 @@
 
 namespace fairing {
 
-// Groups of 0 … count - 1, each led by its least member.
-class Groups {
+// Sets of the numbers 0 … count - 1, each led by its least member.
+class UnionFind {
  public:
-  explicit Groups(std::size_t count) : lead_(count) {
+  explicit UnionFind(std::size_t count) : lead_(count) {
     std::iota(lead_.begin(), lead_.end(), Index(0));
   }
 
@@ -22,10 +22,10 @@ class Groups {
     for (;;) {
       Index& above = lead_[std::size_t(i)];
       if (above == i) return i;
-      i = above = lead_[std::size_t(above)];  // so that ways stay short
+      i = above = lead_[std::size_t(above)];  // path halving
     }
   }
-  // Whether they were two groups before.
+  // Whether they were two sets before.
   bool unite(Index i, Index j) {
     const Index a = lead(i), b = lead(j);
     lead_[std::size_t(std::max(a, b))] = std::min(a, b);

@@ -8,10 +8,10 @@
 
 namespace fairing {
 
-class Weld {
+class JoinedSheets {
  public:
   // `grid` must outlive it.
-  explicit Weld(const GridLevel& grid);
+  explicit JoinedSheets(const GridLevel& grid);
 
   // False where nothing is a copy: all that follows changes nothing then.
   bool needed() const { return vertices_.copies < vertices_.end; }
@@ -24,7 +24,7 @@ class Weld {
   void join(double* points, double* out) const;
 
  private:
-  void take_means(double* points) const;
+  void set_means(double* points) const;
 
   const GridLevel& grid_;
   // Of what is copied, in the order of the grid's points.

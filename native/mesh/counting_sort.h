@@ -13,11 +13,11 @@ namespace fairing {
 
 // Items by key, those of one key in the order in which they came.
 template <class Item>
-class Buckets {
+class CountingSort {
  public:
   // Item i is item_of(i), and has the key key_of(i) < keys. Throws where the run has been cancelled.
   template <class KeyOf, class ItemOf>
-  Buckets(std::size_t keys, std::size_t count, const KeyOf& key_of, const ItemOf& item_of)
+  CountingSort(std::size_t keys, std::size_t count, const KeyOf& key_of, const ItemOf& item_of)
       : begin_(keys + 1, 0), items_(count, Item{}) {
     for (std::size_t i = 0; i < count; ++i) {
       stop_if_cancelled(i);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fairing/weld.h"
+#include "fairing/joined_sheets.h"
 
 #include <algorithm>
 
@@ -13,7 +13,7 @@ Index face_begin(const GridLevel& grid, Index f) {
 
 }  // namespace
 
-Weld::Weld(const GridLevel& grid) : grid_(grid) {
+JoinedSheets::JoinedSheets(const GridLevel& grid) : grid_(grid) {
   const ControlMesh& mesh = grid.mesh();
   vertices_ = {0, mesh.input_vertices, mesh.first_centre()};
   centres_ = {vertices_.end, mesh.first_copied_centre(), mesh.vertex_count()};
@@ -22,14 +22,14 @@ Weld::Weld(const GridLevel& grid) : grid_(grid) {
   faces_ = {edges_.end, face_begin(grid, mesh.first_copied_face()), Index(grid.size())};
 }
 
-std::size_t Weld::size() const {
+std::size_t JoinedSheets::size() const {
   std::size_t size = 0;
   for (const Block& block : {vertices_, centres_, edges_, faces_})
     size += std::size_t(block.copies - block.begin);
   return size;
 }
 
-Index Weld::operator()(Index p) const {
+Index JoinedSheets::operator()(Index p) const {
   const ControlMesh& mesh = grid_.mesh();
   Index before = 0;  // copies that come before p's block
   if (p < vertices_.end) return mesh.original_vertex(p);
@@ -45,7 +45,7 @@ Index Weld::operator()(Index p) const {
   return p - before - (edges_.end - edges_.copies);
 }
 
-void Weld::take_means(double* points) const {
+void JoinedSheets::set_means(double* points) const {
   const ControlMesh& mesh = grid_.mesh();
   const auto mean = [&](Index original, Index copy) {
     for (std::size_t a = 0; a < 3; ++a) {
@@ -71,8 +71,8 @@ void Weld::take_means(double* points) const {
   }
 }
 
-void Weld::join(double* points, double* out) const {
-  if (!grid_.mesh().copies.face.empty()) take_means(points);
+void JoinedSheets::join(double* points, double* out) const {
+  if (!grid_.mesh().copies.face.empty()) set_means(points);
   double* to = out;
   for (const Block& block : {vertices_, centres_, edges_, faces_}) {
     const double *begin = points + 3 * std::size_t(block.begin),
