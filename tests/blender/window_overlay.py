@@ -104,6 +104,8 @@ def test_stripes_in_edit_mode_follow_the_edit():
     target = harness.add_suzanne()
     inspect(target, "ZEBRA")
     change_mode("EDIT")
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.mesh.select_all(action="DESELECT")  # what is selected is tinted
     before = yield from striped("overlay_edit_mode", 3)
     with bpy.context.temp_override(**harness.view()):
         bpy.ops.mesh.select_all(action="SELECT")
