@@ -16,6 +16,7 @@ import energies
 import exactness
 import fill_lengths
 import fills
+import fit
 import jobs
 import limits
 import machine_parts
@@ -50,6 +51,7 @@ BENCHMARKS = {
     "energies": energies,
     "exact": exactness,
     "fills": fills,
+    "fit": fit,
     "fill_lengths": fill_lengths,
     "drag": drag,
 }

@@ -67,6 +67,13 @@ def libraries() -> list[Component]:
             "generic/eigen",
         ),
         library(
+            "nanoflann",
+            version_in("cmake/dependencies.cmake", r"/nanoflann/.*/v([\d.]+)\.tar"),
+            "BSD-2-Clause",
+            "https://github.com/jlblancoc/nanoflann",
+            "generic/nanoflann",
+        ),
+        library(
             "pybind11",
             version_in("build_tools/requirements.txt", r"pybind11==([\d.]+)"),
             "BSD-3-Clause",

@@ -18,6 +18,7 @@ from wheel_version import LOCAL_PART
 
 PACKAGES = ["blender", "python3-numpy"]
 PACKAGES += ["g++", "ccache", "cmake", "ninja-build", "libopenmesh-dev", "libeigen3-dev"]
+PACKAGES += ["libnanoflann-dev"]
 PACKAGES += ["python3-dev", "python3-pip", "python3-scikit-build-core", "pybind11-dev"]
 # a window without a screen, drawn by the processor, and photographs of it
 PACKAGES += ["xvfb", "xauth", "libgl1-mesa-dri", "xdotool", "imagemagick", "fonts-dejavu-core"]

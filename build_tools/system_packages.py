@@ -5,7 +5,8 @@ import shutil
 
 from shell import DevError, as_root, output, run, say
 
-NATIVE = ["g++", "ccache", "libopenmesh-dev", "libeigen3-dev", "libgtest-dev", "libsuitesparse-dev"]
+NATIVE = ["g++", "ccache", "libopenmesh-dev", "libeigen3-dev"]
+NATIVE += ["libnanoflann-dev", "libgtest-dev", "libsuitesparse-dev"]
 PYTHON = ["python3-venv", "python3-dev"]
 # the bpy wheel loads these at import; the last ones are for drawing without a screen
 BPY = [

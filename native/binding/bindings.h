@@ -23,6 +23,9 @@ void bind_clean(pybind11::module_& m);
 // Adds require_strain(), strain() and ease(), which the package wraps.
 void bind_strain(pybind11::module_& m);
 
+// Adds fit(), which the package wraps.
+void bind_fit(pybind11::module_& m);
+
 // Adds outline(), which the package's pieces() cuts up.
 void bind_outline(pybind11::module_& m);
 // What a piece takes from its whole: a dict of the package's, or None.

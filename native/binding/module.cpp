@@ -172,6 +172,7 @@ PYBIND11_MODULE(_native, m) {
         "A sentence with the elements in their places.");
   bind_solver(m);
   bind_strain(m);
+  bind_fit(m);
   bind_outline(m);
   bind_splines(m);
   bind_fill(m);

@@ -57,9 +57,14 @@ class ThinPlateLevel final : public LevelOperator {
     surface_->add_pull(goal, shared_.workers, r);
   }
 
-  void set_weights(const VertexWeights& weights) {
-    weights_ = weights;
+  void set_weights(VertexWeights weights) {
+    weights_ = std::move(weights);
     update();
+  }
+  // Of all points: where they are less than before, the spectrum reaches farther.
+  void set_point_weights(VertexWeights weights) {
+    ++version_.spectrum;
+    set_weights(std::move(weights));
   }
   const VertexWeights& weights() const { return weights_; }
 

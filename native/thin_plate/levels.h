@@ -57,6 +57,10 @@ class ThinPlateLevels {
 
   // New weights of control vertices, on all levels up to `level`.
   void set_weights(const VertexWeights& weights, int level);
+  // Weights of all points of one level; solves ask for them on all levels below, too.
+  void set_point_weights(VertexWeights weights, int level) {
+    operators_[index(level)]->set_point_weights(std::move(weights));
+  }
   const VertexWeights& weights(int level) const { return operators_[index(level)]->weights(); }
 
   // r <- W c + P goal - (K + P + W) x on the level's unknowns, with c the targets.

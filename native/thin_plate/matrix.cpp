@@ -163,7 +163,7 @@ std::unique_ptr<PlateMatrix> PlateMatrix::make(const Unknowns& unknowns, std::si
 void PlateMatrix::set_weights(const VertexWeights& weights) {
   weight_.clear();
   for (std::size_t v = 0; v < weights.size(); ++v)
-    weight_.insert(weight_.end(), 3, moves_[v] ? float(weights[v]) : 0.0f);
+    weight_.insert(weight_.end(), 3, v >= moves_.size() || moves_[v] ? float(weights[v]) : 0.0f);
 }
 
 void PlateMatrix::write_lines(const Array<float>& inverse_diagonal, LineBand& band,

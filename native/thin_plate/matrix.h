@@ -35,7 +35,7 @@ class PlateMatrix {
   static std::unique_ptr<PlateMatrix> make(const GridLevel& grid, const SurfaceDifferences& surface,
                                            const Unknowns& unknowns, Workers& workers);
 
-  // Of control vertices: what is added to their diagonal.
+  // What is added to the diagonal.
   void set_weights(const VertexWeights& weights);
 
   // As LevelOperator::write_lines(), with the inverse of the diagonal.
@@ -64,7 +64,7 @@ class PlateMatrix {
   std::size_t points_;
   Rows rows_;
   std::vector<std::uint8_t> moves_;  // whether a control vertex is an unknown
-  std::vector<float> weight_;        // 3 a control vertex; empty: none
+  std::vector<float> weight_;        // 3 a control vertex or point; empty: none
 };
 
 }  // namespace fairing

@@ -3,6 +3,7 @@
 
 #include "multigrid/ring_lines.h"
 #include "parallel/cancel.h"
+#include "parallel/reductions.h"
 #include "thin_plate/kernels.h"
 #include "thin_plate/membrane.h"
 
@@ -76,6 +77,18 @@ struct ElementRows {
     for (std::size_t k = 0; k < rows.distinct(); ++k) column.push_back(rows[k]);
   }
 };
+
+// y += W x behind the control vertices.
+template <class T>
+void add_weighted(const GridLevel& grid, const VertexWeights& weights, Workers& workers, const T* x,
+                  T* y) {
+  const auto first = std::size_t(grid.mesh().vertex_count());
+  if (weights.size() <= first) return;
+  for_each_index(workers, weights.size() - first, [&](std::size_t i) {
+    const std::size_t p = first + i;
+    for (std::size_t a = 0; a < 3; ++a) y[3 * p + a] += T(weights[p]) * x[3 * p + a];
+  });
+}
 
 double dot(const EnergyRows::Column& a, const EnergyRows::Column& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -203,6 +216,7 @@ void apply_thin_plate(const GridLevel& grid, const ThinPlateRows<T>& rows, const
   };
 
   accumulate(grid, workers, slots, &unknowns, y, vertex_body, edge_body, face_body);
+  add_weighted(grid, weights, workers, x, y);
 }
 
 template void apply_thin_plate<float>(const GridLevel&, const ThinPlateRows<float>&,
@@ -235,8 +249,11 @@ Array<float> thin_plate_diagonal(const GridLevel& grid, const Stencils& stencils
       grid, workers, slots, &unknowns, sums.data(),
       [&] { return PlateRingRows{grid, RegionWeight(grid), {grid.mesh(), stencils}}; }, body);
   Array<float> diagonal(grid.size());
-  for (std::size_t i = 0; i < diagonal.size(); ++i)
+  const auto vertices = std::size_t(grid.mesh().vertex_count());
+  for (std::size_t i = 0; i < diagonal.size(); ++i) {
+    if (i >= vertices && i < weights.size()) sums[3 * i] += weights[i];
     diagonal[i] = sums[3 * i] > 0 ? float(sums[3 * i]) : 1.0f;
+  }
   return diagonal;
 }
 

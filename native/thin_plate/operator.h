@@ -26,7 +26,7 @@ struct ThinPlateRows {
 // level; results are the same for any number of threads, bit for bit.
 
 // y <- (K + W) x on the unknowns of a level, zero elsewhere, with W the weights of control
-// vertices. T: float or double. In float, fourth differences lose as many digits as n^4 has: see
+// vertices, or of all points: 0 on those that are no unknowns, but for control vertices. T: float or double. In float, fourth differences lose as many digits as n^4 has: see
 // most_of_single (multigrid/level_operator.h).
 template <class T>
 void apply_thin_plate(const GridLevel& grid, const ThinPlateRows<T>& rows, const Unknowns& unknowns,

@@ -24,6 +24,7 @@ ROOMS = (
     ("thin_plate", "curvature"),
     ("strain", "paper"),
     ("fairing",),
+    ("fit",),
     ("binding",),
 )
 FLOOR = {room: floor for floor, rooms in enumerate(ROOMS) for room in rooms}

@@ -21,6 +21,7 @@ from .options import AllSettings, Settings
 from .patches import SplinePatches, spline_knots
 from .piecewise import Part, Piece, join, largest_jump, pieces
 from .result import Result
+from .scan_fitting import Fitted, fit
 from .solver import Solver
 from .step import write_step
 from .strain import Strain, strain
@@ -34,6 +35,7 @@ __all__ = [
     "Eased",
     "FairingError",
     "Filled",
+    "Fitted",
     "FilledHole",
     "MemoryWarning",
     "Monitor",
@@ -53,6 +55,7 @@ __all__ = [
     "fair",
     "fill_holes",
     "find_holes",
+    "fit",
     "fit_patches",
     "hole_width",
     "holes_to_fill",

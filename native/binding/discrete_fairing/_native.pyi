@@ -126,6 +126,20 @@ def strain(
     monitor: Monitor,
     progress: _Progress,
 ) -> dict[str, Any]: ...
+def fit(
+    vertices: np.ndarray,
+    corners: np.ndarray,
+    offsets: np.ndarray,
+    points: np.ndarray,
+    normals: np.ndarray,
+    triangles: np.ndarray,
+    tolerance: float,
+    weight: float,
+    fixed: np.ndarray,
+    options: Options,
+    monitor: Monitor,
+    progress: _Progress,
+) -> dict[str, Any]: ...
 def require_strain(options: Options, /) -> None: ...
 def ease(
     vertices: np.ndarray,

@@ -1,0 +1,211 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""fit(): from a control mesh and a scan to the fairest surface near the scan."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import nullcontext
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _native
+from .arrays import face_arrays, index_array, numbers, plain, vertex_array
+from .errors import fairing_error, written_report
+from .halves import Half
+from .options import native_options, real
+from .result import Result
+from .watching import Progress, check_watchers
+
+
+class Fitted(Result):
+    """A refined surface near a scan of S points; its first rows are the control vertices, which have
+    moved. Lengths are in mesh units; points are numbered as given, faces are the caller's.
+
+    distances: (S,) float64 from the surface to every point, positive outside; NaN where no part of
+    the surface has a normal that agrees.
+    faces_of_points: (S,) int32, the face that each point lies over; -1: none.
+    noise: float, the root mean square of the distances of points, robust against strays.
+    weight: float, without a unit, how strongly the points pull: 1 halves a wave as long as the mean
+    control edge, and waves half as long sixteen times more.
+    within: (float, float), the distance that 95 % of the covered points are within, and the largest
+    of all covered points that are no outliers.
+    coverage: (m,) float64, the share of each face that has points.
+    too_coarse: (k,) int64, faces where the surface stays on one side of the points by more than the
+    noise: to be split.
+    outliers: (k,) int64, points farther off than eight times the noise, and those over no face.
+    trials: list of (weight, distance): what points held out were off, root mean square.
+    """
+
+    def __init__(self, arrays: dict[str, Any]):
+        super().__init__(arrays)
+        self.distances: np.ndarray = arrays["distances"]
+        self.faces_of_points: np.ndarray = arrays["faces_of_points"]
+        self.noise: float = arrays["noise"]
+        self.weight: float = arrays["weight"]
+        self.within: tuple[float, float] = arrays["within"]
+        self.coverage: np.ndarray = arrays["coverage"]
+        self.too_coarse: np.ndarray = arrays["too_coarse"]
+        self.outliers: np.ndarray = arrays["outliers"]
+        self.trials: list[tuple[float, float]] = [(w, d) for w, d in arrays["trials"]]
+
+    def __repr__(self) -> str:
+        return (
+            f"Fitted({len(self.vertices)} vertices, within {self.within[0]:.3g} of 95 % of "
+            f"{len(self.distances)} points)"
+        )
+
+
+def fit(
+    vertices: ArrayLike,
+    faces: ArrayLike | Sequence[Sequence[int]],
+    points: ArrayLike,
+    *,
+    triangles: ArrayLike | None = None,
+    normals: ArrayLike | None = None,
+    tolerance: float | None = None,
+    weight: float | None = None,
+    fixed: ArrayLike | None = None,
+    levels: int = 2,
+    symmetry_plane: str | None = None,
+    progress: Progress | None = None,
+    monitor: _native.Monitor | None = None,
+    **options: Any,
+) -> Fitted:
+    """The fairest surface near a scan: the thin plate of a coarse control mesh, drawn to points.
+
+    Each point pulls along the normal of the surface where it is nearest. Where there are none, the
+    surface is as fair as its surroundings let it be; gross errors pull less, and in the end not at
+    all. Neither mesh is changed.
+
+    Parameters
+    ----------
+    vertices, faces, levels, progress, monitor
+        As of fair(): a control mesh drawn over the scan. Its vertices begin where they are and move.
+    points : (S, 3) float
+        The scan, in the unit of the vertices.
+    triangles : (T, 3) int
+        The scan as a mesh: its normals tell two near sheets apart.
+    normals : (S, 3) float
+        The same for points without triangles: outwards, of any length; zero where unknown.
+    tolerance : float, mesh units
+        The calmest surface with 95 % of the covered points within this distance. Where that cannot
+        be kept, the report has the warning TOLERANCE_NOT_KEPT.
+    weight : float, without a unit
+        How strongly points pull (Fitted.weight). Without tolerance and weight, the one with which
+        points held out are nearest to the surface.
+    fixed : (n,) bool
+        Control vertices that stay where they are.
+    symmetry_plane
+        As of fair(); the scan is that of the whole, and both halves' points count.
+    **options
+        Further settings of fair(), but for those that move control vertices.
+
+    Raises
+    ------
+    FairingError
+        As fair(); BAD_SHAPE for scans that are none or far away, in another unit perhaps;
+        INCONSISTENT_ORIENTATION where most normals are against those of the control mesh.
+    """
+    check_watchers(progress, monitor)
+    base = vertex_array(vertices)
+    corners, offsets = face_arrays(faces)
+    scan, outward, sides = _points(points), _normals(normals), _triangles(triangles)
+    stays = _fixed(fixed, len(base))
+    bound = _positive("tolerance", tolerance)
+    strength = _positive("weight", weight)
+    if bound and strength:
+        raise fairing_error(
+            "BAD_OPTION", "tolerance and weight exclude each other.", cure="Give one."
+        )
+    given: dict[str, Any] = {**options, "levels": levels}
+    half = None
+    if symmetry_plane is not None:
+        half = Half(base, corners, offsets, symmetry_plane, native_options(given).repair)
+        base, given, stays = half.points(base), half.settings(given), half.values(stays)
+        corners, offsets = half.faces(corners, offsets)
+        scan, outward, sides = _with_images(scan, outward, sides, half.axis)
+    with half.named() if half else nullcontext():
+        found = _native.fit(
+            base,
+            corners,
+            offsets,
+            scan,
+            outward,
+            sides,
+            bound,
+            strength,
+            stays,
+            native_options(given),
+            monitor or _native.Monitor(),
+            progress,
+        )
+    return Fitted(written_report(_of_half(half, found, len(scan) // 2) if half else found))
+
+
+def _of_half(half: Half, found: dict[str, Any], count: int) -> dict[str, Any]:
+    """What was found for the double, of the half and of the caller's `count` points."""
+    faces = half.face_count
+    found = half.cut(found)
+    own = found["faces_of_points"][:count]
+    found["faces_of_points"] = np.where(own < 0, own, own % faces)
+    found["distances"] = found["distances"][:count]
+    found["outliers"] = found["outliers"][found["outliers"] < count]
+    found["too_coarse"] = np.unique(found["too_coarse"] % faces)
+    found["coverage"] = found["coverage"][:faces]
+    return found
+
+
+def _points(points: ArrayLike) -> np.ndarray:
+    array = numbers(points, "points", "iuf")
+    if array.size == 0:
+        array = array.reshape(0, 3)
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise fairing_error("BAD_SHAPE", f"points has shape {array.shape}; it must be (S, 3).")
+    return plain(array, np.float64)
+
+
+def _normals(normals: ArrayLike | None) -> np.ndarray:
+    return np.empty((0, 3)) if normals is None else _points(normals)
+
+
+def _triangles(triangles: ArrayLike | None) -> np.ndarray:
+    if triangles is None:
+        return np.empty(0, np.int64)
+    array = index_array(triangles, "triangles")
+    if array.size and (array.ndim != 2 or array.shape[1] != 3):
+        raise fairing_error("BAD_SHAPE", f"triangles has shape {array.shape}; it must be (T, 3).")
+    return np.ascontiguousarray(array.reshape(-1))
+
+
+def _fixed(fixed: ArrayLike | None, count: int) -> np.ndarray:
+    if fixed is None:
+        return np.empty(0, dtype=np.uint8)
+    stays = np.asarray(fixed)
+    if stays.shape != (count,) or stays.dtype != bool:
+        raise fairing_error("BAD_OPTION", f"fixed must be {count} bools, one a vertex.")
+    return stays.astype(np.uint8)
+
+
+def _positive(name: str, value: float | None) -> float:
+    if value is None:
+        return 0.0
+    found = real(name, value)
+    if not found > 0:
+        raise fairing_error("BAD_OPTION", f"{name} is {value!r}; it must be over 0, or None.")
+    return found
+
+
+def _with_images(
+    points: np.ndarray, normals: np.ndarray, triangles: np.ndarray, axis: int
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The points with their mirror images behind them."""
+    sign = np.ones(3)
+    sign[axis] = -1.0
+    images = triangles.reshape(-1, 3)[:, ::-1] + len(points)
+    return (
+        np.concatenate([points, points * sign]),
+        np.concatenate([normals, normals * sign]),
+        np.ascontiguousarray(np.concatenate([triangles.reshape(-1, 3), images]).reshape(-1)),
+    )

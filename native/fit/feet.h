@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The points of a surface nearest to those of a scan: their feet. A foot is on a cell whose normal agrees
+// with that of the scan's point, where this has one, so that the two sides of a thin wall are not
+// confused.
+#pragma once
+
+#include "fit/cells.h"
+#include "fit/scan.h"
+
+namespace fairing {
+
+struct Foot {
+  Index cell = -1;  // -1: the surface has none
+  CornerShares shares{};
+  // Of the scan's point along the surface's normal at the foot; working units.
+  float offset = 0;
+  // Beyond the surface's border: it has no say.
+  bool outside = false;
+
+  bool pulls() const { return cell >= 0 && !outside; }
+};
+
+// The surface of a level, which changes: its points' normals, and feet on it.
+class FeetFinder {
+ public:
+  // References must outlive it. May throw FairingError(cancelled).
+  FeetFinder(const Cells& cells, const Scan& scan, Workers& workers);
+
+  // The surface has become x, 3 numbers a point.
+  void set_surface(const double* x);
+  // Of the surface at a foot: mean of its corners' normals; on curves that of the cell.
+  Vec3 normal_at(const Foot& foot) const;
+  Vec3 point_at_foot(const Foot& foot) const;
+  // Of a point of the scan from its foot, positive on the side of the normal.
+  double distance(std::size_t point, const Foot& foot) const {
+    const double far = (scan_.point[point] - point_at_foot(foot)).norm();
+    return foot.offset < 0 ? -far : far;
+  }
+
+  // From anywhere: by the surface's point nearest to each. `any_side`: whatever the normals.
+  void find(Array<Foot>& feet, bool any_side = false) const;
+  // From feet that are near: down the distance, from cell to cell.
+  void follow(Array<Foot>& feet) const;
+  // Offsets again, where only the surface has moved a little: the feet stay.
+  void measure(Array<Foot>& feet) const;
+
+  const Cells& cells() const { return cells_; }
+
+ private:
+  struct Nearest {
+    CornerShares shares;
+    double square;  // of the distance
+  };
+  Vec3 at(Index p) const { return Eigen::Map<const Vec3>(x_ + 3 * std::size_t(p)); }
+  Nearest nearest_on(Index cell, const Vec3& point) const;
+  bool agrees(Index cell, std::size_t point) const;
+  bool descend(std::size_t point, Index at, Foot& foot, double square) const;
+  void finish(std::size_t point, Foot& foot) const;
+  bool is_on_border(const Foot& foot) const;
+
+  const Cells& cells_;
+  const Scan& scan_;
+  Workers& workers_;
+  const double* x_ = nullptr;
+  Array<Vec3> cell_normal_;   // of length one
+  Array<Vec3> point_normal_;  // the same; zero on curves
+  std::vector<std::uint8_t> on_curve_, on_border_;
+};
+
+}  // namespace fairing

@@ -1,0 +1,364 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fit/fit_scan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <new>
+#include <numbers>
+#include <utility>
+
+#include "base/points.h"
+#include "fairing/extremes.h"
+#include "fairing/memory_plan.h"
+#include "fairing/warnings.h"
+#include "fit/curves.h"
+#include "fit/level_fit.h"
+#include "fit/measure.h"
+#include "fit/weight_choice.h"
+#include "grid/linear.h"
+#include "parallel/cancel.h"
+#include "parallel/reductions.h"
+
+namespace fairing {
+namespace {
+
+// The level on which the weight is sought: waves that it decides on are longer than its edges. Coarse
+// control meshes, whose faces have many points each, take a finer one.
+constexpr int level_of_search = 2;
+constexpr std::size_t cells_of_search = std::size_t(1)
+                                        << 14;  // the search takes some twenty rounds
+// Points that say which weight is best; more make the choice no better.
+constexpr std::size_t enough_points = std::size_t(1) << 18;
+
+FairOptions options_of_fit(const FairOptions& given, const FitSettings& settings,
+                           std::size_t vertices) {
+  if (given.energy != Energy::thin_plate)
+    throw FairingError(ErrorCode::bad_option, {"A surface is fitted to a scan by the thin plate.",
+                                               "Use energy=\"thin_plate\"."});
+  if (given.interpolation != Interpolation::exact)
+    throw FairingError(ErrorCode::bad_option,
+                       {"A fit moves all control vertices that are not fixed.",
+                        "Use interpolation=\"exact\", and fixed for vertices that stay."});
+  if (given.paper.needs_point_forces() || given.paper.method == Method::back_leg)
+    throw FairingError(ErrorCode::bad_option,
+                       {"The paper's own options are not for fits.", "Leave them out."});
+  if (given.shape_count(3 * vertices) > 0)
+    throw FairingError(ErrorCode::bad_option, {"A fit has no shapes.", "Leave them out."});
+  FairOptions options = given;
+  options.interpolation = Interpolation::approximate;
+  options.tolerance = {0.0};
+  options.weights.assign(vertices, 1.0);
+  for (std::size_t v = 0; v < settings.fixed.size(); ++v)
+    if (settings.fixed[v]) options.weights[v] = std::numeric_limits<double>::infinity();
+  options.pad_size = 0;
+  options.measure = false;
+  return options;
+}
+
+std::string text_of(double length) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.3g", length);
+  return text;
+}
+
+// Every so many-th point.
+Scan thinned(const Scan& scan, std::size_t step) {
+  Scan out;
+  for (std::size_t s = 0; s < scan.size(); s += step) {
+    out.point.push_back(scan.point[s]);
+    if (!scan.normal.empty()) out.normal.push_back(scan.normal[s]);
+  }
+  return out;
+}
+
+int search_level(const ControlMesh& mesh, int top, std::size_t points) {
+  int level = std::min(level_of_search, top);
+  const auto cells = [&](int l) { return mesh.faces.size() << (2 * l); };
+  while (level < top && cells(level + 1) <= cells_of_search &&
+         double(points) >= points_a_blob * double(cells(level + 1)))
+    ++level;
+  return level;
+}
+
+double area_of(const GridLevel& grid, Workers& workers, const std::vector<Vec3>& control) {
+  Array<double> x(3 * grid.size());
+  refine_linearly(grid, control, workers, x.data());
+  return surface_area(Cells(grid, workers), x.data());
+}
+
+class ScanFit {
+ public:
+  ScanFit(const FairingProblem& problem, ThinPlateLevels& levels, const Scan& scan,
+          const FitSettings& settings, Monitor& monitor)
+      : problem_(problem),
+        levels_(levels),
+        scan_(scan),
+        settings_(settings),
+        monitor_(monitor),
+        control_(problem.basis),
+        curves_(problem, scan, settings.fixed),
+        search_(search_level(problem.mesh, levels.top(), scan.size())),
+        thin_(thinned(scan, (scan.size() + enough_points - 1) / enough_points)),
+        unit_(std::pow(2 * std::numbers::pi, 4) /
+              std::pow(problem.units.edge * problem.units.edge_in_space, 2)),
+        area_(area_of(levels.grid(search_), levels.workers(), control_.working)) {}
+
+  void run(FitReport& report) {
+    const FitProblem rough = problem_of(thin_);
+    auto fit = std::make_unique<LevelFit>(rough, search_);
+    begin(*fit);
+    WeightChoice choice(*fit, settings_, problem_.frame.scale);
+    weight_ = choice.choose(monitor_);
+    report.trials = choice.trials();
+    is_kept_ = choice.is_by_tolerance();
+    weight_ *= choice.more_points(scan_.size());
+    const bool is_automatic = !(settings_.weight > 0) && !choice.is_by_tolerance();
+    const FitProblem whole = problem_of(scan_);
+    // What residuals fall by from level to level are not noise but the level's edges: the weight goes with
+    // the shorter waves that the level has.
+    double left_below = 0;
+    for (int level = search_; level <= levels_.top(); ++level) {
+      Array<double> x = level == search_ ? fit->surface() : above(*fit);
+      report.iterations += fit->iterations();
+      fit = std::make_unique<LevelFit>(whole, level);
+      fit->set_surface(std::move(x));
+      fit->stay_near(prior(*fit));
+      fit_curves(*fit, weight_, 2, true);
+      const double left = spread_of(fit->feet(), {}).rms;
+      if (is_automatic && level > search_) weight_ *= std::pow(std::max(left_below / left, 1.0), 2);
+      left_below = left;
+      fit_curves(*fit, weight_, 2, true);
+      monitor_.report(Phase::solve, 1 - std::pow(2, level - levels_.top() - 3));
+    }
+    keep_tolerance(*fit);
+    report.iterations += fit->iterations();
+    report.weight = weight_;
+    surface = fit->surface();
+    measure_fit(*fit, problem_, report);
+  }
+
+  Array<double> surface;
+  const ControlPositions& control() const { return control_; }
+
+ private:
+  FitProblem problem_of(const Scan& scan) const {
+    return {levels_,
+            scan,
+            unit_,
+            area_,
+            problem_.units.edge_in_space,
+            problem_.options.solve.max_iterations,
+            monitor_};
+  }
+  PlateData data() const { return {control_.working, control_.working_curves}; }
+
+  // From the control polyhedron onto the scan, smoothly: feet that are far off say little of details.
+  void begin(LevelFit& fit) {
+    const GridLevel& grid = levels_.grid(search_);
+    Array<double> x(3 * grid.size());
+    refine_linearly(grid, control_.working, levels_.workers(), x.data());
+    levels_.put_fixed(search_, data(), x.data());
+    fit.set_surface(std::move(x));
+    require_match(fit);
+    fit.stay_near(prior(fit));
+    fit_curves(fit, 1, 3, false);
+    fit.stay_near(prior(fit));
+  }
+
+  void require_match(const LevelFit& fit) const;
+
+  // Rounds; where there are curves, some more, since surface and curves move in turns.
+  void fit_curves(LevelFit& fit, double weight, int rounds, bool robust) {
+    if (!curves_.any()) return fit.rounds(weight, rounds, robust);
+    for (int k = 0; k < 3 * rounds; ++k) {
+      fit.rounds(weight, 1, robust);
+      curves_.move(fit, control_);
+      Array<double> x = fit.surface();
+      levels_.put_fixed(fit.level(), data(), x.data());
+      fit.set_surface(std::move(x), fit.feet());
+    }
+    fit.rounds(weight, 1, robust);
+  }
+
+  // What the coarser level has found may be a little off on the finest.
+  void keep_tolerance(LevelFit& fit) {
+    if (!(settings_.tolerance > 0) || !is_kept_) return;
+    while (covered_within(fit.feet()) * problem_.frame.scale > settings_.tolerance &&
+           weight_ < fit.stiffest()) {
+      weight_ *= std::sqrt(std::numbers::sqrt2);
+      fit.rounds(weight_, 2, true);
+    }
+  }
+
+  // Faces without any point keep to the control polyhedron, so weakly that only where several lie side by
+  // side it shows.
+  Prior prior(const LevelFit& fit) const {
+    constexpr double weak = 1e-3;  // holds waves of five and more control edges
+    const Cells& cells = fit.cells();
+    std::vector<Index> count(levels_.grid(0).mesh().faces.size());
+    for (const Foot& foot : fit.feet())
+      if (foot.pulls()) ++count[std::size_t(cells.face(foot.cell))];
+    if (std::find(count.begin(), count.end(), 0) == count.end()) return {};
+    Prior out;
+    out.place.resize(3 * cells.grid().size());
+    refine_linearly(cells.grid(), control_.working, levels_.workers(), out.place.data());
+    out.weight.assign(cells.grid().size(), 0.0);
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      if (count[std::size_t(cells.face(Index(c)))] > 0) continue;
+      const double held = weak * unit_ * cell_area(cells, out.place.data(), Index(c));
+      const int corners = cells.quad(Index(c)) ? 4 : 3;
+      for (int k = 0; k < corners; ++k)
+        out.weight[std::size_t(cells.corners(Index(c))[std::size_t(k)])] += held / corners;
+    }
+    return out;
+  }
+
+  Array<double> above(const LevelFit& fit) {
+    const int level = fit.level() + 1;
+    Array<double> x(3 * levels_.grid(level).size());
+    levels_.start(level, data(), fit.surface(), x);
+    return x;
+  }
+
+  const FairingProblem& problem_;
+  ThinPlateLevels& levels_;
+  const Scan& scan_;
+  const FitSettings& settings_;
+  Monitor& monitor_;
+  ControlPositions control_;
+  CurveFit curves_;
+  int search_;
+  Scan thin_;
+  double unit_, area_, weight_ = 0;
+  bool is_kept_ = false;  // the tolerance
+};
+
+// What makes no fit: most points see the surface's other side, or hardly any has a foot.
+void ScanFit::require_match(const LevelFit& fit) const {
+  std::size_t pull = 0, none = 0;
+  for (const Foot& foot : fit.feet()) {
+    pull += foot.pulls();
+    none += foot.cell < 0;
+  }
+  std::size_t against = 0;
+  if (!thin_.normal.empty()) {
+    Array<Foot> any;
+    fit.finder().find(any, true);
+    for (std::size_t s = 0; s < any.size(); ++s)
+      against += any[s].cell >= 0 &&
+                 thin_.normal[s].cast<double>().dot(fit.finder().normal_at(any[s])) < 0;
+  }
+  if (2 * against > thin_.size())
+    throw FairingError(ErrorCode::inconsistent_orientation,
+                       {"Most normals of the scan point against those of the control mesh.",
+                        "Flip the normals of one of them: both have to point outwards."},
+                       {}, ElementKind::mesh);
+  if (pull < fewest_points)
+    throw FairingError(
+        ErrorCode::bad_shape,
+        {"Only " + std::to_string(pull) + " points of the scan lie over the control mesh.",
+         "Move one onto the other, or draw the control mesh over the scan."});
+}
+
+// Adds what a fit takes beside the plate to what was predicted.
+void require_room(const PolygonMesh& input, const FairingProblem& problem, std::size_t points,
+                  Report& report) {
+  const FairOptions& options = problem.options;
+  RunSize size = predict_size(input.vertex_count(), input.corners, input.offsets, 0, options);
+  constexpr std::int64_t vectors = 4 * sizeof(Vec3);  // surface, residual, goal, forces
+  // kept in all, and of those that say the weight: once more, with the best feet
+  constexpr std::int64_t in_round = sizeof(Foot) + sizeof(float) + sizeof(Index),
+                         in_report = sizeof(Foot) + sizeof(double) + sizeof(std::int32_t),
+                         in_choice = Scan::bytes_a_point + in_round + sizeof(Foot);
+  size.bytes = std::int64_t(report.predicted_bytes) +
+               (Scan::bytes_a_point + in_round + in_report) * std::int64_t(points) +
+               in_choice * std::int64_t(std::min(points, enough_points)) +
+               (Cells::bytes_a_point + PullSums::bytes_a_cell + vectors) * size.solved;
+  require_fit(size, options);
+  report.predicted_bytes = std::size_t(size.bytes);
+  expect_memory(report);
+}
+
+FitResult fit_all(const PolygonMesh& input, const FairOptions& options, const ScanInput& given,
+                  const FitSettings& settings, const MemoryLedger& ledger, Monitor& monitor) {
+  const CancelScope scope(&monitor);
+  FitResult result;
+  Report& report = result.report;
+  Stopwatch watch(report, monitor);
+  const std::unique_ptr<const FairingProblem> problem = make_problem(input, options, watch, report);
+  Workers& workers = *problem->workers;
+  const Scan scan = make_scan(given, problem->frame, workers);
+  require_same_place(scan, problem->basis.working, problem->frame);
+  require_room(input, *problem, scan.size(), report);
+  watch.enter(Phase::hierarchy, 0);
+  ThinPlateOptions own;
+  own.levels = options.levels;
+  own.solve = options.solve;
+  ThinPlateLevels levels(problem->mesh, problem->stencils, problem->unknowns, {}, own, workers,
+                         monitor);
+  watch.enter(Phase::solve, 0.125);
+  FitSettings own_settings = settings;
+  if (!settings.fixed.empty()) own_settings.fixed.resize(std::size_t(problem->mesh.input_vertices));
+  ScanFit fit(*problem, levels, scan, own_settings, monitor);
+  fit.run(result.fit);
+  watch.enter(Phase::output, 0.875);
+  const GridLevel& finest = levels.grid(levels.top());
+  LevelReport level;
+  level.level = levels.top();
+  level.points = finest.size();
+  level.unknowns = levels.unknowns_of(levels.top());
+  level.iterations = result.fit.iterations;
+  level.converged = true;
+  report.levels.push_back(level);
+  report.result = report.polyhedron = report.prediction = {NAN, NAN};
+  result.vertices.resize(3 * finest.size());
+  to_world(fit.control(), finest, problem->frame, workers, fit.surface.data(),
+           result.vertices.data());
+  require_finite(problem->mesh, fit.control(), workers, result.vertices.size(),
+                 result.vertices.data());
+  if (settings.tolerance > 0 && result.fit.within > settings.tolerance)
+    report.warnings.push_back(
+        {"TOLERANCE_NOT_KEPT",
+         {"The tolerance could not be kept: 95 % of the points are within " +
+              text_of(result.fit.within) + " of the surface, and their noise is about " +
+              text_of(result.fit.noise) + ".",
+          "Use a tolerance over twice the noise, more levels, or a finer control mesh."},
+         {}});
+  report.largest_deviation = largest_deviation(problem->basis.cage, result.vertices.data());
+  const JoinedSheets joined(finest);
+  if (joined.needed()) {
+    joined.join(result.vertices.data(), result.vertices.data());
+    result.vertices.resize(3 * joined.size());
+  }
+  result.faces = make_faces(finest, workers);
+  result.crease_edges = crease_edges(problem->mesh);
+  warn_of_memory(ledger, report);
+  watch.leave();
+  monitor.report(Phase::done, 1);
+  return result;
+}
+
+}  // namespace
+
+FitResult fit_scan(const PolygonMesh& mesh, const FairOptions& options, const ScanInput& scan,
+                   const FitSettings& settings, Monitor& monitor) {
+  try {
+    const FairOptions own = options_of_fit(options, settings, std::size_t(mesh.vertex_count()));
+    const MemoryLedger ledger(own.bytes_allowed());
+    const Mending mending(mesh, own);
+    FitResult result = mending.in_input_ids([&] {
+      return fit_all(mending.mesh(), mending.options(), scan, settings, ledger, monitor);
+    });
+    mending.restore_points(result.vertices.data());
+    mending.restore(result.faces);
+    mending.restore(result.report);
+    if (mending.mended()) result.mended = *mending.mended();
+    return result;
+  } catch (const std::bad_alloc&) {
+    throw out_of_memory();
+  }
+}
+
+}  // namespace fairing

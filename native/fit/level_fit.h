@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One level of a surface that is fitted to a scan: rounds of feet, pulls and a solve.
+#pragma once
+
+#include "fit/pull.h"
+#include "thin_plate/levels.h"
+
+namespace fairing {
+
+// Where the surface is to stay in the absence of points: a weight and a place a point; or empty.
+struct Prior {
+  VertexWeights weight;
+  Array<double> place;  // 3 numbers a point
+};
+
+// What all levels share. References must outlive them.
+struct FitProblem {
+  ThinPlateLevels& levels;
+  const Scan& scan;
+  // A point's weight is this times the caller's: the stiffness of the plate, by area, against a wave as
+  // long as the mean control edge.
+  double unit;
+  double area;          // of the surface, about
+  double edge;          // the mean control edge
+  int most_iterations;  // of each solve
+  const Monitor& monitor;
+};
+
+class LevelFit {
+ public:
+  LevelFit(const FitProblem& problem, int level);
+
+  int level() const { return level_; }
+  const Cells& cells() const { return cells_; }
+  const FeetFinder& finder() const { return finder_; }
+  const Array<double>& surface() const { return x_; }
+  const Array<Foot>& feet() const { return feet_; }
+  const Vec3& point(std::size_t s) const { return problem_.scan.point[s]; }
+  Spread spread() const { return spread_; }
+  int iterations() const { return iterations_; }
+
+  // The surface becomes x. Its feet are found from anywhere.
+  void set_surface(Array<double> x);
+  // The same with feet that are near its own.
+  void set_surface(Array<double> x, Array<Foot> feet);
+  // Flags of points that have a say; empty: all.
+  void train_on(std::vector<std::uint8_t> points) { trained_ = std::move(points); }
+  void stay_near(Prior prior) { prior_ = std::move(prior); }
+
+  // So many times: feet, pulls, solve. `robust`: strays count less. Whatever is no unknown stays.
+  void rounds(double weight, int count, bool robust);
+
+  // The most that is of use here: against waves as long as the level's edges, or as the points are apart.
+  double stiffest() const;
+
+ private:
+  void take_spread();
+  void pull(double weight, bool robust);
+  void solve();
+
+  const FitProblem& problem_;
+  int level_;
+  Cells cells_;
+  FeetFinder finder_;
+  PullSums sums_;
+  std::vector<std::uint8_t> unknown_;
+  std::vector<std::uint8_t> trained_;
+  Prior prior_;
+  Array<double> x_, r_, goal_;  // goal: of all weights, times these
+  Array<Foot> feet_;
+  Array<float> trust_;
+  Array<Vec3> force_;
+  VertexWeights weight_;
+  Spread spread_;
+  int iterations_ = 0;
+};
+
+}  // namespace fairing

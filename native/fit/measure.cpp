@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fit/measure.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "base/points.h"
+#include "parallel/cancel.h"
+#include "parallel/reductions.h"
+
+namespace fairing {
+namespace {
+
+// The finest level up to this one whose cells have so many points on average; at least the control mesh.
+int level_with(double points_a_cell, const Cells& cells, std::size_t points, int most) {
+  int level = std::min(most, cells.grid().level());
+  const auto faces = double(cells.grid().mesh().faces.size());
+  while (level > 0 && double(points) < points_a_cell * faces * std::pow(4.0, level)) --level;
+  return level;
+}
+
+// Of every cell of a level that is coarser: its points, and their offsets, none counted for more than `most`.
+struct CellSums {
+  std::vector<Index> count;
+  std::vector<double> sum;
+};
+
+CellSums sums_on(const Cells& coarse, const Cells& cells, const Array<Foot>& feet, double most) {
+  CellSums out{std::vector<Index>(coarse.size()), std::vector<double>(coarse.size())};
+  for (std::size_t s = 0; s < feet.size(); ++s) {
+    stop_if_cancelled(s);
+    if (!feet[s].pulls()) continue;
+    const FacePlace place = cells.place(feet[s].cell, feet[s].shares);
+    const auto cell = std::size_t(coarse.cell_at(place, cells.grid().level()).cell);
+    ++out.count[cell];
+    out.sum[cell] += std::clamp(double(feet[s].offset), -most, most);
+  }
+  return out;
+}
+
+void measure_coverage(const Cells& cells, const Array<Foot>& feet, Workers& workers,
+                      std::size_t polygons, FitReport& report) {
+  constexpr double points_a_cell = 4;  // by chance one cell in fifty has none
+  const ControlMesh& mesh = cells.grid().mesh();
+  const GridLevel grid(mesh, level_with(points_a_cell, cells, feet.size(), 2));
+  const Cells coarse(grid, workers);
+  const CellSums sums = sums_on(coarse, cells, feet, 0);
+  std::vector<double> all(polygons), covered(polygons);
+  for (std::size_t c = 0; c < coarse.size(); ++c) {
+    const auto polygon = std::size_t(mesh.faces[std::size_t(coarse.face(Index(c)))].polygon);
+    all[polygon] += 1;
+    covered[polygon] += sums.count[c] > 0;
+  }
+  report.coverage.resize(polygons);
+  for (std::size_t f = 0; f < polygons; ++f)
+    report.coverage[f] = all[f] > 0 ? covered[f] / all[f] : 0;
+}
+
+// Offsets of one sign over a quarter of a face: larger than the noise, and than its mean can be by chance.
+void find_too_coarse(const Cells& cells, const Array<Foot>& feet, Workers& workers, double noise,
+                     FitReport& report) {
+  constexpr double by_chance = 4;  // deviations of a mean of noise: one cell in 16,000
+  const ControlMesh& mesh = cells.grid().mesh();
+  const GridLevel grid(mesh, std::min(1, cells.grid().level()));
+  const Cells coarse(grid, workers);
+  const CellSums sums = sums_on(coarse, cells, feet, 2 * noise);
+  for (std::size_t c = 0; c < coarse.size(); ++c) {
+    if (sums.count[c] < 2) continue;
+    const double count = sums.count[c], mean = std::abs(sums.sum[c]) / count;
+    if (mean > noise && mean * std::sqrt(count) > by_chance * noise)
+      report.too_coarse.push_back(mesh.faces[std::size_t(coarse.face(Index(c)))].polygon);
+  }
+  std::sort(report.too_coarse.begin(), report.too_coarse.end());
+  report.too_coarse.erase(std::unique(report.too_coarse.begin(), report.too_coarse.end()),
+                          report.too_coarse.end());
+}
+
+}  // namespace
+
+double covered_within(const Array<Foot>& feet) {
+  Array<float> far;
+  for (const Foot& foot : feet)
+    if (foot.pulls()) far.push_back(std::abs(foot.offset));
+  if (far.empty()) return 0;
+  const auto at = far.begin() + std::ptrdiff_t(0.95 * double(far.size() - 1));
+  std::nth_element(far.begin(), at, far.end());
+  return double(*at);
+}
+
+double cell_area(const Cells& cells, const double* x, Index cell) {
+  const auto& c = cells.corners(cell);
+  const Vec3 origin = point_at(x, c[0]);
+  const Vec3 along = point_at(x, c[1]) - origin, across = point_at(x, c[2]) - origin;
+  const Vec3 normal = c[3] < 0 ? Vec3(along.cross(across))
+                               : Vec3(across.cross(point_at(x, c[3]) - point_at(x, c[1])));
+  return 0.5 * normal.norm();
+}
+
+double surface_area(const Cells& cells, const double* x) {
+  double sum = 0;
+  for (std::size_t c = 0; c < cells.size(); ++c) sum += cell_area(cells, x, Index(c));
+  return sum;
+}
+
+void measure_fit(const LevelFit& fit, const FairingProblem& problem, FitReport& report) {
+  const Cells& cells = fit.cells();
+  const ControlMesh& mesh = cells.grid().mesh();
+  const double scale = problem.frame.scale;
+  Array<Foot> feet;
+  fit.finder().find(feet);
+  const double rms = spread_of(feet, {}).rms;
+  report.noise = rms * scale;
+  const double judged = std::max(rms, least_noise * problem.units.edge_in_space);
+  report.within = covered_within(feet) * scale;
+  report.distances.resize(feet.size());
+  report.faces.resize(feet.size());
+  for (std::size_t s = 0; s < feet.size(); ++s) {
+    stop_if_cancelled(s);
+    const Foot& foot = feet[s];
+    report.faces[s] =
+        foot.cell < 0 ? -1 : std::int32_t(mesh.faces[std::size_t(cells.face(foot.cell))].polygon);
+    report.distances[s] = foot.cell < 0 ? NAN : fit.finder().distance(s, foot) * scale;
+    if (foot.cell < 0 || std::abs(double(foot.offset)) > stray * judged)
+      report.outliers.push_back(std::int64_t(s));
+    else if (foot.pulls())
+      report.largest = std::max(report.largest, std::abs(report.distances[s]));
+  }
+  measure_coverage(cells, feet, *problem.workers, std::size_t(mesh.input_faces), report);
+  find_too_coarse(cells, feet, *problem.workers, judged, report);
+}
+
+}  // namespace fairing

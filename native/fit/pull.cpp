@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fit/pull.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "grid/runs.h"
+#include "parallel/reductions.h"
+
+namespace fairing {
+Spread spread_of(const Array<Foot>& feet, std::span<const std::uint8_t> counts) {
+  Array<float> far;
+  far.reserve(feet.size());
+  for (std::size_t s = 0; s < feet.size(); ++s)
+    if (feet[s].pulls() && (counts.empty() || counts[s])) far.push_back(std::abs(feet[s].offset));
+  stop_if_cancelled();
+  if (far.empty()) return {};
+  const auto middle = far.begin() + std::ptrdiff_t(far.size() / 2);
+  std::nth_element(far.begin(), middle, far.end());
+  return {of_median * double(*middle), far.size()};
+}
+
+void PullSums::sort(const Array<Foot>& feet, const Array<float>& trust) {
+  const auto pulls = [&](std::size_t s) { return feet[s].pulls() && trust[s] > 0; };
+  begin_.assign(cells_.size() + 1, 0);
+  for (std::size_t s = 0; s < feet.size(); ++s)
+    if (pulls(s)) ++begin_[std::size_t(feet[s].cell) + 1];
+  for (std::size_t c = 0; c < cells_.size(); ++c) begin_[c + 1] += begin_[c];
+  sorted_.resize(std::size_t(begin_.back()));
+  Array<Index> next(begin_.begin(), begin_.end() - 1);
+  for (std::size_t s = 0; s < feet.size(); ++s) {
+    stop_if_cancelled(s);
+    if (pulls(s)) sorted_[std::size_t(next[std::size_t(feet[s].cell)]++)] = Index(s);
+  }
+}
+
+void PullSums::sum(const FeetFinder& finder, const Array<Foot>& feet, const Array<float>& trust,
+                   VertexWeights& weight, Array<Vec3>& force) {
+  sort(feet, trust);
+  slot_.resize(cells_.size());
+  workers_.for_parts(cells_.size(), vertex_grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t c = begin; c < end; ++c) {
+      auto& slot = slot_[c];
+      slot.fill(Eigen::Vector4d::Zero());
+      for (Index k = begin_[c]; k < begin_[c + 1]; ++k) {
+        const auto s = std::size_t(sorted_[std::size_t(k)]);
+        const Foot& foot = feet[s];
+        Eigen::Vector4d pull;
+        pull << double(foot.offset) * finder.normal_at(foot), 1;
+        for (std::size_t a = 0; a < 4; ++a)
+          slot[a] += double(trust[s]) * double(foot.shares[a]) * pull;
+      }
+    }
+  });
+  const std::size_t points = cells_.grid().size();
+  weight.resize(points);
+  force.resize(points);
+  workers_.for_parts(points, vertex_grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      Eigen::Vector4d sum = Eigen::Vector4d::Zero();
+      for (const auto& [cell, corner] : cells_.at_point(Index(p)))
+        sum += slot_[std::size_t(cell)][corner];
+      force[p] = sum.head<3>();
+      weight[p] = sum[3];
+    }
+  });
+}
+
+std::vector<Index> PullSums::by_face(const Array<Foot>& feet) const {
+  std::vector<Index> out(cells_.grid().mesh().faces.size());
+  for (const Foot& foot : feet)
+    if (foot.pulls()) ++out[std::size_t(cells_.face(foot.cell))];
+  return out;
+}
+
+VertexWeights weights_below(const GridLevel& fine, const GridLevel& coarse,
+                            const VertexWeights& weights) {
+  VertexWeights out(coarse.size(), 0.0);
+  const auto add = [&](Index p, double weight) { out[std::size_t(p)] += weight; };
+  for_each_run(fine, [&](const Run& run) {
+    for (std::size_t k = 0; k < run.count; ++k) {
+      const double weight = weights[run.first + k];
+      if (weight == 0) continue;
+      const int i = int(k) + 1, j = run.row;
+      const int low = i / 2, high = (i + 1) / 2;
+      if (run.kind == RunKind::vertex) {
+        add(run.element, weight);
+      } else if (run.kind == RunKind::edge) {
+        add(coarse.edge_point(run.element, low), weight / 2);
+        add(coarse.edge_point(run.element, high), weight / 2);
+      } else {
+        const int below = j / 2, above = (j + 1) / 2;
+        const auto at = [&](int a, int b) { return coarse.face_point(run.element, a, b); };
+        if (run.quad) {
+          for (const Index p : {at(low, below), at(high, below), at(low, above), at(high, above)})
+            add(p, weight / 4);
+        } else {  // across the diagonal where both are odd
+          add(at(low, above), weight / 2);
+          add(at(high, below), weight / 2);
+        }
+      }
+    }
+  });
+  return out;
+}
+
+}  // namespace fairing

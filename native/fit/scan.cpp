@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fit/scan.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "base/error.h"
+#include "base/points.h"
+#include "parallel/cancel.h"
+#include "parallel/reductions.h"
+
+namespace fairing {
+namespace {
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.3g", value);
+  return text;
+}
+
+void require_arrays(const ScanInput& input) {
+  const std::size_t numbers = input.coordinates.size();
+  if (numbers == 0)
+    throw FairingError(ErrorCode::bad_shape,
+                       {"The scan has no points.", "Give the points to fit the surface to."});
+  if (numbers < 3 * fewest_points)
+    throw FairingError(
+        ErrorCode::bad_shape,
+        {"The scan has " + std::to_string(numbers / 3) + (numbers == 3 ? " point." : " points."),
+         "A surface takes some points a face of the control mesh."});
+  if (!input.normals.empty() && input.normals.size() != numbers)
+    throw FairingError(ErrorCode::bad_shape,
+                       {"The scan has another number of normals than of points.",
+                        "Give one normal a point, or none at all."});
+  for (const std::int64_t v : input.triangles)
+    if (v < 0 || 3 * v >= std::int64_t(numbers))
+      throw FairingError(ErrorCode::index_out_of_range,
+                         {"A triangle of the scan has corner " + std::to_string(v) +
+                              ", and the scan has " + std::to_string(numbers / 3) + " points.",
+                          "Corners of triangles are numbers of points, from 0 on."});
+  for (const std::vector<double>* const values : {&input.coordinates, &input.normals}) {
+    const auto bad =
+        std::find_if_not(values->begin(), values->end(), [](double x) { return std::isfinite(x); });
+    if (bad == values->end()) continue;
+    const char* const what = values == &input.normals ? "The normal of point " : "Point ";
+    throw FairingError(
+        ErrorCode::non_finite,
+        {what + std::to_string((bad - values->begin()) / 3) + " of the scan is not finite.",
+         "Leave out points whose coordinates are infinite or not a number."});
+  }
+}
+
+// Weighted by area; of length one, or zero.
+Array<Eigen::Vector3f> normals_of(const ScanInput& input) {
+  const std::size_t count = input.coordinates.size() / 3;
+  Array<Eigen::Vector3f> out;
+  if (input.normals.empty() && input.triangles.empty()) return out;
+  std::vector<Vec3> sum;
+  if (input.normals.empty()) {
+    sum.assign(count, Vec3::Zero());
+    for (std::size_t t = 0; t + 2 < input.triangles.size(); t += 3) {
+      stop_if_cancelled(t / 3);
+      Vec3 corner[3];
+      for (std::size_t k = 0; k < 3; ++k)
+        corner[k] = point_at(input.coordinates, input.triangles[t + k]);
+      const Vec3 normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
+      for (std::size_t k = 0; k < 3; ++k) sum[std::size_t(input.triangles[t + k])] += normal;
+    }
+  }
+  out.resize(count);
+  for (std::size_t p = 0; p < count; ++p)
+    out[p] =
+        unit_or_zero(sum.empty() ? point_at(input.normals, std::int64_t(p)) : sum[p]).cast<float>();
+  return out;
+}
+
+// Ends of edges that one triangle alone has.
+std::vector<std::int64_t> border_of(const std::vector<std::int64_t>& triangles) {
+  std::vector<std::array<std::int64_t, 2>> sides;
+  sides.reserve(triangles.size());
+  for (std::size_t t = 0; t + 2 < triangles.size(); t += 3)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::int64_t a = triangles[t + k], b = triangles[t + (k + 1) % 3];
+      sides.push_back({std::min(a, b), std::max(a, b)});
+    }
+  stop_if_cancelled();
+  std::sort(sides.begin(), sides.end());
+  std::vector<std::int64_t> out;
+  for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
+    while (end < sides.size() && sides[end] == sides[begin]) ++end;
+    if (end - begin > 1) continue;
+    for (const std::int64_t v : sides[begin]) out.push_back(v);
+  }
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+struct Box {
+  Vec3 low, high;
+  double extent() const { return (high - low).norm(); }
+};
+
+Box box_of(std::span<const Vec3> points) {
+  Box box{points[0], points[0]};
+  for (const Vec3& p : points) {
+    box.low = box.low.cwiseMin(p);
+    box.high = box.high.cwiseMax(p);
+  }
+  return box;
+}
+
+}  // namespace
+
+Scan make_scan(const ScanInput& input, const Frame& frame, Workers& workers) {
+  require_arrays(input);
+  Scan scan;
+  scan.point.resize(input.coordinates.size() / 3);
+  for_each_index(workers, scan.size(), [&](std::size_t p) {
+    scan.point[p] = frame.to_working(point_at(input.coordinates, std::int64_t(p)));
+  });
+  scan.normal = normals_of(input);
+  for (const std::int64_t v : border_of(input.triangles))
+    scan.border.push_back(scan.point[std::size_t(v)]);
+  return scan;
+}
+
+void require_same_place(const Scan& scan, std::span<const Vec3> control, const Frame& frame) {
+  // Of the sizes of two things that are one: a scan of a part, or a cage with a part that is not scanned,
+  // differ by less; millimetres and metres by more, inches and millimetres as well.
+  constexpr double other_unit = 20;
+  const Box cage = box_of(control), box = box_of(scan.point);
+  const double ratio = box.extent() / cage.extent();
+  if (ratio > other_unit || ratio * other_unit < 1)
+    throw FairingError(
+        ErrorCode::bad_shape,
+        {"The scan measures " + number(frame.scale * box.extent()) + " and the control mesh " +
+             number(frame.scale * cage.extent()) + " from corner to corner.",
+         "Scale one of them: are their units of length the same?"});
+  const Vec3 apart = (box.low - cage.high).cwiseMax(cage.low - box.high);
+  if (apart.maxCoeff() > 0)
+    throw FairingError(ErrorCode::bad_shape,
+                       {"The scan lies beside the control mesh, " +
+                            number(frame.scale * apart.cwiseMax(0).norm()) + " away from it.",
+                        "Move one onto the other."});
+}
+
+}  // namespace fairing

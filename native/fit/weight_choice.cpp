@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fit/weight_choice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "fit/measure.h"
+#include "parallel/cancel.h"
+
+namespace fairing {
+namespace {
+
+constexpr double ratio = 4;       // from one weight tried to the next
+constexpr double softest = 1e-4;  // holds waves of ten control edges
+
+// One in ten, by a number that has been mixed well [splitmix64].
+bool is_held_out(std::uint64_t blob) {
+  blob += 0x9e3779b97f4a7c15u;
+  blob = (blob ^ (blob >> 30)) * 0xbf58476d1ce4e5b9u;
+  blob = (blob ^ (blob >> 27)) * 0x94d049bb133111ebu;
+  return (blob ^ (blob >> 31)) % 10 == 0;
+}
+
+}  // namespace
+
+double WeightChoice::choose(Monitor& monitor) {
+  if (settings_.weight > 0) {
+    fit_.rounds(settings_.weight, 2, true);
+    return settings_.weight;
+  }
+  if (settings_.tolerance > 0) {
+    const double weight = by_tolerance(monitor);
+    if (weight > 0) return weight;
+  }
+  is_chosen_by_points_ = true;
+  return by_held_out(monitor);
+}
+
+// Of a plate under noise the best weight by area grows with the 2/5 power of the points' number: the
+// bias falls as its square, the variance grows as its root over that number.
+double WeightChoice::more_points(std::size_t points) const {
+  if (!is_chosen_by_points_) return 1;
+  const auto trained = std::count(trained_.begin(), trained_.end(), 1);
+  return trained > 0 ? std::pow(double(points) / double(trained), 2.0 / 5) : 1;
+}
+
+// Blobs of points, since the noise of scanners is alike from one point to the next: cells. Wider ones, as
+// wide as half a control edge, want surfaces that pull across them, and weights three times too large.
+void WeightChoice::hold_out() {
+  const GridLevel& grid = fit_.cells().grid();
+  const auto faces = double(grid.mesh().faces.size());
+  int level = fit_.level();
+  while (level > 1 && double(fit_.feet().size()) < points_a_blob * faces * std::pow(4.0, level))
+    --level;
+  const GridLevel coarse(grid.mesh(), level);
+  Workers workers(1);
+  const Cells blobs(coarse, workers);
+  trained_.assign(fit_.feet().size(), 1);
+  held_.clear();
+  for (std::size_t s = 0; s < trained_.size(); ++s) {
+    const Foot& foot = fit_.feet()[s];
+    if (foot.cell < 0) continue;
+    const FacePlace place = fit_.cells().place(foot.cell, foot.shares);
+    if (!is_held_out(std::uint64_t(blobs.cell_at(place, fit_.level()).cell))) continue;
+    trained_[s] = 0;
+    if (foot.pulls()) held_.push_back({s, foot, fit_.finder().normal_at(foot)});
+  }
+}
+
+// Along the normals of the surface that all began with: a rough surface comes nearer to points than one is
+// off that is right. Root mean square, strays cut off where they would pull no more.
+double WeightChoice::held_out_error() {
+  std::vector<double> far;
+  for (const HeldOut& held : held_)
+    far.push_back(std::abs(
+        (fit_.point(held.point) - fit_.finder().point_at_foot(held.foot)).dot(held.normal)));
+  if (far.empty()) return 0;
+  if (trials_.empty()) {
+    std::vector<double> sorted = far;
+    std::nth_element(sorted.begin(), sorted.begin() + std::ptrdiff_t(far.size() / 2), sorted.end());
+    cut_ = 2 * of_median * sorted[far.size() / 2];
+  }
+  double sum = 0;
+  for (const double d : far)
+    sum += d <= cut_ ? d * d : cut_ * (2 * std::min(d, stray / 2 * cut_) - cut_);
+  return std::sqrt(sum / double(far.size()));
+}
+
+double WeightChoice::by_held_out(Monitor& monitor) {
+  hold_out();
+  fit_.train_on(trained_);
+  Array<double> best_surface;
+  Array<Foot> best_feet;
+  std::size_t best = 0;
+  for (double weight = fit_.stiffest(); weight > softest; weight /= ratio) {
+    monitor.report(Phase::solve, 0.125 + 0.5 * double(trials_.size()) / 16);
+    fit_.rounds(weight, trials_.empty() ? 4 : 2, true);
+    trials_.push_back({weight, scale_ * held_out_error()});
+    const double error = trials_.back()[1];
+    if (trials_.size() == 1 || error < trials_[best][1]) {
+      best = trials_.size() - 1;
+      best_surface = fit_.surface();
+      best_feet = fit_.feet();
+    }
+    if (error > 1.25 * trials_[best][1]) break;
+  }
+  // the vertex of the parabola through three logarithms
+  double weight = trials_[best][0];
+  if (best > 0 && best + 1 < trials_.size()) {
+    const double up = std::log(trials_[best - 1][1]), here = std::log(trials_[best][1]),
+                 down = std::log(trials_[best + 1][1]);
+    const double bend = up + down - 2 * here;
+    if (bend > 0) weight *= std::pow(ratio, std::clamp(0.5 * (down - up) / bend, -0.5, 0.5));
+  }
+  fit_.train_on({});
+  fit_.set_surface(std::move(best_surface), std::move(best_feet));
+  return weight;
+}
+
+double WeightChoice::by_tolerance(Monitor& monitor) {
+  const auto is_within = [&](double weight) {
+    monitor.report(Phase::solve, 0.25);
+    fit_.rounds(weight, 2, true);
+    return covered_within(fit_.feet()) * scale_ <= settings_.tolerance;
+  };
+  double high = fit_.stiffest(), low = high;
+  if (!is_within(high)) return 0;
+  while (low > softest && is_within(low / ratio)) low /= ratio;
+  high = low;
+  low /= ratio;
+  for (int k = 0; k < 5; ++k) {  // to a tenth
+    const double middle = std::sqrt(low * high);
+    (is_within(middle) ? high : low) = middle;
+  }
+  fit_.rounds(high, 2, true);
+  return high;
+}
+
+}  // namespace fairing

@@ -1,0 +1,310 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""fit(): surfaces near scans whose truth is known."""
+
+import threading
+import time
+
+import discrete_fairing as df
+import numpy as np
+import pytest
+from scans import (
+    angles_to_blob,
+    blob_cage,
+    blob_scan,
+    distance_to_blob,
+    normals_of_blob,
+    on_blob,
+    rms,
+    sheet,
+)
+
+NOISE = 0.004  # a thousandth of the blob's size
+
+
+@pytest.fixture(scope="module")
+def cage():
+    return blob_cage(6, off=0.02)
+
+
+@pytest.fixture(scope="module")
+def scan():
+    return blob_scan(26_000, NOISE)
+
+
+@pytest.fixture(scope="module")
+def fitted(cage, scan):
+    return df.fit(*cage, scan)
+
+
+def errors(fitted: df.Fitted) -> tuple[float, float]:
+    """Distance from the truth and degrees between normals, root mean square."""
+    return (
+        rms(distance_to_blob(fitted.vertices)),
+        rms(angles_to_blob(fitted.vertices, fitted.triangles)),
+    )
+
+
+def test_surface_is_nearer_to_the_truth_than_a_third_of_the_noise(cage, scan, fitted):
+    distance, angle = errors(fitted)
+    faired = df.fair(*cage, levels=2)
+    assert distance < NOISE / 3
+    assert angle < 0.75
+    assert angle < rms(angles_to_blob(faired.vertices, faired.triangles)) / 8
+
+
+def test_report_says_noise_distances_and_coverage(scan, fitted):
+    assert fitted.noise == pytest.approx(NOISE, rel=0.08)
+    assert fitted.within[0] == pytest.approx(1.96 * NOISE, rel=0.08)
+    assert fitted.distances.shape == (len(scan),)
+    sides = np.corrcoef(fitted.distances, distance_to_blob(scan))[0, 1]
+    assert sides > 0.9
+    assert fitted.faces_of_points.min() >= 0
+    assert fitted.coverage.min() > 0.9
+    assert len(fitted.too_coarse) == 0 and len(fitted.outliers) == 0
+
+
+def test_weight_is_near_the_best(cage, scan, fitted):
+    others = [errors(df.fit(*cage, scan, weight=w)) for w in (0.1, 0.3, 1.0, 3.0, 10.0)]
+    distance, angle = errors(fitted)
+    assert distance < 1.15 * min(d for d, _ in others)
+    assert angle < 1.15 * min(a for _, a in others)
+
+
+@pytest.mark.parametrize("noise", [0.001, 0.016])
+def test_weight_goes_with_the_noise(cage, noise):
+    fitted = df.fit(*cage, blob_scan(26_000, noise), levels=3)
+    assert errors(fitted)[0] < noise / 3
+    assert fitted.noise == pytest.approx(noise, rel=0.25)
+
+
+def test_without_noise_the_surface_converges_by_four_a_level(cage):
+    scan = blob_scan(100_000)
+    distance = [errors(df.fit(*cage, scan, levels=level))[0] for level in (1, 2, 3)]
+    assert distance[0] > 3.5 * distance[1] > 3.5**2 * distance[2]
+
+
+def test_holes_are_bridged_and_strays_ignored(cage, scan):
+    random = np.random.default_rng(5)
+    points = scan.copy()
+    strays = np.flatnonzero(random.random(len(points)) < 0.05)
+    off = random.uniform(-0.1, 0.1, (len(strays), 1))
+    points[strays] += off * normals_of_blob(points[strays])
+    for centre in blob_scan(3, 0.0, 9):
+        kept = np.linalg.norm(points - centre, axis=1) > 0.35
+        points, strays = points[kept], np.flatnonzero(np.isin(np.flatnonzero(kept), strays))
+    fitted = df.fit(*cage, points)
+    distance, angle = errors(fitted)
+    assert distance < NOISE / 2 and angle < 1.0
+    assert np.abs(distance_to_blob(fitted.vertices)).max() < 0.02
+    assert fitted.coverage.min() < 0.5
+    assert set(fitted.outliers) <= set(strays.tolist())
+    assert len(fitted.outliers) > 0.5 * len(strays)
+
+
+def test_tolerance_is_kept_by_the_calmest_surface(cage, scan, fitted):
+    calm = df.fit(*cage, scan, tolerance=0.012)
+    assert 0.01 < calm.within[0] <= 0.012
+    assert calm.weight < fitted.weight
+    assert not [w for w in calm.report["warnings"] if w["code"] == "TOLERANCE_NOT_KEPT"]
+
+
+def test_tolerance_below_the_noise_is_said(cage, scan):
+    fitted = df.fit(*cage, scan, tolerance=0.5 * NOISE)
+    (warning,) = [w for w in fitted.report["warnings"] if w["code"] == "TOLERANCE_NOT_KEPT"]
+    assert "noise" in warning["message"]
+    assert errors(fitted)[0] < NOISE / 3
+
+
+def test_a_cage_beside_the_scan_comes_to_it(scan):
+    for vertices, faces in (blob_cage(6, 0.1, 3), (1.2 * blob_cage(6)[0], blob_cage(6)[1])):
+        assert errors(df.fit(vertices, faces, scan))[0] < NOISE / 2.5
+
+
+def test_half_a_scan_leaves_the_other_half_to_the_cage(cage, scan):
+    fitted = df.fit(*cage, scan[scan[:, 0] > 0])
+    assert np.abs(distance_to_blob(fitted.vertices)).max() < 0.2
+    on_scan = fitted.vertices[:, 0] > 0.3
+    assert rms(distance_to_blob(fitted.vertices[on_scan])) < NOISE / 2
+
+
+def test_fixed_vertices_stay(cage, scan):
+    fixed = np.zeros(len(cage[0]), bool)
+    fixed[[3, 40]] = True
+    fitted = df.fit(*cage, scan, fixed=fixed)
+    moves = np.linalg.norm(fitted.vertices[: len(fixed)] - cage[0], axis=1)
+    assert (moves[fixed] == 0).all() and (moves[~fixed] > 0).all()
+
+
+def test_same_bits_for_any_number_of_threads(cage, scan):
+    one, three = (df.fit(*cage, scan, threads=n) for n in (1, 3))
+    assert one.vertices.tobytes() == three.vertices.tobytes()
+    assert one.distances.tobytes() == three.distances.tobytes()
+
+
+def test_unit_and_place_do_not_matter(cage, scan, fitted):
+    vertices, faces = cage
+    moved = df.fit(1000 * vertices + 5e4, faces, 1000 * scan + 5e4)
+    assert moved.weight == pytest.approx(fitted.weight, rel=1e-3)
+    assert np.abs((moved.vertices - 5e4) / 1000 - fitted.vertices).max() < 1e-4
+
+
+def dome(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    return 0.4 * np.cos(1.2 * x) * np.cos(0.9 * y)
+
+
+def test_border_curves_come_to_the_border_of_the_scan():
+    even, dense = np.linspace(-0.97, 0.97, 7), np.linspace(-1, 1, 101)
+    vertices, faces = sheet(even, even, lambda x, y: dome(x, y) + 0.05)
+    points, quads = sheet(dense, dense, dome)
+    points[:, 2] += np.random.default_rng(3).normal(0, NOISE, len(points))
+    triangles = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    corners = [0, 6, 42, 48]
+    fitted = df.fit(vertices, faces, points, triangles=triangles, corner_vertices=corners)
+    found = fitted.vertices
+    off = found[:, 2] - dome(found[:, 0], found[:, 1])
+    assert rms(off) < NOISE / 2
+    border = np.abs(found[:, :2]).max(1) > 0.96
+    assert rms(off[border]) < NOISE
+    reach = np.abs(found[: len(vertices)][np.abs(vertices[:, :2]).max(1) > 0.96, :2]).max(1)
+    assert np.abs(reach - 1).max() < 0.01
+
+
+def test_crease_curves_come_to_where_both_sides_meet():
+    def roof(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        return -0.6 * np.abs(y) + 0.1 * np.cos(2 * x)
+
+    even = np.linspace(-1, 1, 7)
+    vertices, faces = sheet(even, even, roof)
+    ridge = np.flatnonzero(vertices[:, 1] == 0)
+    vertices[ridge] += [0, 0.04, 0.05]
+    random = np.random.default_rng(4)
+    x, y = random.uniform(-1, 1, (2, 20_000))
+    points = np.stack([x, y, roof(x, y) + random.normal(0, NOISE, len(x))], 1)
+    creases = np.stack([ridge[:-1], ridge[1:]], 1)
+    fitted = df.fit(vertices, faces, points, crease_edges=creases, boundary="free")
+    moved = fitted.vertices[ridge[1:-1]]
+    assert np.abs(moved[:, 1]).max() < 2 * NOISE
+    assert np.abs(moved[:, 2] - 0.1 * np.cos(2 * moved[:, 0])).max() < 2 * NOISE
+
+
+def test_normals_tell_the_sides_of_a_thin_wall_apart():
+    side = np.linspace(-1, 1, 7)
+    grid = np.stack(np.meshgrid(side, side, indexing="ij"), -1).reshape(-1, 2)
+    quads = [
+        [7 * i + j, 7 * i + 7 + j, 7 * i + 8 + j, 7 * i + j + 1] for i in range(6) for j in range(6)
+    ]
+    thickness = 0.02
+    upper = np.column_stack([grid, np.full(len(grid), thickness / 2)])
+    lower = np.column_stack([grid, np.full(len(grid), -thickness / 2)])
+    vertices = np.concatenate([upper, lower]) + [
+        0,
+        0,
+        0.013,
+    ]  # the lower side near the upper's points
+    faces = np.concatenate([quads, np.array(quads)[:, ::-1] + len(grid)])
+    random = np.random.default_rng(1)
+    points = random.uniform(-1, 1, (8000, 3))
+    up = np.arange(8000) < 4000
+    points[:, 2] = np.where(up, thickness / 2, -thickness / 2)
+    normals = np.where(up[:, None], [0, 0, 1.0], [0, 0, -1.0])
+    fitted = df.fit(vertices, faces, points, normals=normals, boundary="free")
+    height = fitted.vertices[: 2 * len(grid), 2]
+    assert np.abs(height[: len(grid)] - thickness / 2).max() < 1e-3
+    assert np.abs(height[len(grid) :] + thickness / 2).max() < 1e-3
+
+
+def test_triangles_give_the_normals(cage, scan, fitted):
+    # a triangle a point: three points around it, seen from outside
+    sparse = on_blob(scan[:3000])
+    normal = normals_of_blob(sparse)
+    across = np.cross(normal, [0, 0, 1.0])
+    across /= np.linalg.norm(across, axis=1, keepdims=True)
+    along = np.cross(normal, across)
+    corners = np.stack([sparse, sparse + 0.01 * across, sparse + 0.01 * along], 1).reshape(-1, 3)
+    triangles = np.arange(len(corners)).reshape(-1, 3)
+    assert len(df.fit(*cage, corners, triangles=triangles).outliers) == 0
+    with pytest.raises(df.FairingError) as caught:
+        df.fit(*cage, corners, triangles=triangles[:, ::-1])
+    assert caught.value.code == "INCONSISTENT_ORIENTATION"
+
+
+def test_half_with_a_symmetry_plane_fits_both_halves(scan):
+    vertices, faces = blob_cage(6)
+    symmetric = np.concatenate([scan, scan * [1, -1, 1]])
+    kept = (vertices[:, 1] > -1e-9)[faces].all(1)
+    used = np.unique(faces[kept])
+    number = np.full(len(vertices), -1)
+    number[used] = np.arange(len(used))
+    half = vertices[used]
+    half[np.abs(half[:, 1]) < 0.2, 1] *= 1.0
+    border = np.isin(used, np.unique(faces[~kept]))
+    half[border, 1] = 0.0
+    fitted = df.fit(half, number[faces[kept]], symmetric, symmetry_plane="y")
+    assert fitted.vertices[:, 1].min() > -1e-9
+    assert len(fitted.coverage) == kept.sum() and len(fitted.distances) == len(symmetric)
+
+
+@pytest.mark.parametrize(
+    ("points", "code", "word"),
+    [
+        (np.empty((0, 3)), "BAD_SHAPE", "no points"),
+        (np.zeros((1, 3)) + [0, 0, 0.8], "BAD_SHAPE", "1 point"),
+        (np.array([[0, 0, 1.0]] * 20 + [[0, np.nan, 0]]), "NON_FINITE", "Point 20"),
+        (1000 * blob_scan(500), "BAD_SHAPE", "units"),
+        (blob_scan(500) / 1000, "BAD_SHAPE", "units"),
+        (blob_scan(500) + [9, 0, 0], "BAD_SHAPE", "Move"),
+        (np.zeros((5, 2)), "BAD_SHAPE", "(S, 3)"),
+    ],
+)
+def test_scans_that_are_none_are_refused_in_words(cage, points, code, word):
+    with pytest.raises(df.FairingError) as caught:
+        df.fit(*cage, points)
+    assert caught.value.code == code and word in str(caught.value)
+
+
+def test_scan_of_a_plane_leaves_a_closed_cage_whole(cage):
+    random = np.random.default_rng(2)
+    plane = np.column_stack([random.uniform(-0.8, 0.8, (4000, 2)), np.full(4000, 0.75)])
+    fitted = df.fit(*cage, plane)
+    extent = np.ptp(fitted.vertices, axis=0) / np.ptp(cage[0], axis=0)
+    assert (extent > 0.8).all() and (extent < 1.3).all()
+
+
+@pytest.mark.parametrize(
+    ("options", "word"),
+    [
+        ({"tolerance": -1.0}, "tolerance"),
+        ({"weight": 0.0}, "weight"),
+        ({"weight": 1.0, "tolerance": 1.0}, "exclude"),
+        ({"energy": "total_curvature"}, "thin_plate"),
+        ({"interpolation": "limit"}, "interpolation"),
+        ({"fixed": [0, 1]}, "fixed"),
+        ({"triangles": [[0, 1, 99_999]]}, "99999"),
+        ({"normals": np.zeros((3, 3))}, "normal"),
+    ],
+)
+def test_options_that_make_no_fit_are_refused_in_words(cage, scan, options, word):
+    with pytest.raises(df.FairingError) as caught:
+        df.fit(*cage, scan[:2000], **options)
+    assert word in str(caught.value)
+
+
+def test_progress_rises_and_a_cancel_ends_it(cage, scan):
+    seen = []
+    df.fit(*cage, scan, levels=3, progress=lambda fraction, phase: seen.append(fraction))
+    assert seen == sorted(seen) and seen[-1] == 1.0
+    monitor = df.Monitor()
+    timer = threading.Timer(0.2, monitor.cancel)
+    timer.start()
+    begun = time.monotonic()
+    with pytest.raises(df.FairingError) as caught:
+        df.fit(*cage, np.tile(scan, (20, 1)), levels=5, monitor=monitor)
+    assert caught.value.code == "CANCELLED" and time.monotonic() - begun < 60
+
+
+def test_memory_is_predicted(cage, scan):
+    report = df.fit(*cage, np.tile(scan, (4, 1)), levels=4).report
+    assert 0.5 * report["predicted_bytes"] < report["peak_bytes"] < 1.5 * report["predicted_bytes"]
+    with pytest.raises(df.FairingError) as caught:
+        df.fit(*cage, scan, levels=4, memory_limit=1_000_000)
+    assert caught.value.code == "TOO_LARGE"
