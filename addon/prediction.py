@@ -20,6 +20,7 @@ _AT_FIRST = {
     "STRAIN": 6e-5,  # some eight thin plates
     "EASE": 1.2e-4,
     "CLEAN": 4e-5,
+    "FIT": 4e-5,  # and a point of the scan
 }
 
 _of_mesh: dict[tuple[Hashable, str], float] = {}  # (mesh, energy): seconds a triangle

@@ -38,6 +38,7 @@ class VIEW3D_MT_fairing(bpy.types.Menu):
         layout.operator("object.fairing_in_place", icon="MOD_SMOOTH")
         layout.operator("object.fairing_scan")
         layout.operator("object.fairing_clean")
+        layout.operator("object.fairing_fit")
         layout.operator("object.fairing_fill")
         layout.operator("object.fairing_curves", text="Fair Surface from Curves (Loft, Network)")
         layout.operator("object.fairing_recompute", icon="FILE_REFRESH")
