@@ -319,6 +319,7 @@ void CatmullClark::put_exact_limits(std::span<const double> x, std::vector<doubl
   });
   for (std::size_t r = 0; r < rings.size(); ++r) {
     stop_if_cancelled(r);
+    if (rings[r].empty()) continue;  // a vertex without faces stays
     const Special& special = *specials[r];
     LimitRing ring{at(x, std::size_t(special.vertex)), {}, {}};
     AroundVertex sharp{special.sharp.vertex, {}};

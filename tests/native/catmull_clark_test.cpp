@@ -40,6 +40,15 @@ TEST(CatmullClark, LimitsDoNotDependOnTheSteps) {
   }
 }
 
+TEST(CatmullClark, VerticesWithoutFacesStay) {
+  OwnedPolygonMesh mesh = house();
+  mesh.coordinates.insert(mesh.coordinates.end(), {5, 6, 7});
+  const ControlMesh control = make_control_mesh(mesh.view(), {});
+  const SharpRules rules(control, {}, {{}, std::vector<double>(11, 0.7)});
+  const CatmullClark subdivided(mesh.view(), control, rules, 1);
+  EXPECT_EQ(point_at(subdivided.vertex_limits(mesh.coordinates), 10), Vec3(5, 6, 7));
+}
+
 // Quads at the corners of a polygon share the middle of it and of its sides.
 TEST(CatmullClark, QuadsMeet) {
   const OwnedPolygonMesh mesh = house();
