@@ -211,7 +211,7 @@ TEST(Check, FindsEveryKindAtOnce) {
 
 TEST(Check, MessagesNameTheFirstFew) {
   EXPECT_NE(std::string(thrown([] { check(flipped_cube_face().view()); }).what())
-                .find("1 face (2) looks"),
+                .find("1 face (2) points"),
             std::string::npos);
   const Warning joined = check(three_on_an_edge().view()).warnings.at(0);
   EXPECT_NE(text(joined.message, joined.kind, joined.elements).find("1 edge (0-1) joins"),
