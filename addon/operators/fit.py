@@ -27,7 +27,7 @@ def _chosen(context: Context) -> tuple[Object | None, list[Object]]:
 
 
 class OBJECT_OT_fairing_fit(WholeFairing, bpy.types.Operator):
-    """Make the fairest surface near a scan. Select scans, then the cage; or a scan alone, to have a cage made"""
+    """Make the fairest surface near the selected scans, from the active mesh as cage or from a cage made for a lone scan"""
 
     bl_idname = "object.fairing_fit"
     bl_label = "Fair Surface on Scan"

@@ -237,11 +237,8 @@ class ScanFit {
 
 // What makes no fit: most points see the surface's other side, or hardly any has a foot.
 void ScanFit::require_match(const LevelFit& fit) const {
-  std::size_t pull = 0, none = 0;
-  for (const Foot& foot : fit.feet()) {
-    pull += foot.pulls();
-    none += foot.cell < 0;
-  }
+  std::size_t pull = 0;
+  for (const Foot& foot : fit.feet()) pull += foot.pulls();
   std::size_t against = 0;
   if (!thin_.normal.empty()) {
     Array<Foot> any;

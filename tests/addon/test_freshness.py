@@ -118,7 +118,7 @@ def test_all_of_a_file_are_recomputed(tmp_path):
     assert sorted(t.name for t in stale_surfaces()) == ["Box Fair", "Crate Fair"], "after loading"
     header = Layout()
     outliner.draw_count(type("Header", (), {"layout": header}), bpy.context)
-    assert header.log == ["object.fairing_recompute_stale"]
+    assert header.log == ["object.fairing_recompute_stale", "2"]
     activate(bpy.data.objects["Box"])
     assert badges()[0] == "Box Fair is out of date"
     assert bpy.ops.object.fairing_recompute_stale() == {"FINISHED"}

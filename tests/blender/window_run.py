@@ -151,6 +151,9 @@ def test_redo_with_another_level_then_undo():
     yield from wait_for_the_end()
     yield 0.5
     faces = len(bpy.data.objects["Suzanne Fair"].data.polygons)
+    prediction = harness.module("prediction")
+    prediction.forget()
+    prediction.note("THIN_PLATE", 10_000_000, 10.0, None)  # a fast machine, however busy it is
     yield from harness.raise_levels(lambda: bpy.data.objects["Suzanne Fair"])
     yield from wait_for_faces(4 * faces)
     harness.photograph("redo")

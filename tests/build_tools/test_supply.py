@@ -67,6 +67,6 @@ def test_cibuildwheel_installs_nothing_without_hashes():
 def test_source_archives_have_their_hash():
     text = (ROOT / "cmake" / "dependencies.cmake").read_text()
     archives = re.findall(r"^  URL .*\n(.*)", text, re.MULTILINE)
-    assert len(archives) == 2
+    assert len(archives) == 3
     for following in archives:
         assert re.fullmatch(r"  URL_HASH SHA256=[0-9a-f]{64}", following)
