@@ -15,7 +15,7 @@ from .errors import JobError
 from .mesh.begun import Begun
 from .mesh.object import Reference, new_object, select_only
 from .mesh.read import control_mesh, read_mesh
-from .mesh.world_shape import world_matrix, world_shape
+from .mesh.world_shape import transformed, world_matrix, world_shape
 from .mesh.write import write_mesh
 from .preferences import preferences
 from .settings import Settings
@@ -44,7 +44,10 @@ def read_scan(context: Context, target: Object) -> Scan:
         cloud: Any = owner.data
         points = np.empty(3 * len(cloud.points), np.float32)
         cloud.points.foreach_get("co", points)
-        return Scan(_in_world(points, matrix), np.empty((0, 3), np.int64))
+        return Scan(
+            transformed(points.reshape(-1, 3).astype(np.float64), matrix),
+            np.empty((0, 3), np.int64),
+        )
     mesh = cast(Mesh, owner.to_mesh())
     try:
         points = np.empty(3 * len(mesh.vertices), np.float32)
@@ -57,11 +60,7 @@ def read_scan(context: Context, target: Object) -> Scan:
     corners = triangles.reshape(-1, 3).astype(np.int64)
     if np.linalg.det(matrix[:3, :3]) < 0:
         corners = corners[:, ::-1]
-    return Scan(_in_world(points, matrix), corners)
-
-
-def _in_world(points: np.ndarray, matrix: np.ndarray) -> np.ndarray:
-    return points.reshape(-1, 3).astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
+    return Scan(transformed(points.reshape(-1, 3).astype(np.float64), matrix), corners)
 
 
 def joined(scans: Sequence[Scan]) -> tuple[np.ndarray, np.ndarray | None]:
@@ -120,7 +119,7 @@ class FitJob:
         points, triangles = joined([read_scan(context, scan) for scan in scans])
         self._settings = settings
         # the scan goes to where the cage's own coordinates are, in the size of the world
-        points = self._shape.of(_in_world(points, np.linalg.inv(matrix)))
+        points = self._shape.of(transformed(points, np.linalg.inv(matrix)))
         if triangles is not None and mirrored < 0:
             triangles = triangles[:, ::-1]
         sent = core.fair_arguments(self._shape.of_arrays(self._arrays), settings, preferences())

@@ -10,7 +10,7 @@ from mathutils import Vector, bvhtree, kdtree
 from ..blender import Context, Object
 from ..core import ControlArrays
 from ..mesh.read import control_mesh, read_mesh
-from ..mesh.world_shape import world_matrix, world_shape
+from ..mesh.world_shape import transformed, world_matrix, world_shape
 from ..transfer.cut_out import cut_out
 
 _ROUNDING = 1e-4  # share of a distance: Blender's trees are in single precision
@@ -114,5 +114,4 @@ def _tree(positions: np.ndarray, arrays: ControlArrays, chosen: np.ndarray) -> A
 
 
 def _in_world(target: Object, positions: np.ndarray) -> np.ndarray:
-    matrix: Any = np.array(world_matrix(target))
-    return positions @ matrix[:3, :3].T + matrix[:3, 3]
+    return transformed(positions, np.array(world_matrix(target)))

@@ -10,6 +10,7 @@ import numpy as np
 from ..blender import Object
 from ..curves.cubics import Curve, from_bezier, from_nurbs, through
 from .read import read_mesh
+from .world_shape import transformed
 
 _LOOKED_AT = 100_000  # corners: a few milliseconds
 
@@ -41,7 +42,7 @@ def read_curves(source: Object) -> list[Curve]:
         replace(
             curve,
             name=source.name if len(found) == 1 else f"{source.name}, {curve.name}",
-            pieces=curve.pieces @ matrix[:3, :3].T + matrix[:3, 3],
+            pieces=transformed(curve.pieces, matrix),
             sharp=curve.sharp or sharp,
         )
         for curve in found

@@ -85,6 +85,11 @@ def world_matrix(source: Object) -> Any:
     return world_matrix(above) @ source.matrix_parent_inverse @ source.matrix_basis
 
 
+def transformed(positions: np.ndarray, matrix: np.ndarray) -> np.ndarray:
+    """(…, 3), moved by a (4, 4) matrix."""
+    return positions @ matrix[:3, :3].T + matrix[:3, 3]
+
+
 def _times(positions: np.ndarray, matrix: np.ndarray) -> np.ndarray:
     diagonal = np.diagonal(matrix)
     if np.array_equal(matrix, np.diag(diagonal)):

@@ -15,7 +15,7 @@ from ..check.defects import select_defects, select_in_all
 from ..memory import active_source
 from ..mesh.object import why_not_here
 from ..mesh.shape_keys import EASED, key_positions
-from ..mesh.world_shape import world_matrix
+from ..mesh.world_shape import transformed, world_matrix
 from ..poll import ExplainedPoll, mesh_poll_reason
 from ..strain import known, table, words
 from ..strain.measure import StrainJob
@@ -199,7 +199,7 @@ class OBJECT_OT_fairing_strain_table(ByFileBrowser, _Straining, bpy.types.Operat
         matrix = np.array(world_matrix(source))
 
         def in_world(positions: np.ndarray) -> np.ndarray:
-            return positions @ matrix[:3, :3].T + matrix[:3, 3]
+            return transformed(positions, matrix)
 
         eased = key_positions(source, EASED, len(job.result.positions))
         written = table.text(

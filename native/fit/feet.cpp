@@ -2,6 +2,7 @@
 #include "fit/feet.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nanoflann.hpp>
@@ -32,6 +33,11 @@ Vec3 nearest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3
   if (va <= 0 && along >= 0 && back >= 0) return {0, back / (along + back), along / (along + back)};
   const double sum = va + vb + vc;
   return {va / sum, vb / sum, vc / sum};
+}
+
+// Which corner of its cell a foot is nearest to.
+std::size_t nearest_corner(const CornerShares& shares) {
+  return std::size_t(std::max_element(shares.begin(), shares.end()) - shares.begin());
 }
 
 // A surface's points as nanoflann reads them.
@@ -186,11 +192,9 @@ bool FeetFinder::descend(std::size_t point, Index start, Foot& foot, double squa
     }
     if (!nearer) break;
     const auto& corner = cells_.corners(foot.cell);
-    std::size_t best = 0;
-    for (std::size_t k = 1; k < 4; ++k)
-      if (foot.shares[k] > foot.shares[best]) best = k;
-    if (corner[best] == start) break;
-    start = corner[best];
+    const Index next = corner[nearest_corner(foot.shares)];
+    if (next == start) break;
+    start = next;
   }
   return any;
 }
@@ -248,11 +252,7 @@ void FeetFinder::follow(Array<Foot>& feet) const {
           std::all_of(foot.shares.begin(), foot.shares.begin() + (cells_.quad(foot.cell) ? 4 : 3),
                       [](float share) { return share > 0; });
       if (!inside) {
-        const auto& corner = cells_.corners(foot.cell);
-        std::size_t best = 0;
-        for (std::size_t k = 1; k < 4; ++k)
-          if (foot.shares[k] > foot.shares[best]) best = k;
-        descend(s, corner[best], foot, here.square);
+        descend(s, cells_.corners(foot.cell)[nearest_corner(foot.shares)], foot, here.square);
       }
       finish(s, foot);
     }

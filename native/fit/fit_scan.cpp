@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <new>
 #include <numbers>
@@ -55,12 +54,6 @@ FairOptions options_of_fit(const FairOptions& given, const FitSettings& settings
   options.pad_size = 0;
   options.measure = false;
   return options;
-}
-
-std::string text_of(double length) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.3g", length);
-  return text;
 }
 
 // Every so many-th point.
@@ -319,8 +312,8 @@ FitResult fit_all(const PolygonMesh& input, const FairOptions& options, const Sc
     report.warnings.push_back(
         {"TOLERANCE_NOT_KEPT",
          {"The tolerance could not be kept: 95 % of the points are within " +
-              text_of(result.fit.within) + " of the surface, and their noise is about " +
-              text_of(result.fit.noise) + ".",
+              length_text(result.fit.within) + " of the surface, and their noise is about " +
+              length_text(result.fit.noise) + ".",
           "Use a tolerance over twice the noise, more levels, or a finer control mesh."},
          {}});
   report.largest_deviation = largest_deviation(problem->basis.cage, result.vertices.data());

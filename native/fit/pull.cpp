@@ -66,13 +66,6 @@ void PullSums::sum(const FeetFinder& finder, const Array<Foot>& feet, const Arra
   });
 }
 
-std::vector<Index> PullSums::by_face(const Array<Foot>& feet) const {
-  std::vector<Index> out(cells_.grid().mesh().faces.size());
-  for (const Foot& foot : feet)
-    if (foot.pulls()) ++out[std::size_t(cells_.face(foot.cell))];
-  return out;
-}
-
 VertexWeights weights_below(const GridLevel& fine, const GridLevel& coarse,
                             const VertexWeights& weights) {
   VertexWeights out(coarse.size(), 0.0);

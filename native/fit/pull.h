@@ -45,8 +45,6 @@ class PullSums {
   // level, force <- these times offsets along normals.
   void sum(const FeetFinder& finder, const Array<Foot>& feet, const Array<float>& trust,
            VertexWeights& weight, Array<Vec3>& force);
-  // How many points have their feet in each control face.
-  std::vector<Index> by_face(const Array<Foot>& feet) const;
 
   // Of what is kept between sums.
   static constexpr std::int64_t bytes_a_cell =

@@ -15,12 +15,6 @@
 namespace fairing {
 namespace {
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.3g", value);
-  return text;
-}
-
 void require_arrays(const ScanInput& input) {
   const std::size_t numbers = input.coordinates.size();
   if (numbers == 0)
@@ -99,21 +93,19 @@ std::vector<std::int64_t> border_of(const std::vector<std::int64_t>& triangles) 
   return out;
 }
 
-struct Box {
-  Vec3 low, high;
-  double extent() const { return (high - low).norm(); }
-};
-
-Box box_of(std::span<const Vec3> points) {
-  Box box{points[0], points[0]};
-  for (const Vec3& p : points) {
-    box.low = box.low.cwiseMin(p);
-    box.high = box.high.cwiseMax(p);
-  }
+Eigen::AlignedBox3d box_of(std::span<const Vec3> points) {
+  Eigen::AlignedBox3d box;
+  for (const Vec3& p : points) box.extend(p);
   return box;
 }
 
 }  // namespace
+
+std::string length_text(double length) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.3g", length);
+  return text;
+}
 
 Scan make_scan(const ScanInput& input, const Frame& frame, Workers& workers) {
   require_arrays(input);
@@ -132,19 +124,20 @@ void require_same_place(const Scan& scan, std::span<const Vec3> control, const F
   // Of the sizes of two things that are one: a scan of a part, or a cage with a part that is not scanned,
   // differ by less; millimetres and metres by more, inches and millimetres as well.
   constexpr double other_unit = 20;
-  const Box cage = box_of(control), box = box_of(scan.point);
-  const double ratio = box.extent() / cage.extent();
+  const Eigen::AlignedBox3d cage = box_of(control), box = box_of(scan.point);
+  const double ratio = box.diagonal().norm() / cage.diagonal().norm();
   if (ratio > other_unit || ratio * other_unit < 1)
     throw FairingError(
         ErrorCode::bad_shape,
-        {"The scan measures " + number(frame.scale * box.extent()) + " and the control mesh " +
-             number(frame.scale * cage.extent()) + " from corner to corner.",
+        {"The scan measures " + length_text(frame.scale * box.diagonal().norm()) +
+             " and the control mesh " + length_text(frame.scale * cage.diagonal().norm()) +
+             " from corner to corner.",
          "Scale one of them: are their units of length the same?"});
-  const Vec3 apart = (box.low - cage.high).cwiseMax(cage.low - box.high);
+  const Vec3 apart = (box.min() - cage.max()).cwiseMax(cage.min() - box.max());
   if (apart.maxCoeff() > 0)
     throw FairingError(ErrorCode::bad_shape,
                        {"The scan lies beside the control mesh, " +
-                            number(frame.scale * apart.cwiseMax(0).norm()) + " away from it.",
+                            length_text(frame.scale * apart.cwiseMax(0).norm()) + " away from it.",
                         "Move one onto the other."});
 }
 

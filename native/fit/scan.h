@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "base/types.h"
@@ -41,5 +42,8 @@ Scan make_scan(const ScanInput& input, const Frame& frame, Workers& workers);
 // Throws FairingError(bad_shape) where the scan and the control mesh are not of one size, as in different
 // units, or too far apart for nearest points to mean anything. Both in working coordinates.
 void require_same_place(const Scan& scan, std::span<const Vec3> control, const Frame& frame);
+
+// Three digits, for messages.
+std::string length_text(double length);
 
 }  // namespace fairing

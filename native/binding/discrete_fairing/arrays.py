@@ -146,3 +146,13 @@ def numbers(values: ArrayLike, name: str, kinds: str) -> np.ndarray:
     if array.dtype.kind not in kinds:
         raise fairing_error("BAD_SHAPE", f"{name} has dtype {array.dtype}; it must hold numbers.")
     return array
+
+
+def fixed_flags(fixed: ArrayLike | None, count: int) -> np.ndarray:
+    """(count,) uint8, 1 for vertices that stay; empty where none are given."""
+    if fixed is None:
+        return np.empty(0, dtype=np.uint8)
+    stays = np.asarray(fixed)
+    if stays.shape != (count,) or stays.dtype != bool:
+        raise fairing_error("BAD_OPTION", f"fixed must be {count} bools, one a vertex.")
+    return stays.astype(np.uint8)

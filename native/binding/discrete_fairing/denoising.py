@@ -16,7 +16,7 @@ import numpy as np
 from numpy.polynomial.chebyshev import chebinterpolate
 from numpy.typing import ArrayLike
 
-from .arrays import face_arrays, vertex_array
+from .arrays import face_arrays, fixed_flags, vertex_array
 from .errors import fairing_error
 from .options import whole
 from .stars import Stars
@@ -91,7 +91,8 @@ def denoise(
     """
     points = vertex_array(vertices)
     corners, offsets = face_arrays(faces)
-    stays = _fixed(fixed, len(points))
+    count = len(points)
+    stays = np.zeros(count, bool) if fixed is None else fixed_flags(fixed, count) > 0
     if amount is not None and not _is_length(amount):
         raise fairing_error("BAD_OPTION", f"amount is {amount!r}; it must be a length over 0.")
     passes = whole("passes", passes)
@@ -139,15 +140,6 @@ def denoised(
 def _is_length(amount: object) -> bool:
     number = isinstance(amount, (int, float, np.number)) and not isinstance(amount, bool)
     return number and 0 < float(amount) < np.inf  # type: ignore[arg-type]
-
-
-def _fixed(fixed: ArrayLike | None, count: int) -> np.ndarray:
-    if fixed is None:
-        return np.zeros(count, bool)
-    stays = np.asarray(fixed)
-    if stays.shape != (count,) or stays.dtype != bool:
-        raise fairing_error("BAD_OPTION", f"fixed must be {count} bools, one a vertex.")
-    return stays
 
 
 def _passed(stars: Stars, points: np.ndarray, held: np.ndarray, passes: int) -> np.ndarray:

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
-from .arrays import face_arrays, vertex_array
+from .arrays import face_arrays, fixed_flags, vertex_array
 from .errors import fairing_error
 from .halves import Half
 from .options import native_options
@@ -104,7 +104,7 @@ def ease(
     points = vertex_array(vertices)
     corners, offsets = face_arrays(faces)
     count = len(points)
-    bounds, stays = _bounds(tolerance, count), _fixed(fixed, count)
+    bounds, stays = _bounds(tolerance, count), fixed_flags(fixed, count)
     chosen = _most(most, tolerance)
     start, half, axis, images = points, None, 0, np.empty(0, dtype=np.int64)
     given: dict[str, Any] = dict(settings)
@@ -143,15 +143,6 @@ def _bounds(tolerance: ArrayLike | None, count: int) -> np.ndarray:
             "BAD_OPTION", f"tolerance must be a length, or {count} of them, and not below 0."
         )
     return np.ascontiguousarray(np.broadcast_to(bounds, (count,)))
-
-
-def _fixed(fixed: ArrayLike | None, count: int) -> np.ndarray:
-    if fixed is None:
-        return np.empty(0, dtype=np.uint8)
-    stays = np.asarray(fixed)
-    if stays.shape != (count,) or stays.dtype != bool:
-        raise fairing_error("BAD_OPTION", f"fixed must be {count} bools, one a vertex.")
-    return stays.astype(np.uint8)
 
 
 def _amount(amount: float | None, most: int | None) -> float:

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
-from .arrays import face_arrays, index_array, numbers, plain, vertex_array
+from .arrays import face_arrays, fixed_flags, index_array, numbers, plain, vertex_array
 from .errors import fairing_error, written_report
 from .halves import Half
 from .options import native_options, real
@@ -112,7 +112,7 @@ def fit(
     base = vertex_array(vertices)
     corners, offsets = face_arrays(faces)
     scan, outward, sides = _points(points), _normals(normals), _triangles(triangles)
-    stays = _fixed(fixed, len(base))
+    stays = fixed_flags(fixed, len(base))
     bound = _positive("tolerance", tolerance)
     strength = _positive("weight", weight)
     if bound and strength:
@@ -177,15 +177,6 @@ def _triangles(triangles: ArrayLike | None) -> np.ndarray:
     if array.size and (array.ndim != 2 or array.shape[1] != 3):
         raise fairing_error("BAD_SHAPE", f"triangles has shape {array.shape}; it must be (T, 3).")
     return np.ascontiguousarray(array.reshape(-1))
-
-
-def _fixed(fixed: ArrayLike | None, count: int) -> np.ndarray:
-    if fixed is None:
-        return np.empty(0, dtype=np.uint8)
-    stays = np.asarray(fixed)
-    if stays.shape != (count,) or stays.dtype != bool:
-        raise fairing_error("BAD_OPTION", f"fixed must be {count} bools, one a vertex.")
-    return stays.astype(np.uint8)
 
 
 def _positive(name: str, value: float | None) -> float:
