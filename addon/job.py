@@ -125,8 +125,9 @@ class Job:
 
     @property
     def predicted_seconds(self) -> float:
-        """How long `compute` will take."""
-        return self.predict(self.settings.energy, self.settings.levels)
+        """How long `compute` will take; on a new machine rather too short, so that it is tried."""
+        energy, work = self.settings.energy, self._work(self.settings.levels)
+        return prediction.hoped_seconds(energy, work, self._source.key)
 
     def predict(self, energy: str, levels: int) -> float:
         """How long it would take by another energy, with other levels."""

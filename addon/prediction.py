@@ -11,7 +11,12 @@ from .preferences import preferences
 
 PATIENCE = 0.5  # seconds; a run that is predicted to take longer never stops the window
 _KEPT = 5  # runs of an energy
-_BRIEF = 0.1  # seconds; shorter runs say little, as most of them is not spent on triangles
+_BRIEF = (
+    0.1  # seconds; a shorter run is hardly spent on triangles, and tells the most that one takes
+)
+_TRIED = (
+    1e5  # triangles; so few are tried at first, since what takes longer than PATIENCE is broken off
+)
 # seconds a triangle on a machine of two cores, until it has runs of its own
 _AT_FIRST = {
     "THIN_PLATE": 2e-5,
@@ -34,13 +39,22 @@ def seconds(energy: str, triangles: int, mesh: Hashable = None) -> float:
     return triangles * known
 
 
+def hoped_seconds(energy: str, triangles: int, mesh: Hashable) -> float:
+    """As `seconds`, but rather too short on a machine that has no runs of its own yet."""
+    expected = seconds(energy, triangles, mesh)
+    return expected if _speeds().get(energy) else min(expected, PATIENCE * triangles / _TRIED)
+
+
 def note(energy: str, triangles: int, taken: float, mesh: Hashable) -> None:
     """Learns that a run has taken so many seconds."""
-    if taken < _BRIEF or not triangles:
+    if not triangles:
         return
-    _of_mesh[mesh, energy] = taken / triangles
+    speed = taken / triangles
+    if taken < _BRIEF:
+        speed = min(speed, seconds(energy, 1, mesh))
+    _of_mesh[mesh, energy] = speed
     speeds = _speeds()
-    speeds[energy] = [*speeds.get(energy, []), taken / triangles][-_KEPT:]
+    speeds[energy] = [*speeds.get(energy, []), speed][-_KEPT:]
     preferences().speeds = json.dumps(speeds)
 
 

@@ -252,21 +252,20 @@ class FairingSettings:
 
 
 class KeptSettings(FairingSettings):
-    """Mix-in of annotations for property groups, which files have."""
+    """Mix-in of annotations for what files and presets set."""
 
-    # of files from before `tolerance` and its unit had taken its place; `bring_up_to_date` reads it
-    relative_tolerance: FloatProperty(default=0.02, options={"HIDDEN"})
+    # from before `tolerance` and its unit had taken its place; `bring_up_to_date` reads it
+    relative_tolerance: FloatProperty(default=0.02, options={"HIDDEN", "SKIP_SAVE"})
 
 
-def bring_up_to_date(group: KeptSettings) -> None:
+def bring_up_to_date(group: Any) -> None:
     """What files and presets from before say of the tolerance: a number for each unit, of which one
     counted.
     """
-    known: Any = group
-    if known.is_property_set("relative_tolerance"):
+    if group.is_property_set("relative_tolerance"):
         if group.tolerance_unit == "RELATIVE":
             group.tolerance = group.relative_tolerance
-        known.property_unset("relative_tolerance")
+        group.property_unset("relative_tolerance")
 
 
 def copy_settings(source: Settings, target: Any) -> None:

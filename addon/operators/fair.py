@@ -20,7 +20,7 @@ from ..memory import no_source_reason, source_of
 from ..mesh.object import is_in_view_layer, nothing_left_behind, select_only, why_not_here
 from ..mesh.read import source_objects
 from ..poll import ExplainedPoll
-from ..properties import FairingSettings, copy_settings, fill_in, take_near
+from ..properties import KeptSettings, bring_up_to_date, copy_settings, fill_in, take_near
 from ..queue import ConsoleProgress, MeshJob, running
 from ..settings import Settings
 from ..ui.layout import draw_settings
@@ -160,7 +160,7 @@ class Fairing(ExplainedPoll, ModalRun):
         """For what is not common to both."""
 
 
-class FairSurface(Fairing, FairingSettings):
+class FairSurface(Fairing, KeptSettings):
     """All of Fair Surface but its name."""
 
     bl_idname: str
@@ -182,6 +182,7 @@ class FairSurface(Fairing, FairingSettings):
         return super().invoke(context, event)
 
     def execute(self, context: Context) -> Answer:
+        bring_up_to_date(self.properties)
         take_near(self.properties)
         return super().execute(context)
 

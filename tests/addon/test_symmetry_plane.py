@@ -116,9 +116,10 @@ def test_seconds_count_both_halves_and_triangles_those_that_come(energy):
     said = draw(main.VIEW3D_PT_fairing)
     settings.symmetry_plane = "X"
     half = Job(bpy.context, source, Settings.of(settings))
-    assert half.predicted_seconds == 2 * alone.predicted_seconds
+    seconds = half.predict(energy, settings.levels)
+    assert seconds == 2 * alone.predict(energy, settings.levels)
     assert half.triangles == alone.triangles
-    expected = f"{alone.triangles:,} triangles, {prediction.text(half.predicted_seconds)}"
+    expected = f"{alone.triangles:,} triangles, {prediction.text(seconds)}"
     assert expected in draw(main.VIEW3D_PT_fairing) and expected not in said
 
 
