@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Holes such as scans have: faces that hang together, taken away at random."""
+"""Triangle meshes of known surfaces, and holes such as scans have: faces that hang together, taken away at random."""
 
+import discrete_fairing as df
 import numpy as np
 
 
@@ -57,3 +58,54 @@ def cut(vertices, faces, gone):
     kept = faces[~gone]
     used, kept = np.unique(kept, return_inverse=True)
     return vertices[used], kept.reshape(-1, 3)
+
+
+def lattice(n, m, closed=(False, False)):
+    """Triangles (t, 3) of a grid of n by m points."""
+    i, j = np.meshgrid(
+        np.arange(n - (not closed[0])), np.arange(m - (not closed[1])), indexing="ij"
+    )
+    i, j = i.ravel(), j.ravel()
+    a, b = i * m + j, (i + 1) % n * m + j
+    c, d = (i + 1) % n * m + (j + 1) % m, i * m + (j + 1) % m
+    return np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)])
+
+
+def mapped(surface, n, m, closed=(False, False)):
+    a, b = (np.linspace(0, 1, k, endpoint=not c) for k, c in zip((n, m), closed, strict=True))
+    a, b = np.meshgrid(a, b, indexing="ij")
+    return np.stack(surface(a.ravel(), b.ravel()), 1), lattice(n, m, closed)
+
+
+def torus(n, m, tube=0.8):
+    def surface(a, b):
+        distance = 2 + tube * np.cos(2 * np.pi * b)
+        x, y = distance * np.cos(2 * np.pi * a), distance * np.sin(2 * np.pi * a)
+        return x, y, tube * np.sin(2 * np.pi * b)
+
+    return mapped(surface, n, m, (True, True))
+
+
+def sphere(levels=3):
+    """An octahedron refined on the unit sphere."""
+    vertices = np.concatenate([np.eye(3), -np.eye(3)])[[0, 3, 1, 4, 2, 5]]
+    faces = [(0, 2, 4), (2, 1, 4), (1, 3, 4), (3, 0, 4), (2, 0, 5), (1, 2, 5), (3, 1, 5), (0, 3, 5)]
+    for _ in range(levels):
+        result = df.fair(vertices, faces, levels=1)
+        vertices = result.vertices / np.linalg.norm(result.vertices, axis=1)[:, None]
+        faces = result.triangles.astype(np.int64)
+    return vertices, np.asarray(faces)
+
+
+def uses(faces):
+    """How many faces each edge has."""
+    sides = np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    return np.unique(sides, axis=0, return_counts=True)[1]
+
+
+def smallest_angle(vertices, faces):
+    """Degrees."""
+    corner = vertices[faces]
+    after, before = np.roll(corner, -1, axis=1) - corner, np.roll(corner, 1, axis=1) - corner
+    sine = np.linalg.norm(np.cross(after, before), axis=2)
+    return np.degrees(np.arctan2(sine, (after * before).sum(axis=2))).min()

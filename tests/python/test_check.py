@@ -118,17 +118,6 @@ def test_orientation_and_one_sidedness_of_different_parts():
     ]
 
 
-def test_the_repair_mends_it():
-    faces = FACES.copy()
-    faces[[3, 11]] = faces[[3, 11], ::-1]
-    assert found(POINTS, faces) == [("INCONSISTENT_ORIENTATION", [3, 11])]
-    mended = df.fair(POINTS, faces, 1, repair="mend").report
-    assert mended["flipped_faces"] == [3, 11]
-    assert [repair["code"] for repair in mended["repairs"]] == ["INCONSISTENT_ORIENTATION"]
-    faces[[3, 11]] = faces[[3, 11], ::-1]
-    assert df.check(POINTS, faces) == []
-
-
 def test_orientation_needs_no_good_geometry():
     faces = FACES.copy()
     faces[7] = faces[7, ::-1]

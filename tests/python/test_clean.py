@@ -5,8 +5,8 @@ import discrete_fairing as df
 import numpy as np
 import pytest
 from control_meshes import cube
+from ragged_holes import lattice, mapped, sphere
 from surfaces import assert_oriented_manifold
-from test_fill_holes import lattice, mapped, sphere
 
 BALL = sphere()
 VOLUME = df.clean(*BALL).volume
@@ -289,12 +289,6 @@ def test_all_at_once(seed):
     assert 0 < (~same).sum() <= sum(act.count for act in told(found, "spikes"))
 
 
-def test_the_same_for_any_number_of_threads():
-    points, faces = spoiled()
-    one, many = (df.clean(points, faces, threads=k) for k in (1, 3))
-    assert np.array_equal(one.vertices, many.vertices) and np.array_equal(one.faces, many.faces)
-
-
 def test_each_step_can_be_turned_off():
     points, faces = spoiled()
     for step in ("fins", "normals", "inner", "pinched", "spikes", "folds", "fill", "join"):
@@ -318,12 +312,6 @@ def test_options_are_checked(settings, code):
     with pytest.raises(df.FairingError) as error:
         df.clean(*BALL, **settings)
     assert error.value.code == code
-
-
-def test_it_can_be_cancelled():
-    with pytest.raises(df.FairingError) as error:
-        df.clean(*spoiled(), progress=lambda fraction, phase: fraction < 0.2)
-    assert error.value.code == "CANCELLED"
 
 
 def test_a_sheet_of_quads_stays_one():

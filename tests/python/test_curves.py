@@ -67,9 +67,17 @@ def test_the_same_polyline_gives_the_same_curve(exponent, corners):
 @pytest.mark.parametrize(
     "option", [{"corner_angle": 0.75}, {"corner_angle": 10.0}, {"boundary": "linear"}], ids=str
 )
-def test_the_same_polyline_under_other_rules(option):
-    found = [rows(boundary_points(tight.fair(*cap, 2, **option))) for cap in caps(polygon())]
-    assert found[0] == found[1] == found[2]
+@pytest.mark.parametrize(
+    "surface", [{}, {"pad_size": 0.5}, {"tension": 1}, {"energy": "total_curvature"}], ids=str
+)
+def test_the_same_polyline_under_other_rules(option, surface):
+    """Whatever the surface is, the curve is that of the thin plate on point forces."""
+    found = [
+        rows(boundary_points(tight.fair(*cap, 2, **option, **options)))
+        for cap in caps(polygon())
+        for options in ({}, surface)
+    ]
+    assert all(curve == found[0] for curve in found)
 
 
 def test_a_crease_and_a_boundary_of_the_same_polyline_are_the_same_curve():

@@ -1,9 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """fit(): surfaces near scans whose truth is known."""
 
-import threading
-import time
-
 import discrete_fairing as df
 import numpy as np
 import pytest
@@ -133,12 +130,6 @@ def test_fixed_vertices_stay(cage, scan):
     fitted = df.fit(*cage, scan, fixed=fixed)
     moves = np.linalg.norm(fitted.vertices[: len(fixed)] - cage[0], axis=1)
     assert (moves[fixed] == 0).all() and (moves[~fixed] > 0).all()
-
-
-def test_same_bits_for_any_number_of_threads(cage, scan):
-    one, three = (df.fit(*cage, scan, threads=n) for n in (1, 3))
-    assert one.vertices.tobytes() == three.vertices.tobytes()
-    assert one.distances.tobytes() == three.distances.tobytes()
 
 
 def test_unit_and_place_do_not_matter(cage, scan, fitted):
@@ -287,19 +278,6 @@ def test_options_that_make_no_fit_are_refused_in_words(cage, scan, options, word
     with pytest.raises(df.FairingError) as caught:
         df.fit(*cage, scan[:2000], **options)
     assert word in str(caught.value)
-
-
-def test_progress_rises_and_a_cancel_ends_it(cage, scan):
-    seen = []
-    df.fit(*cage, scan, levels=3, progress=lambda fraction, phase: seen.append(fraction))
-    assert seen == sorted(seen) and seen[-1] == 1.0
-    monitor = df.Monitor()
-    timer = threading.Timer(0.2, monitor.cancel)
-    timer.start()
-    begun = time.monotonic()
-    with pytest.raises(df.FairingError) as caught:
-        df.fit(*cage, np.tile(scan, (20, 1)), levels=5, monitor=monitor)
-    assert caught.value.code == "CANCELLED" and time.monotonic() - begun < 60
 
 
 def test_memory_is_predicted(cage, scan):

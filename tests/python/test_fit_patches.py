@@ -14,6 +14,7 @@ import pytest
 from discrete_fairing import fitting
 from mesh_files import read_mesh
 from shared_data import SHARED, read_obj
+from sliver_meshes import uneven_drum
 from spline_measures import basis, evaluate, radii, side_curve, volume
 
 sys.path.append(str(Path(__file__).resolve().parents[2] / "benchmarks"))
@@ -272,14 +273,6 @@ def test_creases_are_edges(fitted):
     assert patches.edge_error[creases].max() < 1e-9 * patches.size
 
 
-def test_any_number_of_threads_gives_the_same_bits():
-    mesh = control_meshes.random_hull(12)
-    one, many = (df.fit_patches(*mesh, levels=4, threads=k, force=True) for k in (1, 3))
-    assert one.patch_points.tobytes() == many.patch_points.tobytes()
-    assert one.edge_points.tobytes() == many.edge_points.tobytes()
-    assert one.edge_angles.tobytes() == many.edge_angles.tobytes()
-
-
 def needle():
     points, faces = control_meshes.wavy_patch(height=0.4)
     points[12, 2] += 40
@@ -419,26 +412,6 @@ def test_a_surface_is_compared_with_a_coarser_one_face_by_face(monkeypatch):
     assert peak < 1.1 * of(small, 1)[1]
 
 
-def test_cancel_and_progress():
-    seen = []
-
-    def stop(fraction, phase):
-        seen.append((fraction, phase))
-        return len(seen) < 2
-
-    with pytest.raises(df.FairingError) as caught:
-        df.fit_patches(*control_meshes.random_hull(), levels=6, progress=stop, **CURVED)
-    assert caught.value.code == "CANCELLED"
-    seen.clear()
-    df.fit_patches(*control_meshes.cube(), progress=lambda *heard: seen.append(heard), **CURVED)
-    fractions, phases = zip(*seen)
-    assert fractions == tuple(sorted(fractions))
-    assert seen[-1] == (1, "done")
-    assert "patches" in phases
-    assert "done" not in phases[:-1]
-    assert all(fraction < 1 for fraction in fractions[:-1])
-
-
 @pytest.mark.parametrize("options", [{"tolerance": 0}, {"normal_tolerance": -1}, {"levels": 1}])
 def test_bad_options(options):
     with pytest.raises(df.FairingError) as caught:
@@ -446,46 +419,11 @@ def test_bad_options(options):
     assert caught.value.code == "BAD_OPTION"
 
 
-def drum():
-    """Two rims of 8 and 11 vertices at unrelated angles, joined by long triangles; each end goes over a
-    rounded rim into a flat cap.
-    """
-    rng = np.random.default_rng(17)
-    points, faces, rims, angles = [], [], [], []
-    for n in (8, 11):
-        angles.append(np.sort(rng.uniform(0, 2 * np.pi, n)))
-    for side, (around, z) in enumerate(zip(angles, (0.0, 2.0), strict=True)):
-        rings = []
-        for t in np.linspace(0, np.pi / 2, 3):
-            rings.append(len(points) + np.arange(len(around)))
-            r, height = 0.7 + 0.3 * np.cos(t), z + (2 * side - 1) * 0.3 * np.sin(t)
-            points += [(r * np.cos(a), r * np.sin(a), height) for a in around]
-        way = slice(None, None, 2 * side - 1)
-        for low, high in zip(rings, rings[1:], strict=False):
-            for a, b, c, d in zip(low, np.roll(low, -1), np.roll(high, -1), high, strict=True):
-                quad = [a, b, c, d][way]
-                faces += [[quad[0], quad[1], quad[2]], [quad[0], quad[2], quad[3]]]
-        top = rings[-1]
-        faces += [[top[0], top[i], top[i + 1]][way] for i in range(1, len(top) - 1)]
-        rims.append(rings[0])
-    i = j = 0
-    low, high = ([*a, a[0] + 2 * np.pi, 1e9] for a in angles)
-    while i < 8 or j < 11:
-        a, b, c, d = rims[0][i % 8], rims[0][(i + 1) % 8], rims[1][j % 11], rims[1][(j + 1) % 11]
-        if low[i + 1] <= high[j + 1]:
-            faces.append([a, b, c])
-            i += 1
-        else:
-            faces.append([a, d, c])
-            j += 1
-    return np.array(points), faces
-
-
 def test_curves_fitted_more_sharply_make_no_patch_fold():
     """Beside needles patches that met their tolerance were fitted anew to sharper curves, and turned over.
     The drum was refused, after a level more and three times the work.
     """
     run = fitting._Run(1e-4, 8e-4, False)
-    result = df.fair(*drum(), 6, threads=1)
+    result = df.fair(*uneven_drum(), 6, threads=1)
     watched = {"threads": 1, "monitor": df.Monitor(), "progress": None}
     assert not run.still_folded(result, 6, [82, 89, 90], watched)

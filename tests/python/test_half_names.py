@@ -85,16 +85,6 @@ def test_ids_that_only_the_image_has_are_refused(make, kind, elements):
     assert str(error).startswith(f"1 {kind} ({elements[0]}) is named in ")
 
 
-def test_a_solver_names_what_moves_too_far():
-    points, faces = hull()
-    solver = df.Solver(points, faces, 2, symmetry_plane="y")
-    points[6, 2] = np.nan
-    for call in (solver.solve, solver.rebase):
-        with pytest.raises(df.FairingError) as caught:
-            call(points)
-        assert caught.value.elements == [6] and str(caught.value).startswith("1 vertex (6) has ")
-
-
 def test_warnings_and_repairs_name_the_half_too():
     points, faces = hull()
     points = np.concatenate([points, [[0, 5, 0]]])

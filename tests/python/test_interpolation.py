@@ -36,13 +36,6 @@ def test_kept_wherever_the_mesh_lies(offset, scale, boundary):
     assert result.vertices[: len(vertices)].tobytes() == vertices.tobytes()
 
 
-def test_kept_with_creases_and_corners():
-    (vertices, faces), creases = meshes.box_with_creases()
-    vertices = vertices / 3 + 0.1
-    result = df.fair(vertices, faces, 3, crease_edges=creases, corner_vertices=[0, 5])
-    assert result.vertices[: len(vertices)].tobytes() == vertices.tobytes()
-
-
 @pytest.mark.parametrize("name", NAMES)
 def test_shapes_and_types(name):
     vertices, faces = meshes.ALL[name]()
@@ -76,15 +69,6 @@ def test_cells_of_a_polygon_come_in_fours_whatever_its_split():
             for r in (once, twice)
         ]
         assert cells[0] > 0 and cells[1] == 4 * cells[0]
-
-
-def test_levels_nest():
-    """The coarser lattice's numbering is its own, but no level forgets the control mesh's own
-    faces."""
-    vertices, faces = meshes.torus()
-    result = df.fair(vertices, faces, 0)
-    assert np.array_equal(result.vertices, vertices)
-    assert as_lists(result.faces[1]) == as_lists(faces)
 
 
 @pytest.mark.parametrize("name", sorted(meshes.CLOSED))

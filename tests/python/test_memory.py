@@ -10,7 +10,9 @@ import pytest
 import tight
 from mesh_files import SUFFIXES, read_mesh
 from shared_data import shared_files
+from sliver_meshes import uneven_drum
 
+NEAR = {"interpolation": "approximate"}
 MOST_CELLS = 20000  # of real meshes, to be soon over
 
 
@@ -43,10 +45,17 @@ def test_prediction_bounds_the_peak(name, levels):
 
 
 @pytest.mark.parametrize(
-    "option", [{"tolerance": 0.02}, {"weights": [1.0] * 98}], ids=["tolerance", "weights"]
+    "options",
+    [
+        NEAR | {"tolerance": 0.02},
+        NEAR | {"weights": [1.0] * 98},
+        {"tension": 0.5},
+        {"tension": 0.5, "energy": "total_curvature"},
+    ],
+    ids=str,
 )
-def test_prediction_bounds_the_peak_of_approximation(option):
-    assert_bounded(tight.fair(*meshes.creature(), 3, interpolation="approximate", **option).report)
+def test_prediction_bounds_the_peak_with(options):
+    assert_bounded(tight.fair(*meshes.creature(), 3, **options).report)
 
 
 @pytest.mark.parametrize("levels", [1, 2, 4])
@@ -82,7 +91,7 @@ def test_prediction_bounds_the_peak_of_steps(name, energy):
 @pytest.mark.parametrize("tolerance", [0.0, 0.02])
 def test_many_faces_on_few_levels(levels, tolerance):
     """The rows of level 1 are the most there, and control vertices that move are factored."""
-    near = {"interpolation": "approximate", "tolerance": tolerance} if tolerance else {}
+    near = NEAR | {"tolerance": tolerance} if tolerance else {}
     assert_bounded(df.fair(*meshes.torus(96, 48), levels, threads=1, **near).report)
 
 
@@ -147,38 +156,9 @@ def test_a_run_that_takes_more_says_so_before():
             df.Solver(*hard(), threads=1).solve()
 
 
-def drum(below=40, above=47, seed=1):
-    """Two rims of vertices at unrelated angles, joined by long thin triangles; round edges, flat ends."""
-    draw = np.random.default_rng(seed)
-    points, faces, rims = [], [], []
-    for end, count in enumerate((below, above)):
-        angle = np.sort(draw.uniform(0, 2 * np.pi, count))
-        rings = []
-        for tilt in np.linspace(0, np.pi / 2, 5):
-            radius, height = 0.85 + 0.15 * np.cos(tilt), 0.15 * np.sin(tilt)
-            rings.append(len(points) + np.arange(count))
-            z = 3 + height if end else -height
-            points += [(radius * np.cos(a), radius * np.sin(a), z) for a in angle]
-        new = [[rings[-1][0], rings[-1][i], rings[-1][i + 1]] for i in range(1, count - 1)]
-        for one, other in zip(rings, rings[1:]):
-            for i in range(count):
-                j = (i + 1) % count
-                new += [[one[i], one[j], other[j]], [one[i], other[j], other[i]]]
-        faces += new if end else [face[::-1] for face in new]
-        rims.append((rings[0], np.append(angle, angle[0] + 2 * np.pi)))
-    (u, a), (v, b) = rims
-    i = j = 0
-    while i < below or j < above:
-        lower = j == above or (i < below and a[i + 1] <= b[j + 1])
-        step = u[(i + 1) % below] if lower else v[(j + 1) % above]
-        faces.append([u[i % below], step, v[j % above]])
-        i, j = i + lower, j + (not lower)
-    return np.array(points), np.array(faces)
-
-
 def test_a_factor_that_only_saves_time_keeps_to_twice_the_prediction():
     """It took 3.4 times as much, for a level that 25 iterations solve."""
-    report = df.fair(*drum(), 3, threads=1).report
+    report = df.fair(*uneven_drum((40, 47), 1, 5, 0.15, 3.0), 3, threads=1).report
     assert report["converged"]
     assert report["peak_bytes"] <= 2 * report["predicted_bytes"]
 

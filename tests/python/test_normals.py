@@ -149,15 +149,6 @@ def test_the_control_mesh_itself_has_nothing_to_turn(plate):
     assert np.array_equal(result.vertices, points) and result.report["normals"]["fixed"] == 0
 
 
-def test_the_number_of_threads_is_nothing_to_the_bits():
-    points, faces = ball(noise=0.05)
-    normals = points.copy()
-    normals[::3] = np.nan
-    one, two = (df.fair(points, faces, 3, normals=normals, threads=t) for t in (1, 2))
-    assert one.vertices.tobytes() == two.vertices.tobytes()
-    assert one.report["normals"] == two.report["normals"]
-
-
 def test_a_symmetric_mesh_stays_symmetric(plate):
     points, faces = plate
     right, left = MIDDLE + 1, MIDDLE - 1
@@ -339,13 +330,6 @@ def test_vertices_that_are_merged_share_their_normals(plate):
     assert result.report["normals"]["largest_angle"] <= LARGEST
     welded = df.fair(points, faces, 2, normals=tilted(points, MIDDLE, [0.3, 0, 1]))
     assert np.ptp(result.vertices[:, 2]) == pytest.approx(np.ptp(welded.vertices[:, 2]), rel=1e-3)
-
-
-def test_a_run_can_be_cancelled():
-    points, faces = ball(2)
-    with pytest.raises(df.FairingError) as caught:
-        df.fair(points, faces, 5, normals=points, progress=lambda *_: False)
-    assert caught.value.code == "CANCELLED"
 
 
 def test_memory_is_predicted():

@@ -61,11 +61,6 @@ def test_faces_know_their_polygon(name):
     assert found == [set(face) for face in as_lists(faces)]
 
 
-def test_polygons_that_are_split_keep_their_number():
-    result = df.fair(*meshes.dodecahedron(), 1)
-    assert np.array_equal(np.bincount(result.triangle_polygon), np.full(12, 5 * 4))
-
-
 def test_components_do_not_see_each_other():
     """Two meshes in one call come out as they do alone."""
     one, two = meshes.icosahedron(), meshes.random_hull(15)

@@ -8,16 +8,16 @@ import pytest
 import tight
 from piece_meshes import sheet
 
-MESHES = {
-    "octahedron": {},
-    "cube": {},
-    "torus": {},
-    "creature": {},
-    "mixed_house": {},
-    "dodecahedron": {},
-    "wavy_patch": {},
-    "three_handles": {},
-}
+MESHES = [
+    "octahedron",
+    "cube",
+    "torus",
+    "creature",
+    "mixed_house",
+    "dodecahedron",
+    "wavy_patch",
+    "three_handles",
+]
 
 
 def energy(result):
@@ -61,24 +61,6 @@ def test_inscribed_meshes_are_nearer_to_the_sphere(name, most):
     assert found[-1] < most
 
 
-def test_the_surface_is_a_linear_map_of_the_positions():
-    vertices, faces = meshes.creature()
-    rng = np.random.default_rng(2)
-    first, second = (vertices + 0.1 * rng.standard_normal(vertices.shape) for _ in range(2))
-    mixed = 0.3 * first - 0.5 * second + 1.2 * vertices + [3, -4, 5]
-    result = tight.fair(
-        vertices,
-        faces,
-        levels=2,
-        pad_size=0.5,
-        relative_residual=1e-12,
-        shapes=[first, second, mixed],
-    )
-    a, b, c = result.shapes
-    error = np.abs(0.3 * a - 0.5 * b + 1.2 * result.vertices + [3, -4, 5] - c).max()
-    assert error < 1e-6 * np.ptp(vertices)
-
-
 @pytest.mark.parametrize(("name", "levels", "most"), (("torus", 5, 11), ("mixed_house", 6, 12)))
 def test_forces_are_read_from_the_whole_residual(name, levels, most):
     """Read at control vertices alone, after solves that leave enough, they took 14 and 21 iterations."""
@@ -86,44 +68,6 @@ def test_forces_are_read_from_the_whole_residual(name, levels, most):
     finest = report["levels"][-1]
     assert report["converged"] and finest["pad_corrections"] > 0
     assert finest["iterations"] <= most
-
-
-@pytest.mark.parametrize("joint", ("position", "tangent", "curvature"))
-def test_regions_leave_the_rest_alone(joint):
-    columns = 9
-    vertices, faces = meshes.wavy_patch(columns, columns)
-    region = [
-        f
-        for f, face in enumerate(faces)
-        if np.abs(vertices[face].mean(0)[:2] - vertices.mean(0)[:2]).max()
-        < 0.3 * np.ptp(vertices[:, 0])
-    ]
-    needles, pads = (
-        tight.fair(vertices, faces, levels=2, region=region, joint=joint, pad_size=size)
-        for size in (0, 0.5)
-    )
-    assert pads.report["converged"]
-    _, quads = pads.faces
-    outside = np.ones(len(faces), bool)
-    outside[region] = False
-    kept = np.unique(quads[outside[pads.quad_polygon]])
-    assert np.array_equal(needles.vertices[kept], pads.vertices[kept])
-    assert not np.array_equal(needles.vertices, pads.vertices)
-
-
-def test_curves_depend_on_their_own_vertices_alone():
-    vertices, faces = meshes.wavy_patch(6, 5)
-    for boundary in ("curve", "linear"):
-        needles, pads = (
-            tight.fair(vertices, faces, levels=2, boundary=boundary, pad_size=size)
-            for size in (0, 1)
-        )
-        _, quads = pads.faces
-        edges = np.sort(quads[:, [0, 1, 1, 2, 2, 3, 3, 0]].reshape(-1, 2), 1)
-        unique, uses = np.unique(edges, axis=0, return_counts=True)
-        rim = np.unique(unique[uses == 1])
-        assert np.array_equal(needles.vertices[rim], pads.vertices[rim])
-        assert pads.report["converged"]
 
 
 def ball_and_its_images():
@@ -297,41 +241,6 @@ def test_a_rough_mesh_takes_few_iterations():
     report = df.fair(*rough_torus(), levels=2).report
     assert report["converged"]
     assert report["iterations"][-1] < 20
-
-
-def piece_of(vertices, faces, core, rings):
-    """The faces of `core` with so many rings around: vertices, faces, ids of both."""
-    inside = np.zeros(len(vertices), bool)
-    chosen = np.zeros(len(faces), bool)
-    chosen[core] = True
-    for _ in range(rings + 1):
-        inside[faces[chosen]] = True
-        chosen |= inside[faces].any(1)
-    ids = np.flatnonzero(chosen)
-    used, local = np.unique(faces[ids], return_inverse=True)
-    return vertices[used], local.reshape(-1, faces.shape[1]), used, ids
-
-
-def test_a_piece_with_ten_rings_around_is_as_in_the_whole():
-    """Pads are chosen by what is around a vertex, so no decision travels."""
-    vertices, faces = rough_torus(80, 40, 0.15)
-    whole = df.fair(vertices, faces, levels=2, relative_residual=1e-9)
-    core = np.flatnonzero(
-        (np.abs(vertices[faces].mean(1) - vertices[faces[0]].mean(0)).max(1)) < 0.3
-    )
-    assert 5 < len(core) < 500
-    local = piece_of(vertices, faces, core, rings=10)
-    piece = df.fair(local[0], local[1], levels=2, relative_residual=1e-9)
-    size = np.ptp(vertices, axis=0).max()
-    # the points inside the core's faces, found by position
-    from scipy.spatial import cKDTree
-
-    tree = cKDTree(whole.vertices)
-    inner = np.isin(local[3], core)
-    quads = piece.faces[1] if faces.shape[1] == 4 else piece.faces[0]
-    points = np.unique(quads.reshape(len(local[3]), -1)[inner])
-    off, _ = tree.query(piece.vertices[points])
-    assert off.max() < 1e-6 * size
 
 
 def test_stiff_rows_at_a_free_border_do_not_mislead_loads():

@@ -9,6 +9,7 @@ import discrete_fairing as df
 import numpy as np
 import pytest
 from discrete_fairing import _native
+from every_call import CALLS
 
 PHASES = [
     "check",
@@ -224,3 +225,17 @@ def test_a_run_from_within_progress():
 
     df.fair(*meshes.creature(), 3, progress=nest)
     assert np.array_equal(inner[0], df.fair(*meshes.octahedron(), 2).vertices)
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_each_call_tells_its_progress_and_can_be_cancelled(name):
+    seen = []
+    CALLS[name](progress=lambda *heard: seen.append(heard))
+    fractions, phases = zip(*seen)
+    assert fractions == tuple(sorted(fractions)) and seen[-1] == (1, "done")
+    monitor = df.Monitor()
+    monitor.cancel()
+    for watched in ({"progress": lambda *_: False}, {"monitor": monitor}):
+        with pytest.raises(df.FairingError) as caught:
+            CALLS[name](**watched)
+        assert caught.value.code == "CANCELLED"

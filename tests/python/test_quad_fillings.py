@@ -140,10 +140,3 @@ def test_every_joint_and_rim(joint, rim):
         )
         assert len(filled.new_faces) == gone and filled.holes[0].folds == 0
         assert not df.check(filled.vertices, filled.faces)
-
-
-def test_progress_never_goes_back():
-    points, quads, hole, _ = holed(lambda a, z: (abs(a) < 0.5) & (abs(z) < 0.5))
-    told = []
-    df.fill_holes(points, quads, holes=[hole], quads=True, progress=lambda f, _: told.append(f))
-    assert told == sorted(told) and told[-1] == 1.0

@@ -10,33 +10,8 @@ import numpy as np
 import pytest
 from discrete_fairing import crossings, near_hole
 from mesh_files import read_mesh
-from ragged_holes import cut, ragged
+from ragged_holes import cut, ragged, smallest_angle, torus, uses
 from shared_data import SHARED
-
-
-def torus(n=120, m=60):
-    i, j = np.meshgrid(np.arange(n), np.arange(m), indexing="ij")
-    a, b = 2 * np.pi * i.ravel() / n, 2 * np.pi * j.ravel() / m
-    away = 2 + 0.8 * np.cos(b)
-    points = np.stack([away * np.cos(a), away * np.sin(a), 0.8 * np.sin(b)], 1)
-    at = np.arange(n * m).reshape(n, m)
-    right, up = np.roll(at, -1, axis=0), np.roll(at, -1, axis=1)
-    both = np.roll(right, -1, axis=1)
-    faces = [np.stack([at, right, both], -1), np.stack([at, both, up], -1)]
-    return points, np.concatenate([f.reshape(-1, 3) for f in faces])
-
-
-def uses(faces):
-    sides = np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-    return np.unique(sides, axis=0, return_counts=True)[1]
-
-
-def smallest_angle(vertices, faces):
-    """Degrees."""
-    corner = vertices[faces]
-    after, before = np.roll(corner, -1, axis=1) - corner, np.roll(corner, 1, axis=1) - corner
-    sine = np.linalg.norm(np.cross(after, before), axis=2)
-    return np.degrees(np.arctan2(sine, (after * before).sum(axis=2))).min()
 
 
 def assert_sound(vertices, faces, least_angle=0.0):
@@ -56,7 +31,7 @@ def assert_sound(vertices, faces, least_angle=0.0):
 def test_on_a_torus_total_curvature_closes_them_without_a_fold(seed, wander):
     """The mean of a vertex's neighbours often lies beyond such a rim, in the mesh."""
     rng = random.Random(seed)
-    points, faces = torus()
+    points, faces = torus(120, 60)
     taken = ragged(faces, rng.choice([100, 300, 900]), rng, wander)
     for hole in assert_sound(*cut(points, faces, taken), least_angle=15.0):
         assert (hole.energy, hole.joint) == ("total_curvature", "curvature")
@@ -129,7 +104,7 @@ def test_noise_at_a_rim_costs_no_rounds_that_mend_nothing(monkeypatch):
     monkeypatch.setattr(near_hole, "fair", counted(near_hole.fair, fairings))
     monkeypatch.setattr(crossings, "_overlapping", counted(crossings._overlapping, searches))
     rng = random.Random(0)
-    points, faces = torus()
+    points, faces = torus(120, 60)
     gone = np.any([ragged(faces, rng.choice([60, 150]), rng, 0.9) for _ in range(4)], axis=0)
     vertices, kept = cut(points, faces, gone)
     noise = 0.03 * np.random.default_rng(0).normal(size=vertices.shape)  # about a third of an edge

@@ -65,14 +65,20 @@ def as_set(points):
 
 @pytest.mark.parametrize("joint", JOINTS)
 @pytest.mark.parametrize(
-    "name", ["icosahedron", "cube", "torus_quads", "creature", "wavy_patch", "roof"]
+    "name, options",
+    [(n, {}) for n in ("icosahedron", "cube", "torus_quads", "creature", "wavy_patch", "roof")]
+    + [
+        ("creature", o)
+        for o in ({"pad_size": 0.5}, {"tension": 0.8}, {"energy": "total_curvature"})
+    ],
+    ids=str,
 )
-def test_outside_and_joint_are_linear_to_the_last_bit(name, joint):
+def test_outside_and_joint_are_linear_to_the_last_bit(name, options, joint):
     vertices, faces = meshes.ALL[name]()
     faces = as_lists(faces)
     region = np.arange(0, len(faces), 3)
-    result = fair(vertices, faces, 2, region=region, joint=joint, measure=False)
-    assert np.array_equal(result.vertices[: len(vertices)], vertices)
+    result = fair(vertices, faces, 2, region=region, joint=joint, measure=False, **options)
+    assert np.array_equal(result.vertices[: len(vertices)], vertices) and result.report["converged"]
     outside = np.setdiff1d(np.arange(len(faces)), region)
     for f in outside:
         ids = fine_points(result, f)

@@ -33,13 +33,6 @@ def test_no_level_is_factored(name, pad_size):
     assert 0 < hard[-1]["iterations"] <= most
 
 
-def test_threads_leave_no_trace():
-    mesh = slivers.stretched(random_hull(400), 100)
-    one, two = (fair(*mesh, 3, threads=n, measure=False) for n in (1, 2))
-    assert one.report["levels"][-1]["lines"]
-    assert np.array_equal(one.vertices, two.vertices)
-
-
 def test_the_degree_leaves_the_surface():
     vertices, faces = slivers.stretched_sheet(200, 100)
     settings = {"relative_residual": 1e-9, "max_iterations": 2000, "measure": False}

@@ -153,13 +153,6 @@ def test_affine_images_need_no_iteration():
     assert np.abs(result.vertices - (first.vertices @ matrix + [4, 5, 6])).max() < 1e-7
 
 
-def test_the_same_positions_again_move_nothing():
-    vertices, faces = sample("creature")
-    solver = tight.Solver(vertices, faces, 3)
-    first = solver.solve()
-    assert np.abs(solver.solve().vertices - first.vertices).max() < 1e-8
-
-
 @pytest.mark.parametrize("energy", CURVED)
 def test_a_sphere_stays_that_sphere(energy):
     vertices, faces = icosphere(1)

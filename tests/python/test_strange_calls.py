@@ -59,28 +59,6 @@ def test_sizes_beyond_any_machine_are_large_and_no_less():
     assert sizes == sorted(sizes) and sizes[0] > 2**31
 
 
-@pytest.mark.parametrize("levels", [np.array([1, 2]), np.array([2]), [2], {}], ids=repr)
-def test_levels_that_are_several(levels):
-    assert code_of(df.fair, POINTS, FACES, levels) == "BAD_OPTION"
-    assert code_of(df.Solver, POINTS, FACES, levels) == "BAD_OPTION"
-
-
-@pytest.mark.parametrize(
-    "option",
-    [
-        {"threads": np.array([1, 2])},
-        {"measure": np.array([True, False])},
-        {"measure": np.zeros(3)},
-        {"epsilon": 10**400},
-        {"pad_size": np.array([1.0, 0.0])},
-        {"tolerance": [[0.1], [0.2]], "interpolation": "approximate"},
-    ],
-    ids=str,
-)
-def test_options_that_are_several_or_too_large(option):
-    assert code_of(df.fair, POINTS, FACES, 1, **option) in ("BAD_OPTION", "BAD_SHAPE")
-
-
 @pytest.mark.parametrize("watcher", [{"progress": 5}, {"progress": "print"}, {"monitor": 0}])
 def test_watchers_are_looked_at_before_the_run(watcher):
     """The mesh, which has nothing to fair, is not even looked at."""
@@ -107,25 +85,6 @@ def test_masked_entries_are_not_shown_again():
     assert code_of(df.fair, POINTS, FACES, 1, **options) == "BAD_SHAPE"
     with pytest.raises(df.FairingError):
         df.Solver(POINTS, FACES, 1).solve(points)
-
-
-def misaligned(array):
-    raw = np.zeros(array.nbytes + 1, np.uint8)
-    view = raw[1:].view(array.dtype).reshape(array.shape)
-    view[...] = array
-    assert not view.flags.aligned and view.flags.c_contiguous
-    return view
-
-
-def test_misaligned_arrays_are_not_read_in_place():
-    from discrete_fairing import arrays
-
-    faces = (misaligned(CORNERS), misaligned(OFFSETS))
-    for array in (arrays.vertex_array(misaligned(POINTS)), *arrays.face_arrays(faces)):
-        assert array.flags.aligned and array.flags.c_contiguous
-    expected = df.fair(POINTS, FACES, 1).vertices
-    assert np.array_equal(df.fair(misaligned(POINTS), faces, 1).vertices, expected)
-    assert df.check(misaligned(POINTS), faces) == []
 
 
 class Scribbler(threading.Thread):

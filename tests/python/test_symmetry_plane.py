@@ -131,21 +131,3 @@ def test_a_keel_that_is_creased_stays_sharp():
     assert sorted(map(sorted, sharp.crease_edges.tolist())) == keel
     alone = df.fair(points, faces, 3, corner_vertices=ENDS, **TIGHT)
     assert np.allclose(sharp.vertices, alone.vertices, atol=1e-7), "as its own border"
-
-
-@pytest.mark.parametrize(
-    "options",
-    [
-        {"corner_vertices": [28]},
-        {"crease_edges": [[0, 28]]},
-        {"boundary_edges": {"free": [[0, 28]]}},
-        {"corner_vertices": [-1]},
-    ],
-    ids=str,
-)
-def test_vertices_of_the_other_half_are_no_vertices_of_the_mesh(options):
-    points, faces = hull()
-    assert len(points) == 28
-    with pytest.raises(df.FairingError) as caught:
-        df.fair(points, faces, 1, symmetry_plane="y", **options)
-    assert caught.value.code == "INDEX_OUT_OF_RANGE" and caught.value.elements in ([28], [-1])

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import tight
 from shared_data import SHARED, read_obj
-from surfaces import boundary_vertices, size_of
+from surfaces import size_of
 
 CLOSED = ("octahedron", "cube", "torus", "creature", "mixed_house", "dodecahedron", "three_handles")
 ENERGIES = ("thin_plate", "total_curvature")
@@ -120,8 +120,9 @@ def test_the_solver_takes_hardly_more_iterations(name, pad_size):
     assert half["converged"] and full["converged"]
 
 
+@pytest.mark.parametrize("tension", (0, 0.7))
 @pytest.mark.parametrize("pad_size", (0, 0.5))
-def test_the_plate_is_a_linear_map_of_the_positions(pad_size):
+def test_the_plate_is_a_linear_map_of_the_positions(pad_size, tension):
     vertices, faces = meshes.creature()
     rng = np.random.default_rng(2)
     first, second = (vertices + 0.1 * rng.standard_normal(vertices.shape) for _ in range(2))
@@ -131,7 +132,7 @@ def test_the_plate_is_a_linear_map_of_the_positions(pad_size):
         faces,
         levels=2,
         pad_size=pad_size,
-        tension=0.7,
+        tension=tension,
         relative_residual=1e-12,
         shapes=[first, second, mixed],
     )
@@ -155,16 +156,6 @@ def test_a_scaled_mesh_has_the_scaled_surface(energy):
     options = {"levels": 2, "energy": energy, "tension": 0.6, "relative_residual": 1e-11}
     one, large = (tight.fair(scale * vertices, faces, **options).vertices for scale in (1, 1000))
     assert np.abs(large / 1000 - one).max() < 1e-5 * size_of(vertices)
-
-
-def test_curves_depend_on_their_own_vertices_alone():
-    mesh = meshes.wavy_patch(6, 5)
-    for boundary in ("curve", "linear"):
-        slack, taut = (tight.fair(*mesh, levels=2, boundary=boundary, tension=t) for t in (0, 1))
-        rim = boundary_vertices(taut.triangles)
-        assert len(rim) == 4 * 2 * (6 + 5)
-        assert np.array_equal(slack.vertices[rim], taut.vertices[rim])
-        assert np.abs(slack.vertices - taut.vertices).max() > 1e-2
 
 
 @pytest.mark.parametrize("energy", ENERGIES)
@@ -243,12 +234,6 @@ def test_spheres_flatten_towards_their_hulls(name):
     assert taut.report["converged"]
     assert np.abs(np.linalg.norm(round_.vertices, axis=1) - 1).max() < 1e-4
     assert volume(tight.fair(vertices, faces, levels=0)) < volume(taut) < volume(round_)
-
-
-@pytest.mark.parametrize("energy", ENERGIES)
-def test_prediction_bounds_the_peak(energy):
-    report = tight.fair(*meshes.creature(), levels=3, energy=energy, tension=0.5).report
-    assert report["peak_bytes"] <= report["predicted_bytes"]
 
 
 @pytest.mark.parametrize("tension", (-0.1, 1.1, float("nan")))

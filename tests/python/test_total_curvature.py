@@ -1,19 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """energy="total_curvature": known surfaces, and what every mode promises."""
 
-import threading
-import time
-
 import control_meshes as meshes
-import discrete_fairing as df
 import inscribed
 import numpy as np
 import pytest
 import tight
 from surfaces import (
     assert_same_positions,
-    boundary_vertices,
-    output_faces,
     random_rotation,
     size_of,
 )
@@ -175,17 +169,6 @@ def test_numbering_does_not_matter(name):
     )
 
 
-@pytest.mark.parametrize("boundary", ["curve", "linear"])
-@pytest.mark.parametrize("name", ["wavy_patch", "fan3", "fan8", "roof"])
-def test_boundaries_are_the_thin_plates(name, boundary):
-    """To the last bit."""
-    mesh = meshes.ALL[name]()
-    curved, plate = fair(mesh, 3, boundary=boundary), tight.fair(*mesh, 3, boundary=boundary)
-    rim = boundary_vertices(output_faces(curved))
-    assert curved.vertices[rim].tobytes() == plate.vertices[rim].tobytes()
-    assert (curved.vertices != plate.vertices).any()
-
-
 @pytest.mark.parametrize("name", ["wavy_patch", "fan3", "fan8"])
 def test_a_free_boundary_is_lower(name):
     mesh = meshes.ALL[name]()
@@ -223,57 +206,8 @@ def caps(rim: np.ndarray):
     )
 
 
-def test_a_region_leaves_the_rest():
-    vertices, faces = meshes.creature()
-    region = list(range(40))
-    curved = fair((vertices, faces), 3, region=region)
-    plate = tight.fair(vertices, faces, 3, region=region)
-    last = curved.report["curvature"][-1]
-    assert last["converged"] and last["energy"] < last["plate_energy"]
-    triangles, quads = curved.faces
-    outside = np.concatenate(
-        [triangles[curved.triangle_polygon >= 40].ravel(), quads[curved.quad_polygon >= 40].ravel()]
-    )
-    assert curved.vertices[outside].tobytes() == plate.vertices[outside].tobytes()
-
-
-@pytest.mark.parametrize("name", ["creature", "wavy_patch"])
-def test_control_vertices_that_may_move_lower_the_energy(name):
-    mesh = meshes.ALL[name]()
-    option = {"interpolation": "approximate", "tolerance": 0.05}
-    loose = fair(mesh, 2, **option).report
-    others = (fair(mesh, 2), tight.fair(*mesh, 2, **option))
-    assert 0.01 <= loose["largest_deviation"] <= 0.05
-    for other in others:
-        least = other.report["energy"]["result"]["total_curvature"]
-        assert loose["energy"]["result"]["total_curvature"] < least
-
-
 def test_a_shape_of_the_same_positions_is_the_same_surface():
     vertices, faces = meshes.creature()
     result = fair((vertices, faces), 2, shapes=[vertices, vertices * [1, 1, 1.2]])
     assert np.array_equal(result.shapes[0], result.vertices)
     assert np.array_equal(result.shapes[1][: len(vertices)], vertices * [1, 1, 1.2])
-
-
-def cancelled(**options) -> float:
-    """Seconds that a run took until it ended as cancelled."""
-    start = time.monotonic()
-    with pytest.raises(df.FairingError) as caught:
-        fair(meshes.torus(40, 30), 5, **options)
-    assert caught.value.code == "CANCELLED"
-    return time.monotonic() - start
-
-
-def test_cancels_at_once_and_midway():
-    assert cancelled(progress=lambda fraction, phase: False) < 5
-    monitor = df.Monitor()
-    threading.Timer(1.5, monitor.cancel).start()
-    assert cancelled(monitor=monitor) < 10
-
-
-def test_progress_does_not_change_the_result():
-    calls = []
-    watched = fair(meshes.creature(), 2, progress=lambda fraction, phase: calls.append(fraction))
-    assert calls == sorted(calls) and calls[-1] == 1
-    assert np.array_equal(watched.vertices, fair(meshes.creature(), 2).vertices)
