@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from .curve_cage import FAIRING_PG_curves
     from .inspection.settings import FAIRING_PG_display, FAIRING_PG_inspection
     from .live.switch import FAIRING_PG_live
-    from .memory import FAIRING_PG_mesh, FAIRING_PG_surface
+    from .memory import FAIRING_PG_fit, FAIRING_PG_mesh, FAIRING_PG_surface
     from .properties import FAIRING_PG_settings
     from .strain.settings import FAIRING_PG_strain, FAIRING_PG_strain_drawing
 
@@ -32,6 +32,7 @@ if TYPE_CHECKING:
         discrete_fairing_live: FAIRING_PG_live
         discrete_fairing_inspection: FAIRING_PG_display
         discrete_fairing_strain: FAIRING_PG_strain
+        discrete_fairing_fit: FAIRING_PG_fit
 
     class Scene(bpy.types.Scene):
         """A scene with the panel's settings."""

@@ -237,6 +237,46 @@ def patch_arguments(fairing: Mapping[str, Any], options: PatchOptions) -> dict[s
     }
 
 
+# of the surface itself, or of vertices that a fit moves by itself
+_NOT_OF_FITS = {"energy", "interpolation", "tolerance", "fair_tolerance", "weights", "normals"}
+_NOT_OF_FITS |= {"pad_size", "measure"}
+
+
+def of_fits(fairing: Mapping[str, Any]) -> dict[str, Any]:
+    """Those of `fair_arguments` or `patch_arguments` that a fit to a scan has too."""
+    return {name: value for name, value in fairing.items() if name not in _NOT_OF_FITS}
+
+
+def patches_on_scan(arguments: Mapping[str, Any], scan: Mapping[str, Any]) -> dict[str, Any]:
+    """`patch_arguments` for the surface near a scan, given by arguments of `discrete_fairing.fit`."""
+    kept = ("tolerance",)  # of the patches
+    return of_fits(arguments) | {name: arguments[name] for name in kept} | {"scan": scan}
+
+
+class ScanSolver:
+    """As discrete_fairing.Solver, for the surface near a scan: each is fitted from the start, with a
+    weight that is known.
+    """
+
+    vertex_origin = None
+
+    def __init__(self, scan: Mapping[str, Any], arguments: Mapping[str, Any]) -> None:
+        self._arguments = {**of_fits(arguments), **scan}
+
+    def solve(self, vertices: np.ndarray | None = None, **watchers: Any) -> Any:
+        moved = {} if vertices is None else {"vertices": vertices}
+        result = module().fit(**(self._arguments | moved), **watchers)
+        result.report["warm"] = False
+        return result
+
+
+def solver(arguments: Mapping[str, Any]) -> Any:
+    """What makes surfaces again and again while vertices move; with a `scan` among the arguments, near it."""
+    own = dict(arguments)
+    scan = own.pop("scan", None)
+    return module().Solver(**own) if scan is None else ScanSolver(scan, own)
+
+
 def plate_arguments(fairing: Mapping[str, Any]) -> dict[str, Any]:
     """Keyword arguments for `discrete_fairing.strain` and `ease`: those of `fair_arguments`, for the
     thin plate on pads through all vertices. Levels above the second change nothing.

@@ -39,6 +39,9 @@ REMEDIES = {
     "UNRESOLVED": "Move or add vertices there, or crease the edges where it turns",
     "PATCH_TOLERANCE": "Raise Levels, Tolerance or Angle of the export, or add vertices there",
     "SURFACE_TOLERANCE": "Raise Tolerance, or set Fairness to Curvature, which settles sooner than Bending",
+    "FIT_TOO_COARSE": "Add edges to these faces of the cage (Loop Cut, Subdivide), and press Recompute",
+    "FIT_NO_POINTS": "Leave them: the surface is as fair there as its surroundings allow; or scan that place again",
+    "FIT_OUTLIERS": "Leave them: they have no effect; or delete them",
     "NOT_CONVERGED": "Set Spacing to ½ or lower, or use fewer levels",
 }
 _UNRESOLVED_TAUTER = "Move or add vertices there, crease the edges where it turns, or raise Tension"
@@ -84,6 +87,15 @@ _WHAT = {
     "PATCH_TOLERANCE": (
         "face has a patch that misses the tolerance",
         "faces have patches that miss the tolerance",
+    ),
+    "FIT_TOO_COARSE": (
+        "face is too large to follow the scan",
+        "faces are too large to follow the scan",
+    ),
+    "FIT_NO_POINTS": ("face has no points of the scan", "faces have no points of the scan"),
+    "FIT_OUTLIERS": (
+        "point is far off the surface near this scan",
+        "points are far off the surface near this scan",
     ),
     "SURFACE_TOLERANCE": (
         "face has a surface that still changes by more than the tolerance from level to level",

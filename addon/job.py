@@ -39,6 +39,8 @@ NOTICED_MEMORY = 2**28  # bytes: less than this is nothing beside Blender itself
 class Job:
     """The fairing of one object. A failed or cancelled job leaves everything as it was."""
 
+    made_name = "Fair"  # of a new object, behind its source's
+
     def __init__(
         self,
         context: Context,
@@ -105,12 +107,11 @@ class Job:
         """Runs the core; `watchers` are its `monitor` and `progress`."""
         begun = perf_counter()
         with errors.explained(self.name):
-            self.result = core.faired(self.arguments, self.pieces, self.spread, **watchers)
+            self.result = self.surface(**watchers)
         self.transfer = AttributeTransfer(self.result, self.arrays, self.settings.levels)
         self._edges = edge_table(self.result.faces)
         self._at_tolerance = core.at_tolerance(self.arguments, self.result.vertices)
-        world = self.shape.of_arrays(self.arrays)
-        self.faults = find_faults(self.result, self.transfer, world)
+        self.faults = find_faults(self.result, self.transfer, self.control())
         self._to_object()
         mended = errors.repairs_text(self.result.report["repairs"])
         if mended:
@@ -122,6 +123,14 @@ class Job:
             self._symmetrize()
         self._seams = seam_pairs(self.result, self.arrays, self.settings, self._edges)
         self._taken = perf_counter() - begun
+
+    def surface(self, **watchers: Any) -> Any:
+        """The core's result."""
+        return core.faired(self.arguments, self.pieces, self.spread, **watchers)
+
+    def control(self) -> core.ControlArrays:
+        """The mesh that the surface is compared with, as the core has it."""
+        return self.shape.of_arrays(self.arrays)
 
     @property
     def predicted_seconds(self) -> float:
@@ -196,7 +205,8 @@ class Job:
         carried = carried_names(self.data, self.keys)
         if old is None:
             materials = source.data.materials
-            mesh = write_mesh(f"{self.name} Fair", result, sharp_pairs, materials, self._edges)
+            name = f"{self.name} {self.made_name}"
+            mesh = write_mesh(name, result, sharp_pairs, materials, self._edges)
             target = new_object(context, source, mesh)
         else:
             target = old
@@ -224,9 +234,13 @@ class Job:
             place.follow(context, target)
         freshness.note(target, self._made)
         display.refresh(target, scene_of(target).discrete_fairing_inspection)
-        work = self._work(settings.levels)
-        prediction.note(settings.energy, work, self._taken, self._source.key)
+        self.note_time()
         return target
+
+    def note_time(self) -> None:
+        """For the next prediction."""
+        work = self._work(self.settings.levels)
+        prediction.note(self.settings.energy, work, self._taken, self._source.key)
 
     def warnings(self) -> list[str]:
         """What the user should know of a finished job, a sentence each."""

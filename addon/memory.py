@@ -6,15 +6,22 @@ unset when the file is opened or objects are appended from it.
 """
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, cast
 
 import bpy
-from bpy.props import BoolProperty, FloatVectorProperty, PointerProperty, StringProperty
+from bpy.props import (
+    BoolProperty,
+    CollectionProperty,
+    FloatProperty,
+    FloatVectorProperty,
+    PointerProperty,
+    StringProperty,
+)
 
 from . import events, records
 from .blender import Context, Object, all_objects, all_scenes, attach, detach
-from .properties import KeptSettings, bring_up_to_date, copy_settings
+from .properties import FitAmount, KeptSettings, bring_up_to_date, copy_settings
 from .settings import Settings
 
 # by the names of object and record: panels ask at every redraw, and records are long
@@ -83,6 +90,24 @@ class FAIRING_PG_surface(KeptSettings, bpy.types.PropertyGroup):
     )
 
 
+class FAIRING_PG_scan(bpy.types.PropertyGroup):
+    """One of the scans of a surface."""
+
+    target: PointerProperty(
+        name="Scan",
+        description="The object whose points the surface is near",
+        type=bpy.types.Object,
+    )
+
+
+class FAIRING_PG_fit(FitAmount, bpy.types.PropertyGroup):
+    """What a surface near scans remembers of them; empty for other surfaces."""
+
+    scans: CollectionProperty(type=FAIRING_PG_scan)
+    weight: FloatProperty(name="Weight", description="How strongly points pull", options={"HIDDEN"})
+    said: StringProperty(name="Fit", description="How near the surface is", options={"HIDDEN"})
+
+
 class FAIRING_PG_mesh(bpy.types.PropertyGroup):
     """What goes with the curvature colours of a mesh."""
 
@@ -107,6 +132,26 @@ def remember(
     target.discrete_fairing.unfinished = False
     copy_settings(settings, target.discrete_fairing)
     keep(target, "report", report)
+
+
+def remember_fit(
+    target: Object, scans: Sequence[Object], tolerance: float | None, weight: float, said: str
+) -> None:
+    """Notes on `target` which scans it is near, and how. `tolerance`: None: as near as noise allows."""
+    kept = target.discrete_fairing_fit
+    kept.scans.clear()
+    for scan in scans:
+        kept.scans.add().target = scan
+    kept.amount = "AUTO" if tolerance is None else "TOLERANCE"
+    if tolerance is not None:
+        kept.tolerance = tolerance
+    kept.weight, kept.said = weight, said
+
+
+def scans_of(target: Object) -> list[Object]:
+    """The scans that a surface is near, those that are still there."""
+    kept: Any = target.discrete_fairing_fit.scans
+    return [each.target for each in kept if each.target is not None]
 
 
 def keep(target: Object, name: str, record: Mapping[str, Any]) -> None:
@@ -169,6 +214,7 @@ _GROUPS = (
     "discrete_fairing_live",
     "discrete_fairing_inspection",
     "discrete_fairing_strain",
+    "discrete_fairing_fit",
 )
 
 
@@ -217,6 +263,8 @@ _HANDLERS = {
 def register() -> None:
     attach(bpy.types.Object, "discrete_fairing", FAIRING_PG_surface)
     attach(bpy.types.Mesh, "discrete_fairing", FAIRING_PG_mesh)
+    bpy.utils.register_class(FAIRING_PG_scan)
+    attach(bpy.types.Object, "discrete_fairing_fit", FAIRING_PG_fit)
     events.listen(_HANDLERS)
     # the file that is open now, as in preferences.py
     if not bpy.app.background:
@@ -227,5 +275,7 @@ def unregister() -> None:
     if bpy.app.timers.is_registered(unset_unsound_settings):
         bpy.app.timers.unregister(unset_unsound_settings)
     events.ignore(_HANDLERS)
+    detach(bpy.types.Object, "discrete_fairing_fit", FAIRING_PG_fit)
+    bpy.utils.unregister_class(FAIRING_PG_scan)
     detach(bpy.types.Mesh, "discrete_fairing", FAIRING_PG_mesh)
     detach(bpy.types.Object, "discrete_fairing", FAIRING_PG_surface)

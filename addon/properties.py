@@ -251,6 +251,33 @@ class FairingSettings:
     )
 
 
+class FitAmount:
+    """Mix-in of annotations: how closely a surface follows a scan."""
+
+    amount: EnumProperty(
+        name="Amount",
+        description="How closely the surface follows the scan",
+        items=(
+            ("AUTO", "Automatic", "As closely as the noise of the scan allows"),
+            (
+                "TOLERANCE",
+                "Within Tolerance",
+                "The calmest surface with 95 % of the scan within it",
+            ),
+        ),
+        default="AUTO",
+    )
+    tolerance: FloatProperty(
+        name="Tolerance",
+        description="Distance that 95 % of the scan's points are within",
+        default=0.001,
+        min=1e-9,
+        subtype="DISTANCE",
+        unit="LENGTH",
+        precision=5,
+    )
+
+
 class KeptSettings(FairingSettings):
     """Mix-in of annotations for what files and presets set."""
 

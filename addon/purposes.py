@@ -53,6 +53,12 @@ PURPOSES = (
         "Points with an error: eased first, as the shape key Eased, then a surface through them (Bending)",
         5,
     ),
+    (
+        "SCAN_SURFACE",
+        "Scan to Surface",
+        "A scan, and a cage drawn over it if there is one: the fairest surface near its points, as a new object",
+        6,
+    ),
 )
 
 
@@ -64,8 +70,11 @@ TRADES = {
     "CHARACTER": "animals, heads",
     "SCAN_PATCH": "noise, measured faces",
     "POINTS": "offsets, probes, scatter",
+    "SCAN_SURFACE": "reverse engineering, CAD",
 }
 EASED_FIRST = {"POINTS"}
+# which are no settings of Fair Surface but operators of their own
+OPERATORS = {"SCAN_SURFACE": "fairing_fit"}
 # what the panel shows of a job, to be changed at will
 OFFERED = {"levels", "limit", "tolerance", "tolerance_unit"}
 _DIGITS = 1e-6  # of Blender's numbers, which are in single precision

@@ -1,77 +1,189 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The fair surface of a cage near scans: read, `discrete_fairing.fit`, a new object; and cages by QuadriFlow."""
+"""The fair surface of a cage near scans, an ordinary surface of its cage that remembers its scans; and cages
+by QuadriFlow.
+"""
 
-from collections.abc import Hashable, Sequence
-from dataclasses import dataclass
-from time import perf_counter
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import Any, cast
 
 import bpy
 import numpy as np
 
-from . import core, errors, prediction, size
+from . import core, memory, prediction
 from .blender import Context, Mesh, Object
+from .check.defects import recall_defects, store_defects
 from .errors import JobError
-from .mesh.begun import Begun
+from .job import Job
 from .mesh.object import Reference, new_object, select_only
-from .mesh.read import control_mesh, read_mesh
-from .mesh.world_shape import transformed, world_matrix, world_shape
-from .mesh.write import write_mesh
-from .preferences import preferences
+from .mesh.scans import Scan, read_scans
 from .settings import Settings
-from .transfer.lattice import edge_table, fine_edges
 from .units import Units
 
-SCAN_TYPES = {"MESH", "POINTCLOUD"}
-# of the surface itself, or of vertices that a fit moves by itself
-_NOT_OF_FITS = ("energy", "interpolation", "tolerance", "weights", "normals", "pad_size", "measure")
+TOO_COARSE, NO_POINTS, OUTLIERS = "FIT_TOO_COARSE", "FIT_NO_POINTS", "FIT_OUTLIERS"
 
 
 @dataclass(frozen=True)
-class Scan:
-    """Points in the world, and triangles between them; (0, 3) for point clouds."""
+class Fit:
+    """What a surface is fitted to, and how closely."""
 
-    points: np.ndarray
-    triangles: np.ndarray
+    scan: Scan  # in the world
+    tolerance: float | None = None  # scene units; None: as closely as the noise allows
+    weight: float | None = None  # of the core, where it is known already
+    objects: Sequence[Object] = ()  # that the scan was read from
 
+    @classmethod
+    def of(cls, context: Context, target: Object, again: bool = True) -> "Fit | None":
+        """What the surface `target` was fitted to, as it is now; None for other surfaces. `again`: the
+        weight is found again. Raises JobError where the scans are gone.
+        """
+        kept = target.discrete_fairing_fit
+        if not len(kept.scans):
+            return None
+        scans = memory.scans_of(target)
+        if not scans:
+            raise JobError(
+                f"{target.name}: Select a scan and the cage, and run Fair Surface on Scan. Its scan was deleted."
+            )
+        scan = read_scans(context, scans)
+        if not again:
+            return cls(scan, weight=kept.weight, objects=scans)
+        return cls(scan, kept.tolerance if kept.amount == "TOLERANCE" else None, objects=scans)
 
-def read_scan(context: Context, target: Object) -> Scan:
-    """As the window shows it: with modifiers, in the world."""
-    depsgraph = context.evaluated_depsgraph_get()
-    owner = target.evaluated_get(depsgraph)
-    matrix = np.array(world_matrix(target), dtype=np.float64)
-    if target.type == "POINTCLOUD":
-        cloud: Any = owner.data
-        points = np.empty(3 * len(cloud.points), np.float32)
-        cloud.points.foreach_get("co", points)
-        return Scan(
-            transformed(points.reshape(-1, 3).astype(np.float64), matrix),
-            np.empty((0, 3), np.int64),
-        )
-    mesh = cast(Mesh, owner.to_mesh())
-    try:
-        points = np.empty(3 * len(mesh.vertices), np.float32)
-        mesh.vertices.foreach_get("co", points)
-        mesh.calc_loop_triangles()
-        triangles = np.empty(3 * len(mesh.loop_triangles), np.int32)
-        mesh.loop_triangles.foreach_get("vertices", triangles)
-    finally:
-        owner.to_mesh_clear()
-    corners = triangles.reshape(-1, 3).astype(np.int64)
-    if np.linalg.det(matrix[:3, :3]) < 0:
-        corners = corners[:, ::-1]
-    return Scan(transformed(points.reshape(-1, 3).astype(np.float64), matrix), corners)
+    def arguments(self, cage: Object) -> dict[str, Any]:
+        """Of `discrete_fairing.fit`."""
+        scan = self.scan.in_shape_of(cage)
+        return scan.arguments | {"tolerance": self.tolerance, "weight": self.weight}
 
 
-def joined(scans: Sequence[Scan]) -> tuple[np.ndarray, np.ndarray | None]:
-    """All points, and all triangles; None where a scan has none: its points have no normals."""
-    points = np.concatenate([scan.points for scan in scans])
-    begins = np.cumsum([0, *(len(scan.points) for scan in scans[:-1])])
-    if not all(len(scan.triangles) for scan in scans):
-        return points, None
-    return points, np.concatenate(
-        [scan.triangles + begin for scan, begin in zip(scans, begins, strict=True)]
+def settings_of_fit(settings: Settings) -> Settings:
+    """Without what a fit does not know."""
+    return replace(
+        settings,
+        energy="THIN_PLATE",
+        interpolation="EXACT",
+        use_selection=False,
+        use_shape_keys=False,
+        keep_symmetry=False,
     )
+
+
+class FitJob(Job):
+    """One cage and its scans."""
+
+    made_name = "Fit"
+
+    def __init__(
+        self,
+        context: Context,
+        cage: Object,
+        fit: Fit,
+        settings: Settings,
+        target: Object | None = None,
+    ) -> None:
+        if not fit.scan.points.size:
+            raise JobError(
+                f"{cage.name}: Select the scan, too. What is selected beside the cage has no points."
+            )
+        super().__init__(context, cage, settings_of_fit(settings), target)
+        self._units = Units.of(context.scene)
+        self._scans = [Reference(scan) for scan in fit.objects]
+        self._amount = fit.tolerance
+        self._near = fit.arguments(cage)
+        self._points = len(fit.scan.points)
+
+    def surface(self, **watchers: Any) -> Any:
+        return core.module().fit(**core.of_fits(self.arguments), **self._near, **watchers)
+
+    def compute(self, **watchers: Any) -> None:
+        super().compute(**watchers)
+        self.notes.insert(0, self.said())
+
+    def control(self) -> core.ControlArrays:
+        """The cage as it was moved: what the surface is compared with."""
+        world = super().control()
+        moved = np.array(self.result.vertices[: len(world.positions)])
+        return replace(world, positions=moved)
+
+    def predict(self, _energy: str, levels: int) -> float:
+        return prediction.seconds("FIT", self._work(levels), self._source.key)
+
+    def _work(self, levels: int) -> int:
+        return super()._work(levels) + self._points
+
+    def note_time(self) -> None:
+        prediction.note("FIT", self._work(self.settings.levels), self._taken, self._source.key)
+
+    def write(self, context: Context, own: Any = None) -> Object:
+        target = super().write(context, own)
+        scans = [scan for reference in self._scans if (scan := reference.find()) is not None]
+        if scans:
+            memory.remember_fit(target, scans, self._amount, self.result.weight, self.said())
+            self._note_places(context, scans)
+        return target
+
+    def said(self) -> str:
+        """How well the surface fits, in words."""
+        found = self.result
+        length = self._units.lengths(found.within[0])
+        text = f"Within {length(found.within[0])} of 95 % of the scan; its noise is about {length(found.noise)}."
+        coarse, strays = len(found.too_coarse), len(found.outliers)
+        bare = int(np.count_nonzero(found.coverage == 0))
+        if coarse:
+            text += f" {coarse} {'face is' if coarse == 1 else 'faces are'} too coarse."
+        if bare:
+            text += f" {bare} {'face has' if bare == 1 else 'faces have'} no points."
+        if strays:
+            text += f" {strays} {'point is a stray' if strays == 1 else 'points are strays'}."
+        return text
+
+    def _note_places(self, context: Context, scans: Sequence[Object]) -> None:
+        """Lists what the words count in the panel Check, whose buttons select it: faces of the cage, and
+        points of a scan that is one plain mesh.
+        """
+        found, cage = self.result, cast(Object, self.source)
+        bare = np.flatnonzero(found.coverage == 0)
+        _note(context, cage, {TOO_COARSE: found.too_coarse, NO_POINTS: bare}, "face")
+        plain = [one for one in scans if one.type == "MESH" and one.mode == "OBJECT"]
+        if plain == scans[:1] and len(plain[0].data.vertices) == self._points:
+            _note(context, plain[0], {OUTLIERS: found.outliers}, "vertex")
+
+
+def _note(context: Context, target: Object, places: dict[str, np.ndarray], kind: str) -> None:
+    known = recall_defects(target)
+    kept = [] if known is None or known[1] else known[0]
+    new = [
+        {"code": code, "message": "", "kind": kind, "elements": ids.tolist(), "severity": "warning"}
+        for code, ids in places.items()
+        if len(ids)
+    ]
+    others = [defect for defect in kept if defect["code"] not in places]
+    if new or len(others) < len(kept):
+        store_defects(context, target, others + new)
+
+
+def job_of(
+    context: Context,
+    source: Object,
+    settings: Settings,
+    target: Object,
+    region: np.ndarray | None = None,
+    again: bool = True,
+) -> Job:
+    """What makes the surface `target` from its `source` as it is now. `again`: as `Fit.of` takes it."""
+    fit = Fit.of(context, target, again)
+    if fit is None:
+        return Job(context, source, settings, target, region)
+    return FitJob(context, source, fit, settings, target)
+
+
+def live_scan(context: Context, source: Object, target: Object) -> dict[str, Any] | None:
+    """The arguments of the fit that an edit waits for; None for other surfaces."""
+    fit = Fit.of(context, target, again=False)
+    if fit is None:
+        return None
+    scan = fit.scan.in_shape_of(source).thinned()
+    return scan.arguments | {"weight": fit.weight}
 
 
 def make_cage(context: Context, scan: Object, faces: int) -> Object:
@@ -90,102 +202,6 @@ def make_cage(context: Context, scan: Object, faces: int) -> Object:
         bpy.data.objects.remove(cage)
         bpy.data.meshes.remove(mesh)
         raise JobError(
-            f"{scan.name}: QuadriFlow made no cage of it. Close its holes first (Clean Scan), or draw a cage over it."
+            f"{scan.name}: Close its holes first (Clean Scan), or draw a cage over it. QuadriFlow made no cage of it."
         )
     return cage
-
-
-class FitJob:
-    """One cage and its scans: read, fitted on any thread, then written."""
-
-    def __init__(
-        self,
-        context: Context,
-        cage: Object,
-        scans: Sequence[Object],
-        settings: Settings,
-        tolerance: float | None,
-    ) -> None:
-        self.name, self._cage = cage.name, Reference(cage)
-        self._units = Units.of(context.scene)
-        matrix = np.array(world_matrix(cage), dtype=np.float64)
-        mirrored = np.linalg.det(matrix[:3, :3])
-        if mirrored == 0:
-            raise JobError(f"{cage.name}: its scale is 0 along an axis. Give it another scale.")
-        self._shape = world_shape(cage)
-        with control_mesh(context, cage) as mesh:
-            self._arrays = read_mesh(mesh)
-        self._begun = Begun.of("Run Fair Surface on Scan", cage, self._arrays)
-        points, triangles = joined([read_scan(context, scan) for scan in scans])
-        self._settings = settings
-        # the scan goes to where the cage's own coordinates are, in the size of the world
-        points = self._shape.of(transformed(points, np.linalg.inv(matrix)))
-        if triangles is not None and mirrored < 0:
-            triangles = triangles[:, ::-1]
-        sent = core.fair_arguments(self._shape.of_arrays(self._arrays), settings, preferences())
-        self._arguments = {k: v for k, v in sent.items() if k not in _NOT_OF_FITS}
-        self._arguments |= {
-            "points": points,
-            "triangles": triangles,
-            "tolerance": tolerance,
-        }
-        self.triangles = size.triangle_count(self._arrays.face_sizes, settings.levels)
-        self.work = self.triangles + len(points)
-        self.result: Any = None
-
-    @property
-    def _key(self) -> Hashable:
-        """For predictions."""
-        return "fit", self._cage.key
-
-    @property
-    def predicted_seconds(self) -> float:
-        """How long `compute` will take."""
-        return prediction.seconds("FIT", self.work, self._key)
-
-    def compute(self, **watchers: Any) -> None:
-        """Runs the core; `watchers` are its `monitor` and `progress`."""
-        begun = perf_counter()
-        with errors.explained(self.name):
-            self.result = core.module().fit(**self._arguments, **watchers)
-        self.result.vertices = self._shape.back(
-            self.result.vertices, self._arguments["vertices"], self._arrays.positions
-        )
-        self._edges = edge_table(self.result.faces)
-        self._taken = perf_counter() - begun
-
-    def why_outdated(self, context: Context) -> str:
-        """Why what was computed does not fit any more, in one sentence; empty if it does."""
-        return self._begun.why_outdated(context)
-
-    def write(self, context: Context) -> Object:
-        """Makes the surface as a new object beside the cage, and returns it."""
-        result, cage = self.result, cast(Object, self._cage.find())
-        creases = fine_edges(result.faces, result.crease_edges, self._settings.levels)
-        mesh = write_mesh(f"{self.name} Fit", result, creases, cage.data.materials, self._edges)
-        target = new_object(context, cage, mesh)
-        if self._settings.shade_smooth:
-            mesh.polygons.foreach_set("use_smooth", np.ones(len(mesh.polygons), bool))
-        prediction.note("FIT", self.work, self._taken, self._key)
-        return target
-
-    def said(self) -> str:
-        """How well the surface fits, in words."""
-        found = self.result
-        length = self._units.lengths(found.within[0])
-        text = f"Within {length(found.within[0])} of 95 % of the scan; its noise is about {length(found.noise)}."
-        coarse, strays = len(found.too_coarse), len(found.outliers)
-        bare = int(np.count_nonzero(found.coverage == 0))
-        if coarse:
-            text += f" {coarse} {'face is' if coarse == 1 else 'faces are'} too coarse."
-        if bare:
-            text += f" {bare} {'face has' if bare == 1 else 'faces have'} no points."
-        if strays:
-            text += f" {strays} {'point is a stray' if strays == 1 else 'points are strays'}."
-        return text
-
-    def warnings(self) -> list[str]:
-        """What the user should know, a sentence each."""
-        return [
-            errors.warning_text(self.name, warning) for warning in self.result.report["warnings"]
-        ]

@@ -16,6 +16,7 @@ from ..memory import source_of
 from ..mesh.object import Reference, new_object
 from ..mesh.shape_keys import ShapeKeys
 from ..mesh.world_shape import world_matrix
+from ..scan_fit import Fit, settings_of_fit
 from ..settings import PatchOptions, Settings, is_evaluated
 from . import colours, words
 from .nurbs import surface_of
@@ -38,14 +39,18 @@ class PatchJob(Job):
         shown: Object,
         options: PatchOptions,
         settings: Settings | None = None,
+        fit: Fit | None = None,
     ) -> None:
         """`shown`: a surface, made again from its source by its own settings, or a mesh to be faired
-        with `settings`; None: those of the scene. `options`: of the patches.
+        with `settings`; None: those of the scene. `options`: of the patches. `fit`: what a mesh is to be
+        fitted to; a surface knows its own.
         """
         source = source_of(shown)
         if source is not None:
             settings = Settings.of(shown.discrete_fairing)
+            fit = Fit.of(context, shown, again=False)
         settings = settings or Settings.of(context.scene.discrete_fairing)
+        settings = settings if fit is None else settings_of_fit(settings)
         # the lattice has levels of its own
         super().__init__(context, source or shown, replace(settings, levels=1))
         self.name = shown.name
@@ -57,6 +62,9 @@ class PatchJob(Job):
         self.notes = []  # all are of what only meshes carry
         self.colours, self.slots = colours.of_faces(shown, source or shown, self.data)
         self.arguments = core.patch_arguments(self.arguments, options)
+        if fit is not None:
+            scan = fit.arguments(source or shown)
+            self.arguments = core.patches_on_scan(self.arguments, scan)
         self._blend(shown)
         self._mesh = None if source is None else shown_mesh(context, shown)
         self._stands = np.array(world_matrix(shown), float)
@@ -113,6 +121,14 @@ class PatchJob(Job):
     def off(self) -> float:
         """How far patches are from the fair surface, in Blender units of the world."""
         return float(self._stretch.max() * self.patches.largest_off)
+
+    @property
+    def from_scan(self) -> tuple[float, float]:
+        """What 95 % of a scan's points are from the patches, and the farthest that is no stray, in Blender
+        units of the world; (0, 0) without a scan.
+        """
+        within, largest = self.patches.scan_within
+        return within * float(self._stretch.max()), largest * float(self._stretch.max())
 
     @property
     def angle(self) -> float:

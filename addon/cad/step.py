@@ -32,13 +32,26 @@ def summary(jobs: Sequence[PatchJob], unit: str, scale: float) -> str:
     factor = scale * METRES[unit] / METRES[each]
     apart = [job.apart for job in jobs if job.apart is not None]
     farthest = max(jobs, key=lambda job: job.apart or 0.0)
-    return words.summary(
-        sum(len(job.patches) for job in jobs),
-        max(job.off for job in jobs) * factor,
-        symbol,
-        max(job.angle for job in jobs),
-        max(apart) * factor if apart else None,
-    ) + _finer_text(farthest)
+    return (
+        words.summary(
+            sum(len(job.patches) for job in jobs),
+            max(job.off for job in jobs) * factor,
+            symbol,
+            max(job.angle for job in jobs),
+            max(apart) * factor if apart else None,
+        )
+        + _finer_text(farthest)
+        + _scan_text(jobs, factor, symbol)
+    )
+
+
+def _scan_text(jobs: Sequence[PatchJob], factor: float, symbol: str) -> str:
+    """How far the patches are from the scans that they are near."""
+    near = [job.from_scan for job in jobs if job.patches.scan_distances is not None]
+    if not near:
+        return ""
+    within, largest = (words.short(max(each) * factor) for each in zip(*near))
+    return f", within {within} {symbol} of 95 % of the scan, {largest} {symbol} at most"
 
 
 def _finer_text(job: PatchJob) -> str:

@@ -18,8 +18,9 @@ from ..blender import Object, current_context
 from ..cad.fit import PatchJob
 from ..errors import JobError, repairs_text
 from ..job import Job
+from ..scan_fit import Fit, FitJob
 from ..settings import PatchOptions, Settings
-from . import ease, executors, mending, report, step
+from . import ease, executors, fit, mending, report, step
 from .files import FileError, read_file, write_file, write_text
 from .options import parser, settings_of, shown
 from .places import BadPlaces, Place, is_cad, is_there, no_report_over, places
@@ -57,6 +58,7 @@ def _understand(argv: list[str]) -> tuple[argparse.Namespace, Settings, list[Pla
         no_report_over(arguments.json, files)
         arguments.patches = step.options_of(arguments, settings, files)
         arguments.mending = mending.asked_of(arguments, files)
+        arguments.drawn = fit.options_of(arguments, settings)
         return arguments, settings, files
     except (ValueError, BadPlaces) as error:
         made.error(str(error))
@@ -69,7 +71,7 @@ def _run_all(
     argv: Sequence[str],
 ) -> tuple[list[dict[str, Any]], int]:
     """Records of all inputs, also of those that an interruption left, and the exit code."""
-    reported = shown(settings) | ease.shown(arguments.prepared)
+    reported = shown(settings) | ease.shown(arguments.prepared) | fit.shown(arguments.drawn)
     if arguments.mending is not None:
         reported = arguments.mending.module.shown(arguments.mending.options)
     records = [report.new_record(file, reported) for file in files]
@@ -116,6 +118,7 @@ class _Table:
     ) -> None:
         self.is_wanted = not arguments.quiet
         self._mends = getattr(arguments.mending, "module", None)
+        self._meshes: Any = report if arguments.drawn is None else fit
         self._files, self._records = files, records
         self._width = max((len(record["input"]) for record in records), default=0)
         if self.is_wanted:
@@ -126,6 +129,8 @@ class _Table:
             return self._mends.table_head(self._width)
         if arguments.patches is not None:
             return step.table_head(self._width)
+        if self._meshes is fit:
+            return fit.table_head(self._width)
         return report.table_head(self._width, energy)
 
     def line(self, index: int) -> None:
@@ -137,7 +142,7 @@ class _Table:
         """The module that knows what a line of the table says."""
         if self._mends:
             return self._mends
-        return step if is_cad(self._files[index].target) else report
+        return step if is_cad(self._files[index].target) else self._meshes
 
 
 def _run_batches(
@@ -205,7 +210,11 @@ def _run_one(
 def _fair_file(
     file: Place, record: dict[str, Any], arguments: argparse.Namespace, settings: Settings
 ) -> None:
-    sources = read_file(file.source, arguments.merge)
+    near: Fit | None = None
+    if arguments.drawn is None:
+        sources = read_file(file.source, arguments.merge)
+    else:
+        sources, near = fit.read(file, arguments.drawn, arguments.merge)
     prepared = arguments.prepared
     ease.require_one(sources, prepared)
     progress = Progress(sys.stderr, str(file.source), len(sources) * (1 + prepared.runs))
@@ -220,7 +229,7 @@ def _fair_file(
     try:
         preparing = ease.Preparing(prepared, settings, asked)
         entries, tables = preparing.run(sources, progress.next_run, **watchers)
-        jobs = [_job(source, settings, patches) for source in sources]
+        jobs = [_job(source, settings, patches, near) for source in sources]
         for job in jobs:
             # the table and the report have energies
             job.arguments |= asked | {"measure": is_read and patches is None}
@@ -238,6 +247,10 @@ def _fair_file(
         for warning in job.warnings():
             record["warnings"].append(warning)
             _say(f"{file.source}: warning: {warning}")
+        if near is not None:
+            entry["fit"] = fit.entry(job)
+            if not arguments.quiet:
+                _say(f"{file.source}: {fit.said(entry['fit'])}")
         is_patches = isinstance(job, PatchJob)
         done = step.object_entry(job) if is_patches else _replace(job, source)
         record["objects"].append(done | entry)
@@ -272,10 +285,12 @@ def _mend_file(file: Place, record: dict[str, Any], arguments: argparse.Namespac
     write_file(file.target)
 
 
-def _job(source: Object, settings: Settings, patches: PatchOptions | None) -> Any:
-    if patches is None:
-        return Job(current_context(), source, settings)
-    return PatchJob(current_context(), source, patches, settings)
+def _job(source: Object, settings: Settings, patches: PatchOptions | None, near: Fit | None) -> Any:
+    if patches is not None:
+        return PatchJob(current_context(), source, patches, settings, near)
+    if near is not None:
+        return FitJob(current_context(), source, near, settings)
+    return Job(current_context(), source, settings)
 
 
 def _replace(job: Job, source: Object) -> dict[str, Any]:

@@ -9,7 +9,7 @@ from typing import Any
 
 from ..properties import FAIRING_PG_settings
 from ..settings import NAMES, OF_NEAR, Settings
-from . import ease, mending, step
+from . import ease, fit, mending, step
 from .numbers import number
 from .places import FORMATS
 
@@ -63,6 +63,7 @@ examples:
   {_PROGRAM} offsets.obj hull.step --unit m --ease --strain offsets.csv
   {_PROGRAM} scan.ply closed.ply --fill --largest-hole 30
   {_PROGRAM} scan.stl closed.ply --clean --clean-noise 10
+  {_PROGRAM} --fit scan.ply --cage cage.obj --tolerance 0.2 part.step
   {_PROGRAM} *.obj 'fair/{{name}}_fair.obj' --quiet --json report.json
 
 exit codes:
@@ -311,6 +312,7 @@ def parser(version: str) -> argparse.ArgumentParser:
     add_settings(made)
     step.add_options(made)
     ease.add_options(made)
+    fit.add_options(made)
     mending.add_options(made)
     return made
 

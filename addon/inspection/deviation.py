@@ -10,6 +10,7 @@ from mathutils import Vector, bvhtree, kdtree
 from ..blender import Context, Object
 from ..core import ControlArrays
 from ..mesh.read import control_mesh, read_mesh
+from ..mesh.scans import Scan
 from ..mesh.world_shape import transformed, world_matrix, world_shape
 from ..transfer.cut_out import cut_out
 
@@ -47,6 +48,24 @@ def from_object(
     tree = make(there)
     there.free()
     return signed_distances(tree, _in_world(target, positions))
+
+
+def from_scan(target: Object, positions: np.ndarray, scan: Scan) -> np.ndarray:
+    """(n,) at each of the surface's `positions` (n, 3) the distance from a scan in the world, in scene
+    units; positive outside of it. Points without triangles have no side: there along the surface's normals.
+    """
+    surface = _in_world(target, positions)
+    if len(scan.triangles):
+        make: Any = bvhtree.BVHTree.FromPolygons
+        tree = make(scan.points.tolist(), scan.triangles.tolist(), all_triangles=True)
+        return signed_distances(tree, surface)
+    normals = np.empty(3 * len(positions), np.float32)
+    target.data.vertex_normals.foreach_get("vector", normals)
+    matrix = np.array(world_matrix(target), dtype=np.float64)[:3, :3]
+    turned = normals.reshape(-1, 3) @ np.linalg.inv(matrix) * np.sign(np.linalg.det(matrix))
+    nearest, away = _nearest(scan.points, surface)
+    outside = ((surface - scan.points[nearest]) * turned).sum(axis=1) >= 0.0
+    return np.where(outside, away, -away)
 
 
 def signed_distances(tree: Any, points: np.ndarray) -> np.ndarray:

@@ -6,9 +6,10 @@ from typing import Any
 import numpy as np
 
 from ..blender import Context, Mesh, Object, Scene, all_objects, current_context
-from ..memory import source_of
+from ..memory import scans_of, source_of
 from ..mesh.layers import fill_layer, layer_values, make_layer
 from ..mesh.read import control_mesh, read_mesh
+from ..mesh.scans import read_scans
 from ..mesh.world_shape import world_shape
 from ..settings import is_evaluated
 from ..units import curvature_text, length_text
@@ -44,11 +45,15 @@ def write_values(target: Object, mode: str, settings: Any) -> None:
 
 
 def _write_deviation(context: Context, target: Object, other: Object | None) -> None:
-    """From `other`; None: from the control vertices, of which a mesh without a source has none."""
+    """From `other`; None: from its scans, or from the control vertices, of which a mesh without a source
+    has none.
+    """
     positions = read_mesh(target.data).positions
     source = source_of(target)
     if other is not None:
         values = deviation.from_object(context, target, positions, other)
+    elif scans_of(target):
+        values = deviation.from_scan(target, positions, read_scans(context, scans_of(target)))
     elif source is not None:
         with control_mesh(context, source, is_evaluated(target.discrete_fairing)) as mesh:
             control = read_mesh(mesh).positions
@@ -159,7 +164,8 @@ def _is_quick(target: Object, mode: str, settings: Any) -> bool:
     """Distances are looked for point by point; from another object also face by face."""
     if mode != "DEVIATION":
         return True
-    return settings.deviation_object is None and len(target.data.vertices) <= QUICK
+    other = settings.deviation_object is not None or scans_of(target)
+    return not other and len(target.data.vertices) <= QUICK
 
 
 def recolour(target: Object, settings: Any) -> None:

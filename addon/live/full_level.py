@@ -8,8 +8,8 @@ import numpy as np
 
 from .. import core, errors
 from ..blender import Context, Object
-from ..job import Job
 from ..queue import Queue, phase_text
+from ..scan_fit import job_of
 from ..settings import Settings
 
 PAUSE = 0.3  # seconds without an edit
@@ -33,7 +33,7 @@ class FreshSolver:
 
     def compute(self, **watchers: Any) -> None:
         with errors.explained(self.name):
-            solver = core.module().Solver(**self._arguments)
+            solver = core.solver(self._arguments)
             solver.solve(**watchers)
         self.solver = solver
 
@@ -53,7 +53,8 @@ class FullLevel:
 
         `arguments`: of the live solver, for `region` or all faces.
         """
-        self.job = Job(context, source, Settings.of(target.discrete_fairing), target, region)
+        settings = Settings.of(target.discrete_fairing)
+        self.job = job_of(context, source, settings, target, region, again=False)
         now = ("vertices", "tolerance", "weights")
         its = {name: self.job.arguments[name] for name in now if name in self.job.arguments}
         self.arguments = {**arguments, **its}  # of the fresh solver

@@ -24,6 +24,7 @@ from ..mesh.read import control_mesh, read_mesh, selected_faces, tolerance_facto
 from ..mesh.world_shape import WorldShape, world_shape
 from ..mesh.write import has_faces_of, rebuild_mesh, write_positions
 from ..preferences import preferences
+from ..scan_fit import live_scan
 from ..settings import Settings, halves, is_evaluated
 from .full_level import FullLevel, Schedule, is_dragging
 from .pace import Clock, Deadline, Pace
@@ -69,6 +70,7 @@ class Session:
         self._arrays: Any = None
         self._settings: Any = None
         self._shape = WorldShape(None)
+        self._scan: Any = None  # as core.solver takes it
         self._region: np.ndarray | None = None
         self._tolerance_factors: np.ndarray | None = None
         self._pulls: np.ndarray | None = None
@@ -142,6 +144,7 @@ class Session:
                 _chosen_level(target),
             )
             self._shape = world_shape(source)
+            self._scan = live_scan(current_context(), source, target)
         with self._mesh_now(source, depsgraph) as mesh:
             arrays = read_mesh(mesh)
             if not self._has_values_of(arrays):
@@ -218,6 +221,8 @@ class Session:
             "step_tolerance": _STEP,
         }
         arguments["energy"] = self._pace.energy(arguments["energy"])
+        if self._scan is not None:
+            arguments["scan"] = self._scan
         if (
             self.solver is not None
             and core.are_equal(
@@ -227,7 +232,7 @@ class Session:
         ):
             return False
         self.solver = self._mesh = None
-        self.solver = core.module().Solver(**arguments)
+        self.solver = core.solver(arguments)
         self._arguments = arguments
         return True
 

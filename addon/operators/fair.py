@@ -22,6 +22,7 @@ from ..mesh.read import source_objects
 from ..poll import ExplainedPoll
 from ..properties import KeptSettings, bring_up_to_date, copy_settings, fill_in, take_near
 from ..queue import ConsoleProgress, MeshJob, running
+from ..scan_fit import job_of
 from ..settings import Settings
 from ..ui.layout import draw_settings
 from . import redo
@@ -236,7 +237,7 @@ def _again(context: Context, target: Object) -> Job:
     """From its source as it is now, whose own curves, if there are any, come first."""
     source = cast(Object, source_of(target))
     remarks = curve_cage.follow(source).remarks if curve_cage.is_cage(source) else []
-    job = Job(context, source, Settings.of(target.discrete_fairing), target)
+    job = job_of(context, source, Settings.of(target.discrete_fairing), target)
     job.notes += remarks
     return job
 

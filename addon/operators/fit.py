@@ -1,23 +1,25 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Fair Surface on Scan: the fairest surface of a cage near a scan."""
 
-from collections.abc import Sequence
 from dataclasses import replace
 from typing import cast
 
 import bpy
-from bpy.props import EnumProperty, FloatProperty, IntProperty
+from bpy.props import IntProperty
 
-from ..blender import Answer, Context, Object, registration
-from ..mesh.object import nothing_left_behind, select_only
-from ..scan_fit import SCAN_TYPES, FitJob, make_cage
+from ..blender import Context, Object, registration
+from ..job import Job
+from ..mesh.scans import is_scan, read_scans
+from ..properties import FitAmount
+from ..scan_fit import Fit, FitJob, make_cage
 from ..settings import Settings
+from ..ui.layout import draw_amount
 from .fair import WholeFairing, poll_reason
 
 
 def _chosen(context: Context) -> tuple[Object | None, list[Object]]:
     """The cage, None where it is to be made; and the scans."""
-    selected = [o for o in context.selected_objects if o.type in SCAN_TYPES]
+    selected = [o for o in context.selected_objects if is_scan(o)]
     active = context.active_object
     if len(selected) == 1:
         return None, selected
@@ -26,7 +28,7 @@ def _chosen(context: Context) -> tuple[Object | None, list[Object]]:
     return active, [o for o in selected if o != active]
 
 
-class OBJECT_OT_fairing_fit(WholeFairing, bpy.types.Operator):
+class OBJECT_OT_fairing_fit(WholeFairing, FitAmount, bpy.types.Operator):
     """Make the fairest surface near the selected scans, from the active mesh as cage or from a cage made for a lone scan"""
 
     bl_idname = "object.fairing_fit"
@@ -40,28 +42,6 @@ class OBJECT_OT_fairing_fit(WholeFairing, bpy.types.Operator):
         default=2,
         min=0,
         max=6,
-    )
-    amount: EnumProperty(
-        name="Amount",
-        description="How closely the surface follows the scan",
-        items=(
-            ("AUTO", "Automatic", "As closely as the noise of the scan allows"),
-            (
-                "TOLERANCE",
-                "Within Tolerance",
-                "The calmest surface with 95 % of the scan within it",
-            ),
-        ),
-        default="AUTO",
-    )
-    tolerance: FloatProperty(
-        name="Tolerance",
-        description="Distance that 95 % of the scan's points are within",
-        default=0.001,
-        min=1e-9,
-        subtype="DISTANCE",
-        unit="LENGTH",
-        precision=5,
     )
     cage_faces: IntProperty(
         name="Faces of Cage",
@@ -82,38 +62,24 @@ class OBJECT_OT_fairing_fit(WholeFairing, bpy.types.Operator):
         if not scans:
             return "Select the scan, or the scan first and the cage last"
         if cage is None and scans[0].type != "MESH":
-            return "A point cloud needs a cage: select it last"
+            return "Select the cage last: one can be made for a mesh, not for a point cloud"
         return ""
 
     def draw(self, context: Context) -> None:
         layout = cast(bpy.types.UILayout, self.layout)
         layout.use_property_split = True
         layout.prop(self, "levels")
-        layout.prop(self, "amount")
-        if self.amount == "TOLERANCE":
-            layout.prop(self, "tolerance")
+        draw_amount(layout, self)
         layout.prop(self, "cage_faces")
 
-    def make_jobs(self, context: Context) -> list[FitJob]:
+    def make_jobs(self, context: Context) -> list[Job]:
         cage, scans = _chosen(context)
         if cage is None:
             cage = make_cage(context, scans[0], self.cage_faces)
         settings = replace(Settings.of(context.scene.discrete_fairing), levels=self.levels)
         tolerance = self.tolerance if self.amount == "TOLERANCE" else None
-        return [FitJob(context, cage, scans, settings, tolerance)]
-
-    def finish(self, context: Context, jobs: Sequence[FitJob]) -> Answer:
-        """Makes the objects, if nobody has changed the cages meanwhile."""
-        if self.is_outdated(context, jobs):
-            return {"CANCELLED"}
-        with nothing_left_behind():
-            made = [job.write(context) for job in jobs]
-        for job in jobs:
-            self.report({"INFO"}, f"{job.name}: {job.said()}")
-            for sentence in job.warnings():
-                self.report({"WARNING"}, sentence)
-        select_only(context, made)
-        return {"FINISHED"}
+        fit = Fit(read_scans(context, scans), tolerance, objects=scans)
+        return [FitJob(context, cage, fit, settings)]
 
 
 register, unregister = registration(OBJECT_OT_fairing_fit)

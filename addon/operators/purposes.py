@@ -10,7 +10,7 @@ from bpy.props import EnumProperty
 from ..blender import Answer, Context, registration
 from ..mesh.read import source_objects
 from ..poll import ExplainedPoll
-from ..purposes import EASED_FIRST, PURPOSES, preset_file
+from ..purposes import EASED_FIRST, OPERATORS, PURPOSES, preset_file
 from ..settings import Settings
 from ..ui.main import active_settings, fairing_operator, remembered
 from .fair import poll_reason
@@ -54,6 +54,8 @@ class OBJECT_OT_fairing_for(ExplainedPoll, bpy.types.Operator):
 
     def _run(self, context: Context, how: str) -> Answer:
         operators: Any = bpy.ops.object
+        if self.purpose in OPERATORS:
+            return getattr(operators, OPERATORS[self.purpose])(how, _UNDO)
         path = preset_file(self.purpose)
         if path is None:
             if context.mode == "OBJECT":

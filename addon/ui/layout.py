@@ -71,6 +71,13 @@ def draw_job(
         _draw_tolerance(layout, settings, known)
 
 
+def draw_amount(layout: bpy.types.UILayout, near: Any) -> None:
+    """How closely a surface follows a scan; `near`: an operator or property group with FitAmount."""
+    layout.prop(near, "amount")
+    if near.amount == "TOLERANCE":
+        layout.prop(near, "tolerance")
+
+
 def draw_fairness(
     layout: bpy.types.UILayout, settings: FairingSettings, known: Known = _NOTHING
 ) -> None:

@@ -10,7 +10,7 @@ from .. import core, errors, prediction, size, vertex_values
 from ..blender import Context, Mesh, Object, registration
 from ..core import mean_edge_length, takes_normals, tolerance
 from ..live import switch
-from ..memory import FAIRING_PG_surface, recall, source_of, source_problem
+from ..memory import FAIRING_PG_fit, FAIRING_PG_surface, recall, source_of, source_problem
 from ..mesh import boundary_marks, fixed_normals
 from ..mesh.mesh_changes import coarse_triangles, shown
 from ..mesh.object import session_key
@@ -23,7 +23,7 @@ from ..purposes import PRESET_FOLDER, is_shipped, job_of
 from ..queue import Queue, running, status_text
 from ..settings import Settings, halves, is_evaluated, is_limit, is_near, subdivision
 from ..units import length_text
-from .layout import Known, Sidebar, draw_fairness, draw_folded, draw_job, draw_shape
+from .layout import Known, Sidebar, draw_amount, draw_fairness, draw_folded, draw_job, draw_shape
 from .live import draw_live, draw_stale, draw_stale_surfaces
 from .notice import draw_notice
 from .pictures import PRESETS, draw_pictures, draw_purposes
@@ -88,8 +88,12 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
             vertices_text(settings, sources),
             follows(settings, sources),
         )
-        job = job_of(settings)
+        near = _near_scans(context) if memory is not None else None
+        job = "SCAN_SURFACE" if near is not None else job_of(settings)
         draw_job(layout, settings, known, job)
+        if near is not None:
+            draw_amount(layout, near)
+            draw_notice(layout, near.said, icon="INFO")
         if triangles >= size.LARGE:
             draw_notice(
                 layout,
@@ -116,7 +120,7 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
         header, more = layout.panel("fairing.more", default_closed=True)
         header.label(text="More")
         if more is not None:
-            if job:
+            if job and near is None:
                 draw_fairness(more, settings, known)
             draw_shape(more, settings, known)
             draw_folded(more, settings, "fairing")
@@ -130,6 +134,12 @@ def remembered(context: Context) -> FAIRING_PG_surface | None:
     if active is None or active.type != "MESH" or active.discrete_fairing.source is None:
         return None
     return active.discrete_fairing
+
+
+def _near_scans(context: Context) -> FAIRING_PG_fit | None:
+    """What the active surface remembers of its scans; None for other surfaces."""
+    near = cast(Object, context.active_object).discrete_fairing_fit
+    return near if len(near.scans) else None
 
 
 def fairing_operator(context: Context) -> Any:

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from math import inf
 from typing import Any
@@ -17,8 +17,10 @@ from .checking import predicted_size
 from .errors import fairing_error
 from .fairing import fair
 from .options import real, switch, whole
+from .patch_distances import distances_from
 from .patches import SplinePatches, control_polygons
 from .result import Result
+from .scan_fitting import Fitted, fit
 from .watching import Progress, SeveralRuns, check_watchers
 
 FIRST_LEVEL, LAST_LEVEL, LEAST_LEVEL = 5, 8, 3
@@ -45,6 +47,7 @@ def fit_patches(
     levels: int | None = None,
     force: bool = False,
     fair_tolerance: float | ArrayLike | None = None,
+    scan: Mapping[str, Any] | None = None,
     blend: Callable[[Result, int], np.ndarray] | None = None,
     threads: int = 0,
     progress: Progress | None = None,
@@ -71,6 +74,9 @@ def fit_patches(
         are in patches.unresolved then.
     fair_tolerance : float or (n,) float, mesh units
         fair()'s own tolerance, with interpolation="approximate".
+    scan : dict
+        Arguments of fit(), points at least: patches of the surface near that scan, and
+        patches.scan_distances. The weight of the first level counts for all.
     blend : callable (Result, level) -> (N, 3) float64
         What patches are fitted to in place of the result's vertices, such as a mix of them with its
         shapes. Called for each surface, at each level; patches.result has the outcome.
@@ -96,8 +102,14 @@ def fit_patches(
     points = vertex_array(vertices)
     polygons = face_arrays(faces)
 
+    given = None if scan is None else dict(scan)
+
     def surface(level: int, **watchers: Any) -> Result:
-        result = fair(points, polygons, level, **options, **watchers)
+        if given is None:
+            result = fair(points, polygons, level, **options, **watchers)
+        else:
+            result = fit(points, polygons, levels=level, **given, **options, **watchers)
+            given.update(tolerance=None, weight=result.weight)
         if blend is not None:
             result.vertices = np.ascontiguousarray(blend(result, level), np.float64)
         return result
@@ -120,7 +132,20 @@ def fit_patches(
         error = change_between(coarser, result, level) / ORDER
         found = run.checked(run.fitted(result, level, error, runs.run(0.6, 1.0)))
     runs.finish()
+    if given is not None and isinstance(found.result, Fitted):
+        off = _on_one_side(np.asarray(given["points"], np.float64), found.result, options)
+        found.scan_distances = distances_from(found, off, found.result.faces_of_points)
     return found
+
+
+def _on_one_side(points: np.ndarray, half: Result, options: Mapping[str, Any]) -> np.ndarray:
+    """The points of a scan, mirrored to where `half` is if there is a symmetry_plane."""
+    if options.get("symmetry_plane") is None:
+        return points
+    axis = "xyz".index(options["symmetry_plane"])
+    points = points.copy()
+    points[:, axis] = np.copysign(points[:, axis], half.vertices[:, axis].sum())
+    return points
 
 
 def _at_own_level(

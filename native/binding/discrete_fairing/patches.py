@@ -58,7 +58,9 @@ class SplinePatches:
     unresolved: (u,) int64, input faces where the refined surface folds, or turns too sharply.
     size: float, the largest extent along an axis.
     tolerance, normal_tolerance: float, those asked for; tolerance is a share of the size.
-    levels: int, of the refined surface; result: Result, that surface.
+    levels: int, of the refined surface; result: Result, that surface; with a scan a Fitted.
+    scan_distances: (S,) float64, of each point of a scan from its patch, along the patch's normal,
+    positive outside; NaN where the surface has no place for it; None without a scan.
     """
 
     def __init__(self, arrays: dict[str, Any], result: Result, levels: int):
@@ -88,6 +90,7 @@ class SplinePatches:
         self.refinement_error: np.ndarray = arrays["lattice_error"][self.patch_face]
         self.unresolved: np.ndarray = arrays["unresolved"]
         self.patch_shell, self.shell_closed = self._shells()
+        self.scan_distances: np.ndarray | None = None
 
     def __len__(self) -> int:
         return len(self.patch_spans)
@@ -185,6 +188,16 @@ class SplinePatches:
     def largest_off(self) -> float:
         """The farthest that a patch is from the fair surface, mesh units: what `tolerance` bounds."""
         return float(self.off.max(initial=0))
+
+    @property
+    def scan_within(self) -> tuple[float, float]:
+        """What 95 % of scan_distances are within, and all but those of outliers; (0, 0) without a scan."""
+        if self.scan_distances is None:
+            return 0.0, 0.0
+        far = np.abs(self.scan_distances)
+        far[getattr(self.result, "outliers", [])] = np.nan
+        far = np.sort(far[np.isfinite(far)])
+        return (float(far[int(0.95 * (len(far) - 1))]), float(far[-1])) if len(far) else (0.0, 0.0)
 
     @property
     def _patch_of_steps(self) -> np.ndarray:

@@ -4,7 +4,16 @@
 import bpy
 import numpy as np
 import pytest
+import step_files
+from fake_layout import draw
 from scenes import activate, add, positions
+
+from addon.freshness import SOURCE_CHANGED, why_stale
+from addon.inspection import display
+from addon.live import registry, switch
+from addon.mesh.layers import layer_values
+from addon.mesh.scans import read_scans
+from addon.ui.main import VIEW3D_PT_fairing
 
 
 def ball(name, segments, radius=1.0, noise=0.0):
@@ -106,3 +115,115 @@ def test_what_cannot_be_fitted_is_said():
     with pytest.raises(RuntimeError, match="Select the scan"):
         bpy.ops.object.fairing_fit()
     assert len(bpy.data.objects) == count
+
+
+def fitted(cage_of=cage_of_cube, **options):
+    scan, cage = ball("Scan", 5, noise=0.01), cage_of()
+    select(scan, cage)
+    assert bpy.ops.object.fairing_fit(levels=3, **options) == {"FINISHED"}
+    return scan, cage, bpy.context.active_object
+
+
+def off(target):
+    return np.sqrt(np.mean((np.linalg.norm(world(target), axis=1) - 1) ** 2))
+
+
+def test_recompute_fits_again_and_follows_the_cage():
+    scan, cage, made = fitted()
+    before = world(made)
+    scan.hide_set(True)  # its modifiers count as before
+    activate(made)
+    assert bpy.ops.object.fairing_recompute() == {"FINISHED"}
+    np.testing.assert_array_equal(world(made), before)
+    assert why_stale(made) == ""
+    cage.data.vertices[0].co *= 1.3
+    cage.data.update()
+    bpy.context.view_layer.update()
+    assert why_stale(made) == SOURCE_CHANGED
+    assert bpy.ops.object.fairing_recompute() == {"FINISHED"}
+    assert np.abs(world(made) - before).max() > 0 and off(made) < 0.007
+
+
+def test_amount_of_the_panel_counts_when_it_is_made_again():
+    _, _, made = fitted()
+    near, weight = made.discrete_fairing_fit, made.discrete_fairing_fit.weight
+    near.amount, near.tolerance = "TOLERANCE", 0.05
+    assert bpy.ops.object.fairing_recompute() == {"FINISHED"}
+    assert near.amount == "TOLERANCE" and near.weight < weight / 2
+    shown = draw(VIEW3D_PT_fairing)
+    above = shown[: shown.index("object.fairing_recompute")]
+    assert {"Scan to Surface", "amount", "tolerance"} <= set(above)
+    assert "of 95 % of the scan" in " ".join(map(str, above))
+
+
+def test_a_scan_that_is_gone_is_said():
+    scan, _, made = fitted()
+    bpy.data.objects.remove(scan)
+    with pytest.raises(RuntimeError, match="Its scan was deleted"):
+        bpy.ops.object.fairing_recompute()
+    assert off(made) < 0.007
+
+
+def test_live_follows_the_cage_near_the_scan():
+    _, cage, made = fitted()
+    weight = made.discrete_fairing_fit.weight
+    switch.switch_on(made)
+    cage.data.vertices[0].co *= 1.2
+    cage.data.update()
+    (session,) = registry.sessions()
+    assert session.follow() or session.updates
+    assert session.trouble == "" and off(made) < 0.02
+    switch.switch_off(made, bpy.context)
+    assert made.discrete_fairing_fit.weight == pytest.approx(weight)
+    assert len(made.data.vertices) == 386 and off(made) < 0.007
+
+
+def test_deviation_is_from_the_scan():
+    scan, _, made = fitted()
+    settings = bpy.context.scene.discrete_fairing_inspection
+    display.show(made, "DEVIATION", settings)
+    values = layer_values(made.data.attributes["fair_deviation"])
+    assert 0.001 < np.abs(values).mean() < 0.01
+    # a scan whose points are all off by as much
+    scan.scale = (0.9, 0.9, 0.9)
+    bpy.context.view_layer.update()
+    display.show(made, "DEVIATION", settings)
+    values = layer_values(made.data.attributes["fair_deviation"])
+    assert values.mean() == pytest.approx(0.1, abs=0.01)
+    scan.data.clear_geometry()
+    scan.data.from_pydata((1.2 * world(made)).tolist(), [], [])
+    display.show(made, "DEVIATION", settings)
+    values = layer_values(made.data.attributes["fair_deviation"])
+    assert values.mean() == pytest.approx(-0.08, abs=0.01)  # points, inwards
+
+
+def test_instances_and_point_clouds_count():
+    part = ball("Part", 4)
+    bpy.context.collection.objects.unlink(part)
+    shared = bpy.data.collections.new("Shared")
+    shared.objects.link(part)
+    empty = bpy.data.objects.new("Instance", None)
+    empty.instance_type, empty.instance_collection = "COLLECTION", shared
+    empty.location, empty.scale = (3, 0, 0), (2, 2, -2)
+    bpy.context.collection.objects.link(empty)
+    bpy.context.view_layer.update()
+    found = read_scans(bpy.context, [empty])
+    assert np.linalg.norm(found.points - (3, 0, 0), axis=1) == pytest.approx(2, abs=1e-5)
+    a, b, c = (found.points[found.triangles[:, k]] for k in range(3))
+    assert (np.einsum("ij,ij->i", np.cross(b - a, c - a), a - (3, 0, 0)) > 0).all()
+    cage = cage_of_cube()
+    cage.location, cage.scale = (3, 0, 0), (2, 2, 2)
+    select(empty, cage)
+    assert bpy.ops.object.fairing_fit(levels=3) == {"FINISHED"}
+    radii = np.linalg.norm(world(bpy.context.active_object) - (3, 0, 0), axis=1)
+    assert np.abs(radii - 2).max() < 0.05
+
+
+def test_patches_of_a_surface_near_a_scan_are_near_it(tmp_path, capsys):
+    _, _, made = fitted()
+    activate(made)
+    path = str(tmp_path / "ball.step")
+    assert bpy.ops.export_scene.fairing_step(filepath=path, unit="M") == {"FINISHED"}
+    found = step_files.read(path)
+    assert (found.valid, found.solids, found.faces) == (True, 1, 6)
+    assert "of 95 % of the scan" in capsys.readouterr().out

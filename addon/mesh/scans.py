@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Scans as arrays: meshes, point clouds and instances, with modifiers, in the world."""
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..blender import Context, Mesh, Object
+from .read import control_mesh
+from .world_shape import transformed, world_matrix, world_shape
+
+MOST_LIVE = 20_000  # points that an edit waits for
+
+
+@dataclass(frozen=True)
+class Scan:
+    """Points, triangles between them or none, and normals where these are in place of triangles."""
+
+    points: np.ndarray  # (S, 3) float64
+    triangles: np.ndarray  # (T, 3) int64
+    normals: np.ndarray | None = None  # (S, 3), outwards, of any length; zero where unknown
+
+    def in_shape_of(self, cage: Object) -> "Scan":
+        """Where the cage's own coordinates are, in the size that it has in the world."""
+        matrix = np.array(world_matrix(cage), dtype=np.float64)
+        moved = self.moved(np.linalg.inv(matrix))
+        return Scan(world_shape(cage).of(moved.points), moved.triangles)
+
+    def moved(self, matrix: np.ndarray) -> "Scan":
+        """By a (4, 4) matrix; a mirrored one turns the triangles, so that they look outward."""
+        turned = np.linalg.det(matrix[:3, :3]) < 0
+        triangles = self.triangles[:, ::-1] if turned else self.triangles
+        return Scan(transformed(self.points, matrix), triangles)
+
+    def thinned(self) -> "Scan":
+        """Few enough points for an edit to wait for; what triangles know of sides goes with them."""
+        step = -(-len(self.points) // MOST_LIVE)
+        normals = self._normals()[::step] if len(self.triangles) else None
+        return Scan(self.points[::step], np.empty((0, 3), np.int64), normals)
+
+    def _normals(self) -> np.ndarray:
+        a, b, c = (self.points[self.triangles[:, k]] for k in range(3))
+        own = np.repeat(np.cross(b - a, c - a), 3, axis=0)
+        count, at = len(self.points), self.triangles.ravel()
+        return np.stack([np.bincount(at, own[:, k], count) for k in range(3)], axis=1)
+
+    @property
+    def arguments(self) -> dict[str, Any]:
+        """Of `discrete_fairing.fit`."""
+        triangles = self.triangles if len(self.triangles) else None
+        return {"points": self.points, "triangles": triangles, "normals": self.normals}
+
+
+def is_scan(target: Object) -> bool:
+    """Whether it may be one: an empty is that stands for a collection."""
+    if target.type == "EMPTY":
+        return target.instance_type == "COLLECTION"
+    return target.type in {"MESH", "POINTCLOUD"}
+
+
+def read_scans(context: Context, targets: Sequence[Object]) -> Scan:
+    """All of them as one, as the window shows them: with modifiers and instances, in the world."""
+    parts = [part for target in targets for part in (*_own(context, target),)]
+    parts += _instances(context, targets)
+    begins = np.cumsum([0, *(len(part.points) for part in parts)])
+    return Scan(
+        np.concatenate([np.empty((0, 3)), *(part.points for part in parts)]),
+        np.concatenate(
+            [
+                np.empty((0, 3), np.int64),
+                *(part.triangles + begin for part, begin in zip(parts, begins)),
+            ]
+        ),
+    )
+
+
+def _own(context: Context, target: Object) -> Iterator[Scan]:
+    matrix = np.array(world_matrix(target), dtype=np.float64)
+    if target.type == "POINTCLOUD":
+        owner = target.evaluated_get(context.evaluated_depsgraph_get())
+        yield _of_cloud(owner.data).moved(matrix)
+    elif target.type == "MESH":
+        with control_mesh(context, target, evaluated=True) as mesh:
+            yield of_mesh(mesh).moved(matrix)
+
+
+def _instances(context: Context, targets: Iterable[Object]) -> list[Scan]:
+    """What collections, nodes and instancers among the `targets` show elsewhere."""
+    found, meshes = [], {}
+    wanted = {target.name_full for target in targets}
+    depsgraph: Any = context.evaluated_depsgraph_get()
+    for instance in depsgraph.object_instances:
+        if not instance.is_instance or instance.parent.original.name_full not in wanted:
+            continue
+        owner, matrix = instance.object, np.array(instance.matrix_world, dtype=np.float64)
+        if owner.type not in {"MESH", "POINTCLOUD"}:
+            continue
+        key = owner.data.as_pointer()
+        if key not in meshes:
+            meshes[key] = (_of_cloud if owner.type == "POINTCLOUD" else of_mesh)(owner.data)
+        found.append(meshes[key].moved(matrix))
+    return found
+
+
+def of_mesh(mesh: Mesh) -> Scan:
+    """In its own coordinates."""
+    points = np.empty(3 * len(mesh.vertices), np.float32)
+    mesh.vertices.foreach_get("co", points)
+    mesh.calc_loop_triangles()
+    triangles = np.empty(3 * len(mesh.loop_triangles), np.int32)
+    mesh.loop_triangles.foreach_get("vertices", triangles)
+    return Scan(points.reshape(-1, 3).astype(np.float64), triangles.reshape(-1, 3).astype(np.int64))
+
+
+def _of_cloud(cloud: Any) -> Scan:
+    points = np.empty(3 * len(cloud.points), np.float32)
+    cloud.points.foreach_get("co", points)
+    return Scan(points.reshape(-1, 3).astype(np.float64), np.empty((0, 3), np.int64))

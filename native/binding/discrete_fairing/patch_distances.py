@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How far points are from spline patches: each from the patches of the face that it lies over."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .patches import SplinePatches
+
+_SAMPLES = 8  # a side of a patch, to begin with; then Newton's steps
+_STEPS = 5
+_AT_ONCE = 1 << 15  # points: 16 control points each
+
+
+def distances_from(patches: SplinePatches, points: np.ndarray, polygons: np.ndarray) -> np.ndarray:
+    """(S,) float64, positive outside: from the nearest point of the patches of the input face
+    `polygons` (S,) along the patch's normal; NaN where that is -1. `points` (S, 3).
+    """
+    found = np.full(len(points), np.nan)
+    patch, places = _begin(patches, points, polygons)
+    for first in range(0, len(points), _AT_ONCE):
+        part = np.arange(first, min(first + _AT_ONCE, len(points)))
+        part = part[patch[part] >= 0]
+        found[part] = _along_normals(patches, points[part], patch[part], places[part])
+    return found
+
+
+def _begin(
+    patches: SplinePatches, points: np.ndarray, polygons: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """The patch of each point, -1 for none, and where on it the sample lies that is nearest."""
+    side = np.linspace(0.0, 1.0, _SAMPLES + 1)
+    grid = np.stack(np.meshgrid(side, side, indexing="ij"), -1).reshape(-1, 2)
+    patch, places = np.full(len(points), -1), np.zeros((len(points), 2))
+    of_points, of_patches = (
+        np.argsort(x, kind="stable") for x in (polygons, patches.patch_polygon)
+    )
+    for polygon in np.unique(polygons[polygons >= 0]).tolist():
+        here = _with(of_points, polygons, polygon)
+        own = _with(of_patches, patches.patch_polygon, polygon)
+        if not len(own):
+            continue
+        samples = evaluate(patches, np.repeat(own, len(grid)), np.tile(grid, (len(own), 1)))[0]
+        middle = samples.mean(axis=0)
+        samples = samples - middle
+        square = (samples**2).sum(axis=1)
+        for rows in np.array_split(here, len(here) * len(samples) // 2**22 + 1):
+            nearest = (square - 2.0 * (points[rows] - middle) @ samples.T).argmin(axis=1)
+            patch[rows], places[rows] = own[nearest // len(grid)], grid[nearest % len(grid)]
+    return patch, places
+
+
+def _with(order: np.ndarray, values: np.ndarray, value: int) -> np.ndarray:
+    """Where `values` are `value`; `order` sorts them."""
+    begin, end = np.searchsorted(values, [value, value + 1], sorter=order)
+    return order[begin:end]
+
+
+def _along_normals(
+    patches: SplinePatches, points: np.ndarray, patch: np.ndarray, places: np.ndarray
+) -> np.ndarray:
+    for _ in range(_STEPS):
+        at, along, across = evaluate(patches, patch, places)
+        a, b, c = ((x * y).sum(1) for x, y in ((along, along), (along, across), (across, across)))
+        p, q = (((points - at) * x).sum(1) for x in (along, across))
+        determinant = a * c - b * b
+        determinant[determinant <= 0.0] = np.inf
+        step = np.stack([c * p - b * q, a * q - b * p], 1) / determinant[:, None]
+        places = np.clip(places + step, 0.0, 1.0)
+    at, along, across = evaluate(patches, patch, places)
+    normal = np.cross(along, across)
+    length = np.linalg.norm(normal, axis=1)
+    return ((points - at) * normal).sum(1) / np.where(length > 0.0, length, np.inf)
+
+
+def evaluate(
+    patches: SplinePatches, patch: np.ndarray, places: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """(k, 3) points of the patches `patch` (k,) at `places` (k, 2) in [0, 1]², and the derivatives
+    along u and v.
+    """
+    spans = patches.patch_spans[patch].astype(np.int64)
+    (row, u, du), (column, v, dv) = (_basis(places[:, k], spans[:, k]) for k in (0, 1))
+    rows, columns = (first[:, None] + np.arange(4) for first in (row, column))
+    ids = patches.patch_offsets[patch][:, None, None] + (
+        rows[:, :, None] * (spans[:, 1] + 3)[:, None, None] + columns[:, None, :]
+    )
+    net = patches.patch_points[ids]
+    across, across_slope = (np.einsum("kabx,kb->kax", net, w) for w in (v, dv))
+    return (
+        np.einsum("kax,ka->kx", across, u),
+        np.einsum("kax,ka->kx", across, du),
+        np.einsum("kax,ka->kx", across_slope, u),
+    )
+
+
+def _basis(x: np.ndarray, spans: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The first of the four cubics that are not zero at x (k,), their values and slopes (k, 4); knots as
+    of spline_knots [Piegl and Tiller 1997, A2.2].
+    """
+    n = spans.astype(np.float64)
+    first = np.minimum((x * n).astype(np.int64), spans - 1)
+
+    def knot(i: int) -> np.ndarray:
+        return np.clip((first + i - 3) / n, 0.0, 1.0)
+
+    values = [np.ones_like(x)]
+    for degree in (1, 2, 3):
+        lower, values = values, [np.zeros_like(x) for _ in range(degree + 1)]
+        slopes = [np.zeros_like(x) for _ in range(degree + 1)]
+        for r in range(degree):
+            low, high = knot(4 - degree + r), knot(4 + r)
+            share = lower[r] / (high - low)
+            values[r] += (high - x) * share
+            values[r + 1] += (x - low) * share
+            slopes[r] -= degree * share
+            slopes[r + 1] += degree * share
+    return first, np.stack(values, 1), np.stack(slopes, 1)

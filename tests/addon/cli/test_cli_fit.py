@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The command line draws cages to scans, and writes meshes and STEP files."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import step_files
+from cli_files import read_obj
+from cli_runs import entries, run
+from scans import blob_cage, blob_scan, cube_sphere, distance_to_blob, rms
+
+NOISE = 0.004
+
+
+def write(name, points, faces=()):
+    lines = ["v {} {} {}".format(*point) for point in points]
+    lines += ["f " + " ".join(str(corner + 1) for corner in face) for face in faces]
+    Path(name).write_text("\n".join(["o Scan", *lines]) + "\n")
+
+
+def write_points(name, points):
+    head = ["ply", "format ascii 1.0", f"element vertex {len(points)}"]
+    head += [f"property float {axis}" for axis in "xyz"] + ["end_header"]
+    Path(name).write_text("\n".join([*head, *("{} {} {}".format(*p) for p in points)]) + "\n")
+
+
+@pytest.fixture
+def blob():
+    """A cloud of points, and a cage for it."""
+    write_points("scan.ply", blob_scan(8000, NOISE))
+    write("cage.obj", *blob_cage(4, 0.02))
+
+
+def test_points_and_a_cage_become_a_step_file_whose_distances_are_told(blob, capsys):
+    words = ("--fit", "scan.ply", "--cage", "cage.obj", "out.step", "--levels", 3)
+    code, (entry,) = entries(*words, "--fit-tolerance", 1e-3)
+    (item,) = entry["objects"]
+    assert code == 0 and item["result"] == {"patches": 96, "solids": 1, "shells": 0}
+    told = item["fit"]
+    assert told["points"] == 8000 and told["noise"] == pytest.approx(NOISE, rel=0.15)
+    assert told["within"] == pytest.approx(1.96 * NOISE, rel=0.15)
+    assert told["within"] < told["largest"] < 8 * NOISE
+    assert "of 95 % of 8,000 points, largest" in capsys.readouterr().err
+    found = step_files.read("out.step")
+    assert (found.valid, found.solids, found.faces) == (True, 1, 96)
+
+
+def test_a_tolerance_is_a_length_or_a_share_of_the_cages_edge(blob):
+    near = []
+    for tolerance in ("0.02", "4%"):
+        words = ("--fit", "scan.ply", "--cage", "cage.obj", "--tolerance", tolerance, "--levels", 2)
+        code, (entry,) = entries(*words, "out.obj")
+        assert code == 0
+        near.append(entry["objects"][0]["fit"]["within"])
+    assert 0.01 < near[0] <= 0.02 and 1.96 * NOISE < near[1] < 0.04
+    assert rms(distance_to_blob(read_obj("out.obj"))) < 0.02
+
+
+def test_a_scan_alone_gets_a_cage(capsys):
+    sphere, quads = cube_sphere(20)
+    noise = 1 + 0.003 * np.random.default_rng(1).standard_normal((len(sphere), 1))
+    write("scan.obj", sphere * noise, quads)
+    code, (entry,) = entries("--fit", "scan.obj", "--cage-faces", 60, "out.obj", "--levels", 2)
+    (item,) = entry["objects"]
+    assert code == 0 and 30 < item["control"]["faces"] < 200
+    assert item["result"]["faces"] == 16 * item["control"]["faces"]
+    assert np.abs(np.linalg.norm(read_obj("out.obj"), axis=1) - 1).max() < 0.02
+    head = next(line for line in capsys.readouterr().err.splitlines() if "within" in line)
+    assert head.split()[-2:] == ["within", "noise"]
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (("scan.ply", "out.obj", "--cage", "cage.obj"), "--cage needs --fit"),
+        (("--fit", "scan.ply", "out.obj", "--cage", "cage.dwg"), "no cage"),
+        (("--fit", "scan.ply", "out.obj", "--energy", "total_curvature"), "--energy is not for"),
+        (("--fit", "scan.ply", "out.obj", "--ease"), "--ease is not for --fit"),
+        (("--fit", "scan.ply", "out.obj", "--cage", "cage.obj", "--cage-faces", 9), "give one of"),
+        (("--fit", "scan.ply", "out.obj", "--tolerance", 0), "must be over 0"),
+    ],
+)
+def test_what_contradicts_is_said(blob, capsys, words, sentence):
+    assert run(*words) == 2
+    assert sentence in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("change", "code", "sentence"),
+    [
+        (lambda points: 1000 * points, "BAD_SHAPE", "units"),
+        (lambda points: points + [20, 0, 0], "BAD_SHAPE", "Move"),
+        (lambda points: points[:1], "BAD_SHAPE", "1 point"),
+    ],
+)
+def test_scans_that_do_not_fit_are_refused_in_words(blob, change, code, sentence):
+    write_points("scan.ply", change(blob_scan(2000)))
+    exit_code, (entry,) = entries("--fit", "scan.ply", "--cage", "cage.obj", "out.obj")
+    assert (exit_code, entry["error"]["code"]) == (1, code)
+    assert sentence in entry["error"]["message"] and not Path("out.obj").exists()
+
+
+def test_points_alone_need_a_cage(blob):
+    _, (entry,) = entries("--fit", "scan.ply", "out.obj")
+    assert entry["error"]["code"] == "NO_CAGE" and "give it as --cage" in entry["error"]["message"]
