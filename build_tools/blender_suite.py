@@ -28,7 +28,6 @@ LONG = [
     "window_run.py",
     "window_live.py",
     "window_jobs.py",
-    "window_curves.py",
     "headless_endurance.py",
 ]
 # They time how long a window stops, so nothing else of the suite runs beside them in the same Blender.

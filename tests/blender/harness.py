@@ -37,6 +37,22 @@ def until(done, patience=120.0):
         yield 0.05
 
 
+def running():
+    """The extension's queue at work, or None."""
+    return module("queue").running()
+
+
+def until_it_ends(patience=300.0):
+    """Waits for the run; a generator that returns how often the window had its turn meanwhile."""
+    begun, turns = perf_counter(), 0
+    while running():
+        assert perf_counter() - begun < patience, "the run does not end"
+        turns += 1
+        yield 0.05
+    yield 0.5
+    return turns
+
+
 def fresh_scene(empty=True):
     """The start-up scene, or an empty one; the enabled extension stays."""
     bpy.ops.wm.read_homefile(use_empty=empty, use_factory_startup=False)

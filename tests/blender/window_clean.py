@@ -3,7 +3,6 @@
 
 import sys
 from pathlib import Path
-from time import perf_counter
 
 sys.path.insert(0, str(Path(__file__).parent))
 
@@ -11,8 +10,6 @@ import bmesh
 import bpy
 import harness
 import numpy as np
-
-PATIENCE = 300.0  # seconds until a run must have ended
 
 
 def scan():
@@ -49,14 +46,6 @@ def call(operator, **options):
         return getattr(bpy.ops.object, operator)("INVOKE_DEFAULT", True, **options)
 
 
-def until_it_ends():
-    begun = perf_counter()
-    while harness.module("queue").running():
-        assert perf_counter() - begun < PATIENCE, "the run does not end"
-        yield 0.05
-    yield 0.5
-
-
 def border_edges(target):
     bm = bmesh.new()
     bm.from_mesh(target.data)
@@ -70,7 +59,7 @@ def test_a_scan_is_closed_and_undo_brings_it_back():
     before = len(target.data.polygons)
     yield from harness.unfold_panels("VIEW3D_PT_fairing_inspect", "VIEW3D_PT_fairing_check")
     call("fairing_clean")
-    yield from until_it_ends()
+    yield from harness.until_it_ends()
     target = bpy.context.object
     said = harness.module("check.defects").recall_cleaned(target)
     assert said[-1].startswith("Watertight: yes; volume 4.1"), said
@@ -103,7 +92,7 @@ def test_bad_rims_have_buttons_that_mend_them():
     yield 0.5
     try:  # what a script hears of an error in the window
         call("fairing_fill")
-        yield from until_it_ends()
+        yield from harness.until_it_ends()
     except RuntimeError as error:
         assert "1 hole left" in str(error), error
     defects, stale = harness.module("check.defects").recall_defects(target)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What stands in for a modifier, in a real window: the badge, Live over frames, Live that stays on in the file."""
+"""What stands in for a modifier, in a real window: the badge, Live that stays on in the file."""
 
 import sys
 import tempfile
@@ -35,27 +35,6 @@ def test_a_badge_and_one_button_for_all():
         lambda: harness.module("queue").running() is None and not list(stale())
     )
     assert (target.data.vertices[0].co - source.data.vertices[0].co).length == 0.0
-
-
-def test_frames_are_followed():
-    source, target = yield from surface(levels=1, mesh_source="EVALUATED")
-    source.shape_key_add(name="Basis")
-    key = source.shape_key_add(name="Up")
-    key.data[0].co.z += 1.0
-    for frame, value in ((1, 0.0), (11, 1.0)):
-        key.value = value
-        key.keyframe_insert("value", frame=frame)
-    bpy.context.scene.frame_set(1)
-    with bpy.context.temp_override(**harness.view()):
-        bpy.ops.object.fairing_live(state="ON")
-    yield 1.0
-    before = target.data.vertices[0].co.z
-    assert source.display_type == "WIRE"
-    bpy.context.scene.frame_set(11)
-    yield 1.0
-    assert abs(target.data.vertices[0].co.z - before - 1.0) < 1e-5
-    target.discrete_fairing_live.on = False
-    yield from harness.until(lambda: source.display_type != "WIRE")
 
 
 def test_live_stays_on_in_the_file():

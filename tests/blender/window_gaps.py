@@ -24,11 +24,6 @@ PATIENCE = 300.0  # seconds until a run must have ended
 OFTEN, LONGEST = 0.1, 0.5  # seconds: what 99 of 100 gaps and every gap keep below
 
 
-def running():
-    """The extension's queue at work, or None."""
-    return importlib.import_module(f"{harness.EXTENSION}.queue").running()
-
-
 @contextlib.contextmanager
 def event_log():
     """Inside the `with` the list gets (when, seconds since the last one) at each timer event of the window."""
@@ -92,7 +87,7 @@ def test_events_do_not_wait_during_a_run_of_a_million_triangles():
     with event_log() as log:
         start(MILLION)
         begun = ended = perf_counter()
-        while running():
+        while harness.running():
             ended = perf_counter()
             assert ended - begun < PATIENCE, "the run does not end"
             yield 0.01
@@ -120,10 +115,10 @@ def test_the_view_can_be_used_and_cancel_is_a_button():
     harness.xdotool("key", "n")
     yield 2.0
     assert not view["area"].spaces.active.show_region_ui, "N: the sidebar"
-    assert running()
+    assert harness.running()
     with bpy.context.temp_override(**harness.view()):
         assert bpy.ops.object.fairing_cancel() == {"FINISHED"}
-    yield from until_it_ends()
+    yield from harness.until_it_ends()
     assert list(bpy.data.objects.keys()) == ["Suzanne"]
 
 
@@ -134,22 +129,15 @@ def test_what_is_begun_meanwhile_goes_on():
     with bpy.context.temp_override(**harness.view()):
         bpy.ops.object.mode_set(mode="EDIT")
         bpy.ops.transform.translate("INVOKE_DEFAULT")
-    while not running().finished:
+    while not harness.running().finished:
         yield 0.1
     yield 1.0
-    assert running() and bpy.context.mode == "EDIT_MESH", "nothing is taken from under the mouse"
+    assert harness.running() and bpy.context.mode == "EDIT_MESH", (
+        "nothing is taken from under the mouse"
+    )
     harness.xdotool("key", "Return")
-    yield from until_it_ends()
+    yield from harness.until_it_ends()
     assert bpy.context.mode == "EDIT_MESH" and "Suzanne Fair" in bpy.data.objects
-
-
-def until_it_ends():
-    """Waits for the run; a generator."""
-    begun = perf_counter()
-    while running():
-        assert perf_counter() - begun < PATIENCE, "the run does not end"
-        yield 0.1
-    yield 0.5
 
 
 harness.run_in_window(globals())

@@ -3,7 +3,6 @@
 
 import sys
 from pathlib import Path
-from time import perf_counter
 
 sys.path.insert(0, str(Path(__file__).parent))
 
@@ -14,12 +13,6 @@ import numpy as np
 
 SIZE = 100  # faces a side: a run of a second at least
 MARGIN = 2  # rows at the border that are not selected
-PATIENCE = 300.0  # seconds until a run must have ended
-
-
-def running():
-    """The extension's queue at work, or None."""
-    return harness.module("queue").running()
 
 
 def positions(target):
@@ -54,24 +47,13 @@ def start(**options):
         return bpy.ops.object.fairing_in_place("INVOKE_DEFAULT", **options)
 
 
-def until_it_ends():
-    """Waits for the run; a generator that returns how often the window had its turn meanwhile."""
-    begun, turns = perf_counter(), 0
-    while running():
-        assert perf_counter() - begun < PATIENCE, "the run does not end"
-        turns += 1
-        yield 0.05
-    yield 0.5
-    return turns
-
-
 def test_a_long_run_leaves_the_window_alive_and_is_undone_in_one_step():
     target = yield from noisy_grid()
     before = positions(target)
     assert start() == {"RUNNING_MODAL"}
     yield 0.3
     harness.photograph("in_place_progress")
-    turns = yield from until_it_ends()
+    turns = yield from harness.until_it_ends()
     assert turns > 5, f"the window had {turns} turns"
     after = positions(target)
     assert target.mode == "EDIT" and np.abs(after - before).max() > 0.01
@@ -88,7 +70,7 @@ def test_escape_and_the_button_cancel_change_nothing():
         assert start(energy="TOTAL_CURVATURE") == {"RUNNING_MODAL"}
         yield 0.5
         end()
-        yield from until_it_ends()
+        yield from harness.until_it_ends()
         assert target.mode == "EDIT" and np.array_equal(positions(target), before)
 
 
@@ -100,7 +82,7 @@ def test_an_edit_meanwhile_is_kept_and_the_run_refused():
     edited.verts[0].co.z = 1.0
     bmesh.update_edit_mesh(target.data)
     before = positions(target)
-    yield from until_it_ends()
+    yield from harness.until_it_ends()
     assert np.array_equal(positions(target), before)
 
 

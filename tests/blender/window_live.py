@@ -2,7 +2,6 @@
 """Live in a real window: vertices are grabbed with keyboard and mouse, and the surface follows. Prints how long updates take."""
 
 import importlib
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
@@ -26,11 +25,6 @@ def live(name):
 
 def session(target):
     return live("registry").session_of(target)
-
-
-def xdotool(*words):
-    """Mouse and keyboard of the X server."""
-    subprocess.run(["xdotool", *map(str, words)], check=True, timeout=30)
 
 
 def positions(mesh):
@@ -119,13 +113,13 @@ class Recorder:
 def grab(target):
     """G, and the mouse from place to place; a generator that returns the parts of the updates. The grab goes on."""
     x, y = centre()
-    xdotool("mousemove", x, y)
+    harness.xdotool("mousemove", x, y)
     yield 0.3
-    xdotool("key", "g")
+    harness.xdotool("key", "g")
     yield 0.3
     recorder = Recorder(target)
     for step in range(MOVES):
-        xdotool("mousemove", x + 3 * step, y - 2 * step)
+        harness.xdotool("mousemove", x + 3 * step, y - 2 * step)
         yield 0.05
     yield 0.5
     return recorder.stop()
@@ -154,7 +148,7 @@ def test_a_grab_is_followed_and_the_full_level_comes_after():
     moved = positions(target.data)[: len(before)]
     assert np.abs(moved - before).max() > 0.05
     told(f"thin plate, {session(target).triangles} triangles", parts)
-    xdotool("click", 1)
+    harness.xdotool("click", 1)
     yield from wait_for_the_full_level(target, 4)
     assert source.mode == "EDIT"
     source.update_from_editmode()
@@ -174,7 +168,7 @@ def test_a_grab_is_followed_and_the_full_level_comes_after():
 def test_total_curvature_is_followed():
     source, target = yield from open_scene(3, 3, "TOTAL_CURVATURE", add_torus, 0)
     parts = yield from grab(target)
-    xdotool("key", "Escape")
+    harness.xdotool("key", "Escape")
     assert len(parts) > 2, f"{len(parts)} updates were seen"
     told(f"total curvature, {session(target).triangles} triangles", parts)
     yield from wait_for_the_full_level(target, 3)

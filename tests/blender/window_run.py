@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A user's hour in a real window: press the button, watch the progress, ESC, redo, undo, recompute, save, reload."""
 
-import importlib
 import os
 import sys
 import tempfile
@@ -17,11 +16,6 @@ import numpy as np
 LONG = 5  # levels of Suzanne that take long enough to be watched
 TOO_LONG = 7  # and to be cancelled
 PATIENCE = 120.0  # seconds until a run must have ended
-
-
-def running():
-    """The extension's queue at work, or None."""
-    return importlib.import_module(f"{harness.EXTENSION}.queue").running()
 
 
 def pixels(path):
@@ -75,9 +69,9 @@ def press(settings):
 def wait_for_the_end():
     """Until the run is over; a generator. The number of times that progress was seen to advance."""
     waited, seen = 0.0, [0.0]
-    while running():
-        if running().fraction > seen[-1]:
-            seen.append(running().fraction)
+    while harness.running():
+        if harness.running().fraction > seen[-1]:
+            seen.append(harness.running().fraction)
         assert waited < PATIENCE, "the run does not end"
         waited += 0.2
         yield 0.2
@@ -117,7 +111,7 @@ def test_a_click_makes_the_surface():
 def test_progress_is_shown_and_the_surface_comes():
     _, settings = yield from open_panel(LONG)
     yield from press(settings)
-    assert running(), "a long run does not block"
+    assert harness.running(), "a long run does not block"
     yield 1.0
     harness.photograph("progress")
     advanced = yield from wait_for_the_end()
@@ -134,13 +128,13 @@ def test_escape_leaves_the_scene_as_it_was():
     meshes = set(bpy.data.meshes)
     yield from press(settings)
     yield 0.5
-    assert running()
+    assert harness.running()
     harness.xdotool("key", "Escape")
     yield from wait_for_the_end()
     assert list(bpy.data.objects) == [source] and set(bpy.data.meshes) == meshes
     assert not source.hide_get() and source.select_get()
     yield from press(bpy.context.scene.discrete_fairing)
-    assert running(), "the button works again"
+    assert harness.running(), "the button works again"
     harness.xdotool("key", "Escape")
     yield from wait_for_the_end()
 
@@ -198,7 +192,7 @@ def test_several_objects_queue():
         source.select_set(True)
     with bpy.context.temp_override(**harness.view()):
         assert bpy.ops.object.fairing_surface("INVOKE_DEFAULT", levels=4) == {"RUNNING_MODAL"}
-    assert running().position == (1, 2)
+    assert harness.running().position == (1, 2)
     yield from wait_for_the_end()
     assert {o.name for o in bpy.context.view_layer.objects.selected} == {
         "Suzanne Fair",
@@ -238,7 +232,7 @@ def start_long_run():
         assert bpy.ops.object.fairing_surface("INVOKE_DEFAULT", levels=TOO_LONG) == {
             "RUNNING_MODAL"
         }
-    assert running()
+    assert harness.running()
 
 
 def test_another_file_is_opened_meanwhile():
@@ -246,7 +240,7 @@ def test_another_file_is_opened_meanwhile():
     yield 0.5
     harness.fresh_scene(empty=False)
     yield 0.5
-    assert running() is None, "the run ends with its file"
+    assert harness.running() is None, "the run ends with its file"
     _, settings = yield from open_panel(2)
     yield from press(settings)
     yield from wait_for_the_end()

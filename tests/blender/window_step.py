@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Export to CAD in a real window: the file browser, the progress, ESC, several objects, a refusal."""
 
-import importlib
 import sys
 import tempfile
 from pathlib import Path
@@ -19,11 +18,6 @@ LEAF = (
     [(0, 1, 2, 3), (1, 4, 5, 2)],
 )
 FOLDER = tempfile.mkdtemp()
-
-
-def running():
-    """The extension's queue at work, or None."""
-    return importlib.import_module(f"{harness.EXTENSION}.queue").running()
 
 
 def alone(*targets):
@@ -68,8 +62,8 @@ def browse(path, **settings):
 def wait_for_the_end():
     """Until the run is over; a generator. The phases and fractions that were seen."""
     seen, begun = [], perf_counter()
-    while running():
-        seen.append((running().fraction, running().phase))
+    while harness.running():
+        seen.append((harness.running().fraction, harness.running().phase))
         assert perf_counter() - begun < PATIENCE, "the run does not end"
         yield 0.1
     yield 0.5
@@ -92,8 +86,8 @@ def test_several_objects_by_the_file_browser():
     add_balls(0, 4)
     yield from harness.open_sidebar("Fairing")
     yield from browse(path, fit_levels=6)
-    assert running(), "a long run does not block"
-    assert running().position[1] == 2
+    assert harness.running(), "a long run does not block"
+    assert harness.running().position[1] == 2
     seen = yield from wait_for_the_end()
     fractions = [fraction for fraction, _ in seen]
     assert fractions == sorted(fractions) and len(set(fractions)) > 2
@@ -107,11 +101,11 @@ def test_escape_leaves_the_old_file():
     sources = add_balls(0, 4, 8)
     yield from harness.open_sidebar("Fairing")
     yield from browse(path, fit_levels=LONG)
-    assert running()
-    while not running().fraction:
+    assert harness.running()
+    while not harness.running().fraction:
         yield 0.1
     yield 1.0
-    assert running(), "too short to be photographed"
+    assert harness.running(), "too short to be photographed"
     harness.photograph("step_progress")
     harness.xdotool("key", "Escape")
     yield from wait_for_the_end()

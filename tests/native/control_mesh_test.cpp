@@ -9,7 +9,6 @@
 #include "control_mesh_invariants.h"
 #include "mesh/validate/check.h"
 #include "meshes.h"
-#include "thrown.h"
 
 namespace fairing::test {
 namespace {
@@ -191,16 +190,6 @@ TEST(Chains, EdgesUnderTheModeOfAllChangeNothing) {
   }
 }
 
-TEST(Chains, RefuseBoundaryEdgesThatAreNotThere) {
-  const auto refused = [](std::array<std::int64_t, 2> pair) {
-    return thrown(
-        [&] { build(grid(2, 2), with_edges(BoundaryMode::curve, BoundaryMode::free, {pair})); });
-  };
-  EXPECT_EQ(refused({0, 8}).code, ErrorCode::bad_feature_edge);
-  EXPECT_EQ(refused({0, 8}).elements, (std::vector<std::int64_t>{0, 8}));
-  EXPECT_EQ(refused({0, 9}).code, ErrorCode::index_out_of_range);
-}
-
 TEST(Chains, ClosedCrease) {
   const ControlMesh mesh = build(cube(), {.crease_edges = {{4, 5}, {5, 6}, {6, 7}, {7, 4}}});
   ASSERT_EQ(mesh.chains.size(), 1u);
@@ -220,22 +209,6 @@ TEST(Chains, ALoneCornerIsAConeTip) {
   const ControlMesh mesh = build(open_cone(8), {.corner_vertices = {0}});
   EXPECT_TRUE(mesh.feature_vertex[0]);
   EXPECT_EQ(mesh.chains.size(), 1u);
-}
-
-TEST(Chains, RefusesCreasesThatAreNotThere) {
-  const FairingError no_edge = thrown([] { build(cube(), {.crease_edges = {{0, 1}, {0, 6}}}); });
-  EXPECT_EQ(no_edge.code, ErrorCode::bad_feature_edge);
-  EXPECT_EQ(no_edge.elements, (std::vector<std::int64_t>{0, 6}));
-  const FairingError no_vertex = thrown([] { build(cube(), {.crease_edges = {{0, 8}}}); });
-  EXPECT_EQ(no_vertex.code, ErrorCode::index_out_of_range);
-  EXPECT_EQ(no_vertex.elements, (std::vector<std::int64_t>{8}));
-  const FairingError no_corner = thrown([] { build(cube(), {.corner_vertices = {-1}}); });
-  EXPECT_EQ(no_corner.code, ErrorCode::index_out_of_range);
-  // The diagonal that a split has drawn is no edge of the input, nor is its centre a vertex.
-  EXPECT_EQ(thrown([] { build(arrow(), {.crease_edges = {{1, 3}}}); }).code,
-            ErrorCode::bad_feature_edge);
-  EXPECT_EQ(thrown([] { build(l_shape(), {.corner_vertices = {6}}); }).code,
-            ErrorCode::index_out_of_range);
 }
 
 }  // namespace

@@ -4,13 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "mesh/validate/check.h"
 #include "meshes.h"
 #include "parallel/cancel.h"
 #include "parallel/memory.h"
-#include "thrown.h"
 
 namespace fairing::test {
 namespace {
@@ -54,29 +52,6 @@ TEST(Mend, LeavesAloneWhatIsSoundOrNotItsBusiness) {
     EXPECT_FALSE(mended.changed());
     EXPECT_TRUE(mended.mesh.corners.empty());
   }
-}
-
-TEST(Mend, OfTwoFacesWithTheSameVerticesKeepsTheFirst) {
-  const MendedMesh mended = mend(pillow().view());
-  ASSERT_EQ(mended.acts.size(), 1u);
-  EXPECT_EQ(mended.acts[0].code, "DUPLICATE_FACE");
-  EXPECT_EQ(mended.acts[0].elements, Ids{1});
-  EXPECT_EQ(mended.face_origin, Indices{0});
-}
-
-TEST(Mend, AFaceWithoutAreaLeavesNoTJunction) {
-  const MendedMesh mended = mend(cap().view());
-  EXPECT_EQ(faces_of(mended), (std::vector<Polygon>{{0, 4, 1, 2}, {4, 0, 3}, {1, 4, 3}}));
-  EXPECT_EQ(mended.face_origin, (Indices{0, 2, 3}));
-  const CornerOrigin& inside = mended.corner_origin[1];
-  EXPECT_EQ(inside.from, 0);
-  EXPECT_EQ(inside.beside, 1);
-  EXPECT_EQ(inside.share, 0.25);
-  ASSERT_EQ(mended.cut_edges.size(), 1u);
-  EXPECT_EQ(mended.cut_edges[0].low, 0);
-  EXPECT_EQ(mended.cut_edges[0].high, 1);
-  EXPECT_EQ(mended.cut_edges[0].between, Indices{4});
-  EXPECT_TRUE(find_defects(mended.mesh.view()).defects.empty());
 }
 
 TEST(Mend, AllFacesAcrossASideGetItsVertex) {
@@ -147,18 +122,6 @@ TEST(Mend, WeldingJoinsEachVertexWithTheLowestInReach) {
   EXPECT_EQ(welded.vertex_origin, (Indices{0, 1, 2, 1, 2, 5}));
   EXPECT_EQ(welded.mesh.coordinates[11], 0) << "the merged vertex goes where the other is";
   EXPECT_EQ(faces_of(welded), (std::vector<Polygon>{{0, 1, 2}, {1, 5, 2}}));
-}
-
-TEST(Mend, RefusesWhatNoProgramCanMend) {
-  OwnedPolygonMesh mesh = cube();
-  mesh.coordinates[4] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(thrown([&] { mend(mesh.view()); }).elements, Ids{1});
-  mesh = cube();
-  std::fill(mesh.corners.begin(), mesh.corners.end(), 8);  // absent from all faces
-  EXPECT_EQ(thrown([&] { mend(mesh.view()); }).code, ErrorCode::index_out_of_range);
-  mesh = single_triangle();
-  std::fill(mesh.coordinates.begin(), mesh.coordinates.end(), 1.0);
-  EXPECT_EQ(thrown([&] { mend(mesh.view()); }).code, ErrorCode::no_faces);
 }
 
 TEST(Mend, CanBeCancelledAtEveryQuestion) {

@@ -309,13 +309,6 @@ OwnedPolygonMesh plate_with_fins() {
   return mesh;
 }
 
-OwnedPolygonMesh pillow() {
-  OwnedPolygonMesh mesh = single_triangle();
-  mesh.corners = {0, 1, 2, 2, 1, 0};
-  mesh.offsets = {0, 3, 6};
-  return mesh;
-}
-
 OwnedPolygonMesh flipped_cube_face() {
   OwnedPolygonMesh mesh = cube();
   std::reverse(mesh.corners.begin() + 8, mesh.corners.begin() + 12);

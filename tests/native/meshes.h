@@ -61,7 +61,6 @@ OwnedPolygonMesh plate_with_fins();   // two fins that cross on a grid of 4 by 4
 
 // Defective.
 OwnedPolygonMesh mobius(int quads);
-OwnedPolygonMesh pillow();             // a triangle and its back
 OwnedPolygonMesh flipped_cube_face();  // the cube with face 2 turned over
 
 }  // namespace fairing::test

@@ -272,74 +272,6 @@ TEST(TotalCurvature, OfATorusConvergesWithSecondOrder) {
   }
 }
 
-TEST(TotalCurvature, OfAnEllipsoidConvergesThoughTheSpacingHasKinks) {
-  const double exact = 27.949858858;  // semi-axes 1.4, 1, 1
-  for (const auto& [name, mesh] : inscribed()) {
-    SCOPED_TRACE(name);
-    double before = 0;
-    for (int level = 3; level <= 6; ++level) {
-      const GridLevel lattice(mesh, level);
-      std::vector<double> x = on_sphere(lattice, 1);
-      for (std::size_t i = 0; i < x.size(); i += 3) x[i] *= 1.4;
-      const double error = measured(lattice, x) / exact - 1;
-      // The most obtuse of the hulls gets there two levels later.
-      const bool tells = level > 4 && name != "hull of 12, 4";
-      EXPECT_GT(tells ? std::log2(before / error) : 2, 1.75) << level;
-      before = error;
-    }
-    EXPECT_NEAR(before, 0, 2e-3);
-  }
-}
-
-TEST(TotalCurvature, OfACylinderPatchConvergesWithSecondOrder) {
-  constexpr int columns = 3, rows = 2;
-  const double radius = 1.5;
-  const Surface surface = [&](double u, double v) {
-    return Vec3(radius * std::cos(0.3 * u), radius * std::sin(0.3 * u), 0.4 * v);
-  };
-  for (const bool cut : {false, true}) {
-    SCOPED_TRACE(cut ? "triangles" : "quads");
-    const ControlMesh mesh = control(cut ? triangulated(grid(columns, rows)) : grid(columns, rows));
-    std::vector<Vec2> plane;
-    for (const Vec3& p : mesh.positions) plane.push_back(p.head<2>());
-    std::vector<double> errors;
-    for (int level = 2; level <= 5; ++level) {
-      const GridLevel lattice(mesh, level);
-      const double n = lattice.n(),
-                   covered = (columns - 1 / n) * (rows - 1 / n);  // without half cells at the curve
-      const double exact = covered * 0.3 * radius * 0.4 / (radius * radius);
-      errors.push_back(measured(lattice, sample(lattice, plane, surface)) / exact - 1);
-    }
-    for (std::size_t k = 1; k < errors.size(); ++k)
-      EXPECT_GT(std::log2(errors[k - 1] / errors[k]), 1.8) << k;
-    EXPECT_NEAR(errors.back(), 0, 1e-3);
-  }
-}
-
-TEST(TotalCurvature, DoesNotDependOnScale) {
-  const ControlMesh mesh = control(random_hull(12, 3));
-  const GridLevel lattice(mesh, 3);
-  std::vector<double> x = on_sphere(lattice, 1);
-  for (std::size_t i = 0; i < x.size(); i += 3) x[i] *= 1.4;
-  const double reference = measured(lattice, x);
-  for (const double scale : {1e-6, 1e-3, 1e3, 1e6}) {
-    std::vector<double> y = x;
-    for (double& c : y) c *= scale;
-    EXPECT_NEAR(measured(lattice, y), reference, 1e-9 * reference) << scale;
-  }
-}
-
-TEST(TotalCurvature, OfThePlaneIsNothing) {
-  for (const OwnedPolygonMesh& flat : {grid(4, 3), triangulated(grid(4, 3)), fan(9)}) {
-    const ControlMesh mesh = control(flat);
-    const GridLevel lattice(mesh, 3);
-    std::vector<double> x(3 * lattice.size());
-    refine_linearly(lattice, mesh.positions, x.data());
-    for (std::size_t i = 0; i < x.size(); i += 3) x[i + 2] = 0.3 * x[i] - 0.7 * x[i + 1] + 5;
-    EXPECT_LT(measured(lattice, x), 1e-11);  // angles are rounded
-  }
-}
-
 TEST(TotalCurvature, LeavesOutCurves) {
   // A cube with creases everywhere is six squares.
   FeatureOptions creases;
@@ -349,21 +281,6 @@ TEST(TotalCurvature, LeavesOutCurves) {
   std::vector<double> x(3 * lattice.size());
   refine_linearly(lattice, mesh.positions, x.data());
   EXPECT_LT(measured(lattice, x), 1e-11);  // angles are rounded
-}
-
-TEST(TotalCurvature, AnyNumberOfThreadsGivesTheSameBits) {
-  const ControlMesh mesh = control(triangulated(torus(30, 24)));
-  const GridLevel lattice(mesh, 2);
-  std::vector<double> x(3 * lattice.size());
-  std::mt19937 random(5);
-  UniformReal<> number(-1, 1);
-  for (double& c : x) c = number(random);
-  const double one = measured(lattice, x);
-  EXPECT_GT(one, 0);
-  for (const int threads : {2, 4, 8}) {
-    Workers workers(threads);
-    EXPECT_EQ(total_curvature(lattice, workers, x.data()), one) << threads;
-  }
 }
 
 TEST(TotalCurvature, IsFiniteOnDegenerateSurfaces) {
