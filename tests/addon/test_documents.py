@@ -38,7 +38,6 @@ PYTHON = {
 
 LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
-GENERATED = re.compile(r"<!-- table:.*?<!-- /table -->", re.DOTALL)
 OPERATOR = re.compile(r"\b(?:bpy\.ops\.)?(object|mesh|view3d)\.(fair(?:ing)?_\w+)")
 ANY_OPERATOR = re.compile(r"\bbpy\.ops\.(\w+)\.(\w+)")
 # A source file as documents name it: from the top, or from the folder that they are about.
@@ -144,21 +143,6 @@ def test_every_page_is_listed(folder):
     pages = {path.name for path in (DOCS / folder).glob("*.md")} - {"README.md"}
     prefix = "" if folder == NOTES else f"{folder}/"
     assert {name for name in pages if f"({prefix}{name}" not in contents} == set()
-
-
-def words(path):
-    """How many words of prose a page has: without code, and without tables that benchmarks make."""
-    text = GENERATED.sub("", prose(path.read_text("utf-8")))
-    return sum(re.search(r"\w", word) is not None for word in text.split())
-
-
-def test_users_pages_are_short():
-    """A user has to read all of them in an hour; mathematics is apart."""
-    pages = {path for path in DOCS.rglob("*.md") if path.parent.name != "site"}
-    pages -= {*(DOCS / "developers").rglob("*.md")}
-    mathematics = DOCS / "explanation" / "mathematics.md"
-    assert words(mathematics) < 4_000
-    assert sum(map(words, pages - {mathematics})) < 13_000
 
 
 def test_every_setting_is_explained():

@@ -9,7 +9,7 @@ import pytest
 from scenes import CUBE, activate, add, fair, positions
 
 from addon import core, prediction
-from addon.choices import DEFAULT_ENERGY, ENERGIES, energy_name
+from addon.choices import DEFAULT_ENERGY, ENERGIES
 from addon.inspection import measures
 from addon.job import Job
 from addon.memory import recall
@@ -140,26 +140,6 @@ def test_a_note_says_that_shape_keys_only_blend(capfd):
     assert "shape key" not in capfd.readouterr().out
 
 
-def halfway_error(energy):
-    """How far the blend of the surfaces of two shapes is from the surface of the shape between."""
-    source = add_with_key()
-    # not of the mix: in Blender 5.2 a new key counts in full
-    source.shape_key_add(name="Half Up", from_mix=False).data[0].co.z += 0.5
-    result = fair(levels=2, energy=energy)
-    basis, up, half = (shape_positions(key) for key in result.data.shape_keys.key_blocks)
-    return np.abs(0.5 * (basis + up) - half).max()
-
-
-def shape_positions(key):
-    values = np.empty(3 * len(key.data), np.float32)
-    key.data.foreach_get("co", values)
-    return values.reshape(-1, 3)
-
-
-def test_shape_keys_mix_linearly_with_the_thin_plate_only():
-    assert halfway_error("THIN_PLATE") < 1e-5 < 1e-3 < halfway_error("TOTAL_CURVATURE")
-
-
 @pytest.mark.parametrize("energy", KEYS)
 def test_slower_energies_get_their_bar_earlier(energy, monkeypatch):
     add("Box", *CUBE)
@@ -173,7 +153,3 @@ def test_slower_energies_get_their_bar_earlier(energy, monkeypatch):
     job = type("J", (), {"predicted_seconds": prediction._AT_FIRST[energy] * 768, "result": None})
     answer = fake().invoke(bpy.context, None)
     assert answer == ("started" if energy == "MINIMUM_VARIATION" else "blocked")
-
-
-def test_names():
-    assert energy_name("MINIMUM_VARIATION") == "Flow Lines"

@@ -93,17 +93,6 @@ def test_an_unfinished_surface_is_told_from_other_warnings():
     assert errors.warning_text("Box", other) == "Box: 1 vertex (3) belongs to no face."
 
 
-def test_another_thickness_names_its_cures_as_the_panel_does():
-    source = Path(__file__).parents[2] / "native" / "fairing" / "warnings.cpp"
-    cures = re.findall(r'cures\.push_back\("(.*)"\)', source.read_text("utf-8"))
-    assert len(cures) == len(errors._CURES)
-    assert all(any(setting in cure for cure in cures) for setting in errors._CURES)
-    cause = "2 faces (4, 5) have a surface that is up to 1.9 times as thick as the mesh."
-    cure = "Use more tension or more vertices there."
-    text = errors.warning_text("Box", {"code": "THICKNESS_CHANGED", "cause": cause, "cure": cure})
-    assert text == f"Box: Raise Tension or add vertices there. {cause}"
-
-
 def test_every_code_has_a_remedy_or_speaks_for_itself():
     assert errors.error_text("Wire", fairing_error("NO_FACES", "the mesh has no faces")) == (
         "Wire: Fill the edges with faces (F in Edit Mode). The mesh has no faces."

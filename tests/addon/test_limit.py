@@ -172,13 +172,6 @@ def test_shape_keys_go_to_their_own_limits():
     np.testing.assert_allclose(keys.positions[1][:count], expected * (1.5, 1, 1), atol=1e-6)
 
 
-def test_it_is_exactly_symmetric():
-    add_suzanne()
-    result = positions(fair(levels=2, interpolation="LIMIT").data)
-    mirrored = {tuple(p) for p in (result * np.float32([-1, 1, 1]) + 0.0).tolist()}
-    assert mirrored == {tuple(p) for p in (result + 0.0).tolist()}
-
-
 def test_a_live_surface_follows_through_its_limits():
     source = with_modifier(add_suzanne())
     assert bpy.ops.object.fairing_live() == {"FINISHED"}

@@ -13,7 +13,6 @@ from scenes import CUBE, activate, add, add_attribute, fair, positions
 from addon import vertex_values
 from addon.errors import JobError
 from addon.freshness import why_stale
-from addon.job import Job
 from addon.live import session as live_session
 from addon.memory import keep, recall
 from addon.mesh.read import control_mesh, tolerance_factors
@@ -139,20 +138,6 @@ def test_a_group_says_where_the_surface_may_miss(make, settings):
     distance = moved(source, result)
     assert 0.05 < distance[0] <= 0.1 * (1 + 1e-5) and 0 < distance[1] <= 0.05 * (1 + 1e-5)
     assert np.array_equal(positions(result.data)[2:8], positions(source.data)[2:])
-
-
-@pytest.mark.parametrize("make", [loose_by_group, loose_by_attribute])
-@pytest.mark.parametrize("mesh_source", ["ORIGINAL", "EVALUATED"])
-@pytest.mark.parametrize("given, most", [({"tolerance": 0.25}, 0.5), ({}, 0.04)])
-def test_a_group_reaches_the_core(make, mesh_source, given, most):
-    source = add("Box", *CUBE)
-    make(source)
-    settings = bpy.context.scene.discrete_fairing
-    changes = {"interpolation": "APPROXIMATE", "tolerance_group": "Loose"}
-    for name, value in (changes | given | {"mesh_source": mesh_source}).items():
-        setattr(settings, name, value)
-    allowed = Job(bpy.context, source, Settings.of(settings)).arguments["tolerance"]
-    assert allowed == pytest.approx([most, most / 2, *[0.0] * 6])
 
 
 @pytest.mark.parametrize("make", [loose_by_group, loose_by_attribute])

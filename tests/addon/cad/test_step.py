@@ -190,21 +190,6 @@ def test_a_file_that_cannot_be_written_is_said(tmp_path):
         export(tmp_path / "none" / "ball.step")
 
 
-def test_a_full_disk_is_said_and_the_old_file_stays(tmp_path):
-    resource = pytest.importorskip("resource", reason="Windows has no such limits")
-    sphere()
-    path = tmp_path / "ball.step"
-    path.write_text("old")
-    before = resource.getrlimit(resource.RLIMIT_FSIZE)
-    resource.setrlimit(resource.RLIMIT_FSIZE, (2000, before[1]))
-    try:
-        with pytest.raises(RuntimeError, match="ball.step cannot be written \\(File too large"):
-            export(path)
-    finally:
-        resource.setrlimit(resource.RLIMIT_FSIZE, before)
-    assert path.read_text() == "old" and list(tmp_path.iterdir()) == [path]
-
-
 def test_a_flat_scale_is_refused(tmp_path):
     sphere().scale.z = 0
     with pytest.raises(

@@ -55,19 +55,3 @@ def test_what_is_left_is_warned_of_and_is_no_failure(capsys):
     line = capsys.readouterr().err.splitlines()[-1].split()
     assert line[0] == "in.obj" and line[-2:] == ["no", "24"]
     assert open_edges("again.obj") == 24
-
-
-def test_noise_is_taken_off():
-    write_ball("in.obj")
-    lines, rng = Path("in.obj").read_text().splitlines(), np.random.default_rng(0)
-    for k, line in enumerate(lines):
-        if line.startswith("v "):
-            point = np.array(line.split()[1:], float) * (1.0 + 0.01 * rng.standard_normal())
-            lines[k] = "v " + " ".join(map(str, point))
-    Path("in.obj").write_text("\n".join(lines) + "\n")
-    spread = []
-    for passes in (0, 10, "auto"):
-        assert run("in.obj", "out.obj", "--clean", "--clean-noise", passes, "--quiet") == 0
-        points = read_obj("out.obj")  # below the hole
-        spread.append(np.linalg.norm(points[points[:, 2] < 0.3], axis=1).std())
-    assert max(spread[1:]) < 0.7 * spread[0]

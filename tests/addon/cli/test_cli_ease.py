@@ -96,16 +96,6 @@ def test_symmetry_and_borders_are_heard():
     assert (np.isnan(found[2]) & ~np.isnan(found[0])).any() and np.abs(plain - straight).max() > 0
 
 
-def test_it_is_said_in_words(capsys):
-    write_dunes("in.obj", scattered())
-    assert run("in.obj", "out.obj", "--ease") == 0
-    said = capsys.readouterr().err
-    assert "in.obj: Dune0: The scatter is about 0.0" in said
-    assert f"at vertex {WRONG}" in said
-    assert run("in.obj", "out.obj", "--ease", "--quiet") == 0
-    assert not capsys.readouterr().err
-
-
 def test_several_inputs_have_tables_of_their_own(capsys):
     for name in ("a.obj", "b.obj"):
         write_dunes(name, scattered())

@@ -9,7 +9,6 @@ import step_files
 from cli_files import write_obj
 from cli_runs import entries, run
 
-from addon.cad import step as cad_step
 from addon.cli.places import BadPlaces, places
 
 
@@ -42,50 +41,6 @@ def test_the_table_says_how_exact_it_is(capsys):
     head, line = lines[0], lines[-1]
     assert head.split() == ["file", "faces", "in", "patches", "seconds", "off", "angle"]
     assert line.split()[:3] == ["in.obj", "6", "6"] and line.endswith("°")
-
-
-def write_leaf():
-    lines = ["o Leaf", "v 0 0 0", "v 1 0 0", "v 1 1 0", "v 0 1 0", "v 0.02 0 0.02", "v 0.02 1 0.02"]
-    Path("leaf.obj").write_text("\n".join([*lines, "f 1 2 3 4", "f 2 5 6 3"]) + "\n")
-
-
-def test_a_fold_is_refused_unless_somebody_insists():
-    write_leaf()
-    Path("out.step").write_text("old")
-    code, (entry,) = entries("leaf.obj", "out.step")
-    assert (code, entry["error"]["code"], entry["error"]["elements"]) == (1, "UNRESOLVED", [0, 1])
-    assert Path("out.step").read_text() == "old"
-    assert run("leaf.obj", "new/out.step") == 1 and not Path("new").exists()
-    assert {path.name for path in Path().iterdir()} == {"leaf.obj", "out.step", "report.json"}
-    code, (entry,) = entries("leaf.obj", "out.step", "--force")
-    assert code == 0 and entry["objects"][0]["report"]["unresolved"] == [0, 1]
-    assert "COLOUR_RGB('',1.0,0.0,0.0)" in Path("out.step").read_text()
-
-
-@pytest.mark.parametrize("error", [OSError(28, "No space left on device"), KeyboardInterrupt()])
-def test_a_file_that_fails_leaves_the_old_one(monkeypatch, error):
-    write_obj("in.obj")
-    Path("out.step").write_text("old")
-
-    class Broken:
-        """A core whose disk is full."""
-
-        @staticmethod
-        def write_step(*_, **__):
-            raise error
-
-    monkeypatch.setattr(cad_step.core, "module", lambda whole=cad_step.core.module: Shadow(whole()))
-
-    class Shadow:
-        def __init__(self, whole):
-            self._whole = whole
-
-        def __getattr__(self, name):
-            return getattr(Broken if name == "write_step" else self._whole, name)
-
-    assert run("in.obj", "out.step") == (130 if isinstance(error, KeyboardInterrupt) else 1)
-    assert Path("out.step").read_text() == "old"
-    assert sorted(path.name for path in Path().iterdir()) == ["in.obj", "out.step"]
 
 
 def test_no_file_in_is_a_step_file_and_options_belong_to_them(capsys):

@@ -9,7 +9,6 @@ from live_scenes import live, session
 from scenes import activate, add, add_attribute, fair, positions
 
 from addon.core import boundary_edges
-from addon.freshness import why_stale
 from addon.mesh.boundary_marks import BOUNDARY, summary
 from addon.mesh.read import control_mesh, read_mesh
 from addon.transfer.cut_out import cut_out
@@ -120,15 +119,6 @@ def test_marks_of_another_kind_or_number_count_for_nothing():
     layer = source.data.attributes.new(BOUNDARY, "INT", "EDGE")
     layer.data.foreach_set("value", np.full(len(source.data.edges), 7, np.int32))
     assert boundary_edges(read_mesh(source.data)) == {} and summary([source]) == ""
-
-
-def test_a_surface_is_out_of_date_when_marks_change():
-    source = sheet()
-    surface = fair(levels=1)
-    assert why_stale(surface) == ""
-    source.hide_set(False)
-    mark(source, "FREE", *BOTTOM)
-    assert why_stale(surface) == "Source changed"
 
 
 def test_live_follows_marks():

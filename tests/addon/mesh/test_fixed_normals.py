@@ -10,7 +10,6 @@ from mathutils import Euler, Vector
 from scenes import activate, fair, positions
 from test_boundary_marks import sheet
 
-from addon.freshness import why_stale
 from addon.job import Job
 from addon.mesh import fixed_normals
 from addon.mesh.fixed_normals import NORMAL, read_normals
@@ -18,7 +17,7 @@ from addon.mesh.read import control_mesh, read_mesh
 from addon.mesh.world_shape import world_shape
 from addon.settings import Settings
 from addon.transfer.cut_out import cut_out
-from addon.ui import main, menus
+from addon.ui import main
 
 INSIDE = 5  # vertex (1, 1) of the sheet
 TILTED = (0.6, 0.0, 0.8)
@@ -196,15 +195,6 @@ def test_a_new_vertex_between_fixed_and_free_is_free():
     assert set(marks(source)) == {INSIDE}
 
 
-def test_a_surface_is_out_of_date_when_normals_change():
-    source = sheet()
-    surface = fair(levels=1)
-    assert why_stale(surface) == ""
-    source.hide_set(False)
-    fix(source, INSIDE)
-    assert why_stale(surface) == "Source changed"
-
-
 def test_live_follows_normals():
     source = sheet()
     surface = fair(levels=3)
@@ -232,11 +222,6 @@ def test_the_panel_counts_them():
     bpy.ops.object.mode_set(mode="OBJECT")
     bpy.context.scene.discrete_fairing.energy = "TOTAL_CURVATURE"
     assert told() == ["Normals: 2 fixed, by Bending only"]
-
-
-def test_the_menu_has_all_three():
-    log = draw(menus.VIEW3D_MT_fairing_normals)
-    assert "object.fairing_fix_normal" in log and "object.fairing_free_normal" in log
 
 
 def test_a_cut_takes_them_along():

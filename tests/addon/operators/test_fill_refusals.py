@@ -30,14 +30,6 @@ def with_a_fin():
     return target
 
 
-def test_the_other_hole_is_filled_and_this_one_said(capfd):
-    target = with_a_fin()
-    assert bpy.ops.object.fairing_fill() == {"FINISHED"}
-    assert "around no hole, because more than two faces meet there" in capfd.readouterr().out
-    assert not is_closed(target.data)
-    assert borders(target, lambda z: z < 0) == []
-
-
 def test_alone_it_is_refused_in_object_and_edit_mode():
     target = with_a_fin()
     assert bpy.ops.object.fairing_fill() == {"FINISHED"}
@@ -92,15 +84,6 @@ def test_a_vertex_on_an_edge_is_listed_and_a_button_cuts_that_edge(capfd):
         assert tuple(uv.data[loop.index].uv) == tuple(
             target.data.vertices[loop.vertex_index].co[:2]
         )
-
-
-def test_an_edge_inside_is_no_hole():
-    target = without(ball(), lambda c: c[2] > 0.7)
-    inside = next(e.index for e in target.data.edges if e.index not in borders(target))
-    edit(target, "EDGE", [inside])
-    with pytest.raises(RuntimeError, match="Select a border edge of a hole"):
-        bpy.ops.object.fairing_fill()
-    bpy.ops.object.mode_set(mode="OBJECT")
 
 
 def test_the_command_line_warns(tmp_path, monkeypatch):
