@@ -7,7 +7,10 @@ The data's way: `operators` → `job` → `mesh` (read) → `core` → `transfer
 window, `cad` makes spline patches of it.
 """
 
+import atexit
 from types import ModuleType
+
+import bpy
 
 
 def _modules() -> tuple[ModuleType, ...]:
@@ -103,11 +106,16 @@ def _modules() -> tuple[ModuleType, ...]:
 def register() -> None:
     for module in _modules():
         module.register()
+    if (
+        not bpy.app.binary_path
+    ):  # the module `bpy` ends by a signal, or never, where classes are left registered
+        atexit.register(unregister)
 
 
 def unregister() -> None:
     from . import queue
 
+    atexit.unregister(unregister)
     queue.end_all()
     for module in reversed(_modules()):
         module.unregister()

@@ -11,7 +11,7 @@ import pytest
 
 HERE = Path(__file__).resolve().parent
 BEGIN = """
-import atexit, sys, time
+import sys, time
 import bpy
 import addon
 from addon import core, queue
@@ -21,7 +21,6 @@ from scenes import add_suzanne
 
 bpy.ops.wm.read_factory_settings(use_empty=True)
 addon.register()
-atexit.register(addon.unregister)  # as Blender does it
 add_suzanne()
 settings = bpy.context.scene.discrete_fairing
 settings.levels, settings.energy = 6, "TOTAL_CURVATURE"
@@ -50,10 +49,14 @@ def test_quitting_in_mid_run(end):
     """)
 
 
+def test_a_script_that_only_registers_ends_well():
+    """A process that leaves classes registered in the module `bpy` ends by a signal, or never."""
+    run("work.cancel(); print('over')")
+
+
 def test_the_add_on_goes_in_mid_run():
     assert "over True" in run("""
         assert not work.finished
-        atexit.unregister(addon.unregister)
         addon.unregister()
         print("over", work.finished and work.cancelled and work.error is None)
     """)
