@@ -112,7 +112,9 @@ class Preparing:
                 entry["eased"] = _what_moved(eased)
             if strained is not None:
                 places = None if eased is None else eased.positions
-                found.append(table.rows(strained.positions, strained.lengths, places))
+                found.append(
+                    table.rows(strained.positions, strained.lengths, places, strained.names)
+                )
             entries.append(entry)
         return entries, found
 

@@ -48,7 +48,8 @@ STORAGE = {
 
 # positions and topology, which the refined mesh has of its own; seams have another name in each
 # Blender version
-_NOT_CARRIED = {"position", "custom_normal", "uv_seam"}
+OFFSET_NAMES = "fair_offset"  # of vertices that a table of offsets has named
+_NOT_CARRIED = {"position", "custom_normal", "uv_seam", OFFSET_NAMES}
 # all other names that begin with a dot are Blender's own: topology, selection, what is hidden, pins
 _INTERNAL_CARRIED = {".sculpt_mask", ".sculpt_face_set"}
 

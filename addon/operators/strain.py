@@ -131,7 +131,7 @@ class OBJECT_OT_fairing_select_strained(_Straining, bpy.types.Operator):
             text = Units.of(context.scene).lengths(max(strained.largest, strained.floor))
             chosen = self._chosen(strained)
             if len(chosen):
-                said = words.found(chosen, strained.lengths, text)
+                said = words.found(chosen, strained.lengths, text, strained.names)
             else:
                 threshold = self.threshold if self.by == "THRESHOLD" else strained.floor
                 said = words.none_above(threshold, strained.largest, text)
@@ -207,12 +207,13 @@ class OBJECT_OT_fairing_strain_table(ByFileBrowser, _Straining, bpy.types.Operat
                 in_world(job.result.positions),
                 job.result.lengths,
                 None if eased is None else in_world(eased),
+                job.names,
             )
         )
         path = bpy.path.abspath(self.filepath)
         try:
             with core.module().whole_files.whole_file(path) as part:
-                part.write_text(written, encoding="ascii", newline="")
+                part.write_text(written, encoding="utf-8", newline="")
         except OSError as error:
             self.report(
                 {"ERROR"},

@@ -61,12 +61,16 @@ def dots(strained: Strained) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 def labels(
     strained: Strained, count: int, times: float, text: Callable[[float], str]
 ) -> list[tuple[np.ndarray, str, bool]]:
-    """Where each of the `count` worst has its label (3,), what that says: `31: 4.2 mm`, and whether
+    """Where each of the `count` worst has its label (3,), what that says: `31: 4.2 mm`, or its name in a table of offsets, and whether
     the vertex is an outlier; `text` says a length.
     """
     ids, wrong = strained.worst(count), set(strained.wrong.tolist())
     places = tips(strained, ids, times)
     return [
-        (place, f"{index}: {text(abs(float(strained.lengths[index])))}", index in wrong)
+        (
+            place,
+            f"{strained.names[index] if strained.names else index}: {text(abs(float(strained.lengths[index])))}",
+            index in wrong,
+        )
         for place, index in zip(places, ids.tolist(), strict=True)
     ]

@@ -15,6 +15,7 @@ from ..in_place import floats
 from ..live.switch import look_again
 from ..mesh.begun import Begun
 from ..mesh.object import Reference
+from ..mesh.offset_names import read_names
 from ..mesh.read import control_mesh, read_mesh
 from ..mesh.shape_keys import EASED, key_positions, put_key
 from ..mesh.world_shape import world_shape
@@ -54,6 +55,7 @@ class _Moving:
         settings = plate_settings(settings or settings_for(context, source))
         with control_mesh(context, source) as mesh:
             self.arrays = read_mesh(mesh)
+            self.names = read_names(mesh)
             self.selected = _selected(mesh)
         self._begun = Begun.of("Ease", source, self.arrays)
         count = len(self.arrays.positions)
@@ -146,10 +148,12 @@ class EaseJob(_Moving):
         eased, options = self.result, self._options
         before = eased.strain_before
         if options.amount == "WORST":
-            return words.moved(self.moves, text)
+            return words.moved(self.moves, text, self.names)
         if options.amount == "TOLERANCE":
-            return words.moved_within(self.moves, options.tolerance, before, text)
-        return words.eased(eased.noise, self.moves, before, eased.wrong, eased.floor, text)
+            return words.moved_within(self.moves, options.tolerance, before, text, self.names)
+        return words.eased(
+            eased.noise, self.moves, before, eased.wrong, eased.floor, text, self.names
+        )
 
     def write_key(self) -> None:
         """As a shape key of the source, whose mesh stays, and so of its live surfaces."""
@@ -202,7 +206,7 @@ class EaseSelectedJob(_Moving):
 
     def said(self, text: words.Text) -> str:
         """What was done, in words."""
-        return words.moved(self.moves, text)
+        return words.moved(self.moves, text, self.names)
 
     def write(self) -> None:
         """Into the mesh that is edited."""

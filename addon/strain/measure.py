@@ -11,6 +11,7 @@ from .. import core, errors, prediction, size, vertex_values
 from ..blender import Context, Mesh, Object, scene_of
 from ..live.switch import live_surfaces_of, surfaces_of
 from ..mesh.object import Reference
+from ..mesh.offset_names import read_names
 from ..mesh.read import control_mesh, read_mesh
 from ..mesh.shape_keys import mixed, read_shape_keys
 from ..mesh.world_shape import world_shape
@@ -54,6 +55,7 @@ class StrainJob:
         settings = plate_settings(settings or settings_for(context, source))
         with control_mesh(context, source) as mesh:
             arrays = read_mesh(mesh)
+            self.names = read_names(mesh)
             self.positions = arrays.positions
             if as_mixed:
                 self.positions = _as_mixed(source, mesh, arrays.positions)
@@ -93,6 +95,7 @@ class StrainJob:
             found.floor,
             self._edge_length,
             found.wrong,
+            self.names,
         )
         self.taken = perf_counter() - begun
 

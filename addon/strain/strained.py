@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The strain of one control mesh, and what of it counts as wrong. Plain arrays, no Blender."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
+
+from . import words
 
 
 @dataclass(frozen=True)
@@ -23,6 +25,11 @@ class Strained:
     edge_length: float  # the mean one, in scene units
     # (k,) ids of the outliers, the worst first; None: all above the floor
     standing_out: np.ndarray | None = None
+    names: list[str] = field(default_factory=list)  # (n,) of a table of offsets; or none
+
+    def name(self, index: int) -> str:
+        """`station 4, WL 300`, or `vertex 31`."""
+        return words.name(index, self.names)
 
     @cached_property
     def held(self) -> np.ndarray:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Vertices, their strain and their moves as a table for a yard or a spreadsheet. No Blender."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
@@ -10,11 +10,17 @@ Table = list[list[str]]  # rows of fields
 _DIGITS = 9  # significant ones: a hundredth of a millimetre on a kilometre
 
 
-def rows(positions: np.ndarray, lengths: np.ndarray, eased: np.ndarray | None = None) -> Table:
+def rows(
+    positions: np.ndarray,
+    lengths: np.ndarray,
+    eased: np.ndarray | None = None,
+    names: Sequence[str] = (),
+) -> Table:
     """The table, its head first. `positions` (n, 3) and strain `lengths` (n,), NaN where there is
-    none; `eased` (n, 3): where the vertices have been moved to, None: nowhere.
+    none; `eased` (n, 3): where the vertices have been moved to, None: nowhere. `names` (n,) of a table
+    of offsets become the columns station and line.
     """
-    head = ["vertex", "x", "y", "z"]
+    head = ["vertex", *(["station", "line"] if names else []), "x", "y", "z"]
     columns: list[Iterable[float]] = [*positions.T]
     if eased is not None:
         head += ["x_eased", "y_eased", "z_eased", "move"]
@@ -22,15 +28,27 @@ def rows(positions: np.ndarray, lengths: np.ndarray, eased: np.ndarray | None = 
     head.append("strain")
     columns.append(lengths)
     table = [
-        [str(index), *map(_number, numbers)]
+        [str(index), *(_parts(names[index]) if names else ()), *map(_number, numbers)]
         for index, numbers in enumerate(zip(*columns, strict=True))
     ]
     return [head, *table]
 
 
 def text(table: Table) -> str:
-    """As comma-separated values; no field needs quotes."""
-    return "".join(",".join(row) + "\r\n" for row in table)
+    """As comma-separated values."""
+    return "".join(",".join(map(_field, row)) + "\r\n" for row in table)
+
+
+def _parts(name: str) -> list[str]:
+    """`4` and `WL 300` of `station 4, WL 300`."""
+    station, _, line = name.partition(", ")
+    return [station.removeprefix("station "), line]
+
+
+def _field(text: str) -> str:
+    """In quotes where it would fall apart without."""
+    quoted = text.replace('"', '""')
+    return f'"{quoted}"' if any(sign in text for sign in ',"\r\n') else text
 
 
 def _number(value: float) -> str:

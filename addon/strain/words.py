@@ -15,18 +15,31 @@ def count(number: int) -> str:
     return "1 vertex" if number == 1 else f"{number:,} vertices"
 
 
-def listed(ids: Sequence[int] | np.ndarray, lengths: np.ndarray, text: Text) -> str:
-    """`31 by 4.2 mm, 7 by 3 mm and 4 more`; `lengths`: (n,) by vertex."""
+def name(index: int, names: Sequence[str]) -> str:
+    """Of a vertex: as a table of offsets names it, else `vertex 31`."""
+    return (names[index] if names else "") or f"vertex {index}"
+
+
+def listed(
+    ids: Sequence[int] | np.ndarray, lengths: np.ndarray, text: Text, names: Sequence[str] = ()
+) -> str:
+    """`31 by 4.2 mm, 7 by 3 mm and 4 more`; `lengths`: (n,) by vertex. With `names` (n,):
+    `station 4, WL 300: 4.2 mm; station 5, WL 600: 3 mm`.
+    """
+    if names:
+        named = [f"{name(i, names)}: {text(abs(float(lengths[i])))}" for i in list(ids)[:_NAMED]]
+        more = [f"{len(ids) - _NAMED:,} more"] * (len(ids) > _NAMED)
+        return "; ".join(named + more)
     named = [f"{i} by {text(abs(float(lengths[i])))}" for i in list(ids)[:_NAMED]]
     if len(ids) > _NAMED:
         return f"{', '.join(named)} and {len(ids) - _NAMED:,} more"
     return named[0] if len(named) == 1 else f"{', '.join(named[:-1])} and {named[-1]}"
 
 
-def found(chosen: np.ndarray, lengths: np.ndarray, text: Text) -> str:
+def found(chosen: np.ndarray, lengths: np.ndarray, text: Text, names: Sequence[str] = ()) -> str:
     """Of a selection by strain; `lengths`: (n,), NaN where the surface holds no vertex."""
     held = int((~np.isnan(lengths)).sum())
-    return f"{len(chosen):,} of {count(held)} selected: {listed(chosen, lengths, text)}"
+    return f"{len(chosen):,} of {count(held)} selected: {listed(chosen, lengths, text, names)}"
 
 
 def none_above(threshold: float, largest: float, text: Text) -> str:
@@ -35,13 +48,13 @@ def none_above(threshold: float, largest: float, text: Text) -> str:
     )
 
 
-def moved(moves: np.ndarray, text: Text) -> str:
+def moved(moves: np.ndarray, text: Text, names: Sequence[str] = ()) -> str:
     """`2 vertices moved: 31 by 4.2 mm and 7 by 3 mm`; `moves`: (n,) lengths."""
     order = np.argsort(-moves, kind="stable")
     order = order[moves[order] > 0]
     if not len(order):
         return "No vertex moved: the surface already passes through them"
-    return f"{count(len(order))} moved: {listed(order, moves, text)}"
+    return f"{count(len(order))} moved: {listed(order, moves, text, names)}"
 
 
 def eased(
@@ -51,6 +64,7 @@ def eased(
     wrong: np.ndarray,
     floor: float,
     text: Text,
+    names: Sequence[str] = (),
 ) -> str:
     """Of easing by itself. `noise`: the scatter, a length; `strain`: (n,) before; `wrong`: (k,) ids of
     outliers, the worst first; `floor`: what is scatter.
@@ -61,26 +75,30 @@ def eased(
     if len(wrong):
         held = count(int((~np.isnan(strain)).sum()))
         are = "is" if len(wrong) == 1 else "are"
-        said.append(f"{len(wrong):,} of {held} {are} off by more: {listed(wrong, strain, text)}.")
+        said.append(
+            f"{len(wrong):,} of {held} {are} off by more: {listed(wrong, strain, text, names)}."
+        )
     else:
         said.append(f"No vertex is off by more than scatter explains, {text(floor)}.")
-    said.append(f"{_largest(moves, text)}.")
+    said.append(f"{_largest(moves, text, names)}.")
     return " ".join(said)
 
 
-def moved_within(moves: np.ndarray, tolerance: float, strain: np.ndarray, text: Text) -> str:
+def moved_within(
+    moves: np.ndarray, tolerance: float, strain: np.ndarray, text: Text, names: Sequence[str] = ()
+) -> str:
     """Of easing within a `tolerance`; `strain`: (n,) before."""
     if not moves.any():
         return (
             f"No vertex moved: none may move, or there is nothing to ease within {text(tolerance)}"
         )
     beyond = int((np.abs(strain[~np.isnan(strain)]) > tolerance).sum())
-    said = f"{count(int((moves > 0).sum()))} moved by at most {text(tolerance)}. {_largest(moves, text)}."
+    said = f"{count(int((moves > 0).sum()))} moved by at most {text(tolerance)}. {_largest(moves, text, names)}."
     if beyond:
         said += f" {count(beyond)} strained by more than the tolerance before."
     return said
 
 
-def _largest(moves: np.ndarray, text: Text) -> str:
+def _largest(moves: np.ndarray, text: Text, names: Sequence[str]) -> str:
     worst = int(np.argmax(moves))
-    return f"The largest move is {text(float(moves[worst]))}, at vertex {worst}"
+    return f"The largest move is {text(float(moves[worst]))}, at {name(worst, names)}"

@@ -130,6 +130,10 @@ def _draw_export(menu: Any, _context: Context) -> None:
     menu.layout.operator("export_scene.fairing_step", text="Fair Surface (.step)")
 
 
+def _draw_import(menu: Any, _context: Context) -> None:
+    menu.layout.operator("import_mesh.fairing_offsets", text="Offsets of a Hull (.csv)")
+
+
 def _draw_add(menu: Any, _context: Context) -> None:
     menu.layout.separator()
     menu.layout.operator_context = "INVOKE_DEFAULT"
@@ -146,6 +150,7 @@ _ENTRIES = {
     "VIEW3D_MT_edit_mesh_vertices": _draw_vertices,
     "VIEW3D_MT_edit_mesh_faces": _draw_faces,
     "TOPBAR_MT_file_export": _draw_export,
+    "TOPBAR_MT_file_import": _draw_import,
 }
 
 

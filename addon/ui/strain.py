@@ -66,8 +66,13 @@ def _draw_worst(layout: Any, context: Context, source: Object, strained: Straine
         size = float(strained.lengths[index])
         row = column.row(align=True)
         row.active = index in wrong
-        row.operator("object.fairing_go_to_strained", text=f"Vertex {index}").vertex = index
+        row.operator("object.fairing_go_to_strained", text=_name(strained, index)).vertex = index
         row.label(text=f"{text(abs(size))} {'outwards' if size > 0 else 'inwards'}")
+
+
+def _name(strained: Strained, index: int) -> str:
+    name = strained.name(index)
+    return name[0].upper() + name[1:]
 
 
 register, unregister = registration(VIEW3D_PT_fairing_strain)

@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""File > Import > Offsets: half a hull from a yard's table."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, cast
+
+import bpy
+import numpy as np
+from bpy.props import BoolProperty, EnumProperty, StringProperty
+from bpy_extras.io_utils import ImportHelper
+
+from ..blender import Answer, Context, Mesh, Object, registration
+from ..mesh.object import collections_for, select_only
+from ..mesh.offset_names import write_names
+from ..yard.hull_mesh import HullMesh, hull_mesh
+from ..yard.offsets import read
+from ..yard.sheet import UNITS, OffsetsError
+
+_UNITS = (
+    ("AUTO", "As in the File", "The unit that the file names"),
+    ("mm", "Millimetres", "All numbers are in millimetres"),
+    ("cm", "Centimetres", "All numbers are in centimetres"),
+    ("m", "Metres", "All numbers are in metres"),
+    ("in", "Inches", "All numbers are in inches"),
+    ("ft", "Feet", "All numbers are in feet; 3-4-5 are feet, inches and eighths"),
+)
+
+
+class IMPORT_MESH_OT_fairing_offsets(ImportHelper, bpy.types.Operator):
+    """Make half a hull from a table of offsets (CSV), with vertices named by station and line"""
+
+    bl_idname = "import_mesh.fairing_offsets"
+    bl_label = "Import Offsets"
+    bl_options = {"REGISTER", "UNDO"}
+    filename_ext = ".csv"
+
+    if TYPE_CHECKING:
+        filepath: str  # what ImportHelper adds
+
+    filter_glob: StringProperty(default="*.csv;*.tsv;*.txt", options={"HIDDEN"})
+    unit: EnumProperty(name="Unit", description="The unit of the table's numbers", items=_UNITS)
+    symmetry: BoolProperty(
+        name="Symmetry Plane",
+        description="Sets Symmetry Plane to Y where the half hull ends in it: keel and stem are round unless creased",
+        default=True,
+    )
+
+    def invoke(self, context: Context, event: bpy.types.Event) -> Answer:
+        """A file that was dropped is known; else the browser asks for one."""
+        if self.filepath:
+            return self.execute(context)
+        helper: Any = ImportHelper  # whose stub says None
+        return helper.invoke(self, context, event)
+
+    def execute(self, context: Context) -> Answer:
+        path = Path(bpy.path.abspath(self.filepath))
+        try:
+            table = read(path.read_text("utf-8-sig"), UNITS.get(self.unit))
+        except OSError as error:
+            return self._refuse(f"Choose another file: {path} cannot be read ({error.strerror}).")
+        except UnicodeDecodeError:
+            return self._refuse(f"Save {path.name} as text in UTF-8: it is no table of offsets.")
+        except OffsetsError as error:
+            return self._refuse(f"{path.name}: {error}.")
+        made = hull_mesh(table)
+        if not made.faces:
+            return self._refuse(f"{path.name}: Add offsets: no two stations have points to join.")
+        target = _object(context, path.stem, made)
+        if self.symmetry and made.is_half:
+            context.scene.discrete_fairing.symmetry_plane = "Y"
+        select_only(context, [target])
+        knuckles = f", {len(made.creases)} edges creased" if made.creases else ""
+        self.report(
+            {"INFO"},
+            f"{len(table.points)} offsets at {len(table.stations)} stations, {len(made.faces)} faces{knuckles}",
+        )
+        return {"FINISHED"}
+
+    def _refuse(self, why: str) -> Answer:
+        self.report({"ERROR"}, why)
+        return {"CANCELLED"}
+
+
+def _object(context: Context, name: str, made: HullMesh) -> Object:
+    mesh = cast(Mesh, bpy.data.meshes.new(name))
+    places = made.positions / context.scene.unit_settings.scale_length
+    mesh.from_pydata(places.tolist(), [], made.faces)
+    write_names(mesh, made.names)
+    if made.creases:
+        wanted = {frozenset(pair) for pair in made.creases}
+        creases = [float(frozenset(edge.vertices) in wanted) for edge in mesh.edges]
+        layer = mesh.attributes.new("crease_edge", "FLOAT", "EDGE")
+        layer.data.foreach_set("value", np.array(creases, np.float32))
+    target = cast(Object, bpy.data.objects.new(name, mesh))
+    for collection in collections_for(context):
+        collection.objects.link(target)
+    return target
+
+
+class IO_FH_fairing_offsets(bpy.types.FileHandler):
+    """Drop a table of offsets onto the viewport."""
+
+    bl_idname = "IO_FH_fairing_offsets"
+    bl_label = "Offsets"
+    bl_import_operator = "import_mesh.fairing_offsets"
+    bl_file_extensions = ".csv;.tsv"
+
+    @classmethod
+    def poll_drop(cls, context: Context) -> bool:
+        return context.area is not None and context.area.type == "VIEW_3D"
+
+
+register, unregister = registration(IMPORT_MESH_OT_fairing_offsets, IO_FH_fairing_offsets)

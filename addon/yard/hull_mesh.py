@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The mesh over a table of offsets: quads between stations and lines, triangles where lines end.
+NumPy, no Blender.
+"""
+
+from dataclasses import dataclass
+from difflib import SequenceMatcher
+
+import numpy as np
+
+from .offsets import Offset, Offsets, is_buttock, is_sharp, is_waterline
+
+
+@dataclass(frozen=True)
+class HullMesh:
+    """A half hull, whose faces point outwards."""
+
+    positions: np.ndarray  # (n, 3) metres
+    faces: list[list[int]]
+    names: list[str]  # (n,) `station 4, WL 300`
+    creases: list[tuple[int, int]]  # edges along knuckles, and along a sharp stem or keel
+    stations: list[tuple[str, float]]  # name and mean x of each, from the lowest x
+
+    @property
+    def is_half(self) -> bool:
+        """Whether it ends in the plane y = 0."""
+        return bool(len(self.positions)) and bool((self.positions[:, 1] == 0.0).any())
+
+
+def hull_mesh(table: Offsets) -> HullMesh:
+    """Stations are joined in the order of their places, whatever the table's."""
+    ladders = {
+        name: _ladder([p for p in table.points if p.station == name], table)
+        for name in table.stations
+    }
+    order = sorted(ladders, key=lambda name: _mean_x(ladders[name]))
+    ids: dict[tuple[str, tuple[float, float, float]], int] = {}
+    positions: list[tuple[float, float, float]] = []
+    names: list[str] = []
+    rungs = []
+    for name in order:
+        rung = []
+        for point in ladders[name]:
+            key = name, point.place
+            if key not in ids:  # where lines meet in one point it has the first one's name
+                ids[key] = len(positions)
+                positions.append(point.place)
+                names.append(point.name)
+            rung.append((point.line, ids[key]))
+        rungs.append(rung)
+    outwards = sum(place[1] for place in positions) >= 0.0
+    faces, creases = [], []
+    for here, there in zip(rungs, rungs[1:]):
+        faces += [face if outwards else face[::-1] for face in _strip(here, there)]
+        after = dict(there)
+        creases += [(v, after[line]) for line, v in here if is_sharp(line) and line in after]
+    # above a bulb and below a rising keel strips lie in the middle of the hull, where it has no skin
+    faces = [face for face in faces if any(positions[v][1] for v in face)]
+    places = np.array(positions, float).reshape(-1, 3)
+    sides = {frozenset((f[k - 1], f[k])) for f in faces for k in range(len(f))}
+    marked = {frozenset(pair) for pair in creases} & sides | _sharp_middle(places, faces)
+    return HullMesh(
+        places,
+        faces,
+        names,
+        sorted((min(pair), max(pair)) for pair in marked),
+        [(name, _mean_x(ladders[name])) for name in order],
+    )
+
+
+def _sharp_middle(places: np.ndarray, faces: list[list[int]]) -> set[frozenset[int]]:
+    """Edges in the middle plane where both halves would meet at less than a right angle, as at a stem: their
+    faces are nearer to that plane than across it.
+    """
+    found = set()
+    for face in faces:
+        for v, w in zip(face, face[1:] + face[:1]):
+            if places[v, 1] == places[w, 1] == 0.0:
+                along = places[w] - places[v]
+                away = places[face].mean(axis=0) - places[v]
+                away -= along * (away @ along) / (along @ along)
+                if abs(away[1]) < np.sqrt(0.5) * np.linalg.norm(away):
+                    found.add(frozenset((v, w)))
+    return found
+
+
+def _mean_x(points: list[Offset]) -> float:
+    return sum(p.place[0] for p in points) / len(points)
+
+
+def _ladder(points: list[Offset], table: Offsets) -> list[Offset]:
+    """A station's points from the keel to the sheer: in the table's order where all lines are named, by height
+    where there are waterlines, by the angle seen from the top of the middle where there are buttocks.
+    """
+    top = max(p.place[2] for p in points)
+    if any(is_buttock(p.line) for p in points):
+        return sorted(points, key=lambda p: np.arctan2(abs(p.place[1]), top - p.place[2]))
+    if any(is_waterline(line) for line in table.lines):
+        return sorted(points, key=lambda p: p.place[2])
+    return sorted(points, key=lambda p: table.lines.index(p.line))
+
+
+def _strip(here: list[tuple[str, int]], there: list[tuple[str, int]]) -> list[list[int]]:
+    """Faces between two stations: lines that both have in the same order are joined, and both ends."""
+    lines = [line for line, _ in here], [line for line, _ in there]
+    last = len(here) - 1, len(there) - 1
+    blocks = SequenceMatcher(None, *lines, autojunk=False).get_matching_blocks()
+    shared = [(b.a + k, b.b + k) for b in blocks for k in range(b.size)]
+    joints = [(0, 0), *(joint for joint in shared if joint not in {(0, 0), last}), last]
+    faces = []
+    for (i, j), (m, n) in zip(joints, joints[1:]):
+        a, b = [v for _, v in here[i : m + 1]], [v for _, v in there[j : n + 1]]
+        faces += _between(a, b, at_top=(m, n) == last and len(joints) > 2)
+    distinct = [list(dict.fromkeys(face)) for face in faces]
+    return [face for face in distinct if len(face) > 2]
+
+
+def _between(a: list[int], b: list[int], at_top: bool) -> list[list[int]]:
+    """Quads, and a triangle for each line that one side has more: beside the profile that it ends at."""
+    both = min(len(a), len(b)) - 1
+    spare_a, spare_b = len(a) - 1 - both, len(b) - 1 - both
+    shift_a, shift_b = (0, 0) if at_top else (spare_a, spare_b)
+    quads = [
+        [a[shift_a + k], a[shift_a + k + 1], b[shift_b + k + 1], b[shift_b + k]]
+        for k in range(both)
+    ]
+    from_a, from_b = (both, both) if at_top else (0, 0)
+    fans = [[a[from_a + k], a[from_a + k + 1], b[from_b]] for k in range(spare_a)]
+    fans += [[a[from_a], b[from_b + k + 1], b[from_b + k]] for k in range(spare_b)]
+    return quads + fans if at_top else fans + quads

@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""File > Import > Offsets: the mesh in Blender, its names, and what strain says of them."""
+
+import csv
+import sys
+from pathlib import Path
+
+import bpy
+import numpy as np
+import pytest
+from scenes import fair, positions
+
+from addon.mesh.offset_names import read_names, stations
+from addon.strain import words
+from addon.strain.drawn import labels
+from addon.strain.measure import StrainJob
+
+EXAMPLES = Path(__file__).resolve().parents[3] / "examples"
+sys.path.append(str(EXAMPLES))  # last: other folders have files of the same names
+
+import hulls  # noqa: E402
+
+
+def imported(path, **options):
+    assert bpy.ops.import_mesh.fairing_offsets(filepath=str(path), **options) == {"FINISHED"}
+    return bpy.context.active_object
+
+
+def test_the_mesh_has_names_creases_and_the_middle_plane():
+    hull = imported(EXAMPLES / "offsets_chine.csv")
+    assert bpy.context.scene.discrete_fairing.symmetry_plane == "Y"
+    names = read_names(hull.data)
+    assert names[6] == "station 1, Bottom"
+    weights = hull.data.attributes["crease_edge"].data
+    creased = {frozenset(e.vertices) for e in hull.data.edges if weights[e.index].value == 1.0}
+    assert len(creased) == 20
+    for line in ("Chine", "Sharp keel"):
+        along = [names.index(f"station {k}, {line}") for k in range(9)]
+        assert creased >= {frozenset(pair) for pair in zip(along, along[1:])}
+    found = stations(names, positions(hull.data)[:, 0])
+    assert found == [(f"station {k}", pytest.approx(k)) for k in range(9)]
+
+
+def test_the_scene_has_its_own_unit():
+    bpy.context.scene.unit_settings.scale_length = 0.001
+    hull = imported(EXAMPLES / "offsets_yacht.tsv")
+    assert positions(hull.data)[:, 0].max() == pytest.approx(10_000.0)
+    assert positions(imported(EXAMPLES / "offsets_yacht.tsv", unit="m").data)[
+        :, 0
+    ].max() == pytest.approx(1e7)
+
+
+def test_a_table_with_an_error_leaves_nothing(tmp_path):
+    file = tmp_path / "bad.csv"
+    file.write_text("station (mm),Keel,WL 0\n0,1,2\n1,2,3x\n")
+    with pytest.raises(RuntimeError, match=r"bad.csv: Row 3, column 3: '3x' is not a number"):
+        imported(file)
+    file.write_bytes(b"\xff\x00\x81")
+    with pytest.raises(RuntimeError, match="UTF-8"):
+        imported(file)
+    with pytest.raises(RuntimeError, match="cannot be read"):
+        imported(tmp_path / "none.csv")
+    assert not bpy.data.meshes and not bpy.data.objects
+
+
+@pytest.mark.parametrize("make", hulls.HULLS)
+def test_wrong_offsets_are_found_by_name(make):
+    table = make()
+    job = StrainJob(bpy.context, imported(EXAMPLES / table.file))
+    job.compute()
+    found = job.result
+    named = {f"station {station}, {line}" for station, line in table.wrong}
+    listed = {found.name(i) for i in found.wrong.tolist()}
+    assert named <= listed
+    if (
+        "bulb" not in table.file
+    ):  # whose three stations are too few for its shape: that strains, too
+        assert listed == named
+
+
+def test_strain_says_names(tmp_path):
+    hull = imported(EXAMPLES / "offsets_yacht.tsv")
+    job = StrainJob(bpy.context, hull)
+    job.compute()
+    found, text = job.result, "{:.4f}".format
+    assert "station 6, L5: 0.0" in words.found(found.worst(3), found.lengths, text, found.names)
+    assert labels(found, 1, 1.0, text)[0][1].startswith("station ")
+    path = tmp_path / "strain.csv"
+    assert bpy.ops.object.fairing_strain_table(filepath=str(path)) == {"FINISHED"}
+    rows = list(csv.DictReader(path.open(encoding="utf-8", newline="")))
+    assert (rows[9]["station"], rows[9]["line"], rows[9]["vertex"]) == ("1", "L1", "9")
+    hull.data.vertices[0].select = True
+    bpy.ops.object.mode_set(mode="EDIT")
+    assert bpy.ops.object.fairing_select_strained(by="COUNT", count=3) == {"FINISHED"}
+
+
+def test_a_surface_has_no_names():
+    imported(EXAMPLES / "offsets_yacht.tsv")
+    assert read_names(fair(levels=1).data) == []
+
+
+@pytest.mark.parametrize("make", [hulls.chine, hulls.yacht])
+def test_easing_what_was_found_brings_the_truth_back(make):
+    table = make()
+    hull = imported(EXAMPLES / table.file)
+    truth = np.array(list(table.points.values())) / 1000.0
+    before = np.linalg.norm(positions(hull.data) - truth, axis=1)
+    assert bpy.ops.object.fairing_select_strained(by="FLOOR") == {"FINISHED"}
+    assert bpy.ops.object.fairing_ease_selected() == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    after = np.linalg.norm(positions(hull.data) - truth, axis=1)
+    assert before.max() > 0.017 and after.max() < 0.4 * before.max()
