@@ -35,12 +35,15 @@ def _modules() -> tuple[ModuleType, ...]:
         fill_holes,
         fit,
         fixed_normals,
+        hull,
+        hydrostatics,
         in_place,
         inspect,
         live,
         offsets,
         presets,
         purposes,
+        sections,
         step,
     )
     from .operators import strain as strain_operators
@@ -50,6 +53,7 @@ def _modules() -> tuple[ModuleType, ...]:
     from .ui import check as check_panel
     from .ui import compare as compare_panel
     from .ui import curves as curves_panel
+    from .ui import hull as hull_panel
     from .ui import inspect as inspect_panel
     from .ui import main as main_panel
     from .ui import menus, outliner, pictures
@@ -87,6 +91,9 @@ def _modules() -> tuple[ModuleType, ...]:
         fit,
         inspect,
         offsets,
+        hull,
+        hydrostatics,
+        sections,
         strain_operators,
         ease,
         presets,
@@ -97,6 +104,7 @@ def _modules() -> tuple[ModuleType, ...]:
         curves_panel,
         inspect_panel,
         strain_panel,
+        hull_panel,
         check_panel,
         compare_panel,
         menus,

@@ -47,6 +47,19 @@ def sections(surface: Drawn, axis: int, count: int) -> list[Section]:
     return found
 
 
+def cut(surface: Drawn, normal: np.ndarray, place: float) -> list[np.ndarray]:
+    """Curves (k, 3) float64 in which the plane `normal` · p = `place` cuts the surface; closed ones end where they
+    begin. `normal` (3,) unit.
+    """
+    if not len(surface.triangles):
+        return []
+    frame = np.linalg.svd(normal[None, :])[2]
+    frame[0] = normal
+    turned = Drawn(surface.points @ frame.T, surface.normals @ frame.T, surface.triangles)
+    found = _sections_at(turned, 0, place, _mean_edge(turned))
+    return [section.curve @ frame for section in found]
+
+
 def combs(found: list[Section], diagonal: float, scale: float = 1.0) -> list[np.ndarray]:
     """(k, 3) the ends of the teeth of each section, on the side that bulges.
 

@@ -9,7 +9,6 @@ import numpy as np
 from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
 from mathutils import Vector
 
-from .. import core
 from ..blender import Answer, Context, Object, registration
 from ..check.defects import select_defects, select_in_all
 from ..memory import active_source
@@ -23,6 +22,7 @@ from ..strain.strained import Strained, above
 from ..units import Units
 from .by_browser import ByFileBrowser
 from .fair import WholeFairing, poll_reason
+from .text_file import write_text_file
 
 
 def active_sources(context: Context) -> list[Object]:
@@ -210,16 +210,9 @@ class OBJECT_OT_fairing_strain_table(ByFileBrowser, _Straining, bpy.types.Operat
                 job.names,
             )
         )
-        path = bpy.path.abspath(self.filepath)
-        try:
-            with core.module().whole_files.whole_file(path) as part:
-                part.write_text(written, encoding="utf-8", newline="")
-        except OSError as error:
-            self.report(
-                {"ERROR"},
-                f"Choose another file: {path} cannot be written ({error.strerror or error}).",
-            )
+        if not write_text_file(self, self.filepath, written):
             return {"CANCELLED"}
+        path = bpy.path.abspath(self.filepath)
         self.report({"INFO"}, f"{words.count(len(job.result.positions))} written to {path}")
         return {"FINISHED"}
 

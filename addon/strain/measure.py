@@ -58,7 +58,7 @@ class StrainJob:
             self.names = read_names(mesh)
             self.positions = arrays.positions
             if as_mixed:
-                self.positions = _as_mixed(source, mesh, arrays.positions)
+                self.positions = mixed_positions(source, mesh, arrays.positions)
         self._shape = world_shape(source)
         world = self._shape.of_arrays(replace(arrays, positions=self.positions))
         self._edge_length = core.mean_edge_length(world)
@@ -105,7 +105,7 @@ class StrainJob:
             prediction.note(_KIND, self.triangles, self.taken, (_KIND, self.reference.key))
 
 
-def _as_mixed(source: Object, mesh: Mesh, positions: np.ndarray) -> np.ndarray:
+def mixed_positions(source: Object, mesh: Mesh, positions: np.ndarray) -> np.ndarray:
     """(n, 3): `positions` of the `mesh` of `source`, or in Object Mode what its shape keys make of
     them.
     """

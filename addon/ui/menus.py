@@ -62,6 +62,11 @@ class VIEW3D_MT_fairing(bpy.types.Menu):
         layout.operator("object.fairing_ease")
         layout.operator("object.fairing_ease_selected")
         layout.operator("object.fairing_strain_table")
+        layout.separator()
+        layout.operator("object.fairing_close")
+        layout.operator("object.fairing_section_curves")
+        layout.operator("object.fairing_hydrostatics")
+        layout.operator("object.fairing_hydrostatics_table")
 
 
 class VIEW3D_MT_fairing_boundary(bpy.types.Menu):
@@ -128,6 +133,7 @@ def _draw_vertices(menu: Any, _context: Context) -> None:
 
 def _draw_export(menu: Any, _context: Context) -> None:
     menu.layout.operator("export_scene.fairing_step", text="Fair Surface (.step)")
+    menu.layout.operator("export_scene.fairing_lines", text="Lines Plan of a Hull (.dxf)")
 
 
 def _draw_import(menu: Any, _context: Context) -> None:

@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Close Hull: a half hull made whole and watertight."""
+
+from dataclasses import asdict, replace
+from typing import Any, cast
+
+import bpy
+import numpy as np
+
+from ..blender import Answer, Context, Mesh, Object, registration
+from ..memory import active_source, source_of
+from ..mesh.layers import make_layer
+from ..mesh.object import new_object, select_only
+from ..mesh.offset_names import read_names, write_names
+from ..mesh.read import control_mesh, read_mesh
+from ..mesh.world_shape import transformed, world_matrix
+from ..poll import ExplainedPoll, mesh_poll_reason
+from ..settings import Settings
+from ..strain.measure import mixed_positions
+from ..yard.closing import NotHalf, Whole, whole
+from ..yard.hydrostatics import NotClosed, Solid, solid
+
+
+def poll_reason(context: Context) -> str:
+    if context.mode != "OBJECT":
+        return "Press Tab first: this works in Object Mode"
+    active = context.active_object
+    return mesh_poll_reason([active] if active is not None and active.type == "MESH" else [])
+
+
+class OBJECT_OT_fairing_close(ExplainedPoll, bpy.types.Operator):
+    """Make half a hull whole and watertight: mirrored, with a deck and a flat transom between sharp rims"""
+
+    bl_idname = "object.fairing_close"
+    bl_label = "Close Hull"
+    bl_options = {"REGISTER", "UNDO"}
+
+    poll_reason = staticmethod(poll_reason)
+
+    def execute(self, context: Context) -> Answer:
+        """Of the control mesh; where its surface is active, the closed one is faired as that was."""
+        active = cast(Object, context.active_object)
+        source = cast(Object, active_source(context))
+        settings = None if source_of(active) is None else Settings.of(active.discrete_fairing)
+        try:
+            closed = _closed(context, source)
+        except NotHalf as error:
+            self.report({"ERROR"}, f"{source.name} is no half hull: {error}.")
+            return {"CANCELLED"}
+        except NotClosed as error:
+            self.report(
+                {"ERROR"}, f"Run Check Mesh on {source.name}: {error.args[0]} edges stay open."
+            )
+            return {"CANCELLED"}
+        select_only(context, [closed])
+        if settings is not None:
+            options = asdict(replace(settings, symmetry_plane="NONE", use_selection=False))
+            cast(Any, bpy.ops.object).fairing_surface(**options)
+        found = _solid(context, cast(Object, context.active_object))
+        self.report({"INFO"}, f"Closed: {_solid_text(context, found)}")
+        return {"FINISHED"}
+
+
+def _closed(context: Context, source: Object) -> Object:
+    """A new control mesh beside `source`, its rims creased; NotHalf, NotClosed."""
+    with control_mesh(context, source) as mesh:
+        arrays = read_mesh(mesh)
+        names = read_names(mesh)
+        places = mixed_positions(source, mesh, arrays.positions)
+    made = whole(places, arrays.corners, arrays.offsets)
+    mesh = cast(Mesh, bpy.data.meshes.new(f"{source.name} Closed"))
+    try:
+        faces = np.split(made.corners, made.offsets[1:-1])
+        mesh.from_pydata(made.positions.tolist(), [], [face.tolist() for face in faces])
+        if solid(*_triangles(mesh)).volume < 0.0:
+            mesh.flip_normals()
+    except NotClosed:
+        bpy.data.meshes.remove(mesh)
+        raise
+    weights = (
+        {} if arrays.edge_crease is None else dict(zip(_pairs(arrays.edges), arrays.edge_crease))
+    )
+    _crease(mesh, made, weights)
+    if names:
+        write_names(mesh, [names[k] for k in made.origin.tolist()])
+    return new_object(context, source, mesh)
+
+
+def _pairs(edges: np.ndarray) -> list[frozenset[int]]:
+    return [frozenset(pair) for pair in edges.tolist()]
+
+
+def _crease(mesh: Mesh, made: Whole, weights: dict[frozenset[int], float]) -> None:
+    """Rims are sharp; the half's own `weights` are those of both sides."""
+    wanted = {
+        frozenset(edge.vertices): weights.get(
+            frozenset(made.origin[list(edge.vertices)].tolist()), 0.0
+        )
+        for edge in mesh.edges
+    }
+    wanted |= dict.fromkeys(_pairs(made.rim), 1.0)
+    values = [wanted[frozenset(edge.vertices)] for edge in mesh.edges]
+    make_layer(mesh, "crease_edge", "FLOAT", "EDGE").data.foreach_set(
+        "value", np.array(values, np.float32)
+    )
+
+
+def _triangles(mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
+    """Points (n, 3) and triangles (m, 3), in the mesh's own coordinates."""
+    mesh.calc_loop_triangles()
+    points = np.empty(3 * len(mesh.vertices))
+    mesh.vertices.foreach_get("co", points)
+    triangles = np.empty(3 * len(mesh.loop_triangles), np.int32)
+    mesh.loop_triangles.foreach_get("vertices", triangles)
+    return points.reshape(-1, 3), triangles.reshape(-1, 3)
+
+
+def in_metres(context: Context, target: Object) -> tuple[np.ndarray, np.ndarray]:
+    """The same with points in metres."""
+    points, triangles = triangles_of(context, target)
+    return points * context.scene.unit_settings.scale_length, triangles
+
+
+def triangles_of(context: Context, target: Object) -> tuple[np.ndarray, np.ndarray]:
+    """The mesh as it is seen, modifiers and all: points (n, 3) in the world, and triangles (m, 3)."""
+    owner = target.evaluated_get(context.evaluated_depsgraph_get())
+    mesh: Any = owner.to_mesh()
+    try:
+        points, triangles = _triangles(mesh)
+    finally:
+        owner.to_mesh_clear()
+    matrix = np.array(world_matrix(target))
+    if np.linalg.det(matrix[:3, :3]) < 0.0:
+        triangles = triangles[:, ::-1]
+    return transformed(points, matrix), triangles
+
+
+def _solid(context: Context, target: Object) -> Solid:
+    return solid(*in_metres(context, target))
+
+
+def _solid_text(context: Context, found: Solid) -> str:
+    centre = ", ".join(f"{value:.4g}" for value in found.centroid)
+    return f"volume {found.volume:.5g} m³, area {found.area:.5g} m², centroid ({centre}) m"
+
+
+register, unregister = registration(OBJECT_OT_fairing_close)

@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Hydrostatics of a hull that takes in no water at its draught: said, and as a table."""
+
+from math import degrees, radians
+from typing import TYPE_CHECKING, Any, cast
+
+import bpy
+from bpy.props import FloatProperty, IntProperty, StringProperty
+from bpy_extras.io_utils import ExportHelper
+
+from ..blender import Answer, Context, Object, registration
+from ..poll import ExplainedPoll
+from ..yard.hydrostatics import Hydrostatics, NotClosed, hydrostatics
+from .hull import in_metres, poll_reason
+from .text_file import write_text_file
+
+_COLUMNS = (
+    "draught_m,trim_deg,volume_m3,displacement_kg,lcb_m,vcb_m,wetted_m2,waterplane_m2,lcf_m,bm_m,"
+    "length_m,beam_m,block_coefficient"
+)
+
+
+class _Afloat(ExplainedPoll):
+    """What both share. x is along the hull, z up; the draught is measured from the lowest point at no trim."""
+
+    poll_reason = staticmethod(poll_reason)
+
+    draught: FloatProperty(
+        name="Draught",
+        description="Height of the waterplane above the lowest point of the hull, in the middle of its length",
+        default=0.5,
+        min=0.0,
+        subtype="DISTANCE",
+    )
+    trim: FloatProperty(
+        name="Trim",
+        description="How far the waterplane is tilted: it rises with X",
+        soft_min=radians(-10.0),
+        soft_max=radians(10.0),
+        subtype="ANGLE",
+    )
+    density: FloatProperty(
+        name="Density",
+        description="Kilograms per cubic metre: 1025 in the sea, 1000 in fresh water",
+        default=1025.0,
+        min=0.0,
+    )
+
+    def afloat(self, context: Context, draughts: list[float]) -> list[Hydrostatics] | None:
+        """At each of the `draughts` in metres; None after an error has been reported."""
+        target = cast(Object, context.active_object)
+        points, triangles = in_metres(context, target)
+        low, pivot = points[:, 2].min(), 0.5 * (points[:, 0].min() + points[:, 0].max())
+        try:
+            return [
+                hydrostatics(points, triangles, low + draught, self.trim, pivot)
+                for draught in draughts
+            ]
+        except NotClosed as error:
+            cast(Any, self).report(
+                {"ERROR"},
+                f"Press Close Hull, or fill holes: {target.name} has {error.args[0]} open edges below the waterplane.",
+            )
+            return None
+
+
+class OBJECT_OT_fairing_hydrostatics(_Afloat, bpy.types.Operator):
+    """Measure displacement, centres, wetted surface and waterplane of a hull at a draught and trim"""
+
+    bl_idname = "object.fairing_hydrostatics"
+    bl_label = "Hydrostatics"
+    bl_options = {"REGISTER", "UNDO"}
+
+    said: StringProperty(options={"HIDDEN", "SKIP_SAVE"})
+
+    def execute(self, context: Context) -> Answer:
+        draught = self.draught * context.scene.unit_settings.scale_length
+        found = self.afloat(context, [draught])
+        if found is None:
+            return {"CANCELLED"}
+        lines = _said(found[0], draught, self.density)
+        self.said = "\n".join(lines)
+        self.report({"INFO"}, ", ".join(lines))
+        return {"FINISHED"}
+
+    def draw(self, _context: Context) -> None:
+        layout = cast(bpy.types.UILayout, self.layout)
+        layout.use_property_split = True
+        for name in ("draught", "trim", "density"):
+            layout.prop(self, name)
+        column = layout.box().column(align=True)
+        for line in self.said.split("\n"):
+            column.label(text=line)
+
+
+def _said(found: Hydrostatics, draught: float, density: float) -> list[str]:
+    return [
+        f"Displacement {found.volume * density:,.5g} kg, {found.volume:.5g} m³",
+        f"LCB {found.buoyancy[0]:.4g} m, VCB {found.buoyancy[2]:.4g} m",
+        f"Wetted surface {found.wetted:.5g} m²",
+        f"Waterplane {found.waterplane:.5g} m², LCF {found.flotation:.4g} m",
+        f"BM {found.metacentre:.4g} m, block coefficient {found.block_coefficient(draught):.3g}",
+    ]
+
+
+class OBJECT_OT_fairing_hydrostatics_table(_Afloat, ExportHelper, bpy.types.Operator):
+    """Write hydrostatics at evenly spaced draughts as a table (CSV), in metres and kilograms"""
+
+    bl_idname = "object.fairing_hydrostatics_table"
+    bl_label = "Table of Hydrostatics (CSV)"
+    bl_options = {"REGISTER"}
+    filename_ext = ".csv"
+
+    if TYPE_CHECKING:
+        filepath: str  # what ExportHelper adds
+
+    filter_glob: StringProperty(default="*.csv", options={"HIDDEN"})
+    count: IntProperty(
+        name="Draughts", description="How many, up to the draught", default=10, min=1, soft_max=50
+    )
+
+    def execute(self, context: Context) -> Answer:
+        deepest = self.draught * context.scene.unit_settings.scale_length
+        draughts = [deepest * (k + 1) / self.count for k in range(self.count)]
+        found = self.afloat(context, draughts)
+        if found is None:
+            return {"CANCELLED"}
+        rows = [self._row(one, draught) for one, draught in zip(found, draughts, strict=True)]
+        if not write_text_file(self, self.filepath, "\r\n".join([_COLUMNS, *rows, ""])):
+            return {"CANCELLED"}
+        self.report({"INFO"}, f"{len(rows)} draughts written to {bpy.path.abspath(self.filepath)}")
+        return {"FINISHED"}
+
+    def _row(self, found: Hydrostatics, draught: float) -> str:
+        numbers = (
+            draught,
+            degrees(self.trim),
+            found.volume,
+            found.volume * self.density,
+            found.buoyancy[0],
+            found.buoyancy[2],
+            found.wetted,
+            found.waterplane,
+            found.flotation,
+            found.metacentre,
+            found.length,
+            found.beam,
+            found.block_coefficient(draught),
+        )
+        return ",".join(f"{number:.9g}" for number in numbers)
+
+
+register, unregister = registration(
+    OBJECT_OT_fairing_hydrostatics, OBJECT_OT_fairing_hydrostatics_table
+)

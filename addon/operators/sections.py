@@ -1,0 +1,274 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Section Curves, and File > Export > Lines Plan (.dxf)."""
+
+from math import cos, radians, sin
+from typing import TYPE_CHECKING, Any, cast
+
+import bpy
+import numpy as np
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
+from bpy_extras.io_utils import ExportHelper
+
+from ..blender import Answer, Context, Object, registration
+from ..inspection.drawn import Drawn
+from ..inspection.sections import cut
+from ..memory import active_source
+from ..mesh.object import collections_for, select_only
+from ..mesh.offset_names import read_names, stations
+from ..mesh.world_shape import transformed, world_matrix
+from ..poll import ExplainedPoll
+from ..yard.dxf import text
+from ..yard.plan import Cut, Plane, in_space, places, scaled, sheet
+from .hull import poll_reason, triangles_of
+from .text_file import write_text_file
+
+_AXES = {"STATIONS": 0, "BUTTOCKS": 1, "WATERLINES": 2}
+_WORDS = {"STATIONS": "station", "BUTTOCKS": "buttock", "WATERLINES": "waterline"}
+# metres in each
+_FILE_UNITS = {"MM": 1e-3, "CM": 1e-2, "M": 1.0, "IN": 0.0254, "FT": 0.3048}
+
+
+def _surface(context: Context, target: Object) -> Drawn:
+    """As it is seen, in the world; normals, which would part it at sharp edges, are left out."""
+    points, triangles = triangles_of(context, target)
+    return Drawn(points, np.zeros_like(points), triangles)
+
+
+def _imported_stations(context: Context, target: Object) -> list[tuple[str, float]]:
+    """Those of the table of offsets that the mesh, or its source, is of."""
+    source = cast(Object, active_source(context))
+    names = read_names(source.data)
+    if not names:
+        return []
+    points = np.empty(3 * len(source.data.vertices), np.float32)
+    source.data.vertices.foreach_get("co", points)
+    return stations(
+        names,
+        transformed(points.reshape(-1, 3).astype(float), np.array(world_matrix(target)))[:, 0],
+    )
+
+
+def even_planes(
+    context: Context, kind: str, surface: Drawn, listed: str, spacing: float, start: float
+) -> list[Plane]:
+    """Across an axis: those listed, else the stations of the import, else evenly spaced. ValueError for no list."""
+    axis = _AXES[kind]
+    normal = tuple(float(k == axis) for k in range(3))
+    low, high = surface.points[:, axis].min(), surface.points[:, axis].max()
+    named = (
+        []
+        if listed.strip() or axis
+        else _imported_stations(context, cast(Object, context.active_object))
+    )
+    if not named:
+        named = [
+            (f"{_WORDS[kind]} {at:.6g}", at) for at in places(listed, low, high, spacing, start)
+        ]
+    inset = 1e-5 * (high - low)  # the end stations are the border, which a plane only touches
+    return [
+        Plane(name, cast(Any, normal), float(np.clip(at, low + inset, high - inset)))
+        for name, at in named
+        if low - inset <= at <= high + inset
+    ]
+
+
+def cuts(surface: Drawn, planes: list[Plane]) -> list[Cut]:
+    """Only where there is something."""
+    found = [Cut(plane, cut(surface, np.array(plane.normal), plane.place)) for plane in planes]
+    return [one for one in found if one.curves]
+
+
+class _Spaced:
+    """Mix-in: where planes are."""
+
+    spacing: FloatProperty(
+        name="Spacing",
+        description="From one plane to the next, where no places are given",
+        default=0.25,
+        min=1e-6,
+        subtype="DISTANCE",
+    )
+    start: FloatProperty(
+        name="Start", description="Where one of the evenly spaced planes is", subtype="DISTANCE"
+    )
+
+
+class OBJECT_OT_fairing_section_curves(_Spaced, ExplainedPoll, bpy.types.Operator):
+    """Make curves where planes cut the active mesh: stations, buttocks, waterlines, diagonals, or your own plane"""
+
+    bl_idname = "object.fairing_section_curves"
+    bl_label = "Section Curves"
+    bl_options = {"REGISTER", "UNDO"}
+
+    kind: EnumProperty(
+        name="Planes",
+        description="Which planes cut the mesh",
+        items=(
+            (
+                "STATIONS",
+                "Stations",
+                "Across X: at the stations of the imported table, else evenly spaced",
+            ),
+            ("BUTTOCKS", "Buttocks", "Across Y"),
+            ("WATERLINES", "Waterlines", "Across Z"),
+            ("DIAGONALS", "Diagonals", "Along X, tilted outwards and down from the middle"),
+            ("OBJECT", "Plane of an Object", "Across the Z axis of the other selected object"),
+        ),
+    )
+    places: StringProperty(
+        name="Places",
+        description="Where planes cut, such as 0, 1.5, 3, in scene units; empty: by Spacing and Start",
+    )
+    angle: FloatProperty(
+        name="Angle",
+        description="How far diagonals are tilted from level",
+        default=radians(45.0),
+        min=radians(1.0),
+        max=radians(89.0),
+        subtype="ANGLE",
+    )
+
+    poll_reason = staticmethod(poll_reason)
+
+    def draw(self, _context: Context) -> None:
+        layout = cast(bpy.types.UILayout, self.layout)
+        layout.use_property_split = True
+        layout.prop(self, "kind")
+        if self.kind == "OBJECT":
+            return
+        for name in ("places", "spacing", "start"):
+            layout.prop(self, name)
+        if self.kind == "DIAGONALS":
+            layout.prop(self, "angle")
+
+    def execute(self, context: Context) -> Answer:
+        target = cast(Object, context.active_object)
+        surface = _surface(context, target)
+        try:
+            planes = self._planes(context, surface)
+        except ValueError:
+            self.report(
+                {"ERROR"}, f"Write Places as numbers, such as 0, 1.5, 3: '{self.places}' is no list"
+            )
+            return {"CANCELLED"}
+        found = cuts(surface, planes)
+        if not found:
+            self.report({"ERROR"}, "Move the planes, or give a smaller Spacing: none cuts the mesh")
+            return {"CANCELLED"}
+        select_only(context, [_curve_object(context, target, one) for one in found])
+        self.report({"INFO"}, f"{len(found)} sections of {target.name}")
+        return {"FINISHED"}
+
+    def _planes(self, context: Context, surface: Drawn) -> list[Plane]:
+        if self.kind == "OBJECT":
+            active = context.active_object
+            others = [o for o in context.selected_objects if o != active]
+            matrices = [(o.name, np.array(o.matrix_world)) for o in others]
+            normals = [(n, m[:3, 2] / np.linalg.norm(m[:3, 2]), m[:3, 3]) for n, m in matrices]
+            return [Plane(n, tuple(z.tolist()), float(z @ at)) for n, z, at in normals]
+        if self.kind == "DIAGONALS":
+            normal = (0.0, sin(self.angle), cos(self.angle))
+            along = surface.points @ np.array(normal)
+            heights = places(
+                self.places,
+                along.min() / normal[2],
+                along.max() / normal[2],
+                self.spacing,
+                self.start,
+            )
+            return [Plane(f"diagonal {at:.6g}", normal, at * normal[2]) for at in heights]
+        return even_planes(context, self.kind, surface, self.places, self.spacing, self.start)
+
+
+def _curve_object(context: Context, target: Object, one: Cut) -> Object:
+    curve = bpy.data.curves.new(f"{target.name} {one.plane.name}", "CURVE")
+    curve.dimensions = "3D"
+    for points in one.curves:
+        closed = len(points) > 3 and bool((points[0] == points[-1]).all())
+        points = points[:-1] if closed else points
+        spline = curve.splines.new("POLY")
+        spline.points.add(len(points) - 1)
+        spline.points.foreach_set(
+            "co", np.c_[points, np.ones(len(points))].astype(np.float32).ravel()
+        )
+        spline.use_cyclic_u = closed
+    made = cast(Object, bpy.data.objects.new(curve.name, curve))
+    for collection in collections_for(context, target):
+        collection.objects.link(made)
+    return made
+
+
+class EXPORT_SCENE_OT_fairing_lines(_Spaced, ExplainedPoll, ExportHelper, bpy.types.Operator):
+    """Export stations, buttocks and waterlines of the active mesh with a body plan, as a drawing (DXF)"""
+
+    bl_idname = "export_scene.fairing_lines"
+    bl_label = "Export Lines Plan"
+    bl_options = {"REGISTER", "PRESET"}
+    filename_ext = ".dxf"
+
+    if TYPE_CHECKING:
+        filepath: str  # what ExportHelper adds
+
+    filter_glob: StringProperty(default="*.dxf", options={"HIDDEN"})
+    stations: StringProperty(
+        name="Stations",
+        description="Where stations are, such as 0, 1.5, 3; empty: those of the imported table, else ten even ones",
+    )
+    scale: FloatProperty(
+        name="Scale 1 :",
+        description="How many times smaller the drawing is than the hull",
+        default=1.0,
+        min=1e-3,
+        soft_max=100.0,
+    )
+    unit: EnumProperty(
+        name="Unit",
+        description="What one unit of the drawing is",
+        items=[(key, key.lower(), f"One unit is one {key.lower()}") for key in _FILE_UNITS],
+    )
+    in_space: BoolProperty(
+        name="Sections in Space",
+        description="Writes the sections where they are on the hull, in place of a flat sheet",
+    )
+
+    poll_reason = staticmethod(poll_reason)
+
+    def execute(self, context: Context) -> Answer:
+        target = cast(Object, context.active_object)
+        surface = _surface(context, target)
+        try:
+            listed = {
+                kind: even_planes(
+                    context,
+                    kind,
+                    surface,
+                    self.stations if kind == "STATIONS" else "",
+                    self._tenth(surface) if kind == "STATIONS" else self.spacing,
+                    self.start,
+                )
+                for kind in _AXES
+            }
+        except ValueError:
+            self.report(
+                {"ERROR"},
+                f"Write Stations as numbers, such as 0, 1.5, 3: '{self.stations}' is no list",
+            )
+            return {"CANCELLED"}
+        found = {kind: cuts(surface, planes) for kind, planes in listed.items()}
+        if not any(found.values()):
+            self.report({"ERROR"}, "Select the surface of a hull: no plane cuts this mesh")
+            return {"CANCELLED"}
+        factor = context.scene.unit_settings.scale_length / _FILE_UNITS[self.unit] / self.scale
+        drawing = in_space(found) if self.in_space else sheet(*found.values())
+        if not write_text_file(self, self.filepath, text(scaled(drawing, factor))):
+            return {"CANCELLED"}
+        count = ", ".join(f"{len(cuts)} {kind.lower()}" for kind, cuts in found.items())
+        self.report({"INFO"}, f"{count} written to {bpy.path.abspath(self.filepath)}")
+        return {"FINISHED"}
+
+    @staticmethod
+    def _tenth(surface: Drawn) -> float:
+        return float(np.ptp(surface.points[:, 0])) / 10.0
+
+
+register, unregister = registration(OBJECT_OT_fairing_section_curves, EXPORT_SCENE_OT_fairing_lines)

@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Half a hull made whole and closed: mirrored, joined in the middle, with deck and transom ruled
+from side to side. NumPy, no Blender.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+_NEAR = 1e-6  # of the hull's size: as far from the middle plane as a vertex in it may be
+
+
+class NotHalf(ValueError):
+    """Why a mesh is no half hull: a sentence."""
+
+
+@dataclass(frozen=True)
+class Whole:
+    """A closed hull: the half's own vertices and faces first."""
+
+    origin: np.ndarray  # (n,) the vertex of the half that each is, or is the image of
+    positions: np.ndarray  # (n, 3)
+    corners: np.ndarray  # (c,)
+    offsets: np.ndarray  # (m + 1,)
+    caps: np.ndarray  # (m,) bool: faces of deck and transom
+    rim: np.ndarray  # (k, 2) edges between hull and caps, and where deck and transom meet
+
+
+def whole(positions: np.ndarray, corners: np.ndarray, offsets: np.ndarray, axis: int = 1) -> Whole:
+    """Of a half that ends in the plane across `axis`; raises NotHalf."""
+    sizes = np.diff(offsets)
+    half = positions.astype(float)
+    middle = np.abs(half[:, axis]) <= _NEAR * np.ptp(half, axis=0).max(initial=0.0)
+    half[middle, axis] = 0.0
+    if (half[:, axis] < 0.0).any() and (half[:, axis] > 0.0).any():
+        raise NotHalf(f"it crosses the plane {'XYZ'[axis]} = 0: only one half may be there")
+    border = _border(corners, offsets)
+    if not (middle[border].all(axis=1)).any():
+        raise NotHalf(
+            f"no edge lies in the plane {'XYZ'[axis]} = 0: move the middle of the hull there"
+        )
+    rim = border[~middle[border].all(axis=1)]
+    _require_ends(rim, middle)
+    image = np.arange(len(half))
+    sides = np.flatnonzero(~middle)
+    image[sides] = len(half) + np.arange(len(sides))
+    turned = _turned(corners, offsets)
+    mirrored = half[sides] * np.where(np.arange(3) == axis, -1.0, 1.0)
+    caps = [list(dict.fromkeys((w, v, image[v], image[w]))) for v, w in rim.tolist()]
+    all_corners = [corners, image[turned], *(np.array(cap) for cap in caps)]
+    all_sizes = np.concatenate([sizes, sizes, np.array([len(cap) for cap in caps], int)])
+    across = [(v, image[v]) for v in _turns(half, rim, middle).tolist()]
+    edges = np.concatenate([rim, image[rim], np.array(across, int).reshape(-1, 2)])
+    return Whole(
+        np.concatenate([np.arange(len(half)), sides]),
+        np.concatenate([half, mirrored]),
+        np.concatenate(all_corners).astype(int),
+        np.concatenate([[0], np.cumsum(all_sizes)]).astype(int),
+        np.arange(len(all_sizes)) >= 2 * len(sizes),
+        edges,
+    )
+
+
+def _border(corners: np.ndarray, offsets: np.ndarray) -> np.ndarray:
+    """(b, 2) edges with one face, as that runs along them."""
+    after = np.arange(1, len(corners) + 1)
+    after[offsets[1:] - 1] = offsets[:-1]
+    sides = np.stack([corners, corners[after]], axis=1)
+    _, place, uses = np.unique(
+        np.sort(sides, axis=1), axis=0, return_inverse=True, return_counts=True
+    )
+    return sides[uses[place.ravel()] == 1]
+
+
+def _turned(corners: np.ndarray, offsets: np.ndarray) -> np.ndarray:
+    """The same faces the other way round from the same corner, so that both sides are cut into triangles alike."""
+    sizes = np.repeat(np.diff(offsets), np.diff(offsets))
+    starts = np.repeat(offsets[:-1], np.diff(offsets))
+    return corners[starts + (starts - np.arange(len(corners))) % sizes]
+
+
+def _require_ends(rim: np.ndarray, middle: np.ndarray) -> None:
+    """Every chain of the rim has to reach the middle: else it is a hole in one side."""
+    reached = middle.copy()
+    while True:
+        more = reached[rim].any(axis=1)
+        before = int(reached.sum())
+        reached[rim[more].ravel()] = True
+        if int(reached.sum()) == before:
+            break
+    apart = int((~reached[rim]).all(axis=1).sum())
+    if apart:
+        raise NotHalf(
+            f"{apart} open edges are at holes in its side: fill these first (Fill Hole Fair)"
+        )
+
+
+def _turns(half: np.ndarray, rim: np.ndarray, middle: np.ndarray) -> np.ndarray:
+    """Vertices of the rim where it turns by more than 45°, as from the sheer down the transom."""
+    after = dict(rim.tolist())
+    found = []
+    for v, w in rim.tolist():
+        x = after.get(w)
+        if x is None or middle[w]:
+            continue
+        a, b = half[w] - half[v], half[x] - half[w]
+        if a @ b < np.cos(np.pi / 4) * np.linalg.norm(a) * np.linalg.norm(b):
+            found.append(w)
+    return np.array(found, int)

@@ -1,0 +1,126 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where a hull is cut, and the sheet with its lines: profile, half-breadth plan and body plan.
+NumPy, no Blender.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .dxf import Label, Polyline
+
+_GAP = 0.1  # between two views, of the hull's length
+_TEXT = 0.01  # height of labels, of the hull's length
+
+
+@dataclass(frozen=True)
+class Plane:
+    """All points p with normal · p = place."""
+
+    name: str
+    normal: tuple[float, float, float]
+    place: float
+
+
+@dataclass(frozen=True)
+class Cut:
+    """What one plane cuts out of a hull: curves (k, 3); of closed ones the last point is the first."""
+
+    plane: Plane
+    curves: list[np.ndarray]
+
+
+def places(text: str, low: float, high: float, spacing: float, start: float) -> list[float]:
+    """Those of a list `0, 1.5, 3`, or every `spacing` from `start`, strictly between `low` and `high`.
+    ValueError for what is no list.
+    """
+    if text.strip():
+        return [float(part) for part in text.replace(";", ",").split(",") if part.strip()]
+    if spacing <= 0.0:
+        return []
+    first = int(np.floor((low - start) / spacing)) + 1
+    last = int(np.ceil((high - start) / spacing)) - 1
+    return [start + spacing * k for k in range(first, last + 1)]
+
+
+def sheet(
+    stations: list[Cut], buttocks: list[Cut], waterlines: list[Cut]
+) -> list[Polyline | Label]:
+    """Below one another: profile (x, z), half-breadths (x, y), and beside the profile the body plan: the half
+    nearer to low x on the right, the other one on the left.
+    """
+    points = np.concatenate([c for cut in (*stations, *buttocks, *waterlines) for c in cut.curves])
+    low, high = points.min(axis=0), points.max(axis=0)
+    length, beam = high[0] - low[0], np.abs(points[:, 1]).max()
+    gap, text = _GAP * length, _TEXT * length
+    middle = 0.5 * (low[0] + high[0])
+    drawn: list[Polyline | Label] = []
+    below = low[2] - gap - beam
+    for cut in buttocks:
+        drawn += _view("BUTTOCKS", cut, (1, 0, 0), (0, 0, 1), (0.0, 0.0), text)
+    for cut in waterlines:
+        drawn += _view("WATERLINES", cut, (1, 0, 0), (0, 1, 0), (0.0, below), text)
+    for cut in stations:
+        side = 1 if cut.plane.place <= middle else -1
+        centre = high[0] + gap + beam
+        drawn += _view("STATIONS", cut, (0, side, 0), (0, 0, 1), (centre, 0.0), text)
+    return drawn
+
+
+def in_space(found: dict[str, list[Cut]]) -> list[Polyline | Label]:
+    """The curves where they are, a layer for each kind."""
+    return [
+        Polyline(kind, curve)
+        for kind, cuts in found.items()
+        for cut in cuts
+        for curve in cut.curves
+    ]
+
+
+def scaled(drawing: list[Polyline | Label], factor: float) -> list[Polyline | Label]:
+    return [
+        Polyline(item.layer, item.points * factor, item.closed)
+        if isinstance(item, Polyline)
+        else Label(
+            item.layer,
+            (item.place[0] * factor, item.place[1] * factor),
+            item.height * factor,
+            item.text,
+        )
+        for item in drawing
+    ]
+
+
+def half(curve: np.ndarray) -> list[np.ndarray]:
+    """The parts of a polyline (k, 3) with y >= 0, cut where it crosses; all of it, mirrored, where none has."""
+    if (curve[:, 1] <= 0.0).all() and (curve[:, 1] < 0.0).any():
+        return [curve * [1, -1, 1]]
+    inside = curve[:, 1] >= 0.0
+    change = np.flatnonzero(inside[1:] != inside[:-1])
+    share = curve[change, 1] / (curve[change, 1] - curve[change + 1, 1])
+    crossings = curve[change] + share[:, None] * (curve[change + 1] - curve[change])
+    crossings[:, 1] = 0.0
+    pieces = np.split(curve, change + 1)
+    found = []
+    for k, piece in enumerate(pieces):
+        if not piece[0, 1] >= 0.0:
+            continue
+        before, after = crossings[k - 1 : k] if k else [], crossings[k : k + 1]
+        found.append(np.array([*before, *piece, *after]))
+    return [piece for piece in found if len(piece) > 1]
+
+
+def _view(
+    layer: str, cut: Cut, right: tuple, up: tuple, origin: tuple[float, float], text: float
+) -> list[Polyline | Label]:
+    axes = np.array([right, up, (0, 0, 0)], float).T
+    drawn: list[Polyline | Label] = []
+    for curve in (piece for whole in cut.curves for piece in half(whole)):
+        flat = curve @ axes + [*origin, 0.0]
+        closed = len(flat) > 3 and bool((flat[0] == flat[-1]).all())
+        drawn.append(Polyline(layer, flat[:-1] if closed else flat, closed))
+    if drawn:
+        ends = [line.points[-1] for line in drawn if isinstance(line, Polyline)]
+        x, y, _ = max(ends, key=lambda end: tuple(np.abs(end[::-1])))
+        drawn.append(Label("TEXT", (float(x) + text, float(y)), text, cut.plane.name))
+    return drawn
