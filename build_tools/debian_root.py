@@ -73,18 +73,10 @@ class DebianRoot:
 
     def command(self, *words: str | Path, **extra: str) -> list[str]:
         """The command line that runs `words` inside, as root, with the project read-only at /project."""
-        variables = {
-            "PATH": "/usr/bin:/bin:/usr/sbin:/sbin",
-            "HOME": "/root",
-            "LC_ALL": "C.UTF-8",
-            **extra,
-        }
-        inner = [
-            "env",
-            "-i",
-            *(f"{name}={value}" for name, value in variables.items()),
-            *map(str, words),
-        ]
+        path = "/usr/bin:/bin:/usr/sbin:/sbin"
+        variables = {"PATH": path, "HOME": "/root", "LC_ALL": "C.UTF-8", **extra}
+        inner = ["env", "-i", *(f"{name}={value}" for name, value in variables.items())]
+        inner += map(str, words)
         self.ccache.mkdir(parents=True, exist_ok=True)
         return as_root("unshare", "--mount", "sh", ENTER, self.folder, ROOT, self.ccache, *inner)
 
@@ -106,12 +98,8 @@ class DebianRoot:
         )
         self.stamp.unlink(missing_ok=True)
         run(*as_root("rm", "-rf", "--one-file-system", self.folder))
-        options = [
-            "--variant=minbase",
-            '--aptopt=APT::Install-Recommends "false"',
-            *LEAN,
-            *self.options,
-        ]
+        options = ["--variant=minbase", '--aptopt=APT::Install-Recommends "false"']
+        options += [*LEAN, *self.options]
         words = ["mmdebstrap", *options, f"--include={','.join(packages)}", self.suite, self.folder]
         if run(*as_root(*words), check=False):
             raise DevError(
@@ -141,14 +129,8 @@ class DebianRoot:
     def _build_wheel(self, folder: Path) -> None:
         raw = self.outside / "unrepaired"
         run(*as_root("rm", "-rf", folder, raw))
-        pip = [
-            "python3",
-            "-m",
-            "pip",
-            "--quiet",
-            *PIP_WHEEL,
-            f"--config-settings=build-dir={INSIDE}/build",
-        ]
+        pip = ["python3", "-m", "pip", "--quiet", *PIP_WHEEL]
+        pip += [f"--config-settings=build-dir={INSIDE}/build"]
         if not self.repairable:
             pip.append("--config-settings=cmake.define.DF_CARRY_OPENMESH=ON")
         pip += ["--wheel-dir", INSIDE / raw.name, "/project"]

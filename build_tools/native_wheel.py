@@ -15,12 +15,8 @@ WHEELS = BUILD / "wheels"
 STAMP = VENV / "stamps" / "wheel"
 RELEASE = BUILD / "release"  # of the preset for tests: the core is compiled once for both
 # -Werror is for us; who builds the wheel elsewhere may have a compiler with new warnings
-PIP_WHEEL = [
-    "wheel",
-    "--no-deps",
-    "--no-build-isolation",
-    "--config-settings=cmake.define.DF_WARNINGS_AS_ERRORS=ON",
-]
+PIP_WHEEL = ["wheel", "--no-deps", "--no-build-isolation"]
+PIP_WHEEL += ["--config-settings=cmake.define.DF_WARNINGS_AS_ERRORS=ON"]
 
 
 def inputs() -> list[Path]:

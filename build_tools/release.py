@@ -8,9 +8,9 @@ import shutil
 from pathlib import Path
 
 import blender_repository
+import components
 import extension
 import site_pages
-import tool_environment
 from layout import OUT, ROOT, VENV_PYTHON
 from real_blender import places
 from shell import DevError, output, run, say
@@ -51,14 +51,6 @@ def sums(folder: Path) -> str:
     )
 
 
-def list_components(path: Path, epoch: int) -> None:
-    """Writes what the wheels are made of."""
-    with alone("components"):
-        python = tool_environment.install("components", "release")
-        script = ROOT / "build_tools" / "components.py"
-        run(python, script, manifest_version(), str(epoch), path)
-
-
 def build(zips: list[list[Path]]) -> Path:
     """The release's folder, with a zip for each list of wheels."""
     epoch = commit_time()
@@ -73,7 +65,7 @@ def build(zips: list[list[Path]]) -> Path:
         shutil.copy(wheel, RELEASE / "wheels")
     run(VENV_PYTHON, "-c", BUILD_SDIST, RELEASE)
     shutil.copytree(site_pages.build(), RELEASE / "site")
-    list_components(RELEASE / COMPONENTS, epoch)
+    (RELEASE / COMPONENTS).write_text(components.listing(manifest_version(), epoch), "utf-8")
     (RELEASE / "NOTES.md").write_text(notes((ROOT / "CHANGELOG.md").read_text("utf-8")), "utf-8")
     (RELEASE / SUMS).write_text(sums(RELEASE), "utf-8")
     say(f"release {manifest_version()}")

@@ -2,11 +2,9 @@
 """Skipping work whose inputs are the same as last time, by their content; doing it once at a time."""
 
 import hashlib
-import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TextIO
 
 from layout import CACHE, ROOT
 
@@ -39,28 +37,12 @@ def leave(stamp: Path, value: str) -> None:
     stamp.write_text(value)
 
 
-if sys.platform == "win32":
-    import msvcrt
-
-    def lock_whole(file: TextIO) -> None:
-        """Waits for the file until nobody else has it; the end of the process gives it back."""
-        while True:
-            try:
-                return msvcrt.locking(file.fileno(), msvcrt.LK_LOCK, 1)
-            except OSError:  # after ten seconds
-                continue
-else:
-    import fcntl
-
-    def lock_whole(file: TextIO) -> None:
-        """Waits for the file until nobody else has it; the end of the process gives it back."""
-        fcntl.flock(file, fcntl.LOCK_EX)
-
-
 @contextmanager
 def alone(work: str) -> Iterator[None]:
-    """Waits until no other process does the same work, which would spoil it."""
+    """Waits until no other process does the same work, which would spoil it; the end of a process gives it back."""
+    import fcntl  # which Windows lacks, where `dev.py wheels` runs
+
     CACHE.mkdir(exist_ok=True)
     with (CACHE / f"{work}.lock").open("w") as lock:
-        lock_whole(lock)
+        fcntl.flock(lock, fcntl.LOCK_EX)
         yield

@@ -6,6 +6,7 @@ import xml.etree.ElementTree as ElementTree
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 from functools import partial
+from importlib import import_module
 from pathlib import Path
 from time import monotonic
 
@@ -132,18 +133,9 @@ SUITES: dict[str, Callable[[], Tally | dict[str, Tally]]] = {
 }
 
 
-def windows_suite() -> dict[str, Tally]:
-    """The native tests as programs for Windows, under Wine."""
-    from cross import windows_suite as wine
-
-    return wine.run_suite()
-
-
-def arm_suite() -> Tally:
-    """The native tests as a program for ARM, under qemu."""
-    from cross import arm_suite as qemu
-
-    return qemu.run_suite()
+def cross_suite(name: str) -> dict[str, Tally]:
+    """The native tests as programs for another machine: for Windows under Wine, for ARM under qemu."""
+    return import_module(f"cross.{name}_suite").run_suite()
 
 
 def long_fuzz() -> Tally:
@@ -189,8 +181,8 @@ def quick_suite() -> dict[str, Tally]:
 # by name alone: quick is a part of the others, the rest take half an hour each
 LONG_SUITES: dict[str, Callable[[], Tally | dict[str, Tally]]] = {
     "quick": quick_suite,
-    "windows": windows_suite,
-    "arm": arm_suite,
+    "windows": partial(cross_suite, "windows"),
+    "arm": partial(cross_suite, "arm"),
     "nightly": nightly_suite,
 }
 
