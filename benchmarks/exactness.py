@@ -2,6 +2,7 @@
 """Surfaces whose answer is known, on point forces and on pads: spheres, the Clifford torus, caps."""
 
 from collections.abc import Iterator
+from itertools import pairwise
 from typing import Any
 
 import discrete_fairing as df
@@ -123,7 +124,7 @@ def caps() -> list[tuple[Any, ...]]:
 
 
 def run() -> dict[str, Any]:
-    """All three tables."""
+    """What all tables are made of."""
     result = {"spheres": spheres(2) + spheres(3), "clifford": clifford(), "caps": caps()}
     return result
 
@@ -147,6 +148,17 @@ def exact_table(result: dict[str, Any]) -> str:
     return table.markdown(["known surface", "measure", "point forces", "pads of 1"], rows)
 
 
+def levels_table(result: dict[str, Any]) -> str:
+    """The distance from the Clifford torus on each level, and the order from each to the next."""
+    rows = []
+    for name, size, *errors in result["clifford"]:
+        orders = [f"{np.log2(a / b):.1f}" for a, b in pairwise(errors)]
+        cells = [f"{e:.2e}".replace("e-0", "e-") for e in errors]
+        rows.append([name, "pads" if size else "point forces", *cells, ", ".join(orders)])
+    levels = [f"level {n}" for n in (1, 2, 3, 4)]
+    return table.markdown(["control mesh", "held by", *levels, "orders"], rows)
+
+
 def caps_table(result: dict[str, Any]) -> str:
     """Caps of a sphere on their boundary circle: how far surfaces are off, in shares of the radius."""
     rows = []
@@ -164,4 +176,5 @@ def tables(result: dict[str, Any]) -> dict[str, str]:
     return {
         "exact": exact_table(result),
         "exact.caps": caps_table(result),
+        "exact.levels": levels_table(result),
     }

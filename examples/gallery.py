@@ -43,11 +43,11 @@ SPECIAL = {
     ),
     PADS: (
         "bob",
-        ("zebra", "curvature"),
+        ("curvature",),
         {
-            "on needles": {"pad_size": 0.0},
-            "on pads of ½": {"pad_size": 0.5},
-            "on pads of 1": {"pad_size": 1.0},
+            "point forces": {"pad_size": 0.0},
+            "pads of ½": {"pad_size": 0.5},
+            "pads of 1": {"pad_size": 1.0},
         },
     ),
 }

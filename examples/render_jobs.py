@@ -56,7 +56,7 @@ def words_of(name):
 
 
 def tiles_of(name):
-    ours = (f"For > {words_of(name)}", pressed(name))
+    ours = (words_of(name), pressed(name))
     candidates = [*jobs.JOBS[name].rivals.items(), ours]
     return (
         ("As modelled", "clay", None),
