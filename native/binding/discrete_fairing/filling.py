@@ -14,10 +14,10 @@ from .arrays import face_arrays, index_array, vertex_array
 from .crossings import in_whole, with_less_crossing
 from .errors import fairing_error
 from .filled import Filled, SkippedHole, put_together
-from .near_hole import NOISY_RINGS, RIMS, RINGS, MeshPart
+from .near_hole import NOISY_RINGS, RIMS, RINGS, MeshPart, NearHole
 from .options import native_options
 from .quad_grid import quad_filling
-from .rounds import Filling, Wanted, faired_in_rounds, share_edges, without_folds
+from .rounds import Filling, RimEdges, Wanted, faired_in_rounds, near_holes, without_folds
 from .watching import Progress, SeveralRuns, check_watchers
 
 
@@ -171,8 +171,8 @@ def fill_holes(
         for row, (hole, (_, triangles)) in enumerate(zip(loops, found, strict=True)):
             run = watched.run(0.1, 0.1)
             grids[row] = quad_filling(mesh, _running_as(hole, triangles), wanted, run)
-    fillings = _with_triangles(mesh, filler, (loops, found), grids, wanted, watched)
-    fillings, crossings = with_less_crossing(whole, mesh, found, fillings, wanted, watched)
+    fillings, nears = _with_triangles(mesh, filler, (loops, found), grids, wanted, watched)
+    fillings, crossings = with_less_crossing(whole, mesh, nears, fillings, wanted, watched)
     watched.finish()
     told = [
         (count, grid if isinstance(grid, str) else "")
@@ -213,30 +213,33 @@ def _with_triangles(
     grids: list[Filling | str],
     wanted: Wanted,
     watched: SeveralRuns,
-) -> list[Filling]:
-    """The fillings of all holes: `grids`, where there is one, else triangles. A grid that would have an
-    edge of another filling once more becomes a reason, and triangles.
+) -> tuple[list[Filling], list[NearHole]]:
+    """The fillings of all holes: `grids`, where there is one, else triangles; and what fills all of them
+    before it is faired. A grid that would have an edge of another filling once more becomes a reason, and
+    triangles.
     """
     loops, found = triangulated
     while True:
+        nears = near_holes(mesh, found)
         rows = [row for row, grid in enumerate(grids) if isinstance(grid, str)]
-        fillings = faired_in_rounds(mesh, filler, found, wanted, watched, rows)
+        fillings = faired_in_rounds(mesh, filler, nears, wanted, watched, rows)
         quiet = watched.run(1.0, 1.0)
         watchers = quiet["monitor"], quiet["progress"]
         if wanted.density > 0.0 and any(f.made.folds for f in fillings.values()):
             bare, _ = _triangulated(filler, loops, (0.0, False), watchers)
             fillings = without_folds(mesh, fillings, bare)
         doubled = []
+        edges = RimEdges(len(mesh.points), {row: f.faces for row, f in fillings.items()})
         for row, grid in enumerate(grids):
             if isinstance(grid, str):
                 continue
-            others = [f.faces for f in fillings.values()]
-            if share_edges(grid.faces, others, len(mesh.points)):
+            if edges.are_taken(grid.faces, row):
                 doubled.append(row)
             else:
                 fillings[row] = grid
+                edges.put(row, grid.faces)
         if not doubled:
-            return [fillings[row] for row in range(len(grids))]
+            return [fillings[row] for row in range(len(grids))], nears
         for row in doubled:
             grids[row] = "a grid would have an edge of another filling"
         found, _ = filler.fill(loops, *wanted.triangles, *watchers)

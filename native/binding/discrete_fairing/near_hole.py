@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -49,11 +50,16 @@ class NearHole:
     """
 
     def __init__(self, mesh: MeshPart, own: np.ndarray, faces: np.ndarray, first: int) -> None:
-        self._mesh, self._own, self._faces, self._first = mesh, own, faces, first
+        self.own, self.faces, self.first = own, faces, first
+        self._mesh = mesh
         self._rim = np.unique(faces[faces < len(mesh.points)])
-        self._beside = _SidesBehind(mesh, self._rim, faces)
         self._ignored = np.empty(0, np.int64)  # faces around that fair() has refused
         self._held = np.zeros(len(own), bool)  # which of its own vertices stay
+        self._known: dict[tuple[str, str], tuple[np.ndarray, Made] | None] = {}  # while none stays
+
+    @cached_property
+    def _beside(self) -> _SidesBehind:
+        return _SidesBehind(self._mesh, self._rim, self.faces)
 
     def faired(
         self, energy: str, joint: str, noisy: bool, watchers: dict[str, Any], stands_in: bool = True
@@ -63,8 +69,8 @@ class NearHole:
         faces around say how it goes on, and none of them exactly. `stands_in`: whether another way is
         tried where this folds: the first that does not, else that with the fewest folds.
         """
-        if not len(self._own):
-            return self._own, self.as_triangulated(), self._own
+        if not len(self.own):
+            return self.own, self.as_triangulated(), self.own
         tries: list[tuple[np.ndarray, Made]] = []
         onward: np.ndarray | None = None
         for functional, meeting in _ways(energy, joint):
@@ -75,9 +81,9 @@ class NearHole:
             if not stands_in or (found and not found[1].folds):
                 break
         else:
-            tries.append((self._own, self.as_triangulated(joint != "position")))
+            tries.append((self.own, self.as_triangulated(joint != "position")))
         if not tries:
-            tries.append((self._own, self.as_triangulated(True)))
+            tries.append((self.own, self.as_triangulated(True)))
         moved, made = min(tries, key=lambda t: t[1].folds)
         return moved, made, moved if onward is None else onward
 
@@ -87,7 +93,7 @@ class NearHole:
         """The places of its own vertices by the way that was asked for, again and again while hold() gets
         more of them, and by each other way, if it is faired.
         """
-        for functional, meeting in list(_ways(energy, joint))[: 1 if len(self._own) else 0]:
+        for functional, meeting in list(_ways(energy, joint))[: 1 if len(self.own) else 0]:
             known = -1
             while self._held.sum() > known:
                 known = int(self._held.sum())
@@ -101,19 +107,19 @@ class NearHole:
             if found is not None:
                 yield found
         if joint != "position":
-            yield self._own, self.as_triangulated(True)
+            yield self.own, self.as_triangulated(True)
 
     def hold(self, faces: np.ndarray, own: np.ndarray) -> None:
         """Keeps the vertices of these faces, and of those that fold with its vertices at `own`, and of all
         faces beside, where they are."""
         bad = np.union1d(faces, self._beside.folding(self._normals(own)))
-        beside = np.isin(self._faces, self._faces[bad]).any(axis=1)
-        mine = self._faces[beside] - self._first
+        beside = np.isin(self.faces, self.faces[bad]).any(axis=1)
+        mine = self.faces[beside] - self.first
         self._held[mine[mine >= 0]] = True
 
     def as_triangulated(self, stands_in: bool = False) -> Made:
         """Not faired; `stands_in`: for a surface that was asked for."""
-        return Made("none", "position", not stands_in, self._folds(self._own))
+        return Made("none", "position", not stands_in, self._folds(self.own))
 
     def _solved(
         self, energy: str, joint: str, noisy: bool, watchers: dict[str, Any]
@@ -121,6 +127,15 @@ class NearHole:
         """None where fair() refuses the filling itself. Faces around that it refuses are ignored from
         then on: they say nothing of how the surface goes on.
         """
+        if self._held.any():
+            return self._solve(energy, joint, noisy, watchers)
+        if (energy, joint) not in self._known:
+            self._known[energy, joint] = self._solve(energy, joint, noisy, watchers)
+        return self._known[energy, joint]
+
+    def _solve(
+        self, energy: str, joint: str, noisy: bool, watchers: dict[str, Any]
+    ) -> tuple[np.ndarray, Made] | None:
         while True:
             rows, touching = self._around(NOISY_RINGS if noisy else RINGS[joint])
             weights = np.full(len(rows[-1]), np.inf)
@@ -143,7 +158,7 @@ class NearHole:
         """Vertices of the rim, and of it and each ring of faces around; and the faces."""
         rows, touching = [self._rim], np.empty(0, np.int64)
         for _ in range(rings):
-            touching = np.setdiff1d(self._mesh.touching(rows[-1]), self._ignored)
+            touching = np.setdiff1d(self._mesh.faces_at(rows[-1]), self._ignored)
             rows.append(np.union1d(self._rim, self._mesh.corners_at(touching)))
         return rows, touching
 
@@ -159,14 +174,14 @@ class NearHole:
         and whether the steps have converged.
         """
         mesh = self._mesh
-        known = np.concatenate([ids, np.arange(self._first, self._first + len(self._own))])
-        corners = np.concatenate([mesh.corners_at(touching), self._faces.ravel()])
+        known = np.concatenate([ids, np.arange(self.first, self.first + len(self.own))])
+        corners = np.concatenate([mesh.corners_at(touching), self.faces.ravel()])
         sizes = mesh.offsets[touching + 1] - mesh.offsets[touching]
         ends = np.cumsum(
-            np.concatenate([[0], sizes, np.full(len(self._faces), self._faces.shape[1])])
+            np.concatenate([[0], sizes, np.full(len(self.faces), self.faces.shape[1])])
         )
         result = fair(
-            np.concatenate([mesh.points[ids], self._own]),
+            np.concatenate([mesh.points[ids], self.own]),
             (np.searchsorted(known, corners), ends),
             levels=0,
             energy=energy,
@@ -183,7 +198,7 @@ class NearHole:
         """Which of the faces `touching` the error is about, of a run of _fair()."""
         named = np.ravel(error.elements).astype(np.int64)
         if error.kind != "face":
-            at = self._mesh.touching(ids[named[named < len(ids)]])
+            at = self._mesh.faces_at(ids[named[named < len(ids)]])
             return np.intersect1d(at, touching)
         found = touching[named[named < len(touching)]]
         if error.code == "INCONSISTENT_ORIENTATION" and (named >= len(touching)).any():
@@ -193,9 +208,9 @@ class NearHole:
     def corners(self, own: np.ndarray) -> np.ndarray:
         """(t, 3 or 4, 3) of its faces, its own vertices at `own`."""
         rows = np.where(
-            self._faces < len(self._mesh.points),
-            np.searchsorted(self._rim, self._faces),
-            self._faces - self._first + len(self._rim),
+            self.faces < len(self._mesh.points),
+            np.searchsorted(self._rim, self.faces),
+            self.faces - self.first + len(self._rim),
         )
         return np.concatenate([self._mesh.points[self._rim], own])[rows]
 
@@ -225,7 +240,7 @@ class _SidesBehind:
         self._pairs = np.stack([owner[same], owner[same + 1]])
         alone = np.ones(len(sides), bool)
         alone[same] = alone[same + 1] = False
-        faces = mesh.touching(rim)
+        faces = mesh.faces_at(rim)
         corners = mesh.corners_at(faces)
         sizes = mesh.offsets[faces + 1] - mesh.offsets[faces]
         starts = np.cumsum(sizes) - sizes
@@ -301,6 +316,18 @@ class MeshPart:
         marked[vertices] = True
         at = np.flatnonzero(marked[self.corners])
         return np.unique(np.searchsorted(self.offsets, at, side="right") - 1)
+
+    def faces_at(self, vertices: np.ndarray) -> np.ndarray:
+        """The same, for many who ask for few vertices each."""
+        faces, ends = self._faces_by_vertex
+        sizes = ends[vertices + 1] - ends[vertices]
+        return np.unique(faces[_runs(ends[vertices], sizes)])
+
+    @cached_property
+    def _faces_by_vertex(self) -> tuple[np.ndarray, np.ndarray]:
+        faces = np.repeat(np.arange(len(self.offsets) - 1), np.diff(self.offsets))
+        ends = np.cumsum(np.bincount(self.corners + 1, minlength=len(self.points) + 1))
+        return faces[np.argsort(self.corners, kind="stable")], ends
 
     def corner_fans(self, faces: np.ndarray) -> np.ndarray:
         """(t, 3) triangles of these faces: each from its first corner."""

@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -57,54 +58,57 @@ class Filling:
     made: Made
 
 
+def near_holes(mesh: MeshPart, found: Sequence[tuple[np.ndarray, np.ndarray]]) -> list[NearHole]:
+    """What fills all holes: own vertices and triangles of each, whose ids follow on one another."""
+    first, nears = len(mesh.points), []
+    for own, triangles in found:
+        nears.append(NearHole(mesh, own, triangles, first))
+        first += len(own)
+    return nears
+
+
 def faired_in_rounds(
     mesh: MeshPart,
     filler: _native.Filler,
-    found: list[tuple[np.ndarray, np.ndarray]],
+    nears: list[NearHole],
     wanted: Wanted,
     watched: SeveralRuns,
     rows: list[int],
 ) -> dict[int, Filling]:
-    """The best that each of the holes `rows` got. `found`: of all holes the own vertices and triangles,
-    as `filler` has them.
-    """
+    """The best that each of the holes `rows` got. `nears`: of all holes, as `filler` has them."""
     best: dict[int, Filling] = {}
     last: dict[int, Filling] = {}
     ranks: dict[int, _Rank] = {}
-    flat = [0.0] * len(found)  # area of each before it was faired
+    flat: dict[int, float] = {}  # area of each before it was faired
     for turn in range(_MOST_ROUNDS):
         shares = 1.0 - 0.9 * np.linspace(0.5**turn, 0.5 ** (turn + 1), len(rows) + 1)
-        first, left, onward = len(mesh.points), [], [own for own, _ in found]
+        left, onward = [], [near.own for near in nears]
         fair = []  # those of `left` whose steps have come to their end
-        for row, (own, triangles) in enumerate(found):
-            if row in rows:
-                near = NearHole(mesh, own, triangles, first)
-                at = rows.index(row)
-                run = watched.run(*shares[at : at + 2].tolist())
-                moved, made, onward[row] = near.faired(
-                    wanted.energy, wanted.joint, wanted.noisy, run, stands_in=turn == 0
-                )
-                start = near.area(own)
-                if turn == 0:
-                    flat[row] = start
-                last[row] = Filling(moved, triangles, first, made)
-                rank = _rank(made, near.corners(moved), wanted)
-                better = turn == 0 or rank < ranks[row]
-                if turn == 0 or rank <= ranks[row]:
-                    best[row], ranks[row] = last[row], rank
-                area = near.area(onward[row])
-                more = area > _GROWN * start or (better and rank > _FLAWLESS)
-                if more and _may_go_on(own, wanted) and area < _MOST_GROWN * flat[row]:
-                    left.append(row)
-                    if made.converged and moved is onward[row]:
-                        fair.append(row)
-            first += len(own)
+        for at, row in enumerate(rows):
+            near = nears[row]
+            run = watched.run(*shares[at : at + 2].tolist())
+            moved, made, onward[row] = near.faired(
+                wanted.energy, wanted.joint, wanted.noisy, run, stands_in=turn == 0
+            )
+            start = near.area(near.own)
+            flat.setdefault(row, start)
+            last[row] = Filling(moved, near.faces, near.first, made)
+            rank = _rank(made, near.corners(moved), wanted)
+            better = turn == 0 or rank < ranks[row]
+            if turn == 0 or rank <= ranks[row]:
+                best[row], ranks[row] = last[row], rank
+            area = near.area(onward[row])
+            more = area > _GROWN * start or (better and rank > _FLAWLESS)
+            if more and _may_go_on(near.own, wanted) and area < _MOST_GROWN * flat[row]:
+                left.append(row)
+                if made.converged and moved is onward[row]:
+                    fair.append(row)
         rows = left
         if not rows or turn + 1 == _MOST_ROUNDS:
             break
         quiet = watched.run(float(shares[-1]), float(shares[-1]))
         watchers = quiet["monitor"], quiet["progress"]
-        found = filler.refine(np.concatenate(onward), rows, fair, *watchers)
+        nears = near_holes(mesh, filler.refine(np.concatenate(onward), rows, fair, *watchers))
     return _apart(last, best, len(mesh.points))
 
 
@@ -113,10 +117,11 @@ def _apart(last: dict[int, Filling], best: dict[int, Filling], count: int) -> di
     has `count`, that another has: those of the last round have none.
     """
     chosen = dict(last)
+    edges = RimEdges(count, {row: filling.faces for row, filling in last.items()})
     for row, filling in best.items():
-        others = [f.faces for k, f in chosen.items() if k != row]
-        if filling is not last[row] and not share_edges(filling.faces, others, count):
+        if filling is not last[row] and not edges.are_taken(filling.faces, row):
             chosen[row] = filling
+            edges.put(row, filling.faces)
     return chosen
 
 
@@ -141,16 +146,14 @@ def without_folds(
     """`fillings`, and in the place of what folds the `bare` triangles between the vertices of the rim,
     where these do not: only what any such triangles would have is left to fold.
     """
-    count = len(mesh.points)
     chosen = dict(fillings)
-    first = count
-    for k, (own, triangles) in bare.items():
-        if k in chosen and chosen[k].made.folds:
-            plain = NearHole(mesh, own, triangles, first).as_triangulated(True)
-            others = [f.faces for row, f in chosen.items() if row != k]
-            if not plain.folds and not share_edges(triangles, others, count):
-                chosen[k] = Filling(own, triangles, first, plain)
-        first += len(own)
+    edges = RimEdges(len(mesh.points), {row: filling.faces for row, filling in fillings.items()})
+    for row, near in zip(bare, near_holes(mesh, list(bare.values())), strict=True):
+        if row in chosen and chosen[row].made.folds:
+            plain = near.as_triangulated(True)
+            if not plain.folds and not edges.are_taken(near.faces, row):
+                chosen[row] = Filling(near.own, near.faces, near.first, plain)
+                edges.put(row, near.faces)
     return chosen
 
 
@@ -164,14 +167,31 @@ def numbered_on(fillings: Sequence[Filling], count: int) -> list[Filling]:
     return found
 
 
-def share_edges(faces: np.ndarray, others: Sequence[np.ndarray], count: int) -> bool:
-    """Whether some edge between two vertices of the mesh, which has `count`, is in both."""
-    keys = _keys(faces, count)
-    return any(np.isin(keys, _keys(other, count)).any() for other in others)
+class RimEdges:
+    """Edges between two vertices of the mesh, which has `count`, that fillings have: faces of each by its
+    row.
+    """
 
+    def __init__(self, count: int, faces: Mapping[int, np.ndarray]) -> None:
+        self._count = count
+        self._of: dict[int, set[int]] = {}
+        self._uses: Counter[int] = Counter()
+        for row, its in faces.items():
+            self.put(row, its)
 
-def _keys(faces: np.ndarray, count: int) -> np.ndarray:
-    """A number for each side between two vertices of the mesh."""
-    sides = np.stack([faces, np.roll(faces, -1, axis=1)], -1).reshape(-1, 2).astype(np.int64)
-    sides = np.sort(sides[sides.max(axis=1) < count], axis=1)
-    return sides[:, 0] * count + sides[:, 1]
+    def put(self, row: int, faces: np.ndarray) -> None:
+        """The filling `row` has these `faces` from now on."""
+        self._uses.subtract(self._of.get(row, ()))
+        self._of[row] = self._keys(faces)
+        self._uses.update(self._of[row])
+
+    def are_taken(self, faces: np.ndarray, row: int) -> bool:
+        """Whether another filling than `row` has an edge of these `faces`."""
+        own = self._of.get(row, set())
+        return any(self._uses[key] > (key in own) for key in self._keys(faces))
+
+    def _keys(self, faces: np.ndarray) -> set[int]:
+        """A number for each side between two vertices of the mesh."""
+        sides = np.stack([faces, np.roll(faces, -1, axis=1)], -1).reshape(-1, 2).astype(np.int64)
+        sides = np.sort(sides[sides.max(axis=1) < self._count], axis=1)
+        return set((sides[:, 0] * self._count + sides[:, 1]).tolist())
