@@ -1,18 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A scan made into a closed surface, in its own mesh."""
 
-from collections.abc import Hashable
 from dataclasses import dataclass
-from time import perf_counter
 from typing import Any, cast
 
 import numpy as np
 
-from . import core, errors, prediction
+from . import core, errors
 from .blender import Context, Object
 from .check.defects import as_dicts, store_defects
 from .check.holes import listed
-from .mesh.begun import Begun
+from .mesh.begun import Begun, TimedRun
 from .mesh.object import Reference
 from .mesh.read import control_mesh, read_mesh
 from .mesh.world_shape import world_shape
@@ -55,31 +53,20 @@ class CleanOptions:
     noise: int | str  # passes, or "auto"
 
 
-class CleanJob:
+class CleanJob(TimedRun):
     """One object: read, cleaned on any thread, then written."""
 
+    kind = "CLEAN"
+
     def __init__(self, context: Context, target: Object, options: CleanOptions) -> None:
-        self.name, self._target, self._options = target.name, Reference(target), options
+        self.name, self.reference, self._options = target.name, Reference(target), options
         self._shape, self._units = world_shape(target), Units.of(context.scene)
-        self.result: Any = None
         with control_mesh(context, target) as mesh:
             self._arrays = read_mesh(mesh)
         self._begun = Begun.of("Run Clean Scan", target, self._arrays)
         self.triangles = int((self._arrays.face_sizes - 2).sum())
 
-    @property
-    def _key(self) -> Hashable:
-        """For predictions."""
-        return "clean", self._target.key
-
-    @property
-    def predicted_seconds(self) -> float:
-        """How long `compute` will take."""
-        return prediction.seconds("CLEAN", self.triangles, self._key)
-
-    def compute(self, **watchers: Any) -> None:
-        """Runs the core; `watchers` are its `monitor` and `progress`."""
-        begun = perf_counter()
+    def _compute(self, watchers: dict[str, Any]) -> None:
         arrays = self._arrays
         with errors.explained(self.name, errors.WITHOUT_MENDING):
             self.result = core.module().clean(
@@ -92,15 +79,10 @@ class CleanJob:
                 **self._options.steps,
                 **watchers,
             )
-        self._taken = perf_counter() - begun
-
-    def why_outdated(self, context: Context) -> str:
-        """Why what was computed does not fit any more, in one sentence; empty if it does."""
-        return self._begun.why_outdated(context)
 
     def apply(self, context: Context) -> list[str]:
         """Writes the mesh; what was done, a sentence each, the last of which says how it ended."""
-        target, found = cast(Object, self._target.find()), self.result
+        target, found = cast(Object, self.reference.find()), self.result
         origin = found.vertex_origin[found.vertex_origin >= 0]
         sent = self._shape.of(self._arrays.positions)[origin]
         flat = isinstance(found.faces, tuple)
@@ -122,7 +104,7 @@ class CleanJob:
         with control_mesh(context, target) as mesh:
             arrays = read_mesh(mesh)
         store_defects(context, target, self._left(arrays, made), listed(arrays, self._shape), said)
-        prediction.note("CLEAN", self.triangles, self._taken, self._key)
+        self.note()
         return said
 
     def _end(self) -> str:

@@ -1,19 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Holes of a mesh closed in place by the fairest surface: which they are, and the faces that fill them."""
 
-from collections.abc import Hashable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from time import perf_counter
 from typing import Any, cast
 
 import bmesh
 import numpy as np
 
-from . import core, errors, prediction
+from . import core, errors
 from .blender import Context, Object
 from .check.defects import check_object, store_defects
 from .errors import JobCancelled, JobError
-from .mesh.begun import Begun
+from .mesh.begun import Begun, TimedRun
 from .mesh.edited import edited, select_nothing
 from .mesh.object import Reference
 from .mesh.read import control_mesh, read_mesh
@@ -100,16 +99,16 @@ def _skipped(hole: Any) -> dict[str, Any]:
     }
 
 
-class HoleJob:
+class HoleJob(TimedRun):
     """The holes of one object: read, filled on any thread, then applied. What keeps them from being
     filled becomes `error`, so that other objects need not suffer.
     """
 
     def __init__(self, context: Context, target: Object, options: FillOptions) -> None:
         """Reads; JobError says why that cannot be."""
-        self.name, self._target, self._options = target.name, Reference(target), options
+        self.name, self.reference, self._options = target.name, Reference(target), options
+        self.kind = options.energy
         self._mode, self._shape = target.mode, world_shape(target)
-        self.result: Any = None
         self.error: JobError | None = None  # why nothing can be filled
         with control_mesh(context, target) as mesh:
             self._arrays = arrays = read_mesh(mesh)
@@ -154,19 +153,7 @@ class HoleJob:
     def _editing(self) -> bool:
         return self._mode == "EDIT"
 
-    @property
-    def _key(self) -> Hashable:
-        """For predictions."""
-        return "holes", self._target.key
-
-    @property
-    def predicted_seconds(self) -> float:
-        """How long `compute` will take."""
-        return prediction.seconds(self._options.energy, self.triangles, self._key)
-
-    def compute(self, **watchers: Any) -> None:
-        """Runs the core; `watchers` are its `monitor` and `progress`."""
-        begun = perf_counter()
+    def _compute(self, watchers: dict[str, Any]) -> None:
         try:
             with errors.explained(self.name, errors.OF_HOLES):
                 self.result = self._filled(watchers)
@@ -176,7 +163,6 @@ class HoleJob:
             raise
         except JobError as error:
             self.error = error
-        self._taken = perf_counter() - begun
 
     def _filled(self, watchers: dict[str, Any]) -> Filled:
         found = core.module().fill_holes(
@@ -192,19 +178,15 @@ class HoleJob:
         )
         return Filled.of(found, self._points, self._shape)
 
-    def why_outdated(self, context: Context) -> str:
-        """Why what was computed does not fit any more, in one sentence; empty if it does."""
-        return self._begun.why_outdated(context)
-
     def apply(self) -> Filling:
         """Makes the faces."""
-        target = cast(Object, self._target.find())
+        target = cast(Object, self.reference.find())
         patches, holes = self.result.patches, self.result.holes
         if not self._editing:
             select_nothing(target)
         with edited(target) as bm:
             _write(bm, np.flatnonzero(self._gone), patches, self.result.places)
-        prediction.note(self._options.energy, self.triangles, self._taken, self._key)
+        self.note()
         return Filling(
             len(holes),
             sum(len(patch.faces) for patch in patches),
@@ -233,7 +215,7 @@ class HoleJob:
         """Keeps the list of holes true, where one of them was filled from it, and lists what could not be
         filled, and edges around no hole, with buttons that select and mend them.
         """
-        target = self._target.find()
+        target = self.reference.find()
         if target is None or not (self.skipped or self._unclear or self._options.edge is not None):
             return
         known = check_object(context, target)

@@ -4,21 +4,19 @@
 Only what is near takes part: the selection and the faces around it.
 """
 
-from collections.abc import Hashable
 from dataclasses import dataclass, replace
-from time import perf_counter
 from typing import Any, cast
 
 import bmesh
 import numpy as np
 from mathutils import kdtree
 
-from . import core, errors, measured, prediction, size
+from . import core, errors, measured, size
 from .blender import Context, Object
 from .check.faults import Faults, find_faults_in_place
 from .errors import JobError
 from .job import run_warnings
-from .mesh.begun import Begun
+from .mesh.begun import Begun, TimedRun
 from .mesh.edited import edited
 from .mesh.object import Reference
 from .mesh.read import control_mesh, read_mesh, selected_faces
@@ -70,7 +68,7 @@ class Faired:
     noise: float = 0.0  # of measured vertices, a length
 
 
-class InPlaceJob:
+class InPlaceJob(TimedRun):
     """The selected faces of one object in Edit Mode: read, computed on any thread, then applied."""
 
     def __init__(
@@ -79,10 +77,10 @@ class InPlaceJob:
         """Reads; JobError says why that cannot be. In Object Mode all faces are meant. `settings`: what counts as a crease, and the rest
         that `options` does not say.
         """
-        self.name, self._source, self._options = source.name, Reference(source), options
+        self.name, self.reference, self._options = source.name, Reference(source), options
+        self.kind = options.energy
         self._units = Units.of(context.scene)
         self._preferences = of_runs()  # arguments are also made on the thread that computes
-        self.result: Any = None
         self._arrays, chosen = self._read(context, source)
         self._shape = world_shape(source)
         self._begun = Begun.of("Fair", source, self._arrays)
@@ -133,16 +131,6 @@ class InPlaceJob:
         made = measured.smoothed(part, self._arguments_of, self._free, found.weight, runs)
         return made, found.noise
 
-    @property
-    def _key(self) -> Hashable:
-        """For predictions: a part of a mesh is another mesh."""
-        return "in place", self._source.key
-
-    @property
-    def predicted_seconds(self) -> float:
-        """How long `compute` will take."""
-        return prediction.seconds(self._options.energy, self.triangles, self._key)
-
     @staticmethod
     def _read(context: Context, source: Object) -> tuple[core.ControlArrays, np.ndarray]:
         with control_mesh(context, source) as mesh:
@@ -152,9 +140,7 @@ class InPlaceJob:
                 chosen[selected_faces(mesh, source.name)] = True
         return arrays, chosen
 
-    def compute(self, **watchers: Any) -> None:
-        """Runs the core; `watchers` are its `monitor` and `progress`."""
-        begun = perf_counter()
+    def _compute(self, watchers: dict[str, Any]) -> None:
         arguments, part = self._arguments, self._part
         noise, moved = 0.0, {}
         with errors.explained(self.name, errors.WITHOUT_MENDING):
@@ -183,7 +169,6 @@ class InPlaceJob:
         faults = find_faults_in_place(result, transfer, world, theirs, self._options)
         spread = transfer.point(labels) if levels else labels
         self.result = Faired(part, chosen, points, splits, spread, levels, faults, noise)
-        self._taken = perf_counter() - begun
 
     def _part_of_the_way(self, vertices: np.ndarray, before: np.ndarray) -> np.ndarray:
         """`vertices` with the first of them, those of the part, between where they were `before` and
@@ -218,14 +203,10 @@ class InPlaceJob:
         noise = self.result.noise
         return [f"{self.name}: noise of {self._units.lengths(noise)(noise)} (rms) removed."]
 
-    def why_outdated(self, context: Context) -> str:
-        """Why what was computed does not fit any more, in one sentence; empty if it does."""
-        return self._begun.why_outdated(context)
-
     def apply(self) -> None:
         """Moves, and with levels refines, the faces."""
-        apply(cast(Object, self._source.find()), self.result)
-        prediction.note(self._options.energy, self.triangles, self._taken, self._key)
+        apply(cast(Object, self.reference.find()), self.result)
+        self.note()
 
 
 def _split_faces(transfer: AttributeTransfer, part: CutOut) -> dict[int, list[int]]:

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A mesh as a run has read it: whether what was computed still fits, once the run is over."""
+"""A mesh as a run has read it: how long that takes, and whether what was computed still fits, once it is over."""
 
 from dataclasses import dataclass
+from time import perf_counter
+from typing import Any
 
 import numpy as np
 
-from .. import core
+from .. import core, prediction
 from ..blender import Context, Object
 from .object import Reference
 from .read import control_mesh, read_mesh
@@ -47,3 +49,42 @@ class Begun:
 
     def _text(self, happened: str) -> str:
         return f"{self.again} once more: {self.name} {happened} during the run, and nothing else has changed."
+
+
+class TimedRun:
+    """What runs on the mesh of one object share; they read when they are made."""
+
+    kind: str  # for predictions: an energy, or what is done
+    name: str  # what sentences call it
+    reference: Reference
+    triangles: int
+    result: Any = None
+    _begun: Begun
+    _taken = 0.0
+
+    @property
+    def _key(self) -> tuple[str, Any]:
+        """For predictions: each kind of run knows a mesh by itself."""
+        return type(self).__name__, self.reference.key
+
+    @property
+    def predicted_seconds(self) -> float:
+        """How long `compute` will take."""
+        return prediction.seconds(self.kind, self.triangles, self._key)
+
+    def compute(self, **watchers: Any) -> None:
+        """Runs the core, on any thread; `watchers` are its `monitor` and `progress`. Raises JobError."""
+        begun = perf_counter()
+        self._compute(watchers)
+        self._taken = perf_counter() - begun
+
+    def _compute(self, watchers: dict[str, Any]) -> None:
+        raise NotImplementedError
+
+    def why_outdated(self, context: Context) -> str:
+        """Why what was computed does not fit any more, in one sentence; empty if it does."""
+        return self._begun.why_outdated(context)
+
+    def note(self) -> None:
+        """For predictions, on the main thread."""
+        prediction.note(self.kind, self.triangles, self._taken, self._key)

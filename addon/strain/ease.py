@@ -2,18 +2,17 @@
 """Control vertices put where the surface is fair: all a little, the worst, or those selected."""
 
 from dataclasses import dataclass, replace
-from time import perf_counter
 from typing import Any, cast
 
 import bmesh
 import numpy as np
 
-from .. import core, errors, prediction, size
+from .. import core, errors, size
 from ..blender import Context, Mesh, Object
 from ..errors import JobError
 from ..in_place import floats
 from ..live.switch import look_again
-from ..mesh.begun import Begun
+from ..mesh.begun import Begun, TimedRun
 from ..mesh.object import Reference
 from ..mesh.offset_names import read_names
 from ..mesh.read import control_mesh, read_mesh
@@ -36,7 +35,7 @@ class EaseOptions:
     go_on: bool = False  # whether from the shape key that an earlier run has written
 
 
-class _Moving:
+class _Moving(TimedRun):
     """New places of the vertices of one source: read, computed on any thread, then written."""
 
     kind = "EASE"  # of runs, for predictions
@@ -66,24 +65,14 @@ class _Moving:
         self.arguments = core.fair_arguments(self._world, settings, preferences())
         coarse = size.coarse_triangles(self.arrays.face_sizes) * halves(settings)
         self.triangles = coarse * 4**_LEVELS
-        self.result: Any = None
-        self._taken = 0.0
 
-    @property
-    def predicted_seconds(self) -> float:
-        """How long `compute` will take."""
-        return prediction.seconds(self.kind, self.triangles, (self.kind, self.reference.key))
-
-    def compute(self, **watchers: Any) -> None:
-        """Runs the core; `watchers` are its `monitor` and `progress`."""
-        begun = perf_counter()
+    def _compute(self, watchers: dict[str, Any]) -> None:
         with errors.explained(self.name):
             self.result = self._run(watchers)
         sent = self._world.positions
         places = self._places()
         self.moves = np.linalg.norm(places - sent, axis=1)  # (n,) in scene units
         self.positions = self._shape.back(places, sent, self._start)
-        self._taken = perf_counter() - begun
 
     def _run(self, watchers: dict[str, Any]) -> Any:
         raise NotImplementedError
@@ -92,19 +81,10 @@ class _Moving:
         """(n, 3) in the world's shape, once it has run."""
         raise NotImplementedError
 
-    def why_outdated(self, context: Context) -> str:
-        """Why what was computed does not fit any more, in one sentence; empty if it does."""
-        return self._begun.why_outdated(context)
-
     @property
     def longest(self) -> float:
         """Of the lengths that are said of a finished job, in scene units."""
         return float(self.moves.max(initial=0.0))
-
-    def note(self) -> None:
-        """For predictions, on the main thread."""
-        key = (self.kind, self.reference.key)
-        prediction.note(self.kind, self.triangles, self._taken, key)
 
 
 class EaseJob(_Moving):

@@ -2,14 +2,14 @@
 """One source's way from its mesh to its strain: read on Blender's main thread, computed on any."""
 
 from dataclasses import replace
-from time import perf_counter
 from typing import Any
 
 import numpy as np
 
-from .. import core, errors, prediction, size, vertex_values
+from .. import core, errors, size, vertex_values
 from ..blender import Context, Mesh, Object, scene_of
 from ..live.switch import live_surfaces_of, surfaces_of
+from ..mesh.begun import TimedRun
 from ..mesh.object import Reference
 from ..mesh.offset_names import read_names
 from ..mesh.read import control_mesh, read_mesh
@@ -19,7 +19,6 @@ from ..preferences import preferences
 from ..settings import Settings, halves
 from .strained import Strained
 
-_KIND = "STRAIN"  # of runs, for predictions
 _LEVELS = 2  # on which the core asks
 
 
@@ -36,8 +35,11 @@ def plate_settings(settings: Settings) -> Settings:
     return replace(settings, use_selection=False, interpolation="EXACT", use_shape_keys=False)
 
 
-class StrainJob:
+class StrainJob(TimedRun):
     """The strain of one source, with the edits of this moment."""
+
+    kind = "STRAIN"
+    result: Strained | None
 
     def __init__(
         self,
@@ -65,7 +67,7 @@ class StrainJob:
         self.arguments = core.plate_arguments(core.fair_arguments(world, settings, preferences()))
         coarse = size.coarse_triangles(arrays.face_sizes) * halves(settings)
         self.triangles = coarse * 4**_LEVELS
-        self.result: Strained | None = None
+        self.result = None
         if known is not None and known.result is not None and self.is_that_of(known):
             self.result = known.result
 
@@ -76,15 +78,14 @@ class StrainJob:
     @property
     def predicted_seconds(self) -> float:
         """How long `compute` will take."""
-        if self.result is not None:
-            return 0.0
-        return prediction.seconds(_KIND, self.triangles, (_KIND, self.reference.key))
+        return super().predicted_seconds if self.result is None else 0.0
 
     def compute(self, **watchers: Any) -> None:
-        """Runs the core, where that has not been done; `watchers` are its `monitor` and `progress`."""
-        if self.result is not None:
-            return
-        begun = perf_counter()
+        """Where that has not been done."""
+        if self.result is None:
+            super().compute(**watchers)
+
+    def _compute(self, watchers: dict[str, Any]) -> None:
         with errors.explained(self.name):
             found = core.module().strain(**self.arguments, **watchers)
         back = self._shape.way_back[:3, :3]
@@ -97,12 +98,11 @@ class StrainJob:
             found.wrong,
             self.names,
         )
-        self.taken = perf_counter() - begun
 
     def note(self) -> None:
         """For predictions, on the main thread."""
-        if hasattr(self, "taken"):
-            prediction.note(_KIND, self.triangles, self.taken, (_KIND, self.reference.key))
+        if self._taken:
+            super().note()
 
 
 def mixed_positions(source: Object, mesh: Mesh, positions: np.ndarray) -> np.ndarray:
