@@ -17,9 +17,7 @@ VIEWPORT = "1262x814+58+84"  # with the sidebar, of a window of 1600 by 1000
 # by the names of pictures: the screenshot, the part of it, how wide it becomes
 PARTS = {
     "window_surface": ("redo", VIEWPORT, 945),
-    "window_check": ("check", VIEWPORT, 945),
     "window_live": ("live", VIEWPORT, 945),
-    "window_compare": ("compare", VIEWPORT, 945),
     "window_job": ("job_mechanical_zebra", VIEWPORT, 945),
     "window_badge": ("badge", "560x720+1040+24", 560),
 }

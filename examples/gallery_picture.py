@@ -210,7 +210,11 @@ def _bar(sheet, rows):
 def _labels(columns, looks, limit):
     """(text, x, y of its middle in the sheet's pixels, size)."""
     width, height = 2 * TILE[0], 2 * TILE[1]
-    labels = [(c.label, (k + 0.5) * width, 1.15 * HEAD, 30) for k, c in enumerate(columns)]
+    labels = [
+        (c.label, (k + 0.5) * width, 1.15 * HEAD, 30)
+        for k, c in enumerate(columns)
+        if "clay" in looks or not c.is_control
+    ]
     for row, look in enumerate(looks):
         if look in ROWS:
             middle = 2 * HEAD + (row + (0.47 if look == "zebra" else 0.4)) * height
