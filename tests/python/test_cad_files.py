@@ -52,15 +52,6 @@ def full_disk():
         resource.setrlimit(resource.RLIMIT_FSIZE, before)
 
 
-def test_a_surface_that_is_refused_leaves_no_file(tmp_path):
-    """What a caller writes in one line."""
-    points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0.02, 0, 0.02), (0.02, 1, 0.02)]
-    with pytest.raises(df.FairingError) as caught:
-        df.write_step(tmp_path / "a.step", df.fit_patches(points, [(0, 1, 2, 3), (1, 4, 5, 2)]))
-    assert caught.value.code == "UNRESOLVED"
-    assert not list(tmp_path.iterdir())
-
-
 def test_a_full_disk_leaves_the_old_file(cube, old):
     with pytest.raises(OSError) as caught, full_disk():
         df.write_step(old, cube)
@@ -199,12 +190,6 @@ def test_a_full_device_behind_a_name_is_told(cube, tmp_path):
         df.write_step(path, cube)
     assert (caught.value.errno, caught.value.filename) == (errno.ENOSPC, str(path))
     assert only(path)
-
-
-def test_permissions_stay_private(cube, old):
-    old.chmod(0o600)
-    df.write_step(old, cube)
-    assert stat.S_IMODE(old.stat().st_mode) == 0o600 and old.stat().st_size > 1000
 
 
 def test_what_is_being_written_is_out_of_reach(cube, old, monkeypatch):

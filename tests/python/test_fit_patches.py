@@ -47,6 +47,23 @@ def fitted():
     return of
 
 
+@pytest.fixture
+def levels(monkeypatch):
+    """The levels of all surfaces that are computed."""
+    found, fair = [], fitting.fair
+    monkeypatch.setattr(
+        fitting, "fair", lambda p, f, level, **o: found.append(level) or fair(p, f, level, **o)
+    )
+    return found
+
+
+# bent back onto itself
+LEAF = (
+    [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0.02, 0, 0.02), (0.02, 1, 0.02)],
+    [(0, 1, 2, 3), (1, 4, 5, 2)],
+)
+
+
 @pytest.mark.parametrize("name", ["cube", "octahedron"])
 def test_points_on_a_sphere_give_its_patches(fitted, name):
     patches = fitted(name)
@@ -146,13 +163,8 @@ def test_what_a_given_level_is_off_by_is_measured_too(levels):
     assert len(by_level.unmet) == (6 if levels == 4 else 0)
 
 
-def test_half_a_hull_is_refused_early(monkeypatch):
+def test_half_a_hull_is_refused_early(levels):
     """Where its deck has a corner it turns by 39 degrees at every level, at any tolerance."""
-    levels = []
-    fair = fitting.fair
-    monkeypatch.setattr(
-        fitting, "fair", lambda p, f, level, **o: levels.append(level) or fair(p, f, level, **o)
-    )
     kept = {"symmetry_plane": "y", "corner_angle": np.radians(60)}
     for tolerance in (1e-4, 1e-5):
         with pytest.raises(df.FairingError) as caught:
@@ -355,30 +367,17 @@ def test_curves_that_end_at_a_corner_do_not_cross_there():
     assert np.degrees(patches.turned.max()) < 20
 
 
-def test_a_fold_is_refused_at_a_coarse_level(monkeypatch):
-    """A leaf bent back onto itself: no patch is fitted, and no finer level is computed."""
-    points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0.02, 0, 0.02), (0.02, 1, 0.02)]
-    faces = [(0, 1, 2, 3), (1, 4, 5, 2)]
-    levels = []
-    fair = fitting.fair
-    monkeypatch.setattr(
-        fitting, "fair", lambda p, f, level, **o: levels.append(level) or fair(p, f, level, **o)
-    )
+def test_a_fold_is_refused_at_a_coarse_level(levels):
+    """No patch is fitted, and no finer level is computed."""
     with pytest.raises(df.FairingError) as caught:
-        df.fit_patches(points, faces)
+        df.fit_patches(*LEAF)
     assert caught.value.code == "UNRESOLVED"
     assert caught.value.elements
     assert levels == [fitting.FIRST_LEVEL - 1]
 
 
-def test_a_fold_that_stays_is_not_refined(monkeypatch):
-    points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0.02, 0, 0.02), (0.02, 1, 0.02)]
-    levels = []
-    fair = fitting.fair
-    monkeypatch.setattr(
-        fitting, "fair", lambda p, f, level, **o: levels.append(level) or fair(p, f, level, **o)
-    )
-    patches = df.fit_patches(points, [(0, 1, 2, 3), (1, 4, 5, 2)], force=True)
+def test_a_fold_that_stays_is_not_refined(levels):
+    patches = df.fit_patches(*LEAF, force=True)
     assert len(patches.unresolved)
     assert levels == [fitting.FIRST_LEVEL - 1, fitting.FIRST_LEVEL]
 

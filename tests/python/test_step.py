@@ -13,35 +13,11 @@ from spline_measures import volume
 
 open_cascade = pytest.mark.skipif(step_files.OCP is None, reason=step_files.ABSENT)
 CURVED = {"energy": "total_curvature"}
-SURFACES = {
-    "cube": (control_meshes.cube(), CURVED),
-    "octahedron": (control_meshes.octahedron(), CURVED),
-    "torus": (control_meshes.torus(), CURVED),
-    "open triangles": (control_meshes.wavy_patch(), {"levels": 4}),
-    "creases": (control_meshes.drum()[0], {"levels": 4, "crease_edges": control_meshes.drum()[1]}),
-    "triangles and quads": (control_meshes.mixed_house(), {"levels": 4}),
-}
 
 
 @pytest.fixture(scope="module")
 def cube():
     return df.fit_patches(*control_meshes.cube(), **CURVED)
-
-
-@open_cascade
-@pytest.mark.parametrize("name", SURFACES)
-def test_open_cascade_reads_it_back(tmp_path, name):
-    mesh, options = SURFACES[name]
-    patches = df.fit_patches(*mesh, force=True, **options)
-    df.write_step(tmp_path / "a.step", patches, unit="mm")
-    read = step_files.read(tmp_path / "a.step")
-    assert read.valid
-    assert read.faces == len(patches)
-    assert read.solids == patches.shell_closed.sum()
-    assert read.free_edges == (patches.edge_kind == 2).sum()
-    assert read.shared_edges == (patches.edge_kind != 2).sum()
-    if read.solids:
-        assert read.volume == pytest.approx(volume(patches), rel=1e-6)
 
 
 @open_cascade
