@@ -24,7 +24,11 @@ STEPS = (
         "Bad Faces",
         "Removes duplicate faces, faces without area and vertices without a face",
     ),
-    ("join", "Join Borders", "Joins border edges that lie on one another"),
+    (
+        "join",
+        "Join Borders",
+        "Joins border edges that lie on one another, and cuts those with vertices on them",
+    ),
     ("fins", "Fins", "Removes sheets that are attached to an edge of the surface"),
     ("normals", "Normals", "Flips faces that point the wrong way"),
     (

@@ -204,3 +204,23 @@ def test_noise_is_taken_off_in_all_shape_keys():
     basis, wide = positions(target.data), target.data.shape_keys.key_blocks["Wide"]
     found = np.array([point.co for point in wide.data])
     assert np.allclose(found - basis, [0.25, 0.0, 0.0], atol=1e-5)
+
+
+def test_edges_are_cut_at_vertices_on_them():
+    """Three quads, two of which have a corner on the first one's side."""
+    flat = [(0, 0), (1, 0), (1, 2), (0, 2), (1, 1), (2, 0), (2, 1), (2, 2)]
+    mesh = bpy.data.meshes.new("Hanging")
+    mesh.from_pydata([(*p, 0) for p in flat], [], [(0, 1, 2, 3), (1, 5, 6, 4), (4, 6, 7, 2)])
+    mesh.attributes.new("mark", "INT", "FACE").data.foreach_set("value", [5, 6, 7])
+    target = bpy.data.objects.new("Hanging", mesh)
+    bpy.context.collection.objects.link(target)
+    activate(target)
+    assert bpy.ops.object.fairing_clean(largest=0.0) == {"FINISHED"}
+    assert "1 edge cut at a vertex on it" in recall_cleaned(target)[0]
+    marks = mesh.attributes["mark"].data
+    assert sorted((len(f.vertices), marks[f.index].value) for f in mesh.polygons) == [
+        (4, 6),
+        (4, 7),
+        (5, 5),
+    ]
+    assert len(mesh.vertices) == 8 and not mesh.validate()

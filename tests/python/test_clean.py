@@ -45,6 +45,35 @@ def test_loose_triangles_are_joined():
     closed(found)
 
 
+def sheet_with_hanging_vertices(bend, triangles):
+    """Eight by eight cells, of which the middle four by four are refined once."""
+    ids, faces = {}, []
+    for x, y in np.ndindex(8, 8):
+        step = 0.5 if 2 <= min(x, y) <= max(x, y) < 6 else 1.0
+        for a, b in np.ndindex(int(1 / step), int(1 / step)):
+            low = x + a * step, y + b * step
+            ring = [
+                (low[0] + i * step, low[1] + j * step) for i, j in [(0, 0), (1, 0), (1, 1), (0, 1)]
+            ]
+            quad = [ids.setdefault(place, len(ids)) for place in ring]
+            faces += [[*quad[:3]], [quad[0], *quad[2:]]] if triangles else [quad]
+    flat = np.array(list(ids))
+    return np.c_[flat, bend * ((flat - 4.0) ** 2).sum(axis=1)], faces
+
+
+@pytest.mark.parametrize("bend", [0.0, -0.05])
+@pytest.mark.parametrize(("triangles", "count"), [(True, 240), (False, 112)])
+def test_edges_are_cut_at_vertices_that_lie_on_them(bend, triangles, count):
+    """They were split off as a part of their own, and the ring between was filled."""
+    vertices, faces = sheet_with_hanging_vertices(bend, triangles)
+    found = df.clean(vertices, faces)
+    only(found, "join", 16)
+    assert [(d.code, len(d.elements)) for d in found.left] == [("OPEN_HOLE", 32)]
+    assert np.array_equal(found.vertices, vertices)
+    assert len(found.face_origin) == count
+    assert (np.diff(found.face_origin) >= 0).all()
+
+
 def test_parts_that_touch_in_a_point_are_not_joined():
     points, faces = BALL
     both = np.concatenate([points, points + [2.0, 0.0, 0.0]])

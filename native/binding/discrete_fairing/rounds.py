@@ -30,7 +30,7 @@ _MOST_GROWN = 20.0
 
 # Degrees: a triangle with a smaller angle is a sliver. New triangles on the faired shape have fewer; a
 # rim that forces some has as many in each round.
-_SLIVER = 15.0
+SLIVER = 15.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,7 +132,7 @@ _FLAWLESS: _Rank = (0, False, False, 0)
 def _rank(made: Made, corners: np.ndarray, wanted: Wanted) -> _Rank:
     """The less the better; of triangles with these `corners` (t, 3, 3)."""
     after, before = np.roll(corners, -1, axis=1) - corners, np.roll(corners, 1, axis=1) - corners
-    slivers = (angles_between(after, before).min(axis=1) < np.radians(_SLIVER)).sum()
+    slivers = (angles_between(after, before).min(axis=1) < np.radians(SLIVER)).sum()
     return made.folds, made.energy != wanted.energy, not made.converged, int(slivers)
 
 

@@ -112,7 +112,8 @@ def clean(
         Duplicate faces, faces without area, doubled corners and faces that name vertices which the mesh
         does not have, as fair() mends them; vertices without a face go.
     join : bool
-        Border edges that lie on one another, end on end, become one: files such as STL know no others.
+        Border edges that lie on one another, end on end, become one: files such as STL know no others. Those
+        with vertices of other faces on them are cut there.
     islands : float
         Parts whose box has a diagonal shorter than this share of the largest part's are dropped. 0: none.
     fins : bool
@@ -194,6 +195,9 @@ def clean(
         run.step("normals", 0.15, turned, *TURNED)
     if fins:
         run.step("fins", 0.18, topology.without_fins, *_dropped("of a fin", "of fins"))
+    if join:
+        cut = lambda s: topology.edges_cut(s, run.watchers)  # noqa: E731
+        run.step("join", 0.19, cut, *CUT)
     if islands > 0.0:
         apart = lambda s: _without_islands(s, float(islands))  # noqa: E731
         run.step("islands", 0.2, apart, "island dropped", "islands dropped")
@@ -225,6 +229,7 @@ def clean(
     return found
 
 
+CUT = "edge cut at a vertex on it", "edges cut at vertices on them"
 TURNED = "face flipped", "faces flipped"
 SPLIT = (
     "vertex split where parts touched",

@@ -49,6 +49,28 @@ class State:
             self.corner_origin[kept],
         )
 
+    def in_pieces(self, pieces: dict[int, list[list[tuple[int, int]]]]) -> State:
+        """With these faces (ids) in pieces, each of vertices and the corners that these come from."""
+        whole = np.ones(len(self.face_origin), bool)
+        whole[list(pieces)] = False
+        rest = self.without(~whole)
+        new = [corner for its in pieces.values() for piece in its for corner in piece]
+        vertices, origins = np.array(new, np.int64).T
+        face = [f for f, its in pieces.items() for _ in its]
+        face = np.concatenate([np.flatnonzero(whole), np.array(face, np.int64)])
+        new_sizes = [len(piece) for its in pieces.values() for piece in its]
+        sizes = np.concatenate([np.diff(rest.offsets), new_sizes])
+        order = np.argsort(face, kind="stable")
+        ends = np.cumsum(sizes[order])
+        shift = (np.cumsum(sizes) - sizes)[order] - (ends - sizes[order])
+        at = np.arange(ends[-1]) + np.repeat(shift, sizes[order])
+        return self.replaced(
+            corners=np.concatenate([rest.corners, vertices])[at],
+            offsets=np.concatenate([[0], ends]),
+            face_origin=self.face_origin[face[order]],
+            corner_origin=np.concatenate([rest.corner_origin, self.corner_origin[origins]])[at],
+        )
+
     def turned(self, faces: np.ndarray) -> State:
         """With these faces (ids) turned over; their first corners stay the first."""
         at = np.arange(len(self.corners))
