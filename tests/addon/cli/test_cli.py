@@ -14,14 +14,6 @@ from cli_runs import contains, entries, imported, process, run
 from addon import core
 from addon.cli import main as command
 
-
-@pytest.fixture(autouse=True)
-def folder(tmp_path, monkeypatch):
-    """Every test in a folder of its own."""
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
-
-
 WRITERS = {"obj": write_obj, "ply": write_ply, "stl": write_stl}
 
 
@@ -48,12 +40,6 @@ def test_objects_keep_their_names_and_their_materials():
     }
     assert Path("out.mtl").exists()
     assert contains(read_obj("out.obj"), points, 1e-6)
-
-
-def test_no_material_no_material_file():
-    write_obj("in.obj")
-    assert run("in.obj", "out.obj") == 0
-    assert not Path("out.mtl").exists()
 
 
 def test_merge_closes_what_is_apart():
@@ -168,25 +154,6 @@ def test_the_table_has_a_line_for_each_file(capfd):
     assert head.split()[0] == "file" and line.split()[:3] == ["in.obj", "6", "96"] and "→" in line
 
 
-def radii(path):
-    return np.linalg.norm(read_obj(path), axis=1)
-
-
-def test_energy_reaches_the_core_and_the_report():
-    write_obj("in.obj")
-    _, (plate,) = entries("in.obj", "plate.obj", "--levels", 2, "--energy", "thin_plate")
-    _, (round_one,) = entries("in.obj", "round.obj", "--levels", 2, "--energy", "total_curvature")
-    assert (plate["settings"]["energy"], round_one["settings"]["energy"]) == (
-        "THIN_PLATE",
-        "TOTAL_CURVATURE",
-    )
-    assert plate["objects"][0]["report"]["curvature"] == []
-    assert round_one["objects"][0]["report"]["curvature"][-1]["converged"]
-    assert np.ptp(radii("round.obj")) < 1e-5 < 0.05 < np.ptp(radii("plate.obj")), (
-        "a sphere from a cube's vertices"
-    )
-
-
 def test_the_table_says_accuracy_as_the_energy_has_it(capfd):
     write_obj("in.obj")
     run("in.obj", "out.obj", "--levels", 1, "--energy", "thin_plate")
@@ -297,12 +264,6 @@ def test_standard_output_has_the_report_and_nothing_else():
     code, output, _ = process("in.obj", "missing.obj", "out/", "--json", "-", "--quiet")
     assert code == 1
     assert [entry["status"] for entry in json.loads(output)["inputs"]] == ["done", "failed"]
-
-
-def test_a_process_without_a_report_ends_well():
-    write_obj("in.obj")
-    assert process("in.obj", "out.ply")[0] == 0
-    assert Path("out.ply").stat().st_size
 
 
 def test_in_pieces_the_surface_is_the_whole_one():

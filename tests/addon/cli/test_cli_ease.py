@@ -13,7 +13,6 @@ from cli_runs import contains, entries, imported, run
 from dunes import COLUMNS, OFF, ROWS, WRONG, dune, grid
 from scenes import add
 
-from addon.settings import NAMES
 from addon.strain import table
 from addon.strain.measure import StrainJob
 
@@ -120,10 +119,6 @@ def test_a_table_is_kept_where_nothing_is_overwritten():
     code, (entry,) = entries("in.obj", "out.obj", "--strain", "a.csv", "--no-overwrite")
     assert (code, entry["error"]["code"]) == (1, "EXISTS")
     assert Path("a.csv").read_text() == "mine"
-
-
-def test_its_names_are_no_settings():
-    assert not {"ease", "ease_tolerance", "strain"} & set(NAMES)
 
 
 @pytest.mark.parametrize(

@@ -19,12 +19,10 @@ from addon.cli import main as command
 
 
 @pytest.fixture(autouse=True)
-def folder(tmp_path, monkeypatch):
-    """Every test in a folder of its own; what starts the command once more is not Blender here."""
-    monkeypatch.chdir(tmp_path)
+def no_blender(monkeypatch):
+    """What starts the command once more is not Blender here."""
     program = f"import sys; sys.path[:0] = {[str(ROOT), str(CORE)]}\n{PROCESS}"
     monkeypatch.setattr(executors, "blender_again", lambda: [sys.executable, "-c", program])
-    return tmp_path
 
 
 @pytest.fixture

@@ -120,14 +120,6 @@ def test_what_passes_through_the_mesh_is_warned_of():
     assert any("1 hole passes through other faces" in w for w in entry["warnings"])
 
 
-def test_the_table_counts_holes(capsys):
-    write_ball("in.obj")
-    assert run("in.obj", "out.obj", "--fill") == 0
-    lines = [text for text in capsys.readouterr().err.splitlines() if "%" not in text]
-    assert lines[0].split() == ["file", "faces", "in", "faces", "out", "seconds", "holes", "folded"]
-    assert lines[-1].split()[-2:] == ["1", "0"]
-
-
 @pytest.mark.parametrize(
     "words, said",
     [

@@ -85,19 +85,6 @@ def test_a_share_of_the_way_to_the_limit_says_that_it_is_meant():
         settings("--limit", "0.5", "--tolerance", "0.1")
 
 
-def test_a_group_goes_with_either_tolerance():
-    given = settings("--tolerance", "0.1", "--tolerance-group", "Loose")
-    assert (given.tolerance_unit, given.tolerance_group) == ("SCENE", "Loose")
-
-
-def test_pads_and_tension():
-    given = settings("--pad-size", "0.25", "--tension", "1")
-    assert (given.pad_size, given.tension) == (0.25, 1.0)
-    for words in (("--pad-size", "1.5"), ("--tension", "-1"), ("--vertex-release", "0.1")):
-        with pytest.raises(SystemExit):
-            settings(*words)
-
-
 def test_energies():
     assert settings().energy == DEFAULT_ENERGY
     for key, *_ in ENERGIES:

@@ -34,15 +34,6 @@ def test_units_say_what_the_numbers_are():
     assert 1000 < found.highest[0] < 2500
 
 
-def test_the_table_says_how_exact_it_is(capsys):
-    write_obj("in.obj")
-    assert run("in.obj", "out.step") == 0
-    lines = [text for text in capsys.readouterr().err.splitlines() if "%" not in text]
-    head, line = lines[0], lines[-1]
-    assert head.split() == ["file", "faces", "in", "patches", "seconds", "off", "angle"]
-    assert line.split()[:3] == ["in.obj", "6", "6"] and line.endswith("°")
-
-
 def test_no_file_in_is_a_step_file_and_options_belong_to_them(capsys):
     with pytest.raises(BadPlaces, match="no known type"):
         places(["in.step"], "out.obj")

@@ -3,19 +3,11 @@
 
 from pathlib import Path
 
-import pytest
 from cli_files import lopsided, write_obj, write_ply
 from cli_runs import contains, entries, imported, run
 
 from addon import vertex_values
 from addon.cli import main as command
-
-
-@pytest.fixture(autouse=True)
-def folder(tmp_path, monkeypatch):
-    """Every test in a folder of its own."""
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
 
 
 def test_a_length_and_a_share_of_the_edges():

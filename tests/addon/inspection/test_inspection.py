@@ -13,8 +13,7 @@ from scenes import CUBE, activate, add, add_suzanne, snapshot
 from addon.inspection import display, measures, readout
 from addon.inspection.materials import COLOUR, STRIPES_NAMES
 from addon.inspection.settings import MODES
-from addon.memory import keep, recall, source_of
-from addon.mesh.modifiers import without_inspection
+from addon.memory import keep, recall
 from addon.ui import inspect as panel
 
 SHOWN = [key for key, *_ in MODES if key != "NONE"]
@@ -127,14 +126,6 @@ def test_refresh_measures_a_replaced_mesh():
     display.refresh(box, bpy.context.scene.discrete_fairing_inspection)
     assert len(box.data.attributes[COLOUR].data) == len(box.data.vertices)
     assert shown_materials(box) == {"Fairing Curvature"}
-
-
-def test_reading_and_export_can_do_without():
-    box = add("Box", *CUBE)
-    show(box, "ZEBRA")
-    with without_inspection(bpy.context, box):
-        assert shown_materials(box) == set()
-    assert shown_materials(box) == {"Fairing Zebra"}
 
 
 def test_one_mesh_of_two_objects_keeps_its_colours_for_the_other():
@@ -274,13 +265,6 @@ def test_readout_says_how_the_steps_went():
     assert "Steps" not in [row[0] for row in table(target, source)]
 
 
-def test_readout_minds_no_report_of_another_kind():
-    _, target = faired_pair()
-    for text in ("[]", "null", "{", "{}"):
-        target.discrete_fairing.report = text
-        assert readout.take(bpy.context, target)["after"]["steps"] is None
-
-
 def test_readout_of_a_plain_mesh_has_no_before():
     activate(add("Box", *CUBE))
     assert bpy.ops.object.fairing_measure() == {"FINISHED"}
@@ -298,12 +282,6 @@ def test_readout_goes_stale_with_the_shape_only():
     box.data.update()
     bpy.context.view_layer.update()
     assert readout.is_stale(box, recall(box, "readout"))
-
-
-def test_source_of_a_result():
-    source, target = faired_pair()
-    target.discrete_fairing.source = source
-    assert source_of(target) == source and source_of(source) is None
 
 
 def drawn(shading="SOLID"):
