@@ -12,6 +12,7 @@ from mathutils import Vector
 from ..blender import Answer, Context, Object, registration
 from ..check.defects import select_defects, select_in_all
 from ..memory import active_source
+from ..mesh.edited import edited
 from ..mesh.object import why_not_here
 from ..mesh.shape_keys import EASED, key_positions
 from ..mesh.world_shape import transformed, world_matrix
@@ -146,6 +147,41 @@ class OBJECT_OT_fairing_select_strained(_Straining, bpy.types.Operator):
         return strained.wrong if self.by == "FLOOR" else above(strained.lengths, self.threshold)
 
 
+class OBJECT_OT_fairing_crease_knuckle(_Straining, bpy.types.Operator):
+    """Crease the edges along strained vertices that form a chain: a knuckle, not wrong offsets"""
+
+    bl_idname = "object.fairing_crease_knuckle"
+    bl_label = "Crease Knuckle"
+    bl_options = {"REGISTER", "UNDO"}
+
+    def use(self, context: Context, jobs: list[StrainJob]) -> Answer:
+        done = 0
+        for job in jobs:
+            source, strained = job.reference.find(), job.result
+            assert source is not None and strained is not None  # as computing has left it
+            if strained.knuckle:
+                self.report(
+                    {"INFO"}, f"{job.name}: {_crease(source, strained.knuckle)} edges creased"
+                )
+                done += 1
+        if not done:
+            self.report(
+                {"ERROR"}, "Crease edges by hand (Shift E): no strained vertices form a chain"
+            )
+        return {"FINISHED"} if done else {"CANCELLED"}
+
+
+def _crease(source: Object, chain: list[int]) -> int:
+    """How many edges along the `chain` of vertices are sharp now."""
+    with edited(source) as bm:
+        layer = bm.edges.layers.float.get("crease_edge") or bm.edges.layers.float.new("crease_edge")
+        bm.verts.ensure_lookup_table()
+        sides = [bm.edges.get((bm.verts[v], bm.verts[w])) for v, w in zip(chain, chain[1:])]
+        for side in sides:
+            side[layer] = 1.0
+    return len(sides)
+
+
 class OBJECT_OT_fairing_go_to_strained(ExplainedPoll, bpy.types.Operator):
     """Select this vertex in Edit Mode and bring it to the middle of the viewport"""
 
@@ -220,6 +256,7 @@ class OBJECT_OT_fairing_strain_table(ByFileBrowser, _Straining, bpy.types.Operat
 CLASSES = (
     OBJECT_OT_fairing_strain,
     OBJECT_OT_fairing_select_strained,
+    OBJECT_OT_fairing_crease_knuckle,
     OBJECT_OT_fairing_go_to_strained,
     OBJECT_OT_fairing_strain_table,
 )

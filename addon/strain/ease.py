@@ -21,7 +21,7 @@ from ..mesh.world_shape import world_shape
 from ..preferences import preferences
 from ..settings import Settings, halves
 from . import words
-from .measure import plate_settings, settings_for
+from .measure import knuckle_of, plate_settings, settings_for
 
 _LEVELS = 2  # that the core computes on
 
@@ -98,6 +98,7 @@ class EaseJob(_Moving):
         settings: Settings | None = None,
     ) -> None:
         super().__init__(context, source, options.go_on, settings)
+        self.knuckle: list[int] = []
         self._options = options
         if options.use_selection and not self.selected.any():
             raise JobError(
@@ -111,14 +112,30 @@ class EaseJob(_Moving):
             )
 
     def _run(self, watchers: dict[str, Any]) -> Any:
-        options = self._options
+        options, fixed = self._options, None
+        if options.use_selection:
+            fixed = ~self.selected
+        elif options.amount == "WORST":
+            fixed = self._on_knuckle(watchers)
         return core.module().ease(
             **core.plate_arguments(self.arguments),
             tolerance=options.tolerance if options.amount == "TOLERANCE" else None,
             most=options.count if options.amount == "WORST" else None,
-            fixed=~self.selected if options.use_selection else None,
+            fixed=fixed,
             **watchers,
         )
+
+    def _on_knuckle(self, watchers: dict[str, Any]) -> np.ndarray:
+        """(n,) bool: vertices in a row that look like a knuckle. They stay until somebody has said that they are none:
+        by selecting them.
+        """
+        watch = {name: value for name, value in watchers.items() if name == "monitor"}
+        arguments = core.plate_arguments(self.arguments)
+        found = core.module().strain(**arguments, **watch)
+        self.knuckle = knuckle_of(found.excess, self.arrays, self._world.positions)
+        fixed = np.zeros(len(self._start), bool)
+        fixed[self.knuckle] = True
+        return fixed
 
     def _places(self) -> np.ndarray:
         return self.result.vertices
@@ -128,7 +145,11 @@ class EaseJob(_Moving):
         eased, options = self.result, self._options
         before = eased.strain_before
         if options.amount == "WORST":
-            return words.moved(self.moves, text, self.names)
+            said = words.moved(self.moves, text, self.names)
+            if not self.knuckle:
+                return said
+            asked = words.looks_like_knuckle(self.knuckle, self.names)
+            return f"{said}. {asked} Crease Knuckle does; they stay unless you select them"
         if options.amount == "TOLERANCE":
             return words.moved_within(self.moves, options.tolerance, before, text, self.names)
         return words.eased(

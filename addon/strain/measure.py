@@ -17,6 +17,7 @@ from ..mesh.shape_keys import mixed, read_shape_keys
 from ..mesh.world_shape import world_shape
 from ..preferences import preferences
 from ..settings import Settings, halves
+from .knuckle import knuckle
 from .strained import Strained
 
 _LEVELS = 2  # on which the core asks
@@ -56,7 +57,7 @@ class StrainJob(TimedRun):
         self.name, self.reference = source.name, Reference(source)
         settings = plate_settings(settings or settings_for(context, source))
         with control_mesh(context, source) as mesh:
-            arrays = read_mesh(mesh)
+            self._arrays = arrays = read_mesh(mesh)
             self.names = read_names(mesh)
             self.positions = arrays.positions
             if as_mixed:
@@ -97,12 +98,20 @@ class StrainJob(TimedRun):
             self._edge_length,
             found.wrong,
             self.names,
+            knuckle_of(found.excess, self._arrays, self.positions),
         )
 
     def note(self) -> None:
         """For predictions, on the main thread."""
         if self._taken:
             super().note()
+
+
+def knuckle_of(lengths: np.ndarray, arrays: core.ControlArrays, positions: np.ndarray) -> list[int]:
+    """Ids along a chain of strained vertices that wants a crease; `lengths` (n,)."""
+    crease = arrays.edge_crease
+    creased = np.zeros(len(arrays.edges), bool) if crease is None else crease > 0.0
+    return knuckle(lengths, arrays.edges, creased, arrays.edge_uses == 1, positions)
 
 
 def mixed_positions(source: Object, mesh: Mesh, positions: np.ndarray) -> np.ndarray:

@@ -27,6 +27,8 @@ class Strained:
     standing_out: np.ndarray | None = None
     names: list[str] = field(default_factory=list)  # (n,) of a table of offsets; or none
 
+    knuckle: list[int] = field(default_factory=list)  # ids along a chain that wants a crease
+
     def name(self, index: int) -> str:
         """`station 4, WL 300`, or `vertex 31`."""
         return words.name(index, self.names)

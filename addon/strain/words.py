@@ -42,6 +42,12 @@ def found(chosen: np.ndarray, lengths: np.ndarray, text: Text, names: Sequence[s
     return f"{len(chosen):,} of {count(held)} selected: {listed(chosen, lengths, text, names)}"
 
 
+def looks_like_knuckle(chain: Sequence[int], names: Sequence[str]) -> str:
+    """A question; `chain`: ids in a row."""
+    ends = f"{name(chain[0], names)} to {name(chain[-1], names)}"
+    return f"These look like a knuckle: {ends}. Crease them?"
+
+
 def none_above(threshold: float, largest: float, text: Text) -> str:
     return (
         f"No vertex strains by more than {text(threshold)}; the largest strain is {text(largest)}"

@@ -59,6 +59,7 @@ class VIEW3D_MT_fairing(bpy.types.Menu):
             button.mode = mode
         layout.operator("object.fairing_strain")
         layout.operator("object.fairing_select_strained")
+        layout.operator("object.fairing_crease_knuckle")
         layout.operator("object.fairing_ease")
         layout.operator("object.fairing_ease_selected")
         layout.operator("object.fairing_strain_table")

@@ -10,6 +10,7 @@ from ..memory import active_source
 from ..strain import known
 from ..strain.drawn import magnification
 from ..strain.strained import Strained
+from ..strain.words import looks_like_knuckle
 from ..units import Units
 from .layout import Folded
 from .notice import draw_notice
@@ -37,6 +38,11 @@ class VIEW3D_PT_fairing_strain(Folded, bpy.types.Panel):
             layout.label(text="Measuring …", icon="SORTTIME")
         if strained is not None:
             _draw_worst(layout, context, source, strained)
+            if strained.knuckle:
+                draw_notice(
+                    layout, looks_like_knuckle(strained.knuckle, strained.names), "QUESTION"
+                )
+                layout.operator("object.fairing_crease_knuckle", icon="EDGESEL")
         layout.operator("object.fairing_select_strained", icon="RESTRICT_SELECT_OFF")
         edited = context.mode == "EDIT_MESH"
         layout.operator("object.fairing_ease_selected" if edited else "object.fairing_ease")

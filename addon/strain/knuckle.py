@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Strained vertices that look like a knuckle without a crease. Plain arrays, no Blender.
+
+A wrong offset strains alone. Along a knuckle that is not creased the surface wants to go to one side at vertex after
+vertex: the most strained ones of that side are a chain of edges, or go on from where a crease ends.
+"""
+
+import numpy as np
+
+_LEAST = 3  # vertices in a row that are no coincidence
+
+
+def knuckle(
+    lengths: np.ndarray,
+    edges: np.ndarray,
+    creased: np.ndarray,
+    border: np.ndarray,
+    points: np.ndarray,
+) -> list[int]:
+    """Ids along the longest chain, with the ends of creases and the border vertices that it runs into; none found: empty.
+
+    `lengths` (n,) strain, above zero outwards, NaN where a vertex is not held; `edges` (e, 2); `creased`, `border`
+    (e,) bool; `points` (n, 3).
+    """
+    beside: dict[int, list[int]] = {}
+    for v, w in edges[~creased].tolist():
+        beside.setdefault(v, []).append(w)
+        beside.setdefault(w, []).append(v)
+    uses = np.bincount(edges[creased].ravel(), minlength=len(points))
+    on_border = np.zeros(len(points), bool)
+    on_border[edges[border].ravel()] = True
+    crease_ends = (uses == 1) & ~on_border
+    found: list[list[int]] = [[]]
+    for side in (-1.0, 1.0):
+        chain = _worst_in_a_row(side * lengths, beside)
+        if not chain:
+            continue
+        ends = _run_into(chain, beside, crease_ends | on_border, points)
+        whole = ends[:1] + chain + ends[1:]
+        whole = [v for v in whole if v >= 0]
+        if len(chain) >= _LEAST or (len(whole) >= _LEAST and crease_ends[whole].any()):
+            found.append(whole)
+    return max(found, key=len)
+
+
+def _worst_in_a_row(lengths: np.ndarray, beside: dict[int, list[int]]) -> list[int]:
+    """The vertices of the largest `lengths` above zero, as long as each goes on from an end of those before."""
+    order = np.argsort(-np.nan_to_num(lengths, nan=-np.inf), kind="stable")
+    chain: list[int] = []
+    for v in order.tolist():
+        if not lengths[v] > 0.0:
+            break
+        touched = [w for w in beside.get(v, ()) if w in chain]
+        if chain and (len(touched) != 1 or touched[0] not in (chain[0], chain[-1])):
+            break
+        if chain and touched[0] == chain[0]:
+            chain.insert(0, v)
+        else:
+            chain.append(v)
+    return chain
+
+
+def _run_into(
+    chain: list[int], beside: dict[int, list[int]], stops: np.ndarray, points: np.ndarray
+) -> list[int]:
+    """Where the chain goes on straightest at both ends, if that is one of the `stops`; else -1. A chain of one vertex goes
+    on to the two that are most nearly opposite.
+    """
+    if len(chain) == 1:
+        near = beside.get(chain[0], [])
+        pairs = [[a, b] for k, a in enumerate(near) for b in near[k + 1 :] if stops[a] and stops[b]]
+        return min(pairs, key=lambda p: _cosine(points, p[0], chain[0], p[1]), default=[-1, -1])
+    found = []
+    for end, before in ((chain[0], chain[1]), (chain[-1], chain[-2])):
+        near = [w for w in beside.get(end, ()) if w not in chain]
+        ahead = min(near, key=lambda w: _cosine(points, w, end, before), default=-1)
+        found.append(ahead if ahead >= 0 and stops[ahead] else -1)
+    return found
+
+
+def _cosine(points: np.ndarray, a: int, at: int, b: int) -> float:
+    """Of the angle at a vertex: -1 where it goes straight on."""
+    there, back = points[a] - points[at], points[b] - points[at]
+    return float(there @ back / max(np.linalg.norm(there) * np.linalg.norm(back), 1e-300))
