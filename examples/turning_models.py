@@ -22,7 +22,7 @@ from render_modelling import MODELS  # noqa: E402
 import addon  # noqa: E402
 
 TURNING = {
-    **{name: MODELS[name][0] for name in ("hull", "fender", "mug")},
+    **{name: MODELS[name][0] for name in ("hull", "fender")},
     "branching": modelled(control_meshes.branching),
 }
 WAYS = {
