@@ -12,7 +12,7 @@ from shared_data import shared_files
 from surfaces import comes_near
 
 MOST_FACES = 700
-# What is left at level 2 (docs/developers/notes/total-curvature.md).
+# What is left at level 2 (docs/developers/notes/steps.md).
 LEFT = {"catmark_lefthanded": 2, "catmark_righthanded": 15}
 
 
