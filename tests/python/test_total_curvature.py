@@ -19,7 +19,7 @@ SETTLED = {
     "max_steps": 60,
 }  # the stopping test is no part of what a test compares
 # Where the steps end elsewhere than on the sphere. The theorem says that the sphere is a critical
-# point, and nothing of the way there: docs/developers/notes/total-curvature.md counts these.
+# point, and nothing of the way there: docs/developers/notes/performance.md counts these.
 MISSED = {("J2_cut", 3), ("J4_cut", 3), ("J5_cut", 2), ("J5_cut", 3), ("8/3", 3), ("8/7", 3)}
 HULLS = {8: range(40), 12: range(24), 20: range(10), 40: range(2), 100: range(1)}
 HULL_CASES = [
