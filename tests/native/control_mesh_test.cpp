@@ -76,16 +76,6 @@ TEST(ControlMesh, ClosedRingsRunCounterClockwise) {
     EXPECT_EQ((mesh.ring(0)[i].face + 1) % 360, mesh.ring(0)[i + 1].face);
 }
 
-TEST(ControlMesh, KeepsIsolatedVertices) {
-  OwnedPolygonMesh triangle = single_triangle();
-  triangle.coordinates.insert(triangle.coordinates.begin(), {9, 9, 9});
-  for (auto& v : triangle.corners) ++v;
-  const ControlMesh mesh = build(triangle);
-  EXPECT_EQ(mesh.vertex_count(), 4);
-  EXPECT_TRUE(mesh.ring(0).empty());
-  EXPECT_FALSE(mesh.interior(0));
-}
-
 TEST(ControlMesh, TurnsTheFacesThatTheCheckHasFound) {
   const OwnedPolygonMesh mesh = flipped_cube_face();
   const CheckResult result = check(mesh.view(), {.repair = true});
@@ -163,33 +153,6 @@ TEST(Chains, EndWhereTheBoundaryChanges) {
   }
 }
 
-TEST(Chains, FreeEdgesAreOnNone) {
-  const ControlMesh mesh =
-      build(grid(2, 2), with_edges(BoundaryMode::curve, BoundaryMode::free, {{0, 1}, {1, 2}}));
-  ASSERT_EQ(mesh.chains.size(), 1u);
-  EXPECT_FALSE(mesh.chains[0].closed);
-  EXPECT_EQ(mesh.chains[0].edges.size(), 6u);
-  EXPECT_FALSE(mesh.feature_vertex[1]);
-  EXPECT_TRUE(mesh.feature_vertex[0] && mesh.feature_vertex[2]);
-}
-
-TEST(Chains, EdgesUnderTheModeOfAllChangeNothing) {
-  for (const BoundaryMode all : {BoundaryMode::curve, BoundaryMode::linear, BoundaryMode::free}) {
-    const ControlMesh plain = build(grid(2, 2), {.boundary = all});
-    // 4-1 is inside: it has no boundary.
-    const ControlMesh named = build(grid(2, 2), with_edges(all, all, {{0, 1}, {5, 2}, {4, 1}}));
-    const ControlMesh inside = build(grid(2, 2), with_edges(all, BoundaryMode::linear, {{4, 1}}));
-    for (const ControlMesh* mesh : {&named, &inside}) {
-      ASSERT_EQ(mesh->chains.size(), plain.chains.size());
-      EXPECT_EQ(mesh->feature_edge, plain.feature_edge);
-      for (std::size_t c = 0; c < plain.chains.size(); ++c) {
-        EXPECT_EQ(mesh->chains[c].vertices, plain.chains[c].vertices);
-        EXPECT_EQ(mesh->chains[c].straight, plain.chains[c].straight);
-      }
-    }
-  }
-}
-
 TEST(Chains, ClosedCrease) {
   const ControlMesh mesh = build(cube(), {.crease_edges = {{4, 5}, {5, 6}, {6, 7}, {7, 4}}});
   ASSERT_EQ(mesh.chains.size(), 1u);
@@ -203,12 +166,6 @@ TEST(Chains, CreasesByAngle) {
   EXPECT_EQ(build(cube(), {.crease_angle = 1.0}).chains.size(), 12u);
   EXPECT_EQ(build(dodecahedron(), {.crease_angle = 1.0}).chains.size(),
             30u);  // nothing inside the pentagons
-}
-
-TEST(Chains, ALoneCornerIsAConeTip) {
-  const ControlMesh mesh = build(open_cone(8), {.corner_vertices = {0}});
-  EXPECT_TRUE(mesh.feature_vertex[0]);
-  EXPECT_EQ(mesh.chains.size(), 1u);
 }
 
 }  // namespace

@@ -121,10 +121,6 @@ TEST(Curve, ApproximatesTheCircle) {
   }
 }
 
-TEST(Curve, NothingBetweenOnLevelZero) {
-  EXPECT_TRUE(refine_chain(random_chain(1, 5), false, 1, 0.5).empty());
-}
-
 Points reversed_result(Points points) {
   std::reverse(points.begin(), points.end());
   return points;
@@ -173,15 +169,6 @@ TEST(Curve, StrandsAtTheSamePlaceAgree) {
   EXPECT_EQ(points, reversed_result(points));
 }
 
-TEST(Curve, CommutesWithMirroring) {
-  const Points chain = random_chain(5, 8);
-  Points mirrored = chain;
-  for (Vec3& p : mirrored) p.x() *= -1;
-  Points expected = refine_chain(chain, true, 8, 0.5);
-  for (Vec3& p : expected) p.x() *= -1;
-  EXPECT_LT(distance(refine_chain(mirrored, true, 8, 0.5), expected), 1e-14);
-}
-
 ControlMesh build(const OwnedPolygonMesh& mesh, const FeatureOptions& features) {
   check(mesh.view());
   return make_control_mesh(mesh.view(), features);
@@ -206,63 +193,6 @@ TEST(FeatureCurves, RunsFollowTheirEdges) {
     EXPECT_LT((run.back() - b).norm(), (run.front() - b).norm());
   }
   EXPECT_EQ(curves.points.size(), 7 * runs);
-}
-
-TEST(FeatureCurves, StraightBoundariesStayOnTheirEdges) {
-  const ControlMesh mesh = build(open_cylinder(5), {.boundary = BoundaryMode::linear});
-  const FeatureCurves curves = refine_feature_edges(mesh, 4, 0.5);
-  for (Index e = 0; e < Index(mesh.edges.size()); ++e) {
-    if (curves.run[std::size_t(e)] < 0) continue;
-    const Vec3& a = mesh.positions[std::size_t(mesh.edges[std::size_t(e)].vertex[0])];
-    const Vec3& b = mesh.positions[std::size_t(mesh.edges[std::size_t(e)].vertex[1])];
-    for (int k = 1; k < 4; ++k)
-      EXPECT_LT((curves.of(e)[std::size_t(k - 1)] - (a + (k / 4.0) * (b - a))).norm(), 1e-15);
-  }
-}
-
-// Two meshes on either side of one boundary polyline: numbered, oriented and refined apart, equal
-// to the last bit.
-TEST(FeatureCurves, NeighboursAgreeBitForBit) {
-  const int around = 7;
-  for (const BoundaryMode mode : {BoundaryMode::curve, BoundaryMode::linear}) {
-    OwnedPolygonMesh lower = open_cylinder(around), upper;
-    for (std::size_t i = 0; i < lower.coordinates.size(); ++i)
-      lower.coordinates[i] += 0.1 * std::sin(3.7 * double(i));
-    upper.offsets = lower.offsets;
-    const auto shifted = [&](std::int64_t v) { return 2 * ((v / 2 + 3) % around) + v % 2; };
-    upper.coordinates.resize(lower.coordinates.size());
-    for (std::int64_t v = 0; v < 2 * around; ++v)
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        upper.coordinates[std::size_t(3 * shifted(v)) + axis] =
-            lower.coordinates[std::size_t(3 * v) + axis] + (v % 2 == 0 && axis == 2 ? 4 : 0);
-    upper.corners = lower.corners;
-    for (auto& v : upper.corners) v = shifted(v);
-    for (std::size_t f = 0; f < std::size_t(around); ++f)
-      std::reverse(upper.corners.begin() + 4 * std::ptrdiff_t(f),
-                   upper.corners.begin() + 4 * std::ptrdiff_t(f) + 4);
-
-    const ControlMesh low = build(lower, {.boundary = mode}),
-                      high = build(upper, {.boundary = mode});
-    const FeatureCurves low_curves = refine_feature_edges(low, 16, 0.5),
-                        high_curves = refine_feature_edges(high, 16, 0.5);
-    int shared = 0;
-    for (Index e = 0; e < Index(low.edges.size()); ++e)
-      for (Index d = 0; d < Index(high.edges.size()); ++d) {
-        const auto end = [](const ControlMesh& m, Index edge, std::size_t i) {
-          return m.positions[std::size_t(m.edges[std::size_t(edge)].vertex[i])];
-        };
-        if (!low.feature_edge[std::size_t(e)] || !high.feature_edge[std::size_t(d)]) continue;
-        const bool same = end(low, e, 0) == end(high, d, 0) && end(low, e, 1) == end(high, d, 1);
-        const bool opposite =
-            end(low, e, 0) == end(high, d, 1) && end(low, e, 1) == end(high, d, 0);
-        if (!same && !opposite) continue;
-        ++shared;
-        Points a(low_curves.of(e).begin(), low_curves.of(e).end()),
-            b(high_curves.of(d).begin(), high_curves.of(d).end());
-        EXPECT_EQ(a, opposite ? reversed_result(b) : b);
-      }
-    EXPECT_EQ(shared, around);
-  }
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "meshes.h"
-#include "thrown.h"
 
 namespace fairing::test {
 namespace {
@@ -127,48 +126,6 @@ TEST(Fill, RefinedTrianglesDoNotTurnOverTheRim) {
     const Vec3 n = (patch.points[std::size_t(t[1])] - a).cross(patch.points[std::size_t(t[2])] - a);
     EXPECT_GT(n.z(), 0.3 * n.norm());
   }
-}
-
-TEST(Fill, BothEndsOfACylinder) {
-  const OwnedPolygonMesh mesh = open_cylinder(12);
-  const HalfEdges half_edges(mesh.view());
-  std::vector<Hole> holes;
-  for (HoleLoop& loop : find_holes(mesh.view(), half_edges).loops) {
-    std::reverse(loop.begin(), loop.end());
-    holes.push_back({loop});
-  }
-  Refusals refusals = check_holes(mesh.view(), half_edges, holes);
-  OwnedPolygonMesh closed = mesh;
-  for (const FilledHole& hole : fill(mesh.view(), half_edges, holes, {}, refusals)) {
-    for (const Vec3& p : hole.points)
-      closed.coordinates.insert(closed.coordinates.end(), p.begin(), p.end());
-    for (const Triangle& t : hole.triangles) {
-      closed.corners.insert(closed.corners.end(), t.begin(), t.end());
-      closed.offsets.push_back(std::int64_t(closed.corners.size()));
-    }
-  }
-  const HalfEdges all(closed.view());
-  EXPECT_TRUE(all.nonmanifold_edges().empty());
-  for (std::int32_t k = 0; k < all.count(); ++k) {
-    ASSERT_GE(all.twin(k), 0);
-    EXPECT_FALSE(all.runs_as_twin(k));
-  }
-}
-
-TEST(Fill, RefusesWhatIsNoHole) {
-  const OwnedPolygonMesh mesh = grid(3, 3);
-  const HalfEdges half_edges(mesh.view());
-  const auto checked = [&](Hole hole) {
-    std::vector<Hole> holes{std::move(hole)};
-    return check_holes(mesh.view(), half_edges, holes);
-  };
-  const auto thrown_for = [&](const Hole& hole) { return thrown([&] { checked(hole); }).code; };
-  EXPECT_EQ(thrown_for({}), ErrorCode::bad_option);
-  EXPECT_EQ(thrown_for({{0, 1}}), ErrorCode::bad_option);
-  EXPECT_EQ(thrown_for({{0, 1, 99}}), ErrorCode::index_out_of_range);
-  const auto refused = [&](const Hole& hole) { return checked(hole)[0].value().code; };
-  EXPECT_EQ(refused({{0, 1, 0}}), ErrorCode::repeated_vertex);
-  EXPECT_EQ(refused({{5, 6, 10, 9}}), ErrorCode::bad_option);
 }
 
 }  // namespace

@@ -71,28 +71,6 @@ void expect_a_mirror(const ControlMesh& mesh, const Mirror& mirror) {
   }
 }
 
-// Vertices at one place are told apart by their sheets.
-TEST(Mirror, OfSheetsThatMeet) {
-  for (const ControlMesh& mesh : {working(control(two_cubes())), turned(control(two_cubes()))}) {
-    const std::vector<Mirror> found = mirrors(mesh);
-    EXPECT_EQ(found.size(), 3u);
-    for (const Mirror& mirror : found) expect_a_mirror(mesh, mirror);
-  }
-}
-
-// In either plane one of two fins is a wall.
-TEST(Mirror, OfAWallInThePlane) {
-  for (const ControlMesh& mesh :
-       {working(control(plate_with_fins())), turned(control(plate_with_fins()))}) {
-    const std::vector<Mirror> found = mirrors(mesh);
-    EXPECT_EQ(found.size(), 2u);
-    for (const Mirror& mirror : found) {
-      expect_a_mirror(mesh, mirror);
-      EXPECT_GT(std::count(mirror.turn.begin(), mirror.turn.end(), Mirror::in_plane), 0);
-    }
-  }
-}
-
 TEST(Mirror, OfSymmetricMeshes) {
   const std::pair<OwnedPolygonMesh, std::size_t> cases[] = {
       {cube(), 3},        {octahedron(), 3},  {icosahedron(), 3},    {dodecahedron(), 3},
@@ -173,18 +151,6 @@ TEST(Mirror, VerticesAtOnePlaceAreToldApart) {
   EXPECT_EQ(found[0].vertex, (std::vector<Index>{5, 4, 7, 6, 1, 0, 3, 2}));
 }
 
-TEST(Mirror, OtherPositions) {
-  const ControlMesh mesh = working(control(cube()));
-  const std::vector<Mirror> found = mirrors(mesh);
-  std::vector<Vec3> taller = mesh.positions, sheared = mesh.positions;
-  for (Vec3& p : taller) p.z() *= 2;
-  for (Vec3& p : sheared) p.x() += p.z();
-  for (const Mirror& mirror : found) {
-    EXPECT_TRUE(mirrors_positions(mesh, mirror, taller, tolerance));
-    EXPECT_EQ(mirrors_positions(mesh, mirror, sheared, tolerance), mirror.plane.normal.y() == 1);
-  }
-}
-
 // Everything but control vertices and curves.
 Unknowns unknowns(const ControlMesh& mesh, bool vertices) {
   Unknowns u;
@@ -219,32 +185,6 @@ TEST(LatticeMirror, TakesPointsWhereTheyBelong) {
         for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(mean[i], x[i], 1e-13);
       }
     }
-}
-
-TEST(LatticeMirror, MakesSurfacesSymmetric) {
-  Workers one(1), two(2);
-  for (const ControlMesh& mesh : samples()) {
-    const GridLevel lattice(mesh, 3);
-    const std::vector<Mirror> found = mirrors(mesh);
-    Array<double> x(3 * lattice.size());
-    refine_linearly(lattice, mesh.positions, x.data());
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] += 0.01 * std::sin(12.9898 * double(i + 1));
-    const Array<double> rough = x;
-    Array<double> alone = x;
-    for (const Mirror& mirror : found) {
-      mean_with_image(lattice, mirror, unknowns(mesh, true), two, x.data());
-      mean_with_image(lattice, mirror, unknowns(mesh, true), one, alone.data());
-    }
-    EXPECT_EQ(x, alone);
-    double moved = 0;
-    for (std::size_t i = 0; i < x.size(); ++i) moved = std::max(moved, std::abs(x[i] - rough[i]));
-    EXPECT_GT(moved, 1e-3);
-    for (const Mirror& mirror : found) {  // earlier ones are not lost
-      Array<double> again = x;
-      mean_with_image(lattice, mirror, unknowns(mesh, true), one, again.data());
-      for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(again[i], x[i], 1e-14);
-    }
-  }
 }
 
 // What is even in the distance from the plane stays, what is odd goes.

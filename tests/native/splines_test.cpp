@@ -23,15 +23,6 @@ SplineSurface fitted(const Refined& surface, const SplineOptions& options = {1e-
   return fit_splines(surface.view(), options, monitor);
 }
 
-double sphere_error(const SplineSurface& surface) {
-  double error = 0;
-  for (const SplinePatch& patch : surface.patches)
-    for (int j = 0; j <= 20; ++j)
-      for (int i = 0; i <= 20; ++i)
-        error = std::max(error, std::abs(patch.at(i / 20.0, j / 20.0).at.norm() - 1));
-  return error;
-}
-
 double largest(const std::vector<double>& values) {
   double out = 0;
   for (const double x : values)
@@ -90,26 +81,6 @@ TEST(Splines, APlaneIsOneSpan) {
   EXPECT_LT(largest(surface.angles), 1e-7);
 }
 
-TEST(Splines, QuadsOnASphereAreWithinTheTolerance) {
-  for (const double tolerance : {1e-3, 1e-4, 1e-5}) {
-    const SplineSurface surface = fitted(strip(2, 6, on_sphere), {tolerance, 8e-4});
-    EXPECT_LE(largest(surface.residual), tolerance * surface.size);
-    EXPECT_LE(sphere_error(surface), tolerance);
-    EXPECT_LE(largest(surface.angles), 8e-4);
-    EXPECT_EQ(surface.edges.size(), 7u);
-  }
-}
-
-TEST(Splines, ATriangleIsThreePatchesAroundItsCentroid) {
-  const SplineSurface surface = fitted(triangle(5, on_sphere));
-  ASSERT_EQ(surface.patches.size(), 3u);
-  EXPECT_EQ(surface.edges.size(), 9u);     // six halves, three inside
-  EXPECT_EQ(surface.vertices.size(), 7u);  // corners, middles, centroid
-  EXPECT_LE(sphere_error(surface), 1e-4);
-  EXPECT_LE(largest(surface.angles), 8e-4);
-  for (const std::vector<LoopEdge>& loop : surface.loops) EXPECT_EQ(loop.size(), 4u);
-}
-
 // Of points over the middle of each cell: what lies on the sphere is not off, what is lifted from it
 // is by as much.
 TEST(Splines, HeightsAreKnownBetweenTheLatticesPoints) {
@@ -147,15 +118,6 @@ TEST(Splines, RefusesWhatIsNoRefinedSurface) {
   surface = strip(1, 3, on_sphere);
   surface.quads[5] = 1000;
   EXPECT_THROW(fitted(surface), FairingError);
-}
-
-TEST(Splines, CanBeCancelled) {
-  const Refined surface = strip(2, 5, on_sphere);
-  for (const int question : {1, 5, 40}) {
-    Monitor monitor;
-    monitor.cancel_at_question(question);
-    EXPECT_THROW(fit_splines(surface.view(), {}, monitor), FairingError);
-  }
 }
 
 }  // namespace

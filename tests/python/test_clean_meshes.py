@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Total curvature on every clean mesh of the collection: below thin plate and butterfly, soon
-there, and without folds.
+"""Total curvature on every clean mesh of the collection: below the thin plate, soon there, and
+without folds.
 
 What is not met is listed by name, and expected to fail: whatever mends it has to take it off the
 list.
@@ -9,7 +9,6 @@ list.
 from functools import cache
 from pathlib import Path
 
-import butterfly
 import numpy as np
 import pytest
 import tight
@@ -148,20 +147,3 @@ def test_solves_are_no_longer_on_a_finer_level(path, creased):
     ).report["curvature"]
     coarse, fine = (max(step["iterations"] for step in entry["steps"]) for entry in entries[-2:])
     assert coarse > 0 and fine <= 1.25 * coarse + 2
-
-
-@pytest.mark.parametrize(("path", "creased"), cases(creased=False))
-def test_below_the_butterfly(path, creased):
-    vertices, faces, levels = mesh_of(path)
-    triangles = np.array([[f[0], *pair] for f in faces for pair in zip(f[1:], f[2:])])
-    if not is_closed(triangles):
-        pytest.skip("open")
-    points = vertices
-    for _ in range(levels):
-        points, triangles = butterfly.refine(points, triangles)
-    assert run(path, creased)["energy"] < measured(tight.fair(points, triangles, 0))
-
-
-def is_closed(triangles: np.ndarray) -> bool:
-    halves = {(t[k], t[(k + 1) % 3]) for t in triangles.tolist() for k in range(3)}
-    return all((b, a) in halves for a, b in halves)

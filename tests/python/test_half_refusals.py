@@ -67,11 +67,12 @@ def test_a_border_that_leaves_the_plane_is_refused(off):
     assert (error.code, error.elements) == ("BAD_OPTION", off) and "in shape 1" in str(error)
 
 
-def test_a_border_next_to_the_plane_is_put_into_it_by_the_solver_too():
-    points, faces = hull()
-    near, _ = hull(jitter=1e-7)
-    moved = df.Solver(points, faces, 1, symmetry_plane="y").solve(near).vertices
-    assert (moved[KEEL, 1] == 0).all()
+def test_a_border_next_to_the_plane_is_put_into_it():
+    near, faces = hull(jitter=1e-7)
+    solver = df.Solver(hull()[0], faces, 1, symmetry_plane="y")
+    for found in (df.fair(near, faces, 1, symmetry_plane="y"), solver.solve(near)):
+        assert (found.vertices[KEEL, 1] == 0).all()
+    assert near[KEEL, 1].all(), "the caller's array is not changed"
 
 
 def test_faces_that_name_absent_vertices_are_mended_in_both_halves():

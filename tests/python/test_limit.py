@@ -58,15 +58,6 @@ def test_subdivision_converges_to_the_limits():
     assert off[-1] < 2e-3 and all(b < 0.6 * a for a, b in zip(off, off[1:]))
 
 
-def test_a_cube_by_hand():
-    vertices, faces = CUBE
-    # 9 v + 4 (three neighbours) + (three across a face), over 24
-    row = 9 * vertices[0]
-    at = np.abs(vertices - vertices[0]).sum(axis=1) / np.abs(vertices - vertices[0]).max()
-    row = row + 4 * vertices[at == 1].sum(axis=0) + vertices[at == 2].sum(axis=0)
-    np.testing.assert_allclose(limits(vertices, faces)[0], row / 24, atol=1e-15)
-
-
 def test_always_sharp_edges_are_creases_and_two_of_them_a_curve():
     vertices, faces = HOUSE
     pairs = [[4, 8], [8, 5]]

@@ -5,7 +5,6 @@ import control_meshes as meshes
 import numpy as np
 import pytest
 import tight
-from surfaces import size_of
 
 NAMES = ("icosahedron", "creature", "wavy_patch", "torus_quads", "house")
 
@@ -116,19 +115,6 @@ def test_near_costs_little_more_than_through(tolerance, most):
 
     through = cost(near(mesh, 3, interpolation="exact"))
     assert (cost(near(mesh, 3, tolerance=tolerance)) <= most * through).all()
-
-
-def test_a_solver_gives_the_surface_that_fair_gives():
-    vertices, faces = meshes.creature()
-    options = {"interpolation": "approximate", "tolerance": 0.02, "pad_size": 1.0}
-    solver = tight.Solver(vertices, faces, 2, energy="total_curvature", **options)
-    first = solver.solve()
-    assert np.array_equal(first.vertices, near((vertices, faces), tolerance=0.02).vertices)
-    there = vertices.copy()
-    there[40] += [0.05, 0.02, -0.05]
-    dragged = solver.solve(there)
-    shape = tight.fair(vertices, faces, 2, "total_curvature", shapes=[there], **options).shapes[0]
-    assert np.abs(dragged.vertices - shape).max() < 1e-12 * size_of(vertices)
 
 
 @pytest.mark.parametrize("seed", [1, 3, 4])

@@ -13,18 +13,6 @@ from moving import icosphere, moved, sample, slid
 CURVED = ["total_curvature", "minimum_variation"]
 
 
-@pytest.mark.parametrize("energy", ["thin_plate", *CURVED])
-def test_any_number_of_threads_gives_the_same_bits(energy):
-    vertices, faces = icosphere(2)
-    way = [vertices, *(slid(vertices, 0.01, k) for k in range(3)), vertices]
-    one, three = (
-        [solver.solve(positions).vertices for positions in way]
-        for solver in (df.Solver(vertices, faces, 3, energy, threads=t) for t in (1, 3))
-    )
-    for a, b in zip(one, three, strict=True):
-        assert np.array_equal(a, b)
-
-
 def test_arrays_are_kept_or_new():
     vertices, faces = sample("dodecahedron")
     solver = df.Solver(vertices, faces, 2)
@@ -181,19 +169,6 @@ def test_a_cancelled_call_is_followed_by_a_fresh_one(energy):
     assert caught.value.code == "CANCELLED"
     result = solver.solve(vertices)
     assert not result.report["warm"] and np.array_equal(result.vertices, expected)
-
-
-def test_progress_and_monitor_hear_of_a_solve():
-    vertices, faces = sample("creature")
-    solver = df.Solver(vertices, faces, 3)
-    for _ in range(2):
-        calls, monitor = [], df.Monitor()
-        solver.solve(
-            moved(vertices), progress=lambda *call, calls=calls: calls.append(call), monitor=monitor
-        )
-        assert calls[-1] == (1.0, "done")
-        assert [fraction for fraction, _ in calls] == sorted(fraction for fraction, _ in calls)
-        assert (monitor.fraction, monitor.phase) == (1.0, "done")
 
 
 def test_an_exception_of_progress_comes_out_and_the_solver_goes_on():

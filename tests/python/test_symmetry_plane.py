@@ -108,14 +108,6 @@ def test_the_solver_has_it():
     assert solver.control_vertices == len(points)
 
 
-def test_vertices_next_to_the_plane_are_put_into_it():
-    points, faces = hull(jitter=1e-7)
-    found = df.fair(points, faces, 2, symmetry_plane="y")
-    keel = points[:, 1] == 1e-7
-    assert (found.vertices[: len(points)][keel, 1] == 0).all()
-    assert points[keel, 1].all(), "the caller's array is not changed"
-
-
 @pytest.mark.parametrize("plane", ["x", "w", "", 1, True])
 def test_refusals(plane):
     points, faces = hull()

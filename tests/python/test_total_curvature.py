@@ -117,7 +117,9 @@ def test_second_order_on_the_torus_of_quads(around, across):
 )
 def test_energy_is_below_the_thin_plates(name, levels):
     mesh = meshes.ALL[name]()
-    report = fair(mesh, levels).report
+    result = fair(mesh, levels)
+    report = result.report
+    assert result.vertices[: len(mesh[0])].tobytes() == mesh[0].tobytes()
     measured = report["energy"]["result"]["total_curvature"]
     last = report["curvature"][-1]
     assert last["converged"] and last["level"] == levels
@@ -134,14 +136,6 @@ def test_reports_its_steps():
     assert all(step["decrement"] > 0 and 0 <= step["length"] <= 1 for step in level["steps"])
     assert fair(meshes.creature(), 2, max_steps=1).report["curvature"][-1]["converged"] is False
     assert tight.fair(*meshes.creature(), 1).report["curvature"] == []
-
-
-@pytest.mark.parametrize("name", sorted(meshes.ALL))
-def test_interpolates_exactly(name):
-    vertices, faces = meshes.ALL[name]()
-    result = fair((vertices, faces), 2)
-    assert result.vertices[: len(vertices)].tobytes() == vertices.tobytes()
-    assert np.isfinite(result.vertices).all()
 
 
 @pytest.mark.parametrize("name", QUICK)
