@@ -2,7 +2,7 @@
 """Holes of a mesh closed in place by the fairest surface: which they are, and the faces that fill them."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, cast
 
 import bmesh
@@ -12,6 +12,7 @@ from . import core, errors
 from .blender import Context, Object
 from .check.defects import check_object, store_defects
 from .errors import JobCancelled, JobError
+from .inspection.curvature import face_normals
 from .mesh.begun import Begun, TimedRun
 from .mesh.edited import edited, select_nothing
 from .mesh.object import Reference
@@ -34,7 +35,7 @@ NO_HOLE, LARGER_HOLES = "NO_HOLE", "LARGER_HOLES"
 
 @dataclass(frozen=True)
 class FillOptions:
-    joint: str  # POSITION, TANGENT, CURVATURE
+    joint: str  # POSITION, TANGENT, CURVATURE; FLAT: no new vertices, and a sharp rim
     energy: str
     density: float
     # in Object Mode: wider holes stay open, in scene units; 0: the borders of sheets stay open
@@ -150,6 +151,22 @@ class HoleJob(TimedRun):
         self.triangles = sum(_triangles_in(sum(map(len, h)), options.density) for h in self._holes)
 
     @property
+    def closes_caps(self) -> bool:
+        """Whether the holes are named by their border, lie each in a plane, and the faces around stand across it: caps
+        and transoms, no repairs.
+        """
+        chosen = self._editing and not self._options.replaces
+        return chosen and all(_is_cap(self._points, self._arrays, hole) for hole in self._holes)
+
+    def flatten(self) -> None:
+        """Whatever the joint was."""
+        self._options = replace(self._options, joint="FLAT")
+
+    @property
+    def _is_flat(self) -> bool:
+        return self._options.joint == "FLAT"
+
+    @property
     def _editing(self) -> bool:
         return self._mode == "EDIT"
 
@@ -169,9 +186,9 @@ class HoleJob(TimedRun):
             self._points,
             self._faces,
             holes=self._holes,
-            joint=self._options.joint.lower(),
+            joint="position" if self._is_flat else self._options.joint.lower(),
             energy=self._options.energy.lower(),
-            density=self._options.density,
+            density=0.0 if self._is_flat else self._options.density,
             rim="noisy" if self._options.noisy else "exact",
             quads=self._options.quads,
             **watchers,
@@ -185,7 +202,7 @@ class HoleJob(TimedRun):
         if not self._editing:
             select_nothing(target)
         with edited(target) as bm:
-            _write(bm, np.flatnonzero(self._gone), patches, self.result.places)
+            _write(bm, np.flatnonzero(self._gone), patches, self.result.places, self._is_flat)
         self.note()
         return Filling(
             len(holes),
@@ -223,6 +240,23 @@ class HoleJob(TimedRun):
             codes = {defect["code"] for defect in known}
             new = [defect for defect in self.skipped if defect["code"] not in codes]
             store_defects(context, target, known + new)
+
+
+_PLANAR = 1e-3  # of a rim's width: as far from its plane as its vertices may be
+
+
+def _is_cap(points: np.ndarray, arrays: core.ControlArrays, hole: list[list[int]]) -> bool:
+    """Whether the rim lies in a plane that the faces around stand across, by more than half a right angle in the mean."""
+    rim = points[[v for loop in hole for v in loop]]
+    away = rim - rim.mean(axis=0)
+    _, sizes, ways = np.linalg.svd(away, full_matrices=False)
+    if len(sizes) < 3 or np.abs(away @ ways[2]).max() > _PLANAR * np.ptp(away @ ways[0]):
+        return False
+    on_rim = np.zeros(len(points), bool)
+    on_rim[[v for loop in hole for v in loop]] = True
+    around = np.flatnonzero(np.add.reduceat(on_rim[arrays.corners], arrays.offsets[:-1]) >= 2)
+    normals = face_normals(points, arrays.corners, arrays.offsets)[around]
+    return bool(len(around)) and float(np.abs(normals @ ways[2]).mean()) < np.sqrt(0.5)
 
 
 def _triangles_in(edges: int, density: float) -> int:
@@ -270,8 +304,10 @@ def _unclear_text(count: int) -> str:
     )
 
 
-def _write(bm: Any, gone: np.ndarray, patches: list[Patch], places: np.ndarray) -> None:
-    """The filling, selected, in the place of the faces `gone` (ids)."""
+def _write(
+    bm: Any, gone: np.ndarray, patches: list[Patch], places: np.ndarray, flat: bool = False
+) -> None:
+    """The filling, selected, in the place of the faces `gone` (ids). `flat`: its rim is sharp."""
     bm.verts.ensure_lookup_table()
     rims = [[bm.verts[v] for v in patch.rim.tolist()] for patch in patches]
     if len(gone):
@@ -285,6 +321,12 @@ def _write(bm: Any, gone: np.ndarray, patches: list[Patch], places: np.ndarray) 
     for face in made:
         face.normal_update()
         face.select_set(True)
+    if flat:
+        new = set(made)
+        for face in made:
+            face.smooth = False
+            for edge in face.edges:
+                edge.smooth = edge.smooth and all(other in new for other in edge.link_faces)
 
 
 def count_text(count: int) -> str:

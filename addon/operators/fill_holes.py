@@ -39,7 +39,14 @@ class OBJECT_OT_fairing_fill(LargestHole, WholeFairing, bpy.types.Operator):
     joint: EnumProperty(
         name="Joint",
         description="How the filling meets the faces around",
-        items=JOINTS,
+        items=(
+            *JOINTS,
+            (
+                "FLAT",
+                "Flat",
+                "Flat faces without new vertices, and a sharp rim: for caps and transoms",
+            ),
+        ),
         default="CURVATURE",
     )
     energy: EnumProperty(
@@ -83,6 +90,8 @@ class OBJECT_OT_fairing_fill(LargestHole, WholeFairing, bpy.types.Operator):
         layout = cast(bpy.types.UILayout, self.layout)
         layout.use_property_split = True
         layout.prop(self, "joint")
+        if self.joint == "FLAT":
+            return
         if self.joint != "POSITION":
             layout.prop(self, "energy")
             layout.prop(self, "noisy")
@@ -90,6 +99,11 @@ class OBJECT_OT_fairing_fill(LargestHole, WholeFairing, bpy.types.Operator):
         layout.prop(self, "density")
         if context.mode == "OBJECT" and min(self.edge) < 0:
             layout.prop(self, "largest")
+
+    def invoke(self, context: Context, event: bpy.types.Event) -> Answer:
+        """From a button: caps and transoms are flat until another Joint is chosen."""
+        self._asked = self.properties.is_property_set("joint")
+        return super().invoke(context, event)
 
     def make_jobs(self, context: Context) -> list[HoleJob]:
         replaces = bool(context.tool_settings.mesh_select_mode[2])
@@ -116,6 +130,10 @@ class OBJECT_OT_fairing_fill(LargestHole, WholeFairing, bpy.types.Operator):
                 self._reasons.append(str(error))
         if not jobs:
             raise JobError(" ".join(self._reasons))
+        if not getattr(self, "_asked", True) and all(job.closes_caps for job in jobs):
+            self.joint = "FLAT"
+            for job in jobs:
+                job.flatten()
         return jobs
 
     def finish(self, context: Context, jobs: Sequence[HoleJob]) -> Answer:
