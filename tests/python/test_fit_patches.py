@@ -382,6 +382,19 @@ def test_a_fold_that_stays_is_not_refined(levels):
     assert levels == [fitting.FIRST_LEVEL - 1, fitting.FIRST_LEVEL]
 
 
+def test_a_finer_level_that_folds_takes_no_patches_away(levels):
+    """A block over an L has edges off its flat faces' lines, for which finer levels were tried; these fold."""
+    flat = np.array([(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)], float)
+    points = np.vstack([np.c_[flat, np.full(6, z)] for z in (0.0, 1.0)])
+    walls = [[i, (i + 1) % 6, 6 + (i + 1) % 6, 6 + i] for i in range(6)]
+    faces = [list(range(6))[::-1], list(range(6, 12)), *walls]
+    patches = df.fit_patches(
+        points, faces, crease_angle=np.radians(30), corner_angle=np.radians(20)
+    )
+    assert not len(patches.unresolved) and patches.shell_closed.all()
+    assert patches.levels == 5 and levels == [4, 5, 6]
+
+
 @pytest.mark.parametrize("levels", [3, None])
 def test_no_patch_is_fitted_to_a_surface_that_is_refused(monkeypatch, levels):
     monkeypatch.setattr(fitting._Run, "fitted", lambda *_: pytest.fail("fitted all the same"))

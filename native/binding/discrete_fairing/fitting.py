@@ -176,6 +176,8 @@ def _at_own_level(
             turns = run.turns(result, at, runs.run(done, done))
             continue
         before, turns = turns, run.turns(result, at, runs.run(done, done))
+        if best is not None and not len(best.unresolved) and (turns > TURN_LIMIT).any():
+            break  # finer surfaces fold where that of the level below does not
         folds = folds or run.stays_sharp(result, at, before, turns, finest - at)
         next_count = inf if folds or at == LAST_LEVEL else count(at + 1)
         assert coarser is not None  # the level before the first
