@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What can be said of a mesh without a run: its defects, and the size of its surface."""
+"""Defects of a mesh, and the size of its surface, without a run."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ class Defect:
     code: str
         As FairingError.code.
     message: str
-        What is wrong and what to do about it, for a person.
+        The defect and what to do about it, as text.
     elements: list
         Ids of vertices or faces, or edges as pairs (a, b) of vertices; empty for kind "mesh".
     kind: "vertex", "edge", "face" or "mesh"
-        What the elements are.
+        The kind of the elements.
     severity: "error" or "warning"
         An error stops a run, a warning does not.
     repairable: bool
@@ -42,11 +42,10 @@ class Defect:
 
 
 def check(vertices: ArrayLike, faces: ArrayLike | Sequence[Sequence[int]]) -> list[Defect]:
-    """Every kind of defect of a mesh, in the order in which `fair` would meet them.
+    """Every kind of defect of a mesh, in the order in which `fair` finds them; empty if there is none.
 
-    The list is empty if there is none. Skips tests that earlier defects make meaningless: an index
-    out of range ends the search. Raises FairingError BAD_SHAPE, for arrays of a wrong shape or type,
-    and OUT_OF_MEMORY.
+    Skips tests that earlier defects make meaningless: an index out of range ends the search. Raises
+    FairingError BAD_SHAPE, for arrays of a wrong shape or type, and OUT_OF_MEMORY.
     """
     corners, offsets = face_arrays(faces)
     found = _native.check(vertex_array(vertices), corners, offsets)
@@ -65,8 +64,8 @@ def predicted_size(
 
     `faces`, `levels` and `energy` are those of fair(), `vertex_count` and `shapes` are numbers.
     `halved`: the mesh will have a symmetry_plane. Returns "vertices" and "triangles" of the refined
-    surface, and "bytes", the peak of the run's own arrays, of both halves where it is halved. Quads
-    that will be split count as quads. Raises FairingError BAD_SHAPE and BAD_OPTION.
+    surface, and "bytes", a bound on the peak of the run's own arrays (with `halved`, of both halves).
+    Quads that will be split count as quads. Raises FairingError BAD_SHAPE and BAD_OPTION.
     """
     count, depth, more = (
         whole(name, value)

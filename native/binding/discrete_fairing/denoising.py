@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""denoise(): the noise taken off a whole scan, as much of it at each vertex as the scan there allows.
+"""denoise(): removes the noise of a scan, with a strength chosen around each vertex.
 
-Vertices move along their normals. With K h what heights h are off the mean of their neighbours, the filters
-are 1 / (1 + t K²), smoothing splines [Reinsch 1967] in their simplest form, as polynomials of K. For some
-amounts t the risk, the mean square error around a vertex, is estimated without bias [Stein 1981], and the
-amounts are weighed by it [Leung, Barron 2006]: much is taken off where the shape is smooth, little where it
-has details, and hardly any beside sharp edges.
+Vertices move along their normals. With K h the difference of heights h from the mean of their neighbours, the
+filters are 1 / (1 + t K²), smoothing splines [Reinsch 1967] in their simplest form, as polynomials of K. For
+several amounts t the risk, the mean square error around a vertex, is estimated without bias [Stein 1981], and
+the results are averaged with weights from it [Leung, Barron 2006]: strong where the shape is smooth, weak where
+it has details, and weakest beside sharp edges.
 """
 
 from __future__ import annotations
@@ -39,12 +39,12 @@ _THERE, _BACK = 0.6307, -0.6732
 
 
 class Denoised:
-    """A mesh of n vertices without its noise.
+    """A mesh of n vertices after its noise has been removed.
 
     vertices: (n, 3) float64, mesh units, the new positions.
-    moves: (n,) float64, mesh units, how far each vertex has moved.
+    moves: (n,) float64, mesh units, the distance by which each vertex has moved.
     noise: float, mesh units: root mean square distance of a vertex from the surface; NaN with `passes`.
-    rejected: (k,) int64, spikes, the worst first: their places follow from their neighbours alone.
+    rejected: (k,) int64, spikes, the worst first; their new places depend on their neighbours alone.
     """
 
     def __init__(
@@ -67,7 +67,7 @@ def denoise(
     passes: int = 0,
     fixed: ArrayLike | None = None,
 ) -> Denoised:
-    """Take the noise off a scan: fast, by a linear filter whose strength is chosen vertex by vertex.
+    """Remove the noise of a scan by a linear filter whose strength is chosen around each vertex.
 
     Parameters
     ----------

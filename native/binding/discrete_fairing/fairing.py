@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""fair(): from a control mesh to its fair surface, in one call."""
+"""fair(): makes the fair surface of a control mesh."""
 
 from __future__ import annotations
 
@@ -51,23 +51,22 @@ def fair(
         The paper's quadratic energy; the curvature of the surface itself; or its change
         (AllSettings).
     symmetry_plane : "x", "y", "z" or None
-        The mesh is half of a symmetric one: its border in the plane x = 0 (y, z) is no border, but
-        where the surface crosses to its mirror image. The result is the half. The report is that
-        of the whole.
+        The mesh is half of a symmetric one: at its border in the plane x = 0 (y, z) the surface crosses
+        to its mirror image. The result is the half; the report is that of the whole.
     shapes : (k, n, 3) float, or a list of (n, 3)
-        Further positions of the same control vertices, such as shape keys. Each becomes a surface
-        on the charts and stencils of `vertices` (result.shapes), so the surface is one linear map
-        of the positions.
+        Further positions of the same control vertices, such as shape keys. Their surfaces
+        (result.shapes) use the charts and stencils of `vertices`, so the surface is linear in the
+        positions.
     strain : bool
-        Measure how the control vertices fight the surface (result.strain, report["strain"]), as
-        strain() does: with total curvature too, for the thin plate through the same vertices.
-        Not with minimum variation, whose vertices stand on no pads, and not where vertices move.
+        Measure strain (result.strain, report["strain"]) as strain() does; with total curvature that of
+        the thin plate through the same vertices. Not with minimum variation, which has no pads, and
+        not if vertices may move.
     progress : callable(fraction, phase)
         Called from this thread some 40 times a second; returning False cancels.
     monitor : Monitor
         For watching and cancelling from another thread.
     **settings
-        discrete_fairing.Settings has them all, each with its meaning, range and default.
+        See discrete_fairing.Settings for their meanings, ranges and defaults.
 
     Returns
     -------
@@ -77,7 +76,7 @@ def fair(
     Raises
     ------
     FairingError
-        With `code`, `elements` and a message that says what to do. CANCELLED after a cancel.
+        With `code`, `elements` and a message that says what to do; CANCELLED if cancelled.
     """
     given: dict[str, Any] = {**settings, "levels": levels, "energy": energy}
     check_watchers(progress, monitor)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What fills the holes of a mesh, what is told of it, and the mesh with all of it."""
+"""Fillings of the holes of a mesh, their reports, and the filled mesh."""
 
 from __future__ import annotations
 
@@ -18,30 +18,29 @@ from .rounds import Filling
 
 @dataclass(frozen=True, slots=True)
 class FilledHole:
-    """What fills one hole, and how it was found.
+    """The filling of one hole.
 
     loops: list of (k,) int64
         Its rim, and those of its islands.
     vertices: (k, 3) float64
         The new vertices.
     faces: (t, 3) int64, or (t, 4) of quads
-        The new faces. Ids below the number of vertices of the mesh are of these; then come the new
-        vertices, hole after hole.
+        The new faces. Ids below the number of vertices of the mesh are the mesh's; the new vertices
+        follow, hole after hole.
     energy: str
-        The energy that was minimized; "none" where the first triangulation, spread as a membrane, was
-        left as it was.
+        The energy that was minimized; "none" for the first triangulation, spread as a membrane.
     joint: str
-        What it took over at the rim.
+        What it continues at the rim.
     converged: bool
-        Whether its steps came to their end; False where the triangulation stands in.
+        Whether its steps converged; False for a triangulation.
     folds: int
         Edges at which the surface turns by more than a right angle, the rim's included.
     crossings: int
-        Faces of the filling that pass through others, of the mesh or of a filling.
+        Faces of the filling that cross others, of the mesh or of a filling.
     why_triangles: str
-        Why it is no grid of quads, where one was asked for, as the end of a sentence; else empty.
+        If a requested grid of quads was not possible, the reason, as the end of a sentence; else empty.
     ignored: list of int
-        Faces around it that fair() refuses: they did not say how the surface goes on.
+        Faces around it that fair() refuses; they were not used to continue the surface.
     """
 
     loops: list[np.ndarray]
@@ -67,11 +66,11 @@ _CURES = {
 
 @dataclass(frozen=True, slots=True)
 class SkippedHole:
-    """What could not be filled, and why.
+    """A hole that could not be filled.
 
     loops: list of (k,) int64
-        The rim of the hole, and those of its islands. None where nobody can tell what is a hole: then
-        the elements are the border edges there.
+        The rim of the hole, and those of its islands. Empty if the hole is ambiguous: then the elements
+        are the border edges there.
     error: FairingError
         What is wrong and what to do about it. It is not raised.
     """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Holes of a mesh, found and closed by the fairest surface."""
+"""Finds the holes of a mesh and fills them with the fairest surface."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ from .watching import Progress, SeveralRuns, check_watchers
 
 
 def find_holes(vertices: ArrayLike, faces: ArrayLike | Sequence[Sequence[int]]) -> list[np.ndarray]:
-    """The holes of a mesh that fill_holes() takes: (k,) int64 vertex ids around each, as a face that
-    fills it runs.
+    """The holes of a mesh for fill_holes(): (k,) int64 vertex ids around each, in the direction of a
+    face that fills it.
 
-    A walk that touches itself in a vertex is cut there into several loops. The border of an open
-    sheet is a loop like others. Loops begin with their least id and come in the order of these. At
-    edges of more than two faces, and where neighbours disagree on their orientation, there is no
-    telling what a hole is: such walks are left out, and loops of more than 16,384 vertices; fill_holes()
-    lists them. Raises FairingError for arrays that make no mesh.
+    A border that touches itself in a vertex is cut there into several loops. The border of an open
+    sheet is a loop too. Loops begin with their least id and are sorted by it. Left out, and listed by
+    fill_holes(), are borders with edges of more than two faces or with neighbours of different
+    orientation, where holes are ambiguous, and loops of more than 16,384 vertices. Raises FairingError
+    for invalid arrays.
     """
     filler = _native.Filler(vertex_array(vertices), *face_arrays(faces))
     loops, _ = filler.find(_native.Monitor(), None)
@@ -41,14 +41,13 @@ def with_islands(
     faces: ArrayLike | Sequence[Sequence[int]],
     loops: Sequence[ArrayLike] | None = None,
 ) -> list[list[np.ndarray]]:
-    """Which of these `loops` of find_holes(), or of all, are one hole: of each its rim, and the rims of
-    islands in it.
+    """Combines `loops` of find_holes(), or all loops, to holes with islands: for each hole its rim and the
+    rims of its islands.
 
-    A loop that lies inside another one, seen along its normal, is the rim of an island if it runs the
-    other way round, is farther from the rim in its plane than along its normal, and the faces at both go
-    on towards the ring between. So the walls of a pipe with an inside are joined at its ends, and the
-    border of a sheet is not joined to the holes in it. Raises FairingError for arrays that make no mesh,
-    and loops that are none of it.
+    A loop inside another one, seen along its normal, is the rim of an island if it has the opposite
+    direction, is farther from the rim in its plane than along its normal, and the faces at both continue
+    towards the ring between. So the inner and outer wall of a pipe are joined at its ends, and the border
+    of a sheet is not joined to the holes in it. Raises FairingError for invalid arrays and loops.
     """
     filler = _native.Filler(vertex_array(vertices), *face_arrays(faces))
     watchers = _native.Monitor(), None
@@ -71,44 +70,41 @@ def fill_holes(
     progress: Progress | None = None,
     monitor: _native.Monitor | None = None,
 ) -> Filled:
-    """Close holes with the fairest surface that goes on from the faces around.
+    """Fill holes with the fairest surface that continues the faces around.
 
-    Triangles over the rim, of the least largest dihedral angle and then of the least area [Barequet
-    and Sharir 1995; Liepa 2003]; split, flipped and relaxed to the density of the rim [Botsch and
-    Kobbelt 2004]; then faired with the faces around held. Nothing that was there changes, not by a
-    bit. Only the faces near a hole take part in fairing.
+    The rim is triangulated with the least largest dihedral angle and then the least area [Barequet
+    and Sharir 1995; Liepa 2003]; the triangles are split, flipped and relaxed to the density of the rim
+    [Botsch and Kobbelt 2004], then faired with the faces around held. Existing elements do not change,
+    bit for bit. Only the faces near a hole are used.
 
     Parameters
     ----------
     vertices : (n, 3) float
         In any unit of length.
     faces : (m, 3) or (m, 4) int, a list of polygons, or the pair (corners, offsets) of flat arrays
-        All looking the same way.
+        With the same orientation.
     holes : sequence
-        Each a loop of vertex ids, as find_holes() gives them, in either direction; or a sequence of
-        such loops, in any order: the rim of the hole, and those of islands in it. None: all holes, as
-        with_islands() has them.
+        Each a loop of vertex ids from find_holes(), in either direction; or a sequence of such loops, in
+        any order: the rim of the hole and those of its islands. None: all holes of with_islands().
     joint : "position", "tangent" or "curvature"
-        What the filling takes over at the rim: nothing but the place (the least area), the tangent
-        planes (of one ring of faces), or the curvature (of two rings).
+        What the filling continues at the rim: the position only (least area), the tangent planes (one
+        ring of faces), or the curvature (two rings).
     energy : "total_curvature", "thin_plate" or "minimum_variation"
-        As in fair(). Where it folds, or grows, it goes on from its own shape on new triangles, four times
-        at most. Where it still folds, or passes through other faces, the vertices there stay as they were
-        triangulated. Where that does not help, the thin plate takes its place, then the thin plate with
-        the tangent alone, then the triangulation spread as a membrane, and where all fold that without
-        new vertices (FilledHole.energy, FilledHole.joint).
+        As in fair(). If the filling folds or grows, it is repeated from its own shape on new triangles, at
+        most four times. Where it still folds or crosses other faces, the vertices stay as triangulated. If
+        that does not help, these are tried: the thin plate, the thin plate with the tangent alone, the
+        triangulation spread as a membrane, the triangulation without new vertices (FilledHole.energy,
+        FilledHole.joint).
     density : float
-        New edges are so many times as short as those of the rim: 1 as long, 2 half as long. 0: no
-        new vertices, but where the mesh would get an edge twice.
+        Length of the rim's edges over that of new edges: 1 as long, 2 half as long. 0: no new vertices,
+        unless the mesh would get an edge twice.
     rim : "exact" or "noisy"
-        Noisy: six rings of faces around say how the surface goes on, and all but the outermost may be
-        missed, so that the noise of a scan is not carried on. The rim itself stays, as all that was
-        there.
+        Noisy: six rings of faces are continued, and all but the outermost may be missed, so that the
+        noise of a scan does not continue. The rim itself does not move.
     quads : bool
         A grid of quads in a hole of a quad mesh whose rim has an even number of edges, between the four
-        corners of the rim that are sharpest [Coons 1967]; triangles where it would fold or be skew
-        (FilledHole.why_triangles). Its edges go on from those of the rim: density counts for triangles
-        alone.
+        sharpest corners of the rim [Coons 1967]; triangles if it would fold or be skew
+        (FilledHole.why_triangles). `density` is for triangles only.
     threads : int
         0: all cores. The result is the same, to the last bit, for any number.
     progress : callable(fraction, phase)
@@ -119,17 +115,16 @@ def fill_holes(
     Returns
     -------
     Filled
-        What cannot be filled stays as it is, and is listed in `skipped`: a loop that is no hole
-        (BAD_OPTION, REPEATED_VERTEX) or has more than 16,384 vertices (TOO_LARGE), a rim of faces that
-        look different ways (INCONSISTENT_ORIENTATION) or that more than two share (NONMANIFOLD_EDGE), a
-        slit (COINCIDENT_VERTICES), a vertex that lies on an edge (DEGENERATE_FACE).
+        Holes that cannot be filled are listed in `skipped`: a loop that is not a hole (BAD_OPTION,
+        REPEATED_VERTEX) or has more than 16,384 vertices (TOO_LARGE), a rim of faces with different
+        orientations (INCONSISTENT_ORIENTATION) or with edges of more than two faces (NONMANIFOLD_EDGE), a
+        slit (COINCIDENT_VERTICES), a vertex on an edge (DEGENERATE_FACE).
 
     Raises
     ------
     FairingError
         BAD_OPTION for an option out of its range and a loop of fewer than three vertices,
-        INDEX_OUT_OF_RANGE for one of vertices that do not exist; CANCELLED after a cancel; and what
-        check() says of arrays that make no mesh.
+        INDEX_OUT_OF_RANGE for missing vertices, CANCELLED, and the errors of check() for invalid arrays.
     """
     check_watchers(progress, monitor)
     if joint not in RINGS:

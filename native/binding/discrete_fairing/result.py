@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What fair() and Solver.solve() return."""
+"""Results of fair() and Solver.solve()."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ import numpy as np
 
 
 class Mended:
-    """The mesh that was faired in the place of one with defects: m faces with c corners.
+    """The mended mesh that was faired: m faces with c corners.
 
-    Its vertices are the caller's, in their order; those that were merged belong to no face.
+    Its vertices are the caller's, in their order; merged ones belong to no face.
 
     corners: (c,) int64, vertex ids, face after face.
     offsets: (m + 1,) int64: face f has the corners offsets[f] ... offsets[f + 1] - 1.
-    vertex_origin: (n,) int32, the vertex that each was merged with; most often itself.
-    face_origin: (m,) int32, the input face that each face comes from, ascending.
+    vertex_origin: (n,) int32, the vertex that each was merged with; usually itself.
+    face_origin: (m,) int32, the input face of each face, ascending.
     corner_origin: (c, 2) int32 and corner_share: (c,) float64: each corner is 1 - share of its
     first input corner and share of its second.
-    triangle_face, quad_face: (T,) and (Q,) int32, the face that each output face comes from.
+    triangle_face, quad_face: (T,) and (Q,) int32, the face of this mesh of each output face.
     """
 
     def __init__(self, arrays: dict[str, Any], triangle_face: np.ndarray, quad_face: np.ndarray):
@@ -38,14 +38,13 @@ class Result:
     """A refined surface.
 
     vertices: (N, 3) float64; rows 0 .. n-1 are the control vertices, in the caller's order.
-    faces: (triangles (T, 3), quads (Q, 4)) int32, counter-clockwise; a control quad stays quads.
-    triangle_polygon, quad_polygon: (T,) and (Q,) int32, the input face that each output face comes
-    from.
-    crease_edges: (k, 2) int32, the control edges that became creases, by whatever rule.
-    shapes: list of (N, 3) float64, the surface of each shape; its rows go with those of vertices.
-    mended: Mended, the mesh that was faired, where it is not the one given; else None.
-    strain: (n,) float64, as Strain.lengths, where fair() was asked for it; else None.
-    report: what the run did; see docs/python/fair.md for its keys.
+    faces: (triangles (T, 3), quads (Q, 4)) int32, counter-clockwise; a control quad becomes quads.
+    triangle_polygon, quad_polygon: (T,) and (Q,) int32, the input face of each output face.
+    crease_edges: (k, 2) int32, the control edges that became creases, by any rule.
+    shapes: list of (N, 3) float64, the surface of each shape, with the rows of vertices.
+    mended: Mended, the mesh that was faired, if it is not the given one; else None.
+    strain: (n,) float64, as Strain.lengths, if requested from fair(); else None.
+    report: dict; its keys are in docs/python/report.md.
     """
 
     def __init__(self, arrays: dict[str, Any]):

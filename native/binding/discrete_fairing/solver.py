@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One control mesh again and again while its vertices move."""
+"""Solver: fairs one control mesh repeatedly while its vertices move."""
 
 from __future__ import annotations
 
@@ -21,10 +21,9 @@ from .watching import Progress, check_watchers
 
 
 class Solver:
-    """Fairs one control mesh again and again while its vertices move.
+    """Fairs one control mesh repeatedly while its vertices move.
 
-    Keeps the check, the hierarchy, operators and buffers, and starts each time from its last
-    surface.
+    Keeps the hierarchy, operators and buffers, and starts each solve from the last surface.
 
     Parameters
     ----------
@@ -39,8 +38,8 @@ class Solver:
     FairingError
         As fair() does.
 
-    The constructor checks and builds; it does not solve. Make one call at a time: a second one
-    meanwhile raises FairingError BUSY.
+    The constructor checks and builds; it does not solve. A second call at the same time raises
+    FairingError BUSY.
     """
 
     def __init__(
@@ -72,7 +71,7 @@ class Solver:
 
     @property
     def control_vertices(self) -> int:
-        """Their number n."""
+        """The number n of control vertices."""
         return self._control_vertices
 
     @property
@@ -90,8 +89,8 @@ class Solver:
 
     @property
     def vertex_origin(self) -> np.ndarray | None:
-        """(n,) int32, where repair="mend" merged vertices: the one that each follows, most often
-        itself; else None.
+        """(n,) int32: the vertex with which repair="mend" merged each, usually itself; None if none was
+        merged.
         """
         mended = self._constants["mended"]
         return mended["vertex_origin"][: self._control_vertices] if mended else None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""strain(): which control vertices fight the surface, and by how much."""
+"""strain(): finds control vertices that spoil the surface."""
 
 from __future__ import annotations
 
@@ -24,20 +24,20 @@ OF_SCATTER, OF_MEDIAN = 1.35, 1.4826
 class Strain:
     """How far the surface would move at each of n control vertices if that vertex were released.
 
-    lengths: (n,) float64, mesh units, along the control mesh's normal: above zero outwards. On
-    curves the whole way, of the curve by itself: above zero on the normal's side. NaN at corners,
-    at and next to ends of curves, and outside a region.
-    ways: (n, 3) float64, mesh units: the whole of each way, along the surface too.
-    excess, excess_ways: (n,), (n, 3) float64, mesh units: the same, of each vertex' own: less what a
-    fair shape strains beside a curve, where no moment crosses it; and vertex after vertex, the most
-    strained first, less what those before do to their neighbours, as long as one is above the floor.
-    floor: float, mesh units: what scatter makes of excess, three standard deviations of strains by
-    their median.
-    wrong: (k,) int64, the vertices whose excess is above the floor and three deviations of what is
-    around them, the worst first; a fair shape strains between its vertices too. Where one is grossly
-    wrong it is put right first, and the others are measured without it.
-    noise: float, mesh units: the scatter along the normal that the median strain off curves stands
-    for. What the shape itself strains is in it; df.ease() tells the two apart.
+    lengths: (n,) float64, mesh units, along the control mesh's normal, positive outwards. On curves
+    the whole length, of the curve alone, positive on the normal's side. NaN at corners, at and next
+    to ends of curves, and outside a region.
+    ways: (n, 3) float64, mesh units: the same as vectors, with the part along the surface.
+    excess, excess_ways: (n,), (n, 3) float64, mesh units: each vertex' own part, without the effect
+    of borders, at which a plate ends without a moment, and, the most strained vertex first, without
+    the effect of worse neighbours above the floor.
+    floor: float, mesh units: the excess that scatter explains, three standard deviations estimated by
+    the median.
+    wrong: (k,) int64, the vertices whose excess is above the floor and above three deviations of
+    their surroundings, the worst first. A grossly wrong vertex is corrected first, and the others are
+    measured without it.
+    noise: float, mesh units: the scatter along the normal, estimated from the median strain off
+    curves. It includes the strain of the shape itself; df.ease() separates the two.
     """
 
     def __init__(self, found: dict[str, Any], count: int):
@@ -52,7 +52,7 @@ class Strain:
         self.noise = float(OF_MEDIAN / OF_SCATTER * np.median(sizes)) if len(sizes) else 0.0
 
     def worst(self, count: int = 10) -> np.ndarray:
-        """(k,) int64: the vertices of the largest excess, the largest first; at most `count`."""
+        """(k,) int64: at most `count` vertices with the largest excess, the largest first."""
         sizes = np.where(np.isnan(self.excess), -1.0, np.abs(self.excess))
         order = np.argsort(-sizes, kind="stable")[:count]
         return order[sizes[order] >= 0]
@@ -63,8 +63,8 @@ class Strain:
         return worst[self._is_wrong[worst]]
 
     def report(self) -> dict[str, Any]:
-        """The largest excess, with its sign, and where; floor, wrong vertices, noise. Vertex -1: nothing
-        is held.
+        """The largest excess, with its sign, and its vertex (-1: none is held); floor, wrong vertices,
+        noise.
         """
         worst = self.worst(1)
         vertex = int(worst[0]) if len(worst) else -1
@@ -92,18 +92,18 @@ def strain(
     monitor: _native.Monitor | None = None,
     **settings: Unpack[AllSettings],
 ) -> Strain:
-    """Which control vertices spoil the thin plate's surface: measured offsets that are wrong.
+    """Find control vertices that spoil the thin plate's surface, such as wrong offsets.
 
-    A vertex that is in its neighbours' way is held by a load. Over the load that a unit's move of
-    this vertex alone would ask for, that is the way by which the surface would spring there.
+    A misplaced vertex is held by a load. Divided by the load of a unit move of this vertex alone, it
+    is the distance by which the surface would move there if the vertex were released.
 
     Parameters
     ----------
     vertices, faces, symmetry_plane, progress, monitor
         As of fair().
     settings
-        Those of fair(), but for shapes. The thin plate on pads, through all its control vertices;
-        levels above the second change nothing.
+        Those of fair() except shapes. For the thin plate on pads, through all its control vertices;
+        levels above 2 make no difference.
 
     Raises
     ------
