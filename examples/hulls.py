@@ -49,6 +49,7 @@ def bulb() -> Hull:
             if low < z < high:
                 points[station, line] = x, bulb_breadth(x, z), z
         points[station, "Sheer" if x >= 0 else "Bulb top"] = x, bulb_breadth(x, high), high
+    points["0", "Bulb top"] = 0.0, 0.0, round(bulb_ends(0.0)[1])  # where it meets the stem
     return Hull(
         "offsets_bulb.csv", points, {("4", "WL 6"): 20, ("7", "WL 4"): -20, ("6", "WL 3"): 20}
     )
