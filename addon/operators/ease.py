@@ -61,6 +61,11 @@ class OBJECT_OT_fairing_ease(_Easing, bpy.types.Operator):
                 "As fair as possible, with no vertex moved farther than the tolerance",
             ),
             (
+                "STIFFNESS",
+                "Stiffness",
+                "Like a batten: the stiffer, the more all vertices move, scatter first and then the shape",
+            ),
+            (
                 "WORST",
                 "Worst Vertices",
                 "Only the most strained, each to the surface through the others",
@@ -75,6 +80,13 @@ class OBJECT_OT_fairing_ease(_Easing, bpy.types.Operator):
         soft_max=1.0,
         precision=4,
         subtype="DISTANCE",
+    )
+    stiffness: FloatProperty(
+        name="Stiffness",
+        description="At 1 half of what scatters from one vertex to the next is removed, above it more",
+        default=1.0,
+        min=0.0,
+        soft_max=10.0,
     )
     count: IntProperty(
         name="Number", description="How many vertices move at most", default=3, min=1, soft_max=30
@@ -122,6 +134,8 @@ class OBJECT_OT_fairing_ease(_Easing, bpy.types.Operator):
         layout.prop(self, "amount")
         if self.amount == "TOLERANCE":
             layout.prop(self, "tolerance")
+        elif self.amount == "STIFFNESS":
+            layout.prop(self, "stiffness")
         elif self.amount == "WORST":
             layout.prop(self, "count")
         layout.prop(self, "use_selection")
@@ -130,7 +144,12 @@ class OBJECT_OT_fairing_ease(_Easing, bpy.types.Operator):
 
     def make_jobs(self, context: Context) -> list[Any]:
         options = EaseOptions(
-            self.amount, self.tolerance, self.count, self.use_selection, self.go_on
+            self.amount,
+            self.tolerance,
+            self.count,
+            self.use_selection,
+            self.go_on,
+            self.stiffness,
         )
         return [EaseJob(context, source, options) for source in active_sources(context)]
 

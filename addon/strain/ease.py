@@ -28,11 +28,12 @@ _LEVELS = 2  # that the core computes on
 
 @dataclass(frozen=True)
 class EaseOptions:
-    amount: str  # AUTOMATIC, TOLERANCE, WORST
+    amount: str  # AUTOMATIC, TOLERANCE, STIFFNESS, WORST
     tolerance: float = 0.0  # in scene units
     count: int = 1
     use_selection: bool = False  # whether vertices that are not selected stay
     go_on: bool = False  # whether from the shape key that an earlier run has written
+    stiffness: float = 0.0  # how much to ease, as df.ease has it
 
 
 class _Moving(TimedRun):
@@ -121,6 +122,7 @@ class EaseJob(_Moving):
             **core.plate_arguments(self.arguments),
             tolerance=options.tolerance if options.amount == "TOLERANCE" else None,
             most=options.count if options.amount == "WORST" else None,
+            amount=options.stiffness if options.amount == "STIFFNESS" else None,
             fixed=fixed,
             **watchers,
         )
@@ -150,6 +152,8 @@ class EaseJob(_Moving):
                 return said
             asked = words.looks_like_knuckle(self.knuckle, self.names)
             return f"{said}. {asked} Crease Knuckle does; they stay unless you select them"
+        if options.amount == "STIFFNESS":
+            return words.moved(self.moves, text, self.names)
         if options.amount == "TOLERANCE":
             return words.moved_within(self.moves, options.tolerance, before, text, self.names)
         return words.eased(

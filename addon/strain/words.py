@@ -100,6 +100,8 @@ def moved_within(
         )
     beyond = int((np.abs(strain[~np.isnan(strain)]) > tolerance).sum())
     said = f"{count(int((moves > 0).sum()))} moved by at most {text(tolerance)}. {_largest(moves, text, names)}."
+    if not np.isclose(moves.max(), tolerance):
+        said += " The scatter of the vertices explains no more: use Stiffness to move them farther."
     if beyond:
         said += f" {count(beyond)} strained by more than the tolerance before."
     return said

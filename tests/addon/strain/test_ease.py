@@ -19,7 +19,7 @@ def core(monkeypatch):
     """Stands for the core's ease: lets the wrong vertex go back, and remembers what it was asked."""
     asked = {}
 
-    def ease(vertices, faces, *, tolerance=None, most=None, fixed=None, **options):
+    def ease(vertices, faces, *, tolerance=None, most=None, fixed=None, amount=None, **options):
         asked.clear()
         asked.update(options, tolerance=tolerance, most=most, fixed=fixed, vertices=vertices)
         strain = discrete_fairing.strain(vertices, faces, **options)

@@ -99,6 +99,28 @@ def test_a_surface_has_no_names():
     assert read_names(fair(levels=1).data) == []
 
 
+def test_a_tolerance_that_is_not_used_up_says_why(capfd):
+    imported(EXAMPLES / "offsets_yacht.tsv")
+    options = {"result": "COPY", "amount": "TOLERANCE"}
+    assert bpy.ops.object.fairing_ease(tolerance=1.0, **options) == {"FINISHED"}
+    assert "The scatter of the vertices explains no more" in capfd.readouterr().out
+    imported(EXAMPLES / "offsets_yacht.tsv")
+    assert bpy.ops.object.fairing_ease(tolerance=1e-4, **options) == {"FINISHED"}
+    assert "explains no more" not in capfd.readouterr().out
+
+
+def test_the_stiffer_the_farther_vertices_move():
+    moves = []
+    for stiffness in (0.0, 1.0, 10.0):
+        hull = imported(EXAMPLES / "offsets_yacht.tsv")
+        before = positions(hull.data)
+        options = {"amount": "STIFFNESS", "stiffness": stiffness, "result": "COPY"}
+        assert bpy.ops.object.fairing_ease(**options) == {"FINISHED"}
+        moved = positions(bpy.context.active_object.data) - before
+        moves.append(float(np.linalg.norm(moved, axis=1).max()))
+    assert moves[0] == 0.0 < 2.0 * moves[1] < moves[2]
+
+
 @pytest.mark.parametrize("make", [hulls.chine, hulls.yacht])
 def test_easing_what_was_found_brings_the_truth_back(make):
     table = make()
