@@ -12,14 +12,13 @@ from polygons import polygons
 from scenes import CUBE, add, set_edge_attribute
 
 from addon import core
-from addon.choices import DEFAULT_ENERGY, ENERGIES, TOLERANCE_UNITS
+from addon.choices import ENERGIES, TOLERANCE_UNITS
 from addon.core import (
     are_equal,
     corner_vertices,
     crease_edges,
     fair_arguments,
     mean_edge_length,
-    without_vertices,
 )
 from addon.job import Job
 from addon.mesh.read import ControlArrays, read_mesh
@@ -35,20 +34,6 @@ def settings(**changes):
 
 def arguments(mesh=None, **changes):
     return fair_arguments(read_mesh(mesh or add("Box", *CUBE).data), settings(**changes), Defaults)
-
-
-def test_defaults():
-    given = arguments()
-    assert (given["levels"], given["energy"], given["interpolation"], given["boundary"]) == (
-        3,
-        DEFAULT_ENERGY.lower(),
-        "exact",
-        "curve",
-    )
-    assert given["metric_exponent"] == 0.5 and given["tolerance"] == 0.0
-    assert given["pad_size"] == 1.0
-    assert given["crease_angle"] is None and given["corner_angle"] is None
-    assert given["crease_edges"].shape == (0, 2) and given["corner_vertices"].shape == (0,)
 
 
 def test_values():
@@ -106,16 +91,12 @@ def test_nothing_is_measured_unasked():
 
 @pytest.mark.parametrize("energy", [key for key, *_ in ENERGIES])
 @pytest.mark.parametrize("interpolation", ["EXACT", "APPROXIMATE"])
-def test_pads_and_tension_reach_the_core(energy, interpolation):
-    given = arguments(energy=energy, interpolation=interpolation, pad_size=0.75, tension=0.25)
+def test_the_core_takes_every_combination(energy, interpolation):
+    given = arguments(
+        energy=energy, interpolation=interpolation, pad_size=0.75, tension=0.25, levels=1
+    )
     assert given["pad_size"] == 0.75
     assert given["tension"] == (0 if energy == "MINIMUM_VARIATION" else 0.25)
-
-
-@pytest.mark.parametrize("energy", [key for key, *_ in ENERGIES])
-@pytest.mark.parametrize("interpolation", ["EXACT", "APPROXIMATE"])
-def test_the_core_takes_every_combination(energy, interpolation):
-    given = arguments(energy=energy, interpolation=interpolation, tension=0.25, levels=1)
     assert len(core.module().fair(**given).vertices) == 26
 
 
@@ -172,11 +153,6 @@ def triangle(**attributes):
     )
 
 
-def test_nothing_without_attributes():
-    assert crease_edges(triangle(), 0.0, True).shape == (0, 2)
-    assert corner_vertices(triangle(), 0.0).shape == (0,)
-
-
 @pytest.mark.parametrize(
     "threshold, expected",
     [(0.0, [(0, 1), (1, 2)]), (0.5, [(0, 1), (1, 2)]), (0.6, [(0, 1)]), (None, [])],
@@ -205,10 +181,6 @@ def test_corners_from_vertex_creases():
     weights = np.array([1.0, 0.2, 0.0, 1.0], np.float32)
     assert corner_vertices(triangle(vertex_crease=weights), 0.5).tolist() == [0]
     assert corner_vertices(triangle(vertex_crease=weights), None).tolist() == []
-
-
-def test_vertices_are_not_fixed():
-    assert without_vertices({"vertices": 1, "levels": 2}) == {"levels": 2}
 
 
 @pytest.mark.parametrize(

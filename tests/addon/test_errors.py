@@ -35,12 +35,6 @@ def test_not_a_number():
     expect_refusal("Hole: .*finite")
 
 
-def test_one_bad_mesh_of_two_makes_nothing():
-    good, _bad = add("Good", *CUBE), add("Wire", [(0, 0, 0)], [])
-    good.select_set(True)
-    expect_refusal("Wire: ")
-
-
 def test_nothing_selected():
     expect_refusal("Select a mesh")
 

@@ -93,8 +93,3 @@ def test_bindings_are_undone():
     assert not found.is_bound and found.target == cage
     assert len(notes) == 1 and "bind it again" in notes[0]
     assert modifier.is_bound
-
-
-def test_none():
-    target, notes = copied(add("Cube", *CUBE))
-    assert notes == [] and len(target.modifiers) == 0

@@ -17,13 +17,6 @@ from scenes import (
     snapshot,
 )
 
-from addon.choices import ENERGIES
-
-# on Suzanne the energies that take steps take ten times as long
-BY_COST = [
-    pytest.param(key, marks=[] if key == "THIN_PLATE" else pytest.mark.long) for key, *_ in ENERGIES
-]
-
 
 @pytest.mark.parametrize("levels", [1, 2, 3])
 def test_cube_in_quads(levels):
@@ -202,15 +195,3 @@ def test_crease_angle_reaches_the_core():
     assert np.allclose(
         np.abs(positions(result.data)).max(axis=1), 1.0
     )  # all edges creased: the cube itself
-
-
-@pytest.mark.parametrize("energy", BY_COST)
-def test_approximation_keeps_its_tolerance(energy):
-    source = add_suzanne()
-    result = fair(
-        levels=1, energy=energy, interpolation="APPROXIMATE", tolerance=0.02, tolerance_unit="SCENE"
-    )
-    moved = np.linalg.norm(
-        positions(result.data)[: len(source.data.vertices)] - positions(source.data), axis=1
-    )
-    assert moved.max() <= 0.02 * (1 + 1e-5)

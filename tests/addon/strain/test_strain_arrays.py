@@ -1,13 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is drawn, said and written of strain, as plain arrays and texts."""
 
-import csv
-import io
-
 import numpy as np
 import pytest
 
-from addon.strain import drawn, table
+from addon.strain import drawn
 from addon.strain.strained import Strained, above
 
 NAN = float("nan")
@@ -81,16 +78,3 @@ def test_labels_stand_at_the_tips_of_the_worst():
     assert (said, second) == ("1: 0.04", "3: 0.02")
     assert wrong and not fair, "0.02 is below the floor"
     assert first == pytest.approx([3.0, 4.0, 5.0 - 0.4])
-
-
-def test_the_table_can_be_read_back():
-    it = strained()
-    eased = it.positions + [0.0, 0.3, 0.4]
-    (head, *rows) = csv.reader(io.StringIO(table.text(table.rows(it.positions, it.lengths, eased))))
-    assert ",".join(head) == "vertex,x,y,z,x_eased,y_eased,z_eased,move,strain"
-    assert [row[0] for row in rows] == ["0", "1", "2", "3"] and rows[2][-1] == ""
-    numbers = np.array([row[1:-1] for row in rows], float)
-    assert np.allclose(numbers[:, :3], it.positions) and np.allclose(numbers[:, 3:6], eased)
-    assert np.allclose(numbers[:, 6], 0.5)
-    plain = table.rows(it.positions, it.lengths)
-    assert plain[0] == ["vertex", "x", "y", "z", "strain"] and plain[2][-1] == "-0.04"
