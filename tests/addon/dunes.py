@@ -2,16 +2,12 @@
 """A sheet of quads with one vertex out of line, for tests of strain and easing."""
 
 import numpy as np
+from polygons import grid
 from scenes import add
 
 ROWS, COLUMNS = 9, 7
+FACES = grid(ROWS, COLUMNS)
 WRONG, OFF = 31, 0.1  # the vertex that is out of line, and by how much, upwards
-
-
-def grid(rows=ROWS, columns=COLUMNS):
-    """Faces of a grid of vertices, row by row."""
-    at = np.arange(rows * columns).reshape(rows, columns)
-    return np.stack([at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]], axis=2).reshape(-1, 4)
 
 
 def dune(wrong=(WRONG,), off=OFF):
@@ -23,4 +19,4 @@ def dune(wrong=(WRONG,), off=OFF):
 
 
 def add_dune(**changed):
-    return add("Dune", dune(**changed).tolist(), grid().tolist())
+    return add("Dune", dune(**changed).tolist(), FACES.tolist())

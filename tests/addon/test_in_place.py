@@ -6,7 +6,8 @@ import bpy
 import discrete_fairing as df
 import numpy as np
 import pytest
-from scenes import CUBE, activate, add
+from polygons import grid
+from scenes import CUBE, activate, add, positions
 
 from addon import prediction
 from addon.in_place import InPlaceJob, InPlaceOptions
@@ -22,26 +23,14 @@ RADIUS = 3.0
 SIZE = 12  # faces a side
 
 
-def positions(target):
-    out = np.empty(3 * len(target.data.vertices))
-    target.data.vertices.foreach_get("co", out)
-    return out.reshape(-1, 3)
-
-
 def cap(noise=0.1):
     """A piece of a sphere with noise in the middle, whose faces are selected; and what is inside."""
     axis = np.linspace(-1, 1, SIZE + 1)
-    x, y = (grid.ravel() for grid in np.meshgrid(axis, axis, indexing="ij"))
+    x, y = (values.ravel() for values in np.meshgrid(axis, axis, indexing="ij"))
     points = np.stack([x, y, np.sqrt(RADIUS**2 - x**2 - y**2)], axis=1)
     middle = (np.abs(x) < 0.4) & (np.abs(y) < 0.4)
     points[middle] += np.random.default_rng(1).uniform(-noise, noise, (int(middle.sum()), 3))
-    row = SIZE + 1
-    faces = [
-        (i * row + j, (i + 1) * row + j, (i + 1) * row + j + 1, i * row + j + 1)
-        for i in range(SIZE)
-        for j in range(SIZE)
-    ]
-    target = add("Cap", points.tolist(), faces)
+    target = add("Cap", points.tolist(), grid(SIZE + 1, SIZE + 1).tolist())
     select(target, lambda ids: middle[ids].any())
     return target, middle
 
@@ -60,7 +49,7 @@ def select(target, wanted):
 def fair(target, **options):
     assert bpy.ops.object.fairing_in_place(**options) == {"FINISHED"}
     bpy.ops.object.mode_set(mode="OBJECT")
-    return positions(target)
+    return positions(target.data)
 
 
 def off_sphere(points):
@@ -70,7 +59,7 @@ def off_sphere(points):
 @pytest.mark.parametrize("joint", ["POSITION", "TANGENT", "CURVATURE"])
 def test_only_what_is_inside_moves_and_the_noise_goes(joint):
     target, middle = cap()
-    before = positions(target)
+    before = positions(target.data)
     faces = [tuple(p.vertices) for p in target.data.polygons]
     after = fair(target, joint=joint)
     assert np.array_equal(after[~middle], before[~middle]), "to the bit"
@@ -91,7 +80,7 @@ def test_a_tangent_joint_goes_on_as_the_sphere_does_and_a_touching_one_need_not(
 def test_it_is_the_surface_that_the_whole_mesh_has():
     """What is cut out for speed changes nothing but rounding where the joint is the rim itself."""
     target, middle = cap()
-    before = positions(target)
+    before = positions(target.data)
     faces = [tuple(p.vertices) for p in target.data.polygons if p.select]
     ids, corners = np.unique(faces, return_inverse=True)
     weights = np.where(middle[ids], 0.0, np.inf)
@@ -108,7 +97,7 @@ def test_it_is_the_surface_that_the_whole_mesh_has():
 
 def test_factor_goes_part_of_the_way():
     target, middle = cap()
-    before = positions(target)
+    before = positions(target.data)
     whole = fair(target)
     target, _ = cap()
     half = fair(target, factor=0.5)
@@ -118,7 +107,7 @@ def test_factor_goes_part_of_the_way():
 @pytest.mark.parametrize("release", [False, True])
 def test_refined_in_place_joins_without_a_gap(release):
     target, middle = cap()
-    before = positions(target)
+    before = positions(target.data)
     selected = sum(p.select for p in target.data.polygons)
     after = fair(target, levels=2, release=release, joint="TANGENT")
     mesh = target.data
@@ -141,7 +130,7 @@ def test_refined_in_place_joins_without_a_gap(release):
 def test_refined_points_are_those_of_the_core(noise):
     """With noise quads are warped, so that it splits them."""
     target, middle = cap(noise)
-    before = positions(target)
+    before = positions(target.data)
     faces = [tuple(p.vertices) for p in target.data.polygons]
     region = [i for i, p in enumerate(target.data.polygons) if p.select]
     whole = df.fair(before, faces, levels=1, region=region, joint="curvature")
@@ -160,7 +149,7 @@ def test_layers_of_the_mesh_are_refined_with_it():
     bpy.ops.object.mode_set(mode="OBJECT")
     target.data.uv_layers.new(name="UV")
     for corner, loop in enumerate(target.data.loops):
-        target.data.uv_layers["UV"].data[corner].uv = positions(target)[loop.vertex_index, :2]
+        target.data.uv_layers["UV"].data[corner].uv = positions(target.data)[loop.vertex_index, :2]
     bpy.ops.object.mode_set(mode="EDIT")
     after = fair(target, levels=1)
     flat = [
@@ -251,7 +240,7 @@ def test_refusals_say_what_to_do_and_change_nothing():
     assert "Leave out some faces of each part" in error_of()
     select(box, lambda ids: 0 in ids and 1 in ids and 2 in ids)
     assert "Select more faces" in error_of(levels=0)
-    assert np.array_equal(positions(box), np.array(CUBE[0], np.float32))
+    assert np.array_equal(positions(box.data), np.array(CUBE[0], np.float32))
     bpy.ops.object.mode_set(mode="OBJECT")
     assert not bpy.ops.object.fairing_in_place.poll()
 
@@ -259,7 +248,7 @@ def test_refusals_say_what_to_do_and_change_nothing():
 def test_faces_of_many_corners_are_refined_as_the_core_splits_them():
     bpy.ops.mesh.primitive_cylinder_add(vertices=8)
     can = bpy.context.object
-    before, faces = positions(can), [tuple(p.vertices) for p in can.data.polygons]
+    before, faces = positions(can.data), [tuple(p.vertices) for p in can.data.polygons]
     (lid,) = [i for i, face in enumerate(faces) if len(face) == 8 and before[face[0], 2] > 0]
     select(can, lambda ids: tuple(ids) == faces[lid])
     whole = df.fair(before, faces, levels=2, region=[lid])
@@ -290,19 +279,19 @@ def test_a_long_run_is_computed_beside_the_window_and_applied_at_its_end():
     assert job.why_outdated(bpy.context) == ""
     job.apply()
     bpy.ops.object.mode_set(mode="OBJECT")
-    assert np.array_equal(positions(target), expected)
+    assert np.array_equal(positions(target.data), expected)
 
 
 def test_a_cancelled_run_changes_nothing():
     target, _ = cap()
-    before = positions(target)
+    before = positions(target.data)
     queue = Queue([begun(target)], df.Monitor)
     queue.cancel()
     queue.start()
     queue.join()
     assert queue.cancelled and queue.jobs[0].result is None
     bpy.ops.object.mode_set(mode="OBJECT")
-    assert np.array_equal(positions(target), before)
+    assert np.array_equal(positions(target.data), before)
 
 
 def move_a_vertex(target):
@@ -330,7 +319,7 @@ def test_a_mesh_that_changes_during_the_run_is_left_alone(said):
 
 def test_adjust_last_operation_lets_a_long_run_begin_anew(monkeypatch):
     target, _ = cap()
-    before, asked = positions(target), []
+    before, asked = positions(target.data), []
     monkeypatch.setattr(Fairing, "is_redone", lambda self: True)
     monkeypatch.setattr(prediction, "_AT_FIRST", {"THIN_PLATE": 1.0})
     monkeypatch.setattr(redo, "invoke_soon", lambda *given: asked.append(given[1:]))
@@ -391,7 +380,7 @@ def test_fairing_one_shape_key_leaves_its_basis():
     target.shape_key_add(name="Other")
     target.active_shape_key_index = 1
     select(target, lambda ids: middle[ids].any())
-    before = positions(target)
+    before = positions(target.data)
     fair(target, levels=1, release=True)
     found = keys_of(target)
     assert np.abs(found["Basis"][: len(before)] - before).max() < 1e-6

@@ -5,7 +5,8 @@ import bpy
 import numpy as np
 import pytest
 from fake_layout import draw
-from scenes import activate, add
+from polygons import grid
+from scenes import activate, add, positions
 
 from addon import prediction
 from addon.job import Job
@@ -28,16 +29,7 @@ def half_bowl():
         axis=-1,
     ).reshape(-1, 3)
     points[:4, 0] = points[-4:, 0] = 0.0
-    faces = [
-        (4 * i + j, 4 * i + 4 + j, 4 * i + 5 + j, 4 * i + 1 + j) for i in range(6) for j in range(3)
-    ]
-    return add("Bowl", points.tolist(), faces)
-
-
-def positions(target):
-    out = np.empty(3 * len(target.data.vertices), np.float32)
-    target.data.vertices.foreach_get("co", out)
-    return out.reshape(-1, 3)
+    return add("Bowl", points.tolist(), grid(7, 4).tolist())
 
 
 def fair(source, **options):
@@ -57,9 +49,9 @@ def test_the_half_fits_the_whole(scale):
     mirror = source.modifiers.new("Mirror", "MIRROR")
     mirror.use_axis = (True, False, False)
     whole = fair(source, mesh_source="EVALUATED")
-    there = positions(whole)
+    there = positions(whole.data)
     kept = there[there[:, 0] > -1e-7]
-    own = positions(half)
+    own = positions(half.data)
     assert len(own) == len(kept)
     apart = np.abs(own[:, None] - kept[None]).max(axis=2).min(axis=1)
     assert apart.max() < 1e-4
@@ -69,16 +61,16 @@ def test_the_half_fits_the_whole(scale):
 def test_live_and_recompute_keep_the_half():
     source = half_bowl()
     half = fair(source, symmetry_plane="X", levels=2)
-    before = positions(half)
+    before = positions(half.data)
     activate(half)
     assert bpy.ops.object.fairing_recompute() == {"FINISHED"}
-    assert np.array_equal(positions(half), before)
+    assert np.array_equal(positions(half.data), before)
     half.discrete_fairing_live.on = True
     source.data.vertices[9].co.z -= 0.2
     source.data.update()
     bpy.context.view_layer.update()
     assert len(half.data.vertices) == len(before)
-    assert not np.array_equal(positions(half), before)
+    assert not np.array_equal(positions(half.data), before)
     half.discrete_fairing_live.on = False
 
 
@@ -142,17 +134,14 @@ def half_boat():
     breadth = np.sqrt(stations / 6) * (0.15 + 0.85 * levels)
     breadth[0] = breadth[:, 0] = 0.0
     points = np.stack([stations, breadth, levels + 0.02 * (6 - stations)], axis=-1)
-    faces = [
-        (4 * i + j, 4 * i + 4 + j, 4 * i + 5 + j, 4 * i + 1 + j) for i in range(6) for j in range(3)
-    ]
-    return add("Boat", points.reshape(-1, 3).tolist(), faces)
+    return add("Boat", points.reshape(-1, 3).tolist(), grid(7, 4).tolist())
 
 
 def seam(target, axis):
     """Sharp and all edges of the border that lie in the plane of that axis."""
     mesh = target.data
     uses = np.bincount([loop.edge_index for loop in mesh.loops], minlength=len(mesh.edges))
-    flat = np.abs(positions(target)[:, axis]) < 1e-6
+    flat = np.abs(positions(target.data)[:, axis]) < 1e-6
     edges = [e for e in mesh.edges if uses[e.index] == 1 and flat[list(e.vertices)].all()]
     others = [e for e in mesh.edges if e not in edges]
     assert not any(e.use_edge_sharp for e in others)
@@ -184,7 +173,4 @@ def test_a_seam_that_was_faired_across_is_not_sharp_and_none_that_is_tangent():
     assert seam(fair(half_bowl(), symmetry_plane="X"), 0) == (0, 48)
     x, y = np.meshgrid(np.linspace(0, 1, 5), np.linspace(-1, 1, 5), indexing="ij")
     points = np.stack([x, y, 0.3 * (x**2 + y**2)], axis=-1).reshape(-1, 3)
-    faces = [
-        (5 * i + j, 5 * i + 5 + j, 5 * i + 6 + j, 5 * i + 1 + j) for i in range(4) for j in range(4)
-    ]
-    assert seam(fair(add("Dish", points.tolist(), faces)), 0) == (0, 32)
+    assert seam(fair(add("Dish", points.tolist(), grid(5, 5).tolist())), 0) == (0, 32)

@@ -72,6 +72,12 @@ def torus(around: int = 8, across: int = 6, radius: float = 2**0.5):
     ).reshape(-1, 4)
 
 
+def lattice_faces(rows: int, columns: int) -> np.ndarray:
+    """Quads of rows of vertices, row by row."""
+    at = np.arange(rows * columns).reshape(rows, columns)
+    return np.stack([at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]], -1).reshape(-1, 4)
+
+
 def grid(columns: int = 4, rows: int = 4):
     """A flat sheet of unit squares; vertex (i, j) is number j * (columns + 1) + i."""
     x, y = np.meshgrid(np.arange(columns + 1.0), np.arange(rows + 1.0))

@@ -26,9 +26,7 @@ def sheet(rows=16, columns=14, stretched=False):
     height = 0.3 * np.sin(2 * x) * np.cos(3 * y)
     if stretched:
         y = 0.2 * y + 0.3 * y**2
-    at = np.arange(rows * columns).reshape(rows, columns)
-    faces = np.stack([at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]], -1).reshape(-1, 4)
-    return np.stack([x, y, height], -1).reshape(-1, 3), faces
+    return np.stack([x, y, height], -1).reshape(-1, 3), meshes.lattice_faces(rows, columns)
 
 
 def ring(around=24, across=12, every=1):

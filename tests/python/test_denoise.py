@@ -4,6 +4,7 @@
 import discrete_fairing as df
 import numpy as np
 import pytest
+from control_meshes import lattice_faces
 
 NOISE = 0.1  # of an edge, rms
 
@@ -140,9 +141,7 @@ def test_a_larger_amount_takes_more_off():
 def test_corners_of_a_border_stay_and_polygons_will_do():
     x, y = np.meshgrid(np.arange(12.0), np.arange(12.0), indexing="ij")
     truth = np.stack([x, y, 0 * x], -1).reshape(-1, 3)
-    a = (np.arange(11)[:, None] * 12 + np.arange(11)).ravel()
-    quads = np.stack([a, a + 12, a + 13, a + 1], -1)
-    found = df.denoise(noisy(truth), [tuple(face) for face in quads])
+    found = df.denoise(noisy(truth), lattice_faces(12, 12).tolist())
     assert not found.moves[[0, 11, 132, 143]].any()
     assert error(found.vertices, truth) < 0.6 * NOISE
 

@@ -13,10 +13,8 @@ def bump(across=9, along=7, seed=1, noise=0.0):
     z = 0.2 * np.exp(-12 * ((x - 0.5) ** 2 + (y - 0.375) ** 2))
     points = np.stack([x, y, z], -1).reshape(-1, 3)
     points[:, 2] += noise * np.random.default_rng(seed).normal(size=len(points))
-    i, j = np.meshgrid(np.arange(across - 1), np.arange(along - 1), indexing="ij")
-    a = (i * along + j).ravel()
     inner = np.arange(across * along).reshape(across, along)[1:-1, 1:-1].ravel()
-    return points, np.stack([a, a + along, a + along + 1, a + 1], -1), inner
+    return points, control_meshes.lattice_faces(across, along), inner
 
 
 def rough(mesh, size, seed):

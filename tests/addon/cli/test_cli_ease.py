@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from cli_files import write_obj
 from cli_runs import contains, entries, imported, run
-from dunes import COLUMNS, OFF, ROWS, WRONG, dune, grid
+from dunes import COLUMNS, FACES, OFF, ROWS, WRONG, dune
 from scenes import add
 
 from addon.strain import table
@@ -29,7 +29,7 @@ def write_dunes(name, *meshes):
     for number, points in enumerate(meshes):
         lines.append(f"o Dune{number}")
         lines += ["v {:.6f} {:.6f} {:.6f}".format(*point) for point in points]
-        lines += ["f " + " ".join(map(str, face + first)) for face in grid()]
+        lines += ["f " + " ".join(map(str, face + first)) for face in FACES]
         first += len(points)
     Path(name).write_text("\n".join(lines) + "\n")
 
@@ -46,7 +46,7 @@ def test_control_vertices_are_eased_and_the_surface_passes_through_them():
     code, (entry,) = entries("in.obj", "out.obj", "--ease", "--levels", 1)
     assert (code, entry["settings"]["ease"], entry["settings"]["ease_tolerance"]) == (0, True, None)
     corners = [0, COLUMNS - 1, ROWS * COLUMNS - COLUMNS, ROWS * COLUMNS - 1]
-    wanted = discrete_fairing.ease(points, grid(), levels=2, corner_vertices=corners)
+    wanted = discrete_fairing.ease(points, FACES, levels=2, corner_vertices=corners)
     said = entry["objects"][0]["eased"]
     assert said["noise"] == pytest.approx(wanted.noise, rel=1e-3)
     assert (said["vertex"], said["moved"]) == (WRONG, np.count_nonzero(wanted.moves))
@@ -74,7 +74,7 @@ def test_the_table_is_that_of_the_panel():
     code, (entry,) = entries("in.obj", "out.obj", "--strain", "strain.csv")
     assert code == 0 and "eased" not in entry["objects"][0] and "ease" not in entry["settings"]
     head, rows = read_table("strain.csv")
-    job = StrainJob(bpy.context, add("Dune", scattered().tolist(), grid().tolist()))
+    job = StrainJob(bpy.context, add("Dune", scattered().tolist(), FACES.tolist()))
     job.compute()
     assert head == table.rows(job.positions, job.result.lengths)[0]
     assert np.allclose(rows[:, 4], job.result.lengths, rtol=1e-3, atol=1e-5, equal_nan=True)

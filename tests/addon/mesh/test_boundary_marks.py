@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from fake_layout import draw
 from live_scenes import live, session
+from polygons import grid
 from scenes import activate, add, add_attribute, fair, positions
 
 from addon.core import boundary_edges
@@ -19,14 +20,9 @@ BOTTOM = [(0, 1), (1, 2), (2, 3)]
 
 
 def sheet(name="Sheet"):
-    i, j = (grid.ravel() for grid in np.meshgrid(np.arange(4), np.arange(4), indexing="ij"))
+    i, j = (ids.ravel() for ids in np.meshgrid(np.arange(4), np.arange(4), indexing="ij"))
     points = np.stack([i, j, 0.4 * np.sin(1.7 * i + j)], axis=1)
-    faces = [
-        (4 * a + b, 4 * a + 4 + b, 4 * a + 5 + b, 4 * a + 1 + b)
-        for a in range(SIDE)
-        for b in range(SIDE)
-    ]
-    return add(name, points.tolist(), faces)
+    return add(name, points.tolist(), grid(4, 4).tolist())
 
 
 def edit(target, *pairs):

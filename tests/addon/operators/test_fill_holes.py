@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hole_scenes import ball, borders, edit, is_closed, radii, without
 from mathutils import Vector
+from polygons import grid
 from scenes import activate, add, positions
 
 from addon import core, holes
@@ -35,13 +36,8 @@ def test_larger_holes_stay_open():
 def test_the_border_of_a_sheet_stays_open():
     """Its holes are filled: those of few edges, as the sheet has itself."""
     points = [(x, y, 0.0) for x in range(7) for y in range(7)]
-    faces = [
-        (7 * x + y, 7 * x + 7 + y, 7 * x + 8 + y, 7 * x + 1 + y)
-        for x in range(6)
-        for y in range(6)
-        if (x, y) != (2, 3)
-    ]
-    target = add("Sheet", points, faces)
+    faces = np.delete(grid(7, 7), 2 * 6 + 3, axis=0)
+    target = add("Sheet", points, faces.tolist())
     assert bpy.ops.object.fairing_fill() == {"FINISHED"}
     assert len(borders(target)) == 24
     with pytest.raises(RuntimeError, match="it seems to be that of a sheet"):

@@ -5,6 +5,7 @@ import bpy
 import numpy as np
 import pytest
 from fake_layout import draw
+from polygons import grid
 from scenes import CUBE, activate, add, add_suzanne, positions
 
 from addon.purposes import EASED_FIRST, PURPOSES, job_of, name_of_purpose, preset_file
@@ -52,9 +53,7 @@ def test_measured_points_lose_their_scatter(seed):
     x, y = np.meshgrid(even, even, indexing="ij")
     z = dome(x, y) + np.random.default_rng(seed).normal(0, 0.012, x.shape)
     points = np.stack([x, y, z], axis=2).reshape(-1, 3)
-    cells = [(i, j) for i in range(8) for j in range(8)]
-    faces = [(9 * i + j, 9 * i + 9 + j, 9 * i + 10 + j, 9 * i + 1 + j) for i, j in cells]
-    source = add("Dome", points.tolist(), faces)
+    source = add("Dome", points.tolist(), grid(9, 9).tolist())
 
     def off(surface):
         shown = surface.evaluated_get(bpy.context.evaluated_depsgraph_get())

@@ -3,7 +3,7 @@
 
 import numpy as np
 import pytest
-from polygons import polygons
+from polygons import grid, polygons
 
 from addon import measured
 from addon.core import module
@@ -16,9 +16,7 @@ def sheet(count, noise=0.0):
     at = np.linspace(-1, 1, count + 1)
     x, y = (values.ravel() for values in np.meshgrid(at, at, indexing="ij"))
     z = 0.3 * np.cos(x) * np.cos(y) + noise * np.random.default_rng(0).standard_normal(len(x))
-    ids = np.arange((count + 1) ** 2).reshape(count + 1, -1)
-    faces = np.stack([ids[:-1, :-1], ids[1:, :-1], ids[1:, 1:], ids[:-1, 1:]], axis=-1)
-    return polygons(np.stack([x, y, z], axis=1), faces.reshape(-1, 4))
+    return polygons(np.stack([x, y, z], axis=1), grid(count + 1, count + 1))
 
 
 def test_every_chosen_face_is_the_own_of_one_block():
