@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Clean Scan in a window: a list of what was done, one step of undo; bad rims with buttons that mend them."""
+"""Clean Scan in a window: a list of what was done, one step of undo."""
 
 import sys
 from pathlib import Path
@@ -73,40 +73,6 @@ def test_a_scan_is_closed_and_undo_brings_it_back():
         bpy.ops.ed.undo()
     yield 0.5
     assert len(bpy.context.object.data.polygons) == before
-
-
-def test_bad_rims_have_buttons_that_mend_them():
-    """A corner that hangs on an edge, in a sheet with a hole: the button cuts that edge."""
-    for other in list(bpy.data.objects):
-        bpy.data.objects.remove(other)
-    points = [(0, 0), (1, 0), (1, 2), (0, 2), (1, 1), (2, 0), (2, 1), (2, 2)]
-    mesh = bpy.data.meshes.new("Hanging")
-    mesh.from_pydata([(*p, 0) for p in points], [], [(0, 1, 2, 3), (1, 5, 6, 4), (4, 6, 7, 2)])
-    target = bpy.data.objects.new("Hanging", mesh)
-    bpy.context.scene.collection.objects.link(target)
-    with bpy.context.temp_override(**harness.view()):
-        bpy.context.view_layer.objects.active = target
-        target.select_set(True)
-        bpy.ops.view3d.view_axis(type="TOP")
-        bpy.ops.view3d.view_selected()
-    yield 0.5
-    try:  # what a script hears of an error in the window
-        call("fairing_fill")
-        yield from harness.until_it_ends()
-    except RuntimeError as error:
-        assert "1 hole left" in str(error), error
-    defects, stale = harness.module("check.defects").recall_defects(target)
-    assert defects[-1]["code"] == "VERTEX_ON_EDGE" and not stale, defects
-    yield from harness.unfold_panels("VIEW3D_PT_fairing_inspect", "VIEW3D_PT_fairing_check")
-    yield from harness.show_the_end_of_the_sidebar()
-    harness.photograph("bad_rim")
-    assert call("fairing_repair", index=len(defects) - 1) == {"FINISHED"}
-    yield 0.5
-    harness.photograph("bad_rim_cut")
-    with bpy.context.temp_override(**harness.view()):
-        bpy.ops.object.mode_set(mode="OBJECT")
-    assert len(target.data.vertices) == 8
-    assert sorted(len(f.vertices) for f in target.data.polygons) == [4, 4, 5]
 
 
 harness.run_in_window(globals())

@@ -174,45 +174,6 @@ def test_total_curvature_is_followed():
     yield from wait_for_the_full_level(target, 3)
 
 
-def test_another_topology():
-    source, target = yield from open_scene(2, 2)
-    with bpy.context.temp_override(**harness.view()):
-        bpy.ops.mesh.select_all(action="SELECT")
-        bpy.ops.mesh.subdivide()
-    yield 0.5
-    yield from wait_for_the_full_level(target, 2)
-    source.update_from_editmode()
-    assert len(target.data.polygons) >= len(source.data.polygons) * 4**2 >= 2000 * 4**2
-
-
-def test_settings_are_followed():
-    _, target = yield from open_scene(3, 2)
-    before = positions(target.data)
-    target.discrete_fairing.metric_exponent = 1.0
-    yield 0.3
-    assert session(target).level == 2 and len(target.data.vertices) < len(before)
-    yield from wait_for_the_full_level(target, 3)
-    assert not np.array_equal(positions(target.data), before)
-
-
-def test_undo_of_object_mode_edits():
-    source, target = yield from open_scene(3, 2)
-    before = positions(target.data)
-    with bpy.context.temp_override(**harness.view()):
-        bpy.ops.object.mode_set(mode="OBJECT")
-        bpy.ops.ed.undo_push(message="before")
-        source.data.vertices[0].co.z += 1.0
-        source.data.update()
-        bpy.ops.ed.undo_push(message="after")
-    yield 0.2
-    with bpy.context.temp_override(**harness.view()):
-        bpy.ops.ed.undo()
-    target = bpy.data.objects["Suzanne Fair"]
-    yield from wait_for_the_full_level(target, 3)
-    assert np.array_equal(positions(target.data), before)
-    assert target.discrete_fairing_live.on
-
-
 def test_undo_takes_live_along():
     """The step before has the source hidden under its surface: neither is left half way."""
     harness.add_suzanne()
@@ -243,41 +204,6 @@ def test_undo_takes_live_along():
     assert not source.hide_get()
     yield from wait_for_the_full_level(target, 2)
     assert np.array_equal(positions(target.data), before)
-
-
-def test_a_hidden_source_with_modifiers_is_followed():
-    source, target = yield from open_scene(2, 1)
-    with bpy.context.temp_override(**harness.view()):
-        bpy.ops.object.mode_set(mode="OBJECT")
-    target.discrete_fairing.mesh_source = "EVALUATED"
-    modifier = source.modifiers.new("More", "ARRAY")
-    yield 0.5
-    yield from wait_for_the_full_level(target, 2)
-    source.hide_set(True)
-    yield 0.5
-    before, updates, waited = len(target.data.vertices), session(target).updates, 0.0
-    modifier.count = 3
-    while session(target).updates == updates:
-        assert waited < PATIENCE, f"nothing follows: {target.discrete_fairing_live.status}"
-        waited += 0.1
-        yield 0.1
-    yield from wait_for_the_full_level(target, 2)
-    assert not session(target).trouble and len(target.data.vertices) == 3 * before // 2
-    updates = session(target).updates
-    yield 1.0
-    assert session(target).updates == updates, "what stands in for the source is no edit"
-
-
-def test_deleted_source():
-    source, target = yield from open_scene(3, 2)
-    with bpy.context.temp_override(**harness.view()):
-        bpy.ops.object.mode_set(mode="OBJECT")
-        bpy.ops.object.delete()
-    yield 0.5
-    assert live("registry").sessions() == []
-    bpy.context.view_layer.objects.active = target
-    yield 0.5
-    harness.photograph("live_ended")
 
 
 def test_rendering_meanwhile():

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A user's hour in a real window: press the button, watch the progress, ESC, redo, undo, recompute, save, reload."""
+"""A user's hour in a real window: press the button, watch the progress, ESC, redo, undo."""
 
 import os
 import sys
-import tempfile
 from pathlib import Path
 from time import perf_counter
 
@@ -159,29 +158,6 @@ def test_redo_with_another_level_then_undo():
     assert not bpy.data.objects["Suzanne"].hide_get()
 
 
-def test_recompute_save_and_reload():
-    source, settings = yield from open_panel(3)
-    yield from press(settings)
-    yield from wait_for_the_end()
-    source.data.vertices[0].co.z += 1.0
-    result = bpy.data.objects["Suzanne Fair"]
-    with bpy.context.temp_override(
-        **harness.view(), active_object=result, selected_objects=[result]
-    ):
-        assert bpy.ops.object.fairing_recompute("INVOKE_DEFAULT") <= {"FINISHED", "RUNNING_MODAL"}
-    yield from wait_for_the_end()
-    assert (result.data.vertices[0].co - source.data.vertices[0].co).length == 0.0
-    with tempfile.TemporaryDirectory() as folder:
-        path = str(Path(folder) / "kept.blend")
-        bpy.ops.wm.save_as_mainfile(filepath=path)
-        bpy.ops.wm.open_mainfile(filepath=path)
-        yield 1.0
-    result = bpy.data.objects["Suzanne Fair"]
-    assert result.discrete_fairing.source == bpy.data.objects["Suzanne"]
-    yield from harness.open_sidebar("Fairing")
-    harness.photograph("recompute")
-
-
 def test_several_objects_queue():
     first = harness.add_suzanne()
     second = first.copy()
@@ -212,17 +188,6 @@ def test_edit_mode_and_a_region():
     harness.xdotool("key", "Escape")
     yield from wait_for_the_end()
     assert source.mode == "EDIT" and len(bpy.data.objects) == 1, "cancelled: still in Edit Mode"
-
-
-def test_disable_while_nothing_runs():
-    yield from open_panel(2)
-    bpy.ops.preferences.addon_disable(module=harness.EXTENSION)
-    yield 0.5
-    assert not hasattr(bpy.types, "VIEW3D_PT_fairing")
-    harness.photograph("disabled")
-    bpy.ops.preferences.addon_enable(module=harness.EXTENSION)
-    yield 0.5
-    assert hasattr(bpy.types, "VIEW3D_PT_fairing")
 
 
 def start_long_run():
