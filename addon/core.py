@@ -130,6 +130,8 @@ def fair_arguments(
         arguments["normals"] = arrays.normals
     if is_limit(settings):
         arguments |= _limit(arrays, settings)
+    elif threshold is not None:
+        arguments["soft_creases"] = soft_creases(arrays, threshold)
     if pulls is not None:
         arguments["weights"] = pulls
     if settings.weld > 0 and settings.repair == "MEND":
@@ -343,6 +345,18 @@ def crease_edges(
         chosen |= arrays.sharp_edge
     chosen &= _occurs(arrays.corner_edges, len(arrays.edges))
     return arrays.edges[chosen]
+
+
+def soft_creases(arrays: ControlArrays, crease_threshold: float) -> tuple[np.ndarray, np.ndarray]:
+    """Vertex pairs (k, 2) int32 of the edges whose crease weighs less than `crease_threshold`, and these
+    weights (k,). Limit positions have them already, as Subdivision Surface does.
+    """
+    if arrays.edge_crease is None:
+        return np.empty((0, 2), np.int32), np.empty(0)
+    weights = arrays.edge_crease
+    chosen = (weights > 0.0) & ~_creased(weights, crease_threshold)
+    chosen &= _occurs(arrays.corner_edges, len(arrays.edges))
+    return arrays.edges[chosen], weights[chosen].astype(np.float64)
 
 
 def boundary_edges(arrays: ControlArrays) -> dict[str, np.ndarray]:

@@ -164,9 +164,12 @@ class Job:
     def _symmetrize(self) -> None:
         result, arguments = self.result, self.arguments
         corners = arguments["corner_vertices"]
+        soft, weights = arguments.get("soft_creases", (np.empty((0, 2), np.int32), ()))
         if result.mended is not None:
-            corners = result.mended.vertex_origin[corners]
-        mirrors, notes = find_mirrors(self.transfer, self.arrays, result.crease_edges, corners)
+            corners, soft = (result.mended.vertex_origin[ids] for ids in (corners, soft))
+        mirrors, notes = find_mirrors(
+            self.transfer, self.arrays, result.crease_edges, corners, (soft, weights)
+        )
         self.notes += notes
         self.notes += [
             f"The mesh is symmetric in {axis} but its surface is not, by more than rounding: no exact symmetry."

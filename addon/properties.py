@@ -156,13 +156,13 @@ class FairingSettings:
 
     use_crease_attribute: BoolProperty(
         name="Edge Creases",
-        description="Creased edges (Shift E in Edit Mode) become sharp curves, and creased vertices their corners",
+        description="Creased edges (Shift E in Edit Mode) become sharp curves or soft turns, and creased vertices corners",
         default=True,
     )
     crease_threshold: FloatProperty(
         name="Threshold",
-        description="The least crease weight that counts",
-        default=0.5,
+        description="Creases of at least this weight are sharp; below it the surface turns softly, the wider the lower the weight",
+        default=1.0,
         min=0.0,
         max=1.0,
         subtype="FACTOR",

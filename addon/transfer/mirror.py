@@ -89,12 +89,21 @@ def refined_mirror(
     return Mirror(axis, opposites, fine)
 
 
-def maps_pairs(mirror: Mirror, pairs: np.ndarray | Sequence[Any]) -> bool:
-    """Whether the vertex `pairs` (k, 2) are a symmetric set."""
+def maps_pairs(
+    mirror: Mirror,
+    pairs: np.ndarray | Sequence[Any],
+    values: np.ndarray | Sequence[float] | float = 0.0,
+) -> bool:
+    """Whether the vertex `pairs` (k, 2) are a symmetric set, with their `values` (k,)."""
     pairs = np.asarray(pairs, np.int64).reshape(-1, 2)
     image = mirror.control[pairs]
-    return (image >= 0).all() and np.array_equal(
-        np.unique(pair_keys(pairs)), np.unique(pair_keys(image))
+    values = np.broadcast_to(values, len(pairs))
+    own, first = np.unique(pair_keys(pairs), return_index=True)
+    mirrored, first_mirrored = np.unique(pair_keys(image), return_index=True)
+    return (
+        bool((image >= 0).all())
+        and np.array_equal(own, mirrored)
+        and np.array_equal(values[first], values[first_mirrored])
     )
 
 
@@ -218,12 +227,13 @@ def find_mirrors(
     arrays: ControlArrays,
     crease_edges: np.ndarray | Sequence[Any] = (),
     corner_vertices: np.ndarray | Sequence[Any] = (),
+    soft_creases: tuple[Any, Any] = ((), ()),
 ) -> tuple[list[Mirror], list[str]]:
     """The planes x = 0, y = 0, z = 0 across which control mesh and features are symmetric: (list of
     Mirror, notes).
 
     `transfer`: AttributeTransfer; `arrays`: the control mesh; `crease_edges` (k, 2) and `corner_vertices`
-    (c,): control vertices.
+    (c,): control vertices; `soft_creases`: pairs of them (k, 2) and weights (k,).
     """
     found, notes = [], []
     used = transfer.used_vertices()
@@ -237,7 +247,11 @@ def find_mirrors(
             notes.append(
                 f"The vertices are symmetric in {AXES[axis]} but the faces are not: no exact symmetry."
             )
-        elif not (maps_pairs(mirror, crease_edges) and maps_vertices(mirror, corner_vertices)):
+        elif not (
+            maps_pairs(mirror, crease_edges)
+            and maps_pairs(mirror, *soft_creases)
+            and maps_vertices(mirror, corner_vertices)
+        ):
             notes.append(
                 f"The mesh is symmetric in {AXES[axis]} but its creases are not: no exact symmetry."
             )

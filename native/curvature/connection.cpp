@@ -14,6 +14,7 @@ namespace {
 struct TensorPoint {
   const double *x, *normal, *axis, *tensor;
   double area;
+  double root;  // of the stiffness
 };
 
 struct TurnedEdge {
@@ -46,7 +47,8 @@ double set_point(const RowRun<float>& run, std::size_t i, const TensorPoint& own
   for (int s = 1; s < run.slots; ++s) {
     const TensorPoint other = neighbour(s);
     const TurnedEdge edge =
-        own.area > 0 ? edge_between(own, other, double(run.at(0, s, i))) : TurnedEdge{0, 1, 0};
+        own.area > 0 ? edge_between(own, other, own.root * other.root * double(run.at(0, s, i)))
+                     : TurnedEdge{0, 1, 0};
     const double scale = edge.weight > 0 ? edge.weight / (root * std::sqrt(other.area)) : 0;
     run.at(0, s, i) = float(-scale);
     run.at(1, s, i) = float(-scale * edge.cosine);
@@ -92,12 +94,13 @@ struct SurfaceGather {
         normal(grid, surface.normal, buffer[1]),
         axis(grid, surface.axis, buffer[2]),
         tensors(grid, tensor, buffer[3]),
-        area(grid, surface.area, buffer[4]) {}
+        area(grid, surface.area, buffer[4]),
+        root(grid, surface.root, buffer[5]) {}
   SurfaceGather(const SurfaceGather&) = delete;
 
-  std::vector<double> buffer[5];
+  std::vector<double> buffer[6];
   RunGather<double, 3> x, normal, axis, tensors;
-  RunGather<double> area;
+  RunGather<double> area, root;
 };
 
 }  // namespace
@@ -112,11 +115,13 @@ Connection::Connection(RingJacobian cotangents, const Surface& surface, const do
       [&](const Run& run, SurfaceGather& gather) {
         const double *const *x = gather.x(run), *const *normal = gather.normal(run),
                             *const *axis = gather.axis(run), *const *m = gather.tensors(run),
-                            *const *area = gather.area(run);
+                            *const *area = gather.area(run),
+                            *const *root = surface.root ? gather.root(run) : nullptr;
         const RowRun<float> rows = rows_.of(run);
         for (std::size_t i = 0; i < run.count; ++i) {
           const auto point = [&](int s) -> TensorPoint {
-            return {x[s] + 3 * i, normal[s] + 3 * i, axis[s] + 3 * i, m[s] + 3 * i, area[s][i]};
+            return {x[s] + 3 * i, normal[s] + 3 * i, axis[s] + 3 * i,
+                    m[s] + 3 * i, area[s][i],        root ? root[s][i] : 1.0};
           };
           energy.of(run) += set_point(rows, i, point(0), point, force + 3 * (run.first + i));
         }

@@ -18,6 +18,8 @@ class Connection {
     const double* normal;  // 3 a point
     const double* axis;    // the chart's u axis in space
     const double* area;    // 1 a point; zero: no fit
+    // 1 a point, the root of the surface's stiffness: an edge has its ends' product. Null: one.
+    const double* root = nullptr;
   };
   // L about a surface. `cotangents` are the edges' weights, in the first row of each point, slot by
   // slot; their memory becomes L's. Negative ones count as zero: there are few, and without them L is

@@ -98,14 +98,6 @@ bool has_fit(const ControlMesh& mesh, const Run& run) {
   }
 }
 
-double weight_at(const RegionWeight& weight, const Run& run, std::size_t i) {
-  switch (run.kind) {
-    case RunKind::vertex: return weight.vertex(run.element);
-    case RunKind::edge: return weight.edge_point(run.element, int(i) + 1);
-    default: return weight.face_point(run.element, int(i) + 1, run.row);
-  }
-}
-
 }  // namespace
 
 // What the connection needs of the points, in double: at its minimum nothing but rounding is left
@@ -138,7 +130,7 @@ double CurvatureLevel::linearize(const double* x, const Functional& functional,
   share_ = 0;
   const ControlMesh& mesh = shared_.mesh;
   const Unknowns& force_rows = functional.pads ? functional.pads->rows() : shared_.unknowns;
-  const RegionWeight region_weight(grid_);
+  const EnergyWeight factor(grid_);
   const Array<float> lifts = area_lifts(grid_, shared_.workers, x);
   const float* lift = lifts.empty() ? nullptr : lifts.data();
   Tensors tensors;
@@ -189,7 +181,7 @@ double CurvatureLevel::linearize(const double* x, const Functional& functional,
     PointScratch& point = gather.point;
     const RowRun<float> rows = rows_.of(run);
     const RowRun<float> cotangents = edge_weights ? edge_weights->of(run) : RowRun<float>{};
-    const auto weight = [&](std::size_t i) { return weight_at(region_weight, run, i); };
+    const auto weight = [&](std::size_t i) { return factor.point(run, i); };
     const auto store_alone = [&](std::size_t i, const RingInSpace& ring, bool closed) {
       const double e = point.store(ring, closed, energy_, weight(i), rows, i, force);
       const Vec3& normal = point.rows.point.normal;
@@ -259,7 +251,9 @@ double CurvatureLevel::connect(RingJacobian cotangents, const double* x, const T
                                const double* normal, double* force) {
   const std::size_t points = grid_.size();
   Array<double> moment(3 * points);
-  const Connection::Surface surface{x, normal, tensors.axis.data(), tensors.area.data()};
+  const Array<double> root = stiffness_roots(grid_);
+  const Connection::Surface surface{x, normal, tensors.axis.data(), tensors.area.data(),
+                                    root.empty() ? nullptr : root.data()};
   variation_->connection.emplace(std::move(cotangents), surface, tensors.shape.data(),
                                  shared_.workers, moment.data());
   for_each_index(shared_.workers, 3 * points, [&](std::size_t i) { moment[i] = -moment[i]; });

@@ -109,7 +109,7 @@ Mending::Mending(const PolygonMesh& input, const FairOptions& options)
 
 void Mending::map_options(const PolygonMesh& input) {
   map_edges(input);
-  map_region(input);
+  map_faces(input);
   map_vertex_values(input);
   for (std::int64_t& v : options_.features.corner_vertices)
     if (v >= 0 && v < input.vertex_count()) v = mended_.vertex_origin[std::size_t(v)];
@@ -123,34 +123,35 @@ void Mending::map_options(const PolygonMesh& input) {
 
 void Mending::map_edges(const PolygonMesh& input) {
   FeatureOptions& features = options_.features;
-  auto& [edges, values] = options_.sharpness.edges;
   std::vector<std::vector<VertexPair>*> lists{&features.crease_edges};
   for (std::vector<VertexPair>& of_mode : features.boundary_edges) lists.push_back(&of_mode);
   std::erase_if(lists, [](const std::vector<VertexPair>* list) { return list->empty(); });
-  if (lists.empty() && edges.empty()) return;
+  EdgeValues* const weighed[] = {&options_.sharpness.edges, &features.soft_creases};
+  if (lists.empty() && weighed[0]->first.empty() && weighed[1]->first.empty()) return;
   const NamedEdges named(input, mended_);
   for (std::vector<VertexPair>* list : lists) named.map(*list);
-  std::vector<VertexPair> all;
-  std::vector<double> all_values;
-  for (std::size_t k = 0; k < edges.size(); ++k) {
-    std::vector<VertexPair> now{edges[k]};
-    named.map(now);
-    all.insert(all.end(), now.begin(), now.end());
-    all_values.resize(all.size(), values[k]);
+  for (EdgeValues* const given : weighed) {
+    EdgeValues all;
+    for (std::size_t k = 0; k < given->first.size(); ++k) {
+      std::vector<VertexPair> now{given->first[k]};
+      named.map(now);
+      all.first.insert(all.first.end(), now.begin(), now.end());
+      all.second.resize(all.first.size(), given->second[k]);
+    }
+    *given = std::move(all);
   }
-  edges = std::move(all);
-  values = std::move(all_values);
 }
 
-void Mending::map_region(const PolygonMesh& input) {
-  RegionOptions& region = options_.features.region;
-  if (!region.given) return;
-  require_faces(region, input.face_count());
-  std::vector<std::uint8_t> chosen(std::size_t(input.face_count()), 0);
-  for (const std::int64_t f : region.faces) chosen[std::size_t(f)] = 1;
-  region.faces.clear();
-  for (std::size_t f = 0; f < mended_.face_origin.size(); ++f)
-    if (chosen[std::size_t(mended_.face_origin[f])]) region.faces.push_back(std::int64_t(f));
+void Mending::map_faces(const PolygonMesh& input) {
+  const auto map = [&](std::vector<std::int64_t>& faces, const std::vector<std::uint8_t>& chosen) {
+    faces.clear();
+    for (std::size_t f = 0; f < mended_.face_origin.size(); ++f)
+      if (chosen[std::size_t(mended_.face_origin[f])]) faces.push_back(std::int64_t(f));
+  };
+  FeatureOptions& features = options_.features;
+  if (features.region.given)
+    map(features.region.faces, chosen_faces(features.region, input.face_count()));
+  map(features.flat_faces, flags_of_faces(features.flat_faces, input.face_count(), "flat_faces"));
 }
 
 // Of vertices that became one, the one that holds the most speaks for all, and the first with a

@@ -57,7 +57,7 @@ class Mending {
   void restore(std::vector<Warning>& warnings) const;
   void map_options(const PolygonMesh& input);
   void map_edges(const PolygonMesh& input);
-  void map_region(const PolygonMesh& input);
+  void map_faces(const PolygonMesh& input);
   void map_vertex_values(const PolygonMesh& input);
 
   MendedMesh mended_;

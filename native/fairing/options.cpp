@@ -104,7 +104,8 @@ void check_paper(const FairOptions& o) {
 double FairOptions::step_tolerance_wanted() const {
   if (step_tolerance > 0) return step_tolerance;
   // in sizes of the mesh; less for who asks for less, as far as rows in single precision tell
-  return std::clamp(0.1 * solve.relative_residual, single_rounding, 1e-5);
+  const double least = std::min(solve.relative_residual, SolveOptions().relative_residual);
+  return std::max(0.1 * least, single_rounding);
 }
 
 double FairOptions::tolerance_of(std::size_t v) const {
@@ -150,7 +151,8 @@ void check_options(const PolygonMesh& mesh, const FairOptions& o) {
     check_per_vertex(mesh, "tolerance", o.tolerance);
   if (o.weld >= 0 && o.repair != Repair::mend)
     refuse("weld is for repair=\"mend\"; a mesh that is refused or faired as it is has none.");
-  check_edge_sharpness(mesh.vertex_count(), o.sharpness);
+  check_edge_values("edge_sharpness", mesh.vertex_count(), o.sharpness.edges, sharp_for_ever);
+  check_edge_values("soft_creases", mesh.vertex_count(), o.features.soft_creases, 1);
   if (!o.sharpness.vertices.empty())
     check_per_vertex(mesh, "vertex_sharpness", o.sharpness.vertices);
   check_normals(mesh, o);

@@ -30,6 +30,8 @@ void for_each_setting(Visit&& visit) {
   visit("metric_exponent", unit_interval, &O::metric_exponent);
   visit("chart_blend", unit_interval, &O::paper, &PaperOptions::chart_blend);
   visit("crease_edges", any, &O::features, &FeatureOptions::crease_edges);
+  visit("flat_faces", any, &O::features, &FeatureOptions::flat_faces);
+  visit("soft_creases", any, &O::features, &FeatureOptions::soft_creases);
   visit("corner_vertices", any, &O::features, &FeatureOptions::corner_vertices);
   visit("crease_angle", any, &O::features, &FeatureOptions::crease_angle);
   visit("corner_angle", any, &O::features, &FeatureOptions::corner_angle);

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/points.h"
 #include "mesh/features.h"
+#include "mesh/flat_faces.h"
 #include "mesh/orientation.h"
 #include "mesh/region.h"
 #include "mesh/sheets.h"
@@ -163,6 +164,7 @@ ControlMesh make_control_mesh(const PolygonMesh& mesh, const FeatureOptions& fea
   index_spokes(control);
   find_region(features.region, control);
   find_features(sheets.view(), features, control);
+  mark_flat_faces(features.flat_faces, control);
   mark_clamped_joint(control);
   return control;
 }

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/types.h"
@@ -35,8 +36,13 @@ struct RegionOptions {
   RegionContinuity joint = RegionContinuity::tangent;
 };
 
+// Vertex pairs in any order, and a value for each.
+using EdgeValues = std::pair<std::vector<std::array<std::int64_t, 2>>, std::vector<double>>;
+
 struct FeatureOptions {
   std::vector<std::array<std::int64_t, 2>> crease_edges{};  // vertex pairs, any order
+  EdgeValues soft_creases{};  // weights from 0, no crease, to 1, a crease like the others
+  std::vector<std::int64_t> flat_faces{};  // of the input: those that are meant flat
   // Curves end here; an interior one may be the tip of a cone.
   std::vector<std::int64_t> corner_vertices{};
   double crease_angle = -1.0;  // edges that fold by more are creases; radians; negative: none
@@ -115,6 +121,20 @@ struct Copies {
   std::vector<Index> centre, face;
 };
 
+// Where the surface turns softly (stencil/stiffness.h), with weights from 0 to 1.
+struct SoftCreases {
+  // Both empty: nowhere. Of edges, in the middle; 0 on creases. Of vertices: the mean of the soft edges
+  // where a line goes on; 0 where it ends, but that of the edge on a border; 1 on a crease.
+  std::vector<double> edge, vertex;
+
+  bool any() const { return !edge.empty(); }
+};
+
+// Which faces are meant flat; edges and vertices with such faces alone. Empty: none.
+struct FlatFaces {
+  std::vector<std::uint8_t> vertex, edge, face;
+};
+
 struct ControlMesh {
   // The input's vertices first, then copies of them, then free vertices that splits have added, then
   // copies of these.
@@ -137,6 +157,8 @@ struct ControlMesh {
   // corner, where no fit is taken.
   std::vector<std::uint8_t> feature_edge, feature_vertex;
   std::vector<Chain> chains;
+  SoftCreases soft;
+  FlatFaces flat;
   Region region;
 
   Index vertex_count() const { return Index(positions.size()); }

@@ -45,6 +45,7 @@ class FeatureFinder {
     mark_folded_edges();
     mark_copies();
     mark_corners();
+    weigh_soft_creases();
     collect_chains();
   }
 
@@ -68,9 +69,10 @@ class FeatureFinder {
   void choose_modes() {
     mode_.assign(std::size_t(control_.first_copied_edge()), options_.boundary);
     for (std::size_t m = 0; m < boundary_modes; ++m)
-      for_each_edge(options_.boundary_edges[m], "boundary edges", "boundary edge", [&](Index e) {
-        mode_[std::size_t(control_.original_edge(e))] = BoundaryMode(m);
-      });
+      for_each_edge(options_.boundary_edges[m], "boundary edges", "boundary edge",
+                    [&](Index e, std::size_t) {
+                      mode_[std::size_t(control_.original_edge(e))] = BoundaryMode(m);
+                    });
   }
   BoundaryMode mode(Index e) const { return mode_[std::size_t(control_.original_edge(e))]; }
   bool straight(Index e) const {
@@ -106,16 +108,57 @@ class FeatureFinder {
   }
 
   void mark_given_creases() {
+    const auto mark = [&](Index e) { control_.feature_edge[std::size_t(e)] = 1; };
     for_each_edge(options_.crease_edges, "crease edges", "crease",
-                  [&](Index e) { control_.feature_edge[std::size_t(e)] = 1; });
+                  [&](Index e, std::size_t) { mark(e); });
+    const auto& [pairs, weights] = options_.soft_creases;
+    if (pairs.empty()) return;
+    control_.soft.edge.assign(control_.edges.size(), 0);
+    for_each_edge(pairs, "soft creases", "soft crease", [&](Index e, std::size_t k) {
+      if (weights[k] >= 1)
+        mark(e);
+      else
+        control_.soft.edge[std::size_t(control_.original_edge(e))] = weights[k];
+    });
   }
 
-  // visit(e) for the edges that the caller has named; `where` and `noun` say what they are to be.
+  // Once all creases are known.
+  void weigh_soft_creases() {
+    SoftCreases& soft = control_.soft;
+    bool any = false;
+    for (std::size_t e = 0; e < soft.edge.size(); ++e) {
+      soft.edge[e] = control_.feature_edge[e] || control_.edges[e].boundary()
+                         ? 0
+                         : soft.edge[std::size_t(control_.original_edge(Index(e)))];
+      any |= soft.edge[e] > 0;
+    }
+    if (!any) soft = {};
+    if (!any) return;
+    for (Index v = 0; v < control_.vertex_count(); ++v) soft.vertex.push_back(soft_at(v));
+  }
+
+  double soft_at(Index v) const {
+    double sum = 0;
+    int count = 0;
+    bool at_crease = false;
+    for (const Spoke& spoke : control_.ring(v)) {
+      const double weight = control_.soft.edge[std::size_t(spoke.edge)];
+      sum += weight;
+      count += weight > 0;
+      at_crease |= control_.feature_edge[std::size_t(spoke.edge)] && !edge(spoke.edge).boundary();
+    }
+    if (count == 0) return 0;
+    if (at_crease) return 1;
+    return count > 1 || !control_.interior(v) ? sum / count : 0;
+  }
+
+  // visit(e, place in `pairs`) for the edges that the caller has named; `where` and `noun` say what they are to be.
   template <class Visit>
   void for_each_edge(const std::vector<std::array<std::int64_t, 2>>& pairs, const char* where,
                      const char* noun, Visit&& visit) const {
     std::vector<std::int64_t> unknown_vertices, unknown_edges;
-    for (const auto& [a, b] : pairs) {
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      const auto [a, b] = pairs[k];
       const auto outside = [&](std::int64_t v) { return v < 0 || v >= control_.input_vertices; };
       if (outside(a)) unknown_vertices.push_back(a);
       if (outside(b)) unknown_vertices.push_back(b);
@@ -124,7 +167,7 @@ class FeatureFinder {
       if (e < 0)
         unknown_edges.insert(unknown_edges.end(), {a, b});
       else
-        visit(e);
+        visit(e, k);
     }
     refuse_unknown(unknown_vertices, where);
     if (!unknown_edges.empty())

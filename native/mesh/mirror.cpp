@@ -283,7 +283,8 @@ class Finder {
     return same(mesh_.feature_vertex, mirror.vertex) && same(mesh_.feature_edge, mirror.edge) &&
            same(region.vertex, mirror.vertex) && same(region.edge, mirror.edge) &&
            same(region.face, mirror.face) && same(region.clamped_vertex, mirror.vertex) &&
-           same(region.clamped_edge, mirror.edge);
+           same(region.clamped_edge, mirror.edge) && same(mesh_.soft.edge, mirror.edge) &&
+           same(mesh_.flat.face, mirror.face);
   }
 
   const ControlMesh& mesh_;

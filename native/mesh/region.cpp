@@ -10,13 +10,6 @@
 namespace fairing {
 namespace {
 
-std::vector<std::uint8_t> chosen_polygons(const RegionOptions& options, Index polygons) {
-  require_faces(options, polygons);
-  std::vector<std::uint8_t> chosen(std::size_t(polygons), 0);
-  for (std::int64_t f : options.faces) chosen[std::size_t(f)] = 1;
-  return chosen;
-}
-
 // The part of a vertex or edge that touches faces of these kinds.
 RegionPart part_of(bool some_inside, bool some_outside) {
   if (!some_inside) return RegionPart::outside;
@@ -64,25 +57,35 @@ void join_sheets(ControlMesh& control) {
 
 }  // namespace
 
-void require_faces(const RegionOptions& options, std::int64_t faces) {
+std::vector<std::uint8_t> flags_of_faces(std::span<const std::int64_t> faces, std::int64_t count,
+                                         const std::string& where) {
+  std::vector<std::uint8_t> flags(std::size_t(count), 0);
+  std::vector<std::int64_t> unknown;
+  for (const std::int64_t f : faces)
+    if (f < 0 || f >= count)
+      unknown.push_back(f);
+    else
+      flags[std::size_t(f)] = 1;
+  if (!unknown.empty())
+    throw FairingError(ErrorCode::index_out_of_range,
+                       "{face} {is|are} named in " + where +
+                           " but not in the mesh: ids run from 0 to " + std::to_string(count - 1) +
+                           ".",
+                       unknown, ElementKind::face);
+  return flags;
+}
+
+std::vector<std::uint8_t> chosen_faces(const RegionOptions& options, std::int64_t count) {
   if (options.faces.empty())
     throw FairingError(
         ErrorCode::bad_option,
         "region has no faces: name those to be faired, or give no region to fair all.");
-  std::vector<std::int64_t> unknown;
-  for (std::int64_t f : options.faces)
-    if (f < 0 || f >= faces) unknown.push_back(f);
-  if (!unknown.empty())
-    throw FairingError(
-        ErrorCode::index_out_of_range,
-        "{face} {is|are} named in the region but not in the mesh: ids run from 0 to " +
-            std::to_string(faces - 1) + ".",
-        unknown, ElementKind::face);
+  return flags_of_faces(options.faces, count, "the region");
 }
 
 void find_region(const RegionOptions& options, ControlMesh& control) {
   if (!options.given) return;
-  const std::vector<std::uint8_t> chosen = chosen_polygons(options, control.input_faces);
+  const std::vector<std::uint8_t> chosen = chosen_faces(options, control.input_faces);
   if (std::find(chosen.begin(), chosen.end(), 0) == chosen.end()) return;
   Region& region = control.region;
   region.joint = options.joint;

@@ -2,6 +2,10 @@
 // The faired region: which control vertices, edges and faces are inside, on its joint, or outside.
 #pragma once
 
+#include <span>
+#include <string>
+#include <vector>
+
 #include "mesh/control_mesh.h"
 
 namespace fairing {
@@ -11,8 +15,11 @@ namespace fairing {
 // faces that do not exist, bad_option for no faces at all.
 void find_region(const RegionOptions& options, ControlMesh& control);
 
-// Throws what find_region does for a region of a mesh of so many input faces.
-void require_faces(const RegionOptions& options, std::int64_t faces);
+// One flag an input face, of so many; throws what find_region does. And for other faces that are named
+// somewhere.
+std::vector<std::uint8_t> chosen_faces(const RegionOptions& options, std::int64_t count);
+std::vector<std::uint8_t> flags_of_faces(std::span<const std::int64_t> faces, std::int64_t count,
+                                         const std::string& where);
 
 // Marks the joint edges that carry a fit, and their ends; all but features do, unless the region
 // joins in position only. Call it after find_features.

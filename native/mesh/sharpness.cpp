@@ -1,36 +1,39 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/sharpness.h"
 
+#include <cmath>
 #include <string>
 
 #include "base/error.h"
 
 namespace fairing {
 
-void check_edge_sharpness(std::int64_t vertices, const Sharpness& sharpness) {
+void check_edge_values(const std::string& name, std::int64_t vertices, const EdgeValues& given,
+                       double most) {
   const auto refuse = [](const std::string& message, std::vector<std::int64_t> elements = {}) {
     throw FairingError(ErrorCode::bad_option, message, std::move(elements), ElementKind::vertex);
   };
-  const auto& [pairs, values] = sharpness.edges;
+  const auto& [pairs, values] = given;
   if (pairs.size() != values.size())
-    refuse("edge_sharpness has " + std::to_string(values.size()) + " values for " +
+    refuse(name + " has " + std::to_string(values.size()) + " values for " +
            std::to_string(pairs.size()) + " edges; give one for each edge.");
   std::vector<std::int64_t> unknown, bad;
   for (std::size_t k = 0; k < pairs.size(); ++k)
     for (const std::int64_t v : pairs[k]) {
       if (v < 0 || v >= vertices) unknown.push_back(v);
-      if (!(values[k] >= 0)) bad.push_back(v);
+      if (!(values[k] >= 0 && values[k] <= most)) bad.push_back(v);
     }
   if (!unknown.empty())
-    throw FairingError(
-        ErrorCode::index_out_of_range,
-        "{vertex} {is|are} named by edge_sharpness but not in the mesh: ids run from 0 to " +
-            std::to_string(vertices - 1) + ".",
-        unknown, ElementKind::vertex);
-  if (!bad.empty())
-    refuse("edge_sharpness must be zero or positive; see the edge of the vertices " +
-               std::to_string(bad[0]) + " and " + std::to_string(bad[1]) + ".",
-           bad);
+    throw FairingError(ErrorCode::index_out_of_range,
+                       "{vertex} {is|are} named by " + name +
+                           " but not in the mesh: ids run from 0 to " +
+                           std::to_string(vertices - 1) + ".",
+                       unknown, ElementKind::vertex);
+  if (bad.empty()) return;
+  const std::string wanted = std::isfinite(most) ? "from 0 to 1" : "zero or positive";
+  refuse(name + " must be " + wanted + "; see the edge of the vertices " + std::to_string(bad[0]) +
+             " and " + std::to_string(bad[1]) + ".",
+         bad);
 }
 
 VertexRule rule_of(const AroundVertex& around, int steps) {

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <utility>
+#include <string>
 #include <vector>
 
 #include "mesh/control_mesh.h"
@@ -21,14 +21,14 @@ namespace fairing {
 constexpr double always_sharp = 10;
 
 struct Sharpness {
-  // Vertex pairs in any order, and the sharpness of each: theirs counts, be they creases or not.
-  std::pair<std::vector<std::array<std::int64_t, 2>>, std::vector<double>> edges;
+  EdgeValues edges;              // theirs counts, be they creases or not
   std::vector<double> vertices;  // one a vertex, or empty; 0: none is given
 };
 
-// Throws FairingError(bad_option) for values that are negative or NaN, or not one an edge;
-// index_out_of_range for edges of vertices that are not in the mesh.
-void check_edge_sharpness(std::int64_t vertices, const Sharpness& sharpness);
+// Throws FairingError(bad_option) for values that are not from 0 to `most`, or not one an edge;
+// index_out_of_range for edges of vertices that are not in the mesh. `name` is the setting's.
+void check_edge_values(const std::string& name, std::int64_t vertices, const EdgeValues& given,
+                       double most);
 
 constexpr double sharp_for_ever = std::numeric_limits<double>::infinity();
 

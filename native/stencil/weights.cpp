@@ -2,15 +2,16 @@
 #include "stencil/weights.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace fairing {
 
-bool RegionWeight::weighs_edge(Index e) const {
+bool EnergyWeight::joint_weighs_edge(Index e) const {
   if (!fades()) return any() && clamped_edge(e);
   return clamped_vertex(edge(e).vertex[0]) || clamped_vertex(edge(e).vertex[1]);
 }
 
-bool RegionWeight::weighs_face(Index f) const {
+bool EnergyWeight::joint_weighs_face(Index f) const {
   if (!fades()) return false;
   const Face& face = mesh_.faces[std::size_t(f)];
   for (int c = 0; c < face.size; ++c)
@@ -18,15 +19,16 @@ bool RegionWeight::weighs_face(Index f) const {
   return false;
 }
 
-bool RegionWeight::weighs(const Run& run) const {
+bool EnergyWeight::weighs(const Run& run) const {
   switch (run.kind) {
-    case RunKind::vertex: return any() && clamped_vertex(run.element);
+    case RunKind::vertex:
+      return (any() && clamped_vertex(run.element)) || stiffness_.weighs_vertex(run.element);
     case RunKind::edge: return weighs_edge(run.element);
     default: return weighs_face(run.element);
   }
 }
 
-double RegionWeight::point(const Run& run, std::size_t i) const {
+double EnergyWeight::point(const Run& run, std::size_t i) const {
   const int k = int(i) + 1;
   switch (run.kind) {
     case RunKind::vertex: return vertex(run.element);
@@ -35,7 +37,7 @@ double RegionWeight::point(const Run& run, std::size_t i) const {
   }
 }
 
-double RegionWeight::edge_point(Index e, int k) const {
+double EnergyWeight::beside_joint(Index e, int k) const {
   if (!any()) return 1;
   if (clamped_edge(e)) return on_joint();
   if (!fades()) return 1;
@@ -47,7 +49,7 @@ double RegionWeight::edge_point(Index e, int k) const {
 
 // The steps to a side are its row; to a corner they are those that agree with the edges on either
 // side.
-double RegionWeight::face_point(Index f, int i, int j) const {
+double EnergyWeight::beside_joint(Index f, int i, int j) const {
   if (!fades()) return 1;
   const Face& face = mesh_.faces[std::size_t(f)];
   const bool quad = face.quad();
@@ -64,15 +66,34 @@ double RegionWeight::face_point(Index f, int i, int j) const {
   return off_joint(std::max(steps, 1.0));  // only points inside the face count
 }
 
-Array<double> point_weights(const GridLevel& grid) {
-  if (grid.mesh().region.whole()) return {};
-  const RegionWeight joint(grid);
-  Array<double> weight(grid.size(), 1.0);
+namespace {
+
+// Of points of the runs that `factor` weighs.
+template <class Number>
+Array<double> of_points(const GridLevel& grid, const EnergyWeight& factor, Number&& number) {
+  Array<double> out(grid.size(), 1.0);
   for_each_run(grid, [&](const Run& run) {
-    if (!joint.weighs(run)) return;
-    for (std::size_t i = 0; i < run.count; ++i) weight[run.first + i] = joint.point(run, i);
+    if (!factor.weighs(run)) return;
+    for (std::size_t i = 0; i < run.count; ++i) out[run.first + i] = number(run, i);
   });
-  return weight;
+  return out;
+}
+
+}  // namespace
+
+Array<double> point_weights(const GridLevel& grid) {
+  const EnergyWeight factor(grid);
+  if (grid.mesh().region.whole() && !factor.stiffness().any()) return {};
+  return of_points(grid, factor,
+                   [&](const Run& run, std::size_t i) { return factor.point(run, i); });
+}
+
+Array<double> stiffness_roots(const GridLevel& grid) {
+  const EnergyWeight factor(grid);
+  if (!factor.stiffness().any()) return {};
+  return of_points(grid, factor, [&](const Run& run, std::size_t i) {
+    return std::sqrt(factor.stiffness().point(run, i));
+  });
 }
 
 }  // namespace fairing

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Weights on a fairness energy, whatever the energy: a factor on every point beside the joint of a
-// region, and springs that hold control vertices.
+// region or a soft crease and on flat faces, and springs that hold control vertices.
 #pragma once
 
 #include <vector>
 
 #include "grid/runs.h"
 #include "parallel/memory.h"
+#include "stencil/stiffness.h"
 
 namespace fairing {
 
@@ -14,8 +15,9 @@ namespace fairing {
 // One a control vertex, >= 0, in the energy's own unit; empty: none.
 using VertexWeights = std::vector<double>;
 
-// The factor on the energy of each point at and near a joint, the closed line along which a region
-// that is faired meets the surface that stays. 1 everywhere else, and on a mesh without a region.
+// The factor on the energy of each point: the surface's stiffness (stiffness.h), and what follows
+// at and near a joint, the closed line along which a region that is faired meets the surface that stays.
+// 1 everywhere else, and on a mesh without either.
 //
 // RegionContinuity::tangent: 2 on the joint itself. The second difference there sees half of the
 // curvature m inside, for the outside has none; the minimizer makes it m / factor; so 2 is
@@ -25,25 +27,39 @@ using VertexWeights = std::vector<double>;
 // of control faces. What minimizes the integral of m^2 / t has m of order t: the curvature fades
 // out towards the joint. On the joint itself, by the same count with a cubic, t stands for a sixth
 // of a grid step.
-class RegionWeight {
+class EnergyWeight {
  public:
   // The mesh of `grid` must outlive it; `grid` itself need not.
-  explicit RegionWeight(const GridLevel& grid) : mesh_(grid.mesh()), n_(grid.n()) {}
+  explicit EnergyWeight(const GridLevel& grid)
+      : mesh_(grid.mesh()), n_(grid.n()), stiffness_(grid) {}
 
   // Whether any point there has a factor other than 1.
-  bool weighs_edge(Index e) const;
-  bool weighs_face(Index f) const;
+  bool weighs_edge(Index e) const { return stiffness_.weighs_edge(e) || joint_weighs_edge(e); }
+  bool weighs_face(Index f) const { return stiffness_.weighs_face(f) || joint_weighs_face(f); }
 
   // The same of a run's points, and the factor of its point i.
   bool weighs(const Run& run) const;
   double point(const Run& run, std::size_t i) const;
 
+  // Its part that is the surface's own.
+  const Stiffness& stiffness() const { return stiffness_; }
+
   // Of a control vertex; of point k of an edge, 0 < k < n; of point (i, j) inside a face.
-  double vertex(Index v) const { return any() && clamped_vertex(v) ? on_joint() : 1.0; }
-  double edge_point(Index e, int k) const;
-  double face_point(Index f, int i, int j) const;
+  double vertex(Index v) const {
+    return (any() && clamped_vertex(v) ? on_joint() : 1.0) * stiffness_.vertex(v);
+  }
+  double edge_point(Index e, int k) const {
+    return beside_joint(e, k) * stiffness_.edge_point(e, k);
+  }
+  double face_point(Index f, int i, int j) const {
+    return beside_joint(f, i, j) * stiffness_.face_point(f, i, j);
+  }
 
  private:
+  bool joint_weighs_edge(Index e) const;
+  bool joint_weighs_face(Index f) const;
+  double beside_joint(Index e, int k) const;
+  double beside_joint(Index f, int i, int j) const;
   bool any() const { return !mesh_.region.clamped_vertex.empty(); }
   bool clamped_vertex(Index v) const { return mesh_.region.clamped_vertex[std::size_t(v)] != 0; }
   bool clamped_edge(Index e) const { return mesh_.region.clamped_edge[std::size_t(e)] != 0; }
@@ -55,9 +71,11 @@ class RegionWeight {
 
   const ControlMesh& mesh_;
   int n_;
+  Stiffness stiffness_;
 };
 
-// One factor a point; empty: all are one.
+// One factor a point; empty: all are one. And the root of the stiffness alone.
 Array<double> point_weights(const GridLevel& grid);
+Array<double> stiffness_roots(const GridLevel& grid);
 
 }  // namespace fairing

@@ -50,16 +50,16 @@ Moment<T> vertex_moment(const GridLevel& grid, const ThinPlateRows<T>& rows, Ind
 }
 
 template <class T>
-void edge_weights(const RegionWeight& joint, int n, Index e, T* weight) {
-  for (int k = 1; k < n; ++k) *weight++ = T(joint.edge_point(e, k));
+void edge_weights(const EnergyWeight& factor, int n, Index e, T* weight) {
+  for (int k = 1; k < n; ++k) *weight++ = T(factor.edge_point(e, k));
 }
 
 // Three equal numbers a point of the closed face.
 template <class T>
-void face_weights(const RegionWeight& joint, bool quad, int n, Index f, T* weight) {
+void face_weights(const EnergyWeight& factor, bool quad, int n, Index f, T* weight) {
   for (int j = 0; j <= n; ++j)
     for (int i = 0; i <= (quad ? n : n - j); ++i, weight += 3)
-      std::fill(weight, weight + 3, T(joint.face_point(f, i, j)));
+      std::fill(weight, weight + 3, T(factor.face_point(f, i, j)));
 }
 
 // The energy's rows of the element that a run is on, read once.
@@ -97,7 +97,7 @@ double dot(const EnergyRows::Column& a, const EnergyRows::Column& b) {
 // The energy's columns by the points of a ring, as multigrid/ring_lines.h asks for them.
 struct PlateRingRows {
   const GridLevel& grid;
-  RegionWeight joint;
+  EnergyWeight factor;
   ElementRows rows;
   std::vector<EnergyRows::Column> column{};  // by slot
   Run run{};
@@ -116,11 +116,11 @@ struct PlateRingRows {
   }
   int slots() const { return int(column.size()); }
   double number(int s, int t, std::size_t i) const {
-    const double weight = joint.weighs(run) ? joint.point(run, i) : 1.0;
+    const double weight = factor.weighs(run) ? factor.point(run, i) : 1.0;
     return weight * grid.n() * grid.n() * dot(column[std::size_t(s)], column[std::size_t(t)]);
   }
   float product(int s, int t, std::size_t i) const { return float(number(s, t, i)); }
-  bool is_same_along_run() const { return !joint.weighs(run); }
+  bool is_same_along_run() const { return !factor.weighs(run); }
 };
 
 }  // namespace
@@ -151,12 +151,12 @@ void apply_thin_plate(const GridLevel& grid, const ThinPlateRows<T>& rows, const
   const ControlMesh& mesh = grid.mesh();
   const int n = grid.n();
   const T level_scale = T(n) * T(n);
-  const RegionWeight joint(grid);
+  const EnergyWeight factor(grid);
   const MembraneRows<T> membrane(grid, rows.stencils, unknowns, x);
 
   const auto vertex_body = [&](Index v, T* centre, T* spokes, std::vector<T>&) {
     if (rows.stencils.vertex_fit[std::size_t(v)]) {
-      const T scale = level_scale * T(joint.vertex(v));
+      const T scale = level_scale * T(factor.vertex(v));
       const Moment<T> moment = vertex_moment(grid, rows, v, x);
       const T* row =
           rows.vertex.data() + 3 * std::size_t(rows.stencils.ring_offset[std::size_t(v)]);
@@ -186,8 +186,8 @@ void apply_thin_plate(const GridLevel& grid, const ThinPlateRows<T>& rows, const
     const EdgeRingLanes ring(mesh, e);
     const EdgeLanes<T> lanes(grid, x, e, scratch);
     T* const target[3] = {run, left, right};
-    T* weight = joint.weighs_edge(e) ? scratch.data() + 8 * stride : nullptr;
-    if (weight) edge_weights(joint, n, e, weight);
+    T* weight = factor.weighs_edge(e) ? scratch.data() + 8 * stride : nullptr;
+    if (weight) edge_weights(factor, n, e, weight);
     set_edge_pass(n, ring, rows.edge.data() + 24 * std::size_t(e), level_scale, lanes.lane, weight,
                   target, scratch.data() + 3 * stride);
     membrane.add_edge(e, ring, lanes.lane, run);
@@ -201,12 +201,12 @@ void apply_thin_plate(const GridLevel& grid, const ThinPlateRows<T>& rows, const
       std::fill(closed, closed + 3 * closed_size(quad, std::size_t(n)), T(0));
       return;
     }
-    const bool weighted = joint.weighs_face(f);
+    const bool weighted = factor.weighs_face(f);
     if (scratch.size() < moments) scratch.resize(moments);
     T* gathered = room_in(thread_scratch<T>().gathered, (weighted ? 2 : 1) * size);
     gather_face(grid, x, f, gathered);
     T* weight = weighted ? gathered + size : nullptr;
-    if (weight) face_weights(joint, quad, n, f, weight);
+    if (weight) face_weights(factor, quad, n, f, weight);
     const T* c = rows.face.data() + 16 * std::size_t(f);
     if (quad)
       set_face_pass<true>(n, c, level_scale, gathered, weight, closed, scratch.data());
@@ -247,7 +247,7 @@ Array<float> thin_plate_diagonal(const GridLevel& grid, const Stencils& stencils
   Array<double> sums(3 * grid.size());
   accumulate_runs(
       grid, workers, slots, &unknowns, sums.data(),
-      [&] { return PlateRingRows{grid, RegionWeight(grid), {grid.mesh(), stencils}}; }, body);
+      [&] { return PlateRingRows{grid, EnergyWeight(grid), {grid.mesh(), stencils}}; }, body);
   Array<float> diagonal(grid.size());
   const auto vertices = std::size_t(grid.mesh().vertex_count());
   for (std::size_t i = 0; i < diagonal.size(); ++i) {
@@ -260,12 +260,12 @@ Array<float> thin_plate_diagonal(const GridLevel& grid, const Stencils& stencils
 void write_plate_lines(const GridLevel& grid, const Stencils& stencils, const Unknowns& unknowns,
                        const Array<float>& inverse_diagonal, Workers& workers, LineBand& band) {
   write_ring_lines(grid, unknowns, inverse_diagonal, workers,
-                   PlateRingRows{grid, RegionWeight(grid), {grid.mesh(), stencils}}, band);
+                   PlateRingRows{grid, EnergyWeight(grid), {grid.mesh(), stencils}}, band);
 }
 
 double thin_plate_energy(const GridLevel& grid, const Stencils& stencils, Workers& workers,
                          const double* x) {
-  const RegionWeight joint(grid);
+  const EnergyWeight factor(grid);
   ElementSums sums(grid.mesh());
   struct Local {
     RunGather<double, 3> gather;
@@ -278,7 +278,7 @@ double thin_plate_energy(const GridLevel& grid, const Stencils& stencils, Worker
         const std::size_t columns = local.rows.column.size();
         if (columns == 0) return;
         const double* const* at = local.gather(run);
-        const bool weighted = joint.weighs(run), second = run.kind == RunKind::face_row;
+        const bool weighted = factor.weighs(run), second = run.kind == RunKind::face_row;
         double& sum = sums.of(run);
         for (std::size_t i = 0; i < run.count; ++i) {
           Moment<double> moment;
@@ -294,7 +294,7 @@ double thin_plate_energy(const GridLevel& grid, const Stencils& stencils, Worker
             }
             moment.add(local.rows.column[k].data(), 1, d);
           }
-          sum += (weighted ? joint.point(run, i) : 1.0) * moment.square();
+          sum += (weighted ? factor.point(run, i) : 1.0) * moment.square();
         }
       });
   return sums.total() * double(grid.n()) * double(grid.n());

@@ -12,8 +12,6 @@
 namespace fairing {
 namespace {
 
-// Coarse levels are only starts for finer ones: solving them further than their own error is waste.
-constexpr double coarse_tolerance = 1e-4;
 // Of the next finer level's time: that of its points.
 constexpr double share_of_coarser = 0.25;
 
@@ -83,7 +81,8 @@ BallConstraints ThinPlateSolver::begin(ControlConstraints held) {
 
 double ThinPlateSolver::tolerance_of(int level) const {
   const double wanted = options_.solve.relative_residual;
-  return level >= levels_.top() ? wanted : std::max(coarse_tolerance, wanted);
+  // Coarse levels are only starts for finer ones: solving them further than their own error is waste.
+  return level >= levels_.top() ? wanted : std::max(SolveOptions().relative_residual, wanted);
 }
 
 PlateSurface ThinPlateSolver::solve_level(int level, const PlateData& data,

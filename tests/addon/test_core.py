@@ -19,6 +19,7 @@ from addon.core import (
     crease_edges,
     fair_arguments,
     mean_edge_length,
+    soft_creases,
 )
 from addon.job import Job
 from addon.mesh.read import ControlArrays, read_mesh
@@ -160,6 +161,23 @@ def triangle(**attributes):
 def test_crease_threshold(threshold, expected):
     weights = np.array([1.0, 0.5, 0.0, 1.0], np.float32)
     assert [tuple(e) for e in crease_edges(triangle(edge_crease=weights), threshold)] == expected
+
+
+def test_creases_below_the_threshold_are_soft():
+    weights = np.array([1.0, 0.5, 0.25, 0.5], np.float32)  # the last edge has no face
+    edges, values = soft_creases(triangle(edge_crease=weights), 1.0)
+    assert edges.tolist() == [[1, 2], [0, 2]] and values.tolist() == [0.5, 0.25]
+    edges, values = soft_creases(triangle(edge_crease=weights), 0.5)
+    assert edges.tolist() == [[0, 2]] and values.tolist() == [0.25]
+
+
+def test_soft_creases_reach_the_core():
+    mesh = add("Box", *CUBE).data
+    set_edge_attribute(mesh, "crease_edge", "FLOAT", [(0, 1)], 0.5)
+    edges, values = arguments(mesh)["soft_creases"]
+    assert sorted(edges[0].tolist()) == [0, 1] and values.tolist() == [0.5]
+    assert "soft_creases" not in arguments(mesh, use_crease_attribute=False)
+    assert "soft_creases" not in arguments(mesh, interpolation="LIMIT")
 
 
 def test_threshold_compares_in_the_precision_of_the_attribute():

@@ -16,13 +16,18 @@ import numpy as np
 from . import _native
 from ._native import FairingError
 from .errors import about, fairing_error
-from .options import edges_with_sharpness
+from .options import edges_with_values
 
 PLANES = {"x": 0, "y": 1, "z": 2}
 SNAP = 1e-6  # share of the mesh's size: border vertices nearer to the plane lie in it
 FAR = 1e100  # beyond it, and where there is NaN, the core refuses
 # settings that name elements, and what of
-_IDS = {"crease_edges": "vertex", "corner_vertices": "vertex", "region": "face"}
+_IDS = {
+    "crease_edges": "vertex",
+    "corner_vertices": "vertex",
+    "region": "face",
+    "flat_faces": "face",
+}
 
 
 class Half:
@@ -160,12 +165,10 @@ class Half:
         for name, kind in _IDS.items():
             if given.get(name) is not None:
                 given[name] = self._with_images(name, kind, given[name])
-        if given.get("edge_sharpness") is not None:
-            pairs, sharpness = edges_with_sharpness("edge_sharpness", given["edge_sharpness"])
-            given["edge_sharpness"] = (
-                self._with_images("edge_sharpness", "vertex", pairs),
-                np.tile(sharpness, 2),
-            )
+        for name in ("edge_sharpness", "soft_creases"):
+            if given.get(name) is not None:
+                pairs, values = edges_with_values(name, given[name])
+                given[name] = (self._with_images(name, "vertex", pairs), np.tile(values, 2))
         if given.get("boundary_edges") is not None:
             given["boundary_edges"] = {
                 mode: self._with_images("boundary_edges", "vertex", pairs)

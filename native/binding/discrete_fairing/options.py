@@ -67,12 +67,12 @@ def corner_ids(name: str, vertices: ArrayLike) -> np.ndarray:
     return index_array(vertices, name).reshape(-1)
 
 
-def region_faces(name: str, region: ArrayLike) -> np.ndarray:
+def face_ids(name: str, given: ArrayLike) -> np.ndarray:
     """(r,) int64."""
-    faces = index_array(region, name)
+    faces = index_array(given, name)
     if faces.ndim != 1:
         raise fairing_error(
-            "BAD_SHAPE", f"region has shape {faces.shape}; it must be (r,), ids of faces."
+            "BAD_SHAPE", f"{name} has shape {faces.shape}; it must be (r,), ids of faces."
         )
     return faces
 
@@ -100,18 +100,18 @@ def weight_array(name: str, weights: ArrayLike) -> np.ndarray:
     return array
 
 
-def edges_with_sharpness(
+def edges_with_values(
     name: str, given: tuple[ArrayLike, ArrayLike]
 ) -> tuple[np.ndarray, np.ndarray]:
     """(k, 2) int64 and (k,) float64; one number serves for all edges."""
     if not isinstance(given, (tuple, list)) or len(given) != 2:
-        raise fairing_error("BAD_OPTION", f"{name} is {given!r}; it must be (edges, sharpness).")
+        raise fairing_error("BAD_OPTION", f"{name} is {given!r}; it must be (edges, values).")
     pairs = vertex_pairs(name, given[0])
     values = numbers(given[1], name, "iuf").astype(float)
     if values.shape not in ((), (len(pairs),)):
         raise fairing_error(
             "BAD_SHAPE",
-            f"{name} has {len(pairs)} edges and sharpness of shape {values.shape}; "
+            f"{name} has {len(pairs)} edges and values of shape {values.shape}; "
             "it must be one number, or one for each edge.",
         )
     return pairs, np.broadcast_to(values, len(pairs)).copy()
@@ -232,7 +232,7 @@ class Settings(TypedDict, total=False):
     limit positions, from 0, not at all, to 1: rims and thin walls then do not wave. Other energies do
     not follow."""
 
-    edge_sharpness: Annotated[tuple[ArrayLike, ArrayLike] | None, edges_with_sharpness]
+    edge_sharpness: Annotated[tuple[ArrayLike, ArrayLike] | None, edges_with_values]
     """(edges, sharpness): (k, 2) int and (k,) float or one number, subdivision steps. Limit: vertex
     pairs of semi-sharp edges, and for how many subdivision steps each is sharp; 10 and more is for
     ever. It counts for a crease too, which otherwise is sharp for ever. Blender's crease c has the
@@ -262,6 +262,16 @@ class Settings(TypedDict, total=False):
     crease_edges: Annotated[ArrayLike | None, vertex_pairs]
     """(k, 2) int: vertex pairs of the edges that are creases."""
 
+    soft_creases: Annotated[tuple[ArrayLike, ArrayLike] | None, edges_with_values]
+    """(edges, weights): (k, 2) int and (k,) float or one number: vertex pairs of edges where the surface
+    turns softly. A weight c from 0 to 1 has the radius 1 - c, as a share of the faces beside the edge:
+    there is the turn, with one hump of curvature. 1 is a crease, 0 none. Along a line of edges the weight
+    changes smoothly; where the line ends inside the surface it is 0, where it goes on as a crease 1."""
+
+    flat_faces: Annotated[ArrayLike | None, face_ids]
+    """(f,) int: faces that are meant flat: there the surface is ten thousand times as stiff, and the
+    rest blends into them."""
+
     crease_angle: Annotated[float | None, real]
     """Radians: edges folded by more are creases. None: no such rule."""
 
@@ -280,7 +290,7 @@ class Settings(TypedDict, total=False):
     than `boundary` says. Curves end where the kind of boundary changes. Edges that are no boundary are
     left alone."""
 
-    region: Annotated[ArrayLike | None, region_faces]
+    region: Annotated[ArrayLike | None, face_ids]
     """(r,) int: the faces to fair; all others are refined linearly, and stay. None: all faces."""
 
     joint: Annotated[Literal["position", "tangent", "curvature"], choice(_native.RegionContinuity)]

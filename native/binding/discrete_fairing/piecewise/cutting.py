@@ -99,6 +99,7 @@ class Cutter:
         self.control_at = np.searchsorted(outline.polygon, np.arange(outline.polygon_count + 1))
         self.curve_of = np.full(len(outline.edge), -1, np.int64)
         self.curve_of[outline.curve] = np.arange(len(outline.curve))
+        self.softness = outline.on_edges(*outline.options.soft_creases)
         self.local = np.full(outline.input_vertices, -1, np.int64)  # scratch
         self.reached = np.zeros(outline.polygon_count, bool)  # scratch
 
@@ -165,6 +166,7 @@ class Cutter:
         is_cut = (uses == 1) & (outline.edge_uses[edges] > 1)
         handed = edges[self.curve_of[edges] >= 0]
         points = outline.curve_points[:, self.curve_of[handed]]
+        soft = edges[self.softness[edges] > 0]
         free = edges[is_boundary & ~is_curve]
         by_mode = {"free": [self.pairs(free)], "curve": [], "linear": []}
         by_mode["linear"].append(self.pairs(edges[is_boundary & is_straight]))
@@ -174,6 +176,7 @@ class Cutter:
             "points": points.reshape(-1, 3),
             "settings": {
                 "crease_edges": self.pairs(edges[is_curve & ~is_boundary]),
+                "soft_creases": {"edges": self.pairs(soft), "values": self.softness[soft]},
                 "boundary_edges": {
                     mode: np.concatenate(rows) for mode, rows in by_mode.items() if rows
                 },

@@ -85,6 +85,17 @@ class Outline:
         inside = self.is_(_native.curve_edge) & ~self.is_(_native.boundary_edge)
         return self.edge[inside].astype(np.int32)
 
+    def on_edges(self, pairs: Any, values: Any) -> np.ndarray:
+        """(E,): the values of these vertex pairs, (k, 2), zero on all other edges."""
+        named = np.sort(np.asarray(pairs, np.int64).reshape(-1, 2), axis=1)
+        size = int(self.edge.max(initial=0)) + 1
+        keys = np.sort(self.edge.astype(np.int64), axis=1) @ [size, 1]
+        order = np.argsort(keys)
+        place = np.searchsorted(keys[order], named @ [size, 1])
+        out = np.zeros(len(keys))
+        out[order[place]] = values
+        return out
+
     @cached_property
     def edge_uses(self) -> np.ndarray:
         """(E,): in how many faces each edge is."""

@@ -72,9 +72,9 @@ class Piece(Record):
         is_outside = region is not None and not len(region)
         if is_outside:
             del settings["region"]
-        sharp = settings.get("edge_sharpness")
-        if sharp is not None:
-            settings["edge_sharpness"] = (sharp["edges"], sharp["sharpness"])
+        for name in ("edge_sharpness", "soft_creases"):
+            if name in settings:
+                settings[name] = (settings[name]["edges"], settings[name]["values"])
         options = native_options(settings)
         own = Outline(self.vertices, self.corners, self.offsets, self.shapes, options)
         if is_outside:

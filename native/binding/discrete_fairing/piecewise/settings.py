@@ -21,6 +21,7 @@ OF_RUN = ("threads", "memory_limit", "progress", "monitor")  # piece.fair() take
 # Decided for the whole, and handed down as elements.
 DECIDED = (
     "crease_edges",
+    "soft_creases",
     "crease_angle",
     "corner_angle",
     "boundary",
@@ -29,7 +30,7 @@ DECIDED = (
     "weld",
 )
 PER_VERTEX = ("tolerance", "weights", "normals", "vertex_sharpness")
-BY_ID = ("region", "corner_vertices", "edge_sharpness")
+BY_ID = ("region", "flat_faces", "corner_vertices", "edge_sharpness")
 
 
 def checked(given: dict[str, Any], levels: int) -> tuple[dict[str, Any], _native.Options]:
@@ -83,10 +84,11 @@ class PieceSettings:
         self.local = np.full(count, -1, np.int64)  # scratch
         self.corner = np.zeros(count, bool)
         self.corner[np.asarray(options.corner_vertices, np.int64)] = True
-        self.region = None
-        if settings.get("region") is not None:
-            self.region = np.zeros(outline.polygon_count, bool)
-            self.region[np.asarray(options.region, np.int64)] = True
+        self.of_faces: dict[str, np.ndarray] = {}
+        for name in ("region", "flat_faces"):
+            if settings.get(name) is not None:
+                self.of_faces[name] = np.zeros(outline.polygon_count, bool)
+                self.of_faces[name][np.asarray(getattr(options, name), np.int64)] = True
 
     def of(self, vertex_id: np.ndarray, polygon: np.ndarray) -> dict[str, Any]:
         """Of the piece with these vertices and faces of the whole, but for its edges."""
@@ -94,8 +96,8 @@ class PieceSettings:
         for name, values in self.per_vertex.items():
             settings[name] = values[vertex_id]
         settings["corner_vertices"] = np.flatnonzero(self.corner[vertex_id])
-        if self.region is not None:
-            settings["region"] = np.flatnonzero(self.region[polygon])
+        for name, chosen in self.of_faces.items():
+            settings[name] = np.flatnonzero(chosen[polygon])
         if len(self.sharp_edges):
             settings["edge_sharpness"] = self._sharpness_in(vertex_id)
         return settings
@@ -106,7 +108,7 @@ class PieceSettings:
         ends = self.local[self.sharp_edges]
         self.local[vertex_id] = -1
         inside = (ends >= 0).all(axis=1)
-        return {"edges": ends[inside], "sharpness": self.sharpness[inside]}
+        return {"edges": ends[inside], "values": self.sharpness[inside]}
 
 
 def _plain(value: Any) -> Any:

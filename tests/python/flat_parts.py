@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Parts with large flat faces between tight rims: (vertices (n, 3), faces, flat faces, side faces). `flat`: ids of
+the faces that are meant flat; `sides`: of those that are meant on a cylinder about z. Lengths in millimetres."""
+
+import numpy as np
+
+
+def rounded_box(length, width, height, radius):
+    """Six flat faces, rims in two chords of 45 degrees, corners in three quads."""
+    half = np.array([length, width, height]) / 2 - radius
+    index, points, faces, flat = {}, [], [], []
+    sign, tilt = np.array([-1, -1, 1, 1]), np.array([1, 0, 0, 1])
+    for axis in range(3):
+        u, v = (axis + 1) % 3, (axis + 2) % 3
+        for side in (-1, 1):
+            ids = np.empty((4, 4), int)
+            for i in range(4):
+                for j in range(4):
+                    away, inner = np.zeros(3), np.zeros(3)
+                    away[[u, v, axis]] = sign[i] * tilt[i], sign[j] * tilt[j], side
+                    inner[[u, v, axis]] = sign[i], sign[j], side
+                    at = inner * half + radius * away / np.linalg.norm(away)
+                    key = tuple(np.round(at, 9))
+                    if key not in index:
+                        index[key] = len(points)
+                        points.append(at)
+                    ids[i, j] = index[key]
+            for i in range(3):
+                for j in range(3):
+                    quad = [ids[i, j], ids[i + 1, j], ids[i + 1, j + 1], ids[i, j + 1]]
+                    if i == j == 1:
+                        flat.append(len(faces))
+                    faces.append(quad if side > 0 else quad[::-1])
+    return np.array(points), faces, flat, []
+
+
+def turned(profile, sides=12):
+    """A profile [(radius, z, kind of the band to the next)] about z, from its axis to its axis: the first and the last
+    have radius 0, and their bands are discs of triangles. Kinds: "flat", "side" or ""."""
+    rings = len(profile) - 2
+    angle = 2 * np.pi * np.arange(sides) / sides
+    points = [(0.0, 0.0, profile[0][1])]
+    for radius, z, _ in profile[1:-1]:
+        points += [(radius * np.cos(a), radius * np.sin(a), z) for a in angle]
+    points.append((0.0, 0.0, profile[-1][1]))
+    faces, kind = [], []
+    for band, (_, _, what) in enumerate(profile[:-1]):
+        for k in range(sides):
+            nxt = (k + 1) % sides
+            low, high = 1 + (band - 1) * sides, 1 + band * sides
+            if band == 0:
+                face = [0, high + nxt, high + k]
+            elif band == rings:
+                face = [low + k, low + nxt, len(points) - 1]
+            else:
+                face = [low + k, low + nxt, high + nxt, high + k]
+            faces.append(face)
+            kind.append(what)
+    chosen = [[f for f, what in enumerate(kind) if what == wanted] for wanted in ("flat", "side")]
+    return np.array(points), faces, *chosen
+
+
+def rim(radius, z, size, start, turn=np.pi / 2):
+    """Two chords of an arc about (radius, z) in the half plane, from the angle `start` on: three points."""
+    return [
+        (radius + size * np.cos(a), z + size * np.sin(a))
+        for a in start + turn * np.array([0, 0.5, 1])
+    ]
+
+
+def can(radius, height, size=2.0):
+    """Flat ends, a side on a cylinder, rims of `size`."""
+    low = rim(radius - size, size, size, -np.pi / 2)
+    high = rim(radius - size, height - size, size, 0.0)
+    kinds = ["", "", "side", "", "", "flat"]
+    ring = [(*p, kind) for p, kind in zip(low + high, kinds)]
+    return turned([(0, 0.0, "flat"), *ring, (0, height, "")])
+
+
+def mug(radius, height, wall=3.0, size=2.0):
+    """A can with a wall of its own, open at the top: flat inside and below, both sides on cylinders, a round lip."""
+    outside = rim(radius - size, size, size, -np.pi / 2)
+    lip = rim(radius - wall / 2, height - wall / 2, wall / 2, 0.0, np.pi)
+    floor = rim(radius - wall - size, wall + size, size, 0.0, -np.pi / 2)
+    kinds = ["", "", "side", "", "", "side", "", "", "flat"]
+    ring = [(*p, kind) for p, kind in zip(outside + lip + floor, kinds)]
+    return turned([(0, 0.0, "flat"), *ring, (0, wall, "")])
+
+
+PARTS = {
+    "phone shell": (rounded_box, [(140, 70, 9, 3), (120, 70, 7, 2), (160, 75, 12, 4)]),
+    "remote control": (rounded_box, [(160, 40, 18, 4), (200, 45, 15, 3), (120, 40, 22, 5)]),
+    "soap box": (rounded_box, [(90, 60, 30, 4), (100, 50, 20, 3), (80, 70, 40, 6)]),
+    "can": (can, [(33, 120), (40, 50), (50, 20)]),
+    "mug": (mug, [(40, 95), (45, 60), (35, 120)]),
+}
