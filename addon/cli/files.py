@@ -4,7 +4,7 @@
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import bmesh
 import bpy
@@ -13,11 +13,42 @@ import numpy as np
 from .. import core
 from ..blender import Mesh, Object, current_context
 from .materials import free_stem
-from .places import file_format
+from .places import FORMATS, file_format
 from .whole import why_incomplete
 
 # Named alike both ways, no axis moves: the numbers in a file are those of the mesh.
 _AXES = {"forward_axis": "Y", "up_axis": "Z"}
+
+
+def _append_meshes(filepath: str) -> None:
+    """The mesh objects of a .blend file, as they stand there."""
+    libraries: Any = bpy.data.libraries  # whose stub knows of no context
+    with libraries.load(filepath, link=False) as (there, here):
+        here.objects = there.objects
+    for found in here.objects:
+        if found.type == "MESH":
+            current_context().scene.collection.objects.link(found)
+        else:
+            bpy.data.objects.remove(found)
+
+
+def _import_usd(filepath: str) -> None:
+    importer: Any = bpy.ops.wm.usd_import  # whose stub says None
+    importer(filepath=filepath, import_materials=False, import_cameras=False, import_lights=False)
+
+
+_USD = dict.fromkeys(("usd", "usda", "usdc", "usdz"), _import_usd)
+_OFFSETS = dict.fromkeys(("csv", "tsv"), cast(Any, bpy.ops).import_mesh.fairing_offsets)
+_GLTF = dict.fromkeys(("glb", "gltf"), cast(Any, bpy.ops.import_scene).gltf)
+_IMPORTERS: dict[str, Any] = {
+    "obj": bpy.ops.wm.obj_import,
+    "ply": bpy.ops.wm.ply_import,
+    "stl": bpy.ops.wm.stl_import,
+    "blend": _append_meshes,
+    **_USD,
+    **_OFFSETS,
+    **_GLTF,
+}
 
 
 class FileError(Exception):
@@ -34,14 +65,11 @@ def read_file(path: Path, merge: bool = False) -> list[Object]:
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     scene: Any = current_context().scene
     scene.unit_settings.system = "NONE"  # numbers are those of the file, whatever it means by them
-    operator: dict[str, Any] = {
-        "obj": bpy.ops.wm.obj_import,
-        "ply": bpy.ops.wm.ply_import,
-        "stl": bpy.ops.wm.stl_import,
-    }
+    kind = file_format(path)
+    axes = _AXES if kind in FORMATS else {}
     try:
-        operator[file_format(path)](filepath=str(path), **_AXES)
-    except RuntimeError as error:
+        _IMPORTERS[kind](filepath=str(path), **axes)
+    except (RuntimeError, OSError) as error:
         raise FileError("UNREADABLE", f"{path} cannot be read: {_reason(error)}") from error
     found = [o for o in current_context().scene.objects if o.type == "MESH"]
     if not found:

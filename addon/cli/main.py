@@ -9,6 +9,7 @@ import time
 import traceback
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, nullcontext
+from pathlib import Path
 from typing import Any, TextIO
 
 import bpy
@@ -77,6 +78,9 @@ def _run_all(
     records = [report.new_record(file, reported) for file in files]
     table = _Table(arguments, files, records, settings.energy)
     spread = executors.is_spread(arguments)
+    if why := table.why_no_log():
+        _say(f"error: {why}")
+        return records, SOME_FAILED
     try:
         with executors.executor(arguments) if spread else nullcontext() as executor:
             if executor is not None and arguments.pieces is None:
@@ -120,9 +124,20 @@ class _Table:
         self._mends = getattr(arguments.mending, "module", None)
         self._meshes: Any = report if arguments.drawn is None else fit
         self._files, self._records = files, records
+        # processes that share the work leave it to the one that began them
+        self._log = Path(arguments.log) if arguments.log and arguments.only is None else None
         self._width = max((len(record["input"]) for record in records), default=0)
         if self.is_wanted:
             _say(self._head(arguments, energy))
+
+    def why_no_log(self) -> str:
+        """A sentence; empty where lines can be appended."""
+        try:
+            if self._log is not None:
+                self._log.open("a").close()
+        except OSError as error:
+            return f"{self._log} cannot be written: {error.strerror}."
+        return ""
 
     def _head(self, arguments: argparse.Namespace, energy: str) -> str:
         if self._mends:
@@ -135,6 +150,9 @@ class _Table:
 
     def line(self, index: int) -> None:
         record = self._records[index]
+        if self._log is not None:
+            with self._log.open("a", encoding="utf-8") as log:
+                log.write(report.log_line(record))
         if record["status"] == report.DONE and self.is_wanted:
             _say(self._of(index).table_line(record, self._width))
 

@@ -241,7 +241,12 @@ def parser(version: str) -> argparse.ArgumentParser:
         formatter_class=_Formatter,
         allow_abbrev=False,  # a script must not change its meaning when an option is added
     )
-    made.add_argument("inputs", metavar="IN", nargs="+", help="OBJ, PLY or STL files")
+    made.add_argument(
+        "inputs",
+        metavar="IN",
+        nargs="+",
+        help="OBJ, PLY or STL files; also .blend, glTF and USD, as Blender imports them, and tables of offsets (CSV)",
+    )
     made.add_argument(
         "output",
         metavar="OUT",
@@ -302,6 +307,11 @@ def parser(version: str) -> argparse.ArgumentParser:
         "--json",
         metavar="FILE|-",
         help="write a report to a file; -: to standard output, which then has nothing else",
+    )
+    made.add_argument(
+        "--log",
+        metavar="FILE",
+        help="append a line for each input as soon as it ends: status, seconds, input, output, what went wrong",
     )
     made.add_argument(
         "--quiet", action="store_true", help="no progress and no table; errors are still written"

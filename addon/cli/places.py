@@ -8,6 +8,8 @@ from pathlib import Path
 
 FORMATS = ("obj", "ply", "stl")
 CAD_FORMATS = ("step", "stp")  # for outputs only
+# for inputs only: by Blender's own importers, which turn the axes of some, and tables of offsets
+MORE_INPUTS = ("blend", "csv", "glb", "gltf", "tsv", "usd", "usda", "usdc", "usdz")
 _NAME = "{name}"
 _TABLE = "csv"
 
@@ -28,7 +30,7 @@ def places(inputs: Sequence[str], output: str, chosen_format: str | None = None)
     """A Place for each input. Raises BadPlaces before anything is touched."""
     sources = [Path(name) for pattern in inputs for name in _expanded(pattern)]
     for source in sources:
-        _supported(source)
+        _supported(source, (*FORMATS, *MORE_INPUTS))
     found = [
         Place(source, _target(source, output, chosen_format, len(sources))) for source in sources
     ]
@@ -59,6 +61,8 @@ def _expanded(name: str) -> list[str]:
 
 def _target(source: Path, output: str, chosen_format: str | None, count: int) -> Path:
     if output.endswith(("/", "\\")) or (is_there(Path(output)) and Path(output).is_dir()):
+        if chosen_format is None and file_format(source) in MORE_INPUTS:
+            raise BadPlaces(f"Give --format: {source} is of a type that is only read.")
         return Path(output) / f"{source.stem}.{chosen_format or file_format(source)}"
     if chosen_format:
         raise BadPlaces(f"--format is for an output folder: {output} sets the format already.")

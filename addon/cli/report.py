@@ -64,6 +64,14 @@ def new_record(place: Place, settings: dict[str, Any]) -> dict[str, Any]:
     }
 
 
+def log_line(record: dict[str, Any]) -> str:
+    """Fields between tabs: status, seconds, input, output, and the error or how many warnings there are."""
+    error, count = record["error"], len(record["warnings"])
+    said = error["message"] if error else f"{count} warnings" if count else ""
+    fields = (record["status"], f"{record['seconds']:.3f}", record["input"], record["output"], said)
+    return "\t".join(" ".join(str(field).split()) for field in fields) + "\n"
+
+
 def error_entry(code: str, message: str, elements: Iterable[int] = ()) -> dict[str, Any]:
     return {"code": code, "message": message, "elements": [int(element) for element in elements]}
 

@@ -120,6 +120,7 @@ def test_places(tmp_path):
     ("inputs", "output", "chosen_format", "match"),
     [
         (["a.fbx"], "b.obj", None, "a.fbx.*OBJ, PLY, STL"),
+        (["a.glb"], "out/", None, "Give --format: a.glb is of a type that is only read"),
         (["a.obj"], "b", None, "b is of no known type"),
         (["a.obj"], "{name}", None, "no known type"),
         (["a.obj", "b.obj"], "c.obj", None, "2 inputs need a folder"),

@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Types that are only read, and the log of a line a file."""
+
+from pathlib import Path
+
+import bpy
+import pytest
+from cli_runs import imported, run
+from scenes import CUBE, add, set_edge_attribute
+
+EXAMPLES = Path(__file__).resolve().parents[3] / "examples"
+# on the way to glTF and USD and back the axes are turned twice
+WRITERS = {
+    "cube.blend": lambda path: bpy.ops.wm.save_as_mainfile(filepath=path),
+    "cube.glb": lambda path: bpy.ops.export_scene.gltf(
+        filepath=path, export_shared_accessors=False
+    ),
+    "cube.usda": lambda path: bpy.ops.wm.usd_export(filepath=path),
+}
+
+
+@pytest.mark.parametrize("name", WRITERS)
+def test_blenders_own_types_are_read(name):
+    cube = add("Cube", *CUBE)
+    rim = [(1, 3), (3, 7), (7, 5), (5, 1)]
+    set_edge_attribute(cube.data, "crease_edge", "FLOAT", rim, 1.0)
+    cube.location.x = 5.0
+    WRITERS[name](str(Path(name).absolute()))
+    assert run(name, "out.obj", "--levels", 1, "--merge", "--quiet") == 0
+    points, faces = imported("out.obj")
+    # of quads, or of the two triangles that glTF has of each
+    assert len(faces) in (24, 48) and points[:, 0].min() > 3.0
+    if name != "cube.glb":  # which has no creases
+        top = points[points[:, 2] > points[:, 2].max() - 1e-6]
+        assert len(top) >= 8, "a sharp rim stays in its plane"
+
+
+def test_a_table_of_offsets_is_read():
+    assert run(EXAMPLES / "offsets_yacht.tsv", "hull.obj", "--levels", 1, "--quiet") == 0
+    assert imported("hull.obj")[0][:, 0].max() == pytest.approx(10.0, abs=1e-5)
+    Path("bad.csv").write_text("station (mm),Keel,WL 0\n0,1,2\n1,2,3x\n")
+    assert run("bad.csv", "bad.obj", "--quiet", "--log", "log.txt") == 1
+    assert "Row 3, column 3: '3x' is not a number" in Path("log.txt").read_text()
+
+
+def test_the_log_has_a_line_for_each_file(capfd):
+    Path("empty.obj").write_text("")
+    add("Cube", *CUBE)
+    bpy.ops.wm.obj_export(filepath="cube.obj")
+    for _ in range(2):
+        assert (
+            run("cube.obj", "empty.obj", "out/", "--levels", 1, "--quiet", "--log", "log.txt") == 1
+        )
+    lines = [line.split("\t") for line in Path("log.txt").read_text().splitlines()]
+    assert len(lines) == 4
+    assert [line[0] for line in lines] == ["done", "failed"] * 2
+    assert lines[1][2] == "empty.obj" and "empty.obj is empty" in lines[1][4]
+    assert run("cube.obj", "out.obj", "--log", "none/log.txt") == 1
+    assert "none/log.txt cannot be written" in capfd.readouterr().err
