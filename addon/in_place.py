@@ -238,15 +238,8 @@ def _refuse(
 
 def floats(arrays: Any, free: np.ndarray) -> bool:
     """Whether some connected part of the mesh `arrays` has `free` vertices (n,) bool only."""
-    held = ~free
-    edges = arrays.edges[free[arrays.edges].any(axis=1)]
-    while True:
-        reached = held.copy()
-        reached[edges[held[edges[:, 0]], 1]] = True
-        reached[edges[held[edges[:, 1]], 0]] = True
-        if np.array_equal(reached, held):
-            return not held.all()
-        held = reached
+    part = core.module().patches.connected_parts(len(free), arrays.edges)
+    return bool((np.bincount(part, ~free) == 0).any())
 
 
 def _settings(settings: Settings, options: InPlaceOptions) -> Settings:

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from . import core
+from .size import fans
 from .transfer.blocks import blocks
 from .transfer.cut_out import grown
 
@@ -113,7 +114,8 @@ class _Fit:
             given.pop(name, None)
         self._arguments, self._free, self._watchers = given, free, watchers
         self.points = np.asarray(given["vertices"], float)
-        self._triangles = _fans(*given["faces"])
+        corners, offsets = given["faces"]
+        self._triangles = corners[fans(offsets[:-1], np.diff(offsets))[0]]
 
     def run(self, weight: float, **more: Any) -> Any:
         weights = np.where(self._free, weight, np.inf)
@@ -190,13 +192,3 @@ class _Trial:
 
 def _along(way: np.ndarray, normals: np.ndarray) -> np.ndarray:
     return np.einsum("ij,ij->i", way, normals)[:, None] * normals
-
-
-def _fans(corners: np.ndarray, offsets: np.ndarray) -> np.ndarray:
-    """(t, 3): each face cut from its first corner."""
-    sizes = np.diff(offsets)
-    first = np.repeat(offsets[:-1], np.maximum(sizes - 2, 0))
-    step = np.arange(len(first)) - np.repeat(
-        np.cumsum(np.maximum(sizes - 2, 0)) - np.maximum(sizes - 2, 0), np.maximum(sizes - 2, 0)
-    )
-    return np.stack([corners[first], corners[first + step + 1], corners[first + step + 2]], axis=1)

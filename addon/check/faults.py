@@ -12,7 +12,7 @@ import numpy as np
 from mathutils.bvhtree import BVHTree
 
 from ..blender import Mesh
-from ..core import ControlArrays, folds
+from ..core import ControlArrays, folds, module
 from ..inspection.curvature import cross
 from ..mesh.layers import fill_layer, layer_values, make_layer
 from ..mesh.write import FAULTS
@@ -234,15 +234,8 @@ def _ordered(a: int, b: int) -> tuple[int, int]:
 
 def _parts(triangles: np.ndarray, faces: np.ndarray, count: int) -> np.ndarray:
     """(count,) a number for each control face, the same within a connected part."""
-    label = np.arange(int(triangles.max()) + 1)
-    while True:  # each vertex takes the lowest number around, over and over
-        lowest = label[triangles].min(axis=1)
-        new = label.copy()
-        np.minimum.at(new, triangles, lowest[:, None])
-        new = new[new]
-        if np.array_equal(new, label):
-            break
-        label = new
+    pairs = triangles[:, [[0, 1], [1, 2]]].reshape(-1, 2)
+    label = module().patches.connected_parts(int(triangles.max()) + 1, pairs)
     part = np.zeros(count, np.int64)
     part[faces] = label[triangles[:, 0]]
     return part

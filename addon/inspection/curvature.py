@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..core import ControlArrays
+from ..size import fans
 
 
 @dataclass(frozen=True)
@@ -139,10 +140,10 @@ def triangulate(
     sizes, first = np.diff(offsets), offsets[:-1]
     plain = corners[first[sizes == 3, None] + np.arange(3)]
     large = sizes > 4
-    fans = _fans(corners, first[large], sizes[large])
+    large_ones = corners[fans(first[large], sizes[large])[0]]
     halves, weights = _halve(positions, corners[first[sizes == 4, None] + np.arange(4)])
-    triangles = np.concatenate([plain, fans, halves]).astype(np.int32, copy=False)
-    return triangles, np.concatenate([np.ones(len(plain) + len(fans)), weights])
+    triangles = np.concatenate([plain, large_ones, halves]).astype(np.int32, copy=False)
+    return triangles, np.concatenate([np.ones(len(plain) + len(large_ones)), weights])
 
 
 def rim_edges(arrays: ControlArrays) -> np.ndarray:
@@ -242,10 +243,3 @@ def _both_face(normal: np.ndarray, first: np.ndarray, second: np.ndarray) -> np.
     return (np.einsum("ij,ij->i", normal, first) > 0.0) & (
         np.einsum("ij,ij->i", normal, second) > 0.0
     )
-
-
-def _fans(corners: np.ndarray, first: np.ndarray, sizes: np.ndarray) -> np.ndarray:
-    each = sizes - 2
-    start = np.repeat(first, each)
-    step = np.arange(each.sum()) - np.repeat(np.cumsum(each) - each, each)
-    return np.stack([corners[start], corners[start + step + 1], corners[start + step + 2]], axis=1)

@@ -7,6 +7,7 @@ import numpy as np
 from mathutils.bvhtree import BVHTree
 
 from ..core import ControlArrays, are_equal
+from ..size import fans
 from .layers import STORAGE, Attribute
 
 _INWARD = 0.05  # of the way to a face's centre: which side of a seam a corner is on
@@ -67,12 +68,7 @@ class Samples:
 
     def _triangles(self) -> tuple[np.ndarray, np.ndarray]:
         """(t, 3) corners of the old mesh in triangles, fans of its faces, and (t,) their faces."""
-        offsets = self._old.offsets
-        each = np.diff(offsets) - 2
-        faces = np.repeat(np.arange(len(each)), each)
-        step = np.arange(each.sum()) - np.repeat(np.cumsum(each) - each, each)
-        first = offsets[:-1][faces]
-        return np.stack([first, first + step + 1, first + step + 2], axis=1), faces
+        return fans(self._old.offsets[:-1], np.diff(self._old.offsets))
 
     def _nearest(self, places: np.ndarray) -> np.ndarray:
         """(k,) the old triangle that is nearest to each place."""

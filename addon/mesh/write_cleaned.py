@@ -11,7 +11,7 @@ import bmesh
 import numpy as np
 
 from ..blender import Object
-from ..core import ControlArrays
+from ..core import ControlArrays, module
 from ..transfer.filling import Patch
 from .edited import edited
 from .write_filling import write_hole
@@ -170,20 +170,14 @@ def _fillings(made: Cleaned) -> list[np.ndarray]:
     """(t, 3) ids of the new faces that hang together by edges, of each filling."""
     rows = np.flatnonzero(made.face_origin < 0)
     faces = [made.corners[made.offsets[r] : made.offsets[r + 1]].tolist() for r in rows.tolist()]
-    lead = list(range(len(faces)))
-
-    def find(i: int) -> int:
-        while lead[i] != i:
-            lead[i] = i = lead[lead[i]]
-        return i
-
     beside: dict[frozenset[int], int] = {}
-    for number, face in enumerate(faces):
-        for side in map(frozenset, _around(face)):
-            other = beside.setdefault(side, number)
-            a, b = find(number), find(other)
-            lead[max(a, b)] = min(a, b)
+    pairs = [
+        (beside.setdefault(frozenset(side), number), number)
+        for number, face in enumerate(faces)
+        for side in _around(face)
+    ]
+    part = module().patches.connected_parts(len(faces), np.array(pairs, np.int64)).tolist()
     groups: dict[tuple[int, int], list[list[int]]] = {}
-    for number, face in enumerate(faces):
-        groups.setdefault((find(number), len(face)), []).append(face)
+    for number, face in zip(part, faces, strict=True):
+        groups.setdefault((number, len(face)), []).append(face)
     return [np.array(found) for found in groups.values()]

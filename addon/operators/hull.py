@@ -13,7 +13,7 @@ from ..mesh.layers import make_layer
 from ..mesh.object import new_object, select_only
 from ..mesh.offset_names import read_names, write_names
 from ..mesh.read import control_mesh, read_mesh
-from ..mesh.world_shape import transformed, world_matrix
+from ..mesh.scans import of_mesh, read_scans
 from ..poll import ExplainedPoll, mesh_poll_reason
 from ..settings import Settings
 from ..strain.measure import mixed_positions
@@ -72,7 +72,8 @@ def _closed(context: Context, source: Object) -> Object:
     try:
         faces = np.split(made.corners, made.offsets[1:-1])
         mesh.from_pydata(made.positions.tolist(), [], [face.tolist() for face in faces])
-        if solid(*_triangles(mesh)).volume < 0.0:
+        made_of = of_mesh(mesh)
+        if solid(made_of.points, made_of.triangles).volume < 0.0:
             mesh.flip_normals()
     except NotClosed:
         bpy.data.meshes.remove(mesh)
@@ -105,34 +106,16 @@ def _crease(mesh: Mesh, made: Whole, weights: dict[frozenset[int], float]) -> No
     )
 
 
-def _triangles(mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
-    """Points (n, 3) and triangles (m, 3), in the mesh's own coordinates."""
-    mesh.calc_loop_triangles()
-    points = np.empty(3 * len(mesh.vertices))
-    mesh.vertices.foreach_get("co", points)
-    triangles = np.empty(3 * len(mesh.loop_triangles), np.int32)
-    mesh.loop_triangles.foreach_get("vertices", triangles)
-    return points.reshape(-1, 3), triangles.reshape(-1, 3)
-
-
 def in_metres(context: Context, target: Object) -> tuple[np.ndarray, np.ndarray]:
-    """The same with points in metres."""
+    """As `triangles_of`, with points in metres."""
     points, triangles = triangles_of(context, target)
     return points * context.scene.unit_settings.scale_length, triangles
 
 
 def triangles_of(context: Context, target: Object) -> tuple[np.ndarray, np.ndarray]:
     """The mesh as it is seen, modifiers and all: points (n, 3) in the world, and triangles (m, 3)."""
-    owner = target.evaluated_get(context.evaluated_depsgraph_get())
-    mesh: Any = owner.to_mesh()
-    try:
-        points, triangles = _triangles(mesh)
-    finally:
-        owner.to_mesh_clear()
-    matrix = np.array(world_matrix(target))
-    if np.linalg.det(matrix[:3, :3]) < 0.0:
-        triangles = triangles[:, ::-1]
-    return transformed(points, matrix), triangles
+    found = read_scans(context, [target])
+    return found.points, found.triangles
 
 
 def _solid(context: Context, target: Object) -> Solid:

@@ -60,15 +60,8 @@ def where_faces_were(
     for face, edges in edges_of.items():
         for edge in edges.tolist():
             faces_at.setdefault(edge, []).append(face)
-    part_of: dict[int, int] = {}
-    for first in faces:
-        stack = [] if first in part_of else [first]
-        part_of.setdefault(first, len(part_of))
-        while stack:
-            beside = {f for e in edges_of[stack.pop()].tolist() for f in faces_at[e]}
-            fresh = [f for f in beside if f not in part_of]
-            part_of.update(dict.fromkeys(fresh, part_of[first]))
-            stack += fresh
+    pairs = [pair for at in faces_at.values() for pair in zip(at, at[1:], strict=False)]
+    part_of = core.module().patches.connected_parts(len(gone), np.array(pairs, np.int64)).tolist()
     uses = arrays.edge_uses
     rim = {
         frozenset(arrays.edges[edge].tolist()): part_of[at[0]]

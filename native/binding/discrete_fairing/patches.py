@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from . import _native
 from .arrays import numbers
 from .errors import fairing_error
 from .result import Result
@@ -246,16 +247,8 @@ def connected_parts(count: int, pairs: np.ndarray) -> np.ndarray:
 
     Parts are numbered in the order of their first things.
     """
-    part = np.arange(count)
-    while len(pairs):
-        low = np.minimum(part[pairs[:, 0]], part[pairs[:, 1]])
-        before = part.copy()
-        np.minimum.at(part, part[pairs[:, 0]], low)
-        np.minimum.at(part, part[pairs[:, 1]], low)
-        part = part[part]
-        if (part == before).all():
-            break
-    return np.unique(part, return_inverse=True)[1].reshape(-1).astype(np.int32)
+    leads = _native.joined(count, np.ascontiguousarray(pairs, np.int64).reshape(-1, 2))
+    return np.unique(leads, return_inverse=True)[1].reshape(-1).astype(np.int32)
 
 
 def _offsets(sizes: np.ndarray) -> np.ndarray:

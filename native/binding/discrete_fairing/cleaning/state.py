@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from .. import _native
+from ..patches import connected_parts
 
 
 @dataclass(frozen=True)
@@ -194,9 +194,8 @@ def numbered_parts(state: State, pairs: np.ndarray) -> tuple[np.ndarray, int]:
     how many parts there are.
     """
     faces = state.face_of[pairs]
-    leads = _native.joined(len(state.face_origin), np.ascontiguousarray(faces, np.int64))
-    names, part = np.unique(leads, return_inverse=True)
-    return part, len(names)
+    part = connected_parts(len(state.face_origin), faces)
+    return part, int(part.max(initial=-1)) + 1
 
 
 def all_pairs(state: State) -> np.ndarray:
