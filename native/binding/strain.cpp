@@ -49,18 +49,14 @@ py::dict strain_of_arrays(const Contiguous<double>& vertices,
 py::dict ease_arrays(const Contiguous<double>& vertices, const Contiguous<std::int64_t>& corners,
                      const Contiguous<std::int64_t>& offsets, const Contiguous<double>& tolerance,
                      double amount, int most, const Contiguous<std::uint8_t>& fixed,
-                     const Contiguous<std::int64_t>& images, const FairOptions& options,
-                     Monitor& monitor, const py::object& progress) {
+                     const FairOptions& options, Monitor& monitor, const py::object& progress) {
   const OwnedPolygonMesh mesh = copy_of(vertices, corners, offsets);
   const std::vector<double> bounds = copy_of(tolerance);
   const std::vector<std::uint8_t> stays = copy_of(fixed);
-  const std::vector<std::int64_t> twins = copy_of(images);
   const FairOptions own = options;
   EaseResult result;
   Runner().run(
-      [&] {
-        result = ease_control_mesh(mesh.view(), own, {bounds, amount, most, stays, twins}, monitor);
-      },
+      [&] { result = ease_control_mesh(mesh.view(), own, {bounds, amount, most, stays}, monitor); },
       monitor, nullptr, progress);
   py::dict d;
   d["moves"] = points(result.moves);
@@ -83,9 +79,8 @@ void bind_strain(py::module_& m) {
         py::arg("monitor"), py::arg("progress"), "discrete_fairing.strain on plain arrays.");
   m.def("ease", &ease_arrays, py::arg("vertices").noconvert(), py::arg("corners").noconvert(),
         py::arg("offsets").noconvert(), py::arg("tolerance").noconvert(), py::arg("amount"),
-        py::arg("most"), py::arg("fixed").noconvert(), py::arg("images").noconvert(),
-        py::arg("options"), py::arg("monitor"), py::arg("progress"),
-        "discrete_fairing.ease on plain arrays.");
+        py::arg("most"), py::arg("fixed").noconvert(), py::arg("options"), py::arg("monitor"),
+        py::arg("progress"), "discrete_fairing.ease on plain arrays.");
 }
 
 }  // namespace fairing

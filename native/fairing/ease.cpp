@@ -247,13 +247,10 @@ class Easing {
     const std::size_t inner = gauge_->on_pads();
     std::vector<std::uint8_t> may(vertices.size());
     for (std::size_t i = 0; i < vertices.size(); ++i) may[i] = !stays(std::size_t(vertices[i]));
-    const std::vector<Index> number = numbered(std::size_t(mesh_.vertex_count()), vertices);
-    std::vector<Index> images(vertices.size(), -1);
-    for (std::size_t i = 0; i < vertices.size() && !wanted_.images.empty(); ++i)
-      images[i] = number[std::size_t(wanted_.images[std::size_t(vertices[i])])];
     Index left = wanted_.most;
     const auto pick = [&] {
-      return moves_of_worst(gauge_->matrix(), gauge_->loads(loads, control), {may, images, left});
+      return moves_of_worst(gauge_->matrix(), gauge_->loads(loads, control),
+                            {may, gauge_->images(), left});
     };
     const Worst first = pick();
     if (std::none_of(first.rows.begin(), first.rows.end(),
@@ -310,13 +307,11 @@ class Easing {
 struct Mapped {
   std::vector<double> tolerance;
   std::vector<std::uint8_t> fixed;
-  std::vector<std::int64_t> images;
   EaseOptions options;
 
   Mapped(const EaseOptions& wanted, const MendedMesh* mended)
       : tolerance(wanted.tolerance.begin(), wanted.tolerance.end()),
         fixed(wanted.fixed.begin(), wanted.fixed.end()),
-        images(wanted.images.begin(), wanted.images.end()),
         options(wanted) {
     if (!mended) return;
     const std::vector<Index>& origin = mended->vertex_origin;
@@ -325,10 +320,8 @@ struct Mapped {
       if (!tolerance.empty()) tolerance[lead] = std::min(tolerance[lead], tolerance[v]);
       if (!fixed.empty()) fixed[lead] |= fixed[v];
     }
-    for (std::int64_t& image : images) image = origin[std::size_t(image)];
     options.tolerance = tolerance;
     options.fixed = fixed;
-    options.images = images;
   }
 };
 

@@ -13,12 +13,11 @@
 namespace fairing {
 
 struct EaseOptions {
-  std::span<const double> tolerance{};    // the bound of each move, one an input vertex; or empty
-  double amount = -1;                     // as of the result; below zero: by cross-validation
-  int most = 0;                           // how many may move, the worst first; 0: as many as like
+  std::span<const double> tolerance{};  // the bound of each move, one an input vertex; or empty
+  double amount = -1;                   // as of the result; below zero: by cross-validation
+  // How many may move, the worst first, mirror images not counted; 0: as many as like.
+  int most = 0;
   std::span<const std::uint8_t> fixed{};  // one an input vertex, over zero: stays; or empty
-  // One an input vertex: its mirror image, which moves with it and counts with it; or empty.
-  std::span<const std::int64_t> images{};
 };
 
 struct EaseResult {

@@ -52,8 +52,8 @@ constexpr Costs plate_costs{660, 960, 56, 250, 200}, curvature_costs{760, 960, 2
     variation_costs{1100, 960, 420, 870, 800};
 // More while the rows of level 1 are summed, an unknown; of the finest level, a point, for the limit
 // surface beside the plate and for the sweeps of the back leg.
-constexpr double first_rows = 1300, limit_surface = 700, sweep = 260,
-                 pair_of_neighbours = 12;  // on a level that has rows
+constexpr double first_rows = 1300, limit_surface = 950, sweep = 850,
+                 pair_of_neighbours = 6;  // on a level that has rows
 
 const Costs& costs_of(Energy energy) {
   if (energy == Energy::thin_plate) return plate_costs;

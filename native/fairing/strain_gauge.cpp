@@ -68,8 +68,7 @@ StrainGauge::StrainGauge(const FairingProblem& problem, ThinPlateSolver& solver,
 // A mesh that is its own mirror image has what is wrong twice.
 void StrainGauge::find_images() {
   for (std::size_t i = 0; i < vertices_.size(); ++i) images_.push_back({Index(i)});
-  std::vector<Index> row(std::size_t(problem_.mesh.vertex_count()), -1);
-  for (std::size_t i = 0; i < vertices_.size(); ++i) row[std::size_t(vertices_[i])] = Index(i);
+  const std::vector<Index> row = row_of_vertices();
   for (const Mirror& mirror :
        find_symmetry(problem_.mesh, problem_.basis, problem_.frame, problem_.options))
     for (std::vector<Index>& images : images_)

@@ -54,6 +54,8 @@ class StrainGauge {
   const std::vector<Index>& vertices() const { return vertices_; }
   std::size_t on_pads() const { return on_pads_; }
   const LoadMatrix& matrix() const { return matrix_; }
+  // Of each row: itself and its mirror images.
+  const std::vector<std::vector<Index>>& images() const { return images_; }
   int solves() const { return solves_; }
   // Of a surface through these positions.
   Columns loads(const Loads& on_pads, const ControlPositions& control) const;
@@ -82,9 +84,9 @@ class StrainGauge {
   std::size_t on_pads_ = 0;
   std::optional<CountedBytes> counted_;
   LoadMatrix matrix_;
-  LoadMatrix pulls_;                        // D'D of all control vertices
-  Columns normals_;                         // of each row; zero on curves
-  std::vector<std::vector<Index>> images_;  // likewise: itself and its mirror images
+  LoadMatrix pulls_;  // D'D of all control vertices
+  Columns normals_;   // of each row; zero on curves
+  std::vector<std::vector<Index>> images_;
   int solves_ = 0;
 };
 

@@ -8,6 +8,7 @@
 #include "curvature/unfold.h"
 #include "fairing/steepest.h"
 #include "grid/linear.h"
+#include "mesh/union_find.h"
 
 namespace fairing {
 namespace {
@@ -20,13 +21,11 @@ Unknowns points_to_fill(const FairingProblem& problem) {
   return unknowns;
 }
 
-// Connected patches of marked points: each has the number of the first point of its patch.
+// Connected patches of marked points, each with the number of its first point; -1: not marked.
 class Patches {
  public:
-  Patches(const GridLevel& grid, const Array<float>& marks) : first_(grid.size(), Index(-1)) {
+  Patches(const GridLevel& grid, const Array<float>& marks) : marks_(marks), sets_(grid.size()) {
     const int n = grid.n();
-    for (std::size_t i = 0; i < marks.size(); ++i)
-      if (marks[i] > 0) first_[i] = Index(i);
     const std::vector<Face>& faces = grid.mesh().faces;
     for (Index f = 0; f < Index(faces.size()); ++f) {
       const bool quad = faces[std::size_t(f)].quad();
@@ -38,23 +37,16 @@ class Patches {
     }
   }
 
-  Index of(Index point) {  // -1: not marked
-    while (point >= 0 && first_[std::size_t(point)] != point) {
-      const Index next = first_[std::size_t(point)];
-      if (next >= 0) first_[std::size_t(point)] = first_[std::size_t(next)];
-      point = next;
-    }
-    return point;
-  }
+  Index of(Index point) { return is_marked(point) ? sets_.lead(point) : -1; }
 
  private:
+  bool is_marked(Index point) const { return marks_[std::size_t(point)] > 0; }
   void join(Index a, Index b) {
-    a = of(a);
-    b = of(b);
-    if (a >= 0 && b >= 0) first_[std::size_t(std::max(a, b))] = std::min(a, b);
+    if (is_marked(a) && is_marked(b)) sets_.unite(a, b);
   }
 
-  std::vector<Index> first_;
+  const Array<float> marks_;
+  UnionFind sets_;
 };
 
 class PlateUnfolding {

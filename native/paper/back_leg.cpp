@@ -5,97 +5,62 @@
 #include <utility>
 
 #include "parallel/cancel.h"
-#include "parallel/reductions.h"
-#include "sparse/unknown_points.h"
-#include "thin_plate/differences.h"
 
 namespace fairing {
 namespace {
 
-using Coordinates = Eigen::Vector3d;
-
-// Gauss-Seidel sweeps on K e = r without K: a step at one point changes the differences of the rings
-// that hold it, and what they pull at the next point is read from these.
+// Gauss-Seidel sweeps on K e = r. Auxiliary unknowns of K follow at once.
 class Sweeps {
  public:
-  Sweeps(const GridLevel& grid, const ThinPlateShared& shared, const Array<double>& residual)
-      : plate_(grid, shared.stencils, shared.unknowns, shared.workers),
+  Sweeps(AssembledSystem system, const Array<double>& residual)
+      : system_(std::move(system)),
+        diagonal_(system_.diagonal()),
+        e_(Points::Zero(system_.matrix.cols(), 3)),
         residual_(residual),
-        e_(residual.size()),
-        moment_(3 * residual.size()) {
-    fill_long(e_.data(), e_.size(), 0.0);
-    fill_long(moment_.data(), moment_.size(), 0.0);
-  }
+        held_(matrix_bytes(system_.matrix) + std::size_t(e_.size()) * sizeof(double)) {}
 
   void sweep() {
-    for (std::size_t p = 0; p < plate_.rings().points(); ++p) {
-      stop_if_cancelled(p);
-      if (!plate_.rings().is_unknown(Index(p))) continue;
-      double diagonal = 0;
-      const Coordinates rest = residual_at(Index(p), &diagonal);
-      if (diagonal > 0) move(Index(p), rest / diagonal);
+    for (Eigen::Index i = 0; i < diagonal_.size(); ++i) {
+      stop_if_cancelled(std::size_t(i));
+      if (!(diagonal_[i] > 0)) continue;
+      const Eigen::RowVector3d by = residual_at(i) / diagonal_[i];
+      e_.row(i) += by;
+      for (Column entry(system_.matrix, i); entry; ++entry)
+        if (entry.row() >= diagonal_.size()) e_.row(entry.row()) += entry.value() * by;
     }
   }
 
   double norm() const {
     double sum = 0;
-    for (std::size_t p = 0; p < plate_.rings().points(); ++p) {
-      stop_if_cancelled(p);
-      if (plate_.rings().is_unknown(Index(p))) sum += residual_at(Index(p)).squaredNorm();
-    }
+    for (Eigen::Index i = 0; i < diagonal_.size(); ++i) sum += residual_at(i).squaredNorm();
     return std::sqrt(sum);
   }
 
-  const Array<double>& correction() const { return e_; }
+  void add_to(Array<double>& x) const {
+    for (Eigen::Index i = 0; i < diagonal_.size(); ++i)
+      Eigen::Map<Eigen::RowVector3d>(x.data() + 3 * point(i)) += e_.row(i);
+  }
 
  private:
-  using Column = PlateDifferences::Column;
+  using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+  using Column = SparseMatrix::InnerIterator;
 
-  Eigen::Map<const Coordinates> e(Index p) const {
-    return Eigen::Map<const Coordinates>(e_.data() + 3 * std::size_t(p));
+  std::size_t point(Eigen::Index i) const {
+    return std::size_t(system_.unknown_points[std::size_t(i)]);
+  }
+  // Of r - K e; K is symmetric.
+  Eigen::RowVector3d residual_at(Eigen::Index i) const {
+    Eigen::RowVector3d out = Eigen::Map<const Eigen::RowVector3d>(residual_.data() + 3 * point(i));
+    for (Column entry(system_.matrix, i); entry; ++entry)
+      out -= entry.value() * e_.row(entry.row());
+    return out;
   }
 
-  // Of r - K e at an unknown; `diagonal`, if wanted: K's.
-  Coordinates residual_at(Index p, double* diagonal = nullptr) const {
-    Coordinates rest = Eigen::Map<const Coordinates>(residual_.data() + 3 * std::size_t(p));
-    double own = 0;
-    for (const RingPlaces::Place& place : plate_.places().of(p)) {
-      const EnergyRows rows = plate_.rows(place.centre);
-      if (rows.size() == 0) continue;
-      const Column column = plate_.column(place.centre, rows, place.slot);
-      const double* moment = moment_.data() + 9 * std::size_t(place.centre);
-      for (std::size_t c = 0; c < 3; ++c) {
-        rest -= column[c] * Eigen::Map<const Coordinates>(moment + 3 * c);
-        own += column[c] * column[c];
-      }
-    }
-    const MembraneWeights membrane = plate_.membrane(p);
-    if (membrane.size() > 0) {
-      const RingTable::Member* const members = plate_.rings().members(plate_.rings().about(p));
-      rest -= membrane.total() * e(p);
-      for (std::size_t k = 0; k < membrane.size(); ++k)
-        rest += membrane[k] * e(RingTable::id_of(members[k + 1]));
-      own += membrane.total();
-    }
-    if (diagonal) *diagonal = own;
-    return rest;
-  }
-
-  void move(Index p, const Coordinates& by) {
-    Eigen::Map<Coordinates>(e_.data() + 3 * std::size_t(p)) += by;
-    for (const RingPlaces::Place& place : plate_.places().of(p)) {
-      const EnergyRows rows = plate_.rows(place.centre);
-      if (rows.size() == 0) continue;
-      const Column column = plate_.column(place.centre, rows, place.slot);
-      double* const moment = moment_.data() + 9 * std::size_t(place.centre);
-      for (std::size_t c = 0; c < 3; ++c) Eigen::Map<Coordinates>(moment + 3 * c) += column[c] * by;
-    }
-  }
-
-  const PlateDifferences plate_;
+  const AssembledSystem system_;
+  const Eigen::VectorXd diagonal_;
+  Points e_;
   const Array<double>& residual_;
-  Array<double> e_;       // 3 a point, zero where it is no unknown
-  Array<double> moment_;  // of the ring about a point: 3 differences of e, by 3 coordinates
+  const CountedBytes held_;
 };
 
 }  // namespace
@@ -103,7 +68,6 @@ class Sweeps {
 void solve_back_leg(ThinPlateLevels& levels, const PlateData& data, int sweeps,
                     const Monitor& monitor, Array<double>& x, std::vector<LevelReport>& reports,
                     const std::function<void(const double*)>& on_prediction) {
-  const ThinPlateShared& shared = levels.shared();
   for (int level = levels.base(); level <= levels.top(); ++level) {
     const std::size_t size = 3 * levels.grid(level).size();
     const Array<double> below = std::exchange(x, Array<double>(size));
@@ -113,7 +77,7 @@ void solve_back_leg(ThinPlateLevels& levels, const PlateData& data, int sweeps,
     const double reference =
         levels.scales(level, data, {}, polyhedron.data(), residual.data()).residual;
     levels.residual(level, data.targets, {}, x.data(), residual.data());
-    Sweeps gauss_seidel(levels.grid(level), shared, residual);
+    Sweeps gauss_seidel(levels.op(level).assemble(), residual);
     LevelReport report;
     report.level = level;
     report.points = levels.grid(level).size();
@@ -128,8 +92,7 @@ void solve_back_leg(ThinPlateLevels& levels, const PlateData& data, int sweeps,
       gauss_seidel.sweep();
       note_residual();
     }
-    for_each_index(shared.workers, size,
-                   [&](std::size_t i) { x[i] += gauss_seidel.correction()[i]; });
+    gauss_seidel.add_to(x);
     report.residual = report.residuals.back();
     report.converged = true;  // it does what it promises: so many sweeps
     reports.push_back(report);

@@ -92,8 +92,8 @@ Worst moves_of_worst(const LoadMatrix& g, const Columns& loads, const Candidates
     if (worst < 0) break;
     if (!add(worst, false)) continue;
     ++count;
-    const Index image = candidates.images[std::size_t(worst)];
-    if (image >= 0 && image != worst && may[std::size_t(image)]) add(image, true);
+    for (const Index image : candidates.images[std::size_t(worst)])
+      if (image != worst && may[std::size_t(image)]) add(image, true);
     left = picked.left();
   }
   out.rows = picked.rows();

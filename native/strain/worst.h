@@ -8,7 +8,8 @@ namespace fairing {
 
 struct Candidates {
   const std::vector<std::uint8_t>& may;  // one a row: over zero where it may move
-  const std::vector<Index>& images;      // moves with it, and is not counted; -1: none
+  // Of each row: it and its mirror images, which move with it and are not counted.
+  const std::vector<std::vector<Index>>& images;
   Index most;
 };
 

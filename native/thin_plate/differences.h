@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The divided differences of one level, ring by ring and one column at a time: what is assembled, or
-// swept, point by point. About 200 bytes a point.
+// The divided differences of one level, ring by ring and one column at a time: what matrices are summed
+// from.
 #pragma once
 
 #include <cmath>
+#include <vector>
 
 #include "sparse/ring_table.h"
 #include "stencil/stencils.h"
@@ -19,50 +20,39 @@ class PlateDifferences {
   // `grid` and `stencils` must outlive it, and `surface`, whose differences take the place of the
   // stencils' if it is given. Throws where the run has been cancelled.
   PlateDifferences(const GridLevel& grid, const Stencils& stencils, const Unknowns& unknowns,
-                   Workers& workers, const SurfaceDifferences* surface = nullptr)
-      : grid_(grid),
-        stencils_(stencils),
-        surface_(surface),
-        rings_(grid, unknowns, workers),
-        places_(rings_),
-        weight_(point_weights(grid)) {}
+                   Workers& workers, const SurfaceDifferences* surface = nullptr);
 
-  const GridLevel& grid() const { return grid_; }
   const RingTable& rings() const { return rings_; }
-  const RingPlaces& places() const { return places_; }
-
+  // Whether points differ in what the stencils do not know.
+  bool is_weighted() const { return surface_ || !weight_.empty(); }
   double pull(Index p) const { return surface_ ? surface_->pull(p) : 0.0; }
-
-  // None where the point carries no fit.
-  EnergyRows rows(Index centre) const {
-    return {grid_.mesh(), stencils_, rings_.about(centre).element};
-  }
-  MembraneWeights membrane(Index centre) const {
-    return {grid_.mesh(), stencils_, rings_.about(centre).element};
+  MembraneWeights membrane(const RingTable::Ring& ring) const {
+    return {mesh_, stencils_, ring.element};
   }
 
-  // What a unit at a member of the ring about `centre` does to the three differences there; `of`:
-  // its rows().
-  Column column(Index centre, const EnergyRows& of, std::size_t slot) const {
+  bool has_fit(const RingTable::Ring& ring) const {
+    return begin_[std::size_t(ring.element)] != none;
+  }
+  // Of a ring that has a fit: what a unit at a member does to the three differences there, but for the
+  // root of its weight().
+  Column column(Index centre, const RingTable::Ring& ring, std::size_t slot) const {
     if (surface_) return surface_->column(centre, slot);
-    const double scale =
-        grid_.n() * std::sqrt(weight_.empty() ? 1.0 : weight_[std::size_t(centre)]);
-    Column out = {};
-    if (slot == 0)
-      for (std::size_t k = 0; k < of.size(); ++k)
-        for (std::size_t c = 0; c < 3; ++c) out[c] -= scale * of[of.by_pairs(k)][c];
-    else
-      for (std::size_t c = 0; c < 3; ++c) out[c] = scale * of[slot - 1][c];
-    return out;
+    return column_[begin_[std::size_t(ring.element)] + slot];
+  }
+  double weight(Index centre) const {
+    return surface_ || weight_.empty() ? 1.0 : weight_[std::size_t(centre)];
   }
 
  private:
-  const GridLevel& grid_;
+  static constexpr std::size_t none = std::size_t(-1);
+
+  const ControlMesh& mesh_;
   const Stencils& stencils_;
   const SurfaceDifferences* surface_;
   const RingTable rings_;
-  const RingPlaces places_;
-  const Array<double> weight_;  // of the points; empty: all are one
+  const Array<double> weight_;      // of the points; empty: all are one
+  std::vector<std::size_t> begin_;  // by element: of its columns, the centre's first
+  Array<Column> column_;
 };
 
 }  // namespace fairing

@@ -47,7 +47,8 @@ class ThinPlateLevel final : public LevelOperator {
     matrix_.reset();
     surface_ = std::make_unique<SurfaceDifferences>(grid_, shared_.stencils, metric,
                                                     shared_.unknowns, shared_.workers);
-    matrix_ = PlateMatrix::make(grid_, *surface_, shared_.unknowns, shared_.workers);
+    matrix_ = PlateMatrix::make(grid_, shared_.stencils, shared_.unknowns, shared_.workers,
+                                surface_.get());
     ++version_.spectrum;
     update();
   }

@@ -14,10 +14,9 @@
 
 namespace fairing {
 
-// K with the control vertices' weights in double, with the differences of a surface if they are
-// given: for the direct solve on the coarsest level, for
-// the paper's Gauss-Seidel, and to check and to race the passes. Throws where the run has been
-// cancelled.
+// K with the control vertices' weights in double, with the differences of a surface if they are given:
+// for the direct solve on the coarsest level, for the paper's Gauss-Seidel, and to check the passes.
+// Throws where the run has been cancelled.
 AssembledSystem assemble_thin_plate(const GridLevel& grid, const Stencils& stencils,
                                     const Unknowns& unknowns, const VertexWeights& weights,
                                     Workers& workers, const SurfaceDifferences* surface = nullptr);
@@ -27,13 +26,11 @@ AssembledSystem assemble_thin_plate(const GridLevel& grid, const Stencils& stenc
 class PlateMatrix {
  public:
   // Null where rings are so large that their squares are not linear, and where the passes are better:
-  // with many points a face. Throws where the run has been cancelled.
+  // with many points a face. With the differences of a surface if they are given. Throws where the run
+  // has been cancelled.
   static std::unique_ptr<PlateMatrix> make(const GridLevel& grid, const Stencils& stencils,
-                                           const Unknowns& unknowns, Workers& workers);
-
-  // The same with the differences of a surface.
-  static std::unique_ptr<PlateMatrix> make(const GridLevel& grid, const SurfaceDifferences& surface,
-                                           const Unknowns& unknowns, Workers& workers);
+                                           const Unknowns& unknowns, Workers& workers,
+                                           const SurfaceDifferences* surface = nullptr);
 
   // What is added to the diagonal.
   void set_weights(const VertexWeights& weights);
@@ -57,7 +54,6 @@ class PlateMatrix {
 
  private:
   using Rows = std::unique_ptr<const AssembledMatrix>;
-  static std::unique_ptr<PlateMatrix> make(const Unknowns& unknowns, std::size_t points, Rows rows);
   PlateMatrix(const Unknowns& unknowns, std::size_t points, Rows rows)
       : points_(points), rows_(std::move(rows)), moves_(unknowns.vertex) {}
 

@@ -204,34 +204,4 @@ double SurfaceDifferences::energy(Workers& workers, const double* x) {
   return sum(workers, moment_.size(), [&](std::size_t i) { return moment_[i] * moment_[i]; });
 }
 
-void SurfaceDifferences::write_row(Index p, RowBuilder& row) const {
-  if (!is_unknown(p)) return;
-  for (const RingPlaces::Place& place : places_.of(p)) {
-    const RingTable::Ring& ring = rings_.about(place.centre);
-    const RingTable::Member* const members = rings_.members(ring);
-    const Column own = column(place.centre, place.slot);
-    for (std::size_t s = 0; s < ring.size; ++s) {
-      if (!is_unknown(members[s])) continue;
-      const Column other = column(place.centre, s);
-      row.add(members[s], own[0] * other[0] + own[1] * other[1] + own[2] * other[2]);
-    }
-  }
-  row.add(p, pull(p));
-  const MembraneWeights tension = membrane(p);
-  if (tension.size() == 0) return;
-  const RingTable::Member* const members = rings_.members(rings_.about(p));
-  row.add(p, tension.total());
-  for (std::size_t s = 0; s < tension.size(); ++s)
-    if (is_unknown(members[s + 1])) row.add(members[s + 1], -tension[s]);
-}
-
-std::size_t SurfaceDifferences::products() const {
-  std::size_t sum = 0;
-  for (std::size_t p = 0; p < rings_.points(); ++p) {
-    const std::size_t size = rings_.about(Index(p)).size;
-    sum += size * size;
-  }
-  return sum;
-}
-
 }  // namespace fairing

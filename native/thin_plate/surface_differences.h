@@ -9,7 +9,6 @@
 // it is to come up to.
 #pragma once
 
-#include "sparse/matrix.h"
 #include "sparse/ring_table.h"
 #include "stencil/stencils.h"
 #include "stencil/weights.h"
@@ -57,11 +56,6 @@ class SurfaceDifferences {
 
   // As thin_plate_energy(): without P.
   double energy(Workers& workers, const double* x);
-
-  // Adds row p of K + P.
-  void write_row(Index p, RowBuilder& row) const;
-  // The products that all rows are summed from.
-  std::size_t products() const;
 
  private:
   void write_rows(const SurfaceMetric& metric, Workers& workers);

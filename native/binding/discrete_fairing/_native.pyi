@@ -149,7 +149,6 @@ def ease(
     amount: float,
     most: int,
     fixed: np.ndarray,
-    images: np.ndarray,
     options: Options,
     monitor: Monitor,
     progress: _Progress,

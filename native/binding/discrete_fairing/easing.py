@@ -84,7 +84,7 @@ def ease(
         that is 0, the largest whose moves stay within.
     most
         Move so many vertices at most, the most strained first, each to where the surface wants it;
-        in a symmetry plane's halves a vertex and its image count as one. Not with a tolerance.
+        mirror images of a mesh that is its own move together and count as one. Not with a tolerance.
     fixed
         (n,) bool: vertices that stay where they are; loads on them do not count.
     amount
@@ -106,14 +106,14 @@ def ease(
     count = len(points)
     bounds, stays = _bounds(tolerance, count), fixed_flags(fixed, count)
     chosen = _most(most, tolerance)
-    start, half, axis, images = points, None, 0, np.empty(0, dtype=np.int64)
+    start, half, axis = points, None, 0
     given: dict[str, Any] = dict(settings)
     if symmetry_plane is not None:
         half = Half(points, corners, offsets, symmetry_plane, native_options(given).repair)
         axis = half.axis
         points, given = half.points(points), half.settings(given)
         corners, offsets = half.faces(corners, offsets)
-        bounds, stays, images = half.values(bounds), half.values(stays), half.images
+        bounds, stays = half.values(bounds), half.values(stays)
     options = native_options(given)
     with half.named() if half else nullcontext():
         found = _native.ease(
@@ -124,7 +124,6 @@ def ease(
             _amount(amount, most),
             chosen,
             stays,
-            images,
             options,
             monitor or _native.Monitor(),
             progress,

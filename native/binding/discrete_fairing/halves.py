@@ -121,12 +121,6 @@ class Half:
         """(k,) int64: the vertices of the mesh given that are their own images."""
         return self._in_plane
 
-    @property
-    def images(self) -> np.ndarray:
-        """(k,) int64: of each vertex of the double the one on the other side, or itself."""
-        images = np.concatenate([self._image, self._copied])
-        return np.ascontiguousarray(images, dtype=np.int64)
-
     def values(self, values: np.ndarray) -> np.ndarray:
         """(n,), one a vertex, or empty → of the double, or empty."""
         return np.concatenate([values, values[self._copied]]) if len(values) else values

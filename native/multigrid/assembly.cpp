@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "multigrid/assembly.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "grid/ring.h"
+#include "grid/runs.h"
+
+namespace fairing {
+namespace {
+
+// A sparse column as it is summed up.
+class Column {
+ public:
+  explicit Column(Eigen::Index rows) : value_(std::size_t(rows)), used_(std::size_t(rows)) {}
+
+  void clear() {
+    for (const Index r : rows_) used_[std::size_t(r)] = 0;
+    rows_.clear();
+  }
+
+  void add(const SparseMatrix& matrix, Index column, double factor) {
+    for (SparseMatrix::InnerIterator entry(matrix, column); entry; ++entry) {
+      const auto r = std::size_t(entry.row());
+      if (!used_[r]) {
+        used_[r] = 1;
+        value_[r] = entry.value() * factor;
+        rows_.push_back(Index(r));
+      } else {
+        value_[r] += entry.value() * factor;
+      }
+    }
+  }
+
+  void sort() { std::sort(rows_.begin(), rows_.end()); }
+  const std::vector<Index>& rows() const { return rows_; }
+  double operator[](Index row) const { return value_[std::size_t(row)]; }
+
+ private:
+  std::vector<double> value_;
+  std::vector<std::uint8_t> used_;
+  std::vector<Index> rows_;
+};
+
+// Room for one more column: once it is needed, for all that are left, if they are as full as those
+// so far.
+void make_room(SparseMatrix& matrix, Eigen::Index column, std::size_t entries) {
+  auto& numbers = matrix.data();
+  const auto now = std::size_t(numbers.size());
+  if (now + entries <= std::size_t(numbers.allocatedSize())) return;
+  const double mean = double(now + entries) / double(column + 1);
+  numbers.reserve(Eigen::Index(entries + std::size_t(mean * double(matrix.cols() - column - 1))));
+}
+
+// Control vertices whose rings hold more than most_coupled unknowns, ascending. `apart`: no two of them
+// are neighbours.
+std::vector<Index> large_rings(const GridLevel& grid, const std::vector<Index>& number,
+                               bool apart) {
+  std::vector<Index> large;
+  for (Index v = 0; v < grid.mesh().vertex_count(); ++v) {
+    std::size_t held = number[std::size_t(v)] >= 0;
+    bool alone = true;
+    visit_ring(grid, v, [&](Index q, std::size_t) {
+      held += number[std::size_t(q)] >= 0;
+      alone &= !apart || !std::binary_search(large.begin(), large.end(), q);
+    });
+    if (held > most_coupled && alone) large.push_back(v);
+  }
+  return large;
+}
+
+// Adds to K the auxiliary unknowns of the rows u, then those of w.
+void border(const SparseMatrix& u, const SparseMatrix& w, AssembledSystem& system) {
+  Triplets entries;
+  auto first = Index(system.unknown_points.size());
+  for (const auto& [side, diagonal] : {std::pair(&u, -1.0), std::pair(&w, 1.0)}) {
+    for (Index c = 0; c < Index(side->cols()); ++c)
+      for (SparseMatrix::InnerIterator entry(*side, c); entry; ++entry) {
+        entries.emplace_back(first + Index(entry.row()), c, entry.value());
+        entries.emplace_back(c, first + Index(entry.row()), entry.value());
+      }
+    for (Index r = 0; r < Index(side->rows()); ++r)
+      entries.emplace_back(first + r, first + r, diagonal);
+    first += Index(side->rows());
+  }
+  add_entries(entries, system);
+  system.negative = Index(u.rows());
+}
+
+// The numbers of a ring's unknowns, ascending and each once.
+class RingColumns {
+ public:
+  struct Entry {
+    Index column;
+    std::array<double, 3> number;
+  };
+
+  const std::vector<Entry>& read(const std::vector<Index>& number, const std::vector<Index>& ring,
+                                 const std::vector<double>& numbers) {
+    out_.clear();
+    for (std::size_t s = 0; s < ring.size(); ++s)
+      if (const Index column = number[std::size_t(ring[s])]; column >= 0)
+        out_.push_back({column, {numbers[3 * s], numbers[3 * s + 1], numbers[3 * s + 2]}});
+    std::stable_sort(out_.begin(), out_.end(),
+                     [](const Entry& a, const Entry& b) { return a.column < b.column; });
+    std::size_t last = 0;
+    for (std::size_t s = 1; s < out_.size(); ++s) {
+      if (out_[s].column != out_[last].column)
+        out_[++last] = out_[s];
+      else
+        for (std::size_t c = 0; c < 3; ++c) out_[last].number[c] += out_[s].number[c];
+    }
+    out_.resize(std::min(out_.size(), last + 1));
+    return out_;
+  }
+
+ private:
+  std::vector<Entry> out_;
+};
+
+}  // namespace
+
+SparseMatrix congruence(const SparseMatrix& rows, const SparseMatrix* middle,
+                        const TurnedEntry& take_turned) {
+  const SparseMatrix jacobian = rows.transpose();
+  const MatrixBytes held(jacobian);
+  SparseMatrix out(jacobian.cols(), jacobian.cols());
+  Column turned(middle ? jacobian.rows() : 0), product(jacobian.cols());
+  for (Index c = 0; c < Index(jacobian.cols()); ++c) {
+    product.clear();
+    if (middle) {
+      turned.clear();
+      for (SparseMatrix::InnerIterator entry(jacobian, c); entry; ++entry)
+        turned.add(*middle, Index(entry.row()), entry.value());
+      turned.sort();
+      for (const Index r : turned.rows()) {
+        product.add(rows, r, turned[r]);
+        if (take_turned) take_turned(c, r, turned[r]);
+      }
+    } else {
+      for (SparseMatrix::InnerIterator entry(jacobian, c); entry; ++entry)
+        product.add(rows, Index(entry.row()), entry.value());
+    }
+    product.sort();
+    make_room(out, c, product.rows().size());
+    out.startVec(c);
+    for (const Index r : product.rows()) out.insertBackByOuterInner(c, r) = product[r];
+  }
+  out.finalize();
+  out.data().squeeze();
+  const MatrixBytes out_held(out);
+  return out;
+}
+
+// Three rows J_a about a control vertex with a large ring are left out of J, and become auxiliary
+// unknowns: of u = J_a where S is none. Else, with d > 0 the vertex' diagonal of S and h = S_ar J_r
+// what its neighbours add to it, the energy is
+//
+//   d |J_a x|^2 + 2 J_a x . h x = |u x|^2 - |w x|^2,   u = (d J_a + h) / sqrt d,   w = h / sqrt d
+AssembledSystem assemble_square(const GridLevel& grid, const std::vector<Index>& number,
+                                const SparseMatrix* middle,
+                                const std::function<void(const TakeRows&)>& visit) {
+  AssembledSystem system;
+  for (std::size_t p = 0; p < number.size(); ++p)
+    if (number[p] >= 0) system.unknown_points.push_back(Index(p));
+  const std::vector<Index> large = large_rings(grid, number, middle != nullptr);
+  const auto place_of = [&](Index p) {  // -1: its ring is no large one
+    const auto at = std::lower_bound(large.begin(), large.end(), p);
+    return at != large.end() && *at == p ? Index(at - large.begin()) : -1;
+  };
+  const auto root_of = [&](Index p) { return middle ? std::sqrt(middle->coeff(3 * p, 3 * p)) : 1; };
+  const auto unknowns = Index(system.unknown_points.size()), apart = Index(3 * large.size());
+  SparseMatrix rows(unknowns + (middle ? 2 : 1) * apart, Eigen::Index(3 * grid.size()));
+  rows.reserve(Eigen::Index(3 * most_slots * grid.size()));
+  Triplets of_u, of_w;
+  RingColumns columns;
+  Index p = 0;
+  visit([&](const std::vector<Index>& ring, const std::vector<double>& numbers) {
+    const auto& own = columns.read(number, ring, numbers);
+    const Index k = place_of(p);
+    for (Index c = 0; c < 3; ++c) {
+      rows.startVec(3 * p + c);
+      for (const auto& [column, entry] : own)
+        if (k < 0)
+          rows.insertBack(column, 3 * p + c) = entry[std::size_t(c)];
+        else
+          of_u.emplace_back(3 * k + c, column, root_of(p) * entry[std::size_t(c)]);
+    }
+    ++p;
+  });
+  rows.finalize();
+  const MatrixBytes held(rows);
+  const auto take_turned = [&](Index c, Index row, double entry) {
+    const Index k = place_of(row / 3);
+    const double root = k < 0 ? 0 : root_of(row / 3);
+    if (!(root > 0)) return;
+    of_u.emplace_back(3 * k + row % 3, c, entry / root);
+    of_w.emplace_back(3 * k + row % 3, c, entry / root);
+  };
+  congruence(rows, middle, apart > 0 ? take_turned : TurnedEntry{}).swap(system.matrix);
+  if (apart == 0) return system;
+  const MatrixBytes matrix_held(system.matrix);
+  SparseMatrix u(apart, unknowns), w(middle ? apart : 0, unknowns);
+  u.setFromTriplets(of_u.begin(), of_u.end());
+  w.setFromTriplets(of_w.begin(), of_w.end());
+  border(u, w, system);
+  return system;
+}
+
+void add_entries(const Triplets& entries, AssembledSystem& system) {
+  SparseMatrix more(system.matrix.rows(), system.matrix.cols());
+  more.setFromTriplets(entries.begin(), entries.end());
+  system.matrix += more;
+}
+
+}  // namespace fairing
