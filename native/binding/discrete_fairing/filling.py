@@ -220,9 +220,11 @@ def _with_triangles(
         fillings = faired_in_rounds(mesh, filler, nears, wanted, watched, rows)
         quiet = watched.run(1.0, 1.0)
         watchers = quiet["monitor"], quiet["progress"]
-        if wanted.density > 0.0 and any(f.made.folds for f in fillings.values()):
-            bare, _ = _triangulated(filler, loops, (0.0, False), watchers)
-            fillings = without_folds(mesh, fillings, bare)
+        folding = [row for row, filling in fillings.items() if filling.made.folds]
+        if wanted.density > 0.0 and folding:
+            asked = [loops[row] for row in folding]
+            bare, _ = _triangulated(filler, asked, (0.0, False), watchers)
+            fillings = without_folds(mesh, fillings, {folding[k]: own for k, own in bare.items()})
         doubled = []
         edges = RimEdges(len(mesh.points), {row: f.faces for row, f in fillings.items()})
         for row, grid in enumerate(grids):

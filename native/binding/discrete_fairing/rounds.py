@@ -143,17 +143,16 @@ def _may_go_on(own: np.ndarray, wanted: Wanted) -> bool:
 def without_folds(
     mesh: MeshPart, fillings: dict[int, Filling], bare: dict[int, tuple[np.ndarray, np.ndarray]]
 ) -> dict[int, Filling]:
-    """`fillings`, and in the place of what folds the `bare` triangles between the vertices of the rim,
+    """`fillings`, and in the place of some that fold the `bare` triangles between the vertices of the rim,
     where these do not: only what any such triangles would have is left to fold.
     """
     chosen = dict(fillings)
     edges = RimEdges(len(mesh.points), {row: filling.faces for row, filling in fillings.items()})
     for row, near in zip(bare, near_holes(mesh, list(bare.values())), strict=True):
-        if row in chosen and chosen[row].made.folds:
-            plain = near.as_triangulated(True)
-            if not plain.folds and not edges.are_taken(near.faces, row):
-                chosen[row] = Filling(near.own, near.faces, near.first, plain)
-                edges.put(row, near.faces)
+        plain = near.as_triangulated(True)
+        if not plain.folds and not edges.are_taken(near.faces, row):
+            chosen[row] = Filling(near.own, near.faces, near.first, plain)
+            edges.put(row, near.faces)
     return chosen
 
 
