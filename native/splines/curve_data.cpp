@@ -122,7 +122,12 @@ std::vector<Kink> CurveSource::kinks(double least) const {
     const Vec3 normal = sector_normal(Index(s), nullptr);
     const std::vector<Vec3> tangents = crease_tangents(Index(s), nullptr);
     const bool runs_through = tangents.size() == 2 && tangents[0].dot(tangents[1]) < 0;
-    if (normal.isZero())
+    const bool is_tip =
+        tangents.size() == 2 && std::ranges::any_of(topology_.sectors[s], [&](auto& at) {
+          const GridPoint corner = closed_point(lattice_.quad(at.i), lattice_.n(), at.j, 0, 0);
+          return lattice_normal(lattice_, at.i, corner).cross(normal).norm() > off_plane;
+        });
+    if (normal.isZero() || is_tip)
       out.push_back(Kink::sharp);
     else if (runs_through && std::abs(normal.dot(tangents[0] + tangents[1])) > least)
       out.push_back(Kink::slight);

@@ -219,7 +219,7 @@ FittedCurve fit_with(const CurveData& data, int spans, double tolerance) {
   const CurveSystem system(data, spans);
   FittedCurve even = fit_evenly(data, system);
   // the lattice's own, as along creases
-  if (even.error <= rounding * length_of(data.points)) return even;
+  if (data.own || even.error <= rounding * length_of(data.points)) return even;
   FittedCurve plain = fit_by_length(data, system, false);
   // where there are some between those at the ends
   if (spans <= 2 || plain.error <= tolerance) return plain;
@@ -250,6 +250,7 @@ FittedCurve fit_curve(const CurveData& data, const SpanLimits& limits) {
     FittedCurve next = fit_with(data, spans, limits.tolerance);
     if (next.error < best.error) best = std::move(next);
   }
+  best.own = data.own;
   for (std::size_t k = 0; k < best.normals.size(); ++k) {
     const Vec3 tangent = best.curve.at(best.parameters[k]).tangent.normalized();
     if (const Vec3 turned = across(best.normals[k], tangent); !turned.isZero())

@@ -16,6 +16,7 @@ struct CurveData {
   std::vector<Vec3> points, normals;
   bool halved = false;  // patches end at the middle point, which is to be the curve's at 1/2
   bool strict = false;  // along the lattice's line; or anywhere near it on the surface
+  bool own = false;     // and at the lattice's own parameters
   std::array<double, 2> corner{4, 4};  // the narrowest angle that it makes at each end, radians
 
   bool is_middle(std::size_t k) const { return halved && 2 * k + 1 == points.size(); }
@@ -26,6 +27,7 @@ struct FittedCurve {
   std::vector<double> parameters;  // of the data's points: where the curve is closest
   std::vector<Vec3> normals;       // the data's, turned to stand on the curve
   double error = 0;  // the farthest that a point is from the curve, across the surface mostly
+  bool own = false;  // as of its data
 };
 
 // The part of a normal that stands on a unit tangent, of length one; zero where there is none.

@@ -69,6 +69,11 @@ class Fitting {
     });
   }
 
+  void hold_to_line(CurveData& data, std::size_t curve) const {
+    data.strict = strict_[curve] > 0;
+    data.own = strict_[curve] > 1;
+  }
+
   // Those of `which`, by curves.
   void fit_curves(const std::vector<std::uint8_t>& which) {
     const CurveSource source(lattice_, topology_);
@@ -81,7 +86,7 @@ class Fitting {
       for_each(edges, [&](std::size_t e) {
         if (!which[e] || (topology_.edges[e].kind == EdgeKind::smooth) != smooth) return;
         CurveData data = data_of(Index(e));
-        data.strict = strict_[e];
+        hold_to_line(data, e);
         curves_[e] = fit_curve(data, limits(e));
       });
     };
@@ -96,7 +101,7 @@ class Fitting {
       const Index e = topology_.face_edges[std::size_t(f)][std::size_t(s)];
       if (!which[edges + k] && !which[std::size_t(e)]) return;
       CurveData data = source.inner(f, s, curves_[std::size_t(e)]);
-      data.strict = strict_[edges + k];
+      hold_to_line(data, edges + k);
       curves_[edges + k] =
           fit_curve(data, SpanLimits{1, most_on(true), curve_tolerance(edges + k)});
     });
@@ -133,14 +138,19 @@ class Fitting {
   }
 
   // Where curves that leave the lattice's lines make patches fold, as in narrow corners, they are
-  // fitted to these.
+  // fitted to these; and where that does not help, as on faces a hundred times as long as wide, at
+  // the lattice's own parameters, with the patches.
   void unfold() {
-    std::vector<std::uint8_t> which(curves_.size(), 0);
-    for (std::size_t p = 0; p < fitted_.size(); ++p)
-      if (fitted_[p].misses.folds && turns_[std::size_t(topology_.patches[p].face)] <= folded)
-        for (const PatchSide& side : topology_.patches[p].side)
-          which[std::size_t(side.curve)] = strict_[std::size_t(side.curve)] = 1;
-    fit_again(which);
+    for (const std::uint8_t strict : {1, 2}) {
+      std::vector<std::uint8_t> which(curves_.size(), 0);
+      for (std::size_t p = 0; p < fitted_.size(); ++p)
+        if (fitted_[p].misses.folds && turns_[std::size_t(topology_.patches[p].face)] <= folded)
+          for (const PatchSide& side : topology_.patches[p].side) {
+            which[std::size_t(side.curve)] = 1;
+            strict_[std::size_t(side.curve)] = strict;
+          }
+      fit_again(which);
+    }
   }
 
   // Where neighbours still meet at too sharp an angle, their curve may be too coarse for them.
@@ -230,7 +240,7 @@ class Fitting {
   Lattice lattice_;
   Topology topology_;
   std::vector<FittedCurve> curves_;
-  std::vector<std::uint8_t> strict_, sharper_;  // curves
+  std::vector<std::uint8_t> strict_, sharper_;  // curves; 2: at the lattice's own parameters
   std::vector<FittedPatch> fitted_;
   std::vector<std::uint8_t> settled_;  // patches that more spans do not serve
   std::vector<double> turns_;

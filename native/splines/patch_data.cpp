@@ -149,11 +149,13 @@ PatchData patch_data(const Lattice& lattice, const Topology& topology, const Pat
                      const std::vector<FittedCurve>& curves) {
   PatchData out;
   out.size = lattice.size();
+  out.own = true;
   for (std::size_t s = 0; s < 4; ++s) {
     const PatchSide& side = place.side[s];
     const FittedCurve& curve = curves[std::size_t(side.curve)];
     out.side[s] = part_of(curve.curve, side);
     out.normals[s] = side_normals(curve, side);
+    out.own &= curve.own;
   }
   const auto map = [&](std::size_t s) {
     return SideMap(curves[std::size_t(place.side[s].curve)], place.side[s]);
@@ -161,7 +163,8 @@ PatchData patch_data(const Lattice& lattice, const Topology& topology, const Pat
   const SideMap below = map(0), right = map(1), above = map(2), left = map(3);
   std::vector<double> share_u, share_v;
   std::array<std::vector<double>, 4> line;
-  if (place.corner < 0) {
+  const bool by_length = place.corner < 0 && !out.own;
+  if (by_length) {
     const int n = lattice.n();
     share_u = length_shares(lattice, place.face, false);
     share_v = length_shares(lattice, place.face, true);
@@ -177,7 +180,7 @@ PatchData patch_data(const Lattice& lattice, const Topology& topology, const Pat
                        .v = (1 - u) * left(v) + u * right(v),
                        .area = normal.norm(),
                        .fitted = true};
-    if (place.corner < 0) {
+    if (by_length) {
       const std::size_t at = std::size_t(p.j) * std::size_t(lattice.n() + 1) + std::size_t(p.i);
       const double a = share_u[at], b = share_v[at];
       sample.u = (1 - b) * at_share(below, line[0], a) + b * at_share(above, line[2], a);

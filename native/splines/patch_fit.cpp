@@ -19,11 +19,16 @@ constexpr double tilt = 0.3, rough = 1e-3;
 // Tried one after the other until one serves. `slide` is what counts that a sample slides along the
 // patch: on poor surfaces the least lets patches fold. In narrow corners all do, unless `shear`,
 // what the cells of the net being no parallelograms counts, within the patch, keeps their rows apart.
+// An angle at a side weighs against distances of the model's size, or of the patch's own width: in a
+// narrow patch the former outweighs all that keeps its rows apart. Or not at all.
+enum class Lean { of_model, of_patch, free };
 struct Way {
   double slide, shear;
+  Lean lean = Lean::of_model;
 };
 constexpr double slides[] = {0.01, 0.1, 1};  // decades
 constexpr Way ways[] = {{slides[0], 0}, {slides[1], 0}, {slides[2], 0}};
+constexpr Way in_place[] = {{slides[2], 0, Lean::of_patch}, {slides[2], 0, Lean::free}};
 constexpr Way unfolding[] = {
     {slides[1], slides[1]}, {slides[1], slides[2]}, {slides[2], slides[2]}};
 // Samples move to their feet and the patch is fitted again, as long as that brings the farthest to this
@@ -106,12 +111,12 @@ bool fit_once(const PatchData& data, SplinePatch& patch, const Way* way) {
   }
   system.add_third_differences(rough);
   if (way && way->shear > 0) add_shear(way->shear, patch, system);
-  if (way)
+  if (way && way->lean != Lean::free)
     for (int s = 0; s < 4; ++s)
       for (const SideNormal& n : data.normals[std::size_t(s)]) {
         const SurfacePoint p = on_side(patch, s, n.t);
         const double across = (s % 2 ? p.along_u : p.along_v).norm();
-        const double scale = tilt * data.size / across;
+        const double scale = tilt * (way->lean == Lean::of_patch ? 1 : data.size / across);
         if (std::isfinite(scale))
           system.add(across_side(patch, s, n.t),
                      n.weight * squared(scale) * n.normal * n.normal.transpose(), Vec3::Zero());
@@ -202,6 +207,20 @@ FittedPatch fitted_by(const Way& way, const PatchData& data, SplinePatch patch) 
   return out;
 }
 
+// At the lattice's own parameters: a lattice that does not fold leaves a patch little room to.
+FittedPatch fitted_in_place(const PatchData& data, const SplinePatch& start) {
+  FittedPatch best;
+  for (const Way& way : in_place) {
+    SplinePatch patch = start;
+    fit_once(data, patch, &way);
+    FittedPatch next = measured(data, std::move(patch));
+    next.misses = misses(data, next);
+    if (best.patch.net.empty() || next.misses < best.misses) best = std::move(next);
+    if (!best.misses.folds) break;
+  }
+  return best;
+}
+
 }  // namespace
 
 SurfacePoint on_side(const SplinePatch& patch, int side, double t) {
@@ -216,7 +235,7 @@ SurfacePoint on_side(const SplinePatch& patch, int side, double t) {
 FittedPatch fit_patch(const PatchData& data, int spans_u, int spans_v, bool last) {
   SplinePatch start = with_sides(data, spans_u, spans_v);
   fit_once(data, start, nullptr);
-  FittedPatch best = fitted_by(ways[0], data, start);
+  FittedPatch best = data.own ? fitted_in_place(data, start) : fitted_by(ways[0], data, start);
   const auto try_all = [&](std::span<const Way> others, double enough) {
     for (const Way& way : others) {
       if (best.misses <= Misses{false, enough}) return;
@@ -225,7 +244,7 @@ FittedPatch fit_patch(const PatchData& data, int spans_u, int spans_v, bool last
     }
   };
   constexpr double any = std::numeric_limits<double>::infinity();
-  try_all(std::span(ways).subspan(1), last ? 1 : any);
+  try_all(std::span(ways).subspan(data.own ? 0 : 1), last ? 1 : any);
   if (!data.may_fold) try_all(unfolding, any);
   return best;
 }

@@ -36,6 +36,7 @@ struct PatchData {
   // What is asked for, and ends the search.
   double tolerance, normal_tolerance;
   bool may_fold = false;  // no time is spent against it
+  bool own = false;       // sides and samples are at the lattice's own parameters
 };
 
 // How far a patch is off: in tolerances, or where it folds, which is worse than anything else, by the

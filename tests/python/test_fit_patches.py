@@ -395,6 +395,40 @@ def test_a_finer_level_that_folds_takes_no_patches_away(levels):
     assert patches.levels == 5 and levels == [4, 5, 6]
 
 
+def test_faces_much_longer_than_wide_do_not_fold():
+    """Normals along their sides outweighed all that keeps the rows of a narrow patch apart."""
+    corners = np.array(list(np.ndindex(2, 2, 2)), float) * (0.1, 0.02, 1.0)
+    faces = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+    patches = df.fit_patches(corners, faces, levels=5, force=True)
+    assert np.degrees(patches.turned).max() < 25  # 180; the surface turns by 22.6 from cell to cell
+    assert patches.largest_residual < 1e-3
+
+
+def test_a_tip_between_two_creases_is_no_fold():
+    """At the foot of a boss on a round wall two creases make a corner of 270 degrees, which the wall comes
+    to as a tip, at every level: it was refused.
+    """
+    angle, height = np.radians([-45, -15, 15, 45]), (-24.0, 6.0, 30.0, 54.0)
+    wall = np.array([(40 * np.cos(a), 40 * np.sin(a), z) for z in height for a in angle])
+    cells = [[4 * i + j, 4 * i + j + 1, 4 * i + j + 5, 4 * i + j + 4] for i, j in np.ndindex(3, 3)]
+    rim = cells.pop(4)
+    middle = wall[rim].mean(axis=0)
+    foot = middle + 0.7 * (wall[rim] - middle)
+    foot_ids, top_ids = [16, 17, 18, 19], [20, 21, 22, 23]
+    around = [
+        [low[k], low[(k + 1) % 4], high[(k + 1) % 4], high[k]]
+        for low, high in ((rim, foot_ids), (foot_ids, top_ids))
+        for k in range(4)
+    ]
+    points = np.concatenate([wall, foot, foot + (7.0, 0.0, 0.0)])
+    patches = df.fit_patches(
+        points, [*cells, *around, top_ids], levels=5, crease_angle=np.radians(30)
+    )
+    assert not len(patches.unresolved)
+    assert set(patches.unmet) >= {8, 9, 10, 11}  # round the tips off, and are named
+    assert patches.largest_residual < 5e-4 * patches.size
+
+
 @pytest.mark.parametrize("levels", [3, None])
 def test_no_patch_is_fitted_to_a_surface_that_is_refused(monkeypatch, levels):
     monkeypatch.setattr(fitting._Run, "fitted", lambda *_: pytest.fail("fitted all the same"))
