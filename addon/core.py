@@ -71,6 +71,7 @@ class ControlArrays:
     # (e,) int32, what an edge of the border is: by the numbers of choices.EDGE_BOUNDARIES
     boundary_edge: np.ndarray | None = None
     normals: np.ndarray | None = None  # (n, 3), that the surface is to have; zero: none
+    flat_face: np.ndarray | None = None  # (m,) bool: meant flat
 
     @property
     def face_sizes(self) -> np.ndarray:
@@ -128,6 +129,8 @@ def fair_arguments(
     }
     if arrays.normals is not None and takes_normals(settings):
         arguments["normals"] = arrays.normals
+    if arrays.flat_face is not None and settings.energy == "THIN_PLATE":
+        arguments["flat_faces"] = np.flatnonzero(arrays.flat_face)
     if is_limit(settings):
         arguments |= _limit(arrays, settings)
     elif threshold is not None:

@@ -17,6 +17,8 @@ from .boundary_marks import BOUNDARY
 from .fixed_normals import read_normals
 from .layers import STORAGE, find_layer, layer_values
 
+FLAT = "fair_flat"  # a Boolean of faces: meant flat
+
 
 def source_objects(context: Context) -> list[Object]:
     """The meshes to fair: the selected ones in Object Mode, those being edited in Edit Mode; the
@@ -119,6 +121,7 @@ def read_mesh(mesh: Mesh) -> ControlArrays:
         sharp_edge=_optional(mesh, "sharp_edge", "EDGE", "BOOLEAN"),
         boundary_edge=_optional(mesh, BOUNDARY, "EDGE", "INT"),
         normals=read_normals(mesh),
+        flat_face=_optional(mesh, FLAT, "FACE", "BOOLEAN"),
     )
 
 

@@ -63,6 +63,7 @@ def cut_out(arrays: ControlArrays, chosen: np.ndarray) -> CutOut:
         sharp_edge=of(arrays.sharp_edge, edges),
         normals=of(arrays.normals, vertices),
         boundary_edge=of(_on_border(arrays), edges),
+        flat_face=of(arrays.flat_face, faces),
     )
     return CutOut(part, vertices, faces)
 

@@ -180,6 +180,14 @@ def test_soft_creases_reach_the_core():
     assert "soft_creases" not in arguments(mesh, interpolation="LIMIT")
 
 
+def test_flat_faces_reach_the_core():
+    mesh = add("Box", *CUBE).data
+    marks = mesh.attributes.new("fair_flat", "BOOLEAN", "FACE")
+    marks.data[2].value = marks.data[5].value = True
+    assert arguments(mesh, energy="THIN_PLATE")["flat_faces"].tolist() == [2, 5]
+    assert "flat_faces" not in arguments(mesh, energy="TOTAL_CURVATURE")
+
+
 def test_threshold_compares_in_the_precision_of_the_attribute():
     weights = np.full(4, 0.1, np.float32)
     assert len(crease_edges(triangle(edge_crease=weights), 0.1)) == 3
