@@ -43,7 +43,8 @@ def bulb() -> Hull:
     """A round bilge with a bulb before the stem: 12 m."""
     points: dict[tuple[str, str], tuple[float, float, float]] = {}
     for station, x in [("A", -600.0), ("B", -300.0), *((f"{k}", 1200.0 * k) for k in range(11))]:
-        low, high = (-1500.0, 800.0) if x >= 0 else bulb_ends(x)
+        low, high = bulb_ends(min(x, 0.0))
+        low, high = low if x <= 0 else -1500.0, 800.0 if x >= 0 else high
         points[station, "Keel"] = x, 0.0, low
         for line, z in WATERLINES.items():
             if low < z < high:
