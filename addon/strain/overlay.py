@@ -186,8 +186,6 @@ def _draw_labels() -> None:
     space, view = viewport
     drawing, region = context.scene.discrete_fairing_strain, context.region
     blf.size(0, _TEXT * _scale())
-    blf.enable(0, blf.SHADOW)
-    blf.shadow(0, 3, 0.0, 0.0, 0.0, 1.0)
     for source, strained in _seen(space):
         matrix = world_matrix(source)
         times = magnification(strained, drawing.needle_length)
@@ -196,10 +194,16 @@ def _draw_labels() -> None:
         for place, label, is_wrong in labels(strained, drawing.label_count, times, text):
             at = location_3d_to_region_2d(cast(Any, region), view, matrix @ Vector(place.tolist()))
             if at is not None:
-                blf.color(0, 1.0, 1.0, 1.0, 1.0 if is_wrong else _FAINT)
-                blf.position(0, at.x + _AWAY, at.y + _AWAY, 0)
-                blf.draw(0, label)
-    blf.disable(0, blf.SHADOW)
+                _draw_label(label, at.x + _AWAY, at.y + _AWAY, 1.0 if is_wrong else _FAINT)
+
+
+def _draw_label(label: str, x: float, y: float, opacity: float) -> None:
+    """White with a dark outline: stripes behind it are white, too."""
+    outline = ((-1, 0), (1, 0), (0, -1), (0, 1))
+    for right, up, grey in (*((*way, 0.0) for way in outline), (0, 0, 1.0)):
+        blf.color(0, grey, grey, grey, opacity)
+        blf.position(0, x + right * _scale(), y + up * _scale(), 0)
+        blf.draw(0, label)
 
 
 def _make_shader() -> Any:

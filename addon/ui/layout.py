@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import bpy
 
 from ..choices import ENERGY_MEANINGS, ENERGY_NAMES, SHORT_INTERPOLATIONS
+from ..curve_cage import HOLD
 from ..properties import FairingSettings
 from ..purposes import name_of_purpose
 from ..settings import is_evaluated, is_limit, is_near
@@ -110,6 +111,9 @@ def draw_shape(
 
 
 def _draw_tolerance(layout: bpy.types.UILayout, settings: FairingSettings, known: Known) -> None:
+    if settings.pull_group == HOLD:  # of a surface from curves, which a length says nothing of
+        _remark(layout, "Held along its curves")
+        return
     layout.prop(settings, "tolerance", text="Hold within")
     if known.tolerance:
         _remark(layout, known.tolerance)

@@ -86,6 +86,14 @@ def test_the_tolerance_says_its_length():
     assert not [line for line in near(mesh_source="EVALUATED") if line.startswith("= ")]
 
 
+def test_a_surface_from_curves_is_held_along_them():
+    """By a group, so that a tolerance of 0 would be no answer."""
+    settings = bpy.context.scene.discrete_fairing
+    settings.interpolation, settings.pull_group = "APPROXIMATE", "On Curves"
+    add("Box", *CUBE)
+    assert "Held along its curves" in draw(main.VIEW3D_PT_fairing)
+
+
 def test_a_group_that_is_not_there_is_said():
     box = add("Box", *CUBE)
     assert "Not in Box" in near(tolerance_group="Loose")

@@ -59,6 +59,10 @@ def test_of_a_surface_the_closed_one_is_faired_alike():
     assert solid(points, triangles).volume > 0
     nearest = [np.linalg.norm(points - place, axis=1).min() for place in before[::7]]
     assert max(nearest) < 2e-3, "the hull is the half's, within 2 mm of 8 m"
+    sharp = [e for e in closed.data.edges if e.use_edge_sharp]
+    places = positions(closed.data)
+    keel = [e for e in sharp if not places[list(e.vertices), 1].any()]
+    assert len(keel) > 8 * 2**2, "keel and stem are sharp where both halves meet"
     transom = points[points[:, 0] > points[:, 0].max() - 1e-4]
     assert len(transom) > 50, "the transom is flat"
 
