@@ -2,7 +2,7 @@
 """File > Import > Offsets: half a hull from a yard's table."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any, cast
 
 import bpy
 import numpy as np
@@ -34,9 +34,8 @@ class IMPORT_MESH_OT_fairing_offsets(ImportHelper, bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
     filename_ext = ".csv"
 
-    if TYPE_CHECKING:
-        filepath: str  # what ImportHelper adds
-
+    # not that of the last import: a file that is named was dropped
+    filepath: StringProperty(subtype="FILE_PATH", options={"SKIP_SAVE"})
     filter_glob: StringProperty(default="*.csv;*.tsv;*.txt", options={"HIDDEN"})
     unit: EnumProperty(name="Unit", description="The unit of the table's numbers", items=_UNITS)
     symmetry: BoolProperty(

@@ -41,6 +41,12 @@ def test_the_mesh_has_names_creases_and_the_middle_plane():
     assert found == [(f"station {k}", pytest.approx(k)) for k in range(9)]
 
 
+def test_a_dropped_file_is_imported_and_the_menu_asks():
+    assert bpy.types.IO_FH_fairing_offsets.bl_import_operator == "import_mesh.fairing_offsets"
+    known = bpy.ops.import_mesh.fairing_offsets.get_rna_type().properties
+    assert known["filepath"].is_skip_save, "else the menu would read it again"
+
+
 def test_the_scene_has_its_own_unit():
     bpy.context.scene.unit_settings.scale_length = 0.001
     hull = imported(EXAMPLES / "offsets_yacht.tsv")
