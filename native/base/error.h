@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The one exception type of the core, the warnings, and their messages. Every refusal names its
-// elements: a message is what the user reads, the ids are what the add-on selects.
+// The core's only exception type, warnings, and their messages. Every refusal names its elements:
+// users read the message, the add-on selects the ids.
 #pragma once
 
 #include <cstdint>
@@ -39,7 +39,7 @@ enum class ErrorCode {
   cancelled,
 };
 
-// The stable upper-case spelling that scripts see, "NONMANIFOLD_EDGE".
+// The stable upper-case name for scripts, such as "NONMANIFOLD_EDGE".
 const char* name(ErrorCode code);
 
 // What a list of ids names. Edges are vertex pairs, laid end to end.
@@ -47,15 +47,15 @@ enum class ElementKind { mesh, vertex, edge, face };
 
 const char* name(ElementKind kind);
 
-// The kind of that name; mesh for any other text.
+// The kind with that name; mesh for any other text.
 ElementKind kind_named(std::string_view text);
 
-// What the elements of such an error usually are.
+// The usual kind of elements of such an error.
 ElementKind usual_kind(ErrorCode code);
 
-// A message as data: text is made of it last, so that ids can change on the way to the caller. In a
-// sentence "{face}", "{vertex}", "{edge}" or "{crease}" stands for the elements, "12 faces (0, 4, 9, 11,
-// 12, …)", and "{has|have}" for the word that agrees with their number. Edges are shown as "4-9".
+// A message as data: its text is made last, so that ids can be translated on the way to the caller.
+// "{face}", "{vertex}", "{edge}" or "{crease}" is replaced by the elements, "12 faces (0, 4, 9, 11,
+// 12, …)", and "{has|have}" by the word that agrees with their number. Edges are shown as "4-9".
 struct Message {
   Message(const char* sentence) : cause(sentence) {}
   Message(std::string sentence, std::string advice = {})
@@ -68,7 +68,7 @@ struct Message {
 std::string text(const std::string& sentence, ElementKind kind, std::span<const std::int64_t> ids);
 std::string text(const Message& message, ElementKind kind, std::span<const std::int64_t> ids);
 
-// `elements` are ids in the caller's own numbering, of the kind that `kind` says.
+// `elements` are ids of the given `kind` in the caller's own numbering.
 class FairingError : public std::runtime_error {
  public:
   FairingError(ErrorCode error, const Message& about, std::vector<std::int64_t> ids = {})
@@ -86,9 +86,9 @@ class FairingError : public std::runtime_error {
   std::vector<std::int64_t> elements;
 };
 
-// Something that the user should know and that stops nothing.
+// A condition that the user should know and that does not stop the run.
 struct Warning {
-  std::string code;  // of an ErrorCode, as "ISOLATED_VERTICES", or "NOT_CONVERGED"
+  std::string code;  // the name of an ErrorCode, such as "ISOLATED_VERTICES", or "NOT_CONVERGED"
   Message message;
   std::vector<std::int64_t> elements;
   ElementKind kind = ElementKind::mesh;

@@ -23,10 +23,10 @@ inline std::span<const double> flat(std::span<const Vec3> points) {
   return {points.empty() ? nullptr : points.data()->data(), 3 * points.size()};
 }
 
-// Returns where the next one goes.
+// Returns the place of the next point.
 inline double* put_point(const Vec3& point, double* to) { return std::copy_n(point.data(), 3, to); }
 
-// Of length one; zero of the zero vector.
+// Unit length; zero for the zero vector.
 inline Vec3 unit_or_zero(const Vec3& v) {
   const double length = v.norm();
   return length > 0 ? Vec3(v / length) : Vec3(Vec3::Zero());

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is nothing but rounding, relative to what it was computed from.
+// Limits of rounding errors, relative to the numbers they come from.
 #pragma once
 
 #include <limits>
 
 namespace fairing {
 
-// What some thousand operations in double precision leave where exact arithmetic leaves nothing.
-// Lengths, areas and cosines that are smaller than this share of their like are zero.
+// Error of some thousand operations in double precision. Lengths, areas and cosines below this
+// share of comparable ones count as zero.
 constexpr double rounding = 4096 * std::numeric_limits<double>::epsilon();
 
-// The same of numbers that come from coordinates in single precision, as files and Blender keep them.
+// The same for coordinates in single precision, as in files and Blender.
 constexpr double single_rounding = 8 * double(std::numeric_limits<float>::epsilon());
 
 }  // namespace fairing

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Inner loops on packs of numbers, compiled twice: with packs of 16 bytes for baseline
-// instructions, and of 32 bytes for AVX2. The machine chooses at run time. In both, every number
-// sees the same operations in the same order (no fused multiply-add, no sums across a pack): the
-// same bits.
+// instructions, and of 32 bytes for AVX2; the machine chooses at run time. In both, every number
+// has the same operations in the same order (no fused multiply-add, no sums across a pack), and so
+// the same bits.
 #pragma once
 
 #include <cmath>
@@ -70,8 +70,8 @@ __attribute__((target("avx2"), noinline)) void run_wide(Arguments... arguments) 
 }
 #endif
 
-// Calls Loop<T, bytes of a pack>::run(arguments…). Mark run() DF_INLINE: it has to be compiled into
-// the function that has the instructions.
+// Calls Loop<T, bytes of a pack>::run(arguments…). Mark run() DF_INLINE, so that it is compiled
+// into the function with these instructions.
 template <template <class, int> class Loop, class T, class... Arguments>
 inline void run_loop(Arguments... arguments) {
 #if DF_HAS_WIDE

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The numbers that all rooms speak in. Positions and lengths have the unit of the caller's mesh, or
-// of the working frame that fairing/control_positions.h makes of it; angles are in radians.
+// Number types of the core. Positions and lengths are in the unit of the caller's mesh, or of the
+// working frame (fairing/control_positions.h); angles are in radians.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,7 +8,8 @@
 
 namespace fairing {
 
-// Of points, edges and faces, on any level; -1: none. check() refuses what 32 bits cannot number.
+// Index of a point, edge or face on any level; -1: none. check() refuses meshes that 32 bits cannot
+// number.
 using Index = std::int32_t;
 using Vec2 = Eigen::Vector2d;
 using Vec3 = Eigen::Vector3d;

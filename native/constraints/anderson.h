@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Anderson's acceleration of steps that each leave a fixed share of the error [Anderson 1965; Walker
-// and Ni 2011]: the last few tell which. With the changes dF_k of the steps and dx_k of the iterate,
-// a step f becomes
+// Anderson's acceleration of steps that each leave a fixed share of the error [Anderson 1965;
+// Walker and Ni 2011]: the last few steps reveal that share. With the changes dF_k of the steps and
+// dx_k of the iterate, a step f becomes
 //
 //   f - sum_k c_k (dF_k + dx_k),
 //
-// with c the least squares of f - sum_k c_k dF_k in some norm. On linear problems it is GMRES.
+// where c minimizes the norm of f - sum_k c_k dF_k. On linear problems it is GMRES.
 #pragma once
 
 #include <Eigen/Dense>
@@ -16,7 +16,7 @@
 
 namespace fairing {
 
-// `Space` knows the vectors and their norm:
+// `Space` provides the vectors and their norm:
 //
 //   Vector product(const Vector& a)                                     the norm's matrix times a
 //   double dot(const Vector& a, const Vector& b)
@@ -27,15 +27,15 @@ class Anderson {
  public:
   using Vector = typename Space::Vector;
 
-  // Remembers so many steps: each costs a product and two vectors.
+  // Remembers `depth` steps; each costs a product and two vectors.
   Anderson(Space space, std::size_t depth) : space_(std::move(space)), depth_(depth) {}
 
-  // The change to make of the iterate, from this step and the last few.
+  // The change of the iterate, from this step and the last few.
   Vector change(const Vector& step);
-  // What has been made of the last change, where that is something else.
+  // The change that was made, if it differs from the last change().
   void took(Vector change) { last_change_ = std::move(change); }
   void took_share(double share) { space_.scale(share, last_change_); }
-  // The next step is the first one.
+  // Makes the next step the first one.
   void forget() {
     pairs_.clear();
     any_ = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Control vertices that move in space, as the thin plate's do: each stays within a ball.
+// Control vertices that move in space, under the thin plate: each stays within a ball.
 #pragma once
 
 #include <span>
@@ -10,21 +10,20 @@
 
 namespace fairing {
 
-// Keeps control vertices within their tolerances of their targets, with the energy as low as that
-// allows. Each is on a spring of weight w, which pulls it from x towards its shifted target a. With P
-// the part of its force w (a - x) that is not the caller's own spring's, the surface is the solution
-// where
+// Minimizes the energy while control vertices stay within their tolerances of their targets. Each
+// is on a spring of weight w, which pulls it from x towards its shifted target a. With P the part
+// of its force w (a - x) that is not that of the caller's own spring, the solution satisfies
 //
 //   P = lambda (target - x),   lambda >= 0,   and lambda = 0 within the ball.
 //
-// A vertex of the surface's stiffness s would go from x to x', the point of the ball nearest to
-// x - P / s, and need the force F + s (x' - x) there; so its target shifts by
+// A vertex with the surface's stiffness s would go from x to x', the point of the ball nearest to x
+// - P / s, and need the force F + s (x' - x) there; so its target shifts by
 //
 //   (1 + s / w) (x' - x),
 //
-// which is nothing at the solution. It is a step of semi-smooth Newton with a diagonal for the
-// surface's part. Along the ball a spring of weight lambda has the derivative of the law above, across
-// it a stiffer one is better: weights are some lambdas of the level below, and stay on a level.
+// which is zero at the solution. It is a semi-smooth Newton step with a diagonal for the surface's
+// part. Along the ball a spring of weight lambda has the derivative of the law above; across it a
+// stiffer one is better. So weights are a few lambdas of the level below, and stay on a level.
 class BallConstraints : public ControlConstraints {
  public:
   // `stiffness` of the surface at each control vertex, against moving it alone. It must outlive the
@@ -34,41 +33,41 @@ class BallConstraints : public ControlConstraints {
     weights_ = start_weights();
   }
 
-  // Where the springs pull control vertices.
+  // The points to which the springs pull control vertices.
   std::span<const Vec3> shifted_targets() const { return shifted_.empty() ? targets_ : shifted_; }
 
-  // Control vertices are given by `at`, 3 numbers each.
+  // In all of these `at` has the control vertices, 3 numbers each.
 
-  // Whether the duality gap is `wanted`. Finds P.
+  // Whether the duality gap is at most `wanted`. Computes P.
   bool settled(double energy, double wanted, const double* at);
-  // New springs, from the forces that settled() has found last, with targets that are corrected.
+  // New springs with corrected targets, from the forces of the last settled().
   void renew_springs(const double* at);
-  // The same where the springs are those of the beginning still, or have diverged. Returns whether.
+  // The same if the springs are still the first ones or have diverged. Returns whether it did.
   bool renew(const double* at, bool loads_settled, double* x);
-  // How the targets are to shift, 3 numbers a control vertex; `forces` grow by what the springs then
-  // pull more.
+  // The shift of the targets, 3 numbers a control vertex; adds the springs' additional pull to
+  // `forces`.
   std::vector<double> correction(const double* at, Loads& forces) const;
   void shift(const std::vector<double>& shifts);
 
-  // Of each number of a correction: what makes it comparable with a change of its load, the square of
-  // its force over the hat's total; a vertex without a pad has the mean of the others. Empty where
-  // there is nothing to find. `hats` may be null.
+  // For each number of a correction the factor that makes it comparable with a change of its load:
+  // the square of its force over the hat's total; a vertex without a pad has the mean of the
+  // others. Empty if no constraint is active. `hats` may be null.
   std::vector<double> comparable(const Hats* hats) const;
 
  private:
   Vec3 move_of(const double* at, std::size_t v) const;  // x' - x
-  // Whether the gap has become more than the whole energy: where many vertices go together the surface
-  // is far softer than each one's stiffness, and the correction of one moves all of them far away.
+  // Whether the gap exceeds the whole energy. If many vertices move together, the surface is far
+  // softer than each one's stiffness, and the correction of one moves all of them far away.
   bool diverged() const { return gap_ > 1 && first_gap_ < 1; }
   bool leaves_ball(const double* at, std::size_t v) const;
   Vec3 in_ball(const Vec3& p, std::size_t v) const;
 
   std::span<const double> stiffness_;
   std::vector<Vec3> shifted_;  // empty: the targets
-  std::vector<Vec3> forces_;   // P; empty: not known yet
-  double first_gap_ = 0;       // with these springs; 0: not known yet
-  // Of springs of vertices outside their balls, in stiffnesses of the surface, at the least; other
-  // than zero once springs have diverged.
+  std::vector<Vec3> forces_;   // P; empty: not computed yet
+  double first_gap_ = 0;       // with these springs; 0: not computed yet
+  // Least weight of springs of vertices outside their balls, in stiffnesses of the surface; nonzero
+  // once springs have diverged.
   double weight_outside_ = 0;
 };
 

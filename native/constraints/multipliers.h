@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How the loads on pads are found. B f = r says which loads take the point forces r off the control
-// vertices, with B = H^T Omega Phi and H the cardinal surfaces of K (1 at one control vertex, 0 at
-// the others); it is close to the hats' mass matrix M (measured: eigenvalues of M^-1 B from 0.2 to
-// 1.3). So a surface is solved for with the loads as they are, the forces that are left are read,
-// loads take the correction M^-1 r, and Anderson's acceleration makes of these corrections what
-// GMRES would.
+// How the loads on pads are found. B f = r gives the loads that remove the point forces r from the
+// control vertices, with B = H^T Omega Phi and H the cardinal surfaces of K (1 at one control
+// vertex, 0 at the others). B is close to the hats' mass matrix M (measured: eigenvalues of M^-1 B
+// from 0.2 to 1.3). So a surface is solved for with the current loads, the remaining forces are
+// read, the loads are corrected by M^-1 r, and Anderson's acceleration makes this equivalent to
+// GMRES.
 #pragma once
 
 #include <array>
@@ -16,7 +16,8 @@
 
 namespace fairing {
 
-// Of what loads carry: the forces that may be left below the finest level, where loads are starts only.
+// Force that may be left below the finest level, where loads are only starts; relative to the
+// loads.
 constexpr double coarse_force_tolerance = 2e-2;
 
 template <int N>
@@ -26,9 +27,8 @@ double dot(const LoadsOf<N>& a, const LoadsOf<N>& b) {
   return sum;
 }
 
-// What holds control vertices: the loads on their pads, what keeps them within bounds (shifts of
-// targets, N numbers an input vertex, or the ends of intervals, one each), and the couples that fix
-// normals. Any may be empty.
+// The multipliers: the loads on pads, those of tolerances (shifts of targets, N numbers an input
+// vertex, or ends of intervals, one each), and the couples of fixed normals. Any may be empty.
 template <int N>
 struct Multipliers {
   LoadsOf<N> loads{};
@@ -49,9 +49,8 @@ auto numbers_of(Of& a) {
   return std::array{of(a.loads), of(a.bounds), of(a.moments)};
 }
 
-// The norm of M for loads; shifts of targets are compared by `weights`, one each, which make
-// them comparable with changes of loads, and so are moments by `mass`. The hats must outlive it; null
-// where there are no loads.
+// The norm of M for loads. Shifts of targets are scaled by `weights`, one each, to be comparable
+// with changes of loads, and moments by `mass`. The hats must outlive it; null without loads.
 template <int N>
 struct MultiplierSpace {
   using Vector = Multipliers<N>;
@@ -88,7 +87,7 @@ struct MultiplierSpace {
   }
 };
 
-// Of f <- f + M^-1 r, and of multipliers along with it.
+// Accelerates f <- f + M^-1 r, together with the other multipliers.
 template <int N>
 using MultiplierSteps = Anderson<MultiplierSpace<N>>;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pads: what holds control vertices in place of point forces. The force at a control vertex c is
-// spread over the faces around it as a load f_c on a hat phi_c, so that a surface x with the energy
-// x . K x / 2 is
+// Pads: they replace point forces at control vertices. The force at a control vertex c is spread
+// over the faces around it as a load f_c on a hat phi_c, so that a surface x with the energy x . K
+// x / 2 satisfies
 //
 //   K x = Omega sum_c f_c phi_c,   x(p_c) = v_c   for every held control vertex c,            (*)
 //
@@ -9,7 +9,7 @@
 // curvature a logarithm: a spot at every control vertex. A load is as smooth as its hat. (In one
 // dimension, with hats as wide as the intervals, (*) is the interpolating quintic spline.)
 //
-// With s_ca the share of a control edge that the pad under c reaches over (pad_reach.h), the hat is,
+// With s_ca the share of a control edge over which the pad of c reaches (pad_reach.h), the hat is,
 // in a triangle with corners c, a, b and in a quad c, a, d, b,
 //
 //   phi_c = max(0, 1 - lambda_a / s_ca - lambda_b / s_cb),
@@ -29,7 +29,7 @@
 namespace fairing {
 
 // A load, or a force, for each control vertex, of N numbers: 3 for the thin plate, 1 along normals.
-// Zero where there is no pad.
+// Zero without a pad.
 template <int N>
 using LoadsOf = std::vector<Eigen::Matrix<double, N, 1>>;
 using Loads = LoadsOf<3>;
@@ -40,27 +40,26 @@ inline bool may_have_pad(const ControlMesh& mesh, Index v) {
   return mesh.vertex_fit(v) && mesh.vertex_part(v) == RegionPart::inside;
 }
 
-// Which control vertices stand on pads, and how far these reach.
+// Which control vertices have pads, and how far these reach.
 class Pads {
  public:
-  // `size` in (0, 1] is what all reaches are multiplied by. A pad is under every control vertex
-  // that is fixed or has a weight and may have one. Positions of `mesh` in
-  // working coordinates.
+  // `size` in (0, 1] multiplies all reaches. Every control vertex off curves, inside the region,
+  // that is fixed or has a weight gets a pad. Positions of `mesh` are in working coordinates.
   Pads(const ControlMesh& mesh, const ChartMaker& charts, const Unknowns& unknowns, double size,
        Workers& workers, const VertexWeights& weights = {});
 
-  // False where no control vertex stands on a pad.
+  // Whether any control vertex has a pad.
   bool any() const { return count_ > 0; }
   bool under(std::size_t v) const { return under_[v] != 0; }
-  // The same before any pad was deactivated.
+  // Whether v had a pad before any was deactivated.
   bool began_under(std::size_t v) const { return began_under_[v] != 0; }
-  // Of each control vertex: whether it stands on a pad.
+  // Per control vertex: whether it has a pad.
   const std::vector<std::uint8_t>& places() const { return under_; }
-  // How far a pad reaches along the edges around, at the most; 0 without a pad.
+  // Largest reach of a pad along the edges around it; 0 without a pad.
   double reach(std::size_t v) const;
-  // From here on the vertex is held by a point force. Hats are to be made anew.
+  // Replaces the vertex' pad by a point force. Hats have to be made again.
   void deactivate(std::size_t v);
-  // The unknowns and the control vertices on pads: the rows of K that (*) speaks of.
+  // The unknowns and the control vertices on pads: the rows of K in (*).
   const Unknowns& rows() const { return rows_; }
 
  private:
@@ -72,7 +71,7 @@ class Pads {
 
   const ControlMesh* mesh_;
   Workers* workers_;
-  std::vector<double> area_;  // of each control face, in the control metric
+  std::vector<double> area_;  // per control face, in the control metric
   std::vector<std::uint8_t> under_, began_under_;
   std::vector<std::array<double, 2>> inverse_;  // 1 / s_ca at both ends of each edge
   std::size_t count_ = 0;
@@ -82,8 +81,8 @@ class Pads {
 // The pads' hats, sampled on a level's points.
 class Hats {
  public:
-  // `omega`: one number a point; empty: the points' shares of the control metric's area, 4^-level of
-  // them. Pads and grid must outlive the hats, and the pads stay what they are.
+  // `omega`: one number a point; empty: the points' shares of the control metric's area, times
+  // 4^-level. Pads and grid must outlive the hats, and the pads must not change.
   Hats(const Pads& pads, const GridLevel& grid, Array<double> omega = {});
 
   const GridLevel& grid() const { return grid_; }
@@ -96,20 +95,20 @@ class Hats {
   // sum_i phi_c(i) r_i for every control vertex c on a pad; r: one number a point.
   NormalLoads gather(const Array<double>& r) const;
 
-  // What follows is about M_cd = sum_i Omega_i phi_c(i) phi_d(i), the hats' mass matrix.
+  // The following functions use M_cd = sum_i Omega_i phi_c(i) phi_d(i), the hats' mass matrix.
   template <int N>
   void multiply_mass(const LoadsOf<N>& loads, LoadsOf<N>& forces) const;
   // loads <- (M + R T)^-1 (1 + R) forces, by a fixed number of Chebyshev steps: a linear map, to
-  // 1e-3 or better. R is a diagonal matrix, `compliance_ratio`, one number a control vertex; empty:
-  // zero. T has the total of each hat.
+  // 1e-3 or better. R is diagonal: `compliance_ratio`, one number a control vertex; empty: zero. T
+  // has the total of each hat.
   template <int N>
   void divide_by_mass(const LoadsOf<N>& forces, LoadsOf<N>& loads,
                       const std::vector<double>& compliance_ratio = {}) const;
-  // The whole of a hat, sum_i Omega_i phi_c(i): the force of a unit load.
+  // The total of a hat, sum_i Omega_i phi_c(i): the force of a unit load.
   double total(std::size_t v) const { return total_[v]; }
 
  private:
-  // Of the hats, on a control face or an edge: the sums of their products and of themselves.
+  // Sums of the hats on a control face or edge, and of their products.
   struct Element {
     double mass[4][4] = {}, total[4] = {};
 
@@ -122,7 +121,7 @@ class Hats {
     double operator()(int i) const { return factor * std::max(0.0, at + slope * i); }
   };
   RowHat row_hat(const Face& face, std::size_t corner, int j) const;
-  // Of the pad under end `h` of an edge, a share `t` of the edge away from it.
+  // The hat of the pad of end `h` of an edge, a share `t` of the edge away from it.
   double hat(std::size_t e, std::size_t h, double t) const {
     return under(std::size_t(mesh_.edges[e].vertex[h]))
                ? std::max(0.0, 1 - t * pads_.inverse_[e][h])
@@ -131,7 +130,7 @@ class Hats {
   // 1 / s_ca along the side from `corner` to the next, seen from its first or its second corner.
   double inverse_along(const Face& face, std::size_t side, bool from_second) const;
 
-  // Weights of points: `weight` where there are such, otherwise by the metric.
+  // Weights of points: `weight` if given, otherwise those of the metric.
   double vertex_weight(std::size_t v, const double* weight) const;
   double metric_weight_of_edge_point(std::size_t e) const;
   double metric_weight_of_face_point(std::size_t f) const;
@@ -146,9 +145,9 @@ class Hats {
   const GridLevel& grid_;
   const ControlMesh& mesh_;
   Workers& workers_;
-  const Array<double> weight_;  // of the level's points; empty: those of the metric
+  const Array<double> weight_;  // per point of the level; empty: those of the metric
 
-  // M on the control mesh: rows of the vertices on pads, the diagonal apart.
+  // M on the control mesh: rows of the vertices on pads, without the diagonal.
   std::vector<Index> row_begin_, column_;
   std::vector<double> value_, diagonal_, total_;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One feature curve in closed form. It depends on its own vertices alone, so that meshes that share
-// a curve agree on it bit for bit.
+// One feature curve in closed form. It depends only on its own vertices, so meshes that share a
+// curve have it bit for bit.
 #pragma once
 
 #include <span>
@@ -15,13 +15,13 @@ namespace fairing {
 // [Kobbelt 1996, §3]; natural at the ends of an open chain, periodic on a loop.
 //
 // Returns, edge by edge along the chain, the subdivisions - 1 interior points of each edge, in the
-// chain's direction. The result depends on the coordinates alone, not on numbering, on the chain's
-// direction or on its first vertex: equal polylines give bit-identical points.
+// chain's direction. The result depends on the coordinates alone, not on numbering, direction or
+// first vertex: equal polylines give bit-identical points.
 std::vector<Vec3> refine_chain(std::span<const Vec3> vertices, bool closed, int subdivisions,
                                double exponent);
 
-// The same through `vertices`, but with the chord lengths and the order of `parameters`: a linear
-// map of `vertices`.
+// The same through `vertices`, with the chord lengths and the order of `parameters`: linear in
+// `vertices`.
 std::vector<Vec3> refine_chain(std::span<const Vec3> parameters, std::span<const Vec3> vertices,
                                bool closed, int subdivisions, double exponent);
 

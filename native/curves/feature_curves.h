@@ -11,7 +11,7 @@ namespace fairing {
 
 struct FeatureCurves {
   int points_per_edge = 0;  // subdivisions - 1
-  // Per edge: the number of its run in `points`; -1: on no chain. Copies share a run.
+  // Per edge: the number of its run in `points`; -1: not on a chain. Copies share a run.
   std::vector<Index> run;
   std::vector<Vec3> points;           // run after run, points_per_edge each
   std::vector<Index> straightened{};  // control edges (curves/straight.h), ascending
@@ -23,18 +23,17 @@ struct FeatureCurves {
   }
 };
 
-// Puts the points of these edges' runs on their edges, about these positions of the control vertices.
+// Moves the points of these edges' runs onto the edges, for these control vertex positions.
 void straighten(const ControlMesh& mesh, std::span<const Index> edges,
                 std::span<const Vec3> positions, FeatureCurves& curves);
 
 // Straight chains stay on their edges (point k is at k / subdivisions, the same from either end,
-// bit for bit); all others are refined by refine_chain, and brought back to their edges where faces
-// are too narrow for them (curves/straight.h).
+// bit for bit). All others are refined by refine_chain, and become straight where faces are too
+// narrow for them (curves/straight.h).
 FeatureCurves refine_feature_edges(const ControlMesh& mesh, int subdivisions, double exponent);
 
-// The same through other positions of the control vertices, one a vertex. The parameters of the
-// chains come from `parameters`; where both are the same array, this is what a mesh with these
-// positions would have.
+// The same through other positions of the control vertices. The parameters of the chains come from
+// `parameters`; if both are the same array, the result is that of a mesh with these positions.
 FeatureCurves refine_feature_edges(const ControlMesh& mesh, std::span<const Vec3> parameters,
                                    std::span<const Vec3> positions, int subdivisions,
                                    double exponent);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Symmetric, diagonally dominant tridiagonal systems, open or cyclic, for three coordinates at
-// once.
+// Symmetric, diagonally dominant tridiagonal systems, open or cyclic, for three coordinates.
 #pragma once
 
 #include <vector>

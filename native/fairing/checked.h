@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What can be said of a mesh before anything is built on it.
+// Checks of a mesh before anything is built on it.
 #pragma once
 
 #include "fairing/options.h"
@@ -8,8 +8,8 @@
 
 namespace fairing {
 
-// Warnings, and the faces to reverse, into `report`. Throws FairingError for what is wrong, or wrong
-// for the energy.
+// Writes warnings and the faces to reverse into `report`. Throws FairingError for defects, and for
+// a mesh that the energy does not accept.
 void check_mesh(const PolygonMesh& input, const FairOptions& options, Report& report);
 
 SheetReport sheets_of(const ControlMesh& mesh);

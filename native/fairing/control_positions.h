@@ -16,8 +16,8 @@
 
 namespace fairing {
 
-// The map between the two: world = centre + scale * working. The scale is a power of two, so it
-// costs no digit, and single precision meets no tiny or huge unit.
+// The map between the two: world = centre + scale * working. The scale is a power of two, so
+// scaling is exact.
 struct Frame {
   Vec3 centre = Vec3::Zero();
   double scale = 1;
@@ -26,16 +26,16 @@ struct Frame {
   Vec3 to_world(const Vec3& working) const { return centre + scale * working; }
 };
 
-// Centred on the bounding box of `world`, one position a control vertex; vertices without faces
-// do not count.
+// Centred on the bounding box of `world`, which has one position for each control vertex. Vertices
+// without faces do not count.
 Frame working_frame(const ControlMesh& mesh, std::span<const Vec3> world);
 
 struct ControlPositions {
-  // Where the surface is held. One a control vertex: the input's, copies of them, centres of split
-  // polygons.
+  // The positions through which the surface passes, one for each control vertex: those of the
+  // input, their copies, centres of split polygons.
   std::vector<Vec3> world, working;
-  // The caller's own, one an input vertex, in world coordinates: others than `world` where the
-  // surface passes through limit positions.
+  // The caller's positions, one for each input vertex, in world coordinates. They differ from
+  // `world` if the surface passes through limit positions.
   std::vector<Vec3> cage;
   FeatureCurves world_curves, working_curves;
 
@@ -46,33 +46,33 @@ struct ControlPositions {
   }
 };
 
-// Of `world` itself: the parameters of curves are those of these positions. `subdivisions`: 2^L
-// for the finest level L. `exponent`: of the control metric (stencil/metric.h). Curves that are
-// `handed` down are as the whole has them. Throws FairingError(bad_shape) where their points are not
-// as many as that takes.
+// The positions `world` themselves, which also give the parameters of the curves. `subdivisions`:
+// 2^L for the finest level L. `exponent`: that of the control metric (stencil/metric.h). `handed`
+// curves are taken from the whole mesh; throws FairingError(bad_shape) if they have the wrong
+// number of points.
 ControlPositions positions_of_mesh(const ControlMesh& mesh, std::vector<Vec3> world,
                                    const Frame& frame, int subdivisions, double exponent,
                                    const HandedCurves& handed);
 
-// Of other positions of the input's vertices: `coordinates`, in world coordinates, 3 a vertex. A
-// linear map of them: the parameters of curves and the centres' weights in their polygons are
-// those of `basis_world`. Handed curves are those of the shape with this number.
+// Other positions of the input's vertices: `coordinates`, world, 3 numbers each. The result is
+// linear in them: curve parameters and the weights of centres in their polygons are those of
+// `basis_world`. Handed curves are those of the shape with this number.
 ControlPositions positions_of_shape(const ControlMesh& mesh, std::span<const Vec3> basis_world,
                                     std::span<const double> coordinates, const Frame& frame,
                                     int subdivisions, double exponent,
                                     const HandedCurves& handed = {}, std::size_t shape = 0);
 
-// `coordinates`, 3 numbers an input vertex, as positions of all control vertices: copies and centres
-// follow, the latter by their weights in `basis_world`.
+// Extends `coordinates`, 3 numbers for each input vertex, to all control vertices: copies, and
+// centres by their weights in `basis_world`.
 std::vector<Vec3> all_positions(const ControlMesh& mesh, std::span<const Vec3> basis_world,
                                 std::span<const double> coordinates);
 
-// Throws FairingError: bad_shape when the coordinates do not come to whole shapes of the mesh;
-// non_finite, naming the shape and the vertices.
+// Throws FairingError: bad_shape if the numbers are not a multiple of those of one shape;
+// non_finite, which names shape and vertices.
 void check_shapes(const PolygonMesh& mesh, std::span<const double> shapes);
 
-// Throws FairingError: bad_shape when the coordinates are not those of so many vertices;
-// non_finite, naming the vertices.
+// Throws FairingError: bad_shape for a wrong number of coordinates; non_finite, which names the
+// vertices.
 void check_positions(std::size_t vertices, std::span<const double> coordinates);
 
 }  // namespace fairing

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Control vertices put where the surface is fair (strain/ease.h), for the thin plate. First those of
-// feature curves, each curve by itself, then the others about the curves as they are by then.
+// Moves control vertices so that the thin plate's surface through them is fair (strain/ease.h).
+// First those of feature curves, each curve by itself, then the others, with the curves as they are
+// then.
 #pragma once
 
 #include <span>
@@ -21,14 +22,14 @@ struct EaseOptions {
 };
 
 struct EaseResult {
-  std::vector<Vec3> moves;  // one an input vertex, in mesh units
+  std::vector<Vec3> moves;  // per input vertex, in mesh units
   Excess before, after;     // strain
-  double amount = 0;        // times the root mean square of what moves ask for: no unit
-  double noise = 0;         // root mean square length of the scatter that was taken out, mesh units
-  int iterations = 0;       // solves, all in all
+  double amount = 0;        // relative to the root mean square of the requested moves; no unit
+  double noise = 0;         // root mean square of the removed scatter, mesh units
+  int iterations = 0;       // solves in total
 };
 
-// Throws what measure_strain() does; too_large where the matrix of loads is.
+// Throws what measure_strain() throws; too_large if the matrix of loads is.
 EaseResult ease_control_mesh(const PolygonMesh& input, const FairOptions& options,
                              const EaseOptions& wanted, Monitor& monitor);
 

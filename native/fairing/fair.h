@@ -15,47 +15,47 @@ namespace fairing {
 
 struct FairResult {
   Array<double> vertices;             // 3 a point; the input's vertices first
-  std::vector<Array<double>> shapes;  // the same of every shape
+  std::vector<Array<double>> shapes;  // likewise, for each shape
   OutputFaces faces;
-  Array<std::int32_t> crease_edges;  // 2 an edge, as by crease_edges() in fairing/output.h
+  Array<std::int32_t> crease_edges;  // 2 vertices per edge, from crease_edges() in fairing/output.h
   Report report;
-  std::optional<MendedMesh> mended{};  // what was faired, where it is not the input itself
+  std::optional<MendedMesh> mended{};  // the mesh that was faired, if it is not the input
 };
 
-// What a run says that has found no memory.
+// The error of a run that could not allocate.
 FairingError out_of_memory();
 
 // The fair surface of a mesh, and of all shapes of `options`. Only reads the arrays of `mesh`. May
-// run on any thread; `monitor` is watched from others. Throws FairingError and nothing else:
-// cancelled and out_of_memory among its codes.
+// run on any thread; other threads may watch `monitor`. Throws FairingError only, with cancelled
+// and out_of_memory among its codes.
 FairResult fair(const PolygonMesh& mesh, const FairOptions& options, Monitor& monitor);
 
-// The same control mesh again and again while its vertices move. Keeps what fair() builds, and the
-// last surface, from which the next one starts. All calls, the destructor's too, come from one
-// thread, one after the other. Throws FairingError and nothing else.
+// Fairs one control mesh repeatedly while its vertices move. Keeps what fair() builds and the last
+// surface, from which the next one starts. All calls, the destructor included, must come from one
+// thread. Throws FairingError only.
 class FairSolver {
  public:
-  // Checks and builds; solves nothing. `options` without shapes; back_leg is refused (bad_option).
+  // Checks and builds; does not solve. `options` without shapes; back_leg is refused (bad_option).
   // `monitor` watches all calls.
   FairSolver(const PolygonMesh& input, const FairOptions& options, Monitor& monitor);
 
-  // Of a surface, its sheets joined.
+  // Points of a surface after its sheets are joined.
   std::size_t points() { return JoinedSheets(systems_->finest()).size(); }
 
-  // out <- the surface of these positions, 3 numbers an input vertex (empty: as last), with charts,
-  // stencils and parameters of curves as built: 3 numbers a point. The first is that of fair().
-  // After an error the next one starts from nothing.
+  // out <- the surface of these positions, 3 numbers for each input vertex (empty: the last ones),
+  // with the charts, stencils and curve parameters as built. The first surface is that of fair().
+  // After an error the next solve does not use an earlier surface.
   Report solve(std::span<const double> coordinates, double* out);
 
-  // Builds anew about these positions. `input` has the same faces as ever; what was mended stays so.
-  // After an error it is about the positions before, and the next surface starts from nothing.
+  // Builds again with these positions. `input` must have the same faces; mending is not repeated.
+  // After an error the old positions remain, and the next solve does not use an earlier surface.
   void rebase(const PolygonMesh& input);
 
   OutputFaces faces();
-  // What is faired, where it is not the input itself, else null.
+  // The mesh that is faired, if it is not the input; otherwise null.
   const MendedMesh* mended() const { return mending_.mended(); }
   Array<std::int32_t> creases() const;
-  // Of the long arrays and factors that are kept.
+  // Bytes of the long arrays and factors that are kept.
   std::size_t bytes() const { return ledger_.current(); }
 
  private:
@@ -72,15 +72,15 @@ class FairSolver {
 
   MemoryLedger ledger_;
   Monitor& monitor_;
-  Report built_;  // what building reports goes into every surface's report
+  Report built_;  // the report of building, copied into every surface's report
   Stopwatch build_watch_;
   Mending mending_;
   std::unique_ptr<const FairingProblem> problem_;
   std::unique_ptr<FairingSystems> systems_;
-  ControlPositions control_;  // of the last call; solvers hold on to its arrays
+  ControlPositions control_;  // of the last call; solvers refer to its arrays
   RecentSurfaces recent_;
   bool was_far_out_ = false;  // the last surface is no start for another (fairing/extremes.h)
-  Array<double> apart_;       // the last surface in world coordinates, where it has several sheets
+  Array<double> apart_;       // the last surface in world coordinates, if it has several sheets
 };
 
 }  // namespace fairing

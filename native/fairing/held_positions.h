@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where a surface is held: at its control vertices, or at their limit positions. And where those are,
-// whether the plate between them is drawn to the limit surface.
+// Whether the surface passes through the control vertices or through their limit positions, and in
+// the latter case whether the plate between them is attracted to the limit surface.
 #pragma once
 
 #include <memory>
@@ -14,22 +14,22 @@
 namespace fairing {
 
 struct HeldPositions {
-  std::shared_ptr<const CatmullClark> limits{};   // at the limit positions of these; null: not so
-  std::shared_ptr<const LimitSurface> surface{};  // where the thin plate is drawn to it
+  std::shared_ptr<const CatmullClark> limits{};   // to limit positions; null: the vertices stay
+  std::shared_ptr<const LimitSurface> surface{};  // if the thin plate is attracted to it
 
-  // Of other positions of the input's vertices, 3 numbers each: where these are held.
+  // The positions to hold for other positions of the input's vertices, 3 numbers each.
   std::vector<double> of(std::span<const double> coordinates) const;
 };
 
 struct HeldMesh {
   HeldPositions rule{};
-  std::vector<Vec3> world{};  // one a control vertex: the input's, copies of them, centres
+  std::vector<Vec3> world{};  // per control vertex: the input's, their copies, centres
 };
 
-// Throws FairingError where the vertices of `input` are held at limit positions that have no shape.
+// Throws FairingError if limit positions of `input` are degenerate.
 void check_held(const HeldPositions& held, const PolygonMesh& input, Repair repair);
 
-// `mesh` is made of `input`. Throws FairingError where limit positions have no shape.
+// `mesh` is made from `input`. Throws FairingError if limit positions are degenerate.
 HeldMesh held_positions(const PolygonMesh& input, const ControlMesh& mesh,
                         const FairOptions& options);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A surface's sheets joined again (mesh/sheets.h): what is a copy on the grid is one point with its
-// original in the result. Points keep their order. Of a double cover's halves the mean is taken, so
-// that the surface is as smooth where these are joined as anywhere.
+// Joins a surface's sheets (mesh/sheets.h): copies and their original on the grid become one point
+// of the result. Points keep their order. The two halves of a double cover are averaged, so that
+// the surface is as smooth at their seam as elsewhere.
 #pragma once
 
 #include "grid/grid_level.h"
@@ -13,21 +13,21 @@ class JoinedSheets {
   // `grid` must outlive it.
   explicit JoinedSheets(const GridLevel& grid);
 
-  // False where nothing is a copy: all that follows changes nothing then.
+  // False if there are no copies; then all that follows changes nothing.
   bool needed() const { return vertices_.copies < vertices_.end; }
-  // Points of the result.
+  // Number of points of the result.
   std::size_t size() const;
-  // Where the grid's point p is in the result.
+  // Index in the result of the grid's point p.
   Index operator()(Index p) const;
-  // out <- `points`, the grid's, 3 numbers each, without copies; may be the same array. Of double
-  // covers the first half becomes the mean of both in `points`.
+  // out <- `points` of the grid, 3 numbers each, without copies; may be the same array. For double
+  // covers the first half in `points` becomes the mean of both.
   void join(double* points, double* out) const;
 
  private:
   void set_means(double* points) const;
 
   const GridLevel& grid_;
-  // Of what is copied, in the order of the grid's points.
+  // A range of the grid's points that has copies, in their order.
   struct Block {
     Index begin, copies, end;
   };

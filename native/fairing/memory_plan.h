@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How large a run will be, before anything is allocated: points and triangles exactly; bytes as a bound
-// a point and a level, up to twice the peak (tests/python/test_memory.py).
+// The size of a run before anything is allocated: points and triangles exactly; bytes as an upper
+// bound per point and level, up to twice the peak (tests/python/test_memory.py).
 #pragma once
 
 #include <cstddef>
@@ -13,14 +13,14 @@ namespace fairing {
 
 struct RunSize {
   std::int64_t points = 0;
-  std::int64_t solved = 0;     // the same with sheets apart, as the solve has them
+  std::int64_t solved = 0;     // likewise with sheets apart, as the solve has them
   std::int64_t triangles = 0;  // the whole surface as triangles
-  std::int64_t bytes = 0;  // peak of the run's own arrays, the largest number beyond any machine
+  std::int64_t bytes = 0;      // peak of the run's own arrays; saturates at the largest number
 };
 
-// From the number of vertices, up to 2^31, and from faces that require_faces() lets pass: polygons as
-// if split around a centre, quads that will be split as quads, all in the region. `options`: levels,
-// energy and what else takes memory.
+// From the number of vertices, up to 2^31, and faces that pass require_faces(): polygons as if
+// split around a centre, quads that will be split as quads, all inside the region. `options`
+// provides levels, energy and all that takes memory.
 RunSize predict_size(std::int64_t vertices, std::span<const std::int64_t> corners,
                      std::span<const std::int64_t> offsets, std::size_t shapes,
                      const FairOptions& options);

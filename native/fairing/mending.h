@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A run on a mended mesh, for a caller who knows of the input only: ids go through the mending on
-// their way in, and back on their way out.
+// Runs on a mended mesh for a caller who knows only the input: translates ids on the way in and
+// out.
 #pragma once
 
 #include <vector>
@@ -13,21 +13,21 @@
 
 namespace fairing {
 
-// Throws what is wrong with the arrays themselves, as far as a run would not mend it.
+// Throws for defects of the arrays themselves that a run would not mend.
 void require_readable(const PolygonMesh& input, Repair repair);
 
 class Mending {
  public:
-  // Mends where `options` ask for it. The arrays of `input` and the spans of `options` must outlive
+  // Mends if `options` ask for it. The arrays of `input` and the spans of `options` must outlive
   // this. May throw FairingError and bad_alloc.
   Mending(const PolygonMesh& input, const FairOptions& options);
   Mending(const Mending&) = delete;
   Mending& operator=(const Mending&) = delete;
 
-  // What is to be faired, and how. The same as given where nothing had to be mended.
+  // The mesh to fair and its options; the given ones if nothing was mended.
   const PolygonMesh& mesh() const { return mesh_; }
   const FairOptions& options() const { return options_; }
-  // Where nothing had to be mended, null.
+  // Null if nothing was mended.
   const MendedMesh* mended() const { return mended_.changed() ? &mended_ : nullptr; }
 
   // Other positions of the input's vertices, as positions of mesh().
@@ -35,13 +35,13 @@ class Mending {
     return mended_.placed(coordinates);
   }
 
-  // From here back to the input: points of a surface, of vertices that were merged; the polygons of
-  // faces, and what a report says of faces and vertices.
+  // Back to the input's ids: points of a surface at merged vertices, the polygons of faces, and the
+  // faces and vertices of a report.
   void restore_points(double* world) const;
   void restore(OutputFaces& faces) const;
   void restore(Report& report) const;
 
-  // call(), its errors about faces in the input's ids.
+  // Runs call() and translates its errors to the input's ids.
   template <class Call>
   auto in_input_ids(Call&& call) const {
     try {

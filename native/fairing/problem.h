@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What all surfaces of one control mesh have in common, and nothing changes once it is made: the
-// mesh, its positions, charts and stencils, what is unknown and what holds it, threads.
+// What all surfaces of one control mesh share and what never changes: the mesh, its positions,
+// charts and stencils, unknowns, constraints, threads.
 #pragma once
 
 #include <memory>
@@ -22,12 +22,12 @@ struct FairingProblem {
   FairOptions options;
   std::shared_ptr<Workers> workers;
   ControlMesh mesh;  // in working coordinates
-  double exponent;   // of the metric
+  double exponent;   // of the control metric
   Unknowns unknowns;
   ChosenNormals normals;
   HeldPositions held{};
 
-  // Of the positions that charts and stencils are made about.
+  // The frame of the positions from which charts and stencils are made.
   Frame frame{};
   ControlPositions basis{};
   MeshUnits units{};
@@ -37,17 +37,17 @@ struct FairingProblem {
 
   std::unique_ptr<ChartMaker> charts() const { return make_charts(mesh, exponent, options.paper); }
 
-  // Other positions of the input's vertices, 3 numbers each in world coordinates, with the basis'
-  // parameters of curves.
+  // Other positions of the input's vertices, 3 numbers each in world coordinates, with the curve
+  // parameters of the basis.
   ControlPositions control_positions(std::span<const double> coordinates) const;
-  // Of one of the options' shapes, with the curves that are handed down for it.
+  // One of the options' shapes, with its handed curves.
   ControlPositions shape_positions(std::size_t shape) const;
-  // The mirror symmetries that the mesh has with these positions too.
+  // The mirror symmetries of the mesh that these positions have too.
   Mirrors mirrors_of(const ControlPositions& control) const {
     return kept_by(control, mesh, frame, mirrors);
   }
-  // What holds control vertices about these positions; weights in this unit. `control` must outlive
-  // it.
+  // The constraints of the control vertices at these positions, with weights in this unit.
+  // `control` must outlive them.
   ControlConstraints constraints_of(const ControlPositions& control, double unit) const {
     if (options.interpolation != Interpolation::approximate)
       return {mesh, control.working, unknowns};
@@ -57,23 +57,23 @@ struct FairingProblem {
  private:
   ControlPositions about(std::span<const double> coordinates, const HandedCurves& handed,
                          std::size_t shape) const;
-  // One an input vertex and copy: in working coordinates, infinity: none; the caller's, or empty.
+  // Per input vertex and copy, in working coordinates; infinity: none. May be empty.
   std::vector<double> working_tolerances() const;
   std::vector<double> weights_with_copies() const;
 };
 
-// The checks of fair() alone: throws what is wrong with a mesh, and puts warnings into `report`.
+// The input checks of fair(): throws for defects, writes warnings into `report`.
 void check_input(const PolygonMesh& input, const FairOptions& options, Stopwatch& watch,
                  Report& report);
 
-// Checks all input, and makes the problem about its positions. Warnings and sizes go to `report`.
-// What the spans of `options` show must outlive the problem. Throws FairingError and bad_alloc.
+// Checks the input and makes the problem. Warnings and sizes go to `report`. The memory that the
+// spans of `options` refer to must outlive the problem. Throws FairingError and bad_alloc.
 std::unique_ptr<const FairingProblem> make_problem(const PolygonMesh& input,
                                                    const FairOptions& options, Stopwatch& watch,
                                                    Report& report);
 
-// The same about other positions of the input's vertices: charts, stencils, curves. Faces, splits and
-// creases stay.
+// The same with other positions of the input's vertices: new charts, stencils and curves; faces,
+// splits and creases stay.
 std::unique_ptr<const FairingProblem> make_problem_about(const PolygonMesh& input,
                                                          const FairingProblem& like,
                                                          Stopwatch& watch);

@@ -37,26 +37,28 @@ class RecentSurfaces {
     earlier_plate_ = {};
   }
 
-  // The last surface, to be overwritten by the next one before remember().
+  // The last surface; overwrite it with the next one, then call remember().
   Surface& surface() { return surface_; }
   // surface() is that of these control positions.
   void remember(std::span<const Vec3> positions);
 
-  // surface().plate <- x' for the p' of the form above nearest to these positions, by least squares over
-  // the control vertices; its loads on pads change alike, but for translations. May throw FairingError(cancelled) and bad_alloc.
+  // surface().plate <- x' for the p' of the form above that is nearest to these positions in least
+  // squares; the loads on pads change likewise, except for translations. May throw
+  // FairingError(cancelled) and bad_alloc.
   void extrapolate(std::span<const Vec3> positions);
-  // That p': whose plate surface() now has.
+  // That p', to which surface() belongs now.
   const std::vector<Vec3>& extrapolated() const { return extrapolated_; }
 
  private:
-  // t, A and B, transposed and on top of each other.
+  // t, A and B, transposed, stacked.
   using Coefficients = Eigen::Matrix<double, 7, 3>;
   Coefficients fit(std::span<const Vec3> positions) const;
 
   Workers& workers_;
   bool known_ = false, has_earlier_ = false;
   std::vector<Vec3> positions_, earlier_positions_, extrapolated_;
-  // The earlier surface is from before the present kind of change: p - p* grows while that lasts.
+  // The earlier surface, from before the current kind of change, so that p - p* grows during a
+  // drag.
   Surface surface_;
   Array<double> earlier_plate_;
   Loads earlier_loads_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a run has to say besides the surface. binding/report.cpp makes dicts of these structs, field
-// by field in the same order; docs/python/fair.md describes them to callers.
+// The results of a run other than the surface. binding/report.cpp converts these structs to dicts,
+// field by field in the same order; docs/python/report.md describes them.
 #pragma once
 
 #include <chrono>
@@ -15,7 +15,7 @@
 
 namespace fairing {
 
-// Of one surface on the finest level. NaN where it was not to be measured.
+// Of one surface on the finest level. NaN: not measured.
 struct SurfaceEnergies {
   // In the control metric; mesh units^(2 - 2 exponent).
   double thin_plate = 0;
@@ -23,7 +23,7 @@ struct SurfaceEnergies {
   double total_curvature = 0;
 };
 
-// Of one further shape, on the finest level.
+// For one further shape, on the finest level.
 struct ShapeReport {
   LevelReport finest;
   bool converged = false;  // as Report::converged()
@@ -32,21 +32,21 @@ struct ShapeReport {
   double normal_angle = 0;  // degrees
 };
 
-// Fixed normals: of how many input vertices, and the largest angle that is left; degrees.
+// Fixed normals: their number, and the largest remaining angle in degrees.
 struct NormalReport {
   std::size_t fixed = 0;
   double largest_angle = 0;
 };
 
-// The pads under the input vertices: how many are gone, and each one's width, 0 where there is none.
-// Empty without pads.
+// Pads of the input vertices: how many are left out, and the width of each, 0 for none. Empty
+// without pads.
 struct PadReport {
   std::size_t gone = 0;
   std::vector<double> widths;
 };
 
-// How many sheets the input is made of (mesh/sheets.h), how many edges have more than two faces, and
-// at how many other vertices sheets touch; and how many sheets have only one side.
+// The number of sheets (mesh/sheets.h), of edges with more than two faces, of other vertices where
+// sheets touch, and of sheets with one side.
 struct SheetReport {
   std::size_t count = 0, nonmanifold_edges = 0, nonmanifold_vertices = 0, one_sided = 0;
 };
@@ -57,44 +57,44 @@ struct PhaseSeconds {
 };
 
 struct Report {
-  // Of the surface, of the control polyhedron, and of the start on the finest level.
+  // Energies of the surface, of the control polyhedron, and of the start on the finest level.
   SurfaceEnergies result, polyhedron, prediction;
   // Linear solves, coarse to fine.
   std::vector<LevelReport> levels;
   // Gauss-Newton steps, coarse to fine; empty for the thin plate.
   std::vector<CurvatureLevelReport> curvature;
-  // Started from an earlier surface.
+  // Whether an earlier surface was used.
   bool warm = false;
   std::vector<ShapeReport> shapes;
   std::vector<PhaseSeconds> seconds;
-  // Of the run's own long arrays and factors.
+  // Bytes of the run's own long arrays and factors.
   std::size_t predicted_bytes = 0, peak_bytes = 0;
-  // Of an input vertex from where it was given, in mesh units.
+  // Largest distance of an input vertex from its given position, in mesh units.
   double largest_deviation = 0;
-  // Solves that tolerance or epsilon took.
+  // Corrections made for a tolerance or epsilon.
   int constraint_rounds = 0;
-  // Tolerance: how far the energy may be over the least possible one, relative.
+  // With a tolerance: bound on how far the energy is above the minimum, relative.
   double constraint_gap = 0;
   PadReport pads;
   NormalReport normals;
   SheetReport sheets;
   int threads = 1;
   std::vector<Warning> warnings;
-  // What Repair::mend has done, each with all elements of the input concerned.
+  // Repairs by Repair::mend, each with all input elements concerned.
   std::vector<Warning> repairs;
   // Input faces that were reversed by Repair::mend.
   std::vector<std::int64_t> flipped_faces;
 
-  // Whether the surface is as near to the solution as was promised; one that is not has a warning
-  // (warnings.h). What became of coarser levels, and of the thin plate that steps start from, is
-  // theirs alone. Needs a level.
+  // Whether the surface is as near to the solution as promised; otherwise there is a warning
+  // (warnings.h). Coarser levels, and the thin plate that steps start from, do not count. Needs a
+  // level.
   bool converged() const {
     return curvature.empty() ? levels.back().converged : curvature.back().converged;
   }
 };
 
-// Writes the seconds of each phase into a report, a phase that comes again added to the first, and
-// tells the monitor where the run is. enter() throws FairingError(cancelled) where that was asked.
+// Adds the seconds of each phase to a report and shows the phase in the monitor. enter() throws
+// FairingError(cancelled) if that was requested.
 class Stopwatch {
  public:
   Stopwatch(Report& report, Monitor& monitor) : report_(report), monitor_(monitor) {}

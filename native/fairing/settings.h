@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The table of settings: of each its name, its range, and its member of FairOptions. The binding and
-// check_options() read it; what a setting means stands at its member (options.h).
+// The table of settings: name, range and member of FairOptions for each. The binding and
+// check_options() read it; options.h documents the members.
 #pragma once
 
 #include "fairing/options.h"
 
 namespace fairing {
 
-// Of a number, both ends included.
+// Range of a number, both ends included.
 struct Range {
   double low, high;
 };
 
-// Of what is no number, or is checked with the mesh.
+// For values that are not numbers or are checked with the mesh.
 struct AnyValue {};
 
 constexpr Range unit_interval{0, 1}, any_length{0, 1e300}, positive_count{1, 2147483647};
 
-// visit(name, range, members...): the last of the members holds the value, in the one before.
+// visit(name, range, members...): the last member holds the value, in the struct of the one before.
 template <class Visit>
 void for_each_setting(Visit&& visit) {
   using O = FairOptions;

@@ -5,9 +5,9 @@
 
 namespace fairing {
 
-// Up to this angle normals tell which side of a surface is up. A fixed normal farther from those of the
-// faces around is refused. Where the control mesh turns by more, the surface may by over 90 degrees: a
-// cube's does by 96 around its vertices, on point forces.
+// Up to this angle a normal shows which side of a surface is up; a fixed normal farther from the
+// faces around is refused. If the control mesh turns by more, the surface may turn by over 90
+// degrees: a cube's does by 96 around its vertices, on point forces.
 constexpr double steepest = 80 * degree;
 
 }  // namespace fairing

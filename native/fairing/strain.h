@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Strain: which control vertices fight the surface. The load on a vertex' pad is that fight; over
-// the load that a unit's move of this vertex alone would ask for (strain/load_matrix.h), it is the way
-// by which the surface would spring, were that one vertex let go. For the thin plate.
+// Strain shows which control vertices spoil the surface. It is the load on a vertex' pad over the
+// load of a unit move of that vertex alone (strain/load_matrix.h): the distance by which the
+// surface would move if that vertex were released. For the thin plate.
 #pragma once
 
 #include "fairing/options.h"
@@ -14,23 +14,23 @@ namespace fairing {
 struct Strain {
   Ways all;
   Excess excess;
-  std::vector<std::uint8_t> on_curve;  // one an input vertex, over zero where a curve says it
+  std::vector<std::uint8_t> on_curve;  // per input vertex; nonzero if its strain is that of a curve
 };
 
-// Loads are solved for on level `levels` of the options, at most on the second: they hardly change
-// from there on. Throws FairingError: bad_option for other energies, for control vertices that are
-// not to stay, and for point forces.
+// Loads are solved for on level `levels` of the options, at most on level 2, since they hardly
+// change on finer ones. Throws FairingError: bad_option for other energies, for control vertices
+// that may move, and for point forces.
 Strain measure_strain(const PolygonMesh& input, const FairOptions& options, Monitor& monitor);
 
-// What the surface of these positions asks for on its pads.
+// The loads on pads of the surface through these positions.
 struct PlateLoads {
-  Loads free;    // as it is: no moment on curves
-  Loads turned;  // with those of strain/border_moments.h
+  Loads free;    // without moments on curves
+  Loads turned;  // with the moments of strain/border_moments.h
 };
 PlateLoads solve_loads(const FairingProblem& problem, FairingSystems& systems,
                        const ControlPositions& control, Stopwatch& watch);
 
-// The options of the solve that strain is read off; throws what measure_strain() does.
+// The options of the solve that measures strain; throws what measure_strain() throws.
 FairOptions options_of_strain(const FairOptions& given);
 
 }  // namespace fairing

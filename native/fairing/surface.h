@@ -5,11 +5,11 @@
 
 namespace fairing {
 
-// A surface as the systems have found it: 3 numbers a point, in working coordinates.
+// A surface as solved: 3 numbers a point, in working coordinates.
 struct Surface {
   Array<double> plate;     // the thin plate's
-  PlateState state;        // what holds that
-  Array<double> curved{};  // of a curvature energy, found by steps from the plate; else empty
+  PlateState state;        // loads and targets that hold it
+  Array<double> curved{};  // that of a curvature energy, found by steps from the plate; else empty
 
   Array<double>& points() { return curved.empty() ? plate : curved; }
   const Array<double>& points() const { return curved.empty() ? plate : curved; }

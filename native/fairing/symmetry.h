@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which mirror symmetries a surface keeps: those that everything it depends on has. Gauss-Newton
-// steps take the mean with the mirror image, for they would amplify what rounding makes of it.
+// The mirror symmetries that a surface keeps: those of everything it depends on. Gauss-Newton steps
+// average with the mirror image, because they amplify rounding.
 #pragma once
 
 #include "fairing/control_positions.h"
@@ -14,7 +14,7 @@ namespace fairing {
 std::vector<Mirror> find_symmetry(const ControlMesh& mesh, const ControlPositions& control,
                                   const Frame& frame, const FairOptions& options);
 
-// Those of `mirrors` that other positions, a shape's, have too. Points to elements of `mirrors`.
+// Those of `mirrors` that other positions have too. Points to elements of `mirrors`.
 Mirrors kept_by(const ControlPositions& control, const ControlMesh& mesh, const Frame& frame,
                 const std::vector<Mirror>& mirrors);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The systems that the surfaces of one problem are solved with. fair() uses them once for each
-// shape, FairSolver again and again; they may be dropped in between.
+// The systems with which the surfaces of one problem are solved. fair() uses them once for each
+// shape, FairSolver repeatedly; they may be dropped in between.
 #pragma once
 
 #include <memory>
@@ -14,69 +14,68 @@
 
 namespace fairing {
 
-// Throws FairingError and bad_alloc, from every member that takes a Stopwatch. After an error the
-// systems may be half done: drop() them, and they are built anew.
+// Every member that takes a Stopwatch throws FairingError and bad_alloc. After an error the systems
+// may be incomplete: drop() them, and they are built again.
 class FairingSystems {
  public:
-  // Builds the thin plate's. Both references must outlive the systems.
+  // Builds that of the thin plate. Both references must outlive the systems.
   FairingSystems(const FairingProblem& problem, Monitor& monitor);
 
-  // The thin plate's, built again where it has been dropped. Its smoother adapts to the surfaces
-  // that are solved until keep_smoother().
+  // The thin plate's solver, built again if it was dropped. Its smoother adapts to the solved
+  // surfaces until keep_smoother().
   ThinPlateSolver& plate();
-  // What a surface depends on, in working coordinates: where it is held, and the cage where it is drawn to
-  // that one's limit surface.
+  // The positions on which a surface depends, in working coordinates: the held ones, and the cage
+  // if the plate is attracted to its limit surface.
   std::vector<Vec3> positions_of(const ControlPositions& control) const;
   const GridLevel& finest() { return plate().levels().grid(problem_.options.levels); }
-  // Gives the memory of all of them back.
+  // Frees the memory of all of them.
   void drop();
 
-  // One surface from nothing, level by level: the thin plate's, then Gauss-Newton steps from there for a
-  // curvature energy. Reports levels, steps and rounds; the prediction's energies only where they are to
-  // be `measured`.
+  // Solves one surface level by level: the thin plate, then Gauss-Newton steps for a curvature
+  // energy. Reports levels, steps and rounds, and the prediction's energies if `measured`.
   Surface solve(const ControlPositions& control, bool measured, Stopwatch& watch, Report& report);
-  // The same from the last surface, which these systems have found, to the finest level's alone. False:
-  // that does not go well, and solve() has to. `control` must outlive the next call.
+  // The same on the finest level alone, from the last surface of these systems. False if that does
+  // not succeed: call solve(). `control` must outlive the next call.
   bool solve_moved(const ControlPositions& control, RecentSurfaces& recent, Stopwatch& watch,
                    Report& report);
   // Frees what only solve_moved() needs.
   void forget_steps() { steps_.reset(); }
 
-  // The surface to `world`, which may be the array of its points, with control vertices released by
-  // epsilon where that is asked for; its energies, where they are to be `measured`, its deviation and
-  // what is to be said of its thickness to `report`. Throws too_extreme where the surface is not finite.
+  // Writes the surface to `world`, which may be the array of its points, with epsilon applied if
+  // requested. Reports its energies if `measured`, its deviation and warnings of its thickness.
+  // Throws too_extreme if the surface is not finite.
   void write(const ControlPositions& control, bool measured, Stopwatch& watch, Report& report,
              const Surface& surface, double* world);
 
-  // Whether it is known where a plate's folds are filled, or no plate is the surface.
+  // Whether it is known where a plate's folds are filled, or that the plate is not the result.
   bool knows_folds() const {
     return repair_.has_value() || problem_.options.energy != Energy::thin_plate;
   }
-  // From the basis' surface; `upright` becomes that surface without them, where any can be filled.
+  // From the basis' surface; `upright` becomes that surface without folds, if any can be filled.
   void find_folds_of_basis(const double* x, Array<double>& upright);
 
  private:
-  // The thin plate's surface without folds, which is `x` where that has none; where curves had to give
-  // way, `control` with these.
+  // The thin plate's surface without folds, `x` itself if it has none; and `control` with straight
+  // curves if some had to become straight.
   struct Upright {
     const double* x;
     Array<double> own{};
     std::optional<ControlPositions> control{};
   };
   Upright unfolded(const ControlPositions& control, Report& report, const double* x);
-  // What the thin plate's surface of these positions is to come up to. Valid until the next call, and
-  // as long as `control` is.
+  // The right-hand side for the thin plate's surface of these positions. Valid until the next call,
+  // and as long as `control` is.
   PlateData data_of(const ControlPositions& control);
-  // The limit surface of a cage in working coordinates on the finest level, with control vertices where
-  // they are held; empty where nothing is drawn to it.
+  // The limit surface of a cage in working coordinates on the finest level, with control vertices
+  // at their held positions; empty if nothing is attracted to it.
   Array<double> goal_of(std::span<const Vec3> cage, std::span<const Vec3> held);
   std::unique_ptr<GaussNewtonSolver> make_steps(const ControlPositions& control);
   void solve_levels(const ControlPositions& control, const ThinPlateSolver::OnPrediction& predicted,
                     Report& report, Surface& out);
-  // How wide the pads of the latest surface are, and how its fixed normals came out.
+  // Reports the pad widths of the latest surface and the errors of its fixed normals.
   void report_held(Report& report);
   SurfaceEnergies energies(const double* x);
-  // During a solve: the energies of its start x on the finest level, where they are to be `measured`.
+  // During a solve: the energies of its start x on the finest level, if `measured`.
   ThinPlateSolver::OnPrediction on_prediction(bool measured, Stopwatch& watch, Report& report);
   bool releases() const {
     return problem_.options.paper.epsilon > 0 && problem_.options.energy == Energy::thin_plate;
@@ -85,9 +84,9 @@ class FairingSystems {
   const FairingProblem& problem_;
   Monitor& monitor_;
   std::unique_ptr<ThinPlateSolver> plate_;
-  std::unique_ptr<GaussNewtonSolver> steps_;  // of a curvature energy, once a surface is solved
-  // Of the basis, once that has been solved; other positions get the same linear map, so that mixes of
-  // shapes are shapes of mixes.
+  std::unique_ptr<GaussNewtonSolver> steps_;  // for a curvature energy, after the first surface
+  // Found for the basis; other positions get the same linear map, so that mixtures of shapes have
+  // the mixtures of their surfaces.
   std::optional<PlateRepair> repair_;
   Array<double> goal_;
 };

@@ -8,13 +8,13 @@
 
 namespace fairing {
 
-// Inside the region: control vertices that are free or weighted, and all points that are not on a
-// feature curve. May throw FairingError(cancelled).
+// Inside the region: free and weighted control vertices, and all points off feature curves. May
+// throw FairingError(cancelled).
 Unknowns choose_unknowns(const ControlMesh& mesh, const FairOptions& options);
 
-// Throws FairingError(underdetermined), naming the vertices, when a component of the mesh has
-// neither a fixed nor a weighted control vertex: any one point would be its fairest surface.
-// `weights`: one a control vertex, or empty.
+// Throws FairingError(underdetermined), naming the vertices, if a component has neither a fixed nor
+// a weighted control vertex: any single point would be its fairest surface. `weights`: per control
+// vertex, or empty.
 void require_anchored(const ControlMesh& mesh, const Unknowns& unknowns,
                       const VertexWeights& weights);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a run says of itself: that it takes more memory than was predicted, has straight lines
-// in the place of curves, has not converged, or has made a body thicker or thinner.
+// Warnings of a run: more memory than predicted, straight lines in place of curves, not converged,
+// a body thicker or thinner than the mesh.
 #pragma once
 
 #include <string>
@@ -13,25 +13,24 @@
 
 namespace fairing {
 
-// Who watches is told of a run that is about to take more than the report predicts.
+// Tells the observer that a run is about to take more memory than predicted.
 void expect_memory(const Report& report);
 
-// Reports the peak, with a warning when the run has taken markedly more than was predicted.
+// Reports the peak, with a warning if the run has taken clearly more than predicted.
 void warn_of_memory(const MemoryLedger& ledger, Report& report);
 
-// Adds a warning that names these control edges, if there are any: their curves are straight lines,
-// since the faces beside them are too narrow.
+// Adds a warning that names these control edges, if any: their curves are straight because the
+// faces beside them are too narrow.
 void warn_straightened(const ControlMesh& mesh, const std::vector<Index>& edges, Report& report);
 
-// Adds a warning to `report` when a surface has not converged (Report::converged()), with its level,
-// what is left and what to do; `of` begins it. Its code, which begins with NOT_CONVERGED, says why.
-// `surface` may be the same report.
+// Adds a warning to `report` if a surface has not converged (Report::converged()), with its level,
+// the remaining error and advice; the message begins with `of`. Its code begins with NOT_CONVERGED
+// and says why. `surface` may be the same report.
 void warn_unconverged(const Report& surface, const FairOptions& options, const std::string& of,
                       Report& report);
 
-// Adds a warning where the surface x on the finest level, in working coordinates, is thicker or thinner
-// than the control mesh with its vertices where the surface has them (grid/thickness.h), with the
-// faces, by how much, and what to do.
+// Adds a warning if the surface x on the finest level, in working coordinates, is thicker or
+// thinner than the control mesh (grid/thickness.h), with the faces, the amount and advice.
 void warn_of_thickness(const GridLevel& grid, Workers& workers, const double* x,
                        const FairOptions& options, Report& report);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sums of local contributions over a level, in parallel and bit-identical for any number of
-// threads: a contribution to a point of another element is left in a slot of its own, and added by
-// the element that has the point.
+// threads: a contribution to a point of another element is written to its own slot, and added by
+// the element of the point.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +16,10 @@ namespace fairing {
 struct Unknowns {
   std::vector<std::uint8_t> vertex, edge;  // per control vertex, per control edge
   bool any_vertex = false;
-  std::vector<std::uint8_t> face{};  // per control face; empty: all of them
+  std::vector<std::uint8_t> face{};  // per control face; empty: all
 
   bool has_face(std::size_t f) const { return face.empty() || face[f]; }
-  // Whether the points of a run are.
+  // Whether the points of a run are unknowns.
   bool has(const Run& run) const {
     const auto element = std::size_t(run.element);
     switch (run.kind) {
@@ -30,13 +30,13 @@ struct Unknowns {
   }
 };
 
-// The slots of one level; they serve smaller levels too.
+// The slots of one level; they also fit coarser levels.
 template <class T, int C = 3>
 struct ElementSlots {
-  Array<T> row;    // per side: what the edge adds to the face's first row, in the edge's direction
-  Array<T> side;   // per side: what the face adds to the side's points 0 … n - 1
-  Array<T> end;    // per edge: what it adds to its two ends
-  Array<T> spoke;  // per spoke: what the vertex adds to the points along it and across its quad
+  Array<T> row;    // per side: the edge's share of the face's first row, in the edge's direction
+  Array<T> side;   // per side: the face's contribution to the side's points 0 … n - 1
+  Array<T> end;    // per edge: its contribution to its two ends
+  Array<T> spoke;  // per spoke: the vertex' contribution to the points along it and across its quad
 
   void fit(const GridLevel& grid) {
     const auto& mesh = grid.mesh();
@@ -214,10 +214,10 @@ void accumulate(const GridLevel& grid, Workers& workers, ElementSlots<T, C>& slo
   accumulate(grid, workers, slots, unknowns, out, scratch, vertex_body, edge_body, face_body);
 }
 
-// The same for what runs add to themselves and to their neighbours: body(run, target, state) adds
-// what slot s of the run's point i gets to target[s] + C * i, where zeros are at first. The slots
-// of a run overlap: the order in which a body adds is the order of the sums. make_state() is
-// for_each_run's.
+// The same for contributions of runs to themselves and their neighbours: body(run, target, state)
+// adds the contribution to slot s of the run's point i to target[s] + C * i, which is zero at
+// first. The slots of a run overlap, so the order of additions in body is the order of the sums.
+// make_state() is that of for_each_run.
 template <class T, int C, class MakeState, class Body>
 void accumulate_runs(const GridLevel& grid, Workers& workers, ElementSlots<T, C>& slots,
                      const Unknowns* unknowns, T* out, MakeState&& make_state, Body&& body) {

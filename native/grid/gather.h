@@ -30,7 +30,7 @@ inline std::size_t side_offset(bool quad, int n, int s, int k, int r = 0) {
 // Number of points in the row next to a side, its two ends (on other sides) included.
 constexpr int row_size(bool quad, int n) { return quad ? n + 1 : n; }
 
-// Numbers in an edge's lane: points 0 … n, padded to whole blocks, which loops may write.
+// Size of an edge's lane: points 0 … n, padded to whole blocks, which loops may write.
 constexpr int lane_block = 8;
 template <int C = 3>
 constexpr std::size_t lane_stride(int n) {
@@ -45,7 +45,7 @@ void clear_lanes(int n, T* run, T* left, T* right) {
 }
 
 // The offsets in closed storage of the points (k, r), (k + 1, r), … in side coordinates. Along
-// sides 1 and 2 of a triangle, rows get shorter: the step changes by one each time.
+// sides 1 and 2 of a triangle rows become shorter, so the step changes by one each time.
 struct SideWalk {
   std::ptrdiff_t offset, step, change;
   void next() {
@@ -72,8 +72,8 @@ inline SideWalk side_walk(bool quad, int n, int s, int k, int r) {
   return walk;
 }
 
-// The same among a face's interior points, for the row r = 1. These are a smaller closed face, whose
-// sides that row runs along.
+// The same among a face's interior points, for the row r = 1. These are a smaller closed face, and
+// the row runs along its sides.
 inline SideWalk interior_walk(bool quad, int n, int s, int k) {
   return side_walk(quad, quad ? n - 2 : n - 3, s, k - 1, 0);
 }
@@ -112,8 +112,8 @@ void gather_row(const GridLevel& grid, const T* x, const Side& side, T* row) {
                 x + C * std::size_t(grid.side_point(side_at((side.local + 1) % sides), 1)));
 }
 
-// Calls body.template operator()<quad, n>(). The n that most meshes are refined to are constants
-// for the compiler; n = 0 stands for all others.
+// Calls body.template operator()<quad, n>(). Usual values of n are compile-time constants; n = 0 is
+// for all others.
 template <class Body>
 inline void with_shape(bool quad, int n, Body&& body) {
   if (quad) {

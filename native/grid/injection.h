@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Injection: a fine level's numbers at the points that the coarse level shares with it.
+// Injection: the values of a fine level at the points of the coarse level.
 #pragma once
 
 #include "grid/grid_level.h"

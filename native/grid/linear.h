@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The control polyhedron as a surface: where iterations start, and what lies outside a region.
+// The control polyhedron as a surface: the start of iterations, and the outside of a region.
 #pragma once
 
 #include "grid/grid_level.h"
@@ -13,7 +13,7 @@ void refine_linearly(const GridLevel& grid, std::span<const Vec3> control, Worke
 // The same on the calling thread alone.
 void refine_linearly(const GridLevel& grid, std::span<const Vec3> control, double* x);
 
-// The same for the edges and faces outside the region and on its joint only; the rest of x stays.
+// The same for edges and faces outside the region and on its joint only; the rest of x stays.
 void refine_outside_linearly(const GridLevel& grid, std::span<const Vec3> control, double* x);
 
 }  // namespace fairing

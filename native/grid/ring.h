@@ -10,8 +10,8 @@
 namespace fairing {
 
 // Calls visit(point, slot) for the ring of control vertex v. Slots are those of accumulate()'s
-// vertex body, two a spoke: 2 s is the point along spoke s, 2 s + 1 the one across its quad, if it
-// has one.
+// vertex body, two per spoke: 2 s is the point along spoke s, 2 s + 1 the one across its quad, if
+// any.
 template <class Visit>
 void visit_ring(const GridLevel& grid, Index v, Visit&& visit) {
   std::size_t slot = 0;
@@ -33,15 +33,15 @@ constexpr std::span<const GridPoint> face_ring(bool quad) {
   return triangle_ring;
 }
 
-// The grid's directions inside a face: three in a triangle; in a quad four, every other one across
-// its cells.
+// The grid's directions inside a face: three in a triangle; four in a quad, of which every other
+// one crosses its cells.
 constexpr std::span<const GridPoint> face_directions(bool quad) {
   return face_ring(quad).first(quad ? 4 : 3);
 }
 
-// Where the neighbours of an edge's points are: neighbour j of point k is element k + at[j] of
-// lane[j]. Lane 0 is the edge itself, lanes 1 and 2 are the first rows of the left and the right
-// face; all run with the edge. Without a face, nothing refers to its lane.
+// The neighbours of an edge's points: neighbour j of point k is element k + at[j] of lane[j]. Lane
+// 0 is the edge itself, lanes 1 and 2 are the first rows of the left and the right face; all run
+// with the edge. The lane of a missing face is not referenced.
 struct EdgeRingLanes {
   int size = 0;
   int lane[8], at[8];
@@ -98,8 +98,8 @@ inline void append_ring(const GridLevel& grid, Index f, GridPoint p, std::vector
     ids.push_back(grid.face_point(f, p.i + d.i, p.j + d.j));
 }
 
-// The lanes of EdgeRingLanes with the numbers of x, gathered into `scratch`. Each lane has room for
-// lane_block numbers more.
+// The lanes of EdgeRingLanes with the values of x, gathered into `scratch`. Each lane has
+// lane_block extra numbers.
 template <class T, int C = 3>
 struct EdgeLanes {
   T* lane[3] = {};

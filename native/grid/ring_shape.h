@@ -9,10 +9,10 @@ namespace fairing {
 // Whether a grid step leads across a quad.
 constexpr bool is_far(bool quad, GridPoint step) { return quad && step.i * step.j != 0; }
 
-// What the rings of a run have in common.
+// The common shape of the rings of a run.
 struct RingShape {
-  std::vector<std::uint8_t> far;  // of the neighbours: whether they lie across a quad
-  int first = 0;                  // where the ring begins: an open one on the boundary
+  std::vector<std::uint8_t> far;  // of the neighbours: whether they are across a quad
+  int first = 0;                  // start of the ring; on the boundary for an open one
   bool closed = true;
 
   void set(const GridLevel& grid, const Run& run);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The one iterator over the points of a level. They come as *runs* of consecutive numbers: a
 // control vertex (one point), the inside of a control edge (n - 1 points), a row inside a control
-// face. All neighbours of a run are runs as well, one step aside, so that loops along a run need no
+// face. All neighbours of a run are runs too, one step aside, so that loops along a run need no
 // index:
 //
 //   for_each_run(grid, visit)                        on this thread, in the order of the points
@@ -9,8 +9,8 @@
 //   RunGather(grid, x)(run)                          x on a run and on its neighbours
 //   accumulate_runs(grid, …) (grid/accumulate.h)     sums of what runs add to their neighbours
 //
-// Every run is visited once, by one thread. What visits write to their own points or elements is
-// therefore the same for any number of threads.
+// Every run is visited once, by one thread. So visits that write to their own points or elements
+// have the same result for any number of threads.
 #pragma once
 
 #include <algorithm>
@@ -28,11 +28,11 @@ enum class RunKind : std::uint8_t { vertex, edge, face_row };
 struct Run {
   RunKind kind;
   Index element;      // the control vertex, edge or face
-  int row;            // 1 … inside a face; otherwise 0
+  int row;            // from 1 inside a face; otherwise 0
   bool quad;          // whether it is a row of a quad
   std::size_t first;  // its first point
   std::size_t count;  // never 0
-  // Of edges only, and while they are visited: where their neighbours are.
+  // Of edges, during a visit: the places of their neighbours.
   const EdgeRingLanes* ring = nullptr;
 };
 
@@ -89,14 +89,14 @@ void for_each_run(const GridLevel& grid, Visit&& visit) {
 
 // --- in parallel ---
 
-// The fewest elements that are worth handing to a thread: about 512 points inside faces (n² each)
-// or edges (n each), 64 vertices with their rings.
+// The fewest elements worth a thread: about 512 points inside faces (n² each) or edges (n each), 64
+// vertices with their rings.
 constexpr std::size_t vertex_grain = 64;
 inline std::size_t element_grain(int n) { return std::size_t(std::max(1, 512 / (n * n))); }
 inline std::size_t edge_grain(int n) { return element_grain(n) * std::size_t(n); }
 
-// body(begin, end) on parts of the level's control vertices, edges or faces: for what works on
-// whole elements. Errors as Workers::for_parts.
+// body(begin, end) on parts of the level's control vertices, edges or faces, for work on whole
+// elements. Errors as Workers::for_parts.
 template <class Body>
 void for_vertex_parts(const GridLevel& grid, Workers& workers, Body&& body) {
   workers.for_parts(std::size_t(grid.mesh().vertex_count()), vertex_grain,
@@ -113,9 +113,9 @@ void for_face_parts(const GridLevel& grid, Workers& workers, Body&& body) {
                     [&](std::size_t begin, std::size_t end) { body(Index(begin), Index(end)); });
 }
 
-// Calls visit(run, state) for all runs. make_state() gives what a thread keeps from run to run
-// (buffers, a RunGather); it is called once a part, of which there are some hundred. The rows of a
-// face are visited one after another with the same state. Errors as Workers::for_parts.
+// Calls visit(run, state) for all runs. make_state() makes the state that a thread keeps from run
+// to run (buffers, a RunGather); it is called once a part, of which there are some hundred. The
+// rows of a face are visited one after another with the same state. Errors as Workers::for_parts.
 template <class MakeState, class Visit>
 void for_each_run(const GridLevel& grid, Workers& workers, MakeState&& make_state, Visit&& visit) {
   for_vertex_parts(grid, workers, [&](Index begin, Index end) {
@@ -134,13 +134,14 @@ void for_each_run(const GridLevel& grid, Workers& workers, MakeState&& make_stat
   });
 }
 
-// The same for visits that keep nothing: visit(run).
+// The same for visits without a state: visit(run).
 template <class Visit>
 void for_each_run(const GridLevel& grid, Workers& workers, Visit&& visit) {
   for_each_run(grid, workers, [] { return 0; }, [&](const Run& run, int) { visit(run); });
 }
 
-// One sum an element, added up in the elements' order: the number of threads leaves no trace.
+// One sum per element, added in the elements' order, so that it does not depend on the number of
+// threads.
 class ElementSums {
  public:
   explicit ElementSums(const ControlMesh& mesh)
@@ -159,7 +160,7 @@ class ElementSums {
       default: return face(run.element);
     }
   }
-  // Every place of the surface once.
+  // The total without copies of elements.
   double total() const {
     double total = 0;
     for (std::size_t i = 0; i < sum_.size(); ++i)
@@ -182,7 +183,7 @@ class ElementSums {
 // --- neighbours ---
 
 // Slot 0 is a point itself, slots 1 … are its neighbours in the order of its chart (grid/ring.h).
-// For slot s of a run's point i, at[s] + C * i is where its C numbers are.
+// The C numbers of slot s of a run's point i are at at[s] + C * i.
 constexpr int most_slots = 9;  // of edges and faces; vertices may have any number
 
 template <class T>
@@ -190,7 +191,7 @@ struct RunNeighbours {
   T* at[most_slots];
 };
 
-// Of the inside of an edge, whose lanes are those of EdgeRingLanes.
+// For the inside of an edge, whose lanes are those of EdgeRingLanes.
 template <class T, int C = 1>
 inline void set_beside_edge(const EdgeRingLanes& ring, T* const* lane, RunNeighbours<T>& out) {
   out.at[0] = lane[0] + C;
@@ -203,7 +204,7 @@ inline RunNeighbours<T> beside_edge(const EdgeRingLanes& ring, T* const* lane) {
   return out;
 }
 
-// Of row j inside a closed face (gather_face).
+// For row j inside a closed face (gather_face).
 template <class T, int C = 1>
 inline void set_beside_row(bool quad, int n, int j, T* closed, RunNeighbours<T>& out) {
   const auto at = [&](int i, int k) {
@@ -244,9 +245,9 @@ class SpokePointers {
   int size_ = 0;
 };
 
-// Reads x, C numbers a point, on runs and beside them: gather(run)[s] + C * i is slot s of point i.
-// Valid until the next run. A face is gathered once, at its first row, into a buffer of the
-// thread's; two gathers of the same type that are used by turns need a buffer each.
+// Reads x, C numbers a point, on runs and next to them: gather(run)[s] + C * i is slot s of point
+// i. Valid until the next run. A face is gathered once, at its first row, into a buffer of the
+// thread; two gathers of the same type that are used alternately need a buffer each.
 template <class T, int C = 1>
 class RunGather {
  public:
@@ -285,7 +286,7 @@ class RunGather {
   SpokePointers<const T> spokes_;
 };
 
-// The ring of a run's point i, in the order of its slots 1 …, appended to `ids`.
+// Appends the ring of a run's point i to `ids`, in the order of its slots 1 ….
 inline void append_ring(const GridLevel& grid, const Run& run, std::size_t i,
                         std::vector<Index>& ids) {
   switch (run.kind) {

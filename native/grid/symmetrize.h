@@ -17,15 +17,15 @@ struct FaceImage {
   }
 };
 
-// For a face whose corner c goes to corner (turn - c) mod size, or to itself (Mirror::turn).
+// For a face whose corner c is mapped to corner (turn - c) mod size, or to itself (Mirror::turn).
 FaceImage face_image(bool quad, int n, int turn);
 
-// x <- the mean of x and its mirror image at the unknowns of a level, which are mirrored too; 3
-// numbers a point.
+// x <- the mean of x and its mirror image at the unknowns of a level, which must be symmetric too;
+// 3 numbers a point.
 void mean_with_image(const GridLevel& grid, const Mirror& mirror, const Unknowns& unknowns,
                      Workers& workers, double* x);
 
-// The same for displacements along normals, one number a point: none of what lies in the plane.
+// The same for displacements along normals, one number a point; nothing within the plane.
 void mean_of_displacements(const GridLevel& grid, const Mirror& mirror, const Unknowns& unknowns,
                            Workers& workers, double* h);
 

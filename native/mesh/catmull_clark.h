@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Catmull-Clark subdivision of a whole mesh, its points taken to the limit [Halstead, Kass, DeRose
-// 1993, §3], with creases, borders, corners and semi-sharp edges as mesh/sharpness.h has them. A
-// linear map of the vertices: its tables serve for all positions of one mesh.
+// Limits of Catmull-Clark subdivision for a whole mesh [Halstead, Kass, DeRose 1993, §3], with
+// creases, borders, corners and semi-sharp edges (mesh/sharpness.h). A linear map of the vertices:
+// its tables serve all positions of one mesh.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ namespace fairing {
 
 class CatmullClark {
  public:
-  // `control` is made of `mesh`. `steps`: 1 or more. Throws where the run has been cancelled.
+  // `control` is made from `mesh`. `steps`: at least 1. Throws FairingError(cancelled).
   CatmullClark(const PolygonMesh& mesh, const ControlMesh& control, const SharpRules& rules,
                int steps);
 
@@ -25,22 +25,22 @@ class CatmullClark {
   Index corners(Index f) const { return first_[std::size_t(f)]; }
   Index vertex(Index corner) const { return levels_[0].vertex[std::size_t(corner)]; }
 
-  // Each side of the quad at a polygon's corner ends in so many pieces. That quad runs from the corner
-  // to the middle of the side to the next corner, the middle of the polygon, and the middle of the
-  // side from the corner before.
+  // Number of pieces of each side of the quad at a polygon's corner. That quad has the corner, the
+  // middle of the side to the next corner, the middle of the polygon, and the middle of the side
+  // from the corner before.
   int pieces() const { return 1 << (levels_.size() - 1); }
-  // The point a pieces from that corner towards the next one, and b towards the one before.
+  // The point a pieces from that corner towards the next one and b towards the one before.
   Index point(Index polygon, Index corner, int a, int b) const;
 
-  // The limits of the points, 3 numbers each, of those of the vertices. With semi-sharp edges that
-  // the steps do not use up, and where creases end, this is the limit up to a trace of the last step.
+  // Limits of all points, 3 numbers each. Near semi-sharp edges that outlast the steps, and where
+  // creases end, the error is that of the last step.
   Array<double> limits(std::span<const double> cage) const;
-  // The limit positions of the vertices alone, 3 numbers each, exact for all of them. Where the rules
-  // keep a vertex, and outside the region, positions stay, to the last bit.
+  // Limit positions of the vertices alone, 3 numbers each, exact. Vertices that the rules keep, and
+  // those outside the region, stay bit for bit.
   std::vector<double> vertex_limits(std::span<const double> cage) const;
 
  private:
-  // What is sharp about a vertex.
+  // The sharpness rules of a vertex.
   struct Special {
     Index vertex;
     AroundVertex sharp;
@@ -48,8 +48,8 @@ class CatmullClark {
   };
   struct Level {
     Index vertices = 0;
-    Array<Index> vertex, edge;         // of a corner: what is there, and the edge to the next one
-    Array<std::array<Index, 2>> ends;  // of an edge
+    Array<Index> vertex, edge;  // per corner: the vertex there, and the edge to the next corner
+    Array<std::array<Index, 2>> ends;  // per edge
     std::vector<std::pair<Index, double>> sharp_edges;
     std::vector<Special> specials;
 
@@ -73,7 +73,7 @@ class CatmullClark {
   void put_exact_limits(std::span<const double> x, std::vector<double>& limits) const;
 
   Array<Index> first_;         // of the polygons' corners
-  std::vector<Index> stays_;   // vertices that are not inside the region
+  std::vector<Index> stays_;   // vertices outside the region
   std::vector<Level> levels_;  // before each step
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The control mesh: triangles and quads with edges, sides, one-rings and feature chains as flat
-// tables. Built once, through OpenMesh, from checked arrays; all later rooms read these tables and
-// nothing else of the input.
+// tables. Built once, through OpenMesh, from checked arrays; all later code reads only these
+// tables.
 #pragma once
 
 #include <algorithm>
@@ -23,11 +23,11 @@ enum class BoundaryMode {
 };
 constexpr std::size_t boundary_modes = 3;
 
-// How a faired region meets what is outside it.
+// How a faired region meets its surroundings.
 enum class RegionContinuity {
   position,   // in a fixed line, at any angle
-  tangent,    // moreover with the outside's tangent planes
-  curvature,  // moreover with the outside's curvature, which is none
+  tangent,    // also with the same tangent planes
+  curvature,  // also with the curvature of the outside, which is zero
 };
 
 struct RegionOptions {
@@ -48,8 +48,8 @@ struct FeatureOptions {
   double crease_angle = -1.0;  // edges that fold by more are creases; radians; negative: none
   double corner_angle = -1.0;  // chains that turn by more are split there; radians; negative: none
   BoundaryMode boundary = BoundaryMode::curve;
-  // Single edges that differ from it: under each mode, vertex pairs in any order; the last mode that
-  // names an edge counts. Edges that are no boundary are left alone.
+  // Exceptions for single edges: under each mode, vertex pairs in any order; the last mode that
+  // names an edge counts. Edges that are not on a boundary are ignored.
   std::array<std::vector<std::array<std::int64_t, 2>>, boundary_modes> boundary_edges{};
   RegionOptions region{};
 };
@@ -95,27 +95,26 @@ struct Chain {
 
 enum class RegionPart : std::uint8_t { inside, joint, outside };
 
-// Which part of the mesh is faired, where that is not all of it. What is not inside is refined
-// linearly, and fixed.
+// Which part of the mesh is faired. The outside is refined linearly and fixed.
 struct Region {
   // A face is inside or outside, never on the joint. All empty: the whole mesh is inside.
   std::vector<RegionPart> vertex, edge, face;
   RegionContinuity joint = RegionContinuity::tangent;
-  // The joint edges that carry a fit, and their ends.
+  // Joint edges with divided differences, and their ends.
   std::vector<std::uint8_t> clamped_vertex, clamped_edge;
 
   bool whole() const { return face.empty(); }
 };
 
-// Which elements of a control mesh are copies, and of what; ascending, and empty where the input is a
+// Which elements of a control mesh are copies, and of which; ascending. Empty if the input is a
 // manifold with two sides.
 struct Copies {
   // Where sheets meet (mesh/sheets.h), each has its own vertices and edges. Control vertex
-  // input_vertices + k is a copy of vertex[k]. The last edges are copies of `edge`, and run the same
-  // way.
+  // input_vertices + k is a copy of vertex[k]. The last edges are copies of `edge`, with the same
+  // direction.
   std::vector<Index> vertex, edge;
-  // A one-sided sheet is there as its double cover (mesh/double_cover.h). All of its second half are
-  // copies: vertices that are `second`, one flag each of `vertex`, edges, the last vertices, of centres,
+  // A one-sided sheet is replaced by its double cover (mesh/double_cover.h), whose second half
+  // consists of copies: vertices (flags `second`, per entry of `vertex`), edges, the last centres
   // and the last faces. Copied faces are reversed, with the same first corner.
   std::vector<std::uint8_t> second;
   std::vector<Index> centre, face;
@@ -136,8 +135,7 @@ struct FlatFaces {
 };
 
 struct ControlMesh {
-  // The input's vertices first, then copies of them, then free vertices that splits have added, then
-  // copies of these.
+  // The input's vertices, their copies, free vertices of split polygons, their copies.
   std::vector<Vec3> positions;
   Index input_vertices = 0, input_faces = 0;
   std::vector<Face> faces;
@@ -150,11 +148,11 @@ struct ControlMesh {
   std::vector<Index> ring_offset;  // vertices + 1
   std::vector<Spoke> spokes;
 
-  std::vector<Index> spoke_of_edge;  // [2 e + h]: the spoke at edge e's vertex h that is e
-  std::vector<Index> spoke_of_side;  // the spoke at the side's first corner that is the side
+  std::vector<Index> spoke_of_edge;  // [2 e + h]: the spoke of edge e at its vertex h
+  std::vector<Index> spoke_of_side;  // the spoke at the side's first corner along the side
 
   // Edges on a curve (a crease, or a boundary that is not free); vertices on a curve or at a
-  // corner, where no fit is taken.
+  // corner, which have no divided differences.
   std::vector<std::uint8_t> feature_edge, feature_vertex;
   std::vector<Chain> chains;
   SoftCreases soft;
@@ -185,8 +183,8 @@ struct ControlMesh {
   bool shared_edge(Index e) const {
     return std::binary_search(copies.edge.begin(), copies.edge.end(), original_edge(e));
   }
-  // Whether the edge is one of several that are one in the input, of three faces and more, and not
-  // just one of the two on a double cover.
+  // Whether the edge is one of several at an input edge with three or more faces, rather than one
+  // of two on a double cover.
   bool nonmanifold(Index e) const {
     const Index original = original_edge(e);
     const auto [first, last] = std::equal_range(copies.edge.begin(), copies.edge.end(), original);
@@ -195,7 +193,7 @@ struct ControlMesh {
     return !second_vertex(edges[std::size_t(original)].vertex[0]) &&
            !second_vertex(edges[std::size_t(copy)].vertex[0]);
   }
-  // Whether several fans of faces are around the input vertex at v.
+  // Whether several fans of faces meet at the input vertex of v.
   bool fans_meet(Index v) const {
     bool meet = false;
     if (v < first_centre())
@@ -204,8 +202,8 @@ struct ControlMesh {
       });
     return meet;
   }
-  // Whether the element is of the second half of a double cover: as its first half says all, it
-  // counts nowhere.
+  // Whether the element is in the second half of a double cover, which counts nowhere because it
+  // repeats the first.
   bool second_vertex(Index v) const {
     return v < first_centre()
                ? v >= input_vertices && copies.second[std::size_t(v - input_vertices)]
@@ -233,7 +231,7 @@ struct ControlMesh {
   std::span<const Spoke> ring(Index v) const {
     return {spokes.data() + ring_offset[v], std::size_t(ring_offset[v + 1] - ring_offset[v])};
   }
-  // True when the one-ring closes around v (v is not on the boundary and not isolated).
+  // Whether the one-ring is closed (v is neither on the boundary nor isolated).
   bool interior(Index v) const {
     const auto r = ring(v);
     return !r.empty() && r.back().face >= 0;
@@ -249,8 +247,8 @@ struct ControlMesh {
     return region.whole() ? RegionPart::inside : region.face[std::size_t(f)];
   }
 
-  // Whether the surface is fitted at the control vertex, and at the points inside the edge: whether
-  // its divided differences, and so its bending, are taken there.
+  // Whether the surface has divided differences, and so bending, at the control vertex or at the
+  // points inside the edge.
   bool vertex_fit(Index v) const {
     return !ring(v).empty() && !feature_vertex[std::size_t(v)] && part_fit(vertex_part(v));
   }
@@ -263,7 +261,7 @@ struct ControlMesh {
   }
 };
 
-// Points of the ring about a control vertex on any level: one a spoke, and one across each quad.
+// Number of points around a control vertex on any level: one per spoke, and one across each quad.
 inline Index ring_size(const ControlMesh& mesh, Index v) {
   Index size = 0;
   for (const Spoke& spoke : mesh.ring(v))
@@ -271,11 +269,10 @@ inline Index ring_size(const ControlMesh& mesh, Index v) {
   return size;
 }
 
-// `mesh` must have passed check(); `flipped` are the faces that check() says to reverse. Polygons
-// of five and more sides, and quads too concave or warped, are split by shape (mesh/split.h).
-// Throws FairingError: bad_feature_edge, index_out_of_range for creases, boundary edges, corners and
-// a region's faces that are not in the mesh; bad_option for a region without faces; too_large for
-// polygons that cannot be split (mesh/split.h).
+// `mesh` must have passed check(); `flipped` are the faces to reverse. Polygons of five and more
+// sides, and quads too concave or warped, are split (mesh/split.h). Throws FairingError:
+// bad_feature_edge, index_out_of_range for creases, boundary edges, corners and faces that are not
+// in the mesh; bad_option for a region without faces; too_large for polygons that cannot be split.
 ControlMesh make_control_mesh(const PolygonMesh& mesh, const FeatureOptions& features,
                               std::span<const std::int64_t> flipped = {});
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A counting sort, in linear time.
 #pragma once
 
 #include <algorithm>
@@ -11,11 +10,11 @@
 
 namespace fairing {
 
-// Items by key, those of one key in the order in which they came.
+// Items sorted by key; equal keys keep their order.
 template <class Item>
 class CountingSort {
  public:
-  // Item i is item_of(i), and has the key key_of(i) < keys. Throws where the run has been cancelled.
+  // Item i is item_of(i), with the key key_of(i) < keys. Throws FairingError(cancelled).
   template <class KeyOf, class ItemOf>
   CountingSort(std::size_t keys, std::size_t count, const KeyOf& key_of, const ItemOf& item_of)
       : begin_(keys + 1, 0), items_(count, Item{}) {
@@ -36,7 +35,7 @@ class CountingSort {
     return {items_.data() + begin_[key], items_.data() + begin_[key + 1]};
   }
 
-  // visit(items) for all that come one after another by `less`, equal ones together, a key at a time.
+  // visit(items) for each group of items that are equal by `less`, one key at a time.
   template <class Less, class Visit>
   void for_equal(const Less& less, const Visit& visit) {
     for (std::size_t k = 0; k < keys(); ++k) {

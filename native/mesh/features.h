@@ -9,7 +9,7 @@ namespace fairing {
 
 // Fills feature_edge, feature_vertex, chains and soft of a mesh whose other tables are complete. `mesh`
 // is the oriented input, for the normals of its polygons. Throws FairingError: bad_feature_edge for
-// creases and boundary edges that are no edges, index_out_of_range for vertices that do not exist.
+// creases and boundary edges that are not edges, index_out_of_range for missing vertices.
 void find_features(const PolygonMesh& mesh, const FeatureOptions& options, ControlMesh& control);
 
 }  // namespace fairing

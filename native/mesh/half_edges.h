@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which faces meet at each edge, whichever way they run: the table behind all checks of the
-// topology. Unlike OpenMesh it takes any soup of faces. Linear time, by a counting sort.
+// Which faces meet at each edge, in any orientation: the basis of all topology checks. Unlike
+// OpenMesh it accepts any set of faces. Linear time, by a counting sort.
 #pragma once
 
 #include <cstdint>
@@ -26,8 +26,8 @@ class HalfEdges {
   std::int32_t twin(std::int32_t k) const { return twin_[std::size_t(k)]; }
   bool runs_as_twin(std::int32_t k) const { return from(k) == from(twin(k)); }
 
-  // visit(corner, turned) for the corners of the fan around from(k) that holds corner k, which comes
-  // first; whichever way the faces run. `turned`: not the way that k's face does.
+  // visit(corner, turned) for the corners of the fan around from(k) that contains corner k, which
+  // comes first, in any orientation. `turned`: the corner's face runs against that of k.
   template <class Visit>
   void visit_fan(std::int32_t k, Visit&& visit) const {
     const std::int64_t v = from(k);
@@ -45,7 +45,7 @@ class HalfEdges {
     }
   }
 
-  // Vertex pairs, laid end to end, of the edges with more than two faces.
+  // Vertex pairs of the edges with more than two faces, one after another.
   const std::vector<std::int64_t>& nonmanifold_edges() const { return nonmanifold_edges_; }
   std::int64_t sides_at_nonmanifold_edges() const { return nonmanifold_sides_; }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Limit positions of vertices where the rules of subdivision change from step to step.
+// Limit positions of vertices whose subdivision rules change from step to step.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace fairing {
 
-// A vertex's position by its rule at step number `steps`, position(rule, steps), mixed with the next
-// one where it is between two.
+// A vertex's position by its rule at step `steps`, position(rule, steps), blended with the next
+// rule in between.
 template <class Position>
 Vec3 by_rules(const AroundVertex& sharp, int steps, const Position& position) {
   const VertexRule now = rule_of(sharp, steps), next = rule_of(sharp, steps + 1);
@@ -21,8 +21,8 @@ Vec3 by_rules(const AroundVertex& sharp, int steps, const Position& position) {
   return out;
 }
 
-// A vertex, the ends of its spokes, and in each quad around it the corner across. Subdivision makes the
-// next such ring from these points alone.
+// A vertex, the ends of its spokes, and the far corner of each quad around it. The next ring of
+// subdivision depends on these points alone.
 struct LimitRing {
   struct Quad {
     Vec3 across;
@@ -33,11 +33,12 @@ struct LimitRing {
   std::vector<Quad> quads;
 };
 
-// Whether what is sharp about a vertex changes from step to step, or ends there: then no mask of one
-// step leads to the limit.
+// Whether the sharpness around a vertex changes from step to step, or a crease ends there; then no
+// mask of one step gives the limit.
 bool takes_many_steps(const AroundVertex& sharp);
 
-// The limit of the vertex, from the ring after the first step. `sharp`: of the spokes, in their order.
+// The limit of the vertex, from the ring after the first step. `sharp`: of the spokes, in their
+// order.
 Vec3 limit_of(LimitRing ring, const AroundVertex& sharp);
 
 }  // namespace fairing

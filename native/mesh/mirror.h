@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Mirror symmetries of a control mesh: planes, and which vertices, edges and faces are each other's
-// images.
+// Mirror symmetries of a control mesh: planes, and the images of vertices, edges and faces.
 #pragma once
 
 #include <functional>
@@ -14,8 +13,8 @@ struct Plane {
   Vec3 normal;    // of length one
   double offset;  // of the plane's points along the normal
 
-  // How far off the image of a vertex may be while a plane is looked for, in tolerances: it goes through
-  // two vertices only, and their rounding tilts it.
+  // How far the image of a vertex may be off during the search, in tolerances: the plane is found
+  // from two vertices, whose rounding tilts it.
   static constexpr double search_reach = 100;
 
   Vec3 image(const Vec3& p) const { return p - 2 * (normal.dot(p) - offset) * normal; }
@@ -25,8 +24,8 @@ struct Mirror {
   Plane plane;
   std::vector<Index> vertex, edge, face;  // the images; vertices without faces are their own
   std::vector<std::int8_t> turn;  // corner c of a face has its image at corner (turn - c) mod size
-  // In place of a turn: the face lies in the plane, and so does its whole sheet. It is its own image,
-  // corner by corner.
+  // In place of a turn: the face and its whole sheet lie in the plane. It is its own image, corner
+  // by corner.
   static constexpr std::int8_t in_plane = -1;
 
   bool vertex_in_plane(const ControlMesh& mesh, Index v) const {
@@ -39,7 +38,7 @@ struct Mirror {
     return turn[std::size_t(mesh.sides[std::size_t(side)].face)] == in_plane;
   }
 
-  // Whether the image of an edge runs the other way.
+  // Whether the image of an edge has the opposite direction.
   bool reverses(const ControlMesh& mesh, Index e) const {
     const auto image = std::size_t(edge[std::size_t(e)]);
     return mesh.edges[image].vertex[0] != vertex[std::size_t(mesh.edges[std::size_t(e)].vertex[0])];
@@ -49,18 +48,18 @@ struct Mirror {
 // The mirrors that a surface keeps, of those that its control mesh has; not owned.
 using Mirrors = std::vector<const Mirror*>;
 
-// All planes that may mirror the vertices, the coordinate planes first; most are none. Positions as
-// find_mirrors takes them.
+// All planes that may mirror the vertices, coordinate planes first; most do not. Positions as for
+// find_mirrors.
 std::vector<Plane> mirror_planes(const ControlMesh& mesh, double tolerance);
 
-// Up to three mirrors of the mesh with its features and its region. They are at right angles to
-// each other, so that what one of them has made symmetric stays so under the next; coordinate
-// planes come first. `holds` has the last word. Positions are to be around the origin with their
-// bounding box centred there, and of size one; `tolerance` is their rounding.
+// Up to three mirrors of the mesh with its features and its region, at right angles to each other,
+// so that averaging by one keeps the symmetry of the others; coordinate planes come first. `holds`
+// decides last. Positions must be centred at the origin, with a bounding box of size one;
+// `tolerance` is their rounding.
 std::vector<Mirror> find_mirrors(const ControlMesh& mesh, double tolerance,
                                  const std::function<bool(const Mirror&)>& holds);
 
-// Whether other positions of the vertices are mirrored in the same way.
+// Whether other positions of the vertices have the same mirror.
 bool mirrors_positions(const ControlMesh& mesh, const Mirror& mirror,
                        std::span<const Vec3> positions, double tolerance);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How thick a control mesh is behind each of its faces.
+// The thickness of a control mesh behind each of its faces.
 #pragma once
 
 #include <limits>
@@ -11,9 +11,9 @@
 
 namespace fairing {
 
-// What a control face has of its plane: that through the middles of a quad's sides.
+// The plane of a control face; of a quad, through the middles of its sides.
 struct FacePlane {
-  Vec3 middle, normal;  // of unit length, or zero
+  Vec3 middle, normal;  // unit length, or zero
   double area;
 };
 
@@ -24,9 +24,9 @@ struct Opposite {
   double distance = std::numeric_limits<double>::infinity();
 };
 
-// Of each face the next one that looks the other way, straight behind its middle. Behind is where the
-// mesh as a whole has its inside; of one that is open, where that would be if it were closed to its
-// centre. Copies of faces (ControlMesh::copies) have none, and are none.
+// For each face the next one straight behind its middle that faces the other way. Behind is where
+// the mesh as a whole has its inside; for an open mesh, where that would be if it were closed to
+// its centre. Copies of faces (ControlMesh::copies) are ignored.
 std::vector<Opposite> opposite_faces(const ControlMesh& mesh, std::span<const Vec3> control,
                                      std::span<const FacePlane> planes, Workers& workers);
 

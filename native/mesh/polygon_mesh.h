@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The input as plain arrays, not owned; nothing about it is trusted before check()
-// (mesh/validate/check.h).
+// The input as plain arrays, not owned, unchecked before check() (mesh/validate/check.h).
 #pragma once
 
 #include <cstdint>
@@ -22,7 +21,7 @@ struct PolygonMesh {
   }
 };
 
-// The same, owning its face arrays (for repaired or generated meshes).
+// The same, owning its face arrays.
 struct OwnedPolygonMesh {
   std::vector<double> coordinates;
   std::vector<std::int64_t> corners;

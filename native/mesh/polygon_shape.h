@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a polygon in space looks like in its mean plane (Newell's: its normal is the vector of the
-// polygon's projected areas), and how to cut it. Nothing here depends on which corner is first, not
-// even in the last bit: two runs on one mesh, numbered differently, have the same faces and centres.
+// The shape of a polygon in its mean plane (Newell's: its normal is the vector of the polygon's
+// projected areas), and how to cut it. Nothing here depends on which corner is first, bit for bit:
+// two runs on one mesh, numbered differently, have the same faces and centres.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@
 
 namespace fairing {
 
-// A face's vector of projected areas, twice as long: as triangles about its first corner have it.
+// Twice a face's vector area, from triangles about its first corner.
 Vec3 twice_vector_area(const PolygonMesh& mesh, std::int64_t f);
 
 class PolygonShape {
@@ -25,21 +25,21 @@ class PolygonShape {
   double area() const { return area_; }
   const Vec3& normal() const { return normal_; }
 
-  // The centroid of the area: where a centre vertex would go.
+  // The area centroid, where a centre vertex is placed.
   Vec3 centroid() const { return origin_ + centre_of_area(); }
 
-  // Every side is seen from the centroid at a fair distance, and counter-clockwise.
+  // Every side is visible from the centroid, counter-clockwise and at some distance.
   bool star_shaped() const;
 
-  // Some interior angle is wider than 170°.
+  // Some interior angle exceeds 170°.
   bool concave() const;
 
-  // For a quad: even along the flatter diagonal it folds by more than 60°.
+  // For a quad: it folds by more than 60° even along the flatter diagonal.
   bool warped() const;
 
   // How far the triangle of these corners is from equilateral: the sum of its squared sides over 4
-  // √3 times its area in the mean plane; 1 at best, infinite where the area is not positive there.
-  // Small where it is well shaped and flat; finite only inside the polygon.
+  // √3 times its area in the mean plane. 1 for an equilateral one; infinite if the area is not
+  // positive there.
   double badness(std::size_t i, std::size_t j, std::size_t k) const;
 
  private:
@@ -58,12 +58,11 @@ class PolygonShape {
 // The corners of one piece, ascending.
 using Piece = std::vector<std::size_t>;
 
-// Cuts along the diagonals of the triangulation of least total badness, found by dynamic
-// programming over the allowed diagonals (i, j). Where several triangulations are equally good (to
-// 1e-6), only the diagonals that all of them share are cut, and the piece between stays whole: to
-// prefer one by order would break the polygon's symmetry. So the result depends neither on the
-// first corner nor on mirroring; without any triangulation it is the whole polygon. Cubic in the
-// number of corners.
+// Cuts along the diagonals of the triangulation of least total badness, by dynamic programming over
+// the allowed diagonals (i, j). If several triangulations are equally good (to 1e-6), only their
+// common diagonals are cut, and the piece between stays whole, so that the result depends neither
+// on the first corner nor on mirroring. Without a triangulation the result is the whole polygon.
+// Cubic in the number of corners.
 std::vector<Piece> cut_polygon(const PolygonShape& shape,
                                const std::function<bool(std::size_t, std::size_t)>& allowed);
 

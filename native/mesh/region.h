@@ -10,9 +10,8 @@
 
 namespace fairing {
 
-// Says for each vertex, edge and face of a mesh with complete rings whether it is inside the
-// region; a region of all faces is the whole mesh. Throws FairingError: index_out_of_range for
-// faces that do not exist, bad_option for no faces at all.
+// Classifies each vertex, edge and face of a mesh with complete rings; a region of all faces is the
+// whole mesh. Throws FairingError: index_out_of_range for missing faces, bad_option for no faces.
 void find_region(const RegionOptions& options, ControlMesh& control);
 
 // One flag an input face, of so many; throws what find_region does. And for other faces that are named
@@ -21,8 +20,8 @@ std::vector<std::uint8_t> chosen_faces(const RegionOptions& options, std::int64_
 std::vector<std::uint8_t> flags_of_faces(std::span<const std::int64_t> faces, std::int64_t count,
                                          const std::string& where);
 
-// Marks the joint edges that carry a fit, and their ends; all but features do, unless the region
-// joins in position only. Call it after find_features.
+// Marks the joint edges with divided differences, and their ends: all but features, unless the
+// region joins in position only. Call it after find_features.
 void mark_clamped_joint(ControlMesh& control);
 
 }  // namespace fairing

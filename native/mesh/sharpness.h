@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Semi-sharp edges and vertices under Catmull-Clark subdivision [DeRose, Kass, Truong 1998, §3]: which
-// rule a vertex has, and for how many steps.
+// Semi-sharp edges and vertices under Catmull-Clark subdivision [DeRose, Kass, Truong 1998, §3]:
+// the rule of each vertex, and its number of steps.
 #pragma once
 
 #include <algorithm>
@@ -16,8 +16,7 @@
 
 namespace fairing {
 
-// For how many subdivision steps a rule stays sharp before it becomes smooth; from `always_sharp` on,
-// for ever, as OpenSubdiv has it.
+// How many subdivision steps a rule stays sharp; from `always_sharp` on for ever, as in OpenSubdiv.
 constexpr double always_sharp = 10;
 
 struct Sharpness {
@@ -32,7 +31,7 @@ void check_edge_values(const std::string& name, std::int64_t vertices, const Edg
 
 constexpr double sharp_for_ever = std::numeric_limits<double>::infinity();
 
-// How sharp something of this sharpness is after some steps.
+// The sharpness after some steps.
 inline double after(double sharpness, int steps) { return std::max(0.0, sharpness - steps); }
 
 // The sharpness of a vertex and of its spokes.
@@ -44,15 +43,15 @@ struct AroundVertex {
 enum class VertexRule { smooth, crease, corner };
 VertexRule rule_of(const AroundVertex& sharp, int steps);
 
-// While a vertex goes from one rule to the next its sharpness is between 0 and 1: the share that the
-// former has [DeRose, Kass, Truong 1998, §3], the mean of all that become smooth.
+// During the change from one rule to the next, sharpness is between 0 and 1: the share of the
+// sharper rule [DeRose, Kass, Truong 1998, §3], the mean over all elements that become smooth.
 double share_of_sharper(const AroundVertex& sharp, int steps);
 
-// What is how sharp on a polygon mesh: as given, and for ever on feature edges that are not given, at
-// corners, where a curve turns sharply, and on straight borders.
+// The sharpness of all elements of a polygon mesh: the given values; infinite on feature edges
+// without one, at corners, at sharp turns of curves, and on straight borders.
 class SharpRules {
  public:
-  // `control` is made of the mesh.
+  // `control` is made from the mesh.
   SharpRules(const ControlMesh& control, std::span<const std::int64_t> corners,
              const Sharpness& given);
 
@@ -60,7 +59,7 @@ class SharpRules {
   double edge(std::int64_t a, std::int64_t b) const;
 
  private:
-  std::vector<std::pair<VertexPair, double>> edges_;  // ascending; of two alike the first counts
+  std::vector<std::pair<VertexPair, double>> edges_;  // ascending; of equal pairs the first counts
   std::vector<double> vertex_;
 };
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sheets: what is left of a mesh when it is cut apart along its non-manifold edges, those of three
-// and more faces, and at its non-manifold vertices, where fans of faces touch in a point. Each is a
-// manifold, with vertices and edges of its own; copies remember what they are copies of. Feature
-// curves and regions see the copies as one, so that sheets share the points where they meet. A sheet
-// with only one side is replaced by its double cover (mesh/double_cover.h), whose second half is made
-// of copies too.
+// Sheets: the parts of a mesh that is cut along its non-manifold edges, those of three and more
+// faces, and at its non-manifold vertices, where fans of faces touch in a point. Each is a manifold
+// with its own vertices and edges; copies remember their originals. Feature curves and regions
+// treat copies as one, so sheets share the points where they meet. A one-sided sheet is replaced by
+// its double cover (mesh/double_cover.h), whose second half consists of copies too.
 #pragma once
 
 #include <algorithm>
@@ -17,33 +16,33 @@
 namespace fairing {
 
 struct SheetCopies {
-  std::vector<Index> vertex;  // what the vertices behind the input's are copies of, ascending
-  std::vector<std::uint8_t> second;  // of these: those over another one, on a double cover
+  std::vector<Index> vertex;         // the originals of the vertices after the input's, ascending
+  std::vector<std::uint8_t> second;  // per copy: it is in the second half of a double cover
   DoubleCover cover;
 };
 
-// Gives every fan of faces around a vertex a vertex of its own: the first keeps the vertex, copies
-// for the others are added behind all vertices. So are vertices over those of one-sided sheets; no
-// face has these yet. `mesh` must have passed check().
+// Gives every fan of faces around a vertex its own vertex: the first keeps the vertex, copies for
+// the others follow all vertices. So do the second vertices of one-sided sheets, which have no
+// faces yet. `mesh` must have passed check().
 SheetCopies cut_into_sheets(OwnedPolygonMesh& mesh);
-// How many vertices that adds. No face may have a vertex twice.
+// Number of vertices that this adds. No face may have a vertex twice.
 std::size_t count_copies(const PolygonMesh& mesh, const HalfEdges& half_edges,
                          const DoubleCover& cover);
 
 // Fills copies.edge of a mesh whose copied vertices, edges, sides and spokes are complete: copies
-// become the last edges and run as their originals do.
+// are the last edges, with the direction of their originals.
 void find_copied_edges(ControlMesh& control);
 
-// Control vertices that are one along copied edges: the fans of a vertex that non-manifold edges
-// join, and both at a place of a double cover. Fans that only touch stay apart.
+// Groups of control vertices that are one along copied edges: the fans of a vertex that share a
+// non-manifold edge, and both vertices of a double cover. Fans that only touch stay apart.
 class JoinedVertices {
  public:
   // `control` with its copied edges.
   explicit JoinedVertices(const ControlMesh& control);
 
-  // The least of those that are one with v.
+  // The least vertex of the group of v.
   Index first(Index v) const { return first_.empty() ? v : first_[std::size_t(v)]; }
-  // visit(w) for v = first(v) and all that are one with it.
+  // visit(w) for v = first(v) and all others of its group.
   template <class Visit>
   void for_each(Index v, Visit&& visit) const {
     visit(v);
@@ -56,10 +55,10 @@ class JoinedVertices {
   std::vector<std::pair<Index, Index>> others_;  // first and another, ascending
 };
 
-// The parts of a control mesh that hang together. A vertex without faces has a number of its own.
+// The connected parts of a control mesh. A vertex without faces has its own number.
 struct SheetNumbers {
   std::vector<Index> of_vertex;
-  Index count = 0;  // of those that have faces
+  Index count = 0;  // number of parts that have faces
 };
 SheetNumbers number_sheets(const ControlMesh& control);
 

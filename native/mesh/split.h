@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Triangles and quads out of polygons: by shape, never by index order, so that neither the order of
-// faces nor a face's first corner changes the surface.
+// Splits polygons into triangles and quads by shape, never by index order, so that neither the
+// order of faces nor a face's first corner changes the surface.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ namespace fairing {
 
 struct SplitFace {
   std::array<Index, 4> vertex;  // counter-clockwise; vertex[3] == -1 for a triangle
-  Index polygon;                // the face that it comes from
+  Index polygon;                // the face that it is part of
 };
 
 struct SplitMesh {
@@ -21,20 +21,18 @@ struct SplitMesh {
   std::vector<Vec3> centres;     // free vertices, numbered on from the input's
 };
 
-// * Polygons of five and more sides that are star-shaped about the centroid of their area become a
-//   fan around a free vertex there; others are cut by their best triangulation
-//   (mesh/polygon_shape.h).
+// * Polygons of five and more sides that are star-shaped about their area centroid become a fan
+//   around a free vertex there; others are cut by their best triangulation (mesh/polygon_shape.h).
 // * Quads with an angle over 170°, quads that fold by more than 60°, and quads with a vertex that
-//   has only one other face, all around it, are cut along the better diagonal, or into a fan where
-//   neither is better.
+//   has only one other face are cut along the better diagonal, or into a fan if neither is better.
 // * No diagonal joins two vertices that an edge joins already, or that two faces would join. So the
-//   result is a manifold again, no interior vertex has fewer than three faces, and the order of
-//   faces does not matter. Where sheets meet, this holds for all of them together: otherwise the
-//   same three vertices could make a triangle of two sheets, and curves leave no room between these.
+//   result is a manifold, no interior vertex has fewer than three faces, and the order of faces
+//   does not matter. Where sheets meet, this holds for all of them together: otherwise two sheets could
+//   have a triangle of the same three vertices, between which curves leave no room.
 //
-// `mesh` must have passed check(), and be oriented but for one-sided sheets; its last vertices are
-// copies of `copied`. Throws FairingError(too_large) for polygons of
-// more than 1000 corners that are not star-shaped.
+// `mesh` must have passed check() and be oriented, except for one-sided sheets; its last vertices
+// are copies of `copied`. Throws FairingError(too_large) for polygons of more than 1000 corners
+// that are not star-shaped.
 SplitMesh split_polygons(const PolygonMesh& mesh, std::span<const Index> copied = {});
 
 }  // namespace fairing

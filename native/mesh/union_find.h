@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Union-find: numbers that become one, such as the vertices of one part.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +10,7 @@
 
 namespace fairing {
 
-// Sets of the numbers 0 … count - 1, each led by its least member.
+// Disjoint sets of the numbers 0 … count - 1, each represented by its least member.
 class UnionFind {
  public:
   explicit UnionFind(std::size_t count) : lead_(count) {
@@ -25,7 +24,7 @@ class UnionFind {
       i = above = lead_[std::size_t(above)];  // path halving
     }
   }
-  // Whether they were two sets before.
+  // Returns whether they were two sets.
   bool unite(Index i, Index j) {
     const Index a = lead(i), b = lead(j);
     lead_[std::size_t(std::max(a, b))] = std::min(a, b);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The smoother, and the one number that it needs.
+// The smoother, and the eigenvalue that it needs.
 #pragma once
 
 #include "multigrid/level_operator.h"
@@ -7,20 +7,20 @@
 
 namespace fairing {
 
-// Vectors of one level that the smoother works on.
+// The smoother's vectors of one level.
 struct SmootherState {
-  // `residual` is b - K x before `step` is taken from it; `step` the last change of x; `next` the
-  // room for the one to come.
+  // `residual` is b - K x before `step` is subtracted; `step` the last change of x; `next` a buffer
+  // for the next one.
   Array<float> x, residual, step, next;
   void resize(std::size_t size) {
     for (Array<float>* v : {&x, &residual, &step, &next}) v->resize(size + vector_room);
   }
 };
 
-// What a smoother starts from.
+// The start of a smoother.
 enum class SmoothFrom {
   zero,        // x is set
-  correction,  // state.step is still to be added to x, and K times it to be taken from the residual
+  correction,  // state.step is still to be added to x, and K times it subtracted from the residual
 };
 
 // `degree` steps of Chebyshev iteration of the fourth kind on D^-1 K [Lottes 2022; Phillips &
@@ -28,9 +28,9 @@ enum class SmoothFrom {
 //
 //   z_k = (2k - 1)/(2k + 3) z_{k-1} + (8k + 4)/(2k + 3)/lambda D^-1 r_k,  x += z_k,  z_{-1} = 0.
 //
-// No lower end of the spectrum has to be guessed. `lines`, which may be null, join D. Updates x, and
-// the residual with it unless `last_residual` is false (then the residual is stale, and one application
-// of K saved).
+// No lower end of the spectrum is needed. `lines`, which may be null, extend D. Updates x, and the
+// residual unless `last_residual` is false (then the residual is stale, which saves one product
+// with K).
 void smooth(LevelOperator& op, const LineJacobi* lines, Workers& workers, double largest_eigenvalue,
             int degree, SmoothFrom from, bool last_residual, SmootherState& state);
 
@@ -39,9 +39,9 @@ void smooth(LevelOperator& op, const LineJacobi* lines, Workers& workers, double
 void finish_step(const SmoothingStep& step, std::size_t components, const float* inverse_diagonal,
                  std::size_t first, std::size_t count, const float* product);
 
-// The largest eigenvalue of D^-1 K, where `lines` join D, by a few Lanczos steps from `start` (a safe
-// margin included). A start that moves with the mesh, such as a residual, makes the estimate independent
-// of numbering and position.
+// The largest eigenvalue of D^-1 K, D extended by `lines`, by a few Lanczos steps from `start`
+// (with a safety margin). A start that moves with the mesh, such as a residual, makes the estimate
+// independent of numbering and position.
 double largest_eigenvalue(LevelOperator& op, const LineJacobi* lines, Workers& workers,
                           const float* start);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The operators of all levels, and linear solves on any of them: conjugate gradients around
-// V-cycles, with a direct solve where the cycle ends. It adapts to what it meets: the smoother has
-// lines where faces are thin, its degree rises where iterations gain little, and a level that stays
-// hard is factored.
+// V-cycles, with a direct solve where the cycle ends. It adapts: the smoother has lines where faces
+// are thin, its degree rises if iterations gain little, and a level that stays difficult is
+// factored.
 #pragma once
 
 #include <functional>
@@ -14,23 +14,23 @@
 
 namespace fairing {
 
-// Levels up to so many unknowns are factored sooner than smoothed; the cycle ends on the finest of
-// them.
+// Levels of up to so many unknowns are factored rather than smoothed; the cycle ends on the finest
+// of them.
 constexpr std::size_t tiny_level = 1200;
 
-// The smoother's, to begin with (measured: of 2, 3, 4 and 6 the quickest, by little, for a plate and
+// The smoother's first degree (measured: the fastest, by little, of 2, 3, 4 and 6, for a plate and
 // for total curvature).
 constexpr int usual_degree = 3;
 
 struct HierarchyOptions {
-  int smoother_degree = 0;     // 0: chosen from how the solves go, beginning with the usual one
-  bool always_factor = false;  // the coarsest level is ill-conditioned, however large
-  // Whether operators change as from one step of many to the next: a factor of the level that is solved
-  // on then goes on as a preconditioner as long as it serves.
+  int smoother_degree = 0;     // 0: chosen by the solves, from the usual one on
+  bool always_factor = false;  // the coarsest level is ill-conditioned, whatever its size
+  // Whether operators change step by step: a factor of the solved level then remains a
+  // preconditioner for as long as it is effective.
   bool keeps_factors = false;
-  // Unknowns of a level up to which a factor costs little.
+  // Largest number of unknowns of a level whose factor costs little.
   std::size_t cheap_factor = direct_limit_of_hard;
-  // From this level on, the coarsest being 0, the largest eigenvalue is that of the level below.
+  // From this level on (coarsest: 0) the largest eigenvalue is that of the level below.
   std::size_t settled = 4;
 };
 
@@ -40,12 +40,12 @@ struct HierarchyLevel {
   std::size_t unknowns;
 };
 
-// How a solve went.
+// The result of a solve.
 struct LevelSolve {
   int iterations = 0;
   double residual = 0, energy_error = 0;  // at the end, as in PcgResult
-  double largest_eigenvalue = 0;          // that the smoother worked with
-  int smoother_degree = 0;                // at the end; 0: no smoother was asked
+  double largest_eigenvalue = 0;          // as used by the smoother
+  int smoother_degree = 0;                // at the end; 0: no smoother was used
   bool direct = false, converged = false;
   bool enough = false;            // as PcgLimits::enough says
   bool lines = false;             // whether the smoother has lines
@@ -61,27 +61,26 @@ class Hierarchy {
   const Array<float>& inverse_diagonal(std::size_t index) const {
     return cycle_.levels[index].op->inverse_diagonal();
   }
-  // A vector of the level to work in, in single precision, between solves.
+  // A work vector of the level in single precision, for use between solves.
   float* room(std::size_t index) { return cycle_.levels[index].state.residual.data(); }
-  // From here on the smoother adapts to nothing.
+  // Stops the smoother's adaptation.
   void keep_smoother() { adapts_ = false; }
 
-  // How often a level has been factored.
+  // Number of factorizations of a level so far.
   int factors() const { return factors_; }
 
-  // Solves a level's system, to the limits given. `each` is called after every iteration. Throws where
-  // the run has been cancelled, and FairingError(underdetermined) where a factor finds the level
-  // singular.
+  // Solves a level's system to the given limits. `each` is called after every iteration. Throws
+  // FairingError: cancelled; underdetermined if a factorization finds the level singular.
   LevelSolve solve(std::size_t index, const PcgLimits& limits, const LinearSystem& system,
                    const std::function<void(const PcgResult&)>& each);
 
-  // Before a level's first solve: from how the last one went, how far both are to be solved, and what
-  // a solve leaves that something is corrected after.
+  // Before a level's first solve: chooses the degree from the last solve, the tolerances of both,
+  // and the share that a solve leaves before a correction.
   void choose_degree(const LevelSolve& last, double tolerance, double next_tolerance,
                      double solve_gain);
 
  private:
-  // Brings what is kept of the operators up to their versions, but for the factor.
+  // Updates the cached data of the operators to their versions, except the factor.
   void update(std::size_t top);
   bool is_factor_old() const;
   bool may_keep_factor() const;
@@ -97,7 +96,7 @@ class Hierarchy {
 
   // adaptation.cpp
   bool adapts(bool direct) const { return adapts_ && options_.smoother_degree == 0 && !direct; }
-  // After each iteration: whether it is to go on as it is. Raises the degree.
+  // After each iteration: whether to continue unchanged. Raises the degree.
   bool goes_on(std::size_t index, const PcgResult& so_far, const PcgLimits& limits);
   bool is_too_hard(std::size_t index, const PcgLimits& limits) const;
   void promote_to_coarsest(std::size_t index);
@@ -114,9 +113,9 @@ class Hierarchy {
   std::vector<std::size_t> unknowns_;
   VCycle cycle_;
   std::unique_ptr<CoarseSolver> coarse_;
-  OperatorVersion factored_;  // the version that the factor is of
+  OperatorVersion factored_;  // the version of the factor
   int factors_ = 0;
-  int degree_of_two_ = 0;  // the smoother's, where two cycles precondition (LinearSystem::between)
+  int degree_of_two_ = 0;  // the smoother's, if two cycles precondition (LinearSystem::between)
   PcgState pcg_;
 };
 

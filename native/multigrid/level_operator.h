@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the solver asks of an energy on one level: the action of its matrix K and the diagonal. A
-// new energy is a new LevelOperator; the solver knows nothing else of it.
+// The solver's interface to an energy on one level: the action of its matrix K and the diagonal. A
+// new energy is a new LevelOperator.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -14,7 +14,7 @@
 
 namespace fairing {
 
-// Vectors in single precision have room for so many numbers more: operators may read them in packs.
+// Extra numbers at the end of vectors in single precision: operators may read them in packs.
 constexpr std::size_t vector_room = 16;
 
 // The finest subdivision of control edges for which fourth differences of smooth vectors survive in
@@ -22,15 +22,15 @@ constexpr std::size_t vector_room = 16;
 constexpr int most_of_single = 32;
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
-constexpr std::size_t matrix_entry = sizeof(double) + sizeof(int);  // bytes, as it is stored
+constexpr std::size_t matrix_entry = sizeof(double) + sizeof(int);  // bytes, as stored
 inline std::size_t matrix_bytes(const SparseMatrix& matrix) {
   return std::size_t(matrix.nonZeros()) * matrix_entry;
 }
 
 // A level's operator as a matrix, for a direct solve.
 //
-// A ring of n points couples all of them: n^2 numbers. Where it has more than this, its rows u are
-// kept as they are, each with an auxiliary unknown z = u . x behind the others:
+// A ring of n points couples all of them: n^2 numbers. For larger rings its rows u are stored as
+// they are, each with an auxiliary unknown z = u . x behind the others:
 //
 //   K = A + u u^T - w w^T   is the Schur complement of   A  u  w
 //                                                        u -1  0
@@ -57,7 +57,7 @@ struct AssembledSystem {
 //
 //   r -= K d,   next = momentum d + step D^-1 r,   x += next,
 //
-// and x += d too where that is still to be added. D is the diagonal of K.
+// and x += d too if that has not been added yet. D is the diagonal of K.
 struct SmoothingStep {
   const float* d;
   float *next, *x, *r;
@@ -65,10 +65,10 @@ struct SmoothingStep {
   bool adds_d;
 };
 
-// How often an operator has changed: what is kept of it is as old as the count that it was made at.
+// Counts the changes of an operator; cached data are valid for one count.
 struct OperatorVersion {
   int numbers = 0;   // of K
-  int spectrum = 0;  // K, by so much that its largest eigenvalue is another
+  int spectrum = 0;  // changes of K that change its largest eigenvalue
   int unknowns = 0;  // which points are unknowns
 };
 
@@ -86,25 +86,25 @@ class LevelOperator {
   // y <- K x. In single precision inside the preconditioner.
   virtual void apply(const double* x, double* y) = 0;
   virtual void apply(const float* x, float* y) = 0;
-  // Whether apply() in single precision tells smooth vectors from zero: of fourth order, it cancels
-  // their leading digits.
+  // Whether apply() in single precision distinguishes smooth vectors from zero: fourth order
+  // cancels their leading digits.
   virtual bool single_precision_suffices() const = 0;
   virtual const Array<float>& inverse_diagonal() const = 0;
 
-  // A smoothing step, and y -= K x with a vector `room` to work in. Both may be overridden by
-  // something faster than one application, and then passes over the vectors.
+  // A smoothing step, and y -= K x with a work vector `room`. Both may be overridden by something
+  // faster than one application followed by passes over the vectors.
   virtual void relax(const SmoothingStep& step, Workers& workers);
   virtual void subtract_product(const float* x, float* room, float* y, Workers& workers);
 
   const OperatorVersion& version() const { return version_; }
 
   virtual AssembledSystem assemble() const = 0;  // small levels only
-  // Offers K's couplings where lines are still sought, and adds its numbers along them. Where nothing
-  // is offered, the smoother has no lines.
+  // Offers K's couplings while lines are sought, and adds its numbers along them. Without offers
+  // the smoother has no lines.
   virtual void write_lines(LineBand&, Workers&) {}
 
  protected:
-  OperatorVersion version_;  // for those who change K to count up
+  OperatorVersion version_;  // to be incremented by every change of K
 };
 
 }  // namespace fairing

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lines of points that a matrix K couples strongly, and K's numbers along them: what an operator
-// tells the smoother where faces are thin. An operator first offers its couplings, once; then it adds
-// its numbers, as often as they change. What concerns a point is written for that point, so
-// operators may do so in parallel.
+// Lines of points that a matrix K couples strongly, and K's numbers along them, for the smoother
+// where faces are thin. An operator first offers its couplings, once; then it adds its numbers,
+// whenever they change. Data of a point are written for that point only, so operators may write in
+// parallel.
 #pragma once
 
 #include <array>
@@ -15,27 +15,27 @@
 
 namespace fairing {
 
-// Weaker couplings link nothing. On even triangles a plate couples neighbours by 0.24, along lines of
-// infinitely thin faces by 2/3; where triangles are a quarter higher than even ones, by this.
+// Weaker couplings do not link. A plate couples neighbours on even triangles by 0.24, along lines
+// of infinitely thin faces by 2/3; by this value if triangles are a quarter higher than even ones.
 constexpr float least_coupling = 0.35f;
-// Of a coupling over the third: less is a tie, as on even quads.
+// Least ratio to the third coupling; a smaller one is a tie, as on even quads.
 constexpr float least_lead = 1.01f;
 
 class LineBand {
  public:
   explicit LineBand(std::size_t points) : points_(points), strongest_(points) {}
 
-  // Whether couplings are still to be offered.
+  // Whether couplings are still expected.
   bool is_seeking() const { return !strongest_.empty(); }
-  // How strongly p is coupled to q: |K_pq| over the root of K_pp K_qq.
+  // The coupling of p to q: |K_pq| over the root of K_pp K_qq.
   void offer(Index p, Index q, float coupling) { strongest_[std::size_t(p)].offer(q, coupling); }
 
   std::size_t lines() const { return begin_.size() - 1; }
   std::size_t length(std::size_t line) const { return begin_[line + 1] - begin_[line]; }
   const Index* points_of(std::size_t line) const { return point_.data() + begin_[line]; }
 
-  // What an operator does with a band: offer(), which makes all offers, where they are still sought,
-  // and then add(), which adds all numbers to none, where there is a line.
+  // An operator's use of a band: offer() makes all offers while they are expected; then add() adds
+  // all numbers if there are lines.
   template <class Offer, class Add>
   void write(const Offer& offer, const Add& add) {
     if (is_seeking()) {
@@ -46,10 +46,10 @@ class LineBand {
     number_.assign(3 * points_, 0.0f);
     add();
   }
-  // After numbers have been read.
+  // Frees the numbers after they have been read.
   void clear() { Array<float>().swap(number_); }
-  // A point's place on all lines: on one and the same, places differ as points are apart; -1: the
-  // point is on none. One number a point.
+  // A point's place on all lines: places on one line differ by the distance in points; -1: on no
+  // line. One number a point.
   const Array<double>& places() const { return place_; }
   // Whether two places are on one line.
   bool are_on_one(double place_p, double place_q) const {
@@ -76,19 +76,18 @@ class LineBand {
         if (!to_q) number_[3 * std::size_t(p) + std::size_t(beside)] += part;
       });
   }
-  // Three numbers a point: what is off the band, in absolute value, as where a line turns back on
+  // Three numbers a point: the sum of absolute values off the band, where a line turns back on
   // itself; K's number with the point before it on the line, and with the one before that.
   Array<float>& numbers() { return number_; }
   const Array<float>& numbers() const { return number_; }
 
  private:
-  // After the last offer. Two points are linked where each is among the two that the other is coupled
-  // to most strongly. So lines lie along whatever direction is stiff: across thin faces, from one to
-  // the next.
+  // After the last offer. Two points are linked if each is among the two that the other is coupled
+  // to most strongly. So lines follow the stiff direction: across thin faces, from one to the next.
   void link();
 
   static constexpr Index none = -1;
-  // The two points that one is coupled to most strongly, and the third coupling.
+  // The two strongest couplings of a point, and the third.
   struct Strongest {
     std::array<Index, 2> point = {none, none};
     std::array<float, 3> coupling = {least_coupling, least_coupling, least_coupling};
@@ -102,7 +101,7 @@ class LineBand {
       coupling[k] = strength;
       if (k < 2) point[k] = q;
     }
-    // `none` unless it stands out: where three are alike, numbering must not tell.
+    // `none` if it does not exceed the third: among equal couplings numbering must not decide.
     Index outstanding(std::size_t k) const {
       return coupling[k] > least_lead * coupling[2] ? point[k] : none;
     }

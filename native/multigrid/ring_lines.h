@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What an operator K = sum of squares of rows over one-rings tells of lines (line_band.h), run by run.
+// Lines (line_band.h) of an operator K = sum of squares of rows over one-rings, run by run.
 //
-// `Rows` gives the rows of a run: read(run), then slots(), the point itself being slot 0 and its
-// neighbours following in the order of RunGather, and product(s, t, i): the scalar product of the
-// columns of slots s and t about point i; is_same_along_run(): whether those of all points are.
+// `Rows` gives the rows of a run: read(run), then slots(), with the point itself as slot 0 and its
+// neighbours in the order of RunGather, and product(s, t, i): the scalar product of the columns of
+// slots s and t about point i; is_same_along_run(): whether it is the same for all points.
 #pragma once
 
 #include <algorithm>
@@ -15,9 +15,9 @@
 
 namespace fairing {
 
-// K's numbers between the points of a run and their neighbours, were all rings about like their own:
-// where the lattice is regular each sums over all pairs of slots that are as far apart. Elsewhere it
-// takes the two points' own rings. Slot by slot, one number a point, or one for all.
+// K's numbers between the points of a run and their neighbours, as if all neighbours had equal
+// rings: on a regular lattice each is the sum over all pairs of slots with the same offset.
+// Elsewhere the two points' own rings are used. Slot by slot, one number a point, or one for all.
 template <class Rows>
 void find_couplings(const Rows& rows, const Run& run, std::vector<float>& coupling) {
   const int slots = rows.slots(), half = slots / 2;
@@ -82,7 +82,7 @@ void add_along_lines(const GridLevel& grid, Workers& workers, const Rows& rows, 
   struct State {
     Rows rows;
     RunGather<double> place;
-    std::vector<int> slots;  // that have points on lines
+    std::vector<int> slots;  // those with points on lines
   };
   ElementSlots<float, 3> slots;
   accumulate_runs(
@@ -108,7 +108,7 @@ void add_along_lines(const GridLevel& grid, Workers& workers, const Rows& rows, 
       });
 }
 
-// Both, as LevelOperator::write_lines() does it.
+// Both, as in LevelOperator::write_lines().
 template <class Rows>
 void write_ring_lines(const GridLevel& grid, const Unknowns& unknowns,
                       const Array<float>& inverse_diagonal, Workers& workers, const Rows& rows,

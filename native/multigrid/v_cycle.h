@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The V-cycle as a preconditioner, and the solver where it ends.
+// The V-cycle as a preconditioner, and the coarsest solver.
 #pragma once
 
 #include <bit>
@@ -12,12 +12,11 @@
 
 namespace fairing {
 
-// The solver of the coarsest level: a sparse Cholesky factorization where the level is small
-// enough, a fixed number of Chebyshev steps otherwise (interpolated control vertices keep the
-// system well-conditioned, however many they are).
+// The solver of the coarsest level: a sparse Cholesky factorization if the level is small enough,
+// otherwise a fixed number of Chebyshev steps (interpolated control vertices keep the system
+// well-conditioned, whatever their number).
 //
-// Where it factors, it throws FairingError(underdetermined) if the matrix is singular, and
-// bad_alloc.
+// A factorization throws FairingError(underdetermined) if the matrix is singular, and bad_alloc.
 class CoarseSolver {
  public:
   CoarseSolver(LevelOperator& op, Workers& workers, std::size_t unknowns, bool always_direct);
@@ -25,18 +24,19 @@ class CoarseSolver {
 
   // Call after the operator has changed.
   void refactor();
-  // Where solves gain too little: factors anew, nearer to K. Returns whether it could.
+  // For a factor whose solves gain too little: factors again, closer to K. Returns whether it
+  // could.
   bool lessen_trace();
 
   std::size_t size() const { return op_.size(); }  // of a vector
   bool direct() const { return factor_ != nullptr; }
-  std::size_t factor_numbers() const { return factor_numbers_; }  // off its diagonal; 0: none
+  std::size_t factor_numbers() const { return factor_numbers_; }  // off its diagonal; 0: no factor
 
   // state.x <- (approximately) K^-1 state.residual. The same linear map on every call.
   void solve(const LineJacobi* lines, double largest_eigenvalue, int degree, SmootherState& state);
   // x <- K^-1 b in double; direct() only.
   void solve(const double* b, double* x) const;
-  // |D x|, D the diagonal of K: what products with x are made of.
+  // |D x|, D the diagonal of K: the size of the terms of products with x.
   double norm_of_terms(const double* x) const;
 
  private:
@@ -45,38 +45,38 @@ class CoarseSolver {
 
   LevelOperator& op_;
   Workers& workers_;
-  double trace_;  // that the diagonal takes
+  double trace_;  // added to the diagonal
   std::unique_ptr<Factor> factor_;
   std::size_t factor_numbers_ = 0, factor_bytes_ = 0;
 };
 
-// Largest levels, in unknowns, that are factored: the coarsest; any other, once smoothing has
-// proved hard since faces are thin; and of these such as are cheap to factor where a factor serves
-// one right-hand side only. They balance a factor's time, which grows faster than the unknowns,
-// with that of smoothing; the first is small, as factoring has one thread.
+// Largest levels, in unknowns, that are factored: the coarsest; any other, if thin faces make
+// smoothing slow; and of these the ones whose factor is cheap even for one right-hand side. They
+// balance a factor's time, which grows faster than the unknowns, with that of smoothing; the first
+// is small because factoring has one thread.
 constexpr std::size_t direct_limit = 6000, direct_limit_of_hard = 80000;
 constexpr std::size_t direct_limit_of_steps = 16000;  // 0.3 s a factor
 
-// About what a factor of so many unknowns of a plate takes. Minimum degree leaves some 40 + 4 log2 n
-// entries a column.
+// Approximate size of a factor of so many unknowns of a plate. Minimum degree leaves some 40 + 4
+// log2 n entries a column.
 constexpr std::size_t factor_bytes(std::size_t unknowns) {
   return matrix_entry * unknowns * (40 + 4 * std::size_t(std::bit_width(unknowns)));
 }
 
-// One level as the cycle sees it.
+// One level of the cycle.
 struct CycleLevel {
   LevelOperator* op = nullptr;
   LevelTransfer* transfer = nullptr;  // to the next coarser level; null on the coarsest
   std::unique_ptr<LineJacobi> lines;  // of the smoother; null: not yet sought
   double largest_eigenvalue = 0;      // 0: unknown
-  OperatorVersion version{};          // that the lines are of
-  int spectrum = 0;  // that the eigenvalue is of: counted on all levels up to this one
+  OperatorVersion version{};          // the version of the lines
+  int spectrum = 0;  // the version of the eigenvalue: counted on all levels up to this one
   SmootherState state;
 };
 
 // The V-cycle as a preconditioner, in single precision: one linear map, with restriction the
-// transpose of prolongation. With the same smoother before and after the coarser levels' correction
-// it is symmetric positive definite.
+// transpose of prolongation. With the same smoother before and after the coarse correction it is
+// symmetric positive definite.
 class VCycle {
  public:
   explicit VCycle(Workers& workers) : workers_(workers) {}
@@ -92,7 +92,7 @@ class VCycle {
   // levels[top].state.x <- M^-1 levels[top].state.residual; the residual is overwritten. Throws
   // where the run has been cancelled.
   void run(std::size_t top) { run(top, degree, degree); }
-  // With other degrees, one at the least, before and after. Exchanged, they give the transpose.
+  // With other degrees, at least one, before and after. Exchanged, they give the transpose.
   void run(std::size_t top, int before, int after);
 
  private:

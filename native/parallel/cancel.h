@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cancellation. A run names its Monitor once, in a CancelScope; whatever it calls, on its own
-// thread and on its Workers' threads, asks in passing by stop_if_cancelled(). Without a scope
-// nobody cancels. So every long function of the core may throw FairingError(cancelled).
+// Cancellation. A run sets its Monitor once, in a CancelScope; all functions that it calls, on its
+// own thread and on its Workers' threads, check it by stop_if_cancelled(). Without a scope a run
+// cannot be cancelled. So every long function of the core may throw FairingError(cancelled).
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace fairing {
 
-// While it exists, stop_if_cancelled() on this thread obeys the monitor (null: nobody).
+// During its lifetime stop_if_cancelled() on this thread checks this monitor (null: none).
 class CancelScope {
  public:
   explicit CancelScope(const Monitor* monitor) : before_(own()) { own() = monitor; }
@@ -29,22 +29,22 @@ class CancelScope {
   const Monitor* before_;
 };
 
-// Throws FairingError(cancelled) when this thread's run has been cancelled.
+// Throws FairingError(cancelled) if this thread's run has been cancelled.
 inline void stop_if_cancelled() {
   if (const Monitor* monitor = CancelScope::current()) monitor->check_cancelled();
 }
 
-// The same for long loops: asks at every 1024th step only.
+// The same for long loops: checks at every 1024th step only.
 inline void stop_if_cancelled(std::size_t step) {
   if (step % 1024 == 0) stop_if_cancelled();
 }
 
-// The same in the loop over a face's rows, of which large faces have many.
+// The same in the loop over a face's rows, which may be many.
 inline void stop_in_large_face(int row) {
   if (row % 64 == 0) stop_if_cancelled();
 }
 
-// Calls body(begin, end) for one stretch of [0, size) after another and asks before each: for
+// Calls body(begin, end) for one stretch of [0, size) after another and checks before each: for
 // simple loops over long arrays on one thread.
 template <class Body>
 void for_stretches(std::size_t size, Body&& body) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Large arrays whose bytes are counted, so that a run can report its peak. Errors: std::bad_alloc.
+// Large arrays whose bytes are counted for a run's peak. Errors: std::bad_alloc.
 #pragma once
 
 #include <cstddef>
@@ -9,11 +9,11 @@
 
 namespace fairing {
 
-// Bytes held by the Arrays that the current thread allocates while a ledger is open.
-// Of several the last opened counts; worker threads never allocate Arrays.
+// Counts the bytes of the Arrays that the current thread allocates while this ledger is open. The
+// last opened ledger counts; worker threads never allocate Arrays.
 class MemoryLedger {
  public:
-  // `limit`, in bytes; 0: none. It is kept by those who ask.
+  // `limit`, in bytes; 0: none. Callers have to check it with fits().
   explicit MemoryLedger(std::size_t limit = 0);
   ~MemoryLedger();
   MemoryLedger(const MemoryLedger&) = delete;
@@ -24,10 +24,10 @@ class MemoryLedger {
 
   static void add(std::size_t bytes);
   static void remove(std::size_t bytes);
-  // By the open ledger, now and at the most so far.
+  // Bytes of the open ledger, now and at its peak.
   static std::size_t held();
   static std::size_t highest();
-  // Whether so many more are within the open ledger's limit.
+  // Whether so many more bytes are within the open ledger's limit.
   static bool fits(std::size_t bytes);
 
  private:
@@ -36,7 +36,7 @@ class MemoryLedger {
   std::size_t peak_ = 0;
 };
 
-// Bytes that the open ledger knows of for as long as this lives: of what is no Array.
+// Bytes of other memory, counted by the open ledger during this object's lifetime.
 class CountedBytes {
  public:
   explicit CountedBytes(std::size_t bytes) : bytes_(bytes) { MemoryLedger::add(bytes_); }
@@ -48,11 +48,11 @@ class CountedBytes {
   std::size_t bytes_;
 };
 
-// Asks the system for large pages, where it gives them on request: mapping and unmapping them is
-// many times as fast.
+// Requests large pages from the system, if it has them: mapping and unmapping are many times as
+// fast.
 void prefer_large_pages(void* memory, std::size_t bytes);
 
-// Physical memory of the machine in bytes (0 where it cannot be told).
+// Physical memory of the machine in bytes (0 if unknown).
 std::size_t physical_memory();
 
 template <class T>
@@ -72,8 +72,8 @@ struct CountingAllocator {
     MemoryLedger::remove(n * sizeof(T));
     std::allocator<T>().deallocate(p, n);
   }
-  // resize() leaves numbers unset: every array is written before it is read, and a sweep of zeros
-  // costs as much bandwidth as a pass.
+  // resize() leaves numbers unset: every array is written before it is read, and clearing it would
+  // cost as much bandwidth as a pass.
   template <class U>
   void construct(U* p) {
     ::new (static_cast<void*>(p)) U;

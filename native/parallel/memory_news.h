@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Word of a run that is about to take markedly more memory than was predicted, to whoever watches
-// it: before that memory is taken.
+// Reports to observers that a run is about to take clearly more memory than predicted, before it
+// does.
 #pragma once
 
 #include <atomic>
@@ -10,18 +10,18 @@ namespace fairing {
 
 constexpr double megabyte = 1e6;  // as messages have it
 
-// Shared between a run and whoever watches it, on any thread.
+// Shared between a run and its observers, on any thread.
 class MemoryNews {
  public:
-  // For the run's thread: what was predicted, and that it will hold so much in all. Small runs, and
-  // what is nearly as predicted, are nobody's concern. Returns once a listener has passed it on, or
-  // after a moment.
+  // For the run's thread: sets the prediction; reports the total that the run will hold. Small runs
+  // and small differences are not reported. Returns when a listener has passed it on, or after a
+  // moment.
   void expect(std::size_t bytes) { predicted_ = bytes; }
   void needs(std::size_t bytes);
   bool told() const { return bytes_ > 0; }
 
-  // For a listener: that there is one, or no longer; how many bytes, 0 where that is no news; and
-  // that it has been passed on.
+  // For a listener: registers or leaves; returns the bytes to report, 0 for none; confirms that
+  // they were passed on.
   void listen(bool listens) { listens_ = listens; }
   std::size_t unheard() const {
     const std::size_t bytes = bytes_;
@@ -30,7 +30,7 @@ class MemoryNews {
   std::size_t predicted() const { return predicted_; }
   void heard(std::size_t bytes) { heard_ = bytes; }
 
-  // Of the run on this thread; null: nobody wants to know.
+  // That of the run on this thread; null: no observer.
   static MemoryNews* current();
 
  private:
@@ -39,7 +39,7 @@ class MemoryNews {
   std::atomic<bool> listens_{false};
 };
 
-// While it exists, what this thread takes is told to `news`.
+// During its lifetime memory of this thread is reported to `news`.
 class MemoryNewsScope {
  public:
   explicit MemoryNewsScope(MemoryNews& news);
@@ -48,11 +48,11 @@ class MemoryNewsScope {
   MemoryNewsScope& operator=(const MemoryNewsScope&) = delete;
 };
 
-// That the run on this thread is about to take so many bytes more than its ledger holds.
+// Announces that the run on this thread is about to take so many bytes more than its ledger holds.
 void announce_memory(std::size_t bytes);
 
-// Whether so many more leave the run within twice what was predicted, or small: to be asked before
-// what it can do without.
+// Whether the run stays within twice its prediction, or small, with so many more bytes; for
+// optional allocations.
 bool is_expected_memory(std::size_t bytes);
 
 }  // namespace fairing

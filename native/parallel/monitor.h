@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Progress out, cancellation in, both through atomics: the run never calls foreign code.
+// Progress and cancellation through atomics: the run never calls foreign code.
 #pragma once
 
 #include <atomic>
@@ -36,11 +36,11 @@ inline const char* name(Phase phase) {
   return "";
 }
 
-// Shared between a run and whoever watches it, on any thread.
+// Shared between a run and its observers, on any thread.
 class Monitor {
  public:
   void cancel() { wish_.store(Wish::stop, std::memory_order_relaxed); }
-  // Cancels when the run asks for the n-th time: tests can stop a run anywhere, and there again.
+  // Cancels at the n-th check: tests can stop a run at any check, repeatably.
   void cancel_at_question(std::int64_t n) {
     questions_.store(n, std::memory_order_relaxed);
     wish_.store(Wish::count, std::memory_order_relaxed);
@@ -48,16 +48,16 @@ class Monitor {
   double fraction() const { return fraction_.load(std::memory_order_relaxed); }
   Phase phase() const { return phase_.load(std::memory_order_relaxed); }
 
-  // For the run itself: says where it is; throws FairingError(cancelled) when asked to stop.
+  // For the run: sets its progress; throws FairingError(cancelled) if requested.
   void report(Phase phase, double fraction) {
     fraction = begin_ + (end_ - begin_) * fraction;
     phase_.store(phase, std::memory_order_relaxed);
-    // Only the run's thread writes; progress never goes back.
+    // Only the run's thread writes; progress never decreases.
     if (fraction > fraction_.load(std::memory_order_relaxed))
       fraction_.store(fraction, std::memory_order_relaxed);
     check_cancelled();
   }
-  // For the run's thread: fractions reported from now on are parts of [begin, end] of the whole.
+  // For the run's thread: later fractions are parts of [begin, end] of the whole.
   void enter_part(double begin, double end) {
     begin_ = begin;
     end_ = end;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Loops over long vectors in parallel. Sums are taken in blocks of fixed size and added up in the
-// order of the blocks: the number of threads leaves no trace in them. Errors as Workers::for_parts.
+// Parallel loops over long vectors. Sums are taken in blocks of fixed size and added in the order
+// of the blocks, so they do not depend on the number of threads. Errors as Workers::for_parts.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace fairing {
 
-constexpr std::size_t vector_block = 4096;  // numbers a block of sums
+constexpr std::size_t vector_block = 4096;  // numbers in a block of sums
 // Fewer numbers are not worth waking a thread.
 constexpr std::size_t vector_grain = 1 << 13;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Threads that share index ranges among them, and the buffers that each thread keeps. Every output
-// is written for one index, every sum is taken over blocks of fixed size in fixed order: results
-// are bit-identical for any number of threads.
+// Threads that share index ranges, and the buffers of each thread. Every output is written by one
+// index, every sum is taken over blocks of fixed size in fixed order: results are bit-identical for
+// any number of threads.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace fairing {
 
 class Workers {
  public:
-  // 0: one a core. Where the system starts fewer, those have to do.
+  // 0: one per core. If the system starts fewer, these are used.
   explicit Workers(int threads = 0);
   ~Workers();
   Workers(const Workers&) = delete;
@@ -28,12 +28,12 @@ class Workers {
   int count() const { return int(threads_.size()) + 1; }
 
   // Calls body(begin, end) on disjoint contiguous parts of [0, size), and returns when all are
-  // done. `grain` is the smallest part worth handing out. Each thread that is free takes another
-  // part; one that sleeps, or has lost its core to another program, is not waited for.
+  // done. `grain` is the smallest part worth a thread. Each free thread takes another part; threads
+  // that sleep or have lost their core are not waited for.
   //
-  // The caller's CancelScope holds on all threads, and is asked before each part. An exception of
-  // any part (cancelled, bad_alloc, what body() throws) is rethrown here; parts that have not begun
-  // by then are left out. Calls do not nest.
+  // The caller's CancelScope is valid on all threads and checked before each part. An exception of
+  // any part (cancelled, bad_alloc, or thrown by body()) is rethrown here; parts that have not
+  // begun by then are left out. Calls do not nest.
   template <class Body>
   void for_parts(std::size_t size, std::size_t grain, Body&& body) {
     const std::size_t parts = part_count(size, grain);
@@ -62,7 +62,7 @@ class Workers {
  private:
   using Task = void (*)(void*, int);
   using State = std::uint64_t;
-  // A cancelled run finishes the parts that it has begun: at least `enough_parts`, as far as the
+  // A cancelled run finishes the parts that it has begun; at least `enough_parts`, as far as the
   // grain allows, keep that short. state_ has 16 bits for their number.
   static constexpr std::size_t enough_parts = 256, grains_a_part = 8, most_parts = 0xffff;
 
@@ -85,7 +85,7 @@ class Workers {
   std::atomic<State> state_{0};
   std::atomic<Task> task_{nullptr};
   std::atomic<void*> data_{nullptr};
-  std::atomic<std::uint32_t> calls_{0};  // what idle threads wait for
+  std::atomic<std::uint32_t> calls_{0};  // idle threads wait for a change
   std::atomic<std::uint32_t> unfinished_{0};
   std::atomic<bool> stop_{false};
   std::exception_ptr failure_;
@@ -94,16 +94,16 @@ class Workers {
 
 // --- buffers of a thread ---
 
-// Scratch memory that each thread keeps from one call to the next: to allocate and clear large
+// Scratch memory that each thread keeps from call to call, because allocating and clearing large
 // buffers in every pass would cost as much as the pass. A worker's buffers are freed with its
-// thread; the thread that owns the Workers frees its own when they are destroyed.
+// thread; the owner's thread frees its own when the Workers are destroyed.
 template <class T>
 struct ThreadScratch {
-  // Of accumulate() (grid/accumulate.h): the closed face and the edge that a body writes, and a
-  // buffer for the body to work in.
+  // For accumulate() (grid/accumulate.h): the closed face and the edge that a body writes, and a
+  // work buffer for the body.
   std::vector<T> closed, run, work;
   std::vector<T> gathered;  // the closed faces or edges that a body reads
-  std::vector<T> columns;   // of sparse products: the entries of x that a block of rows reads
+  std::vector<T> columns;   // for sparse products: the entries of x that a block of rows reads
 };
 
 template <class T>
@@ -112,15 +112,15 @@ ThreadScratch<T>& thread_scratch() {
   return own;
 }
 
-// Memory for `size` numbers, with whatever values; valid until the next call for the same buffer.
+// Memory for `size` unset numbers; valid until the next call for the same buffer.
 template <class T>
 T* room_in(std::vector<T>& buffer, std::size_t size) {
   if (buffer.size() < size) buffer.resize(size);
   return buffer.data();
 }
 
-// Which columns of a sparse matrix a row has named already: those whose marks are greater than
-// `last`. Raising `last` clears them all at once.
+// The columns of a sparse matrix that a row has used: those whose marks exceed `last`. Raising
+// `last` clears all of them.
 struct ColumnMarks {
   std::vector<std::uint32_t> mark;
   std::uint32_t last = 0;

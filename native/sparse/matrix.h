@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sparse matrices in single precision, for the many applications inside a preconditioner.
+// Sparse matrices in single precision, for many applications inside a preconditioner.
 //
-// What a large matrix costs is reading it. So it is kept in chunks of rows: a row names its columns
-// by 16-bit indices among those of its chunk, and equal rows, as there are many along an edge and
-// inside a face, share their numbers: between 2 and 6 bytes an entry, where rows of 32-bit indices
-// take 8.
+// Their cost is reading them. So they are stored in chunks of rows: a row has 16-bit indices into
+// the columns of its chunk, and equal rows, which are many along an edge and inside a face, share
+// their numbers: between 2 and 6 bytes an entry instead of 8.
 //
-// Not changed once it is made.
+// Immutable.
 #pragma once
 
 #include <algorithm>
@@ -25,25 +24,25 @@
 
 namespace fairing {
 
-// Whether a level of n subdivisions and so many points is served by rows: where faces are small,
-// passes over faces and edges cost more than an index a number; where they are large, rows cost
-// more memory, and the time to read it.
+// Whether rows are faster on a level of n subdivisions and so many points: where faces are small,
+// passes over faces and edges cost more than an index for each number; where they are large, rows
+// cost more memory and time to read it.
 constexpr bool has_rows(int n, std::size_t points) {
-  // measured: in 32 pieces an edge rows take a tenth to a fourth longer
+  // Measured: with 32 pieces an edge rows take a tenth to a fourth longer.
   return n > 1 && n <= 16 && points <= std::size_t(1) << 22;
 }
 
-// Whether rows summed from `products` terms, over all points, are worth their pattern: on average a
-// point's ring times itself, 49 or 81 where rings are regular.
+// Whether rows summed from `products` terms, over all points, are worth their pattern: on average
+// the square of a point's ring, 49 or 81 for regular rings.
 constexpr bool worth_products(std::size_t products, std::size_t points) {
-  constexpr std::size_t most_products = 128;  // a point
+  constexpr std::size_t most_products = 128;  // per point
   return products < most_products * points;
 }
 
-// Rows of a chunk: enough to share columns and numbers, few enough that what a chunk reads of a
+// Rows of a chunk: enough to share columns and numbers, few enough that the chunk's part of a
 // vector, and its product, stay in a near cache.
 constexpr std::size_t chunk_rows = 256;
-// Rows are filled up with zeros to whole blocks, one partial sum for each place in a block.
+// Rows are padded with zeros to whole blocks, one partial sum for each place in a block.
 constexpr std::uint32_t row_block = 4;
 
 struct RowChunk {
@@ -69,7 +68,7 @@ struct RowChunk {
   }
 };
 
-// Calls visit(row of the chunk, which of its columns, number) for all but zeros, which fill up rows.
+// Calls visit(row of the chunk, column of the chunk, number) for all numbers except padding.
 template <class Visit>
 void visit_chunk(const RowChunk& chunk, const Visit& visit) {
   std::uint32_t k = 0;
@@ -79,9 +78,9 @@ void visit_chunk(const RowChunk& chunk, const Visit& visit) {
         visit(r, std::size_t(chunk.local_column[k]), chunk.number[number]);
 }
 
-// product <- the chunk's rows times x: C numbers a row, 1 or 3, and up to one number beyond. x
-// holds C numbers a column and `vector_room` (multigrid/level_operator.h) more. Every number sees
-// the same operations in the same order on all machines.
+// product <- the chunk's rows times x: C numbers a row, 1 or 3, and up to one number beyond. x has
+// C numbers a column and `vector_room` (multigrid/level_operator.h) more. The order of operations
+// is the same on all machines.
 template <int C>
 void chunk_product(const RowChunk& chunk, const float* x, float* product);
 
@@ -95,7 +94,7 @@ class RowBuilder {
     in_chunk_.fit(columns);
   }
 
-  // What an exception has left of a row is no mark to the thread's next builder.
+  // Clears the marks that an exception has left, for the thread's next builder.
   ~RowBuilder() {
     in_row_.last += std::uint32_t(column_.size());
     in_chunk_.last += std::uint32_t(chunk_.column.size());
@@ -110,7 +109,7 @@ class RowBuilder {
     ++chunks_;
   }
 
-  // To the row's number in a column.
+  // Adds to the row's number in a column.
   void add(Index column, double number) {
     std::uint32_t& mark = in_row_.mark[std::size_t(column)];
     if (mark <= in_row_.last) {
@@ -121,33 +120,33 @@ class RowBuilder {
     sum_[mark - in_row_.last - 1] += number;
   }
 
-  // The row's columns so far, in the order in which they were named.
+  // Number of the row's columns so far, in the order in which they were named.
   std::size_t columns() const { return column_.size(); }
   bool names(Index column) const { return in_row_.mark[std::size_t(column)] > in_row_.last; }
   std::size_t place(Index column) const {
     return in_row_.mark[std::size_t(column)] - in_row_.last - 1;
   }
 
-  // A row's numbers, for others that have the same.
+  // A row's numbers, to be shared by equal rows.
   class Numbers {
     friend RowBuilder;
     std::vector<float> number_;
-    std::size_t chunk_ = 0;  // that has them, counted from one; 0: none yet
+    std::size_t chunk_ = 0;  // the chunk that has them, counted from one; 0: none yet
     std::uint32_t first_ = 0;
   };
   void copy_numbers(Numbers& numbers) const {
     numbers.number_.assign(sum_.begin(), sum_.end());
     numbers.chunk_ = 0;
   }
-  // The row, still empty, has these numbers in these columns. False, and it stays empty: a column is
-  // named twice. `numbers` must live until finish().
+  // Gives the empty row these numbers in these columns. False, and the row stays empty, if a column
+  // is named twice. `numbers` must live until finish().
   bool repeat(Numbers& numbers, std::span<const Index> columns);
 
-  // The row goes to the chunk, its columns in the order in which they were first named.
+  // Moves the row to the chunk, its columns in the order in which they were first named.
   void finish();
 
   const RowChunk& chunk() const { return chunk_; }
-  // Whether 16 bits tell the chunk's columns apart.
+  // Whether 16 bits suffice for the chunk's columns.
   bool fits() const {
     return chunk_.column.size() <= std::numeric_limits<RowChunk::LocalColumn>::max();
   }
@@ -157,19 +156,19 @@ class RowBuilder {
   std::uint32_t first_number();
   std::uint32_t keep_numbers();
 
-  // Which columns the row and the chunk have named: where, counted from `last`.
+  // Places of the columns of the row and the chunk, counted from `last`.
   ColumnMarks &in_row_, &in_chunk_;
   RowChunk chunk_;
-  std::vector<std::uint32_t> distinct_;  // where rows of numbers begin, all different
+  std::vector<std::uint32_t> distinct_;  // starts of distinct rows of numbers
   std::size_t chunks_ = 0;               // begun
-  // Of the row at hand.
+  // Of the current row.
   std::vector<std::uint32_t> column_;
   std::vector<double> sum_;
   std::vector<float> number_;
   Numbers* repeated_ = nullptr;
 };
 
-// Numbers column by column: first[c] … first[c + 1] of the entries, rows ascending.
+// Numbers by column: entries first[c] … first[c + 1], rows ascending.
 struct MatrixColumns {
   struct Entry {
     Index row;
@@ -181,9 +180,9 @@ struct MatrixColumns {
 
 class AssembledMatrix {
  public:
-  // make_writer() gives a writer, one for each stretch of rows that a thread takes; writer(row,
-  // builder) adds the numbers of one row after another; none: the row is zero. Null: it would have
-  // too many columns in one chunk. Throws where the run has been cancelled.
+  // make_writer() makes a writer for each stretch of rows of a thread; writer(row, builder) adds
+  // the numbers of one row after another; a row without numbers is zero. Null if a chunk has too
+  // many columns. Throws FairingError(cancelled).
   template <class MakeWriter>
   static std::unique_ptr<const AssembledMatrix> make(std::size_t rows, std::size_t columns,
                                                      Workers& workers, MakeWriter&& make_writer) {
@@ -199,7 +198,7 @@ class AssembledMatrix {
           builder.finish();
         }
         if (!builder.fits()) fits = false;
-        chunks[c] = builder.chunk();  // a copy: its vectors are no longer than they need be
+        chunks[c] = builder.chunk();  // a copy, so that its vectors have no spare capacity
       }
     });
     if (!fits) return nullptr;
@@ -208,13 +207,13 @@ class AssembledMatrix {
     return std::unique_ptr<AssembledMatrix>(new AssembledMatrix(columns, std::move(chunks), bytes));
   }
 
-  // The number of a row in its own column; 0 where the row is zero.
+  // The diagonal number of a row; 0 for a zero row.
   float diagonal(std::size_t row) const;
 
   // Throws where the run has been cancelled.
   MatrixColumns by_columns(Workers& workers) const;
 
-  // Calls visit(row, column, number) for all numbers, in parallel: those of a row on one thread.
+  // Calls visit(row, column, number) for all numbers, in parallel; a row is visited by one thread.
   template <class Visit>
   void visit_numbers(Workers& workers, const Visit& visit) const {
     workers.for_parts(chunk_.size(), 1, [&](std::size_t begin, std::size_t end) {
@@ -226,8 +225,7 @@ class AssembledMatrix {
   }
 
   // Calls finish(row, count, product) on blocks of rows, in parallel, with product the matrix times
-  // x there, C numbers a row, 1 or 3: what comes after the product is done while it is in the
-  // cache. x has `vector_room` more.
+  // x there, C numbers a row, 1 or 3, still in the cache. x has `vector_room` extra numbers.
   template <int C, class Finish>
   void visit_products(const float* x, Workers& workers, const Finish& finish) const {
     workers.for_parts(chunk_.size(), 1, [&](std::size_t begin, std::size_t end) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Rows that are those of other points again. Along an edge and inside a face most points have the
-// same stencils about them, so that their rows have the same numbers: only the columns are others.
+// Rows equal to those of other points. Along an edge and inside a face most points have the same
+// stencils around them, so their rows have the same numbers in other columns.
 #pragma once
 
 #include <array>
@@ -11,24 +11,24 @@
 
 namespace fairing {
 
-// For one stretch of rows that are summed from the rings about a point's own ring, each weighted by
-// numbers of its element alone.
+// For a stretch of rows that are summed from the rings around a point's own ring, weighted by
+// numbers of each ring's element alone.
 class RepeatedRows {
  public:
   // `rings` must outlive it.
   explicit RepeatedRows(const RingTable& rings) : rings_(rings) {}
 
-  // Whether the row of the unknown p is one of the latest again, which then is written.
+  // Whether the row of the unknown p equals one of the latest; if so, writes it.
   bool write(Index p, RowBuilder& row);
 
-  // Keeps the row of p, which has just been summed, if others may be like it.
+  // Keeps the row of p, which has just been summed, if others may be equal.
   void keep(Index p, const RowBuilder& row);
 
  private:
   struct Known {
-    std::vector<Index> element;       // whose stencils the rings have; empty: there is no row yet
+    std::vector<Index> element;       // whose stencils the rings have; empty: no row yet
     std::vector<std::uint8_t> slot;   // of the point in each of these rings
-    std::vector<std::uint8_t> place;  // of each ring's members: the column, or one of the marks
+    std::vector<std::uint8_t> place;  // column of each ring's members, or one of the marks
     std::size_t columns = 0;
     RowBuilder::Numbers numbers;
   };
@@ -37,9 +37,9 @@ class RepeatedRows {
   bool is_again(const Known& known, Index p);
 
   const RingTable& rings_;
-  // A quad has five such rows that come in turns: deep inside, and along each side.
+  // A quad has five such rows in turns: deep inside, and along each side.
   std::array<Known, 5> known_;
-  std::array<std::uint8_t, 5> latest_{0, 1, 2, 3, 4};  // into known_, the last used first
+  std::array<std::uint8_t, 5> latest_{0, 1, 2, 3, 4};  // into known_, most recently used first
   std::vector<Index> column_;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The one-rings of a level's points as lists of points: what rows of sparse matrices are summed
-// from. 4 bytes a neighbour and 16 a point, so for levels of few points only (has_rows()).
+// The one-rings of a level's points as lists of points, from which rows of sparse matrices are
+// summed. 4 bytes a neighbour and 16 a point, so only for levels of few points (has_rows()).
 #pragma once
 
 #include <span>
@@ -17,7 +17,7 @@ class RingTable {
   // `grid` must outlive the table. Throws where the run has been cancelled.
   RingTable(const GridLevel& grid, const Unknowns& unknowns, Workers& workers);
 
-  // The id of a point, or ~id where it is no unknown.
+  // The id of a point, or ~id if it is not an unknown.
   using Member = Index;
   static constexpr Index id_of(Member m) { return m < 0 ? ~m : m; }
 
@@ -30,7 +30,7 @@ class RingTable {
   };
   const Ring& about(Index p) const { return ring_[std::size_t(p)]; }
   const Member* members(const Ring& ring) const { return member_.data() + ring.member; }
-  // Which member of the ring a point is; `size` where it is none.
+  // The position of a point in the ring; `size` if it is not a member.
   std::size_t slot(const Ring& ring, Index p) const {
     const Member* const member = members(ring);
     std::size_t s = 0;
@@ -54,7 +54,7 @@ class RingTable {
   Array<Member> member_;
 };
 
-// The rings that hold each unknown, in the order of their centres. 8 bytes a neighbour and 8 a
+// The rings that contain each unknown, in the order of their centres. 8 bytes a neighbour and 8 a
 // point.
 class RingPlaces {
  public:

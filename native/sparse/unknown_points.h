@@ -12,11 +12,11 @@ namespace fairing {
 // How many points are unknowns.
 std::size_t count_unknowns(const GridLevel& grid, const Unknowns& unknowns);
 
-// One a point: whether it is an unknown. Throws where the run has been cancelled.
+// Per point: whether it is an unknown. Throws FairingError(cancelled).
 std::vector<std::uint8_t> unknown_points(const GridLevel& grid, const Unknowns& unknowns);
 
-// One a point: the unknowns numbered 0, 1, … in the order of the points; -1 for the others. Rows
-// and columns of assembled systems go by these numbers.
+// Per point: the unknowns numbered 0, 1, … in the order of the points; -1 for the others. Rows and
+// columns of assembled systems have these numbers.
 std::vector<Index> number_unknowns(const GridLevel& grid, const Unknowns& unknowns);
 
 }  // namespace fairing

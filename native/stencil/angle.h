@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Angles at the price of a few multiplications: the refined surface has one at every corner of
-// every cell. Bits do not depend on the mathematical library, but for turns beyond
-// small_turn_limit.
+// Angles for a few multiplications: the refined surface has one at every corner of every cell. Up
+// to small_turn_limit the bits do not depend on the mathematical library.
 #pragma once
 
 #include <cmath>
@@ -13,7 +12,7 @@ namespace fairing {
 
 constexpr double full_turn = 2 * std::numbers::pi;
 
-// The series below are for numbers and for packs of them alike (base/simd.h).
+// The series below accept numbers and packs (base/simd.h).
 
 // Half an angle is an arctangent in [0, pi/2]: folded to [0, pi/4], turned to [-pi/8, pi/8], then a
 // polynomial through Chebyshev points.
@@ -31,7 +30,7 @@ DF_INLINE void half_angle_series(const N& x, N& half) {
 }
 
 // The angle in [0, pi] whose sine and cosine, times `length` > 0, are given (sine >= 0), to 2e-15
-// (near pi, where the cosine says little, to 1e-14).
+// (near pi to 1e-14).
 inline double angle_of(double sine, double cosine, double length) {
   const double n = sine, d = length + cosine;
   const bool steep = n > d;
@@ -41,7 +40,7 @@ inline double angle_of(double sine, double cosine, double length) {
   return steep ? std::numbers::pi - 2 * half : 2 * half;
 }
 
-// Up to here, in radians, the series below are exact to rounding: their first terms left out are
+// Up to here, in radians, the series below are exact to rounding: the first omitted terms are
 // 0.125^10 / 10! and 0.125^11 / 11!, below 3e-16.
 constexpr double small_turn_limit = 0.125;
 
@@ -52,7 +51,7 @@ DF_INLINE void small_turn_series(const N& angle, N& cosine, N& sine) {
   sine = angle * (1.0 - y * (1.0 / 6 - y * (1.0 / 120 - y * (1.0 / 5040 - y * (1.0 / 362880)))));
 }
 
-// Cosine and sine of a small angle; of any other by the library.
+// Cosine and sine; above small_turn_limit by the library.
 inline void small_turn(double angle, double& cosine, double& sine) {
   if (std::abs(angle) > small_turn_limit) {
     cosine = std::cos(angle);

@@ -25,27 +25,27 @@ constexpr double root_half = std::numbers::sqrt2 / 2;      // of that basis
 
 Coefficients basis(const Vec2& p);
 
-// A direction whose singular value is below this share of the largest counts as undetermined: what
-// it would add is noise. And the same where singular values are squared, in normal equations.
+// A direction whose singular value is below this share of the largest counts as undetermined,
+// because it would add only noise. The square is for normal equations.
 constexpr double undetermined = 3e-3, undetermined_square = 3e-3 * 3e-3;
-// A ring is a line whose width over its length is but rounding.
+// A ring narrower than rounding is a line.
 constexpr double thinnest_ring_square = rounding * rounding;
 
-// Rows that turn the differences f_j - f_0 over the chart's ring into the coefficients.
+// Rows that map the differences f_j - f_0 over the chart's ring to the coefficients.
 //
-// Five and more neighbours: least squares. Fewer, or neighbours too near a common conic through the
-// origin, do not determine a quadratic: a closed ring then fits f_u, f_v and the trace, and takes
+// Five and more neighbours: least squares. Fewer, or neighbours close to a common conic through the
+// origin, do not determine a quadratic. Then a closed ring fits f_u, f_v and the trace, and takes
 // the trace-free part of least norm (valence 3: none); an open ring fits f_u, f_v and takes the
 // Hessian of least norm.
 FitRows fit(const Chart& chart);
 
-// The divided differences of one function at one point, where writing the rows of fit() would cost
-// too much: on the stack, in closed form.
+// The divided differences of one function at one point, on the stack and in closed form, where the
+// rows of fit() would cost too much.
 //
-// The last three of fit()'s coefficients from the differences f_j - f_0 over a closed ring. The
-// same rules hold where the ring does not determine a quadratic: valence 4 gives the trace and the
-// trace-free part of least norm, valence 3 the trace alone. Zero for a ring without any extent.
-// Where a quadratic is determined, squared residuals count by their weights (empty: all are one).
+// Returns the last three of fit()'s coefficients from the differences f_j - f_0 over a closed ring.
+// The same rules apply where the ring does not determine a quadratic: valence 4 gives the trace and
+// the trace-free part of least norm, valence 3 the trace alone. Zero for a ring without extent.
+// Where a quadratic is determined, squared residuals have these weights (empty: all one).
 Vec3 fitted_hessian(std::span<const Vec2> ring, std::span<const double> difference,
                     std::span<const double> weight = {});
 

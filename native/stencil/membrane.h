@@ -5,9 +5,9 @@
 //   w_ij |p_i - p_j|^2,
 //
 // with linear elements on the flat faces of the metric (stencil/metric.h); a quad counts as the
-// mean of its two triangulations. On a map that keeps angles this is tau times the surface's area.
-// The integral knows no scale, so one set of weights serves every level, and inside a control face
-// there is one weight for each direction of its grid.
+// mean of its two triangulations. On a conformal map this is tau times the surface's area. The
+// integral does not depend on scale, so one set of weights serves every level, and inside a control
+// face there is one weight for each direction of its grid.
 #pragma once
 
 #include <vector>
@@ -17,22 +17,21 @@
 
 namespace fairing {
 
-// The w of all elements, by the neighbours of their points in the order of the charts; inside a
-// face by directions (face_directions() in grid/ring.h). Zero in faces outside a region. Empty
-// without tension.
+// All w by neighbours in the order of the charts; inside a face by directions (face_directions() in
+// grid/ring.h). Zero in faces outside a region. Empty without tension.
 struct Membrane {
-  Array<double> vertex;  // 1 a neighbour, at Stencils::ring_offset
-  Array<double> edge;    // 8 an edge
-  Array<double> face;    // 4 a face
+  Array<double> vertex;  // 1 per neighbour, at Stencils::ring_offset
+  Array<double> edge;    // 8 per edge
+  Array<double> face;    // 4 per face
 
   bool any() const { return !face.empty(); }
 };
 
-// The mean length of the edges that are faired.
+// Mean length of the faired edges.
 double mean_edge(const ControlMesh& mesh, const std::vector<FlatFace>& flat);
 
 // tau = t / l^2 with l the mean edge in the metric, so that a scaled mesh has the scaled surface.
-// Throws where the run has been cancelled.
+// Throws FairingError(cancelled).
 Membrane make_membrane(const ControlMesh& mesh, const ChartMaker& charts,
                        const std::vector<Index>& ring_offset, double t);
 

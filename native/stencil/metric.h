@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The control metric: control edge lengths to the power b of the metric exponent, every face
+// The control metric: control edge lengths raised to the metric exponent b, and every face
 // flattened with these. Lengths are in (mesh units)^b, angles in radians.
 #pragma once
 
@@ -10,21 +10,20 @@
 
 namespace fairing {
 
-// A flat face: a triangle, or the parallelogram that stands for a quad.
+// A flat face: a triangle, or the parallelogram that represents a quad.
 struct FlatFace {
   std::array<double, 4> length;  // of side s
   std::array<double, 4> angle;   // at corner s
   double area;                   // of the triangle, or of the parallelogram
 };
 
-// exponent in [0, 1]: 1 is the seed's metric, 0 makes triangles equilateral and quads square, 1/2
-// is to surfaces what centripetal parametrization (Lee 1989) is to curves. The triangle inequality
-// survives any exponent up to 1.
+// exponent in [0, 1]: 1 is Kobbelt's metric, 0 makes triangles equilateral and quads square, 1/2 is
+// to surfaces what centripetal parametrization (Lee 1989) is to curves. The triangle inequality
+// holds for any exponent up to 1.
 //
-// A quad counts as the parallelogram of its bilinear map's centre: sides |u|^b and |v|^b, between
-// them the mean of the angles that its two diagonals ask for. Along ridges it counts as shorter
-// (ridges.h), but at the exponent 1, whose lengths are those in space. Throws where the run has been
-// cancelled.
+// A quad becomes the parallelogram of its bilinear map's centre: sides |u|^b and |v|^b, and the
+// mean of the angles that fit its two diagonals. Along ridges it counts as shorter (ridges.h),
+// except at the exponent 1. Throws FairingError(cancelled).
 std::vector<FlatFace> flatten(const ControlMesh& mesh, double exponent);
 
 // Length of an edge: the mean over its faces.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The least-squares quadratic of a closed ring of five and more neighbours in closed form, for
-// numbers and for packs of them alike (base/simd.h).
+// numbers and packs (base/simd.h).
 #pragma once
 
 #include <cmath>
@@ -13,20 +13,20 @@
 namespace fairing {
 
 // Least squares after the ring has been made round: x = w0 u and y = w1 u + w2 v have unit
-// covariance and no correlation. The linear terms then drop out of the normal equations by division,
-// and a 3 x 3 system is left, for the coefficients of
+// covariance and no correlation. The linear terms then drop out of the normal equations by
+// division, and a 3 x 3 system is left, for the coefficients of
 //
 //   a = x^2 + y^2,    b = x^2 - y^2,    c = 2 x y.
 //
 // N is double or a pack; S a single number of it.
 template <class N, class S = N>
 struct RoundFit {
-  // A neighbour's x, y, a, b, c, or sums of such.
+  // A neighbour's x, y, a, b, c, or sums of these.
   struct Term {
     N x{}, y{}, a{}, b{}, c{};
   };
-  // ring(j, u, v, weight) sets the coordinates and the weight of neighbour j. `determined` &= whether,
-  // and in which lanes, they determine a quadratic; elsewhere nothing of the fit may be used.
+  // ring(j, u, v, weight) sets the coordinates and the weight of neighbour j. `determined` is
+  // cleared, in each lane, if they do not determine a quadratic; the fit is then invalid.
   template <class Ring, class Mask>
   DF_INLINE void make(int size, const Ring& ring, Mask& determined) {
     N uu{}, uv{}, vv{};
@@ -62,8 +62,8 @@ struct RoundFit {
     l10 = s01 / s00;
     l20 = s02 / s00;
     const N d1 = s11 - l10 * s01, t12 = s12 - l10 * s02, t22 = s22 - l20 * s02;
-    // b and c turn into each other with the chart, and b^2 + c^2 = a^2: both eigenvalues of what is
-    // left for them count, whichever neighbour is the first.
+    // b and c rotate into each other with the chart, and b^2 + c^2 = a^2, so the least eigenvalue
+    // of their remainder decides, whichever neighbour is first.
     const N least = S(0.5 * undetermined_square) * aa;
     determined &= (d1 > least) & ((d1 - least) * (t22 - least) > t12 * t12);
     l21 = t12 / d1;
@@ -73,15 +73,15 @@ struct RoundFit {
     inverse[2] = S(1) / d2;
   }
 
-  // sum += what a neighbour there has, times g.
+  // sum += the terms of a neighbour there, times g.
   DF_INLINE void add(const N& u, const N& v, const N& g, Term& sum) const {
     Term t;
     term(u, v, t);
     sum.x += g * t.x, sum.y += g * t.y, sum.a += g * t.a, sum.b += g * t.b, sum.c += g * t.c;
   }
 
-  // The Hessian, in the components of stencil/fit.h, of the quadratic whose right-hand side `sum` is:
-  // of the neighbours' terms times their weights and differences.
+  // The Hessian, in the components of stencil/fit.h, of the quadratic with the right-hand side
+  // `sum`: the sum of the neighbours' terms times their weights and differences.
   DF_INLINE void hessian(const Term& sum, N& trace, N& difference, N& mixed) const {
     const N r0 = sum.a - each * (sum.x * xa + sum.y * ya),
             r1 = sum.b - each * (sum.x * xb + sum.y * yb),

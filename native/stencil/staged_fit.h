@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What fit() (stencil/fit.h) does with rings that do not determine a quadratic: two stages.
+// fit() (stencil/fit.h) for rings that do not determine a quadratic: two stages.
 #pragma once
 
 #include "stencil/fit.h"
@@ -7,7 +7,7 @@
 namespace fairing {
 
 // The rows of fit() from the basis at the neighbours (one row each, five columns): first the
-// `leading` columns alone, by least squares; then, from what they leave over, the others with least
+// `leading` columns alone, by least squares; then, from their remainder, the others with least
 // norm.
 FitRows staged_fit(const Eigen::MatrixXd& basis, int leading);
 
@@ -17,9 +17,9 @@ class StagedHessian {
  public:
   explicit StagedHessian(std::span<const Vec2> ring);
 
-  // Of differences, one a neighbour. Zero for a ring without any extent.
+  // From differences, one per neighbour. Zero for a ring without extent.
   Vec3 operator()(std::span<const double> difference) const;
-  // Of a one at this neighbour and zeros at all others.
+  // For a one at this neighbour and zeros at all others.
   Vec3 of_neighbour(std::size_t j) const;
 
  private:

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The divided differences of a whole control mesh: one set of rows a control vertex, one a control
-// edge, one a control face. They serve every level: level l multiplies the energy's rows by 2^l.
+// The divided differences of a whole control mesh: one set of rows for each control vertex, control
+// edge and control face. They serve every level: level l multiplies the energy's rows by 2^l.
 //
-// An *element* is a control vertex v, a control edge e or a control face f, numbered v, V + e,
-// V + E + f: what has one stencil on all its points.
+// An *element* is a control vertex v, a control edge e or a control face f, numbered v, V + e, V +
+// E + f. All points of an element have the same stencil.
 #pragma once
 
 #include <array>
@@ -20,15 +20,15 @@
 namespace fairing {
 
 // `energy`: the last three rows of the fit (the Hessian) times the root of the chart's area.
-// Neighbours are in the order of the charts. Zero where there is no fit: on curves, at corners and
-// outside a region.
+// Neighbours are in the order of the charts. Zero without divided differences: on curves, at
+// corners and outside a region.
 struct Stencils {
   // Control vertices: the ring of v is ring_offset[v] … ring_offset[v + 1].
   std::vector<Index> ring_offset;
-  std::vector<std::uint8_t> vertex_fit;  // whether there is one
-  Array<float> vertex_rows;              // 5 a neighbour: the fit
-  Array<float> vertex_half;              // 5 a neighbour: the basis half-way to it
-  Array<double> vertex_energy;           // 3 a neighbour
+  std::vector<std::uint8_t> vertex_fit;  // whether there are divided differences
+  Array<float> vertex_rows;              // 5 per neighbour: the fit
+  Array<float> vertex_half;              // 5 per neighbour: the basis half-way to it
+  Array<double> vertex_energy;           // 3 per neighbour
 
   // Control edges: rings of edge_ring[e] <= 8 points, padded to 8.
   std::vector<std::uint8_t> edge_ring, edge_fit;
@@ -50,13 +50,13 @@ inline Index element_of(const ControlMesh& mesh, const Run& run) {
   return run.element + first_edge + (run.kind == RunKind::edge ? 0 : Index(mesh.edges.size()));
 }
 
-// The energy's rows of one element by neighbours, however they are stored: what matrices are
-// assembled from. The centre's numbers are minus the sum of all.
+// The energy's rows of one element by neighbours, in any storage: matrices are assembled from
+// these. The centre's numbers are minus the sum of all.
 class EnergyRows {
  public:
   using Column = std::array<double, 3>;
 
-  // No neighbours where there is no fit. Refers to `stencils`.
+  // No neighbours if there are no divided differences. Refers to `stencils`.
   EnergyRows(const ControlMesh& mesh, const Stencils& stencils, Index element);
 
   std::size_t size() const { return size_; }
@@ -64,10 +64,11 @@ class EnergyRows {
     const double* at = first_ + step_ * (neighbour % period_);
     return {at[0], at[stride_], at[2 * stride_]};
   }
-  // How many come before one that has the numbers of its opposite: all, or half inside a face.
+  // Number of distinct neighbours: all, or half of them inside a face, where opposite ones share
+  // their numbers.
   std::size_t distinct() const { return period_; }
-  // The neighbour that is k-th in the order in which opposite ones of a face follow one another, so
-  // that they are summed pair by pair.
+  // The k-th neighbour in an order in which opposite neighbours of a face follow one another, so
+  // that they are summed in pairs.
   std::size_t by_pairs(std::size_t k) const {
     return period_ < size_ ? k / 2 + period_ * (k % 2) : k;
   }
@@ -77,7 +78,7 @@ class EnergyRows {
   std::size_t size_ = 0, step_, stride_, period_;  // opposite neighbours share their numbers
 };
 
-// The membrane's weights of one element by neighbours, in the order of its chart: none without
+// The membrane's weights of one element by neighbours, in the order of its chart; none without
 // tension. Refers to `stencils`.
 class MembraneWeights {
  public:
@@ -96,7 +97,7 @@ class MembraneWeights {
   std::size_t size_ = 0, period_ = 1;  // opposite neighbours share their weights
 };
 
-// Makes all of them, with `tension` as in make_membrane(). Throws where the run has been cancelled.
+// Makes all of them, with `tension` as in make_membrane(). Throws FairingError(cancelled).
 Stencils make_stencils(const ControlMesh& mesh, const ChartMaker& charts, Workers& workers,
                        double tension = 0);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Charts of single points in the metric of a surface: that of the points in space, where the control
-// metric (stencil/metric.h) has only that of the control faces.
+// Charts of single points in the metric of a surface in space; the control metric
+// (stencil/metric.h) has only that of the control faces.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +14,13 @@ namespace fairing {
 struct SpaceRing {
   std::span<const Vec3> offset;       // of the neighbours from the point, at unit grid spacing
   std::span<const std::uint8_t> far;  // whether they lie across a quad
-  std::size_t first = 0;              // where an open ring begins
+  std::size_t first = 0;              // start of an open ring
   bool closed = true;
 };
 
-// The ring unfolded, its lengths to the power `exponent` as in flatten(): every triangle of the point
-// and two neighbours is flattened with these. Neighbours are in the order of the ring. False where it
-// has no shape; then the chart is of no use.
+// Unfolds the ring with lengths raised to `exponent` as in flatten(): every triangle of the point
+// and two neighbours is flattened with these. Neighbours are in the order of the ring. False if the
+// ring is degenerate; the chart is then invalid.
 bool chart_in_space(const SpaceRing& ring, double exponent, Chart& chart);
 
 }  // namespace fairing

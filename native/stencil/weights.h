@@ -12,15 +12,15 @@
 namespace fairing {
 
 // Springs that hold control vertices near their targets: w |p - target|^2 is added to the energy.
-// One a control vertex, >= 0, in the energy's own unit; empty: none.
+// One per control vertex, >= 0, in the energy's own unit; empty: none.
 using VertexWeights = std::vector<double>;
 
 // The factor on the energy of each point: the surface's stiffness (stiffness.h), and what follows
 // at and near a joint, the closed line along which a region that is faired meets the surface that stays.
 // 1 everywhere else, and on a mesh without either.
 //
-// RegionContinuity::tangent: 2 on the joint itself. The second difference there sees half of the
-// curvature m inside, for the outside has none; the minimizer makes it m / factor; so 2 is
+// RegionContinuity::tangent: 2 on the joint itself. The second difference there contains half of
+// the curvature m inside, since the outside has none; the minimizer makes it m / factor; so 2 is
 // consistent with a clamped plate.
 //
 // RegionContinuity::curvature: 1 / t, where t runs from 0 on the joint to 1 across the first ring
@@ -37,7 +37,7 @@ class EnergyWeight {
   bool weighs_edge(Index e) const { return stiffness_.weighs_edge(e) || joint_weighs_edge(e); }
   bool weighs_face(Index f) const { return stiffness_.weighs_face(f) || joint_weighs_face(f); }
 
-  // The same of a run's points, and the factor of its point i.
+  // The same for a run's points, and the factor of its point i.
   bool weighs(const Run& run) const;
   double point(const Run& run, std::size_t i) const;
 
@@ -66,7 +66,7 @@ class EnergyWeight {
   const Edge& edge(Index e) const { return mesh_.edges[std::size_t(e)]; }
   bool fades() const { return any() && mesh_.region.joint == RegionContinuity::curvature; }
   double on_joint() const { return fades() ? 6.0 * n_ : 2.0; }
-  // So many grid steps from the joint, none further than n.
+  // At so many grid steps from the joint, at most n.
   double off_joint(double steps) const { return n_ / steps; }
 
   const ControlMesh& mesh_;

@@ -17,8 +17,8 @@ class PlateDifferences {
  public:
   using Column = EnergyRows::Column;
 
-  // `grid` and `stencils` must outlive it, and `surface`, whose differences take the place of the
-  // stencils' if it is given. Throws where the run has been cancelled.
+  // `grid` and `stencils` must outlive it, and `surface`, whose differences replace those of the
+  // stencils if it is given. Throws FairingError(cancelled).
   PlateDifferences(const GridLevel& grid, const Stencils& stencils, const Unknowns& unknowns,
                    Workers& workers, const SurfaceDifferences* surface = nullptr);
 

@@ -8,9 +8,9 @@
 //
 // So there is no branch and no index.
 //
-// Rows of three interleaved coordinates, in packs (base/simd.h): what a last pack writes too much
-// is overwritten by the next row, or lies in the room of a block that buffers have at the end. The
-// order of every sum is fixed: it is part of the result's bits.
+// Rows have three interleaved coordinates, in packs (base/simd.h). What the last pack writes beyond
+// a row is overwritten by the next row, or lies in the extra room at the end of each buffer. The
+// order of every sum is fixed, because it determines the result's bits.
 #pragma once
 
 #include <algorithm>
@@ -28,8 +28,8 @@ struct EdgePass {
   using Pack = typename P::Pack;
 
   // m[c][i] = sum_j row[8 c + j] (neighbour j of i - i) on the run's points 1 … n - 1, zero
-  // elsewhere; then target lanes get the transposed rows. moments: 5 lanes' room. weight, if not
-  // null: factors of the m, one a point from 1.
+  // elsewhere; then the transposed rows are added to the target lanes. `moments` has room for 5
+  // lanes. `weight`, if not null: factors of m, one per point from point 1.
   DF_INLINE static void run(int n, const EdgeRingLanes* ring, const T* row, T scale, T* const* lane,
                             const T* weight, T* const* target, T* moments) {
     constexpr int block = P::size, room = lane_block;
@@ -95,9 +95,8 @@ constexpr std::ptrdiff_t blocks_of(std::ptrdiff_t numbers) {
   return (numbers + lane_block - 1) / lane_block * lane_block;
 }
 
-// Three rolling rows of four moments each, with zeros on either side of a row's interior points.
-// Nobody ever writes before a row's points, so the storage, zero at first, keeps these zeros from
-// face to face.
+// Three rolling rows of four moments each, with zeros on both sides of a row's interior points.
+// Nothing writes before a row's points, so these zeros, set at the start, remain from face to face.
 constexpr std::ptrdiff_t moments_stride(int n) {
   return blocks_of(3 * std::ptrdiff_t(n + 2)) + 2 * lane_block;
 }
@@ -112,7 +111,7 @@ struct Moments {
   DF_INLINE T* row(int j, int a) const {
     return data + (((j + 3) % 3) * 4 + a) * stride + lane_block;
   }
-  // Zeros for `count` numbers from number `first`, rounded up.
+  // Clears `count` numbers from number `first` on, rounded up.
   DF_INLINE void clear(int directions, int j, std::ptrdiff_t first, std::ptrdiff_t count) const {
     const typename P::Pack zero = {};
     for (int a = 0; a < directions; ++a)
@@ -120,12 +119,12 @@ struct Moments {
   }
 };
 
-// Inside a face: its closed grid row by row, those of a triangle one point shorter each time.
+// Inside a face: its closed grid row by row; each row of a triangle is one point shorter.
 template <bool quad>
 struct FacePass {
   static constexpr int directions = quad ? 4 : 3;
   static constexpr std::span<const GridPoint> step = face_directions(quad);
-  // In which the parts of the transposed differences are added up.
+  // The order in which the parts of the transposed differences are added.
   static constexpr int order[4] = {0, quad ? 2 : 1, quad ? 1 : 2, 3};
   static constexpr std::ptrdiff_t shrink = quad ? 0 : 3;
 
@@ -235,9 +234,9 @@ void set_edge_pass(int n, const EdgeRingLanes& ring, const T* row, T scale, T* c
 }
 
 // closed <- (second differences)^T C (second differences) x over the interior points of a closed
-// face; c is a symmetric matrix on the grid's directions (face_directions() in grid/ring.h), 3 x 3
-// or 4 x 4 in rows of 4, scaled by `scale`, and at each point by `weight`, laid out as x, where
-// that is not null; storage holds moments_size(n) numbers, zero when it is first used.
+// face. c is a symmetric matrix on the grid's directions (face_directions() in grid/ring.h), 3 x 3
+// or 4 x 4 in rows of 4, scaled by `scale` and, if not null, by `weight` at each point, laid out as
+// x. storage holds moments_size(n) numbers, zero on first use.
 template <bool quad, class T>
 void set_face_pass(int n, const T* c, T scale, const T* x, const T* weight, T* closed, T* storage) {
   run_loop<passes::FacePass<quad>::template Of, T>(n, c, scale, x, weight, closed, storage);

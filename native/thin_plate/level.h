@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The thin plate as the solver sees it: its operator on one level.
+// The thin plate's operator on one level, for the solver.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@
 
 namespace fairing {
 
-// What all levels share.
+// Shared by all levels.
 struct ThinPlateShared {
   const ControlMesh& mesh;
   const Stencils& stencils;
@@ -31,8 +31,8 @@ struct ThinPlateShared {
         workers(crew) {}
 };
 
-// K plus the weights of control vertices. In double always by passes; in single precision by a
-// matrix where one suits the level. In the control metric, or in that of a surface.
+// K plus the weights of control vertices, in the control metric or in that of a surface. In double
+// always by passes; in single precision by a matrix if one suits the level.
 class ThinPlateLevel final : public LevelOperator {
  public:
   ThinPlateLevel(ThinPlateShared& shared, const GridLevel& grid, const VertexWeights& weights)
@@ -42,7 +42,7 @@ class ThinPlateLevel final : public LevelOperator {
     set_weights(weights);
   }
 
-  // From here on in this metric, of a surface of the level.
+  // Switches to the metric of a surface of the level.
   void measure(const SurfaceMetric& metric) {
     matrix_.reset();
     surface_ = std::make_unique<SurfaceDifferences>(grid_, shared_.stencils, metric,
@@ -53,7 +53,7 @@ class ThinPlateLevel final : public LevelOperator {
     update();
   }
   bool is_measured() const { return surface_ != nullptr; }
-  // r += what draws it to the goal, in the metric of a surface.
+  // r += the attraction to the goal, in the metric of a surface.
   void add_pull(const double* goal, double* r) const {
     surface_->add_pull(goal, shared_.workers, r);
   }
@@ -62,7 +62,7 @@ class ThinPlateLevel final : public LevelOperator {
     weights_ = std::move(weights);
     update();
   }
-  // Of all points: where they are less than before, the spectrum reaches farther.
+  // Of all points. Smaller weights make the spectrum larger.
   void set_point_weights(VertexWeights weights) {
     ++version_.spectrum;
     set_weights(std::move(weights));
@@ -82,7 +82,7 @@ class ThinPlateLevel final : public LevelOperator {
     apply_thin_plate(grid_, shared_.double_rows, shared_.unknowns, weights_, shared_.workers,
                      shared_.double_slots, x, y);
   }
-  // (K + P) x without weights, where these control vertices count as unknowns.
+  // (K + P) x without weights, with these control vertices among the unknowns.
   void apply_with(const Unknowns& unknowns, const double* x, double* y) {
     if (surface_) return surface_->apply(unknowns.vertex, {}, shared_.workers, x, y);
     apply_thin_plate(grid_, shared_.double_rows, unknowns, {}, shared_.workers,
@@ -119,7 +119,7 @@ class ThinPlateLevel final : public LevelOperator {
                                 y[3 * first + i] -= product[i];
                             });
   }
-  // Control vertices that move leave waves longer than a face.
+  // Control vertices that move allow waves longer than a face.
   bool single_precision_suffices() const override {
     return grid_.n() <= most_of_single && !shared_.unknowns.any_vertex;
   }
@@ -137,7 +137,7 @@ class ThinPlateLevel final : public LevelOperator {
   }
 
  private:
-  // The diagonal, of K and weights as they are now.
+  // Updates the diagonal of K and the current weights.
   void update() {
     ++version_.numbers;
     if (matrix_) {
@@ -156,7 +156,7 @@ class ThinPlateLevel final : public LevelOperator {
   const GridLevel& grid_;
   VertexWeights weights_;
   std::unique_ptr<SurfaceDifferences> surface_;  // null: the control metric
-  std::unique_ptr<PlateMatrix> matrix_;          // null: the passes serve
+  std::unique_ptr<PlateMatrix> matrix_;          // null: passes are used
   Array<float> inverse_diagonal_;
 };
 

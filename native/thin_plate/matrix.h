@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The thin plate's K on one level as a matrix, in two forms summed from the same rows of the
-// stencils (EnergyRows in stencil/stencils.h) over the same rings (sparse/ring_table.h): in double
-// for a factor, and in single precision for the smoother. Without a matrix: thin_plate/operator.h.
+// The thin plate's K on one level as a matrix, in two forms, both from the rows of the stencils
+// (EnergyRows in stencil/stencils.h) over the same rings (sparse/ring_table.h): in double for a
+// factor, in single precision for the smoother. Without a matrix: thin_plate/operator.h.
 #pragma once
 
 #include <memory>
@@ -21,8 +21,8 @@ AssembledSystem assemble_thin_plate(const GridLevel& grid, const Stencils& stenc
                                     const Unknowns& unknowns, const VertexWeights& weights,
                                     Workers& workers, const SurfaceDifferences* surface = nullptr);
 
-// K in single precision, for levels whose faces have few points: there passes over faces and edges
-// cost more than an index a number. For the smoother, which wants many cheap applications.
+// K in single precision for the smoother, on levels whose faces have few points: there passes over
+// faces and edges cost more than an index for each number.
 class PlateMatrix {
  public:
   // Null where rings are so large that their squares are not linear, and where the passes are better:
@@ -32,17 +32,17 @@ class PlateMatrix {
                                            const Unknowns& unknowns, Workers& workers,
                                            const SurfaceDifferences* surface = nullptr);
 
-  // What is added to the diagonal.
+  // Sets the weights that are added to the diagonal.
   void set_weights(const VertexWeights& weights);
 
   // As LevelOperator::write_lines(), with the inverse of the diagonal.
   void write_lines(const Array<float>& inverse_diagonal, LineBand& band, Workers& workers) const;
 
-  // One number a point; 1 where it is no unknown.
+  // One number a point; 1 if it is not an unknown.
   Array<float> inverse_diagonal(Workers& workers) const;
 
   // Calls finish(point, count, product) with K x on so many points, 3 numbers each; x has
-  // `vector_room` more.
+  // `vector_room` extra numbers.
   template <class Finish>
   void visit_products(const float* x, Workers& workers, const Finish& finish) const {
     rows_->visit_products<3>(x, workers, [&](std::size_t first, std::size_t count, float* product) {
@@ -60,7 +60,7 @@ class PlateMatrix {
   std::size_t points_;
   Rows rows_;
   std::vector<std::uint8_t> moves_;  // whether a control vertex is an unknown
-  std::vector<float> weight_;        // 3 a control vertex or point; empty: none
+  std::vector<float> weight_;        // 3 per control vertex or point; empty: none
 };
 
 }  // namespace fairing

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Tension's part of K on one level: (L x)_i = sum_j w_ij (x_i - x_j) over the ring of i, with the
-// weights of stencil/membrane.h. They are the edges' own, the same from both ends, so that every
-// point's row is gathered from its ring and nothing is handed to neighbours.
+// weights of stencil/membrane.h. They are the same from both ends of an edge, so each point's row
+// is gathered from its own ring.
 #pragma once
 
 #include "base/simd.h"
@@ -40,7 +40,8 @@ struct MembranePass {
 
 }  // namespace passes
 
-// Adds L x on a level's unknowns to what the bodies of accumulate() set. Without tension, nothing.
+// Adds L x on a level's unknowns to the values that accumulate() sets. Does nothing without
+// tension.
 template <class T>
 class MembraneRows {
  public:

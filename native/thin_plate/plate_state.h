@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a solve of the thin plate leaves for the next one, beside the surface.
+// What a solve of the thin plate keeps for the next one, besides the surface.
 #pragma once
 
 #include "constraints/multipliers.h"
@@ -8,7 +8,7 @@
 namespace fairing {
 
 struct PlateState : Multipliers<3> {
-  PcgLimits limits{};  // of the finest level, as when the surface was solved from nothing
+  PcgLimits limits{};  // of the finest level, from the first solve
 };
 
 }  // namespace fairing

@@ -11,21 +11,21 @@
 
 namespace fairing {
 
-// The surface of one level, which the next level's starts from.
+// The surface of one level, from which the next level starts.
 struct PlateSurface {
   Array<double> x;  // 3 numbers a point
   PlateState state;
-  Loads forces{};     // of its hats, where they say how loads change; or empty
+  Loads forces{};     // of the hats, if they predict the change of the loads; or empty
   double energy = 0;  // 0 on the finest level
 };
 
-// The thin plate of a control mesh, in working coordinates. Builds every level once; solves as often
-// as weights or control positions change. Throws what its levels throw.
+// The thin plate of a control mesh, in working coordinates. Builds every level once; solves again
+// for new weights or positions. Throws what its levels throw.
 class ThinPlateSolver {
  public:
   using OnPrediction = std::function<void(const double* x)>;
 
-  // `charts` are those of the stencils. All references but to charts and options must outlive the
+  // `charts` are those of the stencils. All references except charts and options must outlive the
   // solver.
   ThinPlateSolver(const ControlMesh& mesh, const ChartMaker& charts, const Stencils& stencils,
                   Unknowns unknowns, const VertexWeights& weights, const ThinPlateOptions& options,
@@ -33,35 +33,35 @@ class ThinPlateSolver {
 
   ThinPlateLevels& levels() { return levels_; }
   const Pads* pads() const { return supports_.pads(); }  // null without
-  // Of the finest level; null without pads.
+  // The hats of the finest level; null without pads.
   std::shared_ptr<const Hats> hats() { return supports_.hats(levels_.top()); }
-  // Likewise; null where no normal is fixed.
+  // The couples of the finest level; null without fixed normals.
   std::shared_ptr<const LevelCouples> couples() { return supports_.couples(levels_.top()); }
 
-  // From here on the smoother stays as it is, so that a surface depends on its own shape alone.
+  // Stops the smoother's adaptation, so that a surface depends on its own shape alone.
   void keep_smoother() { levels_.hierarchy().keep_smoother(); }
 
-  // Of a surface that nothing holds yet.
+  // The state of a surface without loads and couples.
   PlateState unheld() const { return supports_.unheld(); }
 
-  // What holds control vertices that move, with its first weights on all levels.
+  // The constraints of control vertices that move, with their first weights on all levels.
   BallConstraints begin(ControlConstraints held);
-  // One level of full multigrid: the solution from that of the level below, on the coarsest from the
-  // control polyhedron. Constraints that are active choose the level's weights. `on_prediction` sees
+  // One level of full multigrid: solves from the solution of the level below, on the coarsest from
+  // the control polyhedron. Active constraints choose the level's weights. `on_prediction` receives
   // the start.
   PlateSurface solve_level(int level, const PlateData& data, BallConstraints& constraints,
                            const PlateSurface& below, std::vector<LevelReport>& reports,
                            const OnPrediction& on_prediction);
 
-  // From x, a surface of `before`, whose curves do not count, that has left this state, to that of `data`
-  // on the finest level, to `tolerance`: the difference first, roughly and level by level.
+  // From x, a surface of `before` (whose curves do not count) with this state, to the surface of
+  // `data` on the finest level, to `tolerance`: the difference first, roughly and level by level.
   void solve_moved(const PlateData& before, const PlateData& data, double tolerance,
                    PlateState& state, Array<double>& x, std::vector<LevelReport>& reports,
                    const OnPrediction& on_prediction);
 
-  // The finest level again, from x as it is. Of what loads carry, `rough_force` may be left at control
-  // vertices even where the options ask for less. `forces`: on the level's points, 3 numbers each,
-  // where the plate does not stand alone; zero on what is no unknown.
+  // Solves the finest level again, from x. A force of `rough_force`, as a share of the loads, may
+  // be left at control vertices even if the options ask for less. `forces`: external ones on the
+  // level's points, 3 numbers each, zero on points that are not unknowns.
   LevelReport solve_again(const PlateData& data, double tolerance, PlateState& state,
                           Array<double>& x, double rough_force = 0,
                           std::span<const double> forces = {});

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What holds the plate's control vertices beside the points that stay: pads with their loads, and
-// couples that fix normals. How a level starts with both, and which slopes a couple makes; solve_held.cpp
-// corrects them.
+// Pads with their loads and couples that fix normals: how a level starts with both, and the slopes
+// of couples. solve_held.cpp corrects them.
 #pragma once
 
 #include <memory>
@@ -18,22 +17,24 @@ class PlateSupports {
   PlateSupports(const ChartMaker& charts, const ThinPlateOptions& options, ThinPlateLevels& levels);
 
   const Pads* pads() const { return pads_.get(); }  // null: point forces hold control vertices
-  // Of the pads as they stand, on a level's points; null: there are none.
+  // The current pads' hats on a level's points; null without pads.
   std::shared_ptr<const Hats> hats(int level);
-  // On a level's points; null: no normal is fixed, or hats have no points there.
+  // On a level's points; null without fixed normals, or if hats have no points there.
   std::shared_ptr<const LevelCouples> couples(int level);
-  // Which slopes couples make, by which they are corrected: measured once, by trial solves on the level
-  // that asks first.
+  // The slopes that couples make, by which they are corrected: measured once, by trial solves on
+  // the first level that asks.
   const Compliance& compliance(int level, int max_iterations);
-  // Of the surface at each control vertex, K's diagonal on level 0; empty where none moves.
+  // The surface's stiffness at each control vertex, K's diagonal on level 0; empty if none moves.
   const std::vector<double>& stiffness() const { return stiffness_; }
 
-  // Of a surface that no load and no couple holds yet.
+  // The state of a surface without loads and couples.
   PlateState unheld() const;
-  // state <- for the start of a level, from that of the one below. `forces_below` are those of the
-  // hats there, from the level before on; `foretells`: whether they say how loads change.
+  // state <- the start of a level, from that of the level below. `forces_below` are the forces of
+  // the hats there relative to the level before; `foretells`: whether they predict the change of
+  // the loads.
   void start(int level, bool foretells, PlateState& state, Loads& forces_below);
-  // Where x has diverged from the mesh, point forces take the place of pads. Whether any does.
+  // Replaces pads by point forces where x has diverged from the mesh. Returns whether any was
+  // replaced.
   bool deactivate_diverged_pads(int level, std::span<const Vec3> targets, const double* x);
 
  private:
@@ -43,7 +44,7 @@ class PlateSupports {
 
   ThinPlateLevels& levels_;
   std::unique_ptr<Pads> pads_;
-  std::shared_ptr<const Hats> hats_;  // of the latest level; null: not known
+  std::shared_ptr<const Hats> hats_;  // of the latest level; null: not made yet
   std::unique_ptr<Couples> couples_;
   std::shared_ptr<const LevelCouples> level_couples_;  // of the latest level; null: none
   std::optional<Compliance> compliance_;

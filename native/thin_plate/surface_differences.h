@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The divided differences of one level in the metric of a surface, a set of rows a point: what takes
-// the place of those by control vertex, edge and face (stencil/stencils.h). The metric of the control
-// faces has a cone at each control vertex and a kink along each control edge; a surface has none, so
-// that the plate is nearly its total curvature (docs/developers/notes/method.md).
+// The divided differences of one level in the metric of a surface, a set of rows for each point;
+// they replace the rows by control vertex, edge and face (stencil/stencils.h). The metric of the
+// control faces has a cone at each control vertex and a kink along each control edge. A surface has
+// none, so the plate is close to its total curvature (docs/developers/notes/method.md).
 //
-// Such a plate swings between the points that hold it, farther than a thin wall is thick. So it is drawn
-// to a surface that does not, the goal: P, a weight a point, is part of the matrix, and P goal of what
-// it is to come up to.
+// Such a plate swings between its fixed points, farther than a thin wall is thick. So it is
+// attracted to a surface that does not, the goal: P, a weight for each point, is part of the
+// matrix, and P goal of the right-hand side.
 #pragma once
 
 #include "sparse/ring_table.h"
@@ -15,11 +15,11 @@
 
 namespace fairing {
 
-// The metric of a surface and the pull to the goal.
+// The metric of a surface and the attraction to the goal.
 struct SurfaceMetric {
   const double* surface;  // 3 numbers a point
-  // One a point, k: the squared distance from the goal weighs k^4 S^2 times what the surface itself bends
-  // at the point, with S the area that this has at unit grid spacing.
+  // k, one per point: the squared distance from the goal has the weight k^4 S^2 times the surface's
+  // own bending at the point, with S the point's area at unit grid spacing.
   const float* pull;
   double exponent;  // as in flatten()
 };
@@ -28,8 +28,8 @@ class SurfaceDifferences {
  public:
   using Column = EnergyRows::Column;
 
-  // `metric`: of this level. Where its surface has no shape, the control metric's rows stay. The other
-  // references must outlive it. Throws where the run has been cancelled.
+  // `metric`: of this level. Where its surface is degenerate, the rows of the control metric
+  // remain. The other references must outlive it. Throws FairingError(cancelled).
   SurfaceDifferences(const GridLevel& grid, const Stencils& stencils, const SurfaceMetric& metric,
                      const Unknowns& unknowns, Workers& workers);
 
@@ -41,20 +41,21 @@ class SurfaceDifferences {
 
   double pull(Index p) const { return double(pull_[std::size_t(p)]); }
 
-  // y <- (K + P + W) x on the unknowns, zero elsewhere; T: float or double. `vertices`: which control
-  // vertices count as such, in place of the level's own.
+  // y <- (K + P + W) x on the unknowns, zero elsewhere; T: float or double. `vertices`: which
+  // control vertices count as unknowns, in place of the level's own.
   template <class T>
   void apply(const std::vector<std::uint8_t>& vertices, const VertexWeights& weights,
              Workers& workers, const T* x, T* y);
 
-  // The diagonal of K + P + W, where these control vertices count as unknowns: 1 on what is none.
+  // The diagonal of K + P + W, with these control vertices among the unknowns; 1 on all other
+  // points.
   Array<float> diagonal(const std::vector<std::uint8_t>& vertices, const VertexWeights& weights,
                         Workers& workers) const;
 
   // r += P goal on the unknowns.
   void add_pull(const double* goal, Workers& workers, double* r) const;
 
-  // As thin_plate_energy(): without P.
+  // As thin_plate_energy(), without P.
   double energy(Workers& workers, const double* x);
 
  private:
@@ -76,7 +77,7 @@ class SurfaceDifferences {
   const RingTable rings_;                    // in which all points are
   const RingPlaces places_;
   Array<float> row_;   // 3 a member of a ring
-  Array<float> pull_;  // P, one a point: none where it is no unknown
+  Array<float> pull_;  // P, one per point: zero if it is not an unknown
   Array<double> moment_;
   Array<float> float_moment_;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Vectors of unknowns between a level and the next coarser one, in single precision: what a
-// multigrid cycle asks for. And from a level to the control vertices.
+// Vectors of unknowns between a level and the next coarser one in single precision, for multigrid
+// cycles; and from a level to the control vertices.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +14,8 @@
 
 namespace fairing {
 
-// The two are transposes of one another. Zero on points that are not unknowns. What is read has
-// `vector_room` (multigrid/level_operator.h) more. Both throw where the run has been cancelled.
+// The two are transposes of each other. Zero on points that are not unknowns. Input vectors have
+// `vector_room` (multigrid/level_operator.h) extra numbers. Both throw FairingError(cancelled).
 class LevelTransfer {
  public:
   virtual ~LevelTransfer() = default;
@@ -23,12 +23,12 @@ class LevelTransfer {
   virtual void restrict_to(const float* fine, float* coarse) = 0;
 };
 
-// Local quadratics, with C numbers a point: 3 coordinates, or 1 displacement. As a matrix where
-// that is given, by passes over the faces elsewhere.
+// Local quadratics, with C numbers a point: 3 coordinates, or 1 displacement. By a matrix if given,
+// otherwise by passes over the faces.
 template <int C>
 class QuadraticTransfer final : public LevelTransfer {
  public:
-  // All must outlive the transfer. `matrix` may be null, or about more control vertices than the
+  // All must outlive the transfer. `matrix` may be null, or have more control vertices than the
   // unknowns; `slots` may be shared by all levels.
   QuadraticTransfer(const GridLevel& coarse, const GridLevel& fine, const Stencils& stencils,
                     const Unknowns& unknowns, const AssembledTransfer* matrix, Workers& workers,
@@ -49,7 +49,7 @@ class QuadraticTransfer final : public LevelTransfer {
     fairing::prolong(coarse_, fine_, stencils_, &unknowns_, workers_, slots_, x, y);
   }
   void restrict_to(const float* x, float* y) override { restrict_to(unknowns_, x, y); }
-  // On these unknowns, of which the matrix knows all control vertices.
+  // To these unknowns; the matrix includes all control vertices.
   void restrict_to(const Unknowns& unknowns, const float* x, float* y) {
     if (matrix_) {
       matrix_->restrict_to<C>(x, workers_, y);
@@ -73,12 +73,12 @@ class QuadraticTransfer final : public LevelTransfer {
   ElementSlots<float, C>& slots_;
 };
 
-// Of all levels from 1 on.
+// For all levels from 1 on.
 template <int C>
 using QuadraticTransfers = std::vector<std::unique_ptr<QuadraticTransfer<C>>>;
 
-// sums <- H^T r of a level for the control vertices that are `carried`, with H their prolongation
-// through all levels; zero elsewhere. room(l) gives a vector of level l to work in.
+// sums <- H^T r of a level for the `carried` control vertices, with H their prolongation through
+// all levels; zero elsewhere. room(l) returns a work vector of level l.
 template <int C, class Room>
 void restrict_to_vertices(const QuadraticTransfers<C>& transfers, int level,
                           const Unknowns& carried, Workers& workers, std::span<const double> r,

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Prolongation by local quadratics [Kobbelt 1997a]: a new point is the mean of the fits at its two
 // ends (a quad's centre: at its four corners), evaluated in their charts. Inside a face the fits
-// along a grid line are the parabola of three points; points of curves, which carry no fit, give
-// linear values. Restriction is the transpose.
+// along a grid line are the parabola of three points; points of curves have no fit and give linear
+// values. Restriction is the transpose.
 //
-// T: float or double; C: numbers a point, 1 or 3. All functions throw where the run has been
-// cancelled. Exact for quadratics in a chart, so of third order.
+// T: float or double; C: numbers a point, 1 or 3. All functions throw FairingError(cancelled).
+// Exact for quadratics in a chart, so of third order.
 #pragma once
 
 #include "grid/accumulate.h"
@@ -20,12 +20,11 @@ struct MidpointWeights {
   static constexpr double ahead = 0.375, here = 0.75, behind = -0.125;
 };
 
-// What a fit's value half-way to a neighbour counts for: half of an edge's midpoint, a quarter of a
+// Weight of a fit's value half-way to a neighbour: half for an edge's midpoint, a quarter for a
 // quad's centre.
 constexpr double midpoint_share = 0.5, centre_share = 0.25;
 
-// fine <- P coarse; zero on points that are not unknowns (every point counts when `unknowns` is
-// null).
+// fine <- P coarse; zero on points that are not unknowns (all points count if `unknowns` is null).
 template <class T, int C>
 void prolong(const GridLevel& coarse, const GridLevel& fine, const Stencils& stencils,
              const Unknowns* unknowns, Workers& workers, ElementSlots<T, C>& slots,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Prolongation by local quadratics and its transpose as rows, for levels of few points, where
-// passes over faces and edges cost more than an index a number.
+// passes over faces and edges cost more than an index for each number.
 #pragma once
 
 #include <memory>
@@ -12,19 +12,19 @@
 
 namespace fairing {
 
-// Neighbours of a vertex from which on the rows about it are more than a few per cent of all.
+// From this valence on the rows around a vertex are more than a few per cent of all.
 constexpr std::size_t large_ring = 64;
 
 class AssembledTransfer {
  public:
-  // Null where the passes are better (has_rows()), or columns are too many for 16 bits in one
-  // place. Throws where the run has been cancelled.
+  // Null if passes are faster (has_rows()), or if a chunk has too many columns for 16 bits. Throws
+  // FairingError(cancelled).
   static std::unique_ptr<AssembledTransfer> make(const GridLevel& coarse, const GridLevel& fine,
                                                  const Stencils& stencils, const Unknowns& unknowns,
                                                  Workers& workers);
 
-  // As prolong() and restrict_to() do on unknowns, with C numbers a point; the vector that is read
-  // has `vector_room` more.
+  // As prolong() and restrict_to() on unknowns, with C numbers a point; the input vector has
+  // `vector_room` extra numbers.
   template <int C>
   void prolong(const float* coarse, Workers& workers, float* fine) const {
     prolongation_->apply<C>(coarse, workers, fine);

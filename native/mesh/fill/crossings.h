@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Triangles that pass through others.
+// Triangles that cross others.
 #pragma once
 
 #include <span>
@@ -9,8 +9,8 @@
 
 namespace fairing {
 
-// Those of `triangles` (of indices in `points`) from the `first` on that meet another one in more than
-// a point, or lie on one another, ascending. Of two that share a vertex nothing is asked.
+// Those of `triangles` (of indices in `points`) from `first` on that meet another one in more than
+// a point, or overlap, ascending. Pairs that share a vertex are not tested.
 std::vector<std::size_t> crossing(std::span<const Vec3> points, std::span<const Triangle> triangles,
                                   std::size_t first);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which holes have islands.
+// Finds islands in holes.
 #pragma once
 
 #include <span>
@@ -9,9 +9,9 @@
 
 namespace fairing {
 
-// Holes of a loop each, checked, as holes with islands, in the order of their rims: a loop that lies inside another one
-// and runs the other way round is the rim of an island in its hole, where the faces at both go on
-// towards the ring between. Loops that share a vertex are holes of their own.
+// Checked holes of one loop each, combined to holes with islands, in the order of their rims: a
+// loop inside another one with the opposite direction is the rim of an island, if the faces at both
+// continue towards the ring between. Loops that share a vertex are separate holes.
 std::vector<Hole> with_islands(const PolygonMesh& mesh, const HalfEdges& half_edges,
                                std::span<const Hole> single);
 

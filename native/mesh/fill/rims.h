@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the mesh is like around its holes. For mesh/fill/ only.
+// The mesh around its holes. For mesh/fill/ only.
 #pragma once
 
 #include <unordered_map>
@@ -12,24 +12,24 @@ namespace fairing {
 
 class Rims {
  public:
-  // Of all vertices in these loops; the mesh must outlive this.
+  // Reads the surroundings of all vertices in these loops; the mesh must outlive this.
   Rims(const PolygonMesh& mesh, const HalfEdges& half_edges, std::span<const Hole> holes);
 
   Vec3 point(std::int64_t v) const;
 
-  // Whether an edge joins two vertices of rims, in the mesh or in what has been filled.
+  // Whether an edge of the mesh or of a filling joins two vertices of rims.
   bool are_joined(std::int64_t a, std::int64_t b) const {
     return edges_.contains(key(a, b)) || filled_.contains(key(a, b));
   }
 
-  // Notes an edge of a filling, or that it is gone.
+  // Adds or removes an edge of a filling.
   void join(std::int64_t a, std::int64_t b) { filled_.insert(key(a, b)); }
   void part(std::int64_t a, std::int64_t b) { filled_.erase(key(a, b)); }
 
-  // Whether a face has the side from a to b, and it is on the border.
+  // Whether a face has the side from a to b, on the border.
   bool is_border(std::int64_t a, std::int64_t b) const { return border_.contains(side(a, b)); }
 
-  // Of unit length, of the face with that side; zero for one without area.
+  // Unit normal of the face with that side; zero for a face without area.
   Vec3 normal_beside(std::int64_t a, std::int64_t b) const;
 
   // One number for the side from a to b: ids of vertices have 32 bits.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sides of faces that get vertices in between, while flat faces go. For mesh/mend/ only.
+// Inserts vertices into the sides of faces while flat faces are removed. For mesh/mend/ only.
 #pragma once
 
 #include <map>
@@ -11,7 +11,7 @@
 
 namespace fairing {
 
-// A vertex inside a side of a face, and how far along.
+// A vertex inside a side of a face, and its position along it.
 struct Between {
   double share;
   Index vertex;
@@ -20,22 +20,22 @@ struct Between {
   }
 };
 
-// A side of faces, and what lies inside it, in order from `low`.
+// A side of faces, and the vertices inside it, in order from `low`.
 struct CutSide {
   Index low, high;
   std::vector<Between> between;
 };
 
-// The side between vertices a and b, with all of `vertices` that lie strictly inside it: nearer to
-// either end than these are to each other.
+// The side between vertices a and b, with all of `vertices` strictly inside it: nearer to either
+// end than these are to each other.
 CutSide cut_side(std::span<const double> coordinates, Index a, Index b,
                  std::span<const Index> vertices);
 
-// The corners inside a side from `here` to `next`, in this order, if that is `side` whichever way
-// round.
+// The corners inside a side from `here` to `next`, in this order, if that is `side` in either
+// direction.
 Loop corners_between(const CutSide& side, const MendCorner& here, const MendCorner& next);
 
-// Every side's first cut.
+// The first cut of each side.
 class CutSides {
  public:
   void add(CutSide side);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which faces have a side between two vertices, while faces change. For mesh/mend/ only.
-// mesh/half_edges.h cannot serve: it is of faces that stay, and names the other face of a pair only.
+// The faces with a side between two vertices, while faces change. For mesh/mend/ only.
+// (mesh/half_edges.h is for faces that do not change, and knows only one other face.)
 #pragma once
 
 #include <algorithm>
@@ -26,13 +26,13 @@ class EdgeFaces {
     std::sort(sides_.begin(), sides_.end());
   }
 
-  // A face that has come, or a side that one has got.
+  // Adds a new face, or a new side of a face.
   void add(std::span<const MendCorner> loop, Index f) {
     for_sides(loop, [&](Key side) { added_[side].push_back(f); });
   }
   void add(Index a, Index b, Index f) { added_[key(a, b)].push_back(f); }
 
-  // All that ever had this side, ascending; whether they still have it is for the caller to see.
+  // All faces that ever had this side, ascending; the caller checks whether they still have it.
   std::vector<Index> around(Index a, Index b) const {
     std::vector<Index> faces;
     const Key side = key(a, b);

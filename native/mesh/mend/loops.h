@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Faces on their way through mend(): corners that know where they come from. For mesh/mend/, and for
-// the walks around holes (mesh/fill/holes.cpp), whose corners come from nowhere.
+// Faces during mend(): corners with their origin. For mesh/mend/, and for the walks around holes
+// (mesh/fill/holes.cpp), whose corners have no origin.
 #pragma once
 
 #include <span>
@@ -24,14 +24,14 @@ inline std::vector<Index> vertices_of(std::span<const MendCorner> loop) {
   return vertices;
 }
 
-// Faces, one after another, each with the input face that it comes from.
+// Faces, one after another, each with its input face.
 struct Loops {
   Array<MendCorner> corners;
   Array<Index> offsets{0};
   Array<Index> origin;
 
   Index count() const { return Index(origin.size()); }
-  // Of faces and corners in all.
+  // For so many faces and corners in total.
   void reserve(std::size_t faces, std::size_t count) {
     corners.reserve(count);
     offsets.reserve(faces + 1);
@@ -47,8 +47,8 @@ struct Loops {
   }
 };
 
-// The loops of three corners and more that a closed walk consists of, none with a vertex twice:
-// repeated corners and spikes go, and where the walk comes by a vertex again it is cut.
+// The loops of three corners and more of a closed walk, none with a vertex twice: repeated corners
+// and spikes are removed, and the walk is cut where it meets a vertex again.
 std::vector<Loop> simple_loops(std::span<const MendCorner> walk);
 
 // The faces' arrays as check() reads them.

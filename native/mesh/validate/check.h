@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The gate: whatever passes check() is made of oriented sheets of polygons with finite,
+// Validation: a mesh that passes check() consists of oriented sheets of polygons with finite,
 // non-degenerate faces. The arrays are only read.
 //
 // All functions here may throw FairingError(cancelled) (parallel/cancel.h) and std::bad_alloc.
@@ -16,7 +16,7 @@ namespace fairing {
 
 enum class Severity { error, warning };
 
-// One kind of thing that is wrong with a mesh, with all elements concerned.
+// One kind of defect of a mesh, with all elements concerned.
 struct Defect {
   ErrorCode code;
   Message message;
@@ -47,34 +47,33 @@ struct Defect {
 using Defects = std::vector<Defect>;
 
 struct CheckOptions {
-  // Turn faces over to agree with their neighbours, where that is possible: what mending leaves to
-  // the check.
+  // Flip faces to agree with their neighbours, if possible; mending leaves that to the check.
   bool repair = false;
 };
 
 struct CheckResult {
   std::vector<Warning> warnings;
-  std::vector<std::int64_t> flipped_faces;  // what repair has turned over
+  std::vector<std::int64_t> flipped_faces;  // faces flipped by the repair
 };
 
 struct Findings {
   Defects defects;                            // cheap ones first; empty: nothing is wrong
-  std::vector<std::int64_t> flipped_faces{};  // what must turn over for all neighbours to agree
+  std::vector<std::int64_t> flipped_faces{};  // faces to flip so that all neighbours agree
 };
 
-// Every kind of defect, each with *all* its elements, as far as the earlier ones leave the later
-// tests a meaning. Defects are returned, not thrown.
+// Every kind of defect, each with *all* its elements, as far as earlier ones leave later tests
+// meaningful. Defects are returned, not thrown.
 Findings find_defects(const PolygonMesh& mesh, const CheckOptions& options = {});
 
-// Throws the first error of find_defects as FairingError. With repair, the faces to be
-// reversed come back in the result, for make_control_mesh. Linear time up to hashing and sorting.
+// Throws the first error of find_defects as FairingError. With repair, the result has the faces to
+// reverse, for make_control_mesh. Linear time up to hashing and sorting.
 CheckResult check(const PolygonMesh& mesh, const CheckOptions& options = {});
 
-// Throws bad_shape, or too_large, where the offsets do not cut the corners into faces. Neither ids
-// nor counts of corners are looked at.
+// Throws bad_shape or too_large if the offsets do not divide the corners into faces. Does not check
+// ids or numbers of corners.
 void require_faces(std::span<const std::int64_t> corners, std::span<const std::int64_t> offsets);
 
-// Throws the first error of the arrays themselves: sizes, ids, coordinates that are no numbers.
+// Throws the first error of the arrays themselves: sizes, ids, coordinates that are not numbers.
 void require_arrays(const PolygonMesh& mesh);
 
 bool repeats_a_vertex(std::span<const std::int64_t> face);
