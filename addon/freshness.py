@@ -15,12 +15,18 @@ import bpy
 import numpy as np
 
 from . import curve_cage, events, memory, place
-from .blender import Context, Mesh, Object, Scene, all_objects, current_context
+from .blender import Context, Object, Scene, all_objects, current_context
 from .core import ControlArrays
 from .errors import JobError
 from .memory import FAIRING_PG_surface, source_of
 from .mesh.object import Reference, changed_keys, session_key
-from .mesh.read import control_mesh, read_mesh, tolerance_factors, vertex_pulls
+from .mesh.read import (
+    control_mesh,
+    read_mesh,
+    shown_selection,
+    tolerance_factors,
+    vertex_pulls,
+)
 from .mesh.shape_keys import ShapeKeys, read_shape_keys
 from .mesh.world_shape import world_shape
 from .redraw import tag_outliners, tag_sidebars
@@ -54,7 +60,7 @@ class OwnMesh:
         values: list[np.ndarray | None] = []
         with control_mesh(context, source) as mesh:
             arrays = read_mesh(mesh)
-            selection = shown_selection(mesh) if settings.use_selection else None
+            selection = shown_selection(mesh.polygons) if settings.use_selection else None
             with suppress(JobError):
                 values.append(tolerance_factors(source, mesh, settings))
                 values.append(vertex_pulls(source, mesh, settings))
@@ -181,14 +187,6 @@ def _checksum(
     for part in parts:
         total = zlib.crc32(b"" if part is None else np.ascontiguousarray(part).tobytes(), total)
     return total
-
-
-def shown_selection(mesh: Mesh) -> np.ndarray:
-    """(m,) bool: faces that are selected and to be seen."""
-    flags = np.empty((2, len(mesh.polygons)), bool)
-    for row, name in zip(flags, ("select", "hide"), strict=True):
-        mesh.polygons.foreach_get(name, row)
-    return flags[0] & ~flags[1]
 
 
 def _values(modifier: Any) -> list[Any]:

@@ -22,7 +22,14 @@ from .mesh.layers import read_data, write_data
 from .mesh.modifiers import copy_modifiers, without_inspection
 from .mesh.object import Reference, new_object
 from .mesh.own import OwnData, carried_names, read_own, write_own
-from .mesh.read import control_mesh, read_mesh, selected_faces, tolerance_factors, vertex_pulls
+from .mesh.read import (
+    control_mesh,
+    read_mesh,
+    selected_faces,
+    shown_selection,
+    tolerance_factors,
+    vertex_pulls,
+)
 from .mesh.shape_keys import write_shape_keys
 from .mesh.world_shape import world_shape
 from .mesh.write import attributes_left_out, refill_mesh, write_mesh, write_pad_sizes
@@ -67,7 +74,7 @@ class Job:
             self.data = read_data(source, mesh, evaluated)
             factors = tolerance_factors(source, mesh, self.settings)
             pulls = vertex_pulls(source, mesh, self.settings)
-            selection = freshness.shown_selection(mesh) if self.settings.use_selection else None
+            selection = shown_selection(mesh.polygons) if self.settings.use_selection else None
             if selection is None:
                 region = None
             elif region is None:

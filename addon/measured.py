@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 
 from . import core
-from .size import fans
 from .transfer.blocks import blocks
 from .transfer.cut_out import grown
+from .triangles import fans, normals
 
 # Weights that are tried, from strong to weak: 10 hardly smooths, 1e-4 leaves a plate. Between
 # neighbours the error of a noisy sphere differs by a fifth at its least.
@@ -126,12 +126,7 @@ class _Fit:
         return points[: len(self.points)]
 
     def normals(self, points: np.ndarray) -> np.ndarray:
-        a, b, c = points[self._triangles].swapaxes(0, 1)
-        of_faces = np.cross(b - a, c - a)
-        total = np.zeros_like(points)
-        for corner in self._triangles.T:
-            for axis in range(3):
-                total[:, axis] += np.bincount(corner, of_faces[:, axis], len(points))
+        total = normals(points, self._triangles)
         return total / np.maximum(np.linalg.norm(total, axis=1), 1e-300)[:, None]
 
 

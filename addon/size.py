@@ -16,16 +16,6 @@ def face_sizes(mesh: Any) -> np.ndarray:
     return sizes
 
 
-def fans(first: np.ndarray, sizes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Polygons cut into triangles from their first corners: (t, 3) ids of corners, and (t,) of which
-    polygon. Of each its `first` corner (m,), and how many it has.
-    """
-    each = np.maximum(sizes - 2, 0)
-    polygons = np.repeat(np.arange(len(each)), each)
-    start = first[polygons] + np.arange(len(polygons)) - np.repeat(np.cumsum(each) - each, each)
-    return np.stack([first[polygons], start + 1, start + 2], axis=1), polygons
-
-
 def coarse_triangles(face_sizes: np.ndarray) -> int:
     """Triangles that the control mesh stands for: 1 per triangle, 2 per quad, n per larger n-gon
     (split from its centre).

@@ -12,11 +12,12 @@ import numpy as np
 from .. import core, vertex_values
 from ..blender import Context, Object
 from ..errors import JobError
-from ..inspection.curvature import cross, unit
+from ..inspection.curvature import unit
 from ..mesh.read import control_mesh, read_mesh
 from ..mesh.shape_keys import ShapeKeys, influences, mixed, read_shape_keys
 from ..transfer.attributes import AttributeTransfer
 from ..transfer.lattice import Cells, make_cells
+from ..triangles import normals
 
 Share = float | np.ndarray  # of a shape: one number, or one a control vertex
 
@@ -101,8 +102,8 @@ def distance(
     if pairs is None:
         return None
     there, here = pairs
-    normals = _normals(vertices, result.triangles)[here]
-    gap = np.einsum("ij,ij->i", mesh.positions[there] - vertices[here], normals)
+    outward = unit(normals(vertices, result.triangles))[here]
+    gap = np.einsum("ij,ij->i", mesh.positions[there] - vertices[here], outward)
     return float(np.abs(gap).max(initial=0.0))
 
 
@@ -137,12 +138,3 @@ def _same_points(
 def _points_of(cells: Cells, finer: int) -> np.ndarray:
     """Those of the points that a face has with so many levels less, in their order."""
     return np.flatnonzero((cells.points % 2**finer == 0).all(axis=1))
-
-
-def _normals(vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """(N, 3) unit normals, by the areas around."""
-    a, b, c = (vertices[triangles[:, k]] for k in range(3))
-    across = np.repeat(cross(b - a, c - a), 3, axis=0)
-    ids = triangles.ravel()
-    sums = [np.bincount(ids, across[:, axis], len(vertices)) for axis in range(3)]
-    return unit(np.stack(sums, axis=1))

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..core import ControlArrays
-from ..size import fans
+from ..triangles import fans
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager, nullcontext
-from typing import cast
+from typing import Any, cast
 
 import bpy
 import numpy as np
@@ -147,14 +147,19 @@ def _offsets(mesh: Mesh, faces: int, corners: int) -> np.ndarray:
     return offsets
 
 
+def shown_selection(elements: Any) -> np.ndarray:
+    """(k,) bool: those of the `elements`, vertices or faces of a mesh, that are selected and to be seen."""
+    flags = np.empty((2, len(elements)), bool)
+    for row, name in zip(flags, ("select", "hide"), strict=True):
+        elements.foreach_get(name, row)
+    return flags[0] & ~flags[1]
+
+
 def selected_faces(mesh: Mesh, source_name: str) -> np.ndarray:
     """(r,) int32: ids of the selected and visible faces of a bpy.types.Mesh; JobError if there are
     none.
     """
-    selected, hidden = np.empty(len(mesh.polygons), bool), np.empty(len(mesh.polygons), bool)
-    mesh.polygons.foreach_get("select", selected)
-    mesh.polygons.foreach_get("hide", hidden)
-    found = np.flatnonzero(selected & ~hidden).astype(np.int32)
+    found = np.flatnonzero(shown_selection(mesh.polygons)).astype(np.int32)
     if not len(found):
         raise JobError(
             f"{source_name}: Select the faces to fair in Edit Mode, or switch off Selected Faces Only. "

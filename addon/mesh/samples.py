@@ -7,7 +7,7 @@ import numpy as np
 from mathutils.bvhtree import BVHTree
 
 from ..core import ControlArrays, are_equal
-from ..size import fans
+from ..triangles import fans
 from .layers import STORAGE, Attribute
 
 _INWARD = 0.05  # of the way to a face's centre: which side of a seam a corner is on

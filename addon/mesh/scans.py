@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..blender import Context, Mesh, Object
+from ..triangles import normals
 from .read import control_mesh
 from .world_shape import transformed, world_matrix, world_shape
 
@@ -37,14 +38,8 @@ class Scan:
     def thinned(self) -> "Scan":
         """Few enough points for an edit to wait for; what triangles know of sides goes with them."""
         step = -(-len(self.points) // MOST_LIVE)
-        normals = self._normals()[::step] if len(self.triangles) else None
-        return Scan(self.points[::step], np.empty((0, 3), np.int64), normals)
-
-    def _normals(self) -> np.ndarray:
-        a, b, c = (self.points[self.triangles[:, k]] for k in range(3))
-        own = np.repeat(np.cross(b - a, c - a), 3, axis=0)
-        count, at = len(self.points), self.triangles.ravel()
-        return np.stack([np.bincount(at, own[:, k], count) for k in range(3)], axis=1)
+        outward = normals(self.points, self.triangles)[::step] if len(self.triangles) else None
+        return Scan(self.points[::step], np.empty((0, 3), np.int64), outward)
 
     @property
     def arguments(self) -> dict[str, Any]:

@@ -8,14 +8,14 @@ import bmesh
 import numpy as np
 
 from .. import core, errors, size
-from ..blender import Context, Mesh, Object
+from ..blender import Context, Object
 from ..errors import JobError
 from ..in_place import floats
 from ..live.switch import look_again
 from ..mesh.begun import Begun, TimedRun
 from ..mesh.object import Reference
 from ..mesh.offset_names import read_names
-from ..mesh.read import control_mesh, read_mesh
+from ..mesh.read import control_mesh, read_mesh, shown_selection
 from ..mesh.shape_keys import EASED, key_positions, put_key
 from ..mesh.world_shape import world_shape
 from ..preferences import preferences
@@ -56,7 +56,7 @@ class _Moving(TimedRun):
         with control_mesh(context, source) as mesh:
             self.arrays = read_mesh(mesh)
             self.names = read_names(mesh)
-            self.selected = _selected(mesh)
+            self.selected = shown_selection(mesh.vertices)
         self._begun = Begun.of("Ease", source, self.arrays)
         count = len(self.arrays.positions)
         eased = key_positions(source, EASED, count) if go_on else None
@@ -222,14 +222,6 @@ class EaseSelectedJob(_Moving):
             edited.verts[index].co = self.positions[index].tolist()
         edited.normal_update()
         bmesh.update_edit_mesh(mesh)
-
-
-def _selected(mesh: Mesh) -> np.ndarray:
-    """(n,) bool: vertices that are selected and to be seen."""
-    selected, hidden = (np.empty(len(mesh.vertices), bool) for _ in range(2))
-    mesh.vertices.foreach_get("select", selected)
-    mesh.vertices.foreach_get("hide", hidden)
-    return selected & ~hidden
 
 
 def _inner(arrays: core.ControlArrays) -> np.ndarray:

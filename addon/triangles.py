@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Meshes as triangles: plain arrays, no Blender."""
+
+import numpy as np
+
+
+def fans(first: np.ndarray, sizes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Polygons cut into triangles from their first corners: (t, 3) ids of corners, and (t,) of which
+    polygon. Of each its `first` corner (m,), and how many it has.
+    """
+    each = np.maximum(sizes - 2, 0)
+    polygons = np.repeat(np.arange(len(each)), each)
+    start = first[polygons] + np.arange(len(polygons)) - np.repeat(np.cumsum(each) - each, each)
+    return np.stack([first[polygons], start + 1, start + 2], axis=1), polygons
+
+
+def normals(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """(n, 3) at each of the `points`: the sum of the normals of its `triangles` (t, 3), by twice their
+    areas.
+    """
+    a, b, c = points[triangles].swapaxes(0, 1)
+    across = np.repeat(np.cross(b - a, c - a), 3, axis=0)
+    at = triangles.ravel()
+    return np.stack([np.bincount(at, across[:, k], len(points)) for k in range(3)], axis=1)
