@@ -60,7 +60,7 @@ class NearestThatCounts {
  public:
   using DistanceType = double;
   using IndexType = Index;
-  explicit NearestThatCounts(const Counts& counts) : counts_(counts) {}
+  NearestThatCounts(const Counts& counts, double most) : counts_(counts), square_(most * most) {}
   bool addPoint(double square, Index p) {
     if ((square < square_ || (square == square_ && p < point_)) && counts_(p)) {
       square_ = square;
@@ -76,14 +76,14 @@ class NearestThatCounts {
 
  private:
   const Counts& counts_;
-  double square_ = std::numeric_limits<double>::max();
+  double square_;
   Index point_ = -1;
 };
 
 }  // namespace
 
-FeetFinder::FeetFinder(const Cells& cells, const Scan& scan, Workers& workers)
-    : cells_(cells), scan_(scan), workers_(workers) {
+FeetFinder::FeetFinder(const Cells& cells, const Scan& scan, double reach, Workers& workers)
+    : cells_(cells), scan_(scan), reach_(reach), workers_(workers) {
   const GridLevel& grid = cells.grid();
   const ControlMesh& mesh = grid.mesh();
   on_curve_.assign(grid.size(), 0);
@@ -132,15 +132,19 @@ Vec3 FeetFinder::point_at_foot(const Foot& foot) const {
   return sum;
 }
 
-Vec3 FeetFinder::normal_at(const Foot& foot) const {
-  const auto& corner = cells_.corners(foot.cell);
-  const Vec3& own = cell_normal_[std::size_t(foot.cell)];
-  Vec3 sum = Vec3::Zero();
+std::array<Vec3, 4> FeetFinder::corner_normals(Index cell) const {
+  const auto& corner = cells_.corners(cell);
+  std::array<Vec3, 4> out;
   for (std::size_t k = 0; k < 4; ++k) {
-    if (corner[k] < 0) continue;
-    const auto p = std::size_t(corner[k]);
-    sum += double(foot.shares[k]) * (on_curve_[p] ? own : point_normal_[p]);
+    const auto p = std::size_t(std::max(corner[k], 0));
+    out[k] = on_curve_[p] ? cell_normal_[std::size_t(cell)] : point_normal_[p];
   }
+  return out;
+}
+
+Vec3 FeetFinder::normal_at(const Foot& foot, const std::array<Vec3, 4>& corners) {
+  Vec3 sum = Vec3::Zero();  // the fourth corner of a triangle has no share
+  for (std::size_t k = 0; k < 4; ++k) sum += double(foot.shares[k]) * corners[k];
   return unit_or_zero(sum);
 }
 
@@ -213,27 +217,43 @@ void FeetFinder::finish(std::size_t point, Foot& foot) const {
 }
 
 void FeetFinder::find(Array<Foot>& feet, bool any_side) const {
+  feet.assign(scan_.size(), {});
+  search(feet, any_side, 0);
+}
+
+void FeetFinder::find_beyond(double distance, Array<Foot>& feet) const {
+  search(feet, false, distance);
+}
+
+void FeetFinder::search(Array<Foot>& feet, bool any_side, double beyond) const {
   const PointsOfSurface surface{x_, cells_.grid().size()};
   const Tree tree(3, surface);
-  feet.resize(scan_.size());
+  const auto nearest_to = [&](std::size_t s, const auto& counts, double most) {
+    NearestThatCounts nearest(counts, most);
+    tree.findNeighbors(nearest, scan_.point[s].data(), {});
+    return nearest.point();
+  };
+  const auto is_used = [&](Index p) { return !cells_.at_point(p).empty(); };
   workers_.for_parts(scan_.size(), vertex_grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s) {
-      const auto counts = [&](Index p) {
-        const auto around = cells_.at_point(p);
-        if (any_side || scan_.normal.empty()) return !around.empty();
-        for (const auto& [cell, corner] : around)
+      Foot& foot = feet[s];
+      if (foot.cell >= 0 && std::abs(distance(s, foot)) <= beyond) continue;
+      foot = {};
+      Index nearest = nearest_to(s, is_used, std::numeric_limits<float>::max());
+      const auto agrees_at = [&](Index p) {
+        for (const auto& [cell, corner] : cells_.at_point(p))
           if (agrees(cell, s)) return true;
         return false;
       };
-      NearestThatCounts nearest(counts);
-      tree.findNeighbors(nearest, scan_.point[s].data(), {});
-      Foot& foot = feet[s] = {};
-      if (nearest.point() < 0) continue;
+      // within bounds: where a scan is inside out, all of the surface would be looked at
+      if (nearest >= 0 && !any_side && !agrees_at(nearest))
+        nearest = nearest_to(s, agrees_at, (scan_.point[s] - at(nearest)).norm() + reach_);
+      if (nearest < 0) continue;
       if (any_side) {
-        foot.cell = cells_.at_point(nearest.point())[0].cell;
+        foot.cell = cells_.at_point(nearest)[0].cell;
         foot.shares = nearest_on(foot.cell, scan_.point[s]).shares;
       } else {
-        descend(s, nearest.point(), foot, std::numeric_limits<double>::max());
+        descend(s, nearest, foot, std::numeric_limits<double>::max());
       }
       finish(s, foot);
     }

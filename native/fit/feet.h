@@ -23,13 +23,17 @@ struct Foot {
 // The surface of a level, which changes: its points' normals, and feet on it.
 class FeetFinder {
  public:
-  // References must outlive it. May throw FairingError(cancelled).
-  FeetFinder(const Cells& cells, const Scan& scan, Workers& workers);
+  // `reach`: how much farther than the surface's nearest point a foot whose normal agrees may be. References
+  // must outlive it. May throw FairingError(cancelled).
+  FeetFinder(const Cells& cells, const Scan& scan, double reach, Workers& workers);
 
   // The surface has become x, 3 numbers a point.
   void set_surface(const double* x);
   // Of the surface at a foot: mean of its corners' normals; on curves that of the cell.
-  Vec3 normal_at(const Foot& foot) const;
+  Vec3 normal_at(const Foot& foot) const { return normal_at(foot, corner_normals(foot.cell)); }
+  // The same, where those of its cell's corners are known.
+  static Vec3 normal_at(const Foot& foot, const std::array<Vec3, 4>& corners);
+  std::array<Vec3, 4> corner_normals(Index cell) const;
   Vec3 point_at_foot(const Foot& foot) const;
   // Of a point of the scan from its foot, positive on the side of the normal.
   double distance(std::size_t point, const Foot& foot) const {
@@ -39,6 +43,8 @@ class FeetFinder {
 
   // From anywhere: by the surface's point nearest to each. `any_side`: whatever the normals.
   void find(Array<Foot>& feet, bool any_side = false) const;
+  // Those again that are farther off than this, or not there.
+  void find_beyond(double distance, Array<Foot>& feet) const;
   // From feet that are near: down the distance, from cell to cell.
   void follow(Array<Foot>& feet) const;
   // Offsets again, where only the surface has moved a little: the feet stay.
@@ -54,12 +60,14 @@ class FeetFinder {
   Vec3 at(Index p) const { return Eigen::Map<const Vec3>(x_ + 3 * std::size_t(p)); }
   Nearest nearest_on(Index cell, const Vec3& point) const;
   bool agrees(Index cell, std::size_t point) const;
+  void search(Array<Foot>& feet, bool any_side, double beyond) const;
   bool descend(std::size_t point, Index at, Foot& foot, double square) const;
   void finish(std::size_t point, Foot& foot) const;
   bool is_on_border(const Foot& foot) const;
 
   const Cells& cells_;
   const Scan& scan_;
+  double reach_;
   Workers& workers_;
   const double* x_ = nullptr;
   Array<Vec3> cell_normal_;   // of length one

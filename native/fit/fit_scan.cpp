@@ -61,6 +61,7 @@ Scan thinned(const Scan& scan, std::size_t step) {
   Scan out;
   for (std::size_t s = 0; s < scan.size(); s += step) {
     out.point.push_back(scan.point[s]);
+    out.given.push_back(scan.given[s]);
     if (!scan.normal.empty()) out.normal.push_back(scan.normal[s]);
   }
   return out;
@@ -106,16 +107,19 @@ class ScanFit {
     weight_ = choice.choose(monitor_);
     report.trials = choice.trials();
     is_kept_ = choice.is_by_tolerance();
-    weight_ *= choice.more_points(scan_.size());
+    weight_ *= choice.more_points(thin_.size());
     const bool is_automatic = !(settings_.weight > 0) && !choice.is_by_tolerance();
     const FitProblem whole = problem_of(scan_);
     // What residuals fall by from level to level are not noise but the level's edges: the weight goes with
     // the shorter waves that the level has.
     double left_below = 0;
     for (int level = search_; level <= levels_.top(); ++level) {
+      const bool is_last = level == levels_.top();
       Array<double> x = level == search_ ? fit->surface() : above(*fit);
       report.iterations += fit->iterations();
-      fit = std::make_unique<LevelFit>(whole, level);
+      // coarser levels are a start for it: they have no use for more points
+      fit = std::make_unique<LevelFit>(is_last ? whole : rough, level);
+      if (is_last) weight_ *= choice.more_points(scan_.size()) / choice.more_points(thin_.size());
       fit->set_surface(std::move(x));
       fit->stay_near(prior(*fit));
       fit_curves(*fit, weight_, 2, true);
@@ -271,6 +275,26 @@ void require_room(const PolygonMesh& input, const FairingProblem& problem, std::
   expect_memory(report);
 }
 
+void warn_of_fit(const FitReport& fit, double tolerance, Report& report) {
+  if (tolerance > 0 && fit.within > tolerance)
+    report.warnings.push_back(
+        {"TOLERANCE_NOT_KEPT",
+         {"The tolerance could not be kept: 95 % of the points are within " +
+              length_text(fit.within) + " of the surface, and their noise is about " +
+              length_text(fit.noise) + ".",
+          "Use a tolerance over twice the noise, more levels, or a finer control mesh."},
+         {}});
+  double covered = 0;
+  for (const double share : fit.coverage) covered += share / double(fit.coverage.size());
+  if (2 * covered < 1)
+    report.warnings.push_back(
+        {"MOSTLY_UNCOVERED",
+         {"The scan has points over " + std::to_string(int(100 * covered)) +
+              " % of the control mesh only.",
+          "Draw the control mesh nearer to the scan, or leave out what is not scanned."},
+         {}});
+}
+
 FitResult fit_all(const PolygonMesh& input, const FairOptions& options, const ScanInput& given,
                   const FitSettings& settings, const MemoryLedger& ledger, Monitor& monitor) {
   const CancelScope scope(&monitor);
@@ -308,14 +332,7 @@ FitResult fit_all(const PolygonMesh& input, const FairOptions& options, const Sc
            result.vertices.data());
   require_finite(problem->mesh, fit.control(), workers, result.vertices.size(),
                  result.vertices.data());
-  if (settings.tolerance > 0 && result.fit.within > settings.tolerance)
-    report.warnings.push_back(
-        {"TOLERANCE_NOT_KEPT",
-         {"The tolerance could not be kept: 95 % of the points are within " +
-              length_text(result.fit.within) + " of the surface, and their noise is about " +
-              length_text(result.fit.noise) + ".",
-          "Use a tolerance over twice the noise, more levels, or a finer control mesh."},
-         {}});
+  warn_of_fit(result.fit, settings.tolerance, report);
   report.largest_deviation = largest_deviation(problem->basis.cage, result.vertices.data());
   const JoinedSheets joined(finest);
   if (joined.needed()) {

@@ -12,7 +12,7 @@ LevelFit::LevelFit(const FitProblem& problem, int level)
     : problem_(problem),
       level_(level),
       cells_(problem.levels.grid(level), problem.levels.workers()),
-      finder_(cells_, problem.scan, problem.levels.workers()),
+      finder_(cells_, problem.scan, 2 * problem.edge, problem.levels.workers()),
       sums_(cells_, problem.levels.workers()),
       unknown_(unknown_points(problem.levels.grid(level), problem.levels.shared().unknowns)) {}
 

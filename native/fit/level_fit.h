@@ -35,7 +35,7 @@ class LevelFit {
   const FeetFinder& finder() const { return finder_; }
   const Array<double>& surface() const { return x_; }
   const Array<Foot>& feet() const { return feet_; }
-  const Vec3& point(std::size_t s) const { return problem_.scan.point[s]; }
+  const Scan& scan() const { return problem_.scan; }
   Spread spread() const { return spread_; }
   int iterations() const { return iterations_; }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/points.h"
+#include "fit/weight_choice.h"
 #include "parallel/cancel.h"
 #include "parallel/reductions.h"
 
@@ -20,32 +21,47 @@ int level_with(double points_a_cell, const Cells& cells, std::size_t points, int
   return level;
 }
 
-// Of every cell of a level that is coarser: its points, and their offsets, none counted for more than `most`.
+// Of every cell of a level that is coarser: its points, their offsets, none counted for more than `most`,
+// and the squares of these.
 struct CellSums {
   std::vector<Index> count;
-  std::vector<double> sum;
+  std::vector<double> sum, squares;
+
+  // What is left where the mean of each cell is taken off: noise, without what the surface is off.
+  double scatter() const {
+    double left = 0, free = 0;
+    for (std::size_t c = 0; c < count.size(); ++c) {
+      if (count[c] < 2) continue;
+      left += squares[c] - sum[c] * sum[c] / count[c];
+      free += count[c] - 1;
+    }
+    return free > 0 ? std::sqrt(std::max(left, 0.0) / free) : 0;
+  }
 };
 
 CellSums sums_on(const Cells& coarse, const Cells& cells, const Array<Foot>& feet, double most) {
-  CellSums out{std::vector<Index>(coarse.size()), std::vector<double>(coarse.size())};
+  CellSums out{std::vector<Index>(coarse.size()), std::vector<double>(coarse.size()),
+               std::vector<double>(coarse.size())};
   for (std::size_t s = 0; s < feet.size(); ++s) {
     stop_if_cancelled(s);
     if (!feet[s].pulls()) continue;
     const FacePlace place = cells.place(feet[s].cell, feet[s].shares);
     const auto cell = std::size_t(coarse.cell_at(place, cells.grid().level()).cell);
     ++out.count[cell];
-    out.sum[cell] += std::clamp(double(feet[s].offset), -most, most);
+    const double offset = std::clamp(double(feet[s].offset), -most, most);
+    out.sum[cell] += offset;
+    out.squares[cell] += offset * offset;
   }
   return out;
 }
 
-void measure_coverage(const Cells& cells, const Array<Foot>& feet, Workers& workers,
-                      std::size_t polygons, FitReport& report) {
-  constexpr double points_a_cell = 4;  // by chance one cell in fifty has none
+// The scatter of points about the mean of their cell, none counted for more than `most`.
+double measure_coverage(const Cells& cells, const Array<Foot>& feet, Workers& workers,
+                        std::size_t polygons, double most, FitReport& report) {
   const ControlMesh& mesh = cells.grid().mesh();
-  const GridLevel grid(mesh, level_with(points_a_cell, cells, feet.size(), 2));
+  const GridLevel grid(mesh, level_with(points_a_blob, cells, feet.size(), 2));
   const Cells coarse(grid, workers);
-  const CellSums sums = sums_on(coarse, cells, feet, 0);
+  const CellSums sums = sums_on(coarse, cells, feet, most);
   std::vector<double> all(polygons), covered(polygons);
   for (std::size_t c = 0; c < coarse.size(); ++c) {
     const auto polygon = std::size_t(mesh.faces[std::size_t(coarse.face(Index(c)))].polygon);
@@ -55,16 +71,17 @@ void measure_coverage(const Cells& cells, const Array<Foot>& feet, Workers& work
   report.coverage.resize(polygons);
   for (std::size_t f = 0; f < polygons; ++f)
     report.coverage[f] = all[f] > 0 ? covered[f] / all[f] : 0;
+  return sums.scatter();
 }
 
 // Offsets of one sign over a quarter of a face: larger than the noise, and than its mean can be by chance.
 void find_too_coarse(const Cells& cells, const Array<Foot>& feet, Workers& workers, double noise,
-                     FitReport& report) {
+                     double most, FitReport& report) {
   constexpr double by_chance = 4;  // deviations of a mean of noise: one cell in 16,000
   const ControlMesh& mesh = cells.grid().mesh();
   const GridLevel grid(mesh, std::min(1, cells.grid().level()));
   const Cells coarse(grid, workers);
-  const CellSums sums = sums_on(coarse, cells, feet, 2 * noise);
+  const CellSums sums = sums_on(coarse, cells, feet, most);
   for (std::size_t c = 0; c < coarse.size(); ++c) {
     if (sums.count[c] < 2) continue;
     const double count = sums.count[c], mean = std::abs(sums.sum[c]) / count;
@@ -107,8 +124,9 @@ void measure_fit(const LevelFit& fit, const FairingProblem& problem, FitReport& 
   const Cells& cells = fit.cells();
   const ControlMesh& mesh = cells.grid().mesh();
   const double scale = problem.frame.scale;
-  Array<Foot> feet;
-  fit.finder().find(feet);
+  Array<Foot> feet = fit.feet();
+  // those that are near have followed the surface; strays may have come into another one's reach
+  fit.finder().find_beyond(2 * spread_of(feet, {}).rms, feet);
   const double rms = spread_of(feet, {}).rms;
   report.noise = rms * scale;
   const double judged = std::max(rms, least_noise * problem.units.edge_in_space);
@@ -118,16 +136,20 @@ void measure_fit(const LevelFit& fit, const FairingProblem& problem, FitReport& 
   for (std::size_t s = 0; s < feet.size(); ++s) {
     stop_if_cancelled(s);
     const Foot& foot = feet[s];
-    report.faces[s] =
+    const auto given = std::size_t(fit.scan().given[s]);
+    report.faces[given] =
         foot.cell < 0 ? -1 : std::int32_t(mesh.faces[std::size_t(cells.face(foot.cell))].polygon);
-    report.distances[s] = foot.cell < 0 ? NAN : fit.finder().distance(s, foot) * scale;
+    report.distances[given] = foot.cell < 0 ? NAN : fit.finder().distance(s, foot) * scale;
     if (foot.cell < 0 || std::abs(double(foot.offset)) > stray * judged)
-      report.outliers.push_back(std::int64_t(s));
+      report.outliers.push_back(std::int64_t(given));
     else if (foot.pulls())
-      report.largest = std::max(report.largest, std::abs(report.distances[s]));
+      report.largest = std::max(report.largest, std::abs(report.distances[given]));
   }
-  measure_coverage(cells, feet, *problem.workers, std::size_t(mesh.input_faces), report);
-  find_too_coarse(cells, feet, *problem.workers, judged, report);
+  std::sort(report.outliers.begin(), report.outliers.end());
+  const double scatter = measure_coverage(cells, feet, *problem.workers,
+                                          std::size_t(mesh.input_faces), 2 * judged, report);
+  find_too_coarse(cells, feet, *problem.workers,
+                  std::max(scatter, least_noise * problem.units.edge_in_space), 2 * judged, report);
 }
 
 }  // namespace fairing

@@ -42,11 +42,13 @@ void PullSums::sum(const FeetFinder& finder, const Array<Foot>& feet, const Arra
     for (std::size_t c = begin; c < end; ++c) {
       auto& slot = slot_[c];
       slot.fill(Eigen::Vector4d::Zero());
+      if (begin_[c] == begin_[c + 1]) continue;
+      const std::array<Vec3, 4> normals = finder.corner_normals(Index(c));
       for (Index k = begin_[c]; k < begin_[c + 1]; ++k) {
         const auto s = std::size_t(sorted_[std::size_t(k)]);
         const Foot& foot = feet[s];
         Eigen::Vector4d pull;
-        pull << double(foot.offset) * finder.normal_at(foot), 1;
+        pull << double(foot.offset) * FeetFinder::normal_at(foot, normals), 1;
         for (std::size_t a = 0; a < 4; ++a)
           slot[a] += double(trust[s]) * double(foot.shares[a]) * pull;
       }

@@ -6,9 +6,11 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "base/error.h"
 #include "base/points.h"
+#include "mesh/counting_sort.h"
 #include "parallel/cancel.h"
 #include "parallel/reductions.h"
 
@@ -47,8 +49,8 @@ void require_arrays(const ScanInput& input) {
   }
 }
 
-// Weighted by area; of length one, or zero.
-Array<Eigen::Vector3f> normals_of(const ScanInput& input) {
+// Weighted by area; of length one, or zero. In the order of `given`.
+Array<Eigen::Vector3f> normals_of(const ScanInput& input, const Array<Index>& given) {
   const std::size_t count = input.coordinates.size() / 3;
   Array<Eigen::Vector3f> out;
   if (input.normals.empty() && input.triangles.empty()) return out;
@@ -65,9 +67,11 @@ Array<Eigen::Vector3f> normals_of(const ScanInput& input) {
     }
   }
   out.resize(count);
-  for (std::size_t p = 0; p < count; ++p)
-    out[p] =
-        unit_or_zero(sum.empty() ? point_at(input.normals, std::int64_t(p)) : sum[p]).cast<float>();
+  for (std::size_t p = 0; p < count; ++p) {
+    const Vec3 normal =
+        sum.empty() ? point_at(input.normals, given[p]) : sum[std::size_t(given[p])];
+    out[p] = unit_or_zero(normal).cast<float>();
+  }
   return out;
 }
 
@@ -99,6 +103,31 @@ Eigen::AlignedBox3d box_of(std::span<const Vec3> points) {
   return box;
 }
 
+// Numbers of points, box by box of their bounding box cut into 16 along each axis, and the boxes so that
+// the next one is mostly beside [Morton 1966].
+Array<Index> in_order_of_place(const ScanInput& input) {
+  constexpr int bits = 4;  // a box has some hundred cells of a fine level, which stay in the cache
+  const std::size_t count = input.coordinates.size() / 3;
+  const auto at = [&](std::size_t p) { return point_at(input.coordinates, std::int64_t(p)); };
+  Eigen::AlignedBox3d box;
+  for (std::size_t p = 0; p < count; ++p) box.extend(at(p));
+  const Vec3 size = box.sizes().cwiseMax(std::numeric_limits<double>::min());
+  const auto key = [&](std::size_t p) {
+    const Vec3 share = (at(p) - box.min()).cwiseQuotient(size) * double((1 << bits) - 1);
+    std::size_t code = 0;
+    for (int b = bits - 1; b >= 0; --b)
+      for (int a = 0; a < 3; ++a) code = 2 * code + ((std::size_t(share[a]) >> b) & 1);
+    return code;
+  };
+  CountingSort<Index> sorted(std::size_t(1) << (3 * bits), count, key,
+                             [](std::size_t p) { return Index(p); });
+  Array<Index> out;
+  out.reserve(count);
+  for (std::size_t k = 0; k < sorted.keys(); ++k)
+    for (const Index p : sorted.of(k)) out.push_back(p);
+  return out;
+}
+
 }  // namespace
 
 std::string length_text(double length) {
@@ -110,13 +139,14 @@ std::string length_text(double length) {
 Scan make_scan(const ScanInput& input, const Frame& frame, Workers& workers) {
   require_arrays(input);
   Scan scan;
-  scan.point.resize(input.coordinates.size() / 3);
+  scan.given = in_order_of_place(input);
+  scan.point.resize(scan.given.size());
   for_each_index(workers, scan.size(), [&](std::size_t p) {
-    scan.point[p] = frame.to_working(point_at(input.coordinates, std::int64_t(p)));
+    scan.point[p] = frame.to_working(point_at(input.coordinates, scan.given[p]));
   });
-  scan.normal = normals_of(input);
+  scan.normal = normals_of(input, scan.given);
   for (const std::int64_t v : border_of(input.triangles))
-    scan.border.push_back(scan.point[std::size_t(v)]);
+    scan.border.push_back(frame.to_working(point_at(input.coordinates, v)));
   return scan;
 }
 

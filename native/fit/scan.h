@@ -26,13 +26,16 @@ struct ScanInput {
 // Three hold a plane, and noise is in all.
 constexpr std::size_t fewest_points = 10;
 
+// Points in an order in which neighbours in space are near one another: their feet share cells, and memory.
 struct Scan {
   Array<Vec3> point;
+  Array<Index> given;             // the caller's number of each
   Array<Eigen::Vector3f> normal;  // of length one, or zero; or empty
   std::vector<Vec3> border;       // its points on borders of its triangles
   std::size_t size() const { return point.size(); }
 
-  static constexpr std::int64_t bytes_a_point = sizeof(Vec3) + sizeof(Eigen::Vector3f);
+  static constexpr std::int64_t bytes_a_point =
+      sizeof(Vec3) + sizeof(Index) + sizeof(Eigen::Vector3f);
 };
 
 // Throws FairingError: bad_shape, index_out_of_range and non_finite for arrays that are no scan, or have

@@ -68,13 +68,13 @@ void WeightChoice::hold_out() {
   }
 }
 
-// Along the normals of the surface that all began with: a rough surface comes nearer to points than one is
-// off that is right. Root mean square, strays cut off where they would pull no more.
+// Along the normals of one calm surface: a rough one comes nearer to points than one is off that is
+// right. Root mean square, strays cut off where they would pull no more.
 double WeightChoice::held_out_error() {
   std::vector<double> far;
   for (const HeldOut& held : held_)
     far.push_back(std::abs(
-        (fit_.point(held.point) - fit_.finder().point_at_foot(held.foot)).dot(held.normal)));
+        (fit_.scan().point[held.point] - fit_.finder().point_at_foot(held.foot)).dot(held.normal)));
   if (far.empty()) return 0;
   if (trials_.empty()) {
     std::vector<double> sorted = far;
@@ -88,7 +88,13 @@ double WeightChoice::held_out_error() {
 }
 
 double WeightChoice::by_held_out(Monitor& monitor) {
+  // Feet and normals of a calm surface, that of the waves of two control edges and more: those of one
+  // that has the noise are askew, and measure calm ones along themselves.
+  Array<double> start = fit_.surface();
+  Array<Foot> feet = fit_.feet();
+  fit_.rounds(1 / (ratio * ratio), 2, false);
   hold_out();
+  fit_.set_surface(std::move(start), std::move(feet));
   fit_.train_on(trained_);
   Array<double> best_surface;
   Array<Foot> best_feet;

@@ -8,7 +8,8 @@
 
 namespace fairing {
 
-// On average, in a cell that is held out: fewer would be single points.
+// On average, in a cell that is held out, where fewer would be single points, or that counts as covered:
+// one in fifty has none by chance.
 constexpr double points_a_blob = 4;
 
 class WeightChoice {

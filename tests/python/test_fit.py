@@ -4,6 +4,7 @@
 import discrete_fairing as df
 import numpy as np
 import pytest
+from discrete_fairing.patch_distances import evaluate
 from scans import (
     angles_to_blob,
     blob_cage,
@@ -227,12 +228,71 @@ def test_half_with_a_symmetry_plane_fits_both_halves(scan):
     number = np.full(len(vertices), -1)
     number[used] = np.arange(len(used))
     half = vertices[used]
-    half[np.abs(half[:, 1]) < 0.2, 1] *= 1.0
     border = np.isin(used, np.unique(faces[~kept]))
     half[border, 1] = 0.0
     fitted = df.fit(half, number[faces[kept]], symmetric, symmetry_plane="y")
     assert fitted.vertices[:, 1].min() > -1e-9
     assert len(fitted.coverage) == kept.sum() and len(fitted.distances) == len(symmetric)
+    patches = df.fit_patches(
+        half,
+        number[faces[kept]],
+        scan={"points": symmetric, "weight": fitted.weight},
+        symmetry_plane="y",
+        levels=2,
+        tolerance=0.01,
+        force=True,
+    )
+    one, other = np.split(patches.scan_distances, 2)
+    assert (np.abs(one - other) < 1e-6).mean() > 0.999  # the rest are as near to two faces
+
+
+def test_patches_near_a_scan_know_how_near_they_are(cage, scan):
+    patches = df.fit_patches(*cage, scan={"points": scan}, levels=3, tolerance=1e-3)
+    fitted, found = patches.result, patches.scan_distances
+    assert patches.shell_closed.all() and isinstance(fitted, df.Fitted)
+    # from patches that are off their surface by so much
+    assert np.abs(found - fitted.distances).max() < 2 * patches.largest_residual
+    assert patches.scan_within == pytest.approx(fitted.within, abs=patches.largest_residual)
+    assert rms(found - distance_to_blob(scan)) < NOISE / 3
+    kept = df.fit_patches(
+        *cage, scan={"points": scan, "weight": fitted.weight}, levels=3, tolerance=1e-3
+    )
+    assert np.abs(kept.vertices - patches.vertices).max() < NOISE / 4
+    assert df.fit_patches(*cage, levels=2).scan_distances is None
+
+
+def test_patches_are_evaluated_as_splines_are():
+    vertices, faces = blob_cage(2)
+    patches = df.fit_patches(vertices, faces, levels=3, tolerance=1e-3)
+    ids, random = np.arange(len(patches)), np.random.default_rng(0)
+    corners = [(0, 0, 0, 0), (1, 0, -1, 0), (0, 1, 0, -1), (1, 1, -1, -1)]
+    for u, v, row, column in corners:
+        found = evaluate(patches, ids, np.tile([float(u), float(v)], (len(ids), 1)))[0]
+        expected = [patches.net(p)[row, column] for p in ids]
+        np.testing.assert_allclose(found, expected, atol=1e-12)
+    places, step = random.uniform(0.01, 0.99, (len(ids), 2)), 1e-6
+    at, along, across = evaluate(patches, ids, places)
+    assert rms(distance_to_blob(at)) < 0.3
+    for slope, direction in ((along, [step, 0]), (across, [0, step])):
+        before, after = (
+            evaluate(patches, ids, places + sign * np.array(direction))[0] for sign in (-1, 1)
+        )
+        np.testing.assert_allclose((after - before) / (2 * step), slope, atol=1e-6)
+
+
+def test_the_order_of_points_does_not_matter(cage, scan, fitted):
+    order = np.random.default_rng(1).permutation(len(scan))
+    other = df.fit(*cage, scan[order])
+    assert np.abs(other.distances - fitted.distances[order]).max() < NOISE / 4
+    assert (other.faces_of_points == fitted.faces_of_points[order]).mean() > 0.99
+
+
+def test_a_cage_that_is_too_coarse_says_where(scan):
+    vertices, faces = blob_cage(2)  # 24 faces
+    fitted = df.fit(vertices, faces, scan, levels=1)
+    assert len(fitted.too_coarse) > 4
+    fine = df.fit(*blob_cage(6), scan, levels=2)
+    assert len(fine.too_coarse) == 0
 
 
 @pytest.mark.parametrize(
@@ -251,6 +311,13 @@ def test_scans_that_are_none_are_refused_in_words(cage, points, code, word):
     with pytest.raises(df.FairingError) as caught:
         df.fit(*cage, points)
     assert caught.value.code == code and word in str(caught.value)
+
+
+@pytest.mark.parametrize("change", [lambda v: 3 * v, lambda v: v + [3, 0, 0]])
+def test_a_cage_that_the_scan_hardly_covers_is_said(cage, scan, change):
+    fitted = df.fit(change(cage[0]), cage[1], scan[::5])
+    (warning,) = [w for w in fitted.report["warnings"] if w["code"] == "MOSTLY_UNCOVERED"]
+    assert "nearer to the scan" in warning["message"]
 
 
 def test_scan_of_a_plane_leaves_a_closed_cage_whole(cage):

@@ -96,7 +96,7 @@ def fit(
         How strongly points pull (Fitted.weight). Without tolerance and weight, the one with which
         points held out are nearest to the surface.
     fixed : (n,) bool
-        Control vertices that stay where they are.
+        Control vertices that stay where they are, as points: there are no pads under them.
     symmetry_plane
         As of fair(); the scan is that of the whole, and both halves' points count.
     **options

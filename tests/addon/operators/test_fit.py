@@ -6,13 +6,16 @@ import numpy as np
 import pytest
 import step_files
 from fake_layout import draw
+from scans import blob_cage, blob_scan
 from scenes import activate, add, positions
 
+from addon.check.defects import recall_defects
 from addon.freshness import SOURCE_CHANGED, why_stale
 from addon.inspection import display
 from addon.live import registry, switch
 from addon.mesh.layers import layer_values
 from addon.mesh.scans import read_scans
+from addon.scan_fit import OUTLIERS, TOO_COARSE
 from addon.ui.main import VIEW3D_PT_fairing
 
 
@@ -195,6 +198,25 @@ def test_deviation_is_from_the_scan():
     display.show(made, "DEVIATION", settings)
     values = layer_values(made.data.attributes["fair_deviation"])
     assert values.mean() == pytest.approx(-0.08, abs=0.01)  # points, inwards
+
+
+def test_faces_that_are_too_coarse_and_strays_are_listed_in_check():
+    points, (vertices, faces) = blob_scan(26_000, 0.004), blob_cage(2)
+    points[7] *= 1.5
+    scan = add("Scan", points.tolist(), [])
+    cage = add("Cage", vertices.tolist(), faces.tolist())
+    select(scan, cage)
+    assert bpy.ops.object.fairing_fit(levels=1) == {"FINISHED"}
+    defects, _ = recall_defects(cage)
+    (coarse,) = [defect for defect in defects if defect["code"] == TOO_COARSE]
+    activate(cage)
+    assert bpy.ops.object.fairing_select_defect(index=defects.index(coarse)) == {"FINISHED"}
+    assert bpy.context.mode == "EDIT_MESH"
+    bpy.ops.object.mode_set(mode="OBJECT")
+    chosen = [face.index for face in cage.data.polygons if face.select]
+    assert chosen == coarse["elements"]
+    (strays,) = recall_defects(scan)[0]
+    assert strays["code"] == OUTLIERS and 7 in strays["elements"]
 
 
 def test_instances_and_point_clouds_count():

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The parts of a fit beside what is done the long way.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <numeric>
+
+#include "fit/feet.h"
+#include "fit/pull.h"
+#include "grid/linear.h"
+#include "level_settings.h"
+#include "random.h"
+
+namespace fairing::test {
+namespace {
+
+constexpr double reach = 0.5;
+
+// A level of a mesh as a surface, and a scan near it.
+struct Near {
+  Near(const ControlMesh& control, int level, std::size_t count, double off)
+      : mesh(control), grid(mesh, level), workers(2), cells(grid, workers), x(3 * grid.size()) {
+    refine_linearly(grid, mesh.positions, x.data());
+    std::mt19937 random(3);
+    Normal<> noise(0, off);
+    for (std::size_t s = 0; s < count; ++s) {
+      const auto cell = Index(UniformInt(0, int(cells.size()) - 1)(random));
+      CornerShares shares{};
+      double sum = 0;
+      for (std::size_t k = 0; k < (cells.quad(cell) ? 4u : 3u); ++k)
+        sum += double(shares[k] = float(0.1 + canonical<double>(random)));
+      Vec3 place = Vec3::Zero();
+      for (std::size_t k = 0; k < 4; ++k)
+        if (shares[k] > 0) place += double(shares[k]) / sum * at(cells.corners(cell)[k]);
+      scan.point.push_back(place + Vec3(noise(random), noise(random), noise(random)));
+      scan.given.push_back(Index(s));
+    }
+  }
+  Vec3 at(Index p) const { return Eigen::Map<const Vec3>(x.data() + 3 * std::size_t(p)); }
+
+  // The distance of a point from the nearest of a cell's triangles, by many of their points.
+  double far(const Vec3& p, Index cell) const {
+    const auto& c = cells.corners(cell);
+    constexpr int n = 24;
+    double least = std::numeric_limits<double>::max();
+    const auto look = [&](const Vec3& a, const Vec3& b, const Vec3& d) {
+      for (int i = 0; i <= n; ++i)
+        for (int j = 0; i + j <= n; ++j)
+          least = std::min(
+              least, (a + double(i) / n * (b - a) + double(j) / n * (d - a) - p).squaredNorm());
+    };
+    if (!cells.quad(cell)) {
+      look(at(c[0]), at(c[1]), at(c[2]));
+    } else {
+      const Vec3 middle = 0.25 * (at(c[0]) + at(c[1]) + at(c[2]) + at(c[3]));
+      for (std::size_t k = 0; k < 4; ++k) look(at(c[k]), at(c[(k + 1) % 4]), middle);
+    }
+    return std::sqrt(least);
+  }
+
+  ControlMesh mesh;
+  GridLevel grid;
+  Workers workers;
+  Cells cells;
+  Array<double> x;
+  Scan scan;
+};
+
+ControlMesh wavy_torus() { return control(waved(torus(8, 6), 0.3)); }
+ControlMesh wavy_triangles() { return control(waved(triangulated(torus(8, 6)), 0.3)); }
+
+TEST(Feet, AreNearestPointsOfTheSurface) {
+  for (const ControlMesh& mesh : {wavy_torus(), wavy_triangles()}) {
+    Near near(mesh, 2, 60, 0.05);
+    FeetFinder finder(near.cells, near.scan, reach, near.workers);
+    finder.set_surface(near.x.data());
+    Array<Foot> feet;
+    finder.find(feet);
+    for (std::size_t s = 0; s < feet.size(); ++s) {
+      ASSERT_GE(feet[s].cell, 0);
+      double least = std::numeric_limits<double>::max();
+      for (Index c = 0; c < Index(near.cells.size()); ++c)
+        least = std::min(least, near.far(near.scan.point[s], c));
+      const double found = (near.scan.point[s] - finder.point_at_foot(feet[s])).norm();
+      EXPECT_LE(found, least + 1e-6);
+      EXPECT_NEAR(std::abs(finder.distance(s, feet[s])), found, 1e-12);
+    }
+  }
+}
+
+TEST(Feet, FollowASurfaceThatMoves) {
+  Near near(wavy_torus(), 3, 500, 0.05);
+  FeetFinder finder(near.cells, near.scan, reach, near.workers);
+  finder.set_surface(near.x.data());
+  Array<Foot> feet, again;
+  finder.find(feet);
+  for (double& value : near.x) value *= 1.01;
+  finder.set_surface(near.x.data());
+  finder.follow(feet);
+  finder.find(again);
+  std::size_t same = 0;  // at edges of the polyhedron a foot may stay on its side
+  for (std::size_t s = 0; s < feet.size(); ++s) {
+    const double followed = std::abs(finder.distance(s, feet[s])),
+                 found = std::abs(finder.distance(s, again[s]));
+    EXPECT_GE(followed, found - 1e-5);
+    same += std::abs(followed - found) < 1e-5;
+  }
+  EXPECT_GT(same, feet.size() * 9 / 10);
+}
+
+TEST(Feet, OfAScanInsideOutAreFewAndLookedForNearbyOnly) {
+  Near near(wavy_torus(), 2, 400, 0.01);
+  FeetFinder any(near.cells, near.scan, reach, near.workers);
+  any.set_surface(near.x.data());
+  Array<Foot> nearest, feet;
+  any.find(nearest);
+  for (std::size_t s = 0; s < nearest.size(); ++s)
+    near.scan.normal.push_back(-any.normal_at(nearest[s]).cast<float>());
+  FeetFinder finder(near.cells, near.scan, reach, near.workers);
+  finder.set_surface(near.x.data());
+  finder.find(feet);
+  for (std::size_t s = 0; s < feet.size(); ++s) {
+    if (feet[s].cell < 0) continue;
+    EXPECT_LE(std::abs(finder.distance(s, feet[s])),
+              std::abs(any.distance(s, nearest[s])) + 2 * reach);
+  }
+}
+
+TEST(Feet, ThatAreFarAreFoundAgainAndOthersStay) {
+  Near near(wavy_torus(), 2, 300, 0.05);
+  FeetFinder finder(near.cells, near.scan, reach, near.workers);
+  finder.set_surface(near.x.data());
+  Array<Foot> feet;
+  finder.find(feet);
+  Array<Foot> lost = feet;
+  for (Foot& foot : lost)
+    foot.cell = (foot.cell + Index(near.cells.size()) / 2) % Index(near.cells.size());
+  lost[0] = feet[0];
+  finder.find_beyond(0.3, lost);
+  for (std::size_t s = 0; s < feet.size(); ++s)
+    EXPECT_NEAR(std::abs(finder.distance(s, lost[s])), std::abs(finder.distance(s, feet[s])),
+                s == 0 ? 0 : 0.3);
+}
+
+TEST(Pulls, AreSumsOverThePointsForAnyNumberOfThreads) {
+  Near near(wavy_triangles(), 2, 2000, 0.05);
+  FeetFinder finder(near.cells, near.scan, reach, near.workers);
+  finder.set_surface(near.x.data());
+  Array<Foot> feet;
+  finder.find(feet);
+  Array<float> trust;
+  for (std::size_t s = 0; s < feet.size(); ++s) trust.push_back(float(s % 3) / 2);
+  VertexWeights weight, other;
+  Array<Vec3> force, elsewhere;
+  PullSums(near.cells, near.workers).sum(finder, feet, trust, weight, force);
+  Workers alone(1);
+  PullSums(near.cells, alone).sum(finder, feet, trust, other, elsewhere);
+  EXPECT_EQ(weight, other);
+  std::vector<double> expected(near.grid.size(), 0.0);
+  std::vector<Vec3> pulled(near.grid.size(), Vec3::Zero());
+  for (std::size_t s = 0; s < feet.size(); ++s)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto p = std::size_t(near.cells.corners(feet[s].cell)[k]);
+      const double share = double(trust[s]) * double(feet[s].shares[k]);
+      expected[p] += share;
+      pulled[p] += share * double(feet[s].offset) * finder.normal_at(feet[s]);
+    }
+  for (std::size_t p = 0; p < expected.size(); ++p) {
+    EXPECT_NEAR(weight[p], expected[p], 1e-12);
+    EXPECT_LT((force[p] - pulled[p]).norm(), 1e-12);
+    EXPECT_EQ(force[p], elsewhere[p]);
+  }
+}
+
+TEST(Pulls, KeepTheirSumFromLevelToLevel) {
+  for (const auto& [name, mesh] : all_meshes()) {
+    const GridLevel fine(mesh, 3), coarse(mesh, 2);
+    std::mt19937 random(5);
+    VertexWeights weights(fine.size());
+    for (double& w : weights) w = canonical<double>(random);
+    const VertexWeights below = weights_below(fine, coarse, weights);
+    EXPECT_NEAR(std::accumulate(below.begin(), below.end(), 0.0),
+                std::accumulate(weights.begin(), weights.end(), 0.0), 1e-9)
+        << name;
+  }
+}
+
+TEST(Cells, AreFoundByThePlacesOnThem) {
+  for (const auto& [name, mesh] : all_meshes()) {
+    Workers workers(1);
+    const GridLevel fine(mesh, 3), coarse(mesh, 1);
+    const Cells cells(fine, workers), above(coarse, workers);
+    for (Index c = 0; c < Index(cells.size()); ++c) {
+      const CornerShares shares = cells.quad(c) ? CornerShares{0.45f, 0.25f, 0.1f, 0.2f}
+                                                : CornerShares{0.5f, 0.3f, 0.2f, 0};
+      const FacePlace place = cells.place(c, shares);
+      const Cells::AtPoint found = cells.cell_at(place, 3);
+      EXPECT_EQ(found.cell, c) << name;
+      EXPECT_EQ(found.corner, 0) << name;
+      EXPECT_EQ(above.face(above.cell_at(place, 3).cell), cells.face(c)) << name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace fairing::test
