@@ -68,6 +68,7 @@ def row(name: str, mesh, options) -> str:
         result.vertices,
         *result.faces,
         result.crease_edges,
+        np.empty(0, np.int32),
         level,
         patches.tolerance,
         patches.normal_tolerance,

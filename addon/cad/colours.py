@@ -46,7 +46,7 @@ def of_patches(faces: np.ndarray | None, patches: Any) -> np.ndarray | None:
         own = faces[patches.patch_polygon]
     if len(patches.unresolved):
         own = np.full((count, 3), PLAIN) if own is None else own
-        own[np.isin(patches.patch_polygon, patches.unresolved)] = FAULTY
+        own[patches.covering(patches.unresolved)] = FAULTY
     if own is None or not count:
         return None
     return own[0] if (own == own[0]).all() else own

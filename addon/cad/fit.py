@@ -65,6 +65,8 @@ class PatchJob(Job):
         if fit is not None:
             scan = fit.arguments(source or shown)
             self.arguments = core.patches_on_scan(self.arguments, scan)
+        if len(self.slots):  # a patch has one material
+            self.arguments["groups"] = self.slots
         self._blend(shown)
         self._mesh = None if source is None else shown_mesh(context, shown)
         self._stands = np.array(world_matrix(shown), float)

@@ -75,7 +75,16 @@ void add_patches(py::dict& to, SplineSurface& surface) {
   to["patch_spans"] = to_numpy(spans, 2);
   to["patch_points"] =
       points_array(surface.patches, [](SplinePatch& patch) -> auto& { return patch.net; });
-  to["patch_face"] = to_numpy(surface.face);
+  std::vector<std::int32_t> faces;
+  std::vector<std::int64_t> face_offsets{0};
+  for (const std::vector<Index>& own : surface.faces) {
+    faces.insert(faces.end(), own.begin(), own.end());
+    face_offsets.push_back(std::int64_t(faces.size()));
+  }
+  to["patch_faces"] = to_numpy(faces);
+  to["patch_face_offsets"] = to_numpy(face_offsets);
+  to["face_off"] = to_numpy(surface.face_off);
+  to["face_angle"] = to_numpy(surface.face_angle);
   to["loop_edges"] = to_numpy(loops);
   to["loop_forward"] = to_numpy(forward);
   to["loop_offsets"] = to_numpy(loop_offsets);
@@ -84,14 +93,16 @@ void add_patches(py::dict& to, SplineSurface& surface) {
 }
 
 py::dict fit_arrays(const Numbers& vertices, const ShortIds& triangles, const ShortIds& quads,
-                    const ShortIds& crease_edges, int levels, double tolerance,
-                    double normal_tolerance, int threads, Monitor& monitor,
+                    const ShortIds& crease_edges, const ShortIds& groups, int levels,
+                    double tolerance, double normal_tolerance, int threads, Monitor& monitor,
                     const py::object& progress) {
   // The arrays are the package's own: nobody else writes to them.
   const RefinedSurface refined{levels, view(vertices), view(triangles), view(quads),
                                view(crease_edges)};
-  const SplineOptions options{
-      .tolerance = tolerance, .normal_tolerance = normal_tolerance, .threads = threads};
+  const SplineOptions options{.tolerance = tolerance,
+                              .normal_tolerance = normal_tolerance,
+                              .threads = threads,
+                              .groups = view(groups)};
   SplineSurface surface;
   run_once(monitor, progress, [&] { surface = fit_splines(refined, options, monitor); });
   py::dict d;
@@ -100,6 +111,7 @@ py::dict fit_arrays(const Numbers& vertices, const ShortIds& triangles, const Sh
   add_edges(d, surface.edges);
   add_patches(d, surface);
   d["angles"] = to_numpy(surface.angles, angles_an_edge);
+  d["jumps"] = to_numpy(surface.jumps, angles_an_edge);
   d["lattice_turn"] = to_numpy(surface.lattice_turn);
   d["size"] = surface.size;
   return d;
@@ -133,8 +145,8 @@ void bind_splines(py::module_& m) {
         "By control faces, radians: the sharpest turn between two cells of a refined surface, of "
         "those at least `least` high.");
   m.def("fit_splines", &fit_arrays, exact("vertices"), exact("triangles"), exact("quads"),
-        exact("crease_edges"), py::arg("levels"), py::arg("tolerance"), py::arg("normal_tolerance"),
-        py::arg("threads"), py::arg("monitor"), py::arg("progress"),
+        exact("crease_edges"), exact("groups"), py::arg("levels"), py::arg("tolerance"),
+        py::arg("normal_tolerance"), py::arg("threads"), py::arg("monitor"), py::arg("progress"),
         "Patches of a refined surface, as flat arrays, which Patches of the package takes.");
 }
 

@@ -18,87 +18,170 @@ struct EdgeUse {
   int side;
 };
 
-// Edges are numbered curve by curve, halved ones in two.
-struct EdgeNumbers {
-  std::vector<Index> first;  // of each curve, and the end
-  std::vector<std::vector<EdgeUse>> uses;
+// A curve from a cut to the next one, in half edges of `all`.
+struct EdgePart {
+  std::size_t curve;
+  int from, to, all;
+  std::vector<EdgeUse> uses;
 
-  EdgeNumbers(const Topology& topology, std::size_t curves) {
-    Index count = 0;
-    for (std::size_t c = 0; c < curves; ++c) {
-      first.push_back(count);
-      count += c < topology.edges.size() && topology.edges[c].halved ? 2 : 1;
+  double on_curve(double t) const { return (from + t * (to - from)) / all; }
+};
+
+class EdgeParts {
+ public:
+  explicit EdgeParts(const Fits& fits) {
+    const Topology& topology = fits.topology;
+    for (std::size_t c = 0; c < fits.curves.size(); ++c) {
+      first_.push_back(Index(parts.size()));
+      if (c >= topology.chains.size()) {
+        parts.push_back({c, 0, 2, 2, {}});
+        continue;
+      }
+      const EdgeChain& chain = topology.chains[c];
+      for (std::size_t k = 1; k < chain.cuts.size(); ++k)
+        parts.push_back({c, chain.cuts[k - 1], chain.cuts[k], chain.halves(), {}});
     }
-    first.push_back(count);
-    uses.resize(std::size_t(count));
+    first_.push_back(Index(parts.size()));
     for (std::size_t p = 0; p < topology.patches.size(); ++p)
       for (int s = 0; s < 4; ++s)
-        for (const Index e : edges_of(topology.patches[p].side[std::size_t(s)]))
-          uses[std::size_t(e)].push_back({Index(p), s});
+        for (const Index e : of(topology.patches[p].side[std::size_t(s)]))
+          parts[std::size_t(e)].uses.push_back({Index(p), s});
   }
 
-  int parts(Index curve) const { return first[std::size_t(curve) + 1] - first[std::size_t(curve)]; }
   // In the order of the side's own direction.
-  std::vector<Index> edges_of(const PatchSide& side) const {
-    const Index from = first[std::size_t(side.curve)];
-    if (parts(side.curve) == 1) return {from};
-    if (side.part == Part::first_half) return {from};
-    if (side.part == Part::second_half) return {from + 1};
-    return side.reversed ? std::vector<Index>{from + 1, from} : std::vector<Index>{from, from + 1};
+  std::vector<Index> of(const PatchSide& side) const {
+    std::vector<Index> out;
+    const auto c = std::size_t(side.curve);
+    for (Index e = first_[c]; e < first_[c + 1]; ++e) {
+      const EdgePart& part = parts[std::size_t(e)];
+      if (part.from >= side.from && part.to <= side.to) out.push_back(e);
+    }
+    if (side.reversed) std::reverse(out.begin(), out.end());
+    return out;
+  }
+
+  std::vector<EdgePart> parts;
+
+ private:
+  std::vector<Index> first_;  // of each curve, and the end
+};
+
+// Of a patch at t of a curve along one of its sides.
+struct Beside {
+  const SplinePatch& patch;
+  std::array<double, 2> at;
+
+  Beside(const Fits& fits, const EdgeUse& use, double t)
+      : patch(fits.patches[std::size_t(use.patch)].patch),
+        at(place_on_side(
+            use.side,
+            std::clamp(
+                on_side(fits.topology.patches[std::size_t(use.patch)].side[std::size_t(use.side)],
+                        t),
+                0.0, 1.0))) {}
+  Vec3 normal() const { return patch.at(at[0], at[1]).normal(); }
+  double curvature_across(const Vec3& way) const {
+    return patch.curvature_across(at[0], at[1], way);
   }
 };
 
-// A patch's normal at t of an edge that is part `part` of `parts` of its curve.
-Vec3 normal_beside(const Topology& topology, const std::vector<FittedPatch>& patches,
-                   const EdgeUse& use, int part, int parts, double t) {
-  const PatchSide& side = topology.patches[std::size_t(use.patch)].side[std::size_t(use.side)];
-  const double along = std::clamp(on_side(side, (part + t) / parts), 0.0, 1.0);
-  return on_side(patches[std::size_t(use.patch)].patch, use.side, along).normal();
-}
-
 bool meets_smoothly(const Topology& topology, std::size_t curve) {
-  return curve >= topology.edges.size() || topology.edges[curve].kind == EdgeKind::smooth;
+  return curve >= topology.chains.size() || topology.chains[curve].kind == EdgeKind::smooth;
 }
 
 // Whether t of a smooth curve is in the tip of such a kink or a sharper one: it has no normals
 // there.
-bool at_kink(const Topology& topology, const std::vector<FittedCurve>& curves, std::size_t c,
-             double t, Kink least) {
-  if (c >= topology.edges.size()) return false;
-  const Index sector = topology.edges[c].sectors[t > 0.5 ? 1 : 0];
-  if (topology.kinks[std::size_t(sector)] < least) return false;
-  const FittedCurve& curve = curves[c];
+bool at_kink(const Fits& fits, std::size_t c, double t, Kink least) {
+  const Topology& topology = fits.topology;
+  if (c >= topology.chains.size()) return false;
+  const EdgeChain& chain = topology.chains[c];
+  const bool last = t > 0.5;
+  const ControlEdge& edge =
+      topology.edges[std::size_t(last ? chain.edges.back() : chain.edges.front())];
+  const bool back = last ? chain.reversed.back() : chain.reversed.front();
+  if (topology.kinks[std::size_t(edge.sectors[last != back])] < least) return false;
+  const FittedCurve& curve = fits.curves[c];
   const auto& at = curve.parameters;
   const auto after = std::upper_bound(at.begin() + 1, at.end() - 1, t);
   const std::size_t k = std::size_t(after - at.begin());
   return curve.normals[k - 1].isZero() || curve.normals[k].isZero();
 }
 
-// At kinks that are `unjudged` or sharper there are none.
-std::vector<double> angles_of(const Topology& topology, const std::vector<FittedPatch>& patches,
-                              const std::vector<FittedCurve>& curves, const EdgeNumbers& numbers,
-                              Kink unjudged, Workers& workers) {
-  std::vector<double> angles(numbers.uses.size() * angles_an_edge,
-                             std::numeric_limits<double>::quiet_NaN());
-  workers.for_parts(numbers.first.size() - 1, 16, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t c = begin; c < end; ++c) {
-      if (!meets_smoothly(topology, c)) continue;
-      const int parts = numbers.parts(Index(c));
-      for (int part = 0; part < parts; ++part) {
-        const std::size_t e = std::size_t(numbers.first[c] + part);
-        const std::vector<EdgeUse>& uses = numbers.uses[e];
-        if (uses.size() != 2) continue;
-        for (int k = 0; k < angles_an_edge; ++k) {
-          const double t = double(k) / (angles_an_edge - 1);
-          if (at_kink(topology, curves, c, (part + t) / parts, unjudged)) continue;
-          angles[e * angles_an_edge + std::size_t(k)] =
-              angle_between(normal_beside(topology, patches, uses[0], part, parts, t),
-                            normal_beside(topology, patches, uses[1], part, parts, t));
-        }
+// Calls visit(edge, its share along it, t of its curve) evenly along all that two patches share
+// smoothly, but at kinks that are `unjudged` or sharper.
+template <class Visit>
+void along_edges(const Fits& fits, const EdgeParts& edges, Kink unjudged, Visit&& visit) {
+  fits.workers.for_parts(edges.parts.size(), 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t e = begin; e < end; ++e) {
+      const EdgePart& part = edges.parts[e];
+      if (!meets_smoothly(fits.topology, part.curve) || part.uses.size() != 2) continue;
+      const int steps = (angles_an_edge - 1) * std::max(1, (part.to - part.from) / 2);
+      for (int k = 0; k <= steps; ++k) {
+        const double share = double(k) / steps, t = part.on_curve(share);
+        if (!at_kink(fits, part.curve, t, unjudged)) visit(e, share, t);
       }
     }
   });
-  return angles;
+}
+
+double angle_at(const Fits& fits, const EdgePart& part, double t) {
+  return angle_between(Beside(fits, part.uses[0], t).normal(),
+                       Beside(fits, part.uses[1], t).normal());
+}
+
+void measure_edges(const Fits& fits, const EdgeParts& edges, SplineSurface& out) {
+  out.angles.assign(edges.parts.size() * angles_an_edge, std::numeric_limits<double>::quiet_NaN());
+  out.jumps = out.angles;
+  along_edges(fits, edges, Kink::sharp, [&](std::size_t e, double share, double t) {
+    const EdgePart& part = edges.parts[e];
+    const auto keep = [&](std::vector<double>& in, double value) {
+      double& most =
+          in[e * angles_an_edge + std::size_t(std::lround(share * (angles_an_edge - 1)))];
+      if (!(most >= value)) most = value;
+    };
+    const Beside a(fits, part.uses[0], t), b(fits, part.uses[1], t);
+    const Vec3 way = fits.curves[part.curve].curve.at(t).tangent;
+    keep(out.angles, angle_between(a.normal(), b.normal()));
+    keep(out.jumps, std::abs(a.curvature_across(way) - b.curvature_across(way)));
+  });
+}
+
+// By control faces.
+void measure_faces(const Fits& fits, const EdgeParts& edges, SplineSurface& out) {
+  out.face_off.assign(std::size_t(fits.lattice.faces()), 0.0);
+  out.face_angle = out.face_off;
+  const Topology& topology = fits.topology;
+  const auto raise = [](double& most, double value) { most = std::max(most, value); };
+  for (std::size_t p = 0; p < topology.patches.size(); ++p)
+    for (std::size_t k = 0; k < topology.patches[p].grid.faces.size(); ++k)
+      raise(out.face_off[std::size_t(topology.patches[p].grid.faces[k].face)],
+            fits.patches[p].residuals[k]);
+  // the faces beside control edge `at` of a curve
+  const auto beside = [&](std::size_t c, std::size_t at, auto&& visit) {
+    if (c >= topology.chains.size()) return visit((c - topology.chains.size()) / 3);
+    const Index edge = topology.chains[c].edges[at];
+    for (const SideUse& use : topology.edges[std::size_t(edge)].uses) visit(std::size_t(use.face));
+  };
+  for (std::size_t c = 0; c < fits.curves.size(); ++c) {
+    const std::vector<double>& off = fits.curves[c].off;
+    const std::size_t count = c < topology.chains.size() ? topology.chains[c].edges.size() : 1,
+                      each = (off.size() - 1) / count;
+    for (std::size_t k = 0; k < off.size(); ++k)
+      beside(c, std::min(k / each, count - 1),
+             [&](std::size_t f) { raise(out.face_off[f], off[k]); });
+  }
+  for (std::size_t e = 0; e < edges.parts.size(); ++e)
+    for (std::size_t k = 0; k < angles_an_edge; ++k) {
+      const double angle = out.angles[e * angles_an_edge + k];
+      const EdgePart& part = edges.parts[e];
+      const double at = part.on_curve(double(k) / (angles_an_edge - 1)) * part.all / 2;
+      if (!(angle >= 0)) continue;
+      for (const double reach : {-0.05, 0.05}) {  // on both sides of a vertex
+        const double near = std::clamp(at + reach, part.from / 2.0, (part.to - 1) / 2.0);
+        beside(part.curve, std::size_t(near),
+               [&](std::size_t f) { raise(out.face_angle[f], angle); });
+      }
+    }
 }
 
 class VertexNumbers {
@@ -116,84 +199,87 @@ class VertexNumbers {
   std::unordered_map<std::int64_t, Index> number_;
 };
 
-}  // namespace
+// Of a cut of a curve.
+std::int64_t vertex_key(const Fits& fits, std::size_t c, int cut) {
+  const Lattice& lattice = fits.lattice;
+  const int n = lattice.n();
+  if (c >= fits.topology.chains.size()) {
+    const std::size_t k = c - fits.topology.chains.size();
+    if (cut > 0) return std::int64_t(lattice.points() + k / 3);
+    return lattice.point(Index(k / 3), int(k % 3), n / 2, 0);
+  }
+  const EdgeChain& chain = fits.topology.chains[c];
+  const std::size_t at = std::min(std::size_t(cut / 2), chain.edges.size() - 1);
+  const int along = (cut - 2 * int(at)) * n / 2;
+  const SideUse& use = fits.topology.edges[std::size_t(chain.edges[at])].uses.front();
+  return lattice.point(use.face, use.side, chain.reversed[at] ? n - along : along, 0);
+}
 
-void assemble(const Lattice& lattice, const Topology& topology,
-              const std::vector<FittedCurve>& curves, std::vector<FittedPatch>& patches,
-              SplineSurface& out) {
-  const EdgeNumbers numbers(topology, curves.size());
+void add_edges(const Fits& fits, const EdgeParts& edges, SplineSurface& out) {
   VertexNumbers vertices(out.vertices);
-  const auto add = [&](SplineCurve curve, EdgeKind kind, std::int64_t from, std::int64_t to,
-                       double error) {
-    const Index a = vertices.of(from, curve.points.front()),
-                b = vertices.of(to, curve.points.back());
+  for (std::size_t e = 0; e < edges.parts.size(); ++e) {
+    stop_if_cancelled(e);
+    const EdgePart& part = edges.parts[e];
+    const FittedCurve& fitted = fits.curves[part.curve];
+    SplineCurve curve = part_of(fitted.curve, part.from, part.to, part.all);
+    const Index a = vertices.of(vertex_key(fits, part.curve, part.from), curve.points.front()),
+                b = vertices.of(vertex_key(fits, part.curve, part.to), curve.points.back());
     curve.points.front() = out.vertices[std::size_t(a)];
     curve.points.back() = out.vertices[std::size_t(b)];
+    const auto point = [&](int cut) {
+      return fitted.off.begin() + std::ptrdiff_t(fitted.off.size() - 1) * cut / part.all;
+    };
+    const double error = *std::max_element(point(part.from), point(part.to) + 1);
+    const EdgeKind kind = part.curve < fits.topology.chains.size()
+                              ? fits.topology.chains[part.curve].kind
+                              : EdgeKind::smooth;
     out.edges.push_back({std::move(curve), kind, {a, b}, error});
-  };
-  const int n = lattice.n();
-  for (std::size_t e = 0; e < topology.edges.size(); ++e) {
-    stop_if_cancelled(e);
-    const ControlEdge& edge = topology.edges[e];
-    const SideUse& use = edge.uses.front();
-    const auto key = [&](int k) { return std::int64_t(lattice.point(use.face, use.side, k, 0)); };
-    const FittedCurve& fitted = curves[e];
-    if (!edge.halved) {
-      add(fitted.curve, edge.kind, key(0), key(n), fitted.error);
-      continue;
-    }
-    add(half_of(fitted.curve, false), edge.kind, key(0), key(n / 2), fitted.error);
-    add(half_of(fitted.curve, true), edge.kind, key(n / 2), key(n), fitted.error);
   }
-  for (std::size_t c = topology.edges.size(); c < curves.size(); ++c) {
-    const std::size_t k = c - topology.edges.size(), f = k / 3;
-    const Index middle = lattice.point(Index(f), int(k % 3), n / 2, 0);
-    add(curves[c].curve, EdgeKind::smooth, middle, std::int64_t(lattice.points() + f),
-        curves[c].error);
-  }
-  for (std::size_t p = 0; p < patches.size(); ++p) {
+}
+
+}  // namespace
+
+void assemble(const Fits& fits, SplineSurface& out) {
+  const EdgeParts edges(fits);
+  measure_edges(fits, edges, out);
+  measure_faces(fits, edges, out);
+  add_edges(fits, edges, out);
+  for (std::size_t p = 0; p < fits.patches.size(); ++p) {
     stop_if_cancelled(p);
-    const PatchPlace& place = topology.patches[p];
+    const PatchPlace& place = fits.topology.patches[p];
+    FittedPatch& fitted = fits.patches[p];
     std::vector<LoopEdge> loop;
     for (std::size_t s = 0; s < 4; ++s) {
       PatchSide side = place.side[s];
       if (s >= 2) side.reversed = !side.reversed;  // the loop runs against u and v there
-      for (const Index e : numbers.edges_of(side)) loop.push_back({e, !side.reversed});
+      for (const Index e : edges.of(side)) loop.push_back({e, !side.reversed});
     }
     out.loops.push_back(std::move(loop));
-    out.face.push_back(place.face);
-    out.residual.push_back(patches[p].residual);
-    out.turned.push_back(patches[p].turned);
-    out.patches.push_back(std::move(patches[p].patch));
+    std::vector<Index>& faces = out.faces.emplace_back();
+    for (const PlacedFace& placed : place.grid.faces) faces.push_back(placed.face);
+    out.residual.push_back(fitted.residual);
+    out.turned.push_back(fitted.turned);
+    out.patches.push_back(std::move(fitted.patch));
   }
-  out.size = lattice.size();
+  out.size = fits.lattice.size();
 }
 
-std::vector<double> edge_angles(const Topology& topology, const std::vector<FittedPatch>& patches,
-                                const std::vector<FittedCurve>& curves, Workers& workers) {
-  return angles_of(topology, patches, curves, EdgeNumbers(topology, curves.size()), Kink::sharp,
-                   workers);
-}
-
-std::vector<Directions> patches_to_refine(const Topology& topology,
-                                          const std::vector<FittedPatch>& patches,
-                                          const std::vector<FittedCurve>& curves, double tolerance,
-                                          Workers& workers) {
-  const EdgeNumbers numbers(topology, curves.size());
-  const std::vector<double> angles =
-      angles_of(topology, patches, curves, numbers, Kink::slight, workers);
-  std::vector<Directions> wanted(patches.size());
-  for (std::size_t e = 0; e < numbers.uses.size(); ++e) {
+std::vector<Directions> patches_to_refine(const Fits& fits, double tolerance) {
+  const EdgeParts edges(fits);
+  std::vector<double> sharpest(edges.parts.size(), 0.0);
+  along_edges(fits, edges, Kink::slight, [&](std::size_t e, double, double t) {
+    sharpest[e] = std::max(sharpest[e], angle_at(fits, edges.parts[e], t));
+  });
+  std::vector<Directions> wanted(fits.patches.size());
+  for (std::size_t e = 0; e < edges.parts.size(); ++e) {
     stop_if_cancelled(e);
-    double worst = 0;
-    for (std::size_t k = 0; k < angles_an_edge; ++k)
-      if (angles[e * angles_an_edge + k] > worst) worst = angles[e * angles_an_edge + k];
-    if (worst <= tolerance) continue;
+    if (sharpest[e] <= tolerance) continue;
+    const std::vector<EdgeUse>& uses = edges.parts[e].uses;
     const auto own = [&](const EdgeUse& use) {
-      return patches[std::size_t(use.patch)].side_angle[std::size_t(use.side)];
+      return fits.patches[std::size_t(use.patch)].side_angle[std::size_t(use.side)];
     };
-    const double larger = std::max(own(numbers.uses[e][0]), own(numbers.uses[e][1]));
-    for (const EdgeUse& use : numbers.uses[e])
+    const double larger = std::max(own(uses[0]), own(uses[1]));
+    for (const EdgeUse& use : uses)
       if (own(use) >= std::min(larger, tolerance / 2))
         (use.side % 2 ? wanted[std::size_t(use.patch)].v : wanted[std::size_t(use.patch)].u) = true;
   }

@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fitted curves and patches, put together: edges, vertices, loops, and the angles at edges.
+// Fitted curves and patches, put together: edges, vertices, loops, and how patches meet at edges.
 #pragma once
 
 #include "splines/fit.h"
 
 namespace fairing {
 
-// Everything of `out` but angles and turns of the lattice.
-void assemble(const Lattice& lattice, const Topology& topology,
-              const std::vector<FittedCurve>& curves, std::vector<FittedPatch>& patches,
-              SplineSurface& out);
+// What has been fitted.
+struct Fits {
+  const Lattice& lattice;
+  const Topology& topology;
+  const std::vector<FittedCurve>& curves;
+  std::vector<FittedPatch>& patches;
+  Workers& workers;
+};
 
-// angles_an_edge an edge as assemble() numbers them, radians; NaN where no two patches meet
-// smoothly, and at the tips of sharp kinks.
-std::vector<double> edge_angles(const Topology& topology, const std::vector<FittedPatch>& patches,
-                                const std::vector<FittedCurve>& curves, Workers& workers);
+// Everything of `out` but turns of the lattice. Takes the patches.
+void assemble(const Fits& fits, SplineSurface& out);
 
 // Of a patch: where it needs more spans.
 struct Directions {
@@ -24,9 +26,6 @@ struct Directions {
 };
 
 // By patches: along which of its edges with too sharp an angle one is off by a half of it.
-std::vector<Directions> patches_to_refine(const Topology& topology,
-                                          const std::vector<FittedPatch>& patches,
-                                          const std::vector<FittedCurve>& curves, double tolerance,
-                                          Workers& workers);
+std::vector<Directions> patches_to_refine(const Fits& fits, double tolerance);
 
 }  // namespace fairing

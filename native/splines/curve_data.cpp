@@ -25,6 +25,12 @@ std::vector<double> interpolation(double x, int first, int count) {
   return weights;
 }
 
+// What an edge has, behind what the edges before it have; they share a point.
+void append(std::vector<Vec3> more, bool backwards, std::vector<Vec3>& to) {
+  if (backwards) std::reverse(more.begin(), more.end());
+  to.insert(to.end(), more.begin() + (to.empty() ? 0 : 1), more.end());
+}
+
 }  // namespace
 
 int CurveSource::samples() const { return std::min(lattice_.n(), steps_a_span * most_spans); }
@@ -38,8 +44,29 @@ std::vector<Vec3> CurveSource::edge_points(Index e) const {
   return out;
 }
 
-CurveData CurveSource::sharp_edge(Index e) const {
-  return {edge_points(e), {}, topology_.edges[std::size_t(e)].halved};
+CurveData CurveSource::sharp_chain(Index c) const {
+  const EdgeChain& chain = topology_.chains[std::size_t(c)];
+  CurveData out;
+  out.edges = int(chain.edges.size());
+  for (std::size_t k = 0; k < chain.edges.size(); ++k)
+    append(edge_points(chain.edges[k]), chain.reversed[k], out.points);
+  // Sharp curves have the lattice's own tangents, or patches bend at its ends.
+  const bool held = chain.kind != EdgeKind::smooth && out.edges > 1;
+  for (const int cut : chain.cuts) {
+    const bool inside = cut > 0 && cut < chain.halves();
+    if (inside || held)
+      out.cuts.push_back({std::size_t(cut * samples() / 2), double(cut) / chain.halves(),
+                          held ? tangent_at(chain, cut / 2) : Vec3(Vec3::Zero())});
+  }
+  return out;
+}
+
+// Of the line at a vertex of a chain.
+Vec3 CurveSource::tangent_at(const EdgeChain& chain, int vertex) const {
+  const auto at = std::size_t(std::max(0, vertex - 1));
+  const bool at_end = vertex > 0;
+  const SideUse& use = topology_.edges[std::size_t(chain.edges[at])].uses.front();
+  return end_tangent(lattice_, use.face, use.side, at_end != bool(chain.reversed[at]));
 }
 
 Vec3 CurveSource::edge_normal(const ControlEdge& edge, int k) const {
@@ -58,22 +85,32 @@ Vec3 CurveSource::edge_normal(const ControlEdge& edge, int k) const {
   return fitted_normal(centre, nearby, guess.normalized());
 }
 
-CurveData CurveSource::smooth_edge(Index e, const std::vector<Vec3>& sector_normals) const {
+std::vector<Vec3> CurveSource::edge_normals(Index e,
+                                            const std::vector<Vec3>& sector_normals) const {
   const ControlEdge& edge = topology_.edges[std::size_t(e)];
-  CurveData out{edge_points(e), {}, edge.halved};
+  std::vector<Vec3> out;
   const int n = lattice_.n(), stride = n / samples();
   const auto kink = [&](std::size_t end) {
     return topology_.kinks[std::size_t(edge.sectors[end])] != Kink::none;
   };
-  for (const std::size_t end : {0u, 1u}) out.corner[end] = narrowest_angle(e, end == 1);
   for (int k = 0; k <= n; k += stride) {
     if ((k < steps_a_span && kink(0)) || (n - k < steps_a_span && kink(1)))
-      out.normals.push_back(Vec3::Zero());
+      out.push_back(Vec3::Zero());
     else if (k > 0 && k < n)
-      out.normals.push_back(edge_normal(edge, k));
+      out.push_back(edge_normal(edge, k));
     else
-      out.normals.push_back(sector_normals[std::size_t(edge.sectors[k ? 1 : 0])]);
+      out.push_back(sector_normals[std::size_t(edge.sectors[k ? 1 : 0])]);
   }
+  return out;
+}
+
+CurveData CurveSource::smooth_chain(Index c, const std::vector<Vec3>& sector_normals) const {
+  const EdgeChain& chain = topology_.chains[std::size_t(c)];
+  CurveData out = sharp_chain(c);
+  for (std::size_t k = 0; k < chain.edges.size(); ++k)
+    append(edge_normals(chain.edges[k], sector_normals), chain.reversed[k], out.normals);
+  out.corner = {narrowest_angle(chain.edges.front(), chain.reversed.front()),
+                narrowest_angle(chain.edges.back(), !chain.reversed.back())};
   return out;
 }
 
@@ -83,35 +120,30 @@ void CurveSource::add_crease_tangent(Index f, int s, bool at_end,
   const Index e = topology_.face_edges[std::size_t(f)][std::size_t(s)];
   const ControlEdge& edge = topology_.edges[std::size_t(e)];
   if (edge.kind == EdgeKind::smooth) return;
-  bool back = false;
-  for (const SideUse& use : edge.uses)
-    if (use.face == f && use.side == s) back = use.reversed;
-  const bool from_end = at_end != back;
-  const Vec3 tangent =
-      curves
-          ? (*curves)[std::size_t(e)].curve.at(from_end ? 1.0 : 0.0).tangent * (from_end ? -1 : 1)
-          : end_tangent(edge.uses.front().face, edge.uses.front().side, from_end);
-  tangents.push_back(tangent.normalized());
-}
-
-// Away from an end of a side of the lattice: that of the cubic through its first points.
-Vec3 CurveSource::end_tangent(Index f, int s, bool at_end) const {
-  const auto at = [&](int k) {
-    return lattice_.position(lattice_.point(f, s, at_end ? lattice_.n() - k : k, 0));
+  const bool from_end = at_end != topology_.runs_back({f, s});
+  const auto fitted = [&] {
+    const ChainPlace place = topology_.places[std::size_t(e)];
+    const bool back = topology_.chains[std::size_t(place.chain)].reversed[std::size_t(place.at)];
+    const FittedCurve& curve = (*curves)[std::size_t(place.chain)];
+    const std::size_t k = std::size_t((place.at + (from_end != back)) * samples());
+    return Vec3(curve.curve.at(curve.parameters[k]).tangent * (from_end != back ? -1 : 1));
   };
-  return -11 * at(0) + 18 * at(1) - 9 * at(2) + 2 * at(3);
+  const SideUse& use = edge.uses.front();
+  const Vec3 tangent = curves ? fitted() : end_tangent(lattice_, use.face, use.side, from_end);
+  tangents.push_back(tangent.normalized());
 }
 
 // Between an edge and the next ones around one of its ends.
 double CurveSource::narrowest_angle(Index e, bool at_end) const {
   const std::vector<SideUse>& uses = topology_.edges[std::size_t(e)].uses;
-  const Vec3 own = end_tangent(uses.front().face, uses.front().side, at_end);
+  const Vec3 own = end_tangent(lattice_, uses.front().face, uses.front().side, at_end);
   double narrowest = std::numbers::pi;
   for (const SideUse& use : uses) {
     const int corners = lattice_.corners(use.face);
     const bool at_next = at_end != use.reversed;
     const int s = (use.side + (at_next ? 1 : corners - 1)) % corners;
-    narrowest = std::min(narrowest, angle_between(own, end_tangent(use.face, s, !at_next)));
+    narrowest =
+        std::min(narrowest, angle_between(own, end_tangent(lattice_, use.face, s, !at_next)));
   }
   return narrowest;
 }
@@ -206,7 +238,10 @@ Vec3 CurveSource::normal_inside(Index f, double i, double j, const Vec3& at) con
       at, nearby, lattice_normal(lattice_, f, {near_i, std::min(int(std::lround(j)), n - near_i)}));
 }
 
-CurveData CurveSource::inner(Index f, int s, const FittedCurve& edge) const {
+CurveData CurveSource::inner(Index f, int s, const std::vector<FittedCurve>& curves) const {
+  const ChainPlace side =
+      topology_.places[std::size_t(topology_.face_edges[std::size_t(f)][std::size_t(s)])];
+  const FittedCurve& edge = curves[std::size_t(side.chain)];
   const int n = lattice_.n(), count = std::max(8, samples() / 2);
   CurveData out;
   for (int k = 0; k <= count; ++k) {

@@ -12,28 +12,31 @@ class CurveSource {
   CurveSource(const Lattice& lattice, const Topology& topology)
       : lattice_(lattice), topology_(topology) {}
 
-  // Of a crease or a boundary.
-  CurveData sharp_edge(Index e) const;
+  // Of a chain that is a crease or a boundary.
+  CurveData sharp_chain(Index c) const;
   // The normal of the surface at the vertex of a sector. Where creases bound the sector, their
   // `curves` lie in its plane. Zero where these cannot: the surface has a kink there.
   Vec3 sector_normal(Index sector, const std::vector<FittedCurve>& curves) const {
     return sector_normal(sector, &curves);
   }
-  CurveData smooth_edge(Index e, const std::vector<Vec3>& sector_normals) const;
-  // From the middle of side s of triangle f to its centroid; `edge` is the side's curve.
-  CurveData inner(Index f, int s, const FittedCurve& edge) const;
+  CurveData smooth_chain(Index c, const std::vector<Vec3>& sector_normals) const;
+  // From the middle of side s of triangle f to its centroid.
+  CurveData inner(Index f, int s, const std::vector<FittedCurve>& curves) const;
+
+  // The steps between the data of a control edge.
+  int samples() const;
 
   // By sectors, as the lattice's own lines say. Kinks of less than `least` radians are none.
   std::vector<Kink> kinks(double least) const;
 
  private:
-  int samples() const;
   // Away from the vertex, along the creases that bound a sector.
   std::vector<Vec3> crease_tangents(Index sector, const std::vector<FittedCurve>* curves) const;
   Vec3 sector_normal(Index sector, const std::vector<FittedCurve>* curves) const;
-  Vec3 end_tangent(Index f, int s, bool at_end) const;
+  Vec3 tangent_at(const EdgeChain& chain, int vertex) const;
   double narrowest_angle(Index e, bool at_end) const;
   std::vector<Vec3> edge_points(Index e) const;
+  std::vector<Vec3> edge_normals(Index e, const std::vector<Vec3>& sector_normals) const;
   Vec3 edge_normal(const ControlEdge& edge, int k) const;
   Vec3 on_median(Index f, int s, double row) const;
   Vec3 centroid(Index f) const;

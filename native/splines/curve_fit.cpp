@@ -2,6 +2,8 @@
 #include "splines/curve_fit.h"
 
 #include <Eigen/Dense>
+#include <Eigen/Sparse>
+#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -33,8 +35,7 @@ double length_of(const std::vector<Vec3>& points) {
 // almost its own affair.
 Eigen::Matrix3d off_surface(const CurveData& data, std::size_t k) {
   const Eigen::Matrix3d all = Eigen::Matrix3d::Identity();
-  if (data.strict || data.normals.empty() || data.normals[k].isZero() || data.is_middle(k))
-    return all;
+  if (data.strict || data.normals.empty() || data.normals[k].isZero() || data.is_cut(k)) return all;
   const Vec3& n = data.normals[k];
   return aside * all + (1 - aside) * n * n.transpose();
 }
@@ -44,55 +45,51 @@ class CurveSystem {
   CurveSystem(const CurveData& data, int spans) : data_(data), spans_(spans) {
     const int count = control_points(spans);
     fixed_ = Eigen::VectorXd::Zero(3 * count);
-    const bool smooth = !data.normals.empty();
-    const bool at_start = smooth && data.normals.front().squaredNorm() > 0,
-               at_end = smooth && data.normals.back().squaredNorm() > 0;
-    const int free = 3 * (count - 2) - at_start - at_end;
-    basis_ = Eigen::MatrixXd::Zero(3 * count, free);
+    const auto normal = [&](int i) -> Vec3 {  // of the plane that holds a control point
+      if (data.normals.empty() || (i != 1 && i + 2 != count)) return Vec3::Zero();
+      return i == 1 ? data.normals.front() : data.normals.back();
+    };
+    Entries entries;
+    Eigen::Index column = 0;
     set_fixed(0, data.points.front());
     set_fixed(count - 1, data.points.back());
-    int column = 0;
     for (int i = 1; i + 1 < count; ++i) {
-      const bool first = i == 1 && at_start, last = i + 2 == count && at_end;
-      if (first || last) {
-        basis_.block<3, 2>(3 * i, column) =
-            tangents_of(first ? data.normals.front() : data.normals.back());
-        set_fixed(i, first ? data.points.front() : data.points.back());
-        column += 2;
-      } else {
-        basis_.block<3, 3>(3 * i, column).setIdentity();
-        column += 3;
+      Eigen::Matrix<double, 3, Eigen::Dynamic> ways = Eigen::Matrix3d::Identity();
+      if (const Vec3 n = normal(i); !n.isZero()) {
+        ways = tangents_of(n);
+        set_fixed(i, i == 1 ? data.points.front() : data.points.back());
       }
+      for (Eigen::Index k = 0; k < ways.cols(); ++k, ++column)
+        for (int d = 0; d < 3; ++d) entries.emplace_back(3 * i + d, column, ways(d, k));
     }
+    basis_.resize(3 * count, column);
+    basis_.setFromTriplets(entries.begin(), entries.end());
   }
 
   // `along`: the tangents at the points; empty: all directions count alike.
   SplineCurve solve(const std::vector<double>& t, const std::vector<Vec3>& along) const {
     const bool tilted = !along.empty() && !data_.normals.empty();
-    const Eigen::Index samples = Eigen::Index(t.size()), height = tilted ? 4 : 3;
-    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(height * samples, fixed_.size());
-    Eigen::VectorXd target = Eigen::VectorXd::Zero(height * samples);
-    for (Eigen::Index k = 0; k < samples; ++k) {
-      const std::size_t at = std::size_t(k);
-      const CubicBasis b = cubic_basis(spans_, t[at]);
+    const Eigen::Index height = tilted ? 4 : 3;
+    Rows rows{{}, Eigen::VectorXd::Zero(height * Eigen::Index(t.size()))};
+    for (std::size_t k = 0; k < t.size(); ++k) {
+      const Eigen::Index row = height * Eigen::Index(k);
+      const CubicBasis b = cubic_basis(spans_, t[k]);
       Eigen::Matrix3d weight = Eigen::Matrix3d::Identity();
-      if (data_.is_middle(at))
-        weight /= slide;  // other curves start from it
-      else if (!along.empty())
-        weight =
-            off_surface(data_, at) * (weight - (1 - slide) * along[at] * along[at].transpose());
-      for (int i = 0; i < 4; ++i) {
-        const Eigen::Index column = 3 * (b.first + i);
-        rows.block<3, 3>(height * k, column) = b.value[std::size_t(i)] * weight;
-        if (tilted)
-          rows.block<1, 3>(height * k + 3, column) =
-              slide * aside * b.slope[std::size_t(i)] * data_.normals[at].transpose();
-      }
-      target.segment<3>(height * k) = weight * data_.points[at];
+      if (!along.empty())
+        weight = off_surface(data_, k) * (weight - (1 - slide) * along[k] * along[k].transpose());
+      rows.add(row, b.first, b.value, weight);
+      if (tilted) rows.add(row + 3, b.first, b.slope, slide * aside * data_.normals[k].transpose());
+      rows.target.segment<3>(row) = weight * data_.points[k];
     }
-    const Eigen::MatrixXd reduced = rows * basis_;
-    const Eigen::VectorXd rest = target - rows * fixed_;
-    const Eigen::VectorXd free = reduced.colPivHouseholderQr().solve(rest);
+    Matrix sums;
+    Eigen::VectorXd load;
+    reduce(rows, sums, load);
+    Matrix normal = sums.transpose() * sums;
+    const double least = std::numeric_limits<double>::epsilon() * normal.diagonal().maxCoeff();
+    for (Eigen::Index k = 0; k < normal.rows(); ++k) normal.coeffRef(k, k) += least;
+    const Eigen::SimplicialLDLT<Matrix> factors(normal);
+    Eigen::VectorXd free = factors.solve(sums.transpose() * load);
+    if (!data_.cuts.empty()) hold_cuts(factors, free);
     const Eigen::VectorXd all = fixed_ + basis_ * free;
     SplineCurve out{spans_, {}};
     for (Eigen::Index i = 0; i < all.size(); i += 3) out.points.push_back(all.segment<3>(i));
@@ -100,12 +97,66 @@ class CurveSystem {
   }
 
  private:
+  using Matrix = Eigen::SparseMatrix<double>;
+  using Entries = std::vector<Eigen::Triplet<double>>;
+
+  struct Rows {
+    Entries entries;
+    Eigen::VectorXd target;
+
+    template <class Weight>
+    void add(Eigen::Index row, int first, const std::array<double, 4>& factors,
+             const Weight& weight) {
+      for (std::size_t i = 0; i < 4; ++i)
+        for (Eigen::Index a = 0; a < weight.rows(); ++a)
+          for (Eigen::Index d = 0; d < 3; ++d)
+            entries.emplace_back(row + a, 3 * (first + int(i)) + d, factors[i] * weight(a, d));
+    }
+  };
+
   void set_fixed(int i, const Vec3& at) { fixed_.segment<3>(3 * i) = at; }
+
+  // Of what is free.
+  void reduce(const Rows& rows, Matrix& out, Eigen::VectorXd& target) const {
+    Matrix all(rows.target.size(), fixed_.size());
+    all.setFromTriplets(rows.entries.begin(), rows.entries.end());
+    target = rows.target - all * fixed_;
+    out = all * basis_;
+  }
+
+  // Cuts are met exactly, and the curve has its tangent there, or is in the surface's plane: by Lagrange's
+  // multipliers.
+  void hold_cuts(const Eigen::SimplicialLDLT<Matrix>& factors, Eigen::VectorXd& free) const {
+    Rows rows;
+    rows.target = Eigen::VectorXd::Zero(5 * Eigen::Index(data_.cuts.size()));
+    Eigen::Index row = 0;
+    for (const CurveData::Cut& cut : data_.cuts) {
+      const CubicBasis b = cubic_basis(spans_, cut.t);
+      if (cut.t > 0 && cut.t < 1) {
+        rows.add(row, b.first, b.value, Eigen::Matrix3d(Eigen::Matrix3d::Identity()));
+        rows.target.segment<3>(row) = data_.points[cut.point];
+        row += 3;
+      }
+      if (!cut.along.isZero()) {
+        rows.add(row, b.first, b.slope, tangents_of(cut.along.normalized()).transpose().eval());
+        row += 2;
+      } else if (!data_.normals.empty() && !data_.normals[cut.point].isZero()) {
+        rows.add(row++, b.first, b.slope, data_.normals[cut.point].transpose().eval());
+      }
+    }
+    rows.target.conservativeResize(row);
+    Matrix held;
+    Eigen::VectorXd target;
+    reduce(rows, held, target);
+    const Eigen::MatrixXd moves = factors.solve(Eigen::MatrixXd(held.transpose()));
+    for (int round = 0; round < 2; ++round)  // the second takes what rounding has left
+      free += moves * (held * moves).ldlt().solve(target - held * free);
+  }
 
   const CurveData& data_;
   int spans_;
   Eigen::VectorXd fixed_;
-  Eigen::MatrixXd basis_;
+  Matrix basis_;
 };
 
 // The parameter where the curve is closest to p, from one nearby.
@@ -122,11 +173,11 @@ double foot_of(const SplineCurve& curve, const Vec3& p, double t) {
   return t;
 }
 
-double farthest(const SplineCurve& curve, const CurveData& data, const std::vector<double>& t) {
-  double error = 0;
+void measure(const CurveData& data, FittedCurve& curve) {
   for (std::size_t k = 0; k < data.points.size(); ++k)
-    error = std::max(error, (off_surface(data, k) * (curve.at(t[k]).at - data.points[k])).norm());
-  return error;
+    curve.off.push_back(
+        (off_surface(data, k) * (curve.curve.at(curve.parameters[k]).at - data.points[k])).norm());
+  curve.error = *std::max_element(curve.off.begin(), curve.off.end());
 }
 
 std::vector<double> even_parameters(std::size_t count) {
@@ -135,18 +186,23 @@ std::vector<double> even_parameters(std::size_t count) {
   return t;
 }
 
-// By the length of the points' polygon. Of a halved curve by that rational function of it which
-// keeps both ends and has the middle point at 1/2.
+// Within each control edge by the length of the points' polygon, so that vertices are at knots. In a
+// halved one by that rational function of it which keeps both ends and has the middle point at 1/2.
 std::vector<double> length_parameters(const CurveData& data) {
-  std::vector<double> t{0.0};
-  for (std::size_t k = 1; k < data.points.size(); ++k)
-    t.push_back(t.back() + (data.points[k] - data.points[k - 1]).norm());
-  const double all = t.back();
-  if (!(all > 0)) return even_parameters(t.size());
-  const double middle = data.halved ? t[t.size() / 2] / all : 0.5;
-  if (!(middle > 0 && middle < 1)) return even_parameters(t.size());
-  for (double& at : t) at = at / all * (1 - middle) / (at / all * (1 - 2 * middle) + middle);
-  t.back() = 1;
+  const std::size_t each = (data.points.size() - 1) / std::size_t(data.edges);
+  std::vector<double> t;
+  for (std::size_t e = 0; e < std::size_t(data.edges); ++e) {
+    std::vector<double> own{0.0};
+    for (std::size_t k = e * each; k < (e + 1) * each; ++k)
+      own.push_back(own.back() + (data.points[k + 1] - data.points[k]).norm());
+    const double all = own.back(), middle = data.halved() ? own[each / 2] / all : 0.5;
+    if (!(middle > 0 && middle < 1 && all > 0)) return even_parameters(data.points.size());
+    own.pop_back();
+    for (const double at : own)
+      t.push_back((double(e) + at / all * (1 - middle) / (at / all * (1 - 2 * middle) + middle)) /
+                  data.edges);
+  }
+  t.push_back(1);
   return t;
 }
 
@@ -166,7 +222,7 @@ FittedCurve fit_evenly(const CurveData& data, const CurveSystem& system) {
   out.normals = data.normals;
   out.parameters = even_parameters(data.points.size());
   out.curve = system.solve(out.parameters, {});
-  out.error = farthest(out.curve, data, out.parameters);
+  measure(data, out);
   return out;
 }
 
@@ -191,19 +247,19 @@ bool runs_along(const SplineCurve& curve, const CurveData& data, const std::vect
   return true;
 }
 
-FittedCurve fit_by_length(const CurveData& data, const CurveSystem& system, bool to_ends) {
+// Points move to their feet from where they are at first.
+FittedCurve fit_from(const CurveData& data, const CurveSystem& system,
+                     std::vector<double> parameters) {
   FittedCurve out;
   out.normals = data.normals;
-  out.parameters = length_parameters(data);
-  if (to_ends)
-    for (double& t : out.parameters) t = graded(t);
+  out.parameters = std::move(parameters);
   out.curve = system.solve(out.parameters, {});
   const std::size_t last = data.points.size() - 1;
   for (int round = 0; round <= refits; ++round) {
     std::vector<Vec3> along{out.curve.at(0).tangent.normalized()};
     for (std::size_t k = 1; k <= last; ++k) {
       double& t = out.parameters[k];
-      if (k < last && !data.is_middle(k)) t = foot_of(out.curve, data.points[k], t);
+      if (k < last && !data.is_cut(k)) t = foot_of(out.curve, data.points[k], t);
       along.push_back(out.curve.at(t).tangent.normalized());
     }
     if (round == refits) break;
@@ -211,7 +267,7 @@ FittedCurve fit_by_length(const CurveData& data, const CurveSystem& system, bool
     if (!runs_along(next, data, out.parameters)) break;
     out.curve = std::move(next);
   }
-  out.error = farthest(out.curve, data, out.parameters);
+  measure(data, out);
   return out;
 }
 
@@ -220,11 +276,15 @@ FittedCurve fit_with(const CurveData& data, int spans, double tolerance) {
   FittedCurve even = fit_evenly(data, system);
   // the lattice's own, as along creases
   if (data.own || even.error <= rounding * length_of(data.points)) return even;
-  FittedCurve plain = fit_by_length(data, system, false);
-  // where there are some between those at the ends
-  if (spans <= 2 || plain.error <= tolerance) return plain;
-  FittedCurve to_ends = fit_by_length(data, system, true);
-  return to_ends.error < plain.error ? to_ends : plain;
+  std::vector<double> start = length_parameters(data);
+  FittedCurve plain = fit_from(data, system, start);
+  if (plain.error <= tolerance || (spans <= 2 && data.edges == 1)) return plain;
+  if (data.edges == 1)  // where there are spans between those at the ends
+    for (double& t : start) t = graded(t);
+  else  // a border or crease is smooth by the lattice's own parameters
+    start = even_parameters(data.points.size());
+  FittedCurve other = fit_from(data, system, std::move(start));
+  return other.error < plain.error ? other : plain;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 // sides.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -14,18 +15,30 @@ namespace fairing {
 // normal of the surface, zero where it has a kink; creases and boundaries have none.
 struct CurveData {
   std::vector<Vec3> points, normals;
-  bool halved = false;  // patches end at the middle point, which is to be the curve's at 1/2
+  int edges = 1;  // control edges, each with as many steps between its points
+  // Where patches end: points that are the curve's own at t, with the tangent that it has there if it
+  // has no normals; not zero. Those at the ends are among them where there is one.
+  struct Cut {
+    std::size_t point;
+    double t;
+    Vec3 along = Vec3::Zero();
+  };
+  std::vector<Cut> cuts;
   bool strict = false;  // along the lattice's line; or anywhere near it on the surface
   bool own = false;     // and at the lattice's own parameters
   std::array<double, 2> corner{4, 4};  // the narrowest angle that it makes at each end, radians
 
-  bool is_middle(std::size_t k) const { return halved && 2 * k + 1 == points.size(); }
+  bool halved() const { return edges == 1 && !cuts.empty(); }
+  bool is_cut(std::size_t k) const {
+    return std::any_of(cuts.begin(), cuts.end(), [&](const Cut& cut) { return cut.point == k; });
+  }
 };
 
 struct FittedCurve {
   SplineCurve curve;
   std::vector<double> parameters;  // of the data's points: where the curve is closest
   std::vector<Vec3> normals;       // the data's, turned to stand on the curve
+  std::vector<double> off;         // how far each point is from the curve, as `error` counts it
   double error = 0;  // the farthest that a point is from the curve, across the surface mostly
   bool own = false;  // as of its data
 };

@@ -3,15 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "splines/assembly.h"
+#include "splines/chains.h"
 #include "splines/curve_data.h"
 #include "splines/patch_data.h"
 #include "splines/turns.h"
 
 namespace fairing {
 namespace {
+
+// A grid has no more spans each way than so many faces may have alone.
+constexpr int most_faces = 4;
 
 class Fitting {
  public:
@@ -20,12 +23,7 @@ class Fitting {
         monitor_(monitor),
         workers_(options.threads),
         lattice_(surface),
-        topology_(make_topology(lattice_)),
-        curves_(std::size_t(topology_.curves(lattice_))),
-        strict_(curves_.size(), 0),
-        sharper_(curves_.size(), 0),
-        fitted_(topology_.patches.size()),
-        settled_(fitted_.size(), 0) {}
+        topology_(make_topology(lattice_)) {}
 
   SplineSurface run() {
     SplineSurface out;
@@ -33,21 +31,53 @@ class Fitting {
     topology_.kinks = CurveSource(lattice_, topology_).kinks(options_.normal_tolerance);
     out.lattice_turn = lattice_turns(lattice_, topology_, tolerance(), workers_);
     turns_ = out.lattice_turn;
-    monitor_.report(Phase::patches, 0.125);
-    fit_curves(std::vector<std::uint8_t>(curves_.size(), 1));
-    monitor_.report(Phase::patches, 0.25);
-    fit_patches();
-    monitor_.report(Phase::patches, 0.625);
-    unfold();
-    refine_at_edges(0.75);
-    if (sharpen()) refine_at_edges(0.875);
-    out.angles = edge_angles(topology_, fitted_, curves_, workers_);
-    assemble(lattice_, topology_, curves_, fitted_, out);
+    const Walls walls = find_walls(lattice_, topology_, options_.groups, options_.normal_tolerance);
+    std::vector<FaceGrid> grids = lay_out(lattice_, topology_, walls);
+    do {
+      make_patches(lattice_, walls, grids, topology_);
+      fit_all();
+    } while (split(grids));
+    assemble({lattice_, topology_, curves_, fitted_, workers_}, out);
     monitor_.report(Phase::done, 1);
     return out;
   }
 
  private:
+  void fit_all() {
+    curves_.assign(std::size_t(topology_.curves(lattice_)), {});
+    strict_.assign(curves_.size(), 0);
+    sharper_.assign(curves_.size(), 0);
+    fitted_.assign(topology_.patches.size(), {});
+    settled_.assign(fitted_.size(), 0);
+    fit_curves(std::vector<std::uint8_t>(curves_.size(), 1));
+    monitor_.report(Phase::patches, 0.25);
+    fit_patches();
+    monitor_.report(Phase::patches, 0.625);
+    unfold();
+    refine_at_edges();
+    if (sharpen()) refine_at_edges();
+  }
+
+  // Grids that miss a tolerance become two; at folds of the lattice, which no patch follows, as many as
+  // they have faces. False where there are none.
+  bool split(std::vector<FaceGrid>& grids) {
+    const std::size_t thirds = fitted_.size() - grids.size(), count = grids.size();
+    for (std::size_t g = 0; g < count; ++g) {
+      if (grids[g].faces.size() == 1 || fitted_[thirds + g].misses <= Misses{false, 2}) continue;
+      const FaceGrid whole = std::move(grids[g]);
+      if (turns_sharply(topology_.patches[thirds + g])) {
+        grids[g] = {1, 1, {whole.faces[0]}};
+        for (std::size_t k = 1; k < whole.faces.size(); ++k)
+          grids.push_back({1, 1, {whole.faces[k]}});
+      } else {
+        auto [first, second] = halves_of(whole);
+        grids[g] = std::move(first);
+        grids.push_back(std::move(second));
+      }
+    }
+    return grids.size() > count;
+  }
+
   double tolerance() const { return options_.tolerance * lattice_.size(); }
   // The refined surface has the other half. A curve that is off leans as well, and patches cannot mend
   // that either: it counts more where they lean.
@@ -55,12 +85,16 @@ class Fitting {
     return lattice_.size() * std::min(options_.tolerance, options_.normal_tolerance / 8) /
            (sharper_[c] ? 8 : 2);
   }
-  // On all of a face's side, or on a third's; of so many steps a span.
-  int most_on(bool part, int steps = steps_a_span) const {
-    return std::clamp(lattice_.n() / (part ? 2 * steps : steps), 1, most_spans);
+  // On so many faces' sides, or on a third's; of so many steps a span. The equations of a patch take
+  // time by the fourth power: a long side has fewer on each face.
+  int most_on(int faces, bool third, int steps = steps_a_span) const {
+    int each = std::clamp(lattice_.n() / (third ? 2 * steps : steps), 1, most_spans);
+    while (each > 1 && faces * each > most_faces * most_spans) each /= 2;
+    return faces * each;
   }
+
   // Where neighbours lean, their normals vary faster beside a vertex than a span's steps tell.
-  int most_at_edges(bool part) const { return most_on(part, steps_a_span / 2); }
+  int most_at_edges(int faces, bool third) const { return most_on(faces, third, steps_a_span / 2); }
 
   template <class Body>
   void for_each(std::size_t size, Body&& body) {
@@ -77,64 +111,96 @@ class Fitting {
   // Those of `which`, by curves.
   void fit_curves(const std::vector<std::uint8_t>& which) {
     const CurveSource source(lattice_, topology_);
-    const std::size_t edges = topology_.edges.size();
-    const auto limits = [&](std::size_t e) {
-      const int least = topology_.edges[e].halved ? 2 : 1;
-      return SpanLimits{least, std::max(least, most_on(false)), curve_tolerance(e)};
+    const std::size_t chains = topology_.chains.size();
+    const auto limits = [&](std::size_t c) {
+      const EdgeChain& chain = topology_.chains[c];
+      const int least = least_spans(chain);
+      return SpanLimits{least, std::max(least, most_on(chain.halves() / 2, false)),
+                        curve_tolerance(c)};
     };
     const auto fit_kind = [&](bool smooth, auto&& data_of) {
-      for_each(edges, [&](std::size_t e) {
-        if (!which[e] || (topology_.edges[e].kind == EdgeKind::smooth) != smooth) return;
-        CurveData data = data_of(Index(e));
-        hold_to_line(data, e);
-        curves_[e] = fit_curve(data, limits(e));
+      for_each(chains, [&](std::size_t c) {
+        if (!which[c] || (topology_.chains[c].kind == EdgeKind::smooth) != smooth) return;
+        CurveData data = data_of(Index(c));
+        hold_to_line(data, c);
+        curves_[c] = fit_curve(data, limits(c));
       });
     };
-    fit_kind(false, [&](Index e) { return source.sharp_edge(e); });
+    fit_kind(false, [&](Index c) { return source.sharp_chain(c); });
     std::vector<Vec3> normals(topology_.sectors.size(), Vec3::Zero());
     for_each(normals.size(),
              [&](std::size_t s) { normals[s] = source.sector_normal(Index(s), curves_); });
-    fit_kind(true, [&](Index e) { return source.smooth_edge(e, normals); });
+    fit_kind(true, [&](Index c) { return source.smooth_chain(c, normals); });
     for_each(3 * std::size_t(lattice_.triangle_faces()), [&](std::size_t k) {
       const Index f = Index(k / 3);
       const int s = int(k % 3);
-      const Index e = topology_.face_edges[std::size_t(f)][std::size_t(s)];
-      if (!which[edges + k] && !which[std::size_t(e)]) return;
-      CurveData data = source.inner(f, s, curves_[std::size_t(e)]);
-      hold_to_line(data, edges + k);
-      curves_[edges + k] =
-          fit_curve(data, SpanLimits{1, most_on(true), curve_tolerance(edges + k)});
+      if (!which[chains + k] && !which[std::size_t(chain_of(f, s))]) return;
+      CurveData data = source.inner(f, s, curves_);
+      hold_to_line(data, chains + k);
+      curves_[chains + k] =
+          fit_curve(data, SpanLimits{1, most_on(1, true), curve_tolerance(chains + k)});
     });
+  }
+
+  Index chain_of(Index f, int s) const {
+    return topology_.places[std::size_t(topology_.face_edges[std::size_t(f)][std::size_t(s)])]
+        .chain;
+  }
+
+  // Thin plates have poles of curvature at vertices: all are at knots. Cuts take freedom.
+  static int least_spans(const EdgeChain& chain) {
+    const int edges = int(chain.edges.size()), cuts = int(chain.cuts.size()) - 2;
+    return 2 * cuts > edges ? 2 * edges : edges;
   }
 
   void fit_patch_to(std::size_t p, int spans_u, int spans_v, bool to_tolerance) {
     const PatchPlace& place = topology_.patches[p];
+    const bool third = place.corner >= 0;
     PatchData data = patch_data(lattice_, topology_, place, curves_);
-    const FaceSurface surface(lattice_, topology_, place.face);
+    const FaceSurface surface(Sheet(lattice_, place.grid), topology_);
     data.surface = &surface;
+    data.faces = place.grid.faces.size();
     data.corner = place.corner;
     data.tolerance = tolerance() / 2;
     data.normal_tolerance = options_.normal_tolerance / 2;  // two patches meet
-    data.may_fold = turns_[std::size_t(place.face)] > folded;
+    data.may_fold = turns_sharply(place);
     for (const int s : {0, 2}) spans_u = std::max(spans_u, data.side[std::size_t(s)].spans);
     for (const int s : {1, 3}) spans_v = std::max(spans_v, data.side[std::size_t(s)].spans);
-    const int most = std::max({most_on(place.corner >= 0), spans_u, spans_v});
-    for (;;) {
-      choose_fitted(lattice_, place, std::max(spans_u, spans_v), data);
-      const bool grows = to_tolerance && (spans_u < most || spans_v < most);
-      FittedPatch next = fit_patch(data, spans_u, spans_v, !grows);
+    const int most_u = std::max(most_on(place.grid.columns, third), spans_u),
+              most_v = std::max(most_on(place.grid.rows, third), spans_v);
+    const auto fit = [&](int u, int v, bool last) {
+      choose_fitted(lattice_, place, u, v, data);
+      FittedPatch next = fit_patch(data, u, v, last);
       // one that leans less at an edge, and turns by more inside, swings between its samples
       const bool swings = !to_tolerance && next.turned > std::max(folded / 4, fitted_[p].turned);
       if (fitted_[p].patch.net.empty() || (next.misses < fitted_[p].misses && !swings))
         fitted_[p] = std::move(next);
-      if (!grows || (fitted_[p].residual <= data.tolerance && !fitted_[p].misses.folds)) return;
-      spans_u *= spans_u < most ? 2 : 1;
-      spans_v *= spans_v < most ? 2 : 1;
+      return fitted_[p].residual <= data.tolerance && !fitted_[p].misses.folds;
+    };
+    for (;;) {
+      const int more_u = spans_u < most_u ? 2 * spans_u : spans_u,
+                more_v = spans_v < most_v ? 2 * spans_v : spans_v;
+      const bool grows = to_tolerance && (more_u > spans_u || more_v > spans_v);
+      if (fit(spans_u, spans_v, !grows) || !grows) return;
+      // of several faces one direction may do
+      if (place.grid.faces.size() > 1 && more_u > spans_u && more_v > spans_v &&
+          (fit(spans_u, more_v, false) || fit(more_u, spans_v, false)))
+        return;
+      spans_u = more_u;
+      spans_v = more_v;
     }
   }
 
+  bool turns_sharply(const PatchPlace& place) const {
+    return std::any_of(
+        place.grid.faces.begin(), place.grid.faces.end(),
+        [&](const PlacedFace& face) { return turns_[std::size_t(face.face)] > folded; });
+  }
+
   void fit_patches() {
-    for_each(fitted_.size(), [&](std::size_t p) { fit_patch_to(p, 1, 1, true); });
+    for_each(fitted_.size(), [&](std::size_t p) {
+      fit_patch_to(p, topology_.patches[p].grid.columns, topology_.patches[p].grid.rows, true);
+    });
   }
 
   // Where curves that leave the lattice's lines make patches fold, as in narrow corners, they are
@@ -144,7 +210,7 @@ class Fitting {
     for (const std::uint8_t strict : {1, 2}) {
       std::vector<std::uint8_t> which(curves_.size(), 0);
       for (std::size_t p = 0; p < fitted_.size(); ++p)
-        if (fitted_[p].misses.folds && turns_[std::size_t(topology_.patches[p].face)] <= folded)
+        if (fitted_[p].misses.folds && !turns_sharply(topology_.patches[p]))
           for (const PatchSide& side : topology_.patches[p].side) {
             which[std::size_t(side.curve)] = 1;
             strict_[std::size_t(side.curve)] = strict;
@@ -181,7 +247,7 @@ class Fitting {
       const PatchPlace& place = topology_.patches[p];
       for (const PatchSide& side : place.side) blunt(side.curve);
       if (place.corner >= 0)  // the other curves of a triangle follow its sides
-        for (std::size_t s = 0; s < 3; ++s) blunt(topology_.face_edges[std::size_t(place.face)][s]);
+        for (int s = 0; s < 3; ++s) blunt(chain_of(place.grid.faces[0].face, s));
     }
     fit_again(which);
   }
@@ -191,8 +257,8 @@ class Fitting {
     if (std::find(which.begin(), which.end(), 1) == which.end()) return false;
     fit_curves(which);
     for (std::size_t k = 0; k < 3 * std::size_t(lattice_.triangle_faces()); ++k)
-      if (which[std::size_t(topology_.face_edges[k / 3][k % 3])])
-        which[topology_.edges.size() + k] = 1;
+      if (which[std::size_t(chain_of(Index(k / 3), int(k % 3)))])
+        which[topology_.chains.size() + k] = 1;
     for_each(fitted_.size(), [&](std::size_t p) {
       const auto& sides = topology_.patches[p].side;
       if (std::none_of(sides.begin(), sides.end(),
@@ -200,30 +266,31 @@ class Fitting {
         return;
       fitted_[p] = {};
       settled_[p] = 0;
-      fit_patch_to(p, 1, 1, true);
+      fit_patch_to(p, topology_.patches[p].grid.columns, topology_.patches[p].grid.rows, true);
     });
     return true;
   }
 
   // Ends: a patch has no more than `most_spans` each way, and is tried once with each number.
-  void refine_at_edges(double done) {
-    do monitor_.report(Phase::patches, done);
-    while (add_spans_at_edges());
+  void refine_at_edges() {
+    while (add_spans_at_edges()) stop_if_cancelled();
   }
 
   // More spans where neighbours meet at too sharp an angle, along their edge if that halves what
   // they miss, or both ways; false where nothing changed.
   bool add_spans_at_edges() {
-    const std::vector<Directions> wanted =
-        patches_to_refine(topology_, fitted_, curves_, options_.normal_tolerance, workers_);
+    const std::vector<Directions> wanted = patches_to_refine(
+        {lattice_, topology_, curves_, fitted_, workers_}, options_.normal_tolerance);
     std::vector<std::uint8_t> changed(fitted_.size(), 0);
     for_each(fitted_.size(), [&](std::size_t p) {
       if (!wanted[p].any() || settled_[p]) return;
-      const int most = most_at_edges(topology_.patches[p].corner >= 0);
+      const PatchPlace& place = topology_.patches[p];
       const int spans_u = fitted_[p].patch.spans_u, spans_v = fitted_[p].patch.spans_v;
       const Misses before = fitted_[p].misses;
-      const int more_u = std::max(spans_u, std::min(most, 2 * spans_u)),
-                more_v = std::max(spans_v, std::min(most, 2 * spans_v));
+      const auto more = [&](int spans, int faces) {
+        return (2 * spans <= most_at_edges(faces, place.corner >= 0) ? 2 : 1) * spans;
+      };
+      const int more_u = more(spans_u, place.grid.columns), more_v = more(spans_v, place.grid.rows);
       const int u = wanted[p].u ? more_u : spans_u, v = wanted[p].v ? more_v : spans_v;
       if (u != spans_u || v != spans_v) fit_patch_to(p, u, v, false);
       if (fitted_[p].misses > Misses{before.folds, before.by / 2} && (u != more_u || v != more_v))

@@ -77,6 +77,22 @@ Index Lattice::point(Index f, GridPoint p) const {
   return surface_.triangles[3 * at + corner];
 }
 
+Sheet::Spot Sheet::spot(GridPoint p) const {
+  if (many_.empty()) return {one_.face, p};
+  const int n = lattice_.n(), at = place(p);
+  const PlacedFace& placed = many_[std::size_t(at)];
+  if (!lattice_.quad(placed.face)) return {placed.face, p};
+  return {placed.face,
+          closed_point(true, n, placed.turn, p.i - at % columns_ * n, p.j - at / columns_ * n)};
+}
+
+Vec3 end_tangent(const Lattice& lattice, Index f, int s, bool at_end) {
+  const auto at = [&](int k) {
+    return lattice.position(lattice.point(f, s, at_end ? lattice.n() - k : k, 0));
+  };
+  return -11 * at(0) + 18 * at(1) - 9 * at(2) + 2 * at(3);
+}
+
 Eigen::Matrix<double, 3, 2> tangents_of(const Vec3& n) {
   const Vec3 t = n.unitOrthogonal();
   Eigen::Matrix<double, 3, 2> out;
@@ -118,27 +134,21 @@ Vec3 fitted_normal(const Vec3& centre, const std::vector<Vec3>& nearby, const Ve
   return normal;
 }
 
-Vec3 area_normal(const Lattice& lattice, Index f, GridPoint p) {
-  const int n = lattice.n();
-  const bool quad = lattice.quad(f);
-  const auto inside = [&](int i, int j) {
-    return i >= 0 && j >= 0 && (quad ? i <= n && j <= n : i + j <= n);
-  };
+Vec3 area_normal(const Sheet& sheet, GridPoint p) {
   const auto slope = [&](int di, int dj) {
-    const bool on = inside(p.i + di, p.j + dj), back = inside(p.i - di, p.j - dj);
-    const Vec3 ahead = lattice.position(f, on ? GridPoint{p.i + di, p.j + dj} : p);
-    const Vec3 behind = lattice.position(f, back ? GridPoint{p.i - di, p.j - dj} : p);
-    return Vec3(ahead - behind);
+    const GridPoint on{p.i + di, p.j + dj}, back{p.i - di, p.j - dj};
+    return Vec3(sheet.position(sheet.inside(on) ? on : p) -
+                sheet.position(sheet.inside(back) ? back : p));
   };
   // A triangle's far corners have neighbours in one of these directions only.
   const Vec3 u = slope(1, 0), v = slope(0, 1), w = slope(-1, 1);
   Vec3 normal = u.cross(v);
-  if (!quad) normal += u.cross(w) + w.cross(-v);
+  if (!sheet.quads()) normal += u.cross(w) + w.cross(-v);
   return normal;
 }
 
 Vec3 lattice_normal(const Lattice& lattice, Index f, GridPoint p) {
-  return area_normal(lattice, f, p).normalized();
+  return area_normal(Sheet(lattice, f), p).normalized();
 }
 
 }  // namespace fairing

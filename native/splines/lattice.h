@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -59,6 +60,61 @@ class Lattice {
   double size_ = 0;
 };
 
+// A control face, whose side `turn` is the first side of what it is part of.
+struct PlacedFace {
+  Index face;
+  int turn;
+};
+
+// Control quads side by side, row by row; or one triangle.
+struct FaceGrid {
+  int columns = 1, rows = 1;
+  std::vector<PlacedFace> faces;
+};
+
+// The points of a grid of faces, as those of one: (0, 0) … (columns n, rows n).
+class Sheet {
+ public:
+  Sheet(const Lattice& lattice, Index f) : lattice_(lattice), one_{f, 0} {}
+  // Keeps a view of the grid.
+  Sheet(const Lattice& lattice, const FaceGrid& grid)
+      : lattice_(lattice), many_(grid.faces), columns_(grid.columns), rows_(grid.rows) {}
+
+  const Lattice& lattice() const { return lattice_; }
+  bool quads() const {
+    return !many_.empty() ? lattice_.quad(many_[0].face) : lattice_.quad(one_.face);
+  }
+  int width() const { return columns_ * lattice_.n(); }
+  int height() const { return rows_ * lattice_.n(); }
+  bool inside(GridPoint p) const {
+    return p.i >= 0 && p.j >= 0 &&
+           (quads() ? p.i <= width() && p.j <= height() : p.i + p.j <= width());
+  }
+  // Which of the grid's faces a point is on.
+  int place(GridPoint p) const {
+    const int n = lattice_.n();
+    return std::min(p.j / n, rows_ - 1) * columns_ + std::min(p.i / n, columns_ - 1);
+  }
+  struct Spot {
+    Index face;
+    GridPoint at;
+  };
+  Spot spot(GridPoint p) const;
+  Vec3 position(GridPoint p) const {
+    const Spot found = spot(p);
+    return lattice_.position(found.face, found.at);
+  }
+
+ private:
+  const Lattice& lattice_;
+  PlacedFace one_{};
+  std::span<const PlacedFace> many_;
+  int columns_ = 1, rows_ = 1;
+};
+
+// Away from an end of a side of the lattice: that of the cubic through its first points.
+Vec3 end_tangent(const Lattice& lattice, Index f, int s, bool at_end);
+
 // Two unit vectors that make a right-handed frame with n.
 Eigen::Matrix<double, 3, 2> tangents_of(const Vec3& n);
 
@@ -73,7 +129,7 @@ Slide slide_to(const Vec3& rest, const Vec3& u, const Vec3& v);
 Vec3 fitted_normal(const Vec3& centre, const std::vector<Vec3>& nearby, const Vec3& guess);
 
 // The normal at a point of the lattice, from its neighbours; as long as the surface there is large.
-Vec3 area_normal(const Lattice& lattice, Index f, GridPoint p);
+Vec3 area_normal(const Sheet& sheet, GridPoint p);
 Vec3 lattice_normal(const Lattice& lattice, Index f, GridPoint p);
 
 }  // namespace fairing

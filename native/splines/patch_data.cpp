@@ -9,8 +9,7 @@ namespace fairing {
 namespace {
 
 SplineCurve part_of(const SplineCurve& curve, const PatchSide& side) {
-  SplineCurve out =
-      side.part == Part::whole ? curve : half_of(curve, side.part == Part::second_half);
+  SplineCurve out = part_of(curve, side.from, side.to, side.all);
   return side.reversed ? reversed(std::move(out)) : out;
 }
 
@@ -40,12 +39,12 @@ std::vector<SideNormal> side_normals(const FittedCurve& curve, const PatchSide& 
 class SideMap {
  public:
   SideMap(const FittedCurve& curve, const PatchSide& side) : curve_(curve), side_(side) {
-    const bool half = side.part != Part::whole;
-    from_ = half ? on_side(side, curve_at(on_curve(side, 0))) : 0;
-    to_ = half ? on_side(side, curve_at(on_curve(side, 1))) : 1;
+    from_ = on_side(side, curve_at(on_curve(side, 0)));
+    to_ = on_side(side, curve_at(on_curve(side, 1)));
   }
   double operator()(double t) const {
-    return (on_side(side_, curve_at(on_curve(side_, t))) - from_) / (to_ - from_);
+    return std::clamp((on_side(side_, curve_at(on_curve(side_, t))) - from_) / (to_ - from_), 0.0,
+                      1.0);
   }
 
  private:
@@ -62,23 +61,27 @@ class SideMap {
   double from_ = 0, to_ = 1;
 };
 
-// Of all points of a quad, row by row: the share of its row's length that lies before each, or with
+std::size_t index_of(const Sheet& sheet, GridPoint p) {
+  return std::size_t(p.j) * std::size_t(sheet.width() + 1) + std::size_t(p.i);
+}
+
+// Of all points of quads, row by row: the share of its row's length that lies before each, or with
 // `upward` of its column's.
-std::vector<double> length_shares(const Lattice& lattice, Index f, bool upward) {
-  const int n = lattice.n();
-  const auto at = [&](int line, int k) {
-    return lattice.position(f, upward ? GridPoint{line, k} : GridPoint{k, line});
+std::vector<double> length_shares(const Sheet& sheet, bool upward) {
+  const int lines = upward ? sheet.width() : sheet.height(),
+            n = upward ? sheet.height() : sheet.width();
+  const auto spot = [&](int line, int k) {
+    return upward ? GridPoint{line, k} : GridPoint{k, line};
   };
-  std::vector<double> out(closed_size(true, std::size_t(n)));
-  for (int line = 0; line <= n; ++line) {
+  std::vector<double> out(std::size_t(lines + 1) * std::size_t(n + 1));
+  for (int line = 0; line <= lines; ++line) {
     std::vector<double> before{0.0};
     for (int k = 1; k <= n; ++k)
-      before.push_back(before.back() + (at(line, k) - at(line, k - 1)).norm());
-    for (int k = 0; k <= n; ++k) {
-      const auto [i, j] = upward ? GridPoint{line, k} : GridPoint{k, line};
-      out[std::size_t(j) * std::size_t(n + 1) + std::size_t(i)] =
+      before.push_back(before.back() +
+                       (sheet.position(spot(line, k)) - sheet.position(spot(line, k - 1))).norm());
+    for (int k = 0; k <= n; ++k)
+      out[index_of(sheet, spot(line, k))] =
           before.back() > 0 ? before[std::size_t(k)] / before.back() : double(k) / n;
-    }
   }
   return out;
 }
@@ -93,20 +96,20 @@ double at_share(const SideMap& map, std::span<const double> shares, double share
 }
 
 // The shares along a line of length_shares.
-std::vector<double> line_of(const std::vector<double>& shares, int n, GridPoint from,
+std::vector<double> line_of(const std::vector<double>& shares, const Sheet& sheet, GridPoint from,
                             GridPoint step) {
   std::vector<double> out;
-  for (int k = 0; k <= n; ++k)
-    out.push_back(shares[std::size_t(from.j + k * step.j) * std::size_t(n + 1) +
-                         std::size_t(from.i + k * step.i)]);
+  for (GridPoint p = from; sheet.inside(p); p = {p.i + step.i, p.j + step.j})
+    out.push_back(shares[index_of(sheet, p)]);
   return out;
 }
 
-// The inside of a quad, at even parameters.
+// The inside of quads, at even parameters.
 template <class Visit>
-void for_quad_points(int n, Visit&& visit) {
-  for (int j = 1; j < n; ++j)
-    for (int i = 1; i < n; ++i) visit(GridPoint{i, j}, double(i) / n, double(j) / n, i, j);
+void for_quad_points(const Sheet& sheet, Visit&& visit) {
+  for (int j = 1; j < sheet.height(); ++j)
+    for (int i = 1; i < sheet.width(); ++i)
+      visit(GridPoint{i, j}, double(i) / sheet.width(), double(j) / sheet.height(), i, j);
 }
 
 // The part of a triangle next to a corner, at the parameters of the bilinear map to it.
@@ -123,25 +126,22 @@ void for_third_points(int n, int corner, Visit&& visit) {
 }
 
 template <class Visit>
-void for_points(const Lattice& lattice, const PatchPlace& place, Visit&& visit) {
-  if (place.corner < 0)
-    for_quad_points(lattice.n(), visit);
+void for_points(const Sheet& sheet, int corner, Visit&& visit) {
+  if (corner < 0)
+    for_quad_points(sheet, visit);
   else
-    for_third_points(lattice.n(), place.corner, visit);
+    for_third_points(sheet.width(), corner, visit);
 }
 
 }  // namespace
 
 double on_curve(const PatchSide& side, double t) {
   const double along = side.reversed ? 1 - t : t;
-  if (side.part == Part::whole) return along;
-  return side.part == Part::first_half ? along / 2 : (1 + along) / 2;
+  return (side.from + along * (side.to - side.from)) / side.all;
 }
 
 double on_side(const PatchSide& side, double t) {
-  const double along = side.part == Part::whole        ? t
-                       : side.part == Part::first_half ? 2 * t
-                                                       : 2 * t - 1;
+  const double along = (t * side.all - side.from) / (side.to - side.from);
   return side.reversed ? 1 - along : along;
 }
 
@@ -161,28 +161,31 @@ PatchData patch_data(const Lattice& lattice, const Topology& topology, const Pat
     return SideMap(curves[std::size_t(place.side[s].curve)], place.side[s]);
   };
   const SideMap below = map(0), right = map(1), above = map(2), left = map(3);
+  const Sheet sheet(lattice, place.grid);
   std::vector<double> share_u, share_v;
   std::array<std::vector<double>, 4> line;
   const bool by_length = place.corner < 0 && !out.own;
   if (by_length) {
-    const int n = lattice.n();
-    share_u = length_shares(lattice, place.face, false);
-    share_v = length_shares(lattice, place.face, true);
-    line = {line_of(share_u, n, {0, 0}, {1, 0}), line_of(share_v, n, {n, 0}, {0, 1}),
-            line_of(share_u, n, {0, n}, {1, 0}), line_of(share_v, n, {0, 0}, {0, 1})};
+    share_u = length_shares(sheet, false);
+    share_v = length_shares(sheet, true);
+    line = {line_of(share_u, sheet, {0, 0}, {1, 0}),
+            line_of(share_v, sheet, {sheet.width(), 0}, {0, 1}),
+            line_of(share_u, sheet, {0, sheet.height()}, {1, 0}),
+            line_of(share_v, sheet, {0, 0}, {0, 1})};
   }
-  for_points(lattice, place, [&](GridPoint p, double u, double v, int, int) {
-    const Vec3 normal = area_normal(lattice, place.face, p);
-    const bool tip = in_tip(lattice, topology, place.face, p);
-    PatchSample sample{.at = lattice.position(place.face, p),
+  for_points(sheet, place.corner, [&](GridPoint p, double u, double v, int, int) {
+    const Vec3 normal = area_normal(sheet, p);
+    const Sheet::Spot spot = sheet.spot(p);
+    const bool tip = in_tip(lattice, topology, spot.face, spot.at);
+    PatchSample sample{.at = sheet.position(p),
                        .normal = tip ? Vec3(Vec3::Zero()) : normal.normalized(),
                        .u = (1 - v) * below(u) + v * above(u),
                        .v = (1 - u) * left(v) + u * right(v),
                        .area = normal.norm(),
+                       .place = sheet.place(p),
                        .fitted = true};
     if (by_length) {
-      const std::size_t at = std::size_t(p.j) * std::size_t(lattice.n() + 1) + std::size_t(p.i);
-      const double a = share_u[at], b = share_v[at];
+      const double a = share_u[index_of(sheet, p)], b = share_v[index_of(sheet, p)];
       sample.u = (1 - b) * at_share(below, line[0], a) + b * at_share(above, line[2], a);
       sample.v = (1 - a) * at_share(left, line[3], b) + a * at_share(right, line[1], b);
     }
@@ -191,12 +194,17 @@ PatchData patch_data(const Lattice& lattice, const Topology& topology, const Pat
   return out;
 }
 
-void choose_fitted(const Lattice& lattice, const PatchPlace& place, int spans, PatchData& data) {
-  const int n = place.corner < 0 ? lattice.n() : lattice.n() / 2;
-  const int stride = std::max(1, n / (steps_a_span * std::max(2, spans)));
+void choose_fitted(const Lattice& lattice, const PatchPlace& place, int spans_u, int spans_v,
+                   PatchData& data) {
+  const Sheet sheet(lattice, place.grid);
+  const auto stride = [&](int steps, int spans) {
+    if (place.corner >= 0) steps /= 2;
+    return std::max(1, steps / (steps_a_span * std::max(2, spans)));
+  };
+  const int u = stride(sheet.width(), spans_u), v = stride(sheet.height(), spans_v);
   std::size_t k = 0;
-  for_points(lattice, place, [&](GridPoint, double, double, int i, int j) {
-    data.samples[k++].fitted = i % stride == 0 && j % stride == 0;
+  for_points(sheet, place.corner, [&](GridPoint, double, double, int i, int j) {
+    data.samples[k++].fitted = i % u == 0 && j % v == 0;
   });
 }
 

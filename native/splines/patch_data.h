@@ -9,10 +9,11 @@
 namespace fairing {
 
 // Sides are those parts of `curves`, in their own spans. Of the lattice's points so many are fitted
-// as `spans` a direction need; all are measured.
+// as the spans of each direction need; all are measured.
 PatchData patch_data(const Lattice& lattice, const Topology& topology, const PatchPlace& place,
                      const std::vector<FittedCurve>& curves);
-void choose_fitted(const Lattice& lattice, const PatchPlace& place, int spans, PatchData& data);
+void choose_fitted(const Lattice& lattice, const PatchPlace& place, int spans_u, int spans_v,
+                   PatchData& data);
 
 // A curve's parameter at t of a side, and a side's at t of its curve.
 double on_curve(const PatchSide& side, double t);

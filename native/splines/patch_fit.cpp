@@ -160,17 +160,21 @@ void measure_between(const PatchData& data, FittedPatch& out) {
   for (int i = 0; i < nu; ++i)
     for (int j = 0; j < nv; ++j) {
       const double u = (i + 0.5) / nu, v = (j + 0.5) / nv;
-      out.residual = std::max(
-          out.residual, data.surface->height(patch.at(u, v).at, data.corner, u, v, out.residual));
+      const auto [by, place] =
+          data.surface->height(patch.at(u, v).at, data.corner, u, v, out.residuals);
+      double& most = out.residuals[std::size_t(place)];
+      most = std::max(most, by);
     }
 }
 
 FittedPatch measured(const PatchData& data, SplinePatch patch) {
   FittedPatch out;
+  out.residuals.assign(data.faces, 0.0);
   for (PatchSample sample : data.samples) {
     move_to_foot(patch, sample);
     const SurfacePoint p = patch.at(sample.u, sample.v);
-    out.residual = std::max(out.residual, (p.at - sample.at).norm());
+    double& most = out.residuals[std::size_t(sample.place)];
+    most = std::max(most, (p.at - sample.at).norm());
     if (!sample.normal.isZero())  // with zero the angle is that of the signs: none, or 180 degrees
       out.turned = std::max(out.turned, angle_between(p.normal(), sample.normal));
   }
@@ -183,6 +187,7 @@ FittedPatch measured(const PatchData& data, SplinePatch patch) {
     }
   out.patch = std::move(patch);
   measure_between(data, out);
+  out.residual = *std::max_element(out.residuals.begin(), out.residuals.end());
   return out;
 }
 
@@ -223,13 +228,18 @@ FittedPatch fitted_in_place(const PatchData& data, const SplinePatch& start) {
 
 }  // namespace
 
-SurfacePoint on_side(const SplinePatch& patch, int side, double t) {
+std::array<double, 2> place_on_side(int side, double t) {
   switch (side) {
-    case 0: return patch.at(t, 0);
-    case 1: return patch.at(1, t);
-    case 2: return patch.at(t, 1);
-    default: return patch.at(0, t);
+    case 0: return {t, 0};
+    case 1: return {1, t};
+    case 2: return {t, 1};
+    default: return {0, t};
   }
+}
+
+SurfacePoint on_side(const SplinePatch& patch, int side, double t) {
+  const auto [u, v] = place_on_side(side, t);
+  return patch.at(u, v);
 }
 
 FittedPatch fit_patch(const PatchData& data, int spans_u, int spans_v, bool last) {

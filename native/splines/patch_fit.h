@@ -17,6 +17,7 @@ struct PatchSample {
   Vec3 at, normal;  // of the lattice; zero at the tip of a kink
   double u, v;
   double area;  // that it stands for, to a factor that all share
+  int place;    // of the patch's faces, which one it is on
   bool fitted;  // or only measured
 };
 
@@ -30,6 +31,7 @@ struct PatchData {
   std::array<SplineCurve, 4> side;  // v = 0, u = 1, v = 1, u = 0; along growing u or v
   std::array<std::vector<SideNormal>, 4> normals;
   std::vector<PatchSample> samples;
+  std::size_t faces = 1;
   const FaceSurface* surface = nullptr;  // between the samples
   int corner = -1;                       // of which the patch is a third
   double size;                           // of the model: what an angle weighs against a distance
@@ -50,8 +52,10 @@ struct Misses {
 
 struct FittedPatch {
   SplinePatch patch;
-  // The farthest that a sample is from the patch, or the patch from the surface between them.
+  // The farthest that a sample is from the patch, or the patch from the surface between them; and the
+  // same on each of its faces.
   double residual = 0;
+  std::vector<double> residuals;
   // The sharpest angle between the normals of patch and lattice, sides included; radians.
   double turned = 0;
   std::array<double, 4> side_angle{};  // the same along the sides
@@ -65,7 +69,8 @@ constexpr double folded = std::numbers::pi / 4;
 // be tried, so that what misses a tolerance is fitted in other ways, too.
 FittedPatch fit_patch(const PatchData& data, int spans_u, int spans_v, bool last);
 
-// The point of a patch at t along a side.
+// u and v at t along a side, and the point of a patch there.
+std::array<double, 2> place_on_side(int side, double t);
 SurfacePoint on_side(const SplinePatch& patch, int side, double t);
 
 }  // namespace fairing

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "splines/lattice.h"
+
 namespace fairing {
 namespace {
 
@@ -83,11 +85,12 @@ CubicBasis cubic_basis(int spans, double t) {
   const Cubics& cubics =
       every_basis[std::size_t(std::min(k, 2))][std::size_t(std::min(spans - 1 - k, 2))];
   const double local = x - k;
-  CubicBasis out{k, {}, {}};
+  CubicBasis out{k, {}, {}, {}};
   for (std::size_t i = 0; i < 4; ++i) {
     const auto& [c0, c1, c2, c3] = cubics[i];
     out.value[i] = c0 + local * (c1 + local * (c2 + local * c3));
     out.slope[i] = spans * (c1 + local * (2 * c2 + local * (3 * c3)));
+    out.bend[i] = spans * spans * (2 * c2 + local * (6 * c3));
   }
   return out;
 }
@@ -123,25 +126,44 @@ SurfacePoint SplinePatch::at(const CubicBasis& bu, const CubicBasis& bv) const {
   return out;
 }
 
+double SplinePatch::curvature_across(double u, double v, const Vec3& way) const {
+  const CubicBasis bu = cubic_basis(spans_u, u), bv = cubic_basis(spans_v, v);
+  const SurfacePoint p = at(bu, bv);
+  const Vec3 normal = p.normal();
+  double uu = 0, uv = 0, vv = 0;  // the second fundamental form
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = 0; j < 4; ++j) {
+      const double height = normal.dot(net[index(bu.first + int(i), bv.first + int(j))] - p.at);
+      uu += bu.bend[i] * bv.value[j] * height;
+      uv += bu.slope[i] * bv.slope[j] * height;
+      vv += bu.value[i] * bv.bend[j] * height;
+    }
+  const Vec3 across = normal.cross(way).normalized();
+  const Slide step = slide_to(across, p.along_u, p.along_v);
+  return step.along_u * (step.along_u * uu + 2 * step.along_v * uv) +
+         step.along_v * step.along_v * vv;
+}
+
 SplineCurve refined(const SplineCurve& curve, int spans) {
   SplineCurve out = curve;
-  while (out.spans < spans) {
-    std::vector<double> knots = knots_of(out.spans);
-    for (int i = 0; i < out.spans; ++i) insert_knot(knots, out.points, i + 0.5);
-    out.spans *= 2;
-  }
+  const int parts = spans / curve.spans;
+  std::vector<double> knots = knots_of(curve.spans);
+  for (int i = 0; i < curve.spans; ++i)
+    for (int k = 1; k < parts; ++k) insert_knot(knots, out.points, i + double(k) / parts);
+  out.spans = parts * curve.spans;
   return out;
 }
 
-SplineCurve half_of(const SplineCurve& curve, bool second) {
+SplineCurve part_of(const SplineCurve& curve, int from, int to, int all) {
+  const int first = curve.spans * from / all, last = curve.spans * to / all;
   SplineCurve out = curve;
   std::vector<double> knots = knots_of(curve.spans);
-  const int half = curve.spans / 2;
-  for (int i = 0; i < 2; ++i) insert_knot(knots, out.points, half);
-  const auto size = std::ptrdiff_t(control_points(half));
-  out.points = second ? std::vector<Vec3>(out.points.end() - size, out.points.end())
-                      : std::vector<Vec3>(out.points.begin(), out.points.begin() + size);
-  out.spans = half;
+  for (const int end : {first, last})
+    if (end > 0 && end < curve.spans)
+      for (int i = 0; i < 2; ++i) insert_knot(knots, out.points, end);
+  const auto begin = out.points.begin() + (first > 0 ? first + 2 : 0);
+  out.spans = last - first;
+  out.points = {begin, begin + control_points(out.spans)};
   return out;
 }
 

@@ -13,10 +13,10 @@ namespace fairing {
 
 constexpr int control_points(int spans) { return spans + 3; }
 
-// The four basis functions that are not zero at t, and their derivatives.
+// The four basis functions that are not zero at t, and their first and second derivatives.
 struct CubicBasis {
   int first;
-  std::array<double, 4> value, slope;
+  std::array<double, 4> value, slope, bend;
 };
 CubicBasis cubic_basis(int spans, double t);
 
@@ -47,12 +47,14 @@ struct SplinePatch {
   }
   SurfacePoint at(double u, double v) const;
   SurfacePoint at(const CubicBasis& u, const CubicBasis& v) const;
+  // The curvature along the surface at right angles to `way`, positive towards the normal.
+  double curvature_across(double u, double v, const Vec3& way) const;
 };
 
-// The same curve with `spans` spans, a power of two times its own: exact.
+// The same curve with `spans` spans, a multiple of its own: exact.
 SplineCurve refined(const SplineCurve& curve, int spans);
-// The parts on [0, 1/2] and on [1/2, 1] of a curve with an even number of spans: exact.
-SplineCurve half_of(const SplineCurve& curve, bool second);
+// The part on [from / all, to / all], where both are knots: exact.
+SplineCurve part_of(const SplineCurve& curve, int from, int to, int all);
 SplineCurve reversed(SplineCurve curve);
 
 }  // namespace fairing

@@ -29,7 +29,7 @@ void find_edges(const Lattice& lattice, Topology& out) {
         const SideUse& first = edge.uses.front();
         against = lattice.point(first.face, first.side, 1, 0) != lattice.point(f, s, 1, 0);
       }
-      edge.uses.push_back({f, s, against});
+      edge.uses.push_back({{f, s}, against});
       edge.halved |= !lattice.quad(f);
       out.face_edges[std::size_t(f)][std::size_t(s)] = found->second;
     }
@@ -46,8 +46,8 @@ void find_kinds(const Lattice& lattice, Topology& out) {
     const SideUse& use = edge.uses.front();
     const Index a = lattice.point(use.face, use.side, 0, 0),
                 b = lattice.point(use.face, use.side, lattice.n(), 0);
-    const bool plain = edge.uses.size() == 2 && edge.uses[0].reversed != edge.uses[1].reversed;
-    edge.kind = plain && !creases.contains(ascending(a, b)) ? EdgeKind::smooth : EdgeKind::crease;
+    edge.kind =
+        edge.plain() && !creases.contains(ascending(a, b)) ? EdgeKind::smooth : EdgeKind::crease;
   }
 }
 
@@ -85,37 +85,20 @@ void find_sectors(const Lattice& lattice, Topology& out) {
   }
 }
 
-bool runs_back(const Topology& topology, Index f, int s) {
-  const ControlEdge& edge =
-      topology.edges[std::size_t(topology.face_edges[std::size_t(f)][std::size_t(s)])];
-  for (const SideUse& use : edge.uses)
-    if (use.face == f && use.side == s) return use.reversed;
+}  // namespace
+
+HalfEdge Topology::twin(HalfEdge h) const {
+  const ControlEdge& own = edge(h);
+  if (own.uses.size() != 2) return {};
+  const bool first = own.uses[0].face == h.face && own.uses[0].side == h.side;
+  return own.uses[first ? 1 : 0];
+}
+
+bool Topology::runs_back(HalfEdge h) const {
+  for (const SideUse& use : edge(h).uses)
+    if (use.face == h.face && use.side == h.side) return use.reversed;
   return false;
 }
-
-PatchPlace quad_patch(const Topology& topology, Index f) {
-  PatchPlace out{f, -1, {}};
-  for (int s = 0; s < 4; ++s)  // the last two sides run against u and v
-    out.side[std::size_t(s)] = {topology.face_edges[std::size_t(f)][std::size_t(s)], Part::whole,
-                                runs_back(topology, f, s) != (s >= 2)};
-  return out;
-}
-
-// u runs from corner c along side c, v along the side before it.
-PatchPlace triangle_patch(const Topology& topology, Index f, int c) {
-  const int before = (c + 2) % 3;
-  const auto edge = [&](int s) { return topology.face_edges[std::size_t(f)][std::size_t(s)]; };
-  const auto inner = [&](int s) { return Index(topology.edges.size()) + 3 * f + s; };
-  const bool back = runs_back(topology, f, c), back_before = runs_back(topology, f, before);
-  return {f,
-          c,
-          {{{edge(c), back ? Part::second_half : Part::first_half, back},
-            {inner(c), Part::whole, false},
-            {inner(before), Part::whole, false},
-            {edge(before), back_before ? Part::first_half : Part::second_half, !back_before}}}};
-}
-
-}  // namespace
 
 bool in_tip(const Lattice& lattice, const Topology& topology, Index f, GridPoint p) {
   const int n = lattice.n(), far = n - p.i - p.j;
@@ -136,11 +119,6 @@ Topology make_topology(const Lattice& lattice) {
   find_edges(lattice, out);
   find_kinds(lattice, out);
   find_sectors(lattice, out);
-  for (Index f = 0; f < lattice.faces(); ++f)
-    if (lattice.quad(f))
-      out.patches.push_back(quad_patch(out, f));
-    else
-      for (int c = 0; c < 3; ++c) out.patches.push_back(triangle_patch(out, f, c));
   return out;
 }
 

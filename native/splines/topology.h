@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is next to what: the control edges of a refined surface, the sectors of its vertices between
-// creases, and the patches with their sides. A control quad is one patch. A control triangle is
-// three: they meet at its centroid and in the middles of its edges.
+// creases, the curves along its edges, and the patches with their sides. A patch covers a grid of
+// control quads (splines/layout.h). A control triangle is three patches: they meet at its centroid
+// and in the middles of its edges.
 #pragma once
 
 #include <array>
@@ -14,9 +15,13 @@ namespace fairing {
 
 enum class EdgeKind : std::uint8_t { smooth, crease, boundary };
 
-struct SideUse {
-  Index face;
-  int side;
+// Side `side` of a face, counter-clockwise.
+struct HalfEdge {
+  Index face = -1;
+  int side = 0;
+};
+
+struct SideUse : HalfEdge {
   bool reversed;  // the side runs from the edge's second end to its first
 };
 
@@ -25,23 +30,39 @@ struct ControlEdge {
   bool halved = false;  // beside a triangle: its patches end in the middle
   std::vector<SideUse> uses;
   std::array<Index, 2> sectors{-1, -1};  // of its first use, at both ends
+
+  // Two faces that look the same way.
+  bool plain() const { return uses.size() == 2 && uses[0].reversed != uses[1].reversed; }
 };
 
-// Which part of a curve a patch's side is.
-enum class Part : std::uint8_t { whole, first_half, second_half };
+// Control edges that one curve follows, straight through their vertices.
+struct EdgeChain {
+  EdgeKind kind = EdgeKind::smooth;
+  std::vector<Index> edges;
+  std::vector<std::uint8_t> reversed;  // whether each edge runs against the curve
+  std::vector<int> cuts;               // where patches end, in half edges; both ends included
 
-// Curves are numbered: control edges first, then three a triangle, that of side s from the side's
-// middle to the centroid.
+  int halves() const { return 2 * int(edges.size()); }
+};
+
+// Where an edge is in its chain; -1: inside a patch.
+struct ChainPlace {
+  Index chain = -1;
+  int at = 0;
+};
+
+// The part of a curve that a patch's side is, in half edges of `all`. Curves are numbered: chains
+// first, then three a triangle, that of side s from the side's middle to the centroid.
 struct PatchSide {
-  Index curve;
-  Part part;
-  bool reversed;  // against the side's own direction, that of growing u or v
+  Index curve = -1;
+  int from = 0, to = 2, all = 2;
+  bool reversed = false;  // against the side's own direction, that of growing u or v
 };
 
 // Sides: v = 0, u = 1, v = 1, u = 0.
 struct PatchPlace {
-  Index face;
-  int corner;  // of a triangle; -1: a whole quad
+  FaceGrid grid;
+  int corner = -1;  // of a triangle; -1: quads
   std::array<PatchSide, 4> side;
 };
 
@@ -54,11 +75,20 @@ struct Topology {
   std::vector<std::array<Index, 4>> face_edges;    // by side
   std::vector<std::array<Index, 4>> face_sectors;  // by corner
   std::vector<std::vector<GridPoint>> sectors;     // corners: i the face, j the corner
+  std::vector<Kink> kinks;                         // by sectors (CurveSource::kinks())
+  // splines/chains.h
+  std::vector<EdgeChain> chains;
+  std::vector<ChainPlace> places;  // by edges
   std::vector<PatchPlace> patches;
-  std::vector<Kink> kinks;  // by sectors (CurveSource::kinks())
 
+  const ControlEdge& edge(HalfEdge h) const {
+    return edges[std::size_t(face_edges[std::size_t(h.face)][std::size_t(h.side)])];
+  }
+  // The same edge from the other side; no face where there is not just one.
+  HalfEdge twin(HalfEdge h) const;
+  bool runs_back(HalfEdge h) const;  // against its edge
   Index curves(const Lattice& lattice) const {
-    return Index(edges.size()) + 3 * lattice.triangle_faces();
+    return Index(chains.size()) + 3 * lattice.triangle_faces();
   }
 };
 
@@ -66,6 +96,7 @@ struct Topology {
 // it turn at every level: they say nothing of a surface that is smooth elsewhere, nor do patches there.
 bool in_tip(const Lattice& lattice, const Topology& topology, Index f, GridPoint p);
 
+// Edges and sectors.
 Topology make_topology(const Lattice& lattice);
 
 }  // namespace fairing

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Spline patches against surfaces that are known: a bicubic comes back, a sphere is met within the
-// tolerance, curves are refined and halved exactly.
+// tolerance, curves are refined and cut exactly.
 #include "splines/fit.h"
 
 #include <gtest/gtest.h>
@@ -47,12 +47,13 @@ TEST(Splines, BasisSumsToOneAndItsSlopesAreDerivatives) {
     }
 }
 
-TEST(Splines, CurvesAreRefinedAndHalvedExactly) {
+TEST(Splines, CurvesAreRefinedAndCutExactly) {
   SplineCurve curve{2, {}};
   for (int i = 0; i < control_points(2); ++i)
     curve.points.emplace_back(i, std::sin(2.0 * i), std::cos(3.0 * i));
-  const SplineCurve fine = refined(curve, 8), first = half_of(curve, false),
-                    second = half_of(fine, true);
+  const SplineCurve fine = refined(curve, 8), thirds = refined(curve, 6),
+                    first = part_of(curve, 0, 1, 2), second = part_of(fine, 1, 2, 2),
+                    third = part_of(thirds, 1, 2, 3);
   EXPECT_EQ(fine.spans, 8);
   EXPECT_EQ(first.spans, 1);
   EXPECT_EQ(second.spans, 4);
@@ -61,23 +62,24 @@ TEST(Splines, CurvesAreRefinedAndHalvedExactly) {
     EXPECT_LT((fine.at(t).at - curve.at(t).at).norm(), 1e-14);
     EXPECT_LT((first.at(t).at - curve.at(t / 2).at).norm(), 1e-14);
     EXPECT_LT((second.at(t).at - curve.at((1 + t) / 2).at).norm(), 1e-14);
+    EXPECT_LT((third.at(t).at - curve.at((1 + t) / 3).at).norm(), 1e-14);
     EXPECT_LT((reversed(curve).at(1 - t).at - curve.at(t).at).norm(), 1e-14);
   }
 }
 
-TEST(Splines, APlaneIsOneSpan) {
+TEST(Splines, APlaneIsOnePatch) {
   const SplineSurface surface =
       fitted(strip(2, 3, [](double u, double v) { return Vec3(u, v, u - 2 * v); }));
-  ASSERT_EQ(surface.patches.size(), 2u);
+  ASSERT_EQ(surface.patches.size(), 1u);
   for (const SplinePatch& patch : surface.patches) {
-    EXPECT_EQ(patch.spans_u * patch.spans_v, 1);
+    EXPECT_EQ(patch.spans_u * patch.spans_v, 2);
     for (int k = 0; k <= 10; ++k) {
       const Vec3 at = patch.at(k / 10.0, 0.3).at;
       EXPECT_NEAR(at.z(), at.x() - 2 * at.y(), 1e-12);
     }
   }
-  EXPECT_EQ(surface.edges.size(), 7u);
-  EXPECT_EQ(surface.vertices.size(), 6u);
+  EXPECT_EQ(surface.edges.size(), 4u);
+  EXPECT_EQ(surface.vertices.size(), 4u);
   EXPECT_LT(largest(surface.angles), 1e-7);
 }
 
@@ -89,16 +91,17 @@ TEST(Splines, HeightsAreKnownBetweenTheLatticesPoints) {
     const Lattice lattice(surface.view());
     Topology topology = make_topology(lattice);
     topology.kinks.assign(topology.sectors.size(), Kink::none);
-    const FaceSurface face(lattice, topology, 0);
+    const FaceSurface face(Sheet(lattice, 0), topology);
+    const double none[] = {0}, much[] = {0.02};
     const int n = lattice.n();
     for (int j = 0; j < n; ++j)
       for (int i = 0; i < (quads ? n : n - j); ++i) {
         const double u = (i + 0.4) / n, v = (j + 0.4) / n;
         const Vec3 on = on_sphere(u, v);
-        EXPECT_EQ(face.height(on, -1, u, v, 0), 0);
+        EXPECT_EQ(face.height(on, -1, u, v, none).by, 0);
         for (const double lifted : {0.01, -0.01})
-          EXPECT_NEAR(face.height((1 + lifted) * on, -1, u, v, 0), 0.01, 1e-3);
-        EXPECT_EQ(face.height(1.01 * on, -1, u, v, 0.02), 0);
+          EXPECT_NEAR(face.height((1 + lifted) * on, -1, u, v, none).by, 0.01, 1e-3);
+        EXPECT_EQ(face.height(1.01 * on, -1, u, v, much).by, 0);
       }
   }
 }

@@ -6,9 +6,7 @@ from pathlib import Path
 import numpy as np
 import step_files
 
-STEPS = (
-    16  # of a side, between two samples; edges have whole sides or halves, and half of the steps
-)
+STEPS = 8  # of an edge, between two samples
 
 
 def gap_and_borders(path: Path) -> tuple[float, np.ndarray]:
@@ -26,15 +24,14 @@ def gap_and_borders(path: Path) -> tuple[float, np.ndarray]:
     TopExp.MapShapes_s(shape, kinds.TopAbs_EDGE, edges)
     curves, uses, gap = {}, np.zeros(edges.Extent() + 1, int), 0.0
     for face in _parts(shape, kinds.TopAbs_FACE):
-        rim = _rim(BRepAdaptor_Surface(TopoDS.Face(face), False))
+        surface = BRepAdaptor_Surface(TopoDS.Face(face), False)
         for edge in _parts(face, kinds.TopAbs_EDGE):
             number = edges.FindIndex(edge)
             if number not in curves:
                 curves[number] = _along(BRepAdaptor_Curve(TopoDS.Edge(edge)))
             uses[number] += 1
-            far = np.linalg.norm(rim - curves[number], axis=2).max(axis=1)
-            gap = max(gap, far.min())
-    free = [curves[number][STEPS // 4] for number in np.flatnonzero(uses == 1).tolist()]
+            gap = max(gap, _from_rim(surface, curves[number]))
+    free = [curves[number][STEPS // 2] for number in np.flatnonzero(uses == 1).tolist()]
     return gap, np.array(free).reshape(-1, 3)
 
 
@@ -101,21 +98,28 @@ def _parts(shape, kind):
 
 
 def _along(curve) -> np.ndarray:
-    """(STEPS // 2 + 1, 3)."""
+    """(STEPS + 1, 3)."""
     ends = curve.FirstParameter(), curve.LastParameter()
-    return _points(curve.Value(t) for t in np.linspace(*ends, STEPS // 2 + 1).tolist())
+    return _points(curve.Value(t) for t in np.linspace(*ends, STEPS + 1).tolist())
 
 
-def _rim(surface) -> np.ndarray:
-    """(24, STEPS // 2 + 1, 3): the sides of a face and their halves, both ways."""
-    low_u, high_u = surface.FirstUParameter(), surface.LastUParameter()
-    low_v, high_v = surface.FirstVParameter(), surface.LastVParameter()
-    us, vs = (np.linspace(*ends, STEPS + 1).tolist() for ends in ((low_u, high_u), (low_v, high_v)))
-    sides = [_points(surface.Value(u, v) for u in us) for v in (low_v, high_v)]
-    sides += [_points(surface.Value(u, v) for v in vs) for u in (low_u, high_u)]
-    half = STEPS // 2
-    ways = [way for side in sides for way in (side[::2], side[: half + 1], side[half:])]
-    return np.array([way[::turn] for way in ways for turn in (1, -1)])
+def _from_rim(surface, edge: np.ndarray) -> float:
+    """How far an edge is from the nearest side of a face, from one knot of it to another."""
+    spline = surface.BSpline()
+    us = [spline.UKnot(k) for k in range(1, spline.NbUKnots() + 1)]
+    vs = [spline.VKnot(k) for k in range(1, spline.NbVKnots() + 1)]
+    sides = [[(u, v) for u in us] for v in (vs[0], vs[-1])]
+    sides += [[(u, v) for v in vs] for u in (us[0], us[-1])]
+    found = np.inf
+    for side in sides:
+        knots = _points(surface.Value(*at) for at in side)
+        start, end = (
+            side[np.linalg.norm(knots - point, axis=1).argmin()] for point in (edge[0], edge[-1])
+        )
+        along = np.linspace(start, end, STEPS + 1)
+        points = _points(surface.Value(u, v) for u, v in along.tolist())
+        found = min(found, np.linalg.norm(points - edge, axis=1).max())
+    return found
 
 
 def _points(found) -> np.ndarray:

@@ -141,8 +141,7 @@ def test_what_is_said_is_what_others_find(mesh):
     ).reshape(len(patches), -1)
     assert found.max() <= 1.2 * patches.largest_residual
     missed = found.max(axis=1) > 1.2 * patches.tolerance * patches.size
-    said = patches._fit > patches.tolerance * patches.size
-    assert not (missed & ~said).any()
+    assert not (missed & ~patches.covering(patches.unmet_by_fit)).any()
 
 
 def test_one_number_is_held_against_the_tolerance():
@@ -222,17 +221,19 @@ def test_neighbours_share_their_edges(fitted, name):
         ends = [patches.edge_vertices[e][:: 1 if on else -1] for e, on in loop]
         assert all(a[1] == b[0] for a, b in zip(ends, ends[1:] + ends[:1]))
         curves = []
-        for e, forward in loop:
+        for e, _ in loop:
             points = basis(patches.edge_spans[e], t)[0] @ patches.edge(e)
-            curves.append(points if forward else points[::-1])
+            knots = np.linspace(0, 1, patches.edge_spans[e] + 1)
+            curves.append(basis(patches.edge_spans[e], knots)[0] @ patches.edge(e))
             assert np.allclose(
                 points[[0, -1]], patches.vertices[patches.edge_vertices[e]], atol=1e-14
             )
-        sides = [side_curve(patches, p, s, np.linspace(0, 1, 17)) for s in range(4)]
+        spans = patches.patch_spans[p]
+        sides = [side_curve(patches, p, s, np.linspace(0, 1, spans[s % 2] + 1)) for s in range(4)]
         around = np.concatenate([side[:-1] for side in sides])
-        for curve in curves:  # each lies on the patch's rim, whole or as a half of a side
+        for curve in curves:  # each lies on the patch's rim, from knot to knot
             gap = np.linalg.norm(curve[:, None] - around[None], axis=2).min(axis=1)
-            assert gap[::2].max() < 1e-12 * patches.size
+            assert gap.max() < 1e-12 * patches.size
 
 
 @pytest.mark.parametrize("name", SMOOTH)
@@ -252,7 +253,7 @@ def test_tolerances_are_met_and_said(fitted, name):
     [
         ("cube", True, 6),
         ("octahedron", True, 24),
-        ("torus", True, 48),
+        ("torus", True, 4),
         ("open triangles", False, 96),
     ],
 )
@@ -281,8 +282,7 @@ def test_creases_are_edges(fitted):
     creases = patches.edge_kind == 1
     pairs = patches.result.crease_edges
     assert creases.sum() >= len(pairs) > 0
-    # the boundary and crease curves of the refined surface are cubics: the fit is exact
-    assert patches.edge_error[creases].max() < 1e-9 * patches.size
+    assert patches.edge_error[creases].max() < patches.tolerance * patches.size / 2
 
 
 def needle():
@@ -473,3 +473,31 @@ def test_curves_fitted_more_sharply_make_no_patch_fold():
     result = df.fair(*uneven_drum(), 6, threads=1)
     watched = {"threads": 1, "monitor": df.Monitor(), "progress": None}
     assert not run.still_folded(result, 6, [82, 89, 90], watched)
+
+
+def test_rows_of_quads_are_one_patch_whose_curvature_does_not_jump():
+    points, faces = control_meshes.grid()
+    points[:, 2] = 0.2 * np.sin(points[:, 0]) * np.cos(points[:, 1])
+    whole = df.fit_patches(points, faces, levels=5)
+    assert len(whole) == 1 and whole.polygons(0).tolist() == list(range(16))
+    left = points[faces].mean(axis=1)[:, 0] < 1
+    parts = df.fit_patches(points, faces, levels=5, groups=left.astype(int))
+    assert [set(left[parts.polygons(p)].tolist()) for p in range(2)] in (
+        [{True}, {False}],
+        [{False}, {True}],
+    )
+    assert parts.covering([0]).sum() == 1
+    between = np.isfinite(parts.edge_jumps).any(axis=1)
+    assert between.sum() == 1 and (parts.edge_kind[between] == 0).all()
+    assert 0 < np.nanmax(parts.edge_jumps) * parts.size < 0.2
+
+
+def test_patches_end_where_others_need_it():
+    """From a vertex of three quads lines run on through the regular faces beside it; half a hull is
+    one patch."""
+    assert len(df.fit_patches(*half_hulls.hull(), levels=5)) == 1
+    points, faces = control_meshes.cube()
+    fine = df.fair(points, faces, 1, energy="total_curvature")
+    patches = df.fit_patches(fine.vertices, fine.faces[1], levels=4, **CURVED)
+    assert len(patches) == 6 and patches.shell_closed.all()
+    assert sorted(np.diff(patches.patch_face_offsets)) == [4] * 6

@@ -180,6 +180,7 @@ def fit_splines(
     triangles: np.ndarray,
     quads: np.ndarray,
     crease_edges: np.ndarray,
+    groups: np.ndarray,
     levels: int,
     tolerance: float,
     normal_tolerance: float,

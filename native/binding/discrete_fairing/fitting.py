@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
-from .arrays import face_arrays, vertex_array
+from .arrays import face_arrays, numbers, vertex_array
 from .checking import predicted_size
 from .errors import fairing_error
 from .fairing import fair
@@ -49,6 +49,7 @@ def fit_patches(
     fair_tolerance: float | ArrayLike | None = None,
     scan: Mapping[str, Any] | None = None,
     blend: Callable[[Result, int], np.ndarray] | None = None,
+    groups: ArrayLike | None = None,
     threads: int = 0,
     progress: Progress | None = None,
     monitor: _native.Monitor | None = None,
@@ -80,6 +81,8 @@ def fit_patches(
     blend : callable (Result, level) -> (N, 3) float64
         What patches are fitted to in place of the result's vertices, such as a mix of them with its
         shapes. Called for each surface, at each level; patches.result has the outcome.
+    groups : (f,) int
+        Faces of different numbers, such as materials, are in different patches.
     threads, progress, monitor, **options
         As those of fair(): energy, creases, boundary and so on.
 
@@ -101,6 +104,13 @@ def fit_patches(
     runs = SeveralRuns(progress, monitor, whole("threads", threads))
     points = vertex_array(vertices)
     polygons = face_arrays(faces)
+    if groups is not None:
+        run.groups = numbers(groups, "groups", "iu").astype(np.int32)
+        if run.groups.shape != (len(polygons[1]) - 1,):
+            raise fairing_error(
+                "BAD_SHAPE",
+                f"groups has shape {run.groups.shape}; it must be ({len(polygons[1]) - 1},).",
+            )
 
     given = None if scan is None else dict(scan)
 
@@ -237,6 +247,7 @@ class _Run:
         self.tolerance = real("tolerance", tolerance)
         self.normal_tolerance = real("normal_tolerance", normal_tolerance)
         self.force = force
+        self.groups = np.empty(0, np.int32)  # of input faces
         for name in ("tolerance", "normal_tolerance"):
             if getattr(self, name) <= 0:
                 raise fairing_error(
@@ -249,16 +260,25 @@ class _Run:
         # however soon it is done, whoever watches hears of it
         if watched["progress"](0.0, "patches") is False:
             watched["monitor"].cancel()
+        polygons = control_polygons(result, level)
         arrays, bad = self._fit(
-            result.vertices, *result.faces, result.crease_edges, level, **watched
+            result.vertices,
+            *result.faces,
+            result.crease_edges,
+            self._groups_of(polygons),
+            level,
+            **watched,
         )
         arrays.update(
             tolerance=self.tolerance,
             normal_tolerance=self.normal_tolerance,
             lattice_error=lattice_error,
-            unresolved=np.unique(control_polygons(result, level)[bad]).astype(np.int64),
+            unresolved=np.unique(polygons[bad]).astype(np.int64),
         )
         return SplinePatches(arrays, result, level)
+
+    def _groups_of(self, polygons: np.ndarray) -> np.ndarray:
+        return self.groups[polygons] if len(self.groups) else self.groups
 
     def _fit(
         self,
@@ -266,6 +286,7 @@ class _Run:
         triangles: np.ndarray,
         quads: np.ndarray,
         creases: np.ndarray,
+        groups: np.ndarray,
         level: int,
         threads: int,
         monitor: _native.Monitor,
@@ -277,6 +298,7 @@ class _Run:
             triangles,
             quads,
             creases,
+            groups,
             level,
             self.tolerance,
             self.normal_tolerance,
@@ -284,22 +306,21 @@ class _Run:
             monitor,
             progress,
         )
-        bad = arrays["lattice_turn"] > TURN_LIMIT
-        folded = ~(arrays["turned"] <= FOLD_LIMIT)
-        sharp = np.nan_to_num(arrays["angles"]).max(axis=1, initial=0) > TURN_LIMIT
-        patch = np.repeat(np.arange(len(folded)), np.diff(arrays["loop_offsets"]))
-        folded[patch[sharp[arrays["loop_edges"]]]] = True
-        bad[arrays["patch_face"][folded]] = True
+        bad = (arrays["lattice_turn"] > TURN_LIMIT) | (arrays["face_angle"] > TURN_LIMIT)
+        folded = np.repeat(~(arrays["turned"] <= FOLD_LIMIT), np.diff(arrays["patch_face_offsets"]))
+        bad[arrays["patch_faces"][folded]] = True
         return arrays, bad
 
     def still_folded(
         self, result: Result, level: int, faces: ArrayLike, watched: dict[str, Any]
     ) -> bool:
         """Whether patches of the input `faces`, fitted with their neighbours alone, still fold."""
-        chosen = np.isin(control_polygons(result, level), faces)
+        polygons = control_polygons(result, level)
+        chosen = np.isin(polygons, faces)
         part = around(result, level, chosen)
         chosen_of_part = chosen[part.control_faces]
-        _, bad = self._fit(*part.arrays, level, **watched)
+        groups = self._groups_of(polygons[part.control_faces])
+        _, bad = self._fit(*part.arrays, groups, level, **watched)
         return bool(bad[chosen_of_part].any())
 
     def stays_folded(self, result: Result, level: int, finer: int, watched: dict[str, Any]) -> bool:

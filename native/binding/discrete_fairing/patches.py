@@ -30,30 +30,37 @@ def spline_knots(spans: int) -> np.ndarray:
 class SplinePatches:
     """P bicubic B-spline patches, C2 inside, that share E edges and V vertices.
 
-    Knots are uniform and clamped (spline_knots). A control quad is one patch, a control triangle
-    three, around its centroid. Lengths are in mesh units, angles in radians.
+    Knots are uniform and clamped (spline_knots). A patch covers a grid of control quads, as large as
+    creases, borders and extraordinary vertices allow; a control triangle is three, around its
+    centroid. Lengths are in mesh units, angles in radians.
 
     vertices: (V, 3) float64.
     patch_spans: (P, 2) int32, along u and v. Patch p has (spans + 3) control points each way.
     patch_points: (C, 3) float64, the control points of all patches; net(p) has those of one.
     patch_offsets: (P + 1,) int64: patch p has the rows patch_offsets[p] ... [p + 1] - 1.
-    patch_polygon: (P,) int32, the input face that each patch comes from.
-    patch_face: (P,) int32, its control face: all triangles come first, then all quads.
+    patch_faces: (F,) or more int32; patch_face_offsets: (P + 1,) int64: the control faces of each
+    patch, row by row; all triangles come first, then all quads.
+    patch_polygon: (P,) int32, the first input face that each covers; polygons(p) has all.
     patch_shell: (P,) int32, the shell that each belongs to.
     shell_closed: (S,) bool, whether a shell has no free edge.
     edge_spans: (E,) int32; edge_points: (D, 3) float64; edge_offsets: (E + 1,) int64; as of patches.
     edge_vertices: (E, 2) int32, where an edge starts and ends.
     edge_kind: (E,) uint8, 0 smooth, 1 crease, 2 boundary.
     loop_edges: (L,) int32; loop_forward: (L,) bool; loop_offsets: (P + 1,) int64: the edges around
-    each patch, counter-clockwise, from u = v = 0 along u; four, or up to eight beside triangles.
+    each patch, counter-clockwise, from u = v = 0 along u; four, or more where others end at a side.
     residual: (P,) float64, the farthest that a point of the refined surface is from its patch, or
     the patch from that surface between its points.
     turned: (P,) float64, the sharpest angle between the normals of patch and refined surface.
     edge_error: (E,) float64, how far the curve is from the refined surface at most: across the
     surface; along it too where the edge is a crease or a border.
-    edge_angles: (E, 17) float64, between the normals on both sides, evenly along each edge; NaN
+    edge_angles: (E, 17) float64, between the normals on both sides: the largest near each of so many
+    places evenly along each edge; NaN
     along creases and boundaries, and at the tips of sharp kinks, where borders or creases meet at a
     corner and the surface does not lie in their plane. At slight ones it is the angle of the kink.
+    edge_jumps: (E, 17) float64, 1 over mesh units: how much the curvature across each edge differs
+    between both sides, in the same way.
+    face_off: (F,) float64, how far the patch of a control face, or a curve beside it, is off there;
+    face_angle: (F,) float64, the sharpest angle at its sides.
     refinement_error: (P,) float64, how far the refined surface itself is about from the limit of finer
     ones, by what has changed in the patch's control face from the level below.
     unresolved: (u,) int64, input faces where the refined surface folds, or turns too sharply.
@@ -71,8 +78,10 @@ class SplinePatches:
         self.patch_spans: np.ndarray = arrays["patch_spans"]
         self.patch_points: np.ndarray = arrays["patch_points"]
         self.patch_offsets = _offsets((self.patch_spans.astype(np.int64) + 3).prod(axis=1))
-        self.patch_face: np.ndarray = arrays["patch_face"]
-        self.patch_polygon = control_polygons(result, levels)[self.patch_face]
+        self.patch_faces: np.ndarray = arrays["patch_faces"]
+        self.patch_face_offsets: np.ndarray = arrays["patch_face_offsets"]
+        self._control_polygons = control_polygons(result, levels)
+        self.patch_polygon = self._control_polygons[self.patch_faces[self.patch_face_offsets[:-1]]]
         self.edge_spans: np.ndarray = arrays["edge_spans"]
         self.edge_points: np.ndarray = arrays["edge_points"]
         self.edge_offsets = _offsets(self.edge_spans.astype(np.int64) + 3)
@@ -85,10 +94,17 @@ class SplinePatches:
         self.turned: np.ndarray = arrays["turned"]
         self.edge_error: np.ndarray = arrays["edge_error"]
         self.edge_angles: np.ndarray = arrays["angles"]
+        self.edge_jumps: np.ndarray = arrays["jumps"]
+        self.face_off: np.ndarray = arrays["face_off"]
+        self.face_angle: np.ndarray = arrays["face_angle"]
         self.size: float = arrays["size"]
         self.tolerance: float = arrays["tolerance"]
         self.normal_tolerance: float = arrays["normal_tolerance"]
-        self.refinement_error: np.ndarray = arrays["lattice_error"][self.patch_face]
+        self._lattice_error: np.ndarray = arrays["lattice_error"]
+        self.refinement_error = np.zeros(len(self))
+        np.maximum.at(
+            self.refinement_error, self._patch_of_faces, self._lattice_error[self.patch_faces]
+        )
         self.unresolved: np.ndarray = arrays["unresolved"]
         self.patch_shell, self.shell_closed = self._shells()
         self.scan_distances: np.ndarray | None = None
@@ -101,6 +117,18 @@ class SplinePatches:
         rows, columns = self.patch_spans[p] + 3
         first = self.patch_offsets[p]
         return self.patch_points[first : first + rows * columns].reshape(rows, columns, 3)
+
+    def polygons(self, p: int) -> np.ndarray:
+        """(k,) int32: the input faces of patch p."""
+        part = slice(self.patch_face_offsets[p], self.patch_face_offsets[p + 1])
+        return np.unique(self._control_polygons[self.patch_faces[part]])
+
+    def covering(self, polygons: ArrayLike) -> np.ndarray:
+        """(P,) bool: which patches have one of these input faces."""
+        found = np.zeros(len(self), bool)
+        own = np.isin(self._control_polygons[self.patch_faces], polygons)
+        found[self._patch_of_faces[own]] = True
+        return found
 
     def edge(self, e: int) -> np.ndarray:
         """(spans + 3, 3) float64: the control points of edge e, a view."""
@@ -157,13 +185,13 @@ class SplinePatches:
 
     @cached_property
     def unmet(self) -> np.ndarray:
-        """(k,) int64: input faces with a patch or an edge that misses a tolerance."""
-        return self._missing(self.off)
+        """(k,) int64: input faces where a patch or an edge misses a tolerance."""
+        return self._missing(self.face_off + self._lattice_error)
 
     @property
     def unmet_by_fit(self) -> np.ndarray:
         """(k,) int64: those of `unmet` that miss it from the refined surface, too."""
-        return self._missing(self._fit)
+        return self._missing(self.face_off)
 
     @property
     def unmet_by_surface(self) -> np.ndarray:
@@ -173,10 +201,8 @@ class SplinePatches:
         return np.setdiff1d(self.unmet, self.unmet_by_fit)
 
     def _missing(self, off: np.ndarray) -> np.ndarray:
-        bad = off > self.tolerance * self.size
-        sharp = np.nan_to_num(self.edge_angles).max(axis=1, initial=0) > self.normal_tolerance
-        bad[self._patch_of_steps[sharp[self.loop_edges]]] = True
-        return np.unique(self.patch_polygon[bad]).astype(np.int64)
+        bad = (off > self.tolerance * self.size) | (self.face_angle > self.normal_tolerance)
+        return np.unique(self._control_polygons[bad]).astype(np.int64)
 
     @cached_property
     def _fit(self) -> np.ndarray:
@@ -199,6 +225,10 @@ class SplinePatches:
         far[getattr(self.result, "outliers", [])] = np.nan
         far = np.sort(far[np.isfinite(far)])
         return (float(far[int(0.95 * (len(far) - 1))]), float(far[-1])) if len(far) else (0.0, 0.0)
+
+    @property
+    def _patch_of_faces(self) -> np.ndarray:
+        return np.repeat(np.arange(len(self)), np.diff(self.patch_face_offsets))
 
     @property
     def _patch_of_steps(self) -> np.ndarray:
