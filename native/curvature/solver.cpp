@@ -28,8 +28,7 @@ constexpr double farthest_over_plate = 2;
 
 }  // namespace
 
-GaussNewtonSolver::GaussNewtonSolver(const ControlMesh& mesh,
-                                     const std::vector<CurvatureGrid>& levels, int base,
+GaussNewtonSolver::GaussNewtonSolver(const ControlMesh& mesh, const GridLevels& grids, int base,
                                      const Stencils& stencils, const Unknowns& unknowns,
                                      const GaussNewtonOptions& options,
                                      IntervalConstraints constraints, const Pads* pads,
@@ -37,7 +36,7 @@ GaussNewtonSolver::GaussNewtonSolver(const ControlMesh& mesh,
     : options_(options),
       constraints_(std::move(constraints)),
       pads_{pads},
-      system_(mesh, levels, base, stencils, unknowns, options,
+      system_(mesh, grids, base, stencils, unknowns, options,
               constraints_.any() ? &constraints_ : nullptr, std::move(mirrors), workers, monitor),
       iterate_{system_},
       next_level_(base),

@@ -18,7 +18,7 @@ class GaussNewtonSolver {
   // vertices that move, and where all of them belong. `pads`: what control vertices stand on while
   // total curvature is minimized, or null; their widths may change before each level. `mirrors`: the
   // symmetries that the surface is to keep. The references must outlive the solver.
-  GaussNewtonSolver(const ControlMesh& mesh, const std::vector<CurvatureGrid>& levels, int base,
+  GaussNewtonSolver(const ControlMesh& mesh, const GridLevels& grids, int base,
                     const Stencils& stencils, const Unknowns& unknowns,
                     const GaussNewtonOptions& options, IntervalConstraints constraints,
                     const Pads* pads, Mirrors mirrors, Workers& workers, Monitor& monitor);

@@ -43,8 +43,7 @@ void Symmetrizer::displacements(const GridLevel& grid, Array<double>& h) const {
     mean_of_displacements(grid, *mirror, unknowns_, workers_, h.data());
 }
 
-GaussNewtonSystem::GaussNewtonSystem(const ControlMesh& mesh,
-                                     const std::vector<CurvatureGrid>& levels, int base,
+GaussNewtonSystem::GaussNewtonSystem(const ControlMesh& mesh, const GridLevels& grids, int base,
                                      const Stencils& stencils, const Unknowns& unknowns,
                                      const GaussNewtonOptions& options,
                                      IntervalConstraints* constraints, Mirrors mirrors,
@@ -54,18 +53,17 @@ GaussNewtonSystem::GaussNewtonSystem(const ControlMesh& mesh,
       max_iterations_(options.solve.max_iterations),
       load_tolerance_(options.load_tolerance),
       monitor_(monitor),
+      grids_(grids),
       shared_{mesh, unknowns, workers},
       symmetrizer_(std::move(mirrors), shared_.unknowns, workers),
       constraints_(constraints) {
   shared_.tension = options.tension;
-  for (const CurvatureGrid& level : levels) grids_.push_back(level.grid);
   std::vector<HierarchyLevel> all;
   for (int l = base; l <= finest(); ++l) {
     operators_.push_back(std::make_unique<CurvatureLevel>(shared_, grid(l)));
     if (l > 0)
       transfers_.push_back(std::make_unique<QuadraticTransfer<1>>(
-          grid(l - 1), grid(l), stencils, shared_.unknowns, levels[std::size_t(l)].to_coarser,
-          workers, shared_.float_slots));
+          grid(l - 1), grid(l), stencils, shared_.unknowns, workers, shared_.float_slots));
     all.push_back({*operators_.back(), l > base ? transfers_.back().get() : nullptr,
                    count_unknowns(grid(l), unknowns)});
   }

@@ -17,12 +17,8 @@
 
 namespace fairing {
 
-// A level's grid, and the transfer to the level below as a matrix where the thin plate has
-// assembled it; null elsewhere. Both are the thin plate's, and must outlive the system.
-struct CurvatureGrid {
-  const GridLevel* grid;
-  const AssembledTransfer* to_coarser;
-};
+// Of all levels; they must outlive the system.
+using GridLevels = std::vector<const GridLevel*>;
 
 // Keeps mirror symmetries: surfaces and steps become the mean with their mirror images. Rounding
 // differs between the two sides of a mirror, and steps over crumpled places amplify the difference
@@ -66,7 +62,7 @@ class GaussNewtonSystem {
   // `levels`: all from 0 on; those below `base` have no unknowns worth a solve. `constraints`: what holds the
   // control vertices that move, along the normals, while total curvature is minimized, until let_go();
   // or null. All references must outlive the system.
-  GaussNewtonSystem(const ControlMesh& mesh, const std::vector<CurvatureGrid>& levels, int base,
+  GaussNewtonSystem(const ControlMesh& mesh, const GridLevels& grids, int base,
                     const Stencils& stencils, const Unknowns& unknowns,
                     const GaussNewtonOptions& options, IntervalConstraints* constraints,
                     Mirrors mirrors, Workers& workers, Monitor& monitor);
@@ -128,7 +124,7 @@ class GaussNewtonSystem {
   int base_, max_iterations_;
   double load_tolerance_;
   Monitor& monitor_;
-  std::vector<const GridLevel*> grids_;
+  GridLevels grids_;
   CurvatureShared shared_;
   std::vector<std::unique_ptr<CurvatureLevel>> operators_;  // from base_ on
   QuadraticTransfers<1> transfers_;

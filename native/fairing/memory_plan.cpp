@@ -12,7 +12,6 @@
 #include "mesh/half_edges.h"
 #include "multigrid/hierarchy.h"
 #include "sparse/matrix.h"
-#include "transfer/quadratic_matrix.h"
 
 namespace fairing {
 namespace {
@@ -48,7 +47,7 @@ struct Counts {
 struct Costs {
   double side, vertex, point, unknown, finest;
 };
-constexpr Costs plate_costs{660, 960, 56, 250, 200}, curvature_costs{760, 960, 240, 870, 800},
+constexpr Costs plate_costs{660, 960, 56, 230, 200}, curvature_costs{760, 960, 240, 830, 800},
     variation_costs{1100, 960, 420, 870, 800};
 // More while the rows of level 1 are summed, an unknown; of the finest level, a point, for the limit
 // surface beside the plate and for the sweeps of the back leg.
@@ -118,7 +117,7 @@ RunSize predict_size(std::int64_t vertices, std::span<const std::int64_t> corner
   std::vector<double> valence(used.size(), 0);
   for (const std::int64_t v : own) ++valence[std::size_t(v)];
   for (const double n : valence)
-    if (n > double(large_ring)) c.in_large_rings += n * n;
+    if (n > double(most_coupled)) c.in_large_rings += n * n;
   if (options.interpolation == Interpolation::approximate) c.unknown.vertices = c.solved.vertices;
   for (std::int64_t f = 0; f < mesh.face_count(); ++f) {
     const double times = cover.has(std::int32_t(f)) ? 2 : 1;

@@ -83,9 +83,8 @@ std::unique_ptr<GaussNewtonSolver> FairingSystems::make_steps(const ControlPosit
   ThinPlateLevels& levels = plate().levels();
   if (problem_.options.energy == Energy::thin_plate || levels.base() > problem_.options.levels)
     return nullptr;
-  std::vector<CurvatureGrid> grids;
-  for (int l = 0; l <= problem_.options.levels; ++l)
-    grids.push_back({&levels.grid(l), levels.transfer_matrix(l)});
+  GridLevels grids;
+  for (int l = 0; l <= problem_.options.levels; ++l) grids.push_back(&levels.grid(l));
   GaussNewtonOptions options;
   if (problem_.options.energy == Energy::minimum_variation)
     options.energy = CurvatureEnergy::minimum_variation;

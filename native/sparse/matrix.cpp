@@ -155,35 +155,4 @@ float AssembledMatrix::diagonal(std::size_t row) const {
   return sum;
 }
 
-// Chunks count their own numbers, and put them where those of the chunks before them end.
-MatrixColumns AssembledMatrix::by_columns(Workers& workers) const {
-  std::vector<std::vector<std::uint32_t>> place(chunk_.size());  // of each chunk, by its columns
-  const auto visit_all = [&](auto&& visit) {
-    workers.for_parts(chunk_.size(), 1, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t c = begin; c < end; ++c) {
-        place[c].resize(chunk_[c].column.size(), 0);
-        visit_chunk(chunk_[c], [&](std::size_t row, std::size_t column, float number) {
-          visit(Index(c * chunk_rows + row), place[c][column]++, number);
-        });
-      }
-    });
-  };
-  const auto visit_places = [&](auto&& visit) {
-    for (std::size_t c = 0; c < chunk_.size(); ++c)
-      for (std::size_t k = 0; k < place[c].size(); ++k) visit(chunk_[c].column[k], place[c][k]);
-  };
-  visit_all([](Index, std::uint32_t, float) {});
-  MatrixColumns out;
-  out.first.assign(columns_ + 1, 0);
-  visit_places([&](std::size_t column, std::uint32_t count) { out.first[column + 1] += count; });
-  for (std::size_t c = 0; c < columns_; ++c) out.first[c + 1] += out.first[c];
-  std::vector<std::uint32_t> next(out.first.begin(), out.first.end() - 1);
-  visit_places([&](std::size_t column, std::uint32_t& count) {
-    count = std::exchange(next[column], next[column] + count);
-  });
-  out.entry = std::make_unique_for_overwrite<MatrixColumns::Entry[]>(out.first.back());
-  visit_all([&](Index row, std::uint32_t at, float number) { out.entry[at] = {row, number}; });
-  return out;
-}
-
 }  // namespace fairing

@@ -168,16 +168,6 @@ class RowBuilder {
   Numbers* repeated_ = nullptr;
 };
 
-// Numbers by column: entries first[c] … first[c + 1], rows ascending.
-struct MatrixColumns {
-  struct Entry {
-    Index row;
-    float number;
-  };
-  std::vector<std::size_t> first;
-  std::unique_ptr<Entry[]> entry;
-};
-
 class AssembledMatrix {
  public:
   // make_writer() makes a writer for each stretch of rows of a thread; writer(row, builder) adds
@@ -204,14 +194,11 @@ class AssembledMatrix {
     if (!fits) return nullptr;
     std::size_t bytes = 0;
     for (const RowChunk& chunk : chunks) bytes += chunk.bytes();
-    return std::unique_ptr<AssembledMatrix>(new AssembledMatrix(columns, std::move(chunks), bytes));
+    return std::unique_ptr<AssembledMatrix>(new AssembledMatrix(std::move(chunks), bytes));
   }
 
   // The diagonal number of a row; 0 for a zero row.
   float diagonal(std::size_t row) const;
-
-  // Throws where the run has been cancelled.
-  MatrixColumns by_columns(Workers& workers) const;
 
   // Calls visit(row, column, number) for all numbers, in parallel; a row is visited by one thread.
   template <class Visit>
@@ -246,10 +233,9 @@ class AssembledMatrix {
   }
 
  private:
-  AssembledMatrix(std::size_t columns, Array<RowChunk> chunks, std::size_t bytes)
-      : columns_(columns), chunk_(std::move(chunks)), bytes_(bytes) {}
+  AssembledMatrix(Array<RowChunk> chunks, std::size_t bytes)
+      : chunk_(std::move(chunks)), bytes_(bytes) {}
 
-  std::size_t columns_;
   Array<RowChunk> chunk_;
   CountedBytes bytes_;
 };

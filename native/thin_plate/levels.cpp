@@ -68,14 +68,9 @@ ThinPlateLevels::ThinPlateLevels(const ControlMesh& mesh, const Stencils& stenci
   for (int l = base_; l <= top(); ++l) {
     monitor.check_cancelled();
     operators_.push_back(std::make_unique<ThinPlateLevel>(shared_, grid(l), weights));
-    if (l > 0) {
-      transfer_matrices_.push_back(
-          l > base_ ? AssembledTransfer::make(grid(l - 1), grid(l), stencils, carried_, workers)
-                    : nullptr);
+    if (l > 0)
       transfers_.push_back(std::make_unique<QuadraticTransfer<3>>(
-          grid(l - 1), grid(l), stencils, shared_.unknowns, transfer_matrices_.back().get(),
-          workers, shared_.float_slots));
-    }
+          grid(l - 1), grid(l), stencils, shared_.unknowns, workers, shared_.float_slots));
     all.push_back(
         {*operators_.back(), l > base_ ? transfers_.back().get() : nullptr, unknowns_of(l)});
   }

@@ -37,10 +37,6 @@ class ThinPlateLevels {
   int base() const { return base_; }  // the coarsest level with unknowns worth a solve
   int top() const { return int(grids_.size()) - 1; }
   const GridLevel& grid(int level) const { return *grids_[std::size_t(level)]; }
-  // Between a level and the one below; null on the coarsest level and where passes are used.
-  const AssembledTransfer* transfer_matrix(int level) const {
-    return level > 0 ? transfer_matrices_[std::size_t(level - 1)].get() : nullptr;
-  }
   // r <- (K + P) x without weights, with these control vertices among the unknowns; its diagonal.
   void apply_with(int level, const Unknowns& unknowns, const double* x, double* r) {
     operators_[index(level)]->apply_with(unknowns, x, r);
@@ -112,10 +108,9 @@ class ThinPlateLevels {
   ThinPlateShared shared_;
   int base_;
   std::vector<std::unique_ptr<GridLevel>> grids_;
-  std::vector<std::unique_ptr<ThinPlateLevel>> operators_;             // from base_ on
-  std::vector<std::unique_ptr<AssembledTransfer>> transfer_matrices_;  // from 1 on
-  QuadraticTransfers<3> transfers_;
-  Unknowns carried_;  // including these control vertices
+  std::vector<std::unique_ptr<ThinPlateLevel>> operators_;  // from base_ on
+  QuadraticTransfers<3> transfers_;                         // from 1 on
+  Unknowns carried_;                                        // including these control vertices
   std::unique_ptr<Hierarchy> hierarchy_;
 };
 

@@ -3,14 +3,12 @@
 // cycles; and from a level to the control vertices.
 #pragma once
 
-#include <algorithm>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "parallel/reductions.h"
 #include "transfer/quadratic.h"
-#include "transfer/quadratic_matrix.h"
 
 namespace fairing {
 
@@ -23,52 +21,33 @@ class LevelTransfer {
   virtual void restrict_to(const float* fine, float* coarse) = 0;
 };
 
-// Local quadratics, with C numbers a point: 3 coordinates, or 1 displacement. By a matrix if given,
-// otherwise by passes over the faces.
+// Local quadratics, with C numbers a point: 3 coordinates, or 1 displacement.
 template <int C>
 class QuadraticTransfer final : public LevelTransfer {
  public:
-  // All must outlive the transfer. `matrix` may be null, or have more control vertices than the
-  // unknowns; `slots` may be shared by all levels.
+  // All must outlive the transfer; `slots` may be shared by all levels.
   QuadraticTransfer(const GridLevel& coarse, const GridLevel& fine, const Stencils& stencils,
-                    const Unknowns& unknowns, const AssembledTransfer* matrix, Workers& workers,
-                    ElementSlots<float, C>& slots)
+                    const Unknowns& unknowns, Workers& workers, ElementSlots<float, C>& slots)
       : coarse_(coarse),
         fine_(fine),
         stencils_(stencils),
         unknowns_(unknowns),
-        matrix_(matrix),
         workers_(workers),
         slots_(slots) {}
 
   void prolong(const float* x, float* y) override {
-    if (matrix_) {
-      matrix_->prolong<C>(x, workers_, y);
-      return clear_fixed(unknowns_, y);
-    }
     fairing::prolong(coarse_, fine_, stencils_, &unknowns_, workers_, slots_, x, y);
   }
   void restrict_to(const float* x, float* y) override { restrict_to(unknowns_, x, y); }
-  // To these unknowns; the matrix includes all control vertices.
+  // To these unknowns.
   void restrict_to(const Unknowns& unknowns, const float* x, float* y) {
-    if (matrix_) {
-      matrix_->restrict_to<C>(x, workers_, y);
-      return clear_fixed(unknowns, y);
-    }
     fairing::restrict_to(coarse_, fine_, stencils_, unknowns, workers_, slots_, x, y);
   }
 
  private:
-  // Control vertices may have been fixed since the matrix was made.
-  static void clear_fixed(const Unknowns& unknowns, float* y) {
-    for (std::size_t v = 0; v < unknowns.vertex.size(); ++v)
-      if (!unknowns.vertex[v]) std::fill_n(y + C * v, C, 0.0f);
-  }
-
   const GridLevel &coarse_, &fine_;
   const Stencils& stencils_;
   const Unknowns& unknowns_;
-  const AssembledTransfer* matrix_;
   Workers& workers_;
   ElementSlots<float, C>& slots_;
 };

@@ -51,10 +51,10 @@ struct Levels {
   std::unique_ptr<GaussNewtonSystem> system;
 
   Levels() {
-    std::vector<CurvatureGrid> levels;
+    GridLevels levels;
     grids.reserve(4);
     for (int l = 0; l <= 3; ++l) grids.emplace_back(mesh, l);
-    for (const GridLevel& grid : grids) levels.push_back({&grid, nullptr});
+    for (const GridLevel& grid : grids) levels.push_back(&grid);
     Unknowns unknowns;
     unknowns.vertex.assign(std::size_t(mesh.vertex_count()), 0);
     unknowns.edge.assign(mesh.edges.size(), 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Prolongation and restriction by passes and by rows.
+// Prolongation and restriction; and the rows of matrices.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -14,6 +14,7 @@
 
 #include "grid/linear.h"
 #include "level_settings.h"
+#include "sparse/matrix.h"
 #include "thin_plate/operator.h"
 #include "transfer/level_transfer.h"
 
@@ -204,79 +205,39 @@ TEST(Transfer, KeepsQuadraticsInThePlane) {
   }
 }
 
-TEST(Rows, TransferAsPassesDo) {
-  on_all(2, [](const Setting& s, Workers& workers) {
-    const GridLevel fine(s.mesh, s.grid.level() + 1);
-    const double rounding = 2e-7 * (1 + reference_prolongation(s, fine).norm());
-    for (int choice = 0; choice < 3; ++choice) {
-      const Unknowns unknowns = some_points(s.mesh, choice);
-      const std::unique_ptr<AssembledTransfer> rows =
-          AssembledTransfer::make(s.grid, fine, s.stencils, unknowns, workers);
-      ASSERT_NE(rows, nullptr);
-      ElementSlots<double> slots = poisoned<double>(fine);
-      const Points x = masked(s.grid, unknowns, random_points(s.grid.size()));
-      const Points y = masked(fine, unknowns, random_points(fine.size(), 2));
-      Points px(y.rows(), 3), ry(x.rows(), 3);
-      prolong(s.grid, fine, s.stencils, &unknowns, workers, slots, x.data(), px.data());
-      restrict_to(s.grid, fine, s.stencils, unknowns, workers, slots, y.data(), ry.data());
-      FloatPoints up = with_room(Points::Zero(y.rows(), 3)),
-                  down = with_room(Points::Zero(x.rows(), 3));
-      rows->prolong<3>(with_room(x).data(), workers, up.data());
-      rows->restrict_to<3>(with_room(y).data(), workers, down.data());
-      EXPECT_LT((of_room(up, fine.size()) - px).norm(), rounding * (1 + x.norm())) << choice;
-      EXPECT_LT((of_room(down, s.grid.size()) - ry).norm(), rounding * (1 + y.norm())) << choice;
-
-      // The same rows for one number a point.
-      Eigen::VectorXf one = with_room(x).col(1), result = Eigen::VectorXf::Zero(y.rows());
-      rows->prolong<1>(one.data(), workers, result.data());
-      EXPECT_LT((result.cast<double>() - px.col(1)).norm(), rounding * (1 + x.norm()));
-      one = with_room(y).col(2);
-      result = Eigen::VectorXf::Zero(x.rows());
-      rows->restrict_to<1>(one.data(), workers, result.data());
-      EXPECT_LT((result.cast<double>() - ry.col(2)).norm(), rounding * (1 + y.norm()));
-    }
-  });
-}
-
-// By rows and by passes, through transfers whose own unknowns are fewer.
+// Through transfers whose own unknowns are fewer.
 TEST(Transfer, RestrictsToControlVerticesThroughAllLevels) {
   on_all(3, [](const Setting& s, Workers& workers) {
     const Unknowns own = some_points(s.mesh, 0);
-    for (const int choice : {1, 2})
-      for (const bool by_rows : {false, true}) {
-        const Unknowns carried = some_points(s.mesh, choice);
-        const int level = s.grid.level();
-        std::vector<std::unique_ptr<GridLevel>> grids;
-        for (int l = 0; l <= level; ++l) grids.push_back(std::make_unique<GridLevel>(s.mesh, l));
-        std::vector<std::unique_ptr<AssembledTransfer>> rows;
-        std::vector<FloatPoints> rooms(1);
-        QuadraticTransfers<3> transfers;
-        ElementSlots<float> slots;
-        ElementSlots<double> double_slots;
-        const Points x = masked(*grids[0], carried, random_points(grids[0]->size()));
-        Points hx = x;
-        for (std::size_t l = 1; l < grids.size(); ++l) {
-          const GridLevel &coarse = *grids[l - 1], &fine = *grids[l];
-          rows.push_back(by_rows
-                             ? AssembledTransfer::make(coarse, fine, s.stencils, carried, workers)
-                             : nullptr);
-          transfers.push_back(std::make_unique<QuadraticTransfer<3>>(
-              coarse, fine, s.stencils, own, rows.back().get(), workers, slots));
-          rooms.push_back(with_room(random_points(fine.size())));
-          Points below = std::exchange(hx, Points(Eigen::Index(fine.size()), 3));
-          prolong(coarse, fine, s.stencils, &carried, workers, double_slots, below.data(),
-                  hx.data());
-        }
-        const Points r = masked(s.grid, carried, random_points(s.grid.size(), 2));
-        std::vector<Vec3> sums(grids[0]->size());
-        restrict_to_vertices<3>(
-            transfers, level, carried, workers, {r.data(), std::size_t(r.size())},
-            [&](int l) { return rooms[std::size_t(l)].data(); }, sums);
-        const Eigen::Map<const Points> htr(sums[0].data(), x.rows(), 3);
-        EXPECT_NEAR(htr.cwiseProduct(x).sum(), r.cwiseProduct(hx).sum(),
-                    1e-6 * (1 + r.norm() * hx.norm()));
-        EXPECT_EQ((htr - masked(*grids[0], carried, htr)).norm(), 0);
+    for (const int choice : {1, 2}) {
+      const Unknowns carried = some_points(s.mesh, choice);
+      const int level = s.grid.level();
+      std::vector<std::unique_ptr<GridLevel>> grids;
+      for (int l = 0; l <= level; ++l) grids.push_back(std::make_unique<GridLevel>(s.mesh, l));
+      std::vector<FloatPoints> rooms(1);
+      QuadraticTransfers<3> transfers;
+      ElementSlots<float> slots;
+      ElementSlots<double> double_slots;
+      const Points x = masked(*grids[0], carried, random_points(grids[0]->size()));
+      Points hx = x;
+      for (std::size_t l = 1; l < grids.size(); ++l) {
+        const GridLevel &coarse = *grids[l - 1], &fine = *grids[l];
+        transfers.push_back(
+            std::make_unique<QuadraticTransfer<3>>(coarse, fine, s.stencils, own, workers, slots));
+        rooms.push_back(with_room(random_points(fine.size())));
+        Points below = std::exchange(hx, Points(Eigen::Index(fine.size()), 3));
+        prolong(coarse, fine, s.stencils, &carried, workers, double_slots, below.data(), hx.data());
       }
+      const Points r = masked(s.grid, carried, random_points(s.grid.size(), 2));
+      std::vector<Vec3> sums(grids[0]->size());
+      restrict_to_vertices<3>(
+          transfers, level, carried, workers, {r.data(), std::size_t(r.size())},
+          [&](int l) { return rooms[std::size_t(l)].data(); }, sums);
+      const Eigen::Map<const Points> htr(sums[0].data(), x.rows(), 3);
+      EXPECT_NEAR(htr.cwiseProduct(x).sum(), r.cwiseProduct(hx).sum(),
+                  1e-6 * (1 + r.norm() * hx.norm()));
+      EXPECT_EQ((htr - masked(*grids[0], carried, htr)).norm(), 0);
+    }
   });
 }
 

@@ -47,9 +47,9 @@ struct Cycle {
       }
       levels.back()->linearize(x.data(), {});
       if (l > 1)
-        transfers.push_back(std::make_unique<QuadraticTransfer<1>>(
-            *grids[grids.size() - 2], grid, stencils, shared.unknowns, nullptr, workers,
-            shared.float_slots));
+        transfers.push_back(std::make_unique<QuadraticTransfer<1>>(*grids[grids.size() - 2], grid,
+                                                                   stencils, shared.unknowns,
+                                                                   workers, shared.float_slots));
       CycleLevel& own = cycle.levels.emplace_back();
       own.op = levels.back().get();
       own.transfer = l > 1 ? transfers.back().get() : nullptr;
