@@ -50,8 +50,8 @@ struct Costs {
 constexpr Costs plate_costs{660, 960, 56, 230, 200}, curvature_costs{760, 960, 240, 830, 800},
     variation_costs{1100, 960, 420, 870, 800};
 // More while the rows of level 1 are summed, an unknown; of the finest level, a point, for the limit
-// surface beside the plate and for the sweeps of the back leg.
-constexpr double first_rows = 1300, limit_surface = 950, sweep = 850,
+// surface beside the plate, or for the sweeps of the back leg.
+constexpr double first_rows = 1300, limit_or_sweeps = 950,
                  pair_of_neighbours = 6;  // on a level that has rows
 
 const Costs& costs_of(Energy energy) {
@@ -80,8 +80,8 @@ double bytes_of(const Counts& c, std::size_t shapes, const FairOptions& options)
   }
   const double finest =
       costs.finest + double(shapes * sizeof(Vec3)) +
-      (is_plate && options.interpolation == Interpolation::limit ? limit_surface : 0) +
-      (options.paper.method == Method::back_leg ? sweep : 0);
+      (is_plate && options.interpolation == Interpolation::limit ? limit_or_sweeps : 0) +
+      (options.paper.method == Method::back_leg ? limit_or_sweeps : 0);
   // Borders and curves leave a factor fewer neighbours, half as many where all edges are such.
   const double open = 0.5 + 0.5 * c.unknown.edges / std::max(c.solved.edges, 1.0);
   return bytes + finest * c.solved.points(options.levels) +
