@@ -176,11 +176,9 @@ void measure_faces(const Fits& fits, const EdgeParts& edges, SplineSurface& out)
       const EdgePart& part = edges.parts[e];
       const double at = part.on_curve(double(k) / (angles_an_edge - 1)) * part.all / 2;
       if (!(angle >= 0)) continue;
-      for (const double reach : {-0.05, 0.05}) {  // on both sides of a vertex
-        const double near = std::clamp(at + reach, part.from / 2.0, (part.to - 1) / 2.0);
-        beside(part.curve, std::size_t(near),
+      for (const double near : {std::floor(at), std::ceil(at) - 1})  // on both sides of a vertex
+        beside(part.curve, std::size_t(std::clamp(near, part.from / 2.0, (part.to - 1) / 2.0)),
                [&](std::size_t f) { raise(out.face_angle[f], angle); });
-      }
     }
 }
 

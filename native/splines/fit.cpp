@@ -13,9 +13,6 @@
 namespace fairing {
 namespace {
 
-// A grid has no more spans each way than so many faces may have alone.
-constexpr int most_faces = 4;
-
 class Fitting {
  public:
   Fitting(const RefinedSurface& surface, const SplineOptions& options, Monitor& monitor)
@@ -86,10 +83,10 @@ class Fitting {
            (sharper_[c] ? 8 : 2);
   }
   // On so many faces' sides, or on a third's; of so many steps a span. The equations of a patch take
-  // time by the fourth power: a long side has fewer on each face.
+  // time by the fourth power: a long side has fewer on each face, in all as many as an edge has samples.
   int most_on(int faces, bool third, int steps = steps_a_span) const {
     int each = std::clamp(lattice_.n() / (third ? 2 * steps : steps), 1, most_spans);
-    while (each > 1 && faces * each > most_faces * most_spans) each /= 2;
+    while (each > 1 && faces * each > steps_a_span * most_spans) each /= 2;
     return faces * each;
   }
 
