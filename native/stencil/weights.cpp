@@ -88,11 +88,12 @@ Array<double> point_weights(const GridLevel& grid) {
                    [&](const Run& run, std::size_t i) { return factor.point(run, i); });
 }
 
+// A plate of thickness t resists bending as t^3, and changes of it as t^5.
 Array<double> stiffness_roots(const GridLevel& grid) {
   const EnergyWeight factor(grid);
   if (!factor.stiffness().any()) return {};
   return of_points(grid, factor, [&](const Run& run, std::size_t i) {
-    return std::sqrt(factor.stiffness().point(run, i));
+    return std::pow(factor.stiffness().point(run, i), 5.0 / 6);
   });
 }
 

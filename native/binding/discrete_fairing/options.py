@@ -269,7 +269,7 @@ class Settings(TypedDict, total=False):
     changes smoothly; where the line ends inside the surface it is 0, where it goes on as a crease 1."""
 
     flat_faces: Annotated[ArrayLike | None, face_ids]
-    """(f,) int: faces that are meant flat: there the surface is ten thousand times as stiff, and the
+    """(f,) int: faces that are meant flat: there the surface is a hundred thousand times as stiff, and the
     rest blends into them."""
 
     crease_angle: Annotated[float | None, real]
