@@ -127,9 +127,9 @@ def fair_arguments(
         "threads": preferences.threads,
         "measure": False,
     }
-    if arrays.normals is not None and takes_normals(settings):
+    if arrays.normals is not None and keeps_marks(settings):
         arguments["normals"] = arrays.normals
-    if arrays.flat_face is not None and settings.energy == "THIN_PLATE":
+    if arrays.flat_face is not None and keeps_marks(settings):
         arguments["flat_faces"] = np.flatnonzero(arrays.flat_face)
     if is_limit(settings):
         arguments |= _limit(arrays, settings)
@@ -182,8 +182,8 @@ def _sharpness(creases: np.ndarray) -> np.ndarray:
     return 10.0 * creases.astype(np.float64) ** 2
 
 
-def takes_normals(settings: AnySettings) -> bool:
-    """Whether fixed normals count: the other energies have nothing that would hold them."""
+def keeps_marks(settings: AnySettings) -> bool:
+    """Whether fixed normals and flat faces count: the other energies have nothing that would hold them."""
     return settings.energy == "THIN_PLATE"
 
 

@@ -104,8 +104,13 @@ class Job:
             self.notes.append(
                 "Each shape key is faired separately. Mixtures of them are fair with Bending only."
             )
-        if self.arrays.normals is not None and not core.takes_normals(self.settings):
-            self.notes.append("Fixed normals are not used: only Bending supports them.")
+        if not core.keeps_marks(self.settings):
+            if self.arrays.normals is not None:
+                self.notes.append("Fixed normals are not used: only Bending supports them.")
+            if self.arrays.flat_face is not None and self.arrays.flat_face.any():
+                self.notes.append(
+                    "Flat faces are not kept: only Bending keeps them. Choose Bending."
+                )
         self.pieces: int | None = None  # faired one after another; None: as a whole
         self.spread: core.Spread | None = None  # how pieces are faired otherwise
         self.result: Any = None

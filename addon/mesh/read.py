@@ -15,9 +15,8 @@ from ..errors import JobError
 from ..settings import AnySettings, is_near
 from .boundary_marks import BOUNDARY
 from .fixed_normals import read_normals
+from .flat_marks import FLAT
 from .layers import STORAGE, find_layer, layer_values
-
-FLAT = "fair_flat"  # a Boolean of faces: meant flat
 
 
 def source_objects(context: Context) -> list[Object]:

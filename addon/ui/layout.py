@@ -44,6 +44,7 @@ class Known:
     missing_groups: dict[str, str] = field(default_factory=dict)
     edges: str = ""  # border edges that are other than the setting says
     normals: str = ""  # fixed ones
+    flats: str = ""  # faces that stay flat
     vertices: str = ""  # what Automatic comes to
     follows: bool = False  # whether that is Limit
 
@@ -108,6 +109,8 @@ def draw_shape(
     layout.prop(settings, "symmetry_plane")
     if known.normals:
         _remark(layout, known.normals)
+    if known.flats:
+        _remark(layout, known.flats)
 
 
 def _draw_tolerance(layout: bpy.types.UILayout, settings: FairingSettings, known: Known) -> None:

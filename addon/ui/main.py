@@ -8,10 +8,10 @@ from bl_ui.utils import PresetPanel
 
 from .. import core, errors, prediction, size, vertex_values
 from ..blender import Context, Mesh, Object, registration
-from ..core import mean_edge_length, takes_normals, tolerance
+from ..core import keeps_marks, mean_edge_length, tolerance
 from ..live import switch
 from ..memory import FAIRING_PG_fit, FAIRING_PG_surface, recall, source_of, source_problem
-from ..mesh import boundary_marks, fixed_normals
+from ..mesh import boundary_marks, fixed_normals, flat_marks
 from ..mesh.mesh_changes import coarse_triangles, shown
 from ..mesh.object import session_key
 from ..mesh.read import read_mesh, source_objects
@@ -85,6 +85,7 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
             missing_groups(settings, sources),
             boundary_marks.summary(o for o in sources if len(o.data.edges) <= _MEASURED),
             normals_text(settings, sources),
+            flats_text(settings, sources),
             vertices_text(settings, sources),
             follows(settings, sources),
         )
@@ -123,6 +124,7 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
             if job and near is None:
                 draw_fairness(more, settings, known)
             draw_shape(more, settings, known)
+            _draw_flats(more, bool(known.flats))
             draw_folded(more, settings, "fairing")
 
 
@@ -227,7 +229,15 @@ def normals_text(settings: FairingSettings, sources: list[Object]) -> str:
     count = fixed_normals.count(small)
     if not count:
         return ""
-    return f"Normals: {count} fixed" + ("" if takes_normals(settings) else ", by Bending only")
+    return f"Normals: {count} fixed" + ("" if keeps_marks(settings) else ", by Bending only")
+
+
+def flats_text(settings: FairingSettings, sources: list[Object]) -> str:
+    """`Flat faces: 6`, or what keeps them; empty where none is marked."""
+    count = flat_marks.count(o for o in sources if len(o.data.edges) <= _MEASURED)
+    if not count:
+        return ""
+    return f"Flat faces: {count}" + ("" if keeps_marks(settings) else ", choose Bending")
 
 
 def follows(settings: FairingSettings, sources: list[Object]) -> bool:
@@ -305,6 +315,15 @@ def _draw_button(layout: bpy.types.UILayout, operator: str, icon: Any, text: str
     row = layout.row(align=True)
     row.scale_y = 1.5
     row.operator(operator, text=text, icon=icon)
+
+
+def _draw_flats(layout: bpy.types.UILayout, marked: bool) -> None:
+    """Faces that stay flat, and a way back where some are."""
+    row = layout.row(align=True)
+    row.operator("object.fairing_flat_faces")
+    if marked:
+        button: Any = row.operator("object.fairing_flat_faces", text="", icon="X")
+        button.clear = True
 
 
 def _draw_cad(layout: bpy.types.UILayout) -> None:

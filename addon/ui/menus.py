@@ -41,6 +41,7 @@ class VIEW3D_MT_fairing(bpy.types.Menu):
         layout.operator("object.fairing_fit")
         layout.operator("object.fairing_fill")
         layout.operator("object.fairing_curves", text="Fair Surface from Curves (Loft, Network)")
+        layout.operator("object.fairing_flat_faces")
         layout.operator("object.fairing_recompute", icon="FILE_REFRESH")
         layout.operator("object.fairing_recompute_stale")
         layout.operator("object.fairing_live")
@@ -116,6 +117,7 @@ def _draw_faces(menu: Any, _context: Context) -> None:
     button.use_selection = True
     menu.layout.operator("object.fairing_in_place", icon="MOD_SMOOTH")
     menu.layout.operator("object.fairing_fill")
+    menu.layout.operator("object.fairing_flat_faces")
 
 
 def _draw_edges(menu: Any, _context: Context) -> None:

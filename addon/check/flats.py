@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Faces of a control mesh that its shape says are meant flat: large ones between tight rims."""
+
+import numpy as np
+
+from .. import core
+from ..inspection.curvature import face_areas, face_normals, faces_of_edges
+from ..inspection.measures import fold_angles
+
+_IN_PLANE = 1e-3  # of its size: how far a flat's corners may be off; files have some six digits
+
+
+def find_flats(arrays: core.ControlArrays, angle: float) -> np.ndarray:
+    """(m,) bool: the faces of flats.
+
+    Faces that are joined within `angle` (degrees) and lie in one plane are one part. A part is a flat if, at all
+    of its borders but open ones, it turns away, is at least as wide as the part beside it, and turns at most
+    half as much per width. An arc from a plane turns at its first edge half as much as at the next, so this
+    holds from flats on that are as wide as the chords beside them; on spheres both turn alike.
+    """
+    if not len(arrays.face_sizes):
+        return np.zeros(0, bool)
+    folds, inside = fold_angles(arrays)
+    part, plane = _parts(arrays, inside & (folds <= angle))
+    edge = arrays.corner_edges
+    owner = part[np.repeat(np.arange(len(arrays.face_sizes)), arrays.face_sizes)]
+    pair = part[faces_of_edges(arrays)]
+    borders = np.flatnonzero((pair[edge, 0] != pair[edge, 1]) | ~inside[edge])
+    borders = borders[np.argsort(owner[borders], kind="stable")]
+    edge, owner = edge[borders], owner[borders]
+    turn = np.where(inside[edge], folds[edge], 0.0)
+    width = _widths(arrays, part, edge, owner)[owner]
+    beyond = _turns_beyond(arrays, edge, owner, turn)
+    twin = _twins(edge)
+    joined = twin >= 0
+    here, there = np.flatnonzero(joined), twin[joined]
+    turns = (turn[here] > angle) & (width[here] >= width[there])
+    # that is turn / width <= 0.5 * beyond / width, without a division by none
+    turns &= 2.0 * turn[here] * width[there] <= beyond[there] * width[here]
+    some = np.zeros(len(plane), bool)
+    some[owner[here]] = True
+    some[owner[here[~turns]]] = False
+    return (some & plane)[part]
+
+
+def _parts(arrays: core.ControlArrays, joined: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """(m,) the part of each face, and (parts,) bool whether it lies in a plane; faces that are joined,
+    but not in a plane, are parts by themselves. `joined` (e,) bool: edges inside of parts.
+    """
+    count = len(arrays.face_sizes)
+    connected = core.module().patches.connected_parts
+    pair = faces_of_edges(arrays)[joined]
+    part = connected(count, pair)
+    plane = _in_plane(arrays, part)[part]
+    part = connected(count, pair[plane[pair].all(axis=1)])
+    return part, _in_plane(arrays, part)
+
+
+def _in_plane(arrays: core.ControlArrays, part: np.ndarray) -> np.ndarray:
+    """(parts,) bool: whether the corners of all faces of a part are in the plane of its first face
+    that has an area. Three points always are in one, so a triangle alone does not count.
+    """
+    normals = face_normals(arrays.positions, arrays.corners, arrays.offsets)
+    has_area = np.flatnonzero((normals != 0.0).any(axis=1))
+    count = int(part.max()) + 1
+    normal = np.zeros((count, 3))
+    normal[part[has_area[::-1]]] = normals[has_area[::-1]]  # the first one, written last
+    owner = np.repeat(part, arrays.face_sizes)
+    points = arrays.positions[arrays.corners]
+    origin = np.zeros((count, 3))
+    origin[owner[::-1]] = points[::-1]
+    away = points - origin[owner]
+    off, size = np.zeros(count), np.zeros(count)
+    np.maximum.at(off, owner, np.abs((away * normal[owner]).sum(axis=1)))
+    np.maximum.at(size, owner, np.linalg.norm(away, axis=1))
+    return (np.bincount(owner) > 3) & (normal != 0.0).any(axis=1) & (off <= _IN_PLANE * size)
+
+
+def _widths(
+    arrays: core.ControlArrays, part: np.ndarray, edge: np.ndarray, owner: np.ndarray
+) -> np.ndarray:
+    """(parts,) twice the area by the length of the border, the edges `edge` (b,) of the parts `owner`: the
+    width of a strip or ring, half the width of a square or disc.
+    """
+    ends = arrays.positions[arrays.edges[edge]]
+    border = np.bincount(owner, np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1), len(part))
+    area = np.bincount(
+        part, face_areas(arrays.positions, arrays.corners, arrays.offsets), len(part)
+    )
+    return 2.0 * np.divide(area, border, out=np.zeros(len(part)), where=border > 0)
+
+
+def _turns_beyond(
+    arrays: core.ControlArrays, edge: np.ndarray, owner: np.ndarray, turn: np.ndarray
+) -> np.ndarray:
+    """(b,) the largest `turn` at edges of the part of each border edge that share no vertex with it, and at
+    itself. `owner` ascends.
+    """
+    sizes = np.bincount(owner)
+    own = sizes[owner]
+    begin = np.cumsum(own) - own
+    here = np.repeat(np.arange(len(edge)), own)
+    other = np.arange(len(here)) + np.repeat((np.cumsum(sizes) - sizes)[owner] - begin, own)
+    ends = arrays.edges[edge]
+    apart = (ends[here][:, :, None] != ends[other][:, None, :]).all(axis=(1, 2))
+    return np.maximum(np.maximum.reduceat(np.where(apart, turn[other], 0.0), begin), turn)
+
+
+def _twins(edge: np.ndarray) -> np.ndarray:
+    """(b,) the other place of the same edge; -1 where there is none, or there are several."""
+    uses = np.bincount(edge)
+    order = np.argsort(edge, kind="stable")
+    two = order[uses[edge[order]] == 2].reshape(-1, 2)
+    twin = np.full(len(edge), -1)
+    twin[two] = two[:, ::-1]
+    return twin

@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Faces that stay flat: selected in Edit Mode, found by their shape in Object Mode."""
+
+from math import degrees, radians
+from typing import TYPE_CHECKING, Any
+
+import bpy
+from bpy.props import BoolProperty, FloatProperty
+
+from ..blender import Answer, Context, Object, registration
+from ..check.flats import find_flats
+from ..memory import source_of
+from ..mesh import flat_marks
+from ..mesh.read import read_mesh, source_objects
+from ..mesh.world_shape import world_shape
+from ..poll import ExplainedPoll, mesh_poll_reason
+
+
+class _OfFaces(ExplainedPoll):
+    if TYPE_CHECKING:
+        clear: bool
+        angle: float
+
+    @staticmethod
+    def poll_reason(context: Context) -> str:
+        if context.mode not in ("OBJECT", "EDIT_MESH"):
+            return "Switch to Object Mode or Edit Mode first"
+        return mesh_poll_reason(_targets(context))
+
+
+class OBJECT_OT_fairing_flat_faces(_OfFaces, bpy.types.Operator):
+    """Keep faces flat, by Bending: in Edit Mode the selected ones, in Object Mode large flat ones between tight rims"""
+
+    bl_idname = "object.fairing_flat_faces"
+    bl_label = "Keep Faces Flat"
+    bl_options = {"REGISTER", "UNDO"}
+
+    clear: BoolProperty(
+        name="Clear",
+        description="Let faces curve again: in Edit Mode the selected ones, in Object Mode all",
+    )
+    angle: FloatProperty(
+        name="Angle",
+        description="In Object Mode: faces that meet at a smaller angle are one flat, if they lie in a plane",
+        default=radians(1.0),
+        min=0.0,
+        max=radians(30.0),
+        subtype="ANGLE",
+    )
+
+    def draw(self, context: Context) -> None:
+        layout: Any = self.layout
+        layout.use_property_split = True
+        layout.prop(self, "clear")
+        if context.mode == "OBJECT" and not self.clear:
+            layout.prop(self, "angle")
+
+    def execute(self, context: Context) -> Answer:
+        targets = _targets(context)
+        if context.mode == "EDIT_MESH":
+            count = sum(flat_marks.mark_selected(o.data, not self.clear) for o in targets)
+            if not count:
+                self.report({"ERROR"}, "Select faces first")
+                return {"CANCELLED"}
+        elif self.clear:
+            count = sum(flat_marks.clear(o.data) for o in targets)
+        else:
+            count = sum(_mark_found(o, degrees(self.angle)) for o in targets)
+            if not count:
+                self.report(
+                    {"INFO"}, "No flat faces found: select faces in Edit Mode to keep them flat"
+                )
+                return {"FINISHED"}
+        faces = "1 face" if count == 1 else f"{count:,} faces"
+        self.report({"INFO"}, f"{faces} " + ("may curve" if self.clear else "stay flat"))
+        return {"FINISHED"}
+
+
+def _targets(context: Context) -> list[Object]:
+    """Of surfaces their sources; of objects that share a mesh, one."""
+    sources = [source_of(o) or o for o in source_objects(context)]
+    return list({o.data: o for o in sources}.values())
+
+
+def _mark_found(target: Object, angle: float) -> int:
+    """Marks the flats of `target` (`angle` in degrees); returns of how many faces they are."""
+    arrays = world_shape(target).of_arrays(read_mesh(target.data))
+    found = find_flats(arrays, angle)
+    flat_marks.mark(target.data, found)
+    return int(found.sum())
+
+
+register, unregister = registration(OBJECT_OT_fairing_flat_faces)

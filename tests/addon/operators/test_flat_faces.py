@@ -1,0 +1,178 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Faces that stay flat: found by their shape, selected, cleared, kept by Bending alone."""
+
+import bpy
+import numpy as np
+import pytest
+from fake_layout import draw
+from scenes import activate, add, add_suzanne, fair, positions
+from shapes import lathe
+
+from addon.job import Job
+from addon.mesh.flat_marks import FLAT, count
+from addon.settings import Settings
+from addon.ui import main
+
+RIM = 2.0
+
+
+def box(size=(40.0, 30.0, 20.0), segments=2):
+    """A box with rounded rims; its six flats come last."""
+    bpy.ops.mesh.primitive_cube_add(size=1.0)
+    made = bpy.context.object
+    made.data.transform(np.diag([*size, 1.0]).tolist())
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.bevel(offset=RIM, segments=segments, profile=0.5)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    return made
+
+
+def can(around=12):
+    rim = RIM * np.array([1.0 - 2**-0.5, 2**-0.5])
+    low = [(30 - RIM, 0.0), (30 - rim[0], rim[0]), (30.0, RIM)]
+    return add("Can", *lathe([*low, *((r, 50 - z) for r, z in reversed(low))], around))
+
+
+def shape(name):
+    if name == "Suzanne":
+        return add_suzanne()
+    getattr(bpy.ops.mesh, f"primitive_{name}_add")()
+    return bpy.context.object
+
+
+def triangulate(source):
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.quads_convert_to_tris()
+    bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def marked(source):
+    layer = source.data.attributes.get(FLAT)
+    return [] if layer is None else [k for k, item in enumerate(layer.data) if item.value]
+
+
+def on_two_sides(source, faces, axis, at):
+    """Whether the corners of all faces are at ±`at` from the middle along `axis`."""
+    middle = (positions(source.data)[:, axis].max() + positions(source.data)[:, axis].min()) / 2
+    ids = [v for f in faces for v in source.data.polygons[f].vertices]
+    return np.abs(np.abs(positions(source.data)[ids, axis] - middle) - at).max() < 1e-4
+
+
+@pytest.mark.parametrize("segments", [1, 2, 4])
+def test_the_six_flats_of_a_rounded_box_are_found(segments):
+    source = box(segments=segments)
+    assert bpy.ops.object.fairing_flat_faces() == {"FINISHED"}
+    found = marked(source)
+    assert len(found) == 6 and count([source]) == 6
+    areas = [source.data.polygons[f].area for f in found]
+    assert min(areas) > max(p.area for p in source.data.polygons if p.index not in found)
+    triangulate(source)
+    bpy.ops.object.fairing_flat_faces(clear=True)
+    bpy.ops.object.fairing_flat_faces()
+    assert sum(source.data.polygons[f].area for f in marked(source)) == pytest.approx(sum(areas))
+
+
+@pytest.mark.parametrize("size", [(140, 70, 9), (160, 75, 7)])
+def test_so_are_those_of_a_phone_shell_with_sides_as_wide_as_its_rims(size):
+    source = box(size)
+    bpy.ops.object.fairing_flat_faces()
+    assert len(marked(source)) == 6
+
+
+def test_only_the_ends_of_a_can_are_found():
+    source = can()
+    bpy.ops.object.fairing_flat_faces()
+    assert len(marked(source)) == 2 and on_two_sides(source, marked(source), 2, 25.0)
+
+
+@pytest.mark.parametrize("triangles", [False, True])
+@pytest.mark.parametrize("name", ["Suzanne", "uv_sphere", "ico_sphere", "torus", "cube", "grid"])
+def test_round_shapes_have_none(name, triangles):
+    source = shape(name)
+    if triangles:
+        triangulate(source)
+    assert bpy.ops.object.fairing_flat_faces() == {"FINISHED"}
+    assert marked(source) == []
+
+
+def test_the_angle_joins_faces_that_are_not_quite_in_a_plane():
+    source = box()
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="DESELECT")
+    bpy.ops.object.mode_set(mode="OBJECT")
+    top = source.data.polygons[max(range(54), key=lambda f: source.data.polygons[f].center.z)]
+    top.select = True
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.poke()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    source.data.vertices[-1].co.z += 0.02  # 1e-3 of half the diagonal
+    bpy.ops.object.fairing_flat_faces(angle=np.radians(0.01))
+    assert len(marked(source)) == 5
+    bpy.ops.object.fairing_flat_faces()
+    assert len(marked(source)) == 9
+
+
+def test_selected_faces_are_marked_and_cleared():
+    source = box()
+    activate(source)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_mode(type="FACE")
+    bpy.ops.mesh.select_all(action="DESELECT")
+    with pytest.raises(RuntimeError, match="Select faces first"):
+        bpy.ops.object.fairing_flat_faces()
+    assert count([source]) == 0
+    bpy.ops.object.mode_set(mode="OBJECT")
+    for face in (3, 7):
+        source.data.polygons[face].select = True
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.object.fairing_flat_faces()
+    assert count([source]) == 2
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert marked(source) == [3, 7]
+    source.data.polygons[3].select = False
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.object.fairing_flat_faces(clear=True)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert marked(source) == [3]
+
+
+def flatness(surface):
+    """How far points over the middle of the top are off its plane."""
+    points = positions(surface.data)
+    over = (np.abs(points[:, :2]) < 10.0).all(axis=1) & (points[:, 2] > 0)
+    return np.abs(points[over, 2] - 10.0).max()
+
+
+def test_the_surface_keeps_them_flat_until_they_are_cleared():
+    source = box()
+    surface = fair(levels=3)
+    assert flatness(surface) > 0.1
+    assert bpy.ops.object.fairing_flat_faces() == {"FINISHED"}, "its source is meant"
+    assert len(marked(source)) == 6
+    bpy.ops.object.fairing_recompute()
+    assert flatness(surface) < 40 * 1e-4
+    bpy.ops.object.fairing_flat_faces(clear=True)
+    assert marked(source) == []
+    bpy.ops.object.fairing_recompute()
+    assert flatness(surface) > 0.1
+
+
+def test_other_energies_say_that_bending_keeps_them():
+    source = box()
+    settings = bpy.context.scene.discrete_fairing
+
+    def told():
+        job = Job(bpy.context, source, Settings.of(settings))
+        lines = [s for s in draw(main.VIEW3D_PT_fairing) if str(s).startswith("Flat faces:")]
+        return "flat_faces" in job.arguments, [n for n in job.notes if "lat faces" in n], lines
+
+    settings.energy = "TOTAL_CURVATURE"
+    assert told() == (False, [], [])
+    bpy.ops.object.fairing_flat_faces()
+    kept, notes, lines = told()
+    assert not kept and len(notes) == 1 and "Choose Bending" in notes[0]
+    assert lines == ["Flat faces: 6, choose Bending"]
+    settings.energy = "THIN_PLATE"
+    assert told() == (True, [], ["Flat faces: 6"])
