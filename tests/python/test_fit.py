@@ -250,8 +250,8 @@ def test_patches_near_a_scan_know_how_near_they_are(cage, scan):
     patches = df.fit_patches(*cage, scan={"points": scan}, levels=3, tolerance=1e-3)
     fitted, found = patches.result, patches.scan_distances
     assert patches.shell_closed.all() and isinstance(fitted, df.Fitted)
-    # from patches that are off their surface by so much
-    assert np.abs(found - fitted.distances).max() < 2 * patches.largest_residual
+    # patches are off the surface by so much, and its triangles off the limit, which both is in `off`
+    assert np.abs(found - fitted.distances).max() < patches.largest_off
     assert patches.scan_within == pytest.approx(fitted.within, abs=patches.largest_residual)
     assert rms(found - distance_to_blob(scan)) < NOISE / 3
     kept = df.fit_patches(

@@ -7,7 +7,7 @@ import numpy as np
 
 from .patches import SplinePatches
 
-_SAMPLES = 8  # a side of a patch, to begin with; then Newton's steps
+_SAMPLES = 8  # a side of a patch at least, and two a span, to begin with; then Newton's steps
 _STEPS = 5
 _AT_ONCE = 1 << 15  # points: 16 control points each
 
@@ -29,25 +29,44 @@ def _begin(
     patches: SplinePatches, points: np.ndarray, polygons: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """The patch of each point, -1 for none, and where on it the sample lies that is nearest."""
-    side = np.linspace(0.0, 1.0, _SAMPLES + 1)
-    grid = np.stack(np.meshgrid(side, side, indexing="ij"), -1).reshape(-1, 2)
     patch, places = np.full(len(points), -1), np.zeros((len(points), 2))
-    of_points, of_patches = (
-        np.argsort(x, kind="stable") for x in (polygons, patches.patch_polygon)
-    )
-    for polygon in np.unique(polygons[polygons >= 0]).tolist():
-        here = _with(of_points, polygons, polygon)
-        own = _with(of_patches, patches.patch_polygon, polygon)
-        if not len(own):
+    order = np.argsort(polygons, kind="stable")
+    samples, grids = zip(*(_samples(patches, p) for p in range(len(patches))), strict=True)
+    for polygon, own in _patches_of(patches).items():
+        here = _with(order, polygons, polygon)
+        if not len(here):
             continue
-        samples = evaluate(patches, np.repeat(own, len(grid)), np.tile(grid, (len(own), 1)))[0]
-        middle = samples.mean(axis=0)
-        samples = samples - middle
-        square = (samples**2).sum(axis=1)
-        for rows in np.array_split(here, len(here) * len(samples) // 2**22 + 1):
-            nearest = (square - 2.0 * (points[rows] - middle) @ samples.T).argmin(axis=1)
-            patch[rows], places[rows] = own[nearest // len(grid)], grid[nearest % len(grid)]
+        middle = points[here].mean(axis=0)
+        near = np.concatenate([samples[p] for p in own]) - middle
+        ids = np.repeat(own, [len(samples[p]) for p in own])
+        grid = np.concatenate([grids[p] for p in own])
+        square = (near**2).sum(axis=1)
+        # farther than this from the middle lies no point's nearest sample: triangle inequality
+        reach = 2.0 * np.linalg.norm(points[here] - middle, axis=1).max() + np.sqrt(square.min())
+        kept = square <= reach**2
+        near, ids, grid, square = near[kept], ids[kept], grid[kept], square[kept]
+        for rows in np.array_split(here, len(here) * len(near) // 2**22 + 1):
+            nearest = (square - 2.0 * (points[rows] - middle) @ near.T).argmin(axis=1)
+            patch[rows], places[rows] = ids[nearest], grid[nearest]
     return patch, places
+
+
+def _samples(patches: SplinePatches, p: int) -> tuple[np.ndarray, np.ndarray]:
+    """(k, 3) points of patch p, and where they lie on it, (k, 2) in [0, 1]²."""
+    sides = [
+        np.linspace(0.0, 1.0, max(_SAMPLES, 2 * n) + 1) for n in patches.patch_spans[p].tolist()
+    ]
+    grid = np.stack(np.meshgrid(*sides, indexing="ij"), -1).reshape(-1, 2)
+    return evaluate(patches, np.full(len(grid), p), grid)[0], grid
+
+
+def _patches_of(patches: SplinePatches) -> dict[int, list[int]]:
+    """By input face: the patches that cover it."""
+    found: dict[int, list[int]] = {}
+    for p in range(len(patches)):
+        for polygon in patches.polygons(p).tolist():
+            found.setdefault(polygon, []).append(p)
+    return found
 
 
 def _with(order: np.ndarray, values: np.ndarray, value: int) -> np.ndarray:

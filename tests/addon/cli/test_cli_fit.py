@@ -36,14 +36,16 @@ def test_points_and_a_cage_become_a_step_file_whose_distances_are_told(blob, cap
     words = ("--fit", "scan.ply", "--cage", "cage.obj", "out.step", "--levels", 3)
     code, (entry,) = entries(*words, "--fit-tolerance", 1e-3)
     (item,) = entry["objects"]
-    assert code == 0 and item["result"] == {"patches": 96, "solids": 1, "shells": 0}
+    patches = item["result"]["patches"]
+    assert code == 0 and item["result"] == {"patches": patches, "solids": 1, "shells": 0}
+    assert 6 <= patches < 96, "rows of the cage's 96 quads are one patch"
     told = item["fit"]
     assert told["points"] == 8000 and told["noise"] == pytest.approx(NOISE, rel=0.15)
     assert told["within"] == pytest.approx(1.96 * NOISE, rel=0.15)
     assert told["within"] < told["largest"] < 8 * NOISE
     assert "of 95 % of 8,000 points, largest" in capsys.readouterr().err
     found = step_files.read("out.step")
-    assert (found.valid, found.solids, found.faces) == (True, 1, 96)
+    assert (found.valid, found.solids, found.faces) == (True, 1, patches)
 
 
 def test_a_tolerance_is_a_length_or_a_share_of_the_cages_edge(blob):
