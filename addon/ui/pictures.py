@@ -50,10 +50,12 @@ def draw_pictures(layout: bpy.types.UILayout) -> None:
 
 
 def draw_purposes(layout: bpy.types.UILayout) -> None:
-    """All purposes, three in a row: a click fairs."""
+    """All purposes, three in a row: a click fairs. Those of the last row share its width, as their names are longer."""
+    whole = len(PURPOSES) // 3 * 3
     grid = layout.grid_flow(row_major=True, columns=3, even_columns=True, align=True)
-    for purpose, label, *_ in PURPOSES:
-        column = grid.column(align=True)
+    last = layout.row(align=True)
+    for k, (purpose, label, *_) in enumerate(PURPOSES):
+        column = (grid if k < whole else last).column(align=True)
         column.template_icon(icon_value=icon(purpose), scale=_SMALL)
         button: Any = column.operator("object.fairing_for", text=_short(label))
         button.purpose = purpose
