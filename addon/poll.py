@@ -37,6 +37,13 @@ def mesh_poll_reason(targets: Sequence[Any]) -> str:
     return LINKED if any(t.library or t.data.library for t in targets) else ""
 
 
+def object_mode_reason(context: Any, targets: Sequence[Any]) -> str:
+    """The same of `targets` in Object Mode."""
+    if context.mode != "OBJECT":
+        return "Press Tab first: this works in Object Mode"
+    return mesh_poll_reason(targets)
+
+
 def edit_mode_reason(context: Any, chosen: str) -> str:
     """The same of the meshes in Edit Mode; `chosen`: what is selected there, in the plural."""
     if context.mode != "EDIT_MESH":

@@ -2,7 +2,7 @@
 """Faces that stay flat: selected in Edit Mode, found by their shape in Object Mode."""
 
 from math import degrees, radians
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import bpy
 from bpy.props import BoolProperty, FloatProperty
@@ -16,19 +16,7 @@ from ..mesh.world_shape import world_shape
 from ..poll import ExplainedPoll, mesh_poll_reason
 
 
-class _OfFaces(ExplainedPoll):
-    if TYPE_CHECKING:
-        clear: bool
-        angle: float
-
-    @staticmethod
-    def poll_reason(context: Context) -> str:
-        if context.mode not in ("OBJECT", "EDIT_MESH"):
-            return "Switch to Object Mode or Edit Mode first"
-        return mesh_poll_reason(_targets(context))
-
-
-class OBJECT_OT_fairing_flat_faces(_OfFaces, bpy.types.Operator):
+class OBJECT_OT_fairing_flat_faces(ExplainedPoll, bpy.types.Operator):
     """Keep faces flat, by Bending: in Edit Mode the selected ones, in Object Mode large flat ones between tight rims"""
 
     bl_idname = "object.fairing_flat_faces"
@@ -47,6 +35,12 @@ class OBJECT_OT_fairing_flat_faces(_OfFaces, bpy.types.Operator):
         max=radians(30.0),
         subtype="ANGLE",
     )
+
+    @staticmethod
+    def poll_reason(context: Context) -> str:
+        if context.mode not in ("OBJECT", "EDIT_MESH"):
+            return "Switch to Object Mode or Edit Mode first"
+        return mesh_poll_reason(_targets(context))
 
     def draw(self, context: Context) -> None:
         layout: Any = self.layout

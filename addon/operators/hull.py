@@ -14,7 +14,7 @@ from ..mesh.object import new_object, select_only
 from ..mesh.offset_names import read_names, write_names
 from ..mesh.read import control_mesh, read_mesh
 from ..mesh.scans import of_mesh, read_scans
-from ..poll import ExplainedPoll, mesh_poll_reason
+from ..poll import ExplainedPoll, object_mode_reason
 from ..settings import Settings
 from ..strain.measure import mixed_positions
 from ..yard.closing import NotHalf, Whole, whole
@@ -22,10 +22,9 @@ from ..yard.hydrostatics import NotClosed, Solid, solid
 
 
 def poll_reason(context: Context) -> str:
-    if context.mode != "OBJECT":
-        return "Press Tab first: this works in Object Mode"
     active = context.active_object
-    return mesh_poll_reason([active] if active is not None and active.type == "MESH" else [])
+    is_mesh = active is not None and active.type == "MESH"
+    return object_mode_reason(context, [active] if is_mesh else [])
 
 
 class OBJECT_OT_fairing_close(ExplainedPoll, bpy.types.Operator):

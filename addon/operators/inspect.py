@@ -11,7 +11,7 @@ from ..inspection import display, readout, viewport_shading
 from ..inspection.display import VALUES
 from ..inspection.settings import MODES
 from ..memory import source_of
-from ..poll import ExplainedPoll, mesh_poll_reason
+from ..poll import ExplainedPoll, mesh_poll_reason, object_mode_reason
 
 
 def meshes(context: Context) -> list[Object]:
@@ -23,9 +23,7 @@ def meshes(context: Context) -> list[Object]:
 
 def poll_reason(context: Context) -> str:
     """Why nothing can be shown or measured here, in one sentence; empty when it can."""
-    if context.mode != "OBJECT":
-        return "Press Tab first: this works in Object Mode"
-    return mesh_poll_reason(meshes(context))
+    return object_mode_reason(context, meshes(context))
 
 
 class _Inspecting(ExplainedPoll):

@@ -15,10 +15,11 @@ from ..inspection.sections import cut
 from ..memory import active_source
 from ..mesh.object import collections_for, select_only
 from ..mesh.offset_names import read_names, stations
-from ..mesh.world_shape import transformed, world_matrix
+from ..mesh.scans import of_mesh
+from ..mesh.world_shape import world_matrix
 from ..poll import ExplainedPoll
 from ..yard.dxf import text
-from ..yard.plan import Cut, Plane, in_space, places, scaled, sheet
+from ..yard.plan import Cut, Plane, in_space, opened, places, scaled, sheet
 from .hull import poll_reason, triangles_of
 from .text_file import write_text_file
 
@@ -40,12 +41,8 @@ def _imported_stations(context: Context, target: Object) -> list[tuple[str, floa
     names = read_names(source.data)
     if not names:
         return []
-    points = np.empty(3 * len(source.data.vertices), np.float32)
-    source.data.vertices.foreach_get("co", points)
-    return stations(
-        names,
-        transformed(points.reshape(-1, 3).astype(float), np.array(world_matrix(target)))[:, 0],
-    )
+    placed = of_mesh(source.data).moved(np.array(world_matrix(target)))
+    return stations(names, placed.points[:, 0])
 
 
 def even_planes(
@@ -183,9 +180,8 @@ class OBJECT_OT_fairing_section_curves(_Spaced, ExplainedPoll, bpy.types.Operato
 def _curve_object(context: Context, target: Object, one: Cut) -> Object:
     curve = bpy.data.curves.new(f"{target.name} {one.plane.name}", "CURVE")
     curve.dimensions = "3D"
-    for points in one.curves:
-        closed = len(points) > 3 and bool((points[0] == points[-1]).all())
-        points = points[:-1] if closed else points
+    for whole in one.curves:
+        points, closed = opened(whole)
         spline = curve.splines.new("POLY")
         spline.points.add(len(points) - 1)
         spline.points.foreach_set(

@@ -91,6 +91,12 @@ def scaled(drawing: list[Polyline | Label], factor: float) -> list[Polyline | La
     ]
 
 
+def opened(curve: np.ndarray) -> tuple[np.ndarray, bool]:
+    """A closed curve (k, 3) without its last point, which is its first again, and whether it is closed."""
+    closed = len(curve) > 3 and bool((curve[0] == curve[-1]).all())
+    return (curve[:-1] if closed else curve), closed
+
+
 def half(curve: np.ndarray) -> list[np.ndarray]:
     """The parts of a polyline (k, 3) with y >= 0, cut where it crosses; all of it, mirrored, where none has."""
     if (curve[:, 1] <= 0.0).all() and (curve[:, 1] < 0.0).any():
@@ -116,9 +122,7 @@ def _view(
     axes = np.array([right, up, (0, 0, 0)], float).T
     drawn: list[Polyline | Label] = []
     for curve in (piece for whole in cut.curves for piece in half(whole)):
-        flat = curve @ axes + [*origin, 0.0]
-        closed = len(flat) > 3 and bool((flat[0] == flat[-1]).all())
-        drawn.append(Polyline(layer, flat[:-1] if closed else flat, closed))
+        drawn.append(Polyline(layer, *opened(curve @ axes + [*origin, 0.0])))
     if drawn:
         ends = [line.points[-1] for line in drawn if isinstance(line, Polyline)]
         x, y, _ = max(ends, key=lambda end: tuple(np.abs(end[::-1])))
