@@ -15,7 +15,7 @@ from layout import OUT, ROOT
 from real_blender import TIME_LIMIT, RealBlender, places
 from shell import DevError, output, run, say
 from stamp import alone
-from tally import Tally, with_exit_code
+from tally import Tally, attempt, with_exit_code
 
 SCRIPTS = ROOT / "tests" / "blender"
 EXAMPLES = ROOT / "examples"
@@ -24,12 +24,7 @@ HEADLESS, WINDOW, ENDURANCE = "headless_*.py", "window_*.py", "*_endurance.py"
 HUNG = (124, 137)  # what timeout(1) ends with
 # Over a minute each: all of them take more than half of a Blender's time. Every one runs in one Blender, all others
 # in each; `nightly`, and a script that is named, in every Blender. In turn: so each Blender has about as much to do.
-LONG = [
-    "window_run.py",
-    "window_live.py",
-    "window_jobs.py",
-    "headless_endurance.py",
-]
+LONG = ["window_run.py", "window_live.py", "window_jobs.py", "headless_endurance.py"]
 # They time how long a window stops, so nothing else of the suite runs beside them in the same Blender.
 TIMED = ["window_gaps.py", "window_redo.py"]
 # of scripts at a time in one Blender: they wait for half of their time
@@ -65,10 +60,8 @@ def counting_allocator(script: Path) -> dict[str, str]:
     """
     if not script.match(ENDURANCE):
         return {}
-    return {
-        "LD_PRELOAD": "libstdc++.so.6 libc.so.6",
-        "GLIBC_TUNABLES": "glibc.malloc.tcache_count=0",
-    }
+    tunables = {"GLIBC_TUNABLES": "glibc.malloc.tcache_count=0"}
+    return {"LD_PRELOAD": "libstdc++.so.6 libc.so.6", **tunables}
 
 
 def run_script(blender: RealBlender, script: Path) -> Tally:
@@ -122,9 +115,8 @@ def try_all(blender: RealBlender, wanted: str, left_out: set[str]) -> Tally:
     ]
     if not scripts:
         return Tally(failed=1, note=f"no script for '{wanted}'")
-    scripts.sort(
-        key=lambda path: path.name not in LONG
-    )  # the long ones first, so that none is left at the end
+    # the long ones first, so that none is left at the end
+    scripts.sort(key=lambda path: path.name not in LONG)
     lanes = blender.lanes(LANES)
     done = run_in_lanes(lanes, [script for script in scripts if script.name not in TIMED])
     done += run_in_lanes(lanes[:1], [script for script in scripts if script.name in TIMED])
@@ -158,35 +150,36 @@ def prepared() -> dict[str, RealBlender | str]:
     }
 
 
-def attempt(blender: RealBlender | str, wanted: str, left_out: set[str]) -> Tally:
-    """The tally of one Blender; one that cannot be had is one failure."""
-    if isinstance(blender, str):
-        return Tally(failed=1, note=blender)
-    try:
-        return try_all(blender, wanted, left_out)
-    except DevError as error:
-        print(f"dev.py: {error}", flush=True)
-        return Tally(failed=1, note=str(error))
+def in_each(
+    blenders: dict[str, RealBlender | str],
+    work: Callable[[str, RealBlender], Tally],
+    workers: int | None = None,
+) -> dict[str, Tally]:
+    """What `work` counts in the Blender of each place, `workers` at a time; one that cannot be had is one failure."""
+
+    def tally(place: str) -> Tally:
+        blender = blenders[place]
+        if isinstance(blender, str):
+            return Tally(failed=1, note=blender)
+        return attempt(partial(work, place, blender))
+
+    def called(place: str) -> str:
+        version = getattr(blenders[place], "version", "")
+        return f"{place} {version}".rstrip()
+
+    with ThreadPoolExecutor(max_workers=workers) as pool:
+        return dict(zip(map(called, blenders), pool.map(tally, blenders), strict=True))
 
 
 def run_suite(wanted: str = "", everything: bool = False) -> dict[str, Tally]:
     """The tallies by Blender; long scripts run in one of them, unless they are `wanted` or `everything` is.
 
-    They run side by side: each has a folder, settings and a screen of its own. One suite at a time, as the next one
-    takes the same folders.
+    Each Blender has a folder, settings and a screen of its own. One suite at a time, as the next one takes the same
+    folders.
     """
+
+    def work(place: str, blender: RealBlender) -> Tally:
+        return try_all(blender, wanted, set() if wanted or everything else left_to_others(place))
+
     with alone("blender"):
-        blenders = prepared()
-        names = [
-            place if isinstance(blender, str) else f"{place} {blender.version}"
-            for place, blender in blenders.items()
-        ]
-        every = bool(wanted) or everything
-        with ThreadPoolExecutor(max_workers=len(blenders)) as pool:
-            tallies = pool.map(
-                lambda place: attempt(
-                    blenders[place], wanted, set() if every else left_to_others(place)
-                ),
-                blenders,
-            )
-        return dict(zip(names, tallies, strict=True))
+        return in_each(prepared(), work)

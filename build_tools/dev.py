@@ -20,8 +20,9 @@ python3 build_tools/dev.py release --platforms linux-x64 …   the same for thes
 python3 build_tools/dev.py format         clang-format and ruff on all sources
 """
 
-import argparse
 import sys
+from argparse import ArgumentParser, Namespace, RawDescriptionHelpFormatter
+from collections.abc import Callable
 from pathlib import Path
 
 import native_wheel
@@ -85,20 +86,17 @@ def fuzz(minutes: float) -> int:
     return fuzzing.fuzz(minutes)
 
 
-def extension(wheels: Path | None, all_platforms: bool) -> int:
+def extension(wheels: Path | None, all_platforms: bool) -> None:
     """One zip for each platform, of the wheels in a folder or compiled here; else for each Python that is available."""
     import extension as packing
 
     setup_tools()
     if wheels is not None:
-        found = packing.wheels_in(wheels)
-    elif all_platforms:
-        found = packing.wheels_of_platforms()
+        found = packing.wheels_in(wheels.resolve())
     else:
-        found = packing.wheels_at_hand()
+        found = packing.wheels_of_platforms() if all_platforms else packing.wheels_at_hand()
     for path in packing.build_all(found):
         say(f"{path.relative_to(ROOT)} is ready")
-    return 0
 
 
 def wheels_of_this_machine() -> int:
@@ -108,24 +106,24 @@ def wheels_of_this_machine() -> int:
     return run(sys.executable, "-m", "cibuildwheel", "--output-dir", OUT / "wheels", check=False)
 
 
-def release(wheels: Path | None, platforms: list[str] | None) -> int:
+def release(wheels: Path | None, platforms: list[str] | None) -> None:
     """Everything that is published, of the wheels in a folder or compiled here for the platforms."""
     import extension as packing
     import release as publishing
 
     setup_tools()
-    found = packing.wheels_in(wheels) if wheels else packing.wheels_of_platforms(platforms)
+    found = (
+        packing.wheels_in(wheels.resolve()) if wheels else packing.wheels_of_platforms(platforms)
+    )
     say(f"{publishing.build(found).relative_to(ROOT)} is ready")
-    return 0
 
 
-def docs() -> int:
+def docs() -> None:
     """The site, of the documents and docstrings."""
     import site_pages
 
     setup_tools()
     say(f"{site_pages.build().relative_to(ROOT)}/index.html is ready")
-    return 0
 
 
 def format_sources() -> int:
@@ -136,60 +134,34 @@ def format_sources() -> int:
     return style.rewrite()
 
 
-def arguments() -> argparse.Namespace:
-    """The command line."""
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument(
-        "command",
-        choices=["setup", "test", "demo", "fuzz", "bench"]
-        + ["extension", "wheels", "docs", "release", "format"],
-    )
-    parser.add_argument(
-        "names",
-        nargs="*",
-        help="bench, demo, test: only these; test blender:TEXT: its parts named so",
-    )
-    parser.add_argument(
-        "--wheels",
-        type=lambda folder: Path(folder).resolve(),
-        metavar="DIR",
-        help="extension, release: pack the wheels in this folder",
-    )
-    parser.add_argument(
-        "--platforms",
-        nargs="+",
-        choices=[target.name for target in TARGETS],
-        help="release: only for these platforms; for all by default",
-    )
-    parser.add_argument(
-        "--minutes", type=float, default=10.0, metavar="N", help="fuzz: how long; 10 by default"
-    )
-    parser.add_argument(
-        "--all", action="store_true", help="extension: compile and pack for every platform"
-    )
-    return parser.parse_args()
+COMMANDS: dict[str, Callable[[Namespace], int | None]] = {
+    "setup": lambda given: setup(),
+    "test": lambda given: test(given.names),
+    "demo": lambda given: demo(given.names),
+    "fuzz": lambda given: fuzz(given.minutes),
+    "bench": lambda given: bench(given.names),
+    "extension": lambda given: extension(given.wheels, given.all),
+    "wheels": lambda given: wheels_of_this_machine(),
+    "docs": lambda given: docs(),
+    "release": lambda given: release(given.wheels, given.platforms),
+    "format": lambda given: format_sources(),
+}
 
 
 def main() -> int:
     """Runs one command; the exit code is the process's."""
-    given = arguments()
     if sys.version_info < (3, 11):  # noqa: UP036
         raise DevError("python3 has to be 3.11 or newer.")
-    commands = {
-        "setup": setup,
-        "test": lambda: test(given.names),
-        "demo": lambda: demo(given.names),
-        "fuzz": lambda: fuzz(given.minutes),
-        "bench": lambda: bench(given.names),
-        "extension": lambda: extension(given.wheels, given.all),
-        "wheels": wheels_of_this_machine,
-        "docs": docs,
-        "release": lambda: release(given.wheels, given.platforms),
-        "format": format_sources,
-    }
-    return commands[given.command]() or 0
+    parser = ArgumentParser(description=__doc__, formatter_class=RawDescriptionHelpFormatter)
+    add, names = parser.add_argument, [target.name for target in TARGETS]
+    add("command", choices=COMMANDS)
+    add("names", nargs="*", help="bench, demo, test: only these; test blender:TEXT: parts so named")
+    add("--wheels", type=Path, metavar="DIR", help="extension, release: pack this folder's wheels")
+    add("--platforms", nargs="+", choices=names, help="release: for these; by default for all")
+    add("--minutes", type=float, default=10.0, metavar="N", help="fuzz: how long; 10 by default")
+    add("--all", action="store_true", help="extension: compile and pack for every platform")
+    given = parser.parse_args()
+    return COMMANDS[given.command](given) or 0
 
 
 if __name__ == "__main__":

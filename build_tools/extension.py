@@ -42,16 +42,10 @@ def python_tag(wheel: Path) -> str:
 def platform(wheel: Path) -> str:
     """Blender's name of the platform that a wheel is for, "linux-x64"."""
     tags = wheel.stem.split("-")[-1].split(".")  # auditwheel may give several
-    found = {
-        name
-        for tag in tags
-        for pattern, name in PLATFORMS.items()
-        if re.fullmatch(pattern, tag, re.ASCII)
-    }
+    kinds = PLATFORMS.items()
+    found = {name for tag in tags for kind, name in kinds if re.fullmatch(kind, tag, re.ASCII)}
     if len(found) != 1:
-        raise DevError(
-            f"{wheel.name} is for no platform, or for more than one, that Blender knows."
-        )
+        raise DevError(f"{wheel.name} is for no platform, or for several, that Blender knows.")
     return found.pop()
 
 
@@ -69,10 +63,8 @@ def only_platform(wheels: list[Path]) -> str:
     """Blender's name of the one platform that the wheels of a zip are for."""
     found = {platform(wheel) for wheel in wheels}
     if len(found) != 1 or len(set(python_tags(wheels))) != len(wheels):
-        raise DevError(
-            "a zip holds wheels of one platform, one a Python: "
-            f"{', '.join(wheel.name for wheel in wheels)}."
-        )
+        names = ", ".join(wheel.name for wheel in wheels)
+        raise DevError(f"a zip holds wheels of one platform, one a Python: {names}.")
     return found.pop()
 
 
@@ -80,9 +72,8 @@ def name(wheels: list[Path]) -> str:
     """What the zip that carries these wheels is called, without the suffix."""
     tags = python_tags(wheels)
     python = f"{tags[0]}-" if len(tags) == 1 else ""
-    return (
-        f"discrete_fairing-{manifest_version()}-{python}{only_platform(wheels).replace('-', '_')}"
-    )
+    place = only_platform(wheels).replace("-", "_")
+    return f"discrete_fairing-{manifest_version()}-{python}{place}"
 
 
 def added_lines(wheels: list[Path]) -> dict[str, str]:
@@ -108,9 +99,7 @@ def stage(wheels: list[Path], folder: Path) -> None:
     """Lays the extension out in a folder that is not there yet."""
     for wheel in wheels:
         if wheel_version(wheel) != manifest_version():
-            raise DevError(
-                f"{wheel.name} is not of version {manifest_version()}, which the manifest gives."
-            )
+            raise DevError(f"{wheel.name} is not of the manifest's version {manifest_version()}.")
     shutil.copytree(ADDON, folder, ignore=shutil.ignore_patterns("__pycache__"))
     (folder / "wheels").mkdir()
     for wheel in wheels:
@@ -128,22 +117,18 @@ def faults(path: Path) -> list[str]:
     wheels = [entry.removeprefix("./") for entry in manifest.get("wheels", [])]
     carried = [entry for entry in names if entry.endswith(".whl")]
     tagline = manifest["tagline"]
+    platforms, permissions = manifest["platforms"], sorted(manifest.get("permissions", {}))
+    compiled = [entry for entry in names if "__pycache__" in entry or entry.endswith(".pyc")]
+    others = [entry for entry in wheels if wheel_version(Path(entry)) != manifest["version"]]
     checks = {
         "the version is not the project's": manifest["version"] == manifest_version(),
         "other wheels than it names": wheels != [] and sorted(carried) == sorted(wheels),
-        "a wheel has another version": all(
-            wheel_version(Path(w)) == manifest["version"] for w in wheels
-        ),
-        "a wheel is for another platform": {platform(Path(w)) for w in wheels}
-        == set(manifest["platforms"]),
-        "other permissions than for files and a cluster": sorted(manifest.get("permissions", {}))
-        == ["files", "network"],
-        "the tagline is too long or ends in a period": len(tagline) <= 64
-        and not tagline.endswith("."),
+        "a wheel has another version": not others,
+        "a wheel is for another platform": {platform(Path(w)) for w in wheels} == set(platforms),
+        "other permissions than for files and a cluster": permissions == ["files", "network"],
+        "the tagline is too long or ends in a period": len(tagline) <= 64 and tagline[-1] != ".",
         "no licence": names.issuperset(LICENCES),
-        "compiled Python": not any(
-            "__pycache__" in entry or entry.endswith(".pyc") for entry in names
-        ),
+        "compiled Python": not compiled,
     }
     return [fault for fault, fine in checks.items() if not fine]
 
@@ -171,9 +156,8 @@ def by_platform(wheels: list[Path]) -> list[list[Path]]:
 def wheels_at_hand() -> list[list[Path]]:
     """The wheels for .venv and for each Debian root, each for a zip of its own; of two alike the first one counts."""
     wheels = [native_wheel.install(), *(root.wheel() for root in ROOTS)]
-    return [[wheel] for wheel in {name([wheel]): wheel for wheel in reversed(wheels)}.values()][
-        ::-1
-    ]
+    first = {name([wheel]): wheel for wheel in reversed(wheels)}
+    return [[wheel] for wheel in reversed(first.values())]
 
 
 def wheels_of_platforms(names: list[str] | None = None) -> list[list[Path]]:

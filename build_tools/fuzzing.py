@@ -26,14 +26,8 @@ def sanitized_package(preset: str) -> Path:
     code, pybind11 = output(VENV_PYTHON, "-m", "pybind11", "--cmakedir")
     if code:
         raise DevError("pybind11 is not in .venv: run `dev.py setup`.")
-    run(
-        "cmake",
-        "--preset",
-        preset,
-        "-DDF_BUILD_PYTHON=ON",
-        f"-Dpybind11_DIR={pybind11.strip()}",
-        f"-DPython_EXECUTABLE={VENV_PYTHON}",
-    )
+    found = [f"-Dpybind11_DIR={pybind11.strip()}", f"-DPython_EXECUTABLE={VENV_PYTHON}"]
+    run("cmake", "--preset", preset, "-DDF_BUILD_PYTHON=ON", *found)
     run("cmake", "--build", "--preset", preset, "--target", "_native")
     folder = BUILD / preset / "package"
     shutil.rmtree(folder, ignore_errors=True)

@@ -21,15 +21,8 @@ PIP_WHEEL += ["--config-settings=cmake.define.DF_WARNINGS_AS_ERRORS=ON"]
 
 def inputs() -> list[Path]:
     """Every file that the wheel is made of."""
-    names = [
-        "native",
-        "cmake",
-        "CMakeLists.txt",
-        "pyproject.toml",
-        "LICENSE",
-        "THIRD_PARTY_LICENSES.txt",
-    ]
-    names += ["build_tools/wheel_version.py", "build_tools/repair.py"]
+    names = ["native", "cmake", "CMakeLists.txt", "pyproject.toml", "LICENSE"]
+    names += ["THIRD_PARTY_LICENSES.txt", "build_tools/wheel_version.py", "build_tools/repair.py"]
     return files_under(MANIFEST, *(ROOT / name for name in names))
 
 

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The project's own Python in .venv, with every dependency at an exact version."""
+"""The project's own Python in .venv, with every dependency at an exact version, and Pythons for single tools."""
 
 import shutil
 import sys
 from pathlib import Path
 
-from layout import ROOT, VENV, VENV_PYTHON
+from layout import CACHE, ROOT, VENV, VENV_PYTHON
 from shell import output, run, say
 from stamp import fingerprint, is_fresh, leave
 
@@ -48,12 +48,28 @@ def install() -> None:
 def install_rivals() -> None:
     """What the benchmarks measure us against; without dependencies, since NumPy has to stay as bpy wants it."""
     value = fingerprint([RIVALS], STAMP.read_text())
-    if is_fresh(RIVALS_STAMP, value):
-        return
-    pip("install", "--no-deps", "--require-hashes", "--requirement", RIVALS)
-    leave(RIVALS_STAMP, value)
+    if not is_fresh(RIVALS_STAMP, value):
+        pip("install", "--no-deps", "--require-hashes", "--requirement", RIVALS)
+        leave(RIVALS_STAMP, value)
 
 
-def pip(*arguments: str | Path, **extra: str) -> None:
-    """Runs pip in .venv."""
-    run(VENV_PYTHON, "-m", "pip", "--quiet", "--disable-pip-version-check", *arguments, **extra)
+def install_tool(name: str, lock: Path) -> Path:
+    """A Python in the cache with a tool's packages, which stay out of .venv but find what is there."""
+    folder = CACHE / name
+    python, stamp = folder / "bin" / "python", folder / "stamp"
+    value = fingerprint([lock], STAMP.read_text(), str(VENV))
+    if not is_fresh(stamp, value):
+        say(f"Python environment: {folder.relative_to(ROOT)}")
+        run(VENV_PYTHON, "-m", "venv", "--clear", folder)
+        pip("install", "--require-hashes", "--requirement", lock, python=python)
+        (packages,) = folder.glob("lib/python*/site-packages")
+        (shared,) = VENV.glob("lib/python*/site-packages")
+        # a path file adds to the end: what the tool brings along goes first
+        (packages / "shared.pth").write_text(f"{shared}\n")
+        leave(stamp, value)
+    return python
+
+
+def pip(*arguments: str | Path, python: Path = VENV_PYTHON, **extra: str) -> None:
+    """Runs pip, in .venv if nothing else is said."""
+    run(python, "-m", "pip", "--quiet", "--disable-pip-version-check", *arguments, **extra)

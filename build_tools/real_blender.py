@@ -31,9 +31,8 @@ class RealBlender:
     folder: Path  # as we see it
     inside: Path  # as Blender sees it
     root: DebianRoot | None = None  # None: the machine's own
-    lane: int = (
-        0  # of several that run at the same time, each with settings and a screen of its own
-    )
+    # of several that run at the same time, each with settings and a screen of its own
+    lane: int = 0
 
     @property
     def exchange(self) -> Path:
@@ -100,9 +99,8 @@ class RealBlender:
 
 def venv_tag() -> str:
     """The tag of .venv's Python, "cp311"."""
-    return output(VENV_PYTHON, "-c", "import sys; print('cp%d%d' % sys.version_info[:2])")[
-        1
-    ].strip()
+    ask_tag = "import sys; print('cp%d%d' % sys.version_info[:2])"
+    return output(VENV_PYTHON, "-c", ask_tag)[1].strip()
 
 
 def ask(command: list[str]) -> tuple[tuple[str, str] | None, str]:

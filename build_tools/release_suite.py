@@ -8,7 +8,7 @@ from pathlib import Path
 import blender_repository
 import extension
 from blender_suite import SCRIPTS as BLENDER_SCRIPTS
-from blender_suite import count
+from blender_suite import count, in_each, or_why
 from layout import BUILD, ROOT
 from real_blender import RealBlender, places
 from serving import served
@@ -84,11 +84,8 @@ def live(blender: RealBlender) -> Tally:
     tests = blender.exchange / "tests"
     shutil.copytree(SCRIPTS, tests, ignore=shutil.ignore_patterns("__pycache__"))
     shutil.copy(BLENDER_SCRIPTS / "harness.py", tests)
-    user, now, then = (
-        blender.folder / blender.user,
-        manifest_version(),
-        next_version(manifest_version()),
-    )
+    user, now = blender.folder / blender.user, manifest_version()
+    then = next_version(now)
     with served(folder) as address:
         blender_repository.generate(blender, [zipped], folder)
         # Blender's own repository is on the network, and tests are not
@@ -113,13 +110,6 @@ def live(blender: RealBlender) -> Tally:
 
 def run_suite() -> dict[str, Tally]:
     """The tallies by Blender, one after the other."""
-    tallies = {}
     with alone("blender"):
-        for place, get in places().items():
-            try:
-                blender = get()
-                tallies[f"{place} {blender.version}"] = live(blender)
-            except DevError as error:
-                print(f"dev.py: {error}", flush=True)
-                tallies[place] = Tally(failed=1, note=str(error))
-    return tallies
+        blenders = {place: or_why(get) for place, get in places().items()}
+        return in_each(blenders, lambda _, blender: live(blender), workers=1)

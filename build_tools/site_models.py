@@ -12,10 +12,11 @@ from stamp import alone, files_under, fingerprint, is_fresh, leave
 
 THREE = Path("/usr/share/javascript/three")
 COPYRIGHT = Path("/usr/share/doc/libjs-three/copyright")
+EXAMPLES = "examples/js"
 SCRIPTS = [
     "three.min.js",
-    "examples/js/loaders/GLTFLoader.js",
-    "examples/js/controls/OrbitControls.js",
+    f"{EXAMPLES}/loaders/GLTFLoader.js",
+    f"{EXAMPLES}/controls/OrbitControls.js",
 ]
 MODELS = BUILD / "site-models"
 
@@ -34,9 +35,7 @@ def add_three(static: Path) -> None:
 def add_models(static: Path) -> None:
     """The models; made again when the package, the add-on or the examples have changed. Without bpy the page has pictures."""
     if not has_bpy():
-        say(
-            "bpy exists for Python 3.11 only: the site has no surfaces to turn, but their pictures."
-        )
+        say("bpy exists for Python 3.11 only: pictures stand where surfaces would turn.")
         return
     sources = files_under(*(ROOT / name for name in ("addon", "native", "examples")))
     stamp, value = MODELS.with_suffix(".stamp"), fingerprint(sources)

@@ -8,8 +8,8 @@ import shutil
 from pathlib import Path
 
 import native_wheel
+import python_environment
 import site_models
-import tool_environment
 from layout import BUILD, OUT, ROOT
 from shell import run
 from stamp import alone
@@ -17,6 +17,7 @@ from wheel_version import manifest_version
 
 SOURCE = BUILD / "site"
 SITE = OUT / "site"
+LOCK = ROOT / "build_tools" / "requirements_docs.lock"
 
 STAGED = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "LICENSE", "THIRD_PARTY_LICENSES.txt"]
 STAGED_FOLDERS = ["docs", "benchmarks/results"]
@@ -38,7 +39,7 @@ def build() -> Path:
     """The site's folder; a warning, as of a link that leads nowhere, is an error."""
     native_wheel.install()
     with alone("site"):
-        python = tool_environment.install("site", "docs")  # which finds the package in .venv
+        python = python_environment.install_tool("site", LOCK)
         stage()
         shutil.rmtree(SITE, ignore_errors=True)
         options = ["--fail-on-warning", "--keep-going", "--fresh-env", "--builder", "html"]

@@ -20,12 +20,14 @@ from layout import BUILD, ROOT, VENV_PYTHON
 from python_environment import has_bpy
 from shell import DevError, run, say
 from stamp import alone
-from tally import Tally, with_exit_code
+from tally import Tally, attempt, with_exit_code
 
 # tests of one label alone, or all others
 FAULTS = ("--label-regex", "^faults$")
 NO_FAULTS = ("--label-exclude", "^faults$")
 NIGHT_OF_FUZZING = 30.0  # minutes
+# a process for each core; the tests of one file stay together, for what they share
+ON_ALL_CORES = ("--numprocesses=auto", "--dist=loadfile")
 REPORTS = BUILD / "reports"
 
 
@@ -61,20 +63,9 @@ def native_suite(preset: str, *chosen: str) -> Tally:
     run("cmake", "--preset", preset)
     run("cmake", "--build", "--preset", preset)
     jobs = str(os.cpu_count() or 1)
-    code = run(
-        *("ctest", "--preset", preset, "--parallel", jobs, "--output-junit", report, *chosen),
-        check=False,
-    )
+    words = ["--preset", preset, "--parallel", jobs, "--output-junit", report, *chosen]
+    code = run("ctest", *words, check=False)
     return with_exit_code(read_junit(report), code)
-
-
-def faults_suite() -> Tally:
-    """Allocations that fail, where leaks and double frees show."""
-    return native_suite("asan-ubsan", *FAULTS)
-
-
-# a process for each core; the tests of one file stay together, for what they share
-ON_ALL_CORES = ("--numprocesses=auto", "--dist=loadfile")
 
 
 def pytest_suite(name: str, *options: str, only: Iterable[str] = (), **environment: str) -> Tally:
@@ -97,9 +88,7 @@ def fuzz_suite() -> Tally:
 def addon_suite() -> Tally:
     """The add-on in the bpy module."""
     if not has_bpy():
-        return Tally(
-            note="bpy exists for Python 3.11 only: the add-on is tested in the real Blender alone"
-        )
+        return Tally(note="bpy exists for Python 3.11 only: tested in the real Blender alone")
     return pytest_suite("addon", *ON_ALL_CORES)
 
 
@@ -122,7 +111,8 @@ SUITES: dict[str, Callable[[], Tally | dict[str, Tally]]] = {
     "style": style_suite,
     "native": lambda: native_suite("release", *NO_FAULTS),
     "sanitizers": lambda: native_suite("asan-ubsan", *NO_FAULTS),
-    "faults": faults_suite,
+    # allocations that fail, where leaks and double frees show
+    "faults": lambda: native_suite("asan-ubsan", *FAULTS),
     "python": lambda: pytest_suite("python", *ON_ALL_CORES),
     "fuzz": fuzz_suite,
     "addon": addon_suite,
@@ -134,37 +124,30 @@ SUITES: dict[str, Callable[[], Tally | dict[str, Tally]]] = {
 
 
 def cross_suite(name: str) -> dict[str, Tally]:
-    """The native tests as programs for another machine: for Windows under Wine, for ARM under qemu."""
-    return import_module(f"cross.{name}_suite").run_suite()
-
-
-def long_fuzz() -> Tally:
-    """Random calls that no run has made before."""
-    failed = fuzzing.fuzz(NIGHT_OF_FUZZING) != 0
-    return Tally(passed=int(not failed), failed=int(failed))
+    """The native tests as programs for another machine."""
+    return getattr(import_module("cross.emulated"), name)()
 
 
 def nightly_suite() -> dict[str, Tally]:
     """What is too long for every day: long scripts in every Blender, races between threads, new random calls."""
     blenders = blender_suite.run_suite(everything=True)
+    fuzz_failed = fuzzing.fuzz(NIGHT_OF_FUZZING) != 0  # random calls that no run has made before
     return {
         **{f"Blender of {place}": tally for place, tally in blenders.items()},
         "races, native": native_suite(fuzzing.THREADS, *NO_FAULTS),
         "races, package": pytest_suite(
             "python/test_threads.py", **fuzzing.sanitized_environment(fuzzing.THREADS)
         ),
-        "fuzz": long_fuzz(),
+        "fuzz": Tally(passed=int(not fuzz_failed), failed=int(fuzz_failed)),
     }
 
 
-# what daily work touches most, of the package and of the add-on
+# what daily work touches most
 QUICK = {
     "python": ["interpolation", "total_curvature", "near_on_pads", "threads", "settings", "check"],
     "addon": ["operator", "register", "ui", "documents"],
     "build_tools": ["layering"],
 }
-
-
 # without the few tests of these files that take as long as all others
 NOT_LONG = ("-m", "not long")
 
@@ -185,15 +168,6 @@ LONG_SUITES: dict[str, Callable[[], Tally | dict[str, Tally]]] = {
     "arm": partial(cross_suite, "arm"),
     "nightly": nightly_suite,
 }
-
-
-def attempt(suite: Callable[[], Tally | dict[str, Tally]]) -> Tally | dict[str, Tally]:
-    """A suite that cannot even run is one failure, and no reason to leave the others out."""
-    try:
-        return suite()
-    except DevError as error:
-        print(f"dev.py: {error}", flush=True)
-        return Tally(failed=1, note=str(error))
 
 
 def suite_named(name: str) -> Callable[[], Tally | dict[str, Tally]]:
@@ -219,9 +193,8 @@ def run_all(names: list[str]) -> int:
         whole = sum(parts.values(), Tally()) if parts else result
         total += whole
         # the notes of a whole stand beside its parts
-        rows.append(
-            table_line(name, replace(whole, note="") if parts else whole, monotonic() - start)
-        )
+        shown = replace(whole, note="") if parts else whole
+        rows.append(table_line(name, shown, monotonic() - start))
         rows += [table_line(f"  {part}", tally) for part, tally in parts.items()]
     print("\n".join(["", *rows]))
     print(f"\n{total.passed} passed, {total.failed} failed", flush=True)

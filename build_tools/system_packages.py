@@ -9,27 +9,9 @@ NATIVE = ["g++", "ccache", "libopenmesh-dev", "libeigen3-dev"]
 NATIVE += ["libnanoflann-dev", "libgtest-dev", "libsuitesparse-dev"]
 PYTHON = ["python3-venv", "python3-dev"]
 # the bpy wheel loads these at import; the last ones are for drawing without a screen
-BPY = [
-    "libgl1",
-    "libegl1",
-    "libgl1-mesa-dri",
-    "libice6",
-    "libsm6",
-    "libx11-6",
-    "libxext6",
-    "libxfixes3",
-    "libxi6",
-]
-BPY += [
-    "libxkbcommon0",
-    "libxrender1",
-    "libxt6",
-    "libxxf86vm1",
-    "libuuid1",
-    "libopengl0",
-    "libgomp1",
-    "xvfb",
-]
+BPY = ["libgl1", "libegl1", "libgl1-mesa-dri", "libice6", "libsm6", "libx11-6", "libxext6"]
+BPY += ["libxfixes3", "libxi6", "libxkbcommon0", "libxrender1", "libxt6", "libxxf86vm1"]
+BPY += ["libuuid1", "libopengl0", "libgomp1", "xvfb"]
 REAL_BLENDER = ["mmdebstrap"]
 
 ALL = NATIVE + PYTHON + BPY + REAL_BLENDER
@@ -44,12 +26,9 @@ SITE = ["chromium", "fonts-dejavu-core"]
 def missing(packages: list[str]) -> list[str]:
     """Those of the packages that are not installed, nor provided by another one (libxt6 by trixie's libxt6t64)."""
     _, listing = output("dpkg-query", "-W", "-f", "${db:Status-Status} ${Package}, ${Provides}\n")
-    lines = [
-        line.removeprefix("installed ")
-        for line in listing.splitlines()
-        if line.startswith("installed ")
-    ]
-    installed = {entry.split()[0] for line in lines for entry in line.split(",") if entry.strip()}
+    lines = [line.split(" ", 1) for line in listing.splitlines()]
+    names = [names for status, names in lines if status == "installed"]
+    installed = {entry.split()[0] for line in names for entry in line.split(",") if entry.strip()}
     return [package for package in packages if package not in installed]
 
 

@@ -1,7 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How many tests of a suite, or of a part of it, ended how."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TypeVar
+
+from shell import DevError
+
+Result = TypeVar("Result")
 
 
 @dataclass
@@ -24,3 +30,12 @@ def with_exit_code(tally: Tally, code: int) -> Tally:
     if code != 0 and tally.failed == 0:
         tally.failed, tally.note = 1, f"exit code {code}"
     return tally
+
+
+def attempt(suite: Callable[[], Result]) -> "Result | Tally":
+    """A suite that cannot even run is one failure, and no reason to leave the others out."""
+    try:
+        return suite()
+    except DevError as error:
+        print(f"dev.py: {error}", flush=True)
+        return Tally(failed=1, note=str(error))

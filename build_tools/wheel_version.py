@@ -22,5 +22,9 @@ def dynamic_metadata(field, settings=None, project=None) -> str:
     """Called by scikit-build-core for the field `version`."""
     if field != "version":
         raise ValueError(f"wheel_version provides no {field}")
-    local = os.environ.get(LOCAL_PART)
+    return version(os.environ.get(LOCAL_PART))
+
+
+def version(local: str | None) -> str:
+    """The manifest's, and the local part of a development build."""
     return f"{manifest_version()}+{local}" if local else manifest_version()

@@ -1,15 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether a cross-compiled wheel can be loaded on the oldest system that its tag names, with nothing but itself."""
+"""Whether cross-compiled wheels can be loaded on the oldest system that their tag names, with nothing but themselves.
+
+python -m cross.inspection WHEEL…, by .venv's Python, which has LIEF.
+"""
 
 import re
+import sys
 import tempfile
 import zipfile
+from dataclasses import dataclass, field
 from pathlib import Path
 
+import lief
 from layout import ROOT
-from shell import DevError
-
-from cross.binary import Binary, read
 
 LARGEST = 3_000_000  # bytes of a wheel
 
@@ -19,14 +22,45 @@ LINUX = r"lib(c|m|pthread|dl|rt)\.so\.\d+|ld-linux-(x86-64|aarch64)\.so\.\d+"
 MACOS = r"/usr/lib/libSystem\.B\.dylib"
 
 
-def platform_tag(wheel: Path) -> str:
-    """The platform in a wheel's name."""
-    return wheel.stem.split("-")[-1]
+@dataclass
+class Binary:
+    """A module's needs, as far as they decide where it can be loaded."""
+
+    processor: str
+    libraries: list[str] = field(default_factory=list)
+    least_system: tuple[int, ...] = ()  # glibc's or macOS's version
+    exports: list[str] | None = None  # None: not read, as on macOS
+    signed: bool = False
+    for_debuggers: bool = False  # has data for them; read on Linux alone
 
 
-def processor(tag: str) -> str:
-    """The processor that a tag is for, as `Binary` calls it."""
-    return "arm64" if tag.endswith(("aarch64", "arm64")) else "x86_64"
+def glibc(module: lief.ELF.Binary) -> tuple[int, ...]:
+    """The newest version of the C library that a module for Linux asks for."""
+    names = [
+        v.name for file in module.symbols_version_requirement for v in file.get_auxiliary_symbols()
+    ]
+    found = [re.fullmatch(r"GLIBC_([\d.]+)", name) for name in names]
+    return max((tuple(map(int, match[1].split("."))) for match in found if match), default=())
+
+
+def read(path: Path) -> Binary:
+    """A module of Windows, Linux or macOS."""
+    module = lief.parse(path)
+    if module is None:
+        raise ValueError(f"{path.name} is no module of Windows, Linux or macOS.")
+    found = Binary(module.abstract.header.architecture.name.lower(), module.abstract.libraries)
+    if isinstance(module, lief.MachO.Binary):
+        own = lief.MachO.LoadCommand.TYPE.ID_DYLIB  # its own name
+        found.libraries = [each.name for each in module.libraries if each.command != own]
+        found.least_system = tuple(module.build_version.minos[:2])
+        found.signed = module.has_code_signature
+        return found
+    found.exports = [function.name for function in module.exported_functions]
+    if isinstance(module, lief.ELF.Binary):
+        found.exports = [symbol.name for symbol in module.exported_symbols]
+        found.least_system = glibc(module)
+        found.for_debuggers = module.has_section(".debug_info")
+    return found
 
 
 def allowed_libraries(tag: str, python: str) -> str:
@@ -52,11 +86,12 @@ def offered(tag: str) -> str:
 
 def faults_of(module: Binary, tag: str, python: str) -> list[str]:
     """What is wrong with a module for the tag of its wheel."""
+    processor = "arm64" if tag.endswith(("aarch64", "arm64")) else "x86_64"
     allowed = allowed_libraries(tag, python)
     foreign = [name for name in module.libraries if not re.fullmatch(allowed, name)]
     others = [name for name in module.exports or [] if not re.fullmatch(offered(tag), name)]
     checks = {
-        f"it is for {module.processor}": module.processor == processor(tag),
+        f"it is for {module.processor}": module.processor == processor,
         f"it needs {', '.join(foreign)}": not foreign,
         f"it needs the system {module.least_system}": module.least_system <= named_system(tag),
         f"it exports {', '.join(others[:5])}": not others,
@@ -80,11 +115,20 @@ def faults(wheel: Path) -> list[str]:
     with tempfile.TemporaryDirectory() as made, zipfile.ZipFile(wheel) as archive:
         modules = [name for name in archive.namelist() if name.endswith((".so", ".pyd", ".dylib"))]
         if len(modules) != 1:
-            raise DevError(f"{wheel.name} should hold one module, but holds {len(modules)}.")
+            return [f"it should hold one module, but holds {len(modules)}"]
         module = Path(archive.extract(modules[0], made))
-        found = faults_of(read(module), platform_tag(wheel), python)
+        found = faults_of(read(module), wheel.stem.split("-")[-1], python)
         if names_this_folder(module.read_bytes()):
             found.append(f"it names {ROOT}, where it was compiled")
     if wheel.stat().st_size > LARGEST:
         found.append(f"it has {wheel.stat().st_size} bytes, more than {LARGEST}")
     return found
+
+
+if __name__ == "__main__":
+    wrong = [
+        f"{Path(name).name}: {'; '.join(found)}."
+        for name in sys.argv[1:]
+        if (found := faults(Path(name)))
+    ]
+    sys.exit("\n".join(wrong))

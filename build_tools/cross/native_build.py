@@ -8,7 +8,7 @@ import system_packages
 from layout import BUILD, ROOT, VENV_PYTHON
 from native_wheel import local_version
 from shell import DevError, output, run
-from wheel_version import manifest_version
+from wheel_version import version
 
 from cross.python_parts import headers, import_library
 from cross.sources import openmesh, zig
@@ -21,12 +21,6 @@ GOOGLETEST = Path("/usr/src/googletest")  # Debian's libgtest-dev brings it
 def build_folder(target: Target) -> Path:
     """One for all Pythons: the core is compiled once, the binding for each."""
     return BUILD / "cross" / target.name
-
-
-def version() -> str:
-    """The modules' version, as scikit-build-core would tell them."""
-    local = local_version()
-    return f"{manifest_version()}+{local}" if local else manifest_version()
 
 
 def settings(target: Target) -> dict[str, str | Path]:
@@ -42,7 +36,7 @@ def settings(target: Target) -> dict[str, str | Path]:
         "DF_WARNINGS_AS_ERRORS": "ON",
         "FETCHCONTENT_SOURCE_DIR_OPENMESH": openmesh(),
         "pybind11_DIR": pybind11.strip(),
-        "SKBUILD_PROJECT_VERSION_FULL": version(),
+        "SKBUILD_PROJECT_VERSION_FULL": version(local_version()),
     }
 
 

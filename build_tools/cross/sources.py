@@ -2,16 +2,13 @@
 """What cross compilation takes from elsewhere, each at one version with one hash: fetched once, unpacked once."""
 
 import hashlib
-import re
 import shutil
 import tarfile
-import urllib.error
-import urllib.parse
-import urllib.request
 import zipfile
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from urllib.request import urlretrieve
 
 from layout import CACHE, VENV_PYTHON
 from shell import DevError, output, say
@@ -20,64 +17,49 @@ from stamp import alone, is_fresh, leave
 FOLDER = CACHE / "cross"
 
 
-def debian(file: str) -> str:
-    """The address of a file in the pool of the mirror that this machine's apt uses."""
+def debian(file: str, folder: Path) -> None:
+    """Brings a file of the pool of the mirror that this machine's apt uses."""
     _, text = output("apt-get", "indextargets", "--format", "$(REPO_URI)")
     mirrors = [mirror for mirror in text.split() if "security" not in mirror]
     if not mirrors:
-        raise DevError("apt-get names no mirror: run `apt-get update`.")
-    return f"{mirrors[0].rstrip('/')}/pool/main/{file}"
+        raise OSError("apt-get names no mirror: run `apt-get update`")
+    urlretrieve(f"{mirrors[0].rstrip('/')}/pool/main/{file}", folder / Path(file).name)
 
 
-def pypi(file: str) -> str:
-    """The address of PROJECT/NAME, as the index that pip uses here lists it."""
-    project, _, name = file.partition("/")
-    code, index = output(VENV_PYTHON, "-m", "pip", "config", "get", "global.index-url")
+def pypi(file: str, folder: Path) -> None:
+    """Brings a wheel from the index that pip uses here."""
+    project, version, _ = file.split("-", 2)
+    words = ["download", "--quiet", "--no-deps", "--dest", folder, f"{project}=={version}"]
+    code, text = output(VENV_PYTHON, "-m", "pip", *words)
     if code:
-        _, index = output(VENV_PYTHON, "-c", PIPS_OWN_INDEX)
-    page = f"{index.strip().rstrip('/')}/{project}/"
-    with urllib.request.urlopen(page) as answer:
-        for link in re.findall(r'href="([^"#]+)', answer.read().decode()):
-            if link.rpartition("/")[2] == name:
-                return urllib.parse.urljoin(page, link)
-    raise DevError(f"pip's index has no {name}.")
-
-
-PIPS_OWN_INDEX = "from pip._internal.models.index import PyPI; print(PyPI.simple_url)"
+        raise OSError(text.strip()[-300:])
 
 
 @dataclass(frozen=True)
 class Source:
-    """An archive, and where it is fetched from: a file of a registry, which says its address."""
+    """An archive, and who brings it: a file of a registry."""
 
     name: str
-    registry: Callable[[str], str]
+    registry: Callable[[str, Path], None]
     file: str
     sha256: str
 
     @property
     def archive(self) -> Path:
-        return FOLDER / "archives" / self.file.rpartition("/")[2]
+        return FOLDER / "archives" / Path(self.file).name
 
     def fetch(self) -> Path:
         """The archive, fetched if it is not there; an archive with another hash is refused."""
         if not self.archive.is_file():
             say(f"fetching {self.archive.name}")
             self.archive.parent.mkdir(parents=True, exist_ok=True)
-            part = self.archive.with_suffix(".part")
             try:
-                with (
-                    urllib.request.urlopen(self.registry(self.file)) as answer,
-                    part.open("wb") as file,
-                ):
-                    shutil.copyfileobj(answer, file)
-            except (urllib.error.URLError, OSError) as error:
+                self.registry(self.file, self.archive.parent)
+            except OSError as error:
                 raise DevError(
                     f"{self.archive.name} cannot be fetched ({error}): put the file into "
                     f"{self.archive.parent} by hand."
                 ) from error
-            self._check(part)
-            part.replace(self.archive)
         self._check(self.archive)
         return self.archive
 
@@ -121,7 +103,7 @@ def only_folder(folder: Path) -> Path:
 ZIG = Source(
     "zig",
     pypi,
-    "ziglang/ziglang-0.17.1-py3-none-manylinux_2_12_x86_64.manylinux2010_x86_64.musllinux_1_1_x86_64.whl",
+    "ziglang-0.17.1-py3-none-manylinux_2_12_x86_64.manylinux2010_x86_64.musllinux_1_1_x86_64.whl",
     "ea6cc5d87b033cf0aedfbc8f9549a908cae6c50ac31f1698188fa48a74524b54",
 )
 OPENMESH = Source(

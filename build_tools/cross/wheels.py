@@ -1,22 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Wheels for other platforms: the package's Python files, a cross-compiled module, the metadata that pip would write."""
 
-import base64
-import hashlib
+import re
 import shutil
 import tempfile
-import zipfile
-from email.parser import Parser
 from pathlib import Path
 
 from layout import CACHE, ROOT, VENV_PYTHON
 from native_wheel import inputs, local_version
-from shell import DevError, run, say
+from repair import only_wheel
+from shell import DevError, output, run, say
 from stamp import alone, files_under, fingerprint, is_fresh, leave
 from wheel_version import LOCAL_PART
 
 from cross import native_build
-from cross.inspection import faults
 from cross.targets import PYTHONS, Target
 
 PACKAGE = ROOT / "native" / "binding" / "discrete_fairing"
@@ -27,51 +24,32 @@ METADATA = (
 )
 
 
-def metadata(folder: Path) -> dict[str, bytes]:
-    """The files of `dist-info` by their name in the wheel."""
+def stage(folder: Path) -> None:
+    """Lays out the package and its metadata, for any platform."""
+    shutil.copytree(PACKAGE, folder / PACKAGE.name, ignore=shutil.ignore_patterns("__pycache__"))
     run(VENV_PYTHON, "-c", METADATA, folder, **{LOCAL_PART: local_version()})
-    (info,) = folder.glob("*.dist-info")
-    files = [path for path in info.rglob("*") if path.is_file() and path.name != "RECORD"]
-    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in files}
 
 
-def tagged(wheel_file: bytes, tag: str) -> bytes:
-    """A wheel's file WHEEL with another tag."""
-    lines = [line for line in wheel_file.decode().splitlines() if line.strip()]
-    kept = [line for line in lines if not line.startswith(("Tag:", "Root-Is-Purelib:"))]
-    return "\n".join([*kept, "Root-Is-Purelib: false", f"Tag: {tag}", ""]).encode()
+def pack(staged: Path, module: Path, tag: str, folder: Path) -> Path:
+    """Packs what is staged with the module of one Python and platform."""
+    with tempfile.TemporaryDirectory() as place:
+        made = Path(shutil.copytree(staged, Path(place) / "wheel"))
+        shutil.copy(module, made / PACKAGE.name)
+        (info,) = made.glob("*.dist-info/WHEEL")
+        text = re.sub(r"(?m)^(Tag|Root-Is-Purelib): .*\n+", "", info.read_text()).rstrip()
+        info.write_text(f"{text}\nRoot-Is-Purelib: false\nTag: {tag}\n")
+        code, text = output(VENV_PYTHON, "-m", "wheel", "pack", made, "--dest-dir", place)
+        if code:
+            raise DevError(f"the wheel for {tag} cannot be packed: {text.strip()[-500:]}")
+        return Path(shutil.copy(only_wheel(Path(place)), folder))
 
 
-def record(files: dict[str, bytes], name: str) -> bytes:
-    """The list of all files with their hashes, which lists itself without one."""
-    lines = []
-    for path, data in files.items():
-        digest = base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b"=").decode()
-        lines.append(f"{path},sha256={digest},{len(data)}")
-    return "\n".join([*lines, f"{name},,", ""]).encode()
-
-
-def package() -> dict[str, bytes]:
-    """The package's Python files by their name in the wheel."""
-    return {
-        path.relative_to(PACKAGE.parent).as_posix(): path.read_bytes()
-        for path in files_under(PACKAGE)
-    }
-
-
-def pack(module: Path, info: dict[str, bytes], tag: str, folder: Path) -> Path:
-    """Writes one wheel."""
-    (wheel_name,) = (name for name in info if name.endswith(".dist-info/WHEEL"))
-    top = wheel_name.partition("/")[0]
-    version = Parser().parsestr(info[f"{top}/METADATA"].decode())["Version"]
-    files = {**package(), f"discrete_fairing/{module.name}": module.read_bytes(), **info}
-    files[wheel_name] = tagged(info[wheel_name], tag)
-    files[f"{top}/RECORD"] = record(files, f"{top}/RECORD")
-    path = folder / f"discrete_fairing-{version}-{tag}.whl"
-    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
-        for name, data in files.items():
-            archive.writestr(name, data)
-    return path
+def inspect(wheels: list[Path]) -> None:
+    """A wheel that its tag's systems could not load is an error."""
+    tools = str(ROOT / "build_tools")
+    code, text = output(VENV_PYTHON, "-m", "cross.inspection", *wheels, PYTHONPATH=tools)
+    if code:
+        raise DevError(text.strip())
 
 
 def build(target: Target, pythons: tuple[str, ...] = PYTHONS) -> list[Path]:
@@ -85,12 +63,11 @@ def build(target: Target, pythons: tuple[str, ...] = PYTHONS) -> list[Path]:
             say(f"cross compilation for {target.name}")
             shutil.rmtree(folder, ignore_errors=True)
             folder.mkdir(parents=True)
-            with tempfile.TemporaryDirectory() as made:
-                info = metadata(Path(made))
-            for python in pythons:
-                tag = f"{python}-{python}-{target.wheel_tag}"
-                wheel = pack(native_build.module(target, python), info, tag, folder)
-                if found := faults(wheel):
-                    raise DevError(f"{wheel.name}: {'; '.join(found)}.")
+            with tempfile.TemporaryDirectory() as staged:
+                stage(Path(staged))
+                for python in pythons:
+                    tag = f"{python}-{python}-{target.wheel_tag}"
+                    pack(Path(staged), native_build.module(target, python), tag, folder)
+            inspect(sorted(folder.glob("*.whl")))
             leave(stamp, value)
         return sorted(folder.glob("*.whl"))

@@ -1,15 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The inspection of cross-compiled modules: what it reads, what it objects to, and the wheels that were built."""
 
-import re
 import struct
+import zipfile
 from importlib import metadata
 
+import lief
 import pytest
-from cross import python_parts
-from cross.binary import BUILD_VERSION, CODE_SIGNATURE, LOAD_DYLIB, Binary, listing, read
-from cross.inspection import faults, faults_of, names_this_folder
-from cross.wheels import WHEELS
+from cross import python_parts, wheels
+from cross.inspection import Binary, faults, faults_of, names_this_folder, read
 from layout import ROOT
 from shell import DevError
 
@@ -23,7 +22,7 @@ GOOD = {
     "manylinux_2_28_aarch64": LINUX,
     "macosx_11_0_arm64": MACOS,
 }
-BUILT = sorted(WHEELS.glob("*/*.whl"))
+BUILT = sorted(wheels.WHEELS.glob("*/*.whl"))
 
 
 @pytest.mark.parametrize("tag", GOOD)
@@ -63,16 +62,17 @@ def macho(*commands):
     return struct.pack("<8I", 0xFEEDFACF, 0x0100000C, 0, 6, len(commands), len(body), 0, 0) + body
 
 
+def dylib(command, name):
+    padded = name.ljust(32, b"\0")
+    return struct.pack("<6I", command, 24 + len(padded), 24, 0, 0, 0) + padded
+
+
 def test_a_module_for_macos_is_read(tmp_path):
-    library = b"/usr/lib/libSystem.B.dylib".ljust(32, b"\0")
+    """It is a shared library, whose own name is none that it needs."""
     path = tmp_path / "module.so"
-    path.write_bytes(
-        macho(
-            struct.pack("<6I", BUILD_VERSION, 24, 1, 11 << 16, 12 << 16, 0),
-            struct.pack("<6I", LOAD_DYLIB, 24 + len(library), 24, 0, 0, 0) + library,
-            struct.pack("<4I", CODE_SIGNATURE, 16, 0, 0),
-        )
-    )
+    build_version = struct.pack("<6I", 0x32, 24, 1, 11 << 16, 12 << 16, 0)
+    names = dylib(0xD, b"_native.so"), dylib(0xC, b"/usr/lib/libSystem.B.dylib")
+    path.write_bytes(macho(build_version, *names, struct.pack("<4I", 0x1D, 16, 0, 0)))
     assert read(path) == MACOS
 
 
@@ -91,8 +91,17 @@ def test_a_module_for_linux_is_read():
 
 def test_another_file_is_refused(tmp_path):
     (tmp_path / "text").write_text("no module")
-    with pytest.raises(DevError, match="no module"):
+    with pytest.raises(ValueError, match="no module"):
         read(tmp_path / "text")
+
+
+def test_a_wheel_that_cannot_be_loaded_is_refused(tmp_path):
+    """By the program that looks at cross-compiled ones."""
+    wheel = tmp_path / "ours-1-cp311-cp311-manylinux_2_17_x86_64.whl"
+    with zipfile.ZipFile(wheel, "w") as archive:
+        archive.write(installed_module(), "discrete_fairing/_native.so")
+    with pytest.raises(DevError, match=r"it needs .*libOpenMesh"):
+        wheels.inspect([wheel])
 
 
 @pytest.mark.skipif(not BUILT, reason="no wheel was cross-compiled: `dev.py extension --all`")
@@ -102,7 +111,8 @@ def test_the_wheels_that_were_built(wheel):
 
 
 def test_the_import_library_has_what_the_binding_uses():
-    table = listing("readelf", "--wide", "--dyn-syms", installed_module())
-    used = set(re.findall(r"\sUND\s+(_?Py\w+)", table))
+    module = lief.parse(installed_module())
+    names = {symbol.name for symbol in module.dynamic_symbols if symbol.shndx == 0}
+    used = {name for name in names if name.lstrip("_").startswith("Py")}
     assert len(used) > 100
     assert used - set(python_parts.definition("cp311").split()[3:]) == set()
