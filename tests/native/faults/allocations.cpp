@@ -72,6 +72,14 @@ void give_back(void* p) {
 void* operator new(std::size_t size) {
   return taken(fails() ? nullptr : __real_malloc(size ? size : 1));
 }
+// The sanitizers have one of their own, whose memory the delete below must not get.
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  try {
+    return operator new(size);
+  } catch (const std::bad_alloc&) {
+    return nullptr;
+  }
+}
 void* operator new(std::size_t size, std::align_val_t alignment) {
   const auto step = std::size_t(alignment);
   return taken(fails() ? nullptr : std::aligned_alloc(step, (size + step) / step * step));
