@@ -18,7 +18,7 @@ from .mesh.edited import edited, select_nothing
 from .mesh.object import Reference
 from .mesh.read import control_mesh, read_mesh
 from .mesh.world_shape import WorldShape, world_shape
-from .mesh.write_filling import write_hole
+from .mesh.write_filling import cut_sides, write_hole
 from .transfer.filling import Patch
 from .transfer.hole_loops import (
     flat_faces,
@@ -60,6 +60,7 @@ class Filling:
     crossing: int = 0  # holes whose filling passes through the mesh, or through itself
     unclear: int = 0  # border edges around what is no hole
     triangles: Sequence[str] = ()  # why holes have triangles where quads were wanted, one for each
+    cut: int = 0  # edges that were cut at the vertices on them
 
 
 @dataclass(frozen=True)
@@ -69,6 +70,7 @@ class Filled:
     patches: list[Patch]
     places: np.ndarray  # (k, 3) of all new vertices, in the object's coordinates
     holes: list[Any]  # the core's reports
+    cuts: dict[tuple[int, int], list[int]]  # the core's
     # what could not be filled, as Check Mesh keeps it, a dict each
     skipped: list[dict[str, Any]]
     reasons: list[str]  # why, each once, with all elements
@@ -84,6 +86,7 @@ class Filled:
             [Patch.of(hole.faces, points, new) for hole in found.holes],
             shape.back(new, none, none),
             found.holes,
+            found.cuts,
             [_skipped(hole) for hole in found.skipped],
             found.reasons,
         )
@@ -174,7 +177,7 @@ class HoleJob(TimedRun):
         try:
             with errors.explained(self.name, errors.OF_HOLES):
                 self.result = self._filled(watchers)
-            if not self.result.holes:
+            if not (self.result.holes or self.result.cuts):
                 self.error = JobError(f"{self.name}: {self.left_text}", self.skipped[0]["code"])
         except JobCancelled:
             raise
@@ -198,11 +201,14 @@ class HoleJob(TimedRun):
     def apply(self) -> Filling:
         """Makes the faces."""
         target = cast(Object, self.reference.find())
-        patches, holes = self.result.patches, self.result.holes
+        patches, holes, cuts = self.result.patches, self.result.holes, self.result.cuts
         if not self._editing:
             select_nothing(target)
         with edited(target) as bm:
+            bm.verts.ensure_lookup_table()
+            sides = [[bm.verts[v] for v in (a, *on, b)] for (a, b), on in cuts.items()]
             _write(bm, np.flatnonzero(self._gone), patches, self.result.places, self._is_flat)
+            cut_sides(bm, sides)
         self.note()
         return Filling(
             len(holes),
@@ -213,6 +219,7 @@ class HoleJob(TimedRun):
             sum(h.crossings > 0 for h in holes),
             self._unclear,
             [h.why_triangles for h in holes if h.why_triangles],
+            len(cuts),
         )
 
     @property

@@ -10,6 +10,7 @@ import numpy as np
 from .. import core
 from ..blender import Object
 from ..errors import VERTEX_ON_EDGE
+from ..mesh.write_filling import cut_sides
 from .defects import elements_of
 
 
@@ -67,9 +68,8 @@ def _cut(bm: bmesh.types.BMesh, vertices: list[bmesh.types.BMVert]) -> None:
             if 0.0 < share < 1.0
         ]
         if found:
-            _, edge, share = min(found, key=lambda one: one[0])
-            _, fresh = bmesh.utils.edge_split(edge, edge.verts[0], share)
-            bmesh.ops.weld_verts(bm, targetmap={fresh: vertex})
+            begin, end = min(found, key=lambda one: one[0])[1].verts
+            cut_sides(bm, [[begin, vertex, end]])
 
 
 def _away(vertex: bmesh.types.BMVert, edge: bmesh.types.BMEdge) -> tuple[float, float]:

@@ -4,6 +4,7 @@
 from collections.abc import Callable, Collection, Iterator
 from typing import Any
 
+import bmesh
 import numpy as np
 
 from ..transfer.filling import Patch
@@ -50,6 +51,28 @@ def write_hole(bm: Any, patch: Patch, rim: list[Any], places: np.ndarray) -> lis
                 write(corner, rows[v].tolist())
         found.append(face)
     return found
+
+
+def cut_sides(bm: Any, sides: list[list[Any]]) -> None:
+    """Border edges, each with its ends and the vertices that lie on it between them, are cut there and joined to
+    these. Triangles become triangles, with what their corners have blended along the edge.
+    """
+    places: dict[Any, Any] = {}
+    for side in sides:
+        edge = bm.edges.get([side[0], side[-1]])
+        (face,) = edge.link_faces
+        (tip,) = set(face.verts) - set(edge.verts) if len(face.verts) == 3 else (None,)
+        for vertex in side[1:-1]:
+            begin = edge.other_vert(side[-1])
+            way = side[-1].co - begin.co
+            share = (vertex.co - begin.co).dot(way) / way.length_squared
+            _, fresh = bmesh.utils.edge_split(edge, begin, share)
+            places[fresh] = vertex
+            if tip is not None:
+                (face,) = fresh.link_faces
+                bmesh.utils.face_split(face, tip, fresh)
+            edge = bm.edges.get([fresh, side[-1]])
+    bmesh.ops.weld_verts(bm, targetmap=places)
 
 
 def _spread_vertices(bm: Any, rim: list[Any], patch: Patch) -> Spread:

@@ -160,8 +160,13 @@ class OBJECT_OT_fairing_fill(LargestHole, WholeFairing, bpy.types.Operator):
 
 
 def _said(done: list[Filling]) -> str:
-    holes, faces = sum(f.holes for f in done), sum(f.faces for f in done)
-    return f"{count_text(holes)} filled with {faces:,} faces"
+    holes, faces, cut = (sum(counts) for counts in zip(*((f.holes, f.faces, f.cut) for f in done)))
+    said = [f"{count_text(holes)} filled with {faces:,} faces"] * bool(holes or not cut)
+    if cut:
+        said.append(
+            "1 edge cut at a vertex on it" if cut == 1 else f"{cut:,} edges cut at vertices on them"
+        )
+    return ", ".join(said)
 
 
 register, unregister = registration(OBJECT_OT_fairing_fill)

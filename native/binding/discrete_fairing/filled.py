@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from ._native import FairingError
+from .edge_cuts import Cuts, cut_faces
 from .errors import about, fairing_error
 from .near_hole import MeshPart
 from .rounds import Filling
@@ -120,10 +121,14 @@ class Filled:
         What closes each hole, in the order of the holes, but for those that are skipped.
     skipped: list of SkippedHole
         What could not be filled. It is as it was.
+    cuts: dict
+        Of holes without area: the sides of faces that were cut at the vertices on them in place of a
+        filling, as (begin, end): list of vertices between.
     """
 
     holes: list[FilledHole]
     skipped: list[SkippedHole]
+    cuts: Cuts
     _mesh: MeshPart = field(repr=False)
 
     @cached_property
@@ -134,14 +139,20 @@ class Filled:
     @cached_property
     def faces(self) -> Any:
         """(M, 3) int64 of the filled mesh, or the pair (corners, offsets) where not all are triangles. The m
-        old ones first.
+        old ones first; of a triangle that is cut the first piece, the others come last.
         """
+        corners, offsets = self.uncut
+        if self.cuts:
+            corners, offsets = cut_faces(corners, offsets, self.cuts)
+        return corners.reshape(-1, 3) if (np.diff(offsets) == 3).all() else (corners, offsets)
+
+    @cached_property
+    def uncut(self) -> tuple[np.ndarray, np.ndarray]:
+        """Corners and offsets of all faces before `cuts`."""
         mesh, new = self._mesh, [hole.faces for hole in self.holes]
         corners = np.concatenate([mesh.corners, *(faces.ravel() for faces in new)])
         more = [np.full(len(faces), faces.shape[1]) for faces in new]
         sizes = np.concatenate([np.diff(mesh.offsets), *more])
-        if (sizes == 3).all():
-            return corners.reshape(-1, 3)
         return corners, np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64)
 
     @property
@@ -157,8 +168,8 @@ class Filled:
     @property
     def new_faces(self) -> np.ndarray:
         """(M - m,) int64 ids of the new ones: triangles, or on request quads."""
-        first = len(self._mesh.offsets) - 1
-        return np.arange(first, first + sum(len(hole.faces) for hole in self.holes))
+        count = len(self.faces if isinstance(self.faces, np.ndarray) else self.faces[1][1:])
+        return np.arange(len(self._mesh.offsets) - 1, count)
 
 
 def put_together(
@@ -167,6 +178,7 @@ def put_together(
     fillings: Sequence[Filling],
     told: Sequence[tuple[int, str]],
     skipped: list[SkippedHole],
+    cuts: Cuts,
 ) -> Filled:
     """These fillings of the holes with these loops, in a mesh; of each is `told` how many of its faces
     cross, and why it has no quads.
@@ -176,4 +188,4 @@ def put_together(
         by, faces = f.made, f.faces.astype(np.int64)
         found = by.energy, by.joint, by.converged, by.folds, crossings, why
         holes.append(FilledHole(rims, f.own, faces, *found, list(by.ignored)))
-    return Filled(holes, skipped, mesh)
+    return Filled(holes, skipped, cuts, mesh)

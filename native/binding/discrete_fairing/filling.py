@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from . import _native
 from .arrays import face_arrays, index_array, vertex_array
 from .crossings import in_whole, with_less_crossing
+from .edge_cuts import cuts_for, sides_of
 from .errors import fairing_error
 from .filled import Filled, SkippedHole, put_together
 from .near_hole import NOISY_RINGS, RIMS, RINGS, MeshPart, NearHole
@@ -155,10 +156,12 @@ def fill_holes(
     filler = _native.Filler(mesh.points, mesh.corners, mesh.offsets)
     wanted = Wanted(energy, joint, rim == "noisy", float(density))
     by_row, why = _triangulated(filler, loops, wanted.triangles, watchers)
-    skipped += [
-        SkippedHole.of(list(map(np.array, asked[row])), reason, mesh.vertex_ids)
-        for row, reason in why.items()
-    ]
+    flat = [asked[row] for row, reason in why.items() if reason["code"] == "DEGENERATE_FACE"]
+    cuts = cuts_for(points, corners, offsets, [hole[0] for hole in flat if len(hole) == 1])
+    for row, reason in why.items():
+        if cuts.keys().isdisjoint(sides_of(asked[row][0])):
+            rims = list(map(np.array, asked[row]))
+            skipped.append(SkippedHole.of(rims, reason, mesh.vertex_ids))
     asked, loops = ([all_[row] for row in by_row] for all_ in (asked, loops))
     found = list(by_row.values())
     grids: list[Filling | str] = [""] * len(found)
@@ -174,7 +177,7 @@ def fill_holes(
         for count, grid in zip(crossings, grids, strict=True)
     ]
     loops_asked = [list(map(np.array, hole)) for hole in asked]
-    return put_together(whole, loops_asked, in_whole(whole, mesh, fillings), told, skipped)
+    return put_together(whole, loops_asked, in_whole(whole, mesh, fillings), told, skipped, cuts)
 
 
 _Triangulated = tuple[np.ndarray, np.ndarray]  # own vertices, triangles

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import bmesh
 import bpy
+import numpy as np
 import pytest
 from cli_runs import entries
 from fake_layout import draw
@@ -59,31 +60,60 @@ def test_a_fin_is_listed_and_a_button_deletes_it():
     assert is_closed(target.data)
 
 
-def test_a_vertex_on_an_edge_is_listed_and_a_button_cuts_that_edge(capfd):
-    """Two quads beside a longer one, twice as high: the corner between them hangs on its edge."""
-    points = [(0, 0), (1, 0), (1, 2), (0, 2), (1, 1), (2, 0), (2, 1), (2, 2)]
-    faces = [(0, 1, 2, 3), (1, 5, 6, 4), (4, 6, 7, 2)]
-    target = add("Hanging", [(*p, 0) for p in points], faces)
+def with_a_map(name, points, faces):
+    """Whose UV map is its plan."""
+    target = add(name, points, faces)
     uv = target.data.uv_layers.new(name="Map")
     for loop in target.data.loops:
         uv.data[loop.index].uv = target.data.vertices[loop.vertex_index].co[:2]
-    with pytest.raises(RuntimeError, match="Hanging: 1 hole left, listed in the panel Check"):
-        bpy.ops.object.fairing_fill()
-    defects, stale = recall_defects(target)
-    assert not stale and defects[-1]["code"] == "VERTEX_ON_EDGE" and defects[-1]["elements"] == [4]
-    panel = draw(VIEW3D_PT_fairing_check)
-    assert panel.count("object.fairing_repair") == 1 and "object.fairing_select_defect" in panel
-    assert "1 vertex lies on a border edge" in " ".join(map(str, panel))
-    assert repair.label("VERTEX_ON_EDGE") == "Cut Edges"
-    assert bpy.ops.object.fairing_repair(index=len(defects) - 1) == {"FINISHED"}
+    return target
+
+
+def keeps_its_map(mesh):
+    uv = mesh.uv_layers["Map"].data
+    return all(
+        np.allclose(uv[loop.index].uv, mesh.vertices[loop.vertex_index].co[:2], atol=1e-6)
+        for loop in mesh.loops
+    )
+
+
+@pytest.mark.parametrize("edit_mode", [False, True])
+@pytest.mark.parametrize(("triangles", "sizes"), [(False, [4, 4, 5]), (True, [3] * 7)])
+def test_edges_are_cut_at_the_vertices_on_them(triangles, sizes, edit_mode, capfd):
+    """Two quads beside a longer one, twice as high: the corner between them hangs on its edge."""
+    points = [(0, 0), (1, 0), (1, 2), (0, 2), (1, 1), (2, 0), (2, 1), (2, 2)]
+    faces = [(0, 1, 2, 3), (1, 5, 6, 4), (4, 6, 7, 2)]
+    if triangles:
+        faces = [half for a, b, c, d in faces for half in ((a, b, c), (a, c, d))]
+    target = with_a_map("Hanging", [(*p, 0) for p in points], faces)
+    if edit_mode:
+        side = [e.index for e in target.data.edges if set(e.vertices) == {1, 2}]
+        edit(target, "EDGE", side)
+    assert bpy.ops.object.fairing_fill() == {"FINISHED"}
+    assert "1 edge cut at a vertex on it" in capfd.readouterr().out
     bpy.ops.object.mode_set(mode="OBJECT")
     assert len(borders(target)) == 7 and len(target.data.vertices) == 8
-    assert sorted(len(face.vertices) for face in target.data.polygons) == [4, 4, 5]
-    uv = target.data.uv_layers["Map"]
-    for loop in target.data.loops:
-        assert tuple(uv.data[loop.index].uv) == tuple(
-            target.data.vertices[loop.vertex_index].co[:2]
-        )
+    assert sorted(len(face.vertices) for face in target.data.polygons) == sizes
+    assert keeps_its_map(target.data)
+
+
+def test_a_vertex_on_an_edge_is_listed_and_a_button_cuts_that_edge(capfd):
+    """A rim that leads to and fro along a line more than once is no hole, and no cut closes it."""
+    points = [(x, 0, 0) for x in (0, 3, 1, 2)] + [(1.5, y, z) for y in (-1, 1) for z in (-1, 1)]
+    faces = [(b, a, 4 + k) for k, (a, b) in enumerate([(0, 1), (1, 2), (2, 3), (3, 0)])]
+    target = with_a_map("Fold", points, faces)
+    with pytest.raises(RuntimeError, match="Fold: 1 hole left, listed in the panel Check"):
+        bpy.ops.object.fairing_fill(edge=(0, 1))
+    defects, stale = recall_defects(target)
+    assert not stale and defects[-1]["code"] == "VERTEX_ON_EDGE"
+    panel = draw(VIEW3D_PT_fairing_check)
+    assert "object.fairing_repair" in panel and "object.fairing_select_defect" in panel
+    assert "1 vertex lies on a border edge" in " ".join(map(str, panel))
+    assert repair.label("VERTEX_ON_EDGE") == "Cut Edges"
+    before = len(target.data.polygons)
+    assert bpy.ops.object.fairing_repair(index=len(defects) - 1) == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert len(target.data.polygons) == before + 1 and len(target.data.vertices) == 8
 
 
 def test_the_command_line_warns(tmp_path, monkeypatch):

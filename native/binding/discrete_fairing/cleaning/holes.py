@@ -15,7 +15,7 @@ from ..filling import asked_holes, fill_holes, with_islands
 from ..options import distance
 from ..watching import SeveralRuns
 from .state import State, diagonals, numbered_parts, of_parts
-from .topology import vertices_split
+from .topology import cut, vertices_split
 
 BLOCK = 64  # rows of distances at a time: 25 MB for the longest rim
 CUTS = 3  # times that the faces around a bad rim are taken away, a ring at a time
@@ -118,8 +118,8 @@ def closed(
                 **how,
                 **watched.run(0.3, 0.9),
             )
-            state = state.extended(found.vertices, *face_arrays(found.faces))
-            holes, faces = holes + len(found.holes), faces + len(found.new_faces)
+            state = cut(state.extended(found.vertices, *found.uncut), found.cuts)
+            holes, faces = holes + len(found.holes) + len(found.cuts), faces + len(found.new_faces)
             skipped += found.skipped
         bad = np.zeros(len(state.points), bool)
         for why in unclear:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from .. import _native
-from ..rounds import SLIVER
+from ..edge_cuts import Cuts, cuts_for, pieces
 from .state import State, numbered_parts, of_parts
 
 
@@ -63,51 +63,14 @@ def edges_cut(state: State, watchers: tuple[Any, Any]) -> tuple[State, int]:
     how many vertices these are. Triangles become triangles.
     """
     filler = _native.Filler(state.points, state.corners, state.offsets)
-    on_side: dict[tuple[int, int], list[int]] = {}  # by the ends of a face's side
-    for loop in filler.find(*watchers)[0]:
-        way = state.points[loop]
-        longest = np.argmax(np.linalg.norm(np.roll(way, -1, axis=0) - way, axis=1))
-        begin, *between, end = np.roll(loop, -1 - longest).tolist()
-        if _lie_on_side(state.points[[begin, *between, end]]):
-            on_side[begin, end] = between
-    if not on_side:
-        return state, 0
-    ends = np.stack([state.corners, state.corners[state.sides.next]], axis=1)
-    border = np.flatnonzero(state.sides.at_border)
-    sides = [k for k in border.tolist() if tuple(ends[k].tolist()) in on_side]
-    pieces = {}
-    for face in np.unique(state.face_of[sides]).tolist():
-        rows = range(*state.offsets[face : face + 2].tolist())
-        pieces[face] = _pieces([(int(state.corners[k]), k) for k in rows], on_side)
-    return state.in_pieces(pieces), sum(map(len, on_side.values()))
+    loops = filler.find(*watchers)[0]
+    cuts = cuts_for(state.points, state.corners, state.offsets, loops)
+    return cut(state, cuts), sum(map(len, cuts.values()))
 
 
-def _lie_on_side(points: np.ndarray) -> bool:
-    """Whether all points (k, 3) but the first and the last, a side's ends, follow one another along it, with
-    no more than slivers beside.
-    """
-    side = points[-1] - points[0]
-    along = (points - points[0]) @ side / max(side @ side, np.finfo(float).tiny)
-    off = np.linalg.norm(points - points[0] - along[:, None] * side, axis=1)
-    room = np.minimum(along, 1.0 - along) * np.linalg.norm(side) * np.tan(np.radians(SLIVER))
-    return bool((np.diff(along) > 0.0).all() and (off <= room)[1:-1].all())
-
-
-_Corner = tuple[int, int]  # a vertex, and the corner that it comes from
-
-
-def _pieces(face: list[_Corner], on_side: dict[tuple[int, int], list[int]]) -> list[list[_Corner]]:
-    """A face with the vertices that lie on its sides; a triangle in triangles."""
-    whole: list[_Corner] = []
-    for k, corner in enumerate(face):
-        after = face[(k + 1) % len(face)]
-        between = [(v, corner[1]) for v in on_side.get((corner[0], after[0]), [])]
-        whole += [corner, *between]
-        if between and len(face) == 3:
-            fan = [corner, *between, after]
-            triangles = [[face[k - 1], a, b] for a, b in zip(fan, fan[1:])]
-            return [piece for triangle in triangles for piece in _pieces(triangle, on_side)]
-    return [whole]
+def cut(state: State, cuts: Cuts) -> State:
+    """With these sides of faces cut at the vertices on them."""
+    return state.in_pieces(pieces(state.corners, state.offsets, cuts)) if cuts else state
 
 
 def _places(points: np.ndarray) -> np.ndarray:
