@@ -12,6 +12,7 @@ from bpy_extras.io_utils import ImportHelper
 from ..blender import Answer, Context, Mesh, Object, registration
 from ..mesh.object import collections_for, select_only
 from ..mesh.offset_names import write_names
+from ..purposes import preset_file
 from ..yard.hull_mesh import HullMesh, hull_mesh
 from ..yard.offsets import read
 from ..yard.sheet import UNITS, OffsetsError
@@ -65,9 +66,10 @@ class IMPORT_MESH_OT_fairing_offsets(ImportHelper, bpy.types.Operator):
         if not made.faces:
             return self._refuse(f"{path.name}: Add offsets: no two stations have points to join.")
         target = _object(context, path.stem, made)
+        select_only(context, [target])
+        _set_panel(context, made)
         if self.symmetry and made.is_half:
             context.scene.discrete_fairing.symmetry_plane = "Y"
-        select_only(context, [target])
         knuckles = f", {len(made.creases)} edges creased" if made.creases else ""
         self.report(
             {"INFO"},
@@ -78,6 +80,15 @@ class IMPORT_MESH_OT_fairing_offsets(ImportHelper, bpy.types.Operator):
     def _refuse(self, why: str) -> Answer:
         self.report({"ERROR"}, why)
         return {"CANCELLED"}
+
+
+def _set_panel(context: Context, made: HullMesh) -> None:
+    """As the job Hull has it. Where a crease ends inside the hull, flow lines swing, and bending does not; elsewhere
+    bending springs off borders and knuckles.
+    """
+    cast(Any, bpy.ops.object).fairing_preset_apply(filepath=str(preset_file("HULL")))
+    if made.fades:
+        context.scene.discrete_fairing.energy = "THIN_PLATE"
 
 
 def _object(context: Context, name: str, made: HullMesh) -> Object:

@@ -3,6 +3,7 @@
 NumPy, no Blender.
 """
 
+from collections import Counter
 from dataclasses import dataclass
 from difflib import SequenceMatcher
 
@@ -25,6 +26,15 @@ class HullMesh:
     def is_half(self) -> bool:
         """Whether it ends in the plane y = 0."""
         return bool(len(self.positions)) and bool((self.positions[:, 1] == 0.0).any())
+
+    @property
+    def fades(self) -> bool:
+        """Whether a crease ends inside the hull, as that of a sharp stem at a round keel."""
+        uses = Counter(side for face in self.faces for side in _sides(face))
+        border = [list(s) for s, n in uses.items() if n == 1 and self.positions[list(s), 1].any()]
+        ends = Counter(v for pair in self.creases for v in pair)
+        outside = {v for side in border for v in side}
+        return any(count == 1 and v not in outside for v, count in ends.items())
 
 
 def hull_mesh(table: Offsets) -> HullMesh:
@@ -57,8 +67,9 @@ def hull_mesh(table: Offsets) -> HullMesh:
     # above a bulb and below a rising keel strips lie in the middle of the hull, where it has no skin
     faces = [face for face in faces if any(positions[v][1] for v in face)]
     places = np.array(positions, float).reshape(-1, 3)
-    sides = {frozenset((f[k - 1], f[k])) for f in faces for k in range(len(f))}
-    marked = {frozenset(pair) for pair in creases} & sides | _sharp_middle(places, faces)
+    sides = {side for face in faces for side in _sides(face)}
+    knuckles = {frozenset(pair) for pair in creases} & sides
+    marked = knuckles | _sharp_middle(places, faces, knuckles)
     return HullMesh(
         places,
         faces,
@@ -68,20 +79,66 @@ def hull_mesh(table: Offsets) -> HullMesh:
     )
 
 
-def _sharp_middle(places: np.ndarray, faces: list[list[int]]) -> set[frozenset[int]]:
-    """Edges in the middle plane where both halves would meet at less than a right angle, as at a stem: their
-    faces are nearer to that plane than across it.
-    """
+def _sharp_middle(
+    places: np.ndarray, faces: list[list[int]], knuckles: set[frozenset[int]]
+) -> set[frozenset[int]]:
+    """Edges in the middle plane where the sections of both halves meet at an angle."""
+    beside: dict[frozenset[int], list[int]] = {}
+    for index, face in enumerate(faces):
+        for side in _sides(face):
+            beside.setdefault(side, []).append(index)
     found = set()
-    for face in faces:
-        for v, w in zip(face, face[1:] + face[:1]):
-            if places[v, 1] == places[w, 1] == 0.0:
-                along = places[w] - places[v]
-                away = places[face].mean(axis=0) - places[v]
-                away -= along * (away @ along) / (along @ along)
-                if abs(away[1]) < np.sqrt(0.5) * np.linalg.norm(away):
-                    found.add(frozenset((v, w)))
+    for middle in beside:
+        if middle in knuckles or places[list(middle), 1].any():
+            continue
+        section, ends = _section(places, faces, beside, middle, knuckles)
+        if _is_sharp(section, at_knuckle=ends in knuckles):
+            found.add(middle)
     return found
+
+
+def _sides(face: list[int]) -> list[frozenset[int]]:
+    return [frozenset(pair) for pair in zip(face, face[1:] + face[:1])]
+
+
+def _section(
+    places: np.ndarray,
+    faces: list[list[int]],
+    beside: dict[frozenset[int], list[int]],
+    middle: frozenset[int],
+    knuckles: set[frozenset[int]],
+) -> tuple[np.ndarray, frozenset[int]]:
+    """From an edge in the middle over up to two faces, not over a knuckle: middles of sides (k, 2), outwards and
+    away from the edge within the plane; and the last side.
+    """
+    points, face, side = [places[list(middle)].mean(axis=0)], -1, middle
+    while len(points) < 3 and len(side) == 2 and side not in knuckles:
+        following = [index for index in beside[side] if index != face]
+        if not following:
+            break
+        face = following[0]
+        side = frozenset(faces[face]) - side
+        points.append(places[list(side)].mean(axis=0))
+    v, w = middle
+    along = (places[v] - places[w]) / np.linalg.norm(places[v] - places[w])
+    section = np.array(points) - points[0]
+    away = np.cross(along, [0.0, 1.0, 0.0])
+    return np.column_stack([np.abs(section[:, 1]), section @ away]), side
+
+
+def _is_sharp(section: np.ndarray, at_knuckle: bool) -> bool:
+    """Whether both halves turn at the middle by more than twice as much as the curvature beside it explains. Where
+    one face shows none: at a knuckle the panel is straight; elsewhere, if they turn by more than a right angle.
+    """
+    steps = np.diff(section, axis=0) * [1.0, np.sign(section[1, 1])]
+    slopes = np.arctan2(steps[:, 1], steps[:, 0])
+    turn, explained = 2.0 * slopes[0], 0.0
+    if len(steps) > 1:
+        lengths = np.linalg.norm(steps, axis=1)
+        explained = max(0.0, slopes[1] - slopes[0]) * lengths[0] / lengths.mean()
+    elif not at_knuckle:
+        explained = 0.25 * np.pi
+    return bool(turn > 2.0 * explained)
 
 
 def _mean_x(points: list[Offset]) -> float:

@@ -3,6 +3,7 @@
 
 import csv
 import sys
+from dataclasses import asdict
 from pathlib import Path
 
 import bpy
@@ -11,9 +12,12 @@ import pytest
 from scenes import fair, positions
 
 from addon.mesh.offset_names import read_names, stations
+from addon.settings import Settings
 from addon.strain import words
 from addon.strain.drawn import labels
 from addon.strain.measure import StrainJob
+from addon.yard.hull_mesh import hull_mesh
+from addon.yard.offsets import Offset, Offsets
 
 EXAMPLES = Path(__file__).resolve().parents[3] / "examples"
 sys.path.append(str(EXAMPLES))  # last: other folders have files of the same names
@@ -39,6 +43,41 @@ def test_the_mesh_has_names_creases_and_the_middle_plane():
         assert creased >= {frozenset(pair) for pair in zip(along, along[1:])}
     found = stations(names, positions(hull.data)[:, 0])
     assert found == [(f"station {k}", pytest.approx(k)) for k in range(9)]
+
+
+@pytest.mark.parametrize(
+    ("section", "sharp"),
+    [
+        ([(0, 0), (1, 0.4), (2, 0.8)], True),  # deadrise
+        ([(0, 0), (1, 0), (2, 0)], False),  # flat
+        ([(0, 0), (0.5, 0.13), (0.87, 0.5), (1, 1)], False),  # round
+        ([(0, 0), (0.25, 0.13), (0.43, 0.5), (0.5, 1.0)], False),  # twice as high as broad
+        ([(0, 0), (0.1, 0.4), (0.6, 1.0)], True),  # hollow
+    ],
+)
+@pytest.mark.parametrize("side", [1, -1])
+def test_the_middle_is_sharp_where_the_sections_are(section, sharp, side):
+    points = [
+        Offset(f"{x}", f"L{k}", (x, side * y, z))
+        for x in (0, 1)
+        for k, (y, z) in enumerate(section)
+    ]
+    made = hull_mesh(Offsets(["0", "1"], [p.line for p in points[: len(section)]], points))
+    assert made.creases == ([(0, len(section))] if sharp else [])
+
+
+@pytest.mark.parametrize(
+    ("file", "energy"),
+    [
+        ("offsets_chine.csv", "MINIMUM_VARIATION"),
+        ("offsets_yacht.tsv", "THIN_PLATE"),  # a round keel runs into a sharp stem
+        ("offsets_bulb.csv", "THIN_PLATE"),
+    ],
+)
+def test_flow_lines_are_set_where_no_crease_ends_inside(file, energy):
+    imported(EXAMPLES / file)
+    panel = bpy.context.scene.discrete_fairing
+    assert panel.energy == energy and panel.use_corner_angle
 
 
 def test_a_dropped_file_is_imported_and_the_menu_asks():
@@ -138,3 +177,30 @@ def test_easing_what_was_found_brings_the_truth_back(make):
     bpy.ops.object.mode_set(mode="OBJECT")
     after = np.linalg.norm(positions(hull.data) - truth, axis=1)
     assert before.max() > 0.017 and after.max() < 0.4 * before.max()
+
+
+def knuckled(x, t):
+    """A hull of 12 m, in metres: x along, t from 0 at the keel over 4/7 at the knuckle to 1 at the sheer."""
+    s, below, above = x / 12, np.minimum(t * 7 / 4, 1.0), np.maximum(t * 7 - 4, 0.0) / 3
+    beam = 1.9 * (1 - (1 - s) ** 2.5) * (1 - 0.1 * s**2)
+    keel, sheer = -0.6 + 0.9 * (1 - s) ** 4, 1.5 + 0.7 * (1 - s) ** 2
+    rounded = below * (1 - below), above * (1 - above)
+    y = beam * (0.85 * below + 0.15 * above + 0.12 * rounded[0] + 0.1 * rounded[1])
+    z = keel + (sheer - keel) * (0.35 * below + 0.65 * above) - 0.15 * rounded[0] * (1 - s)
+    return np.stack(np.broadcast_arrays(x, y, z), axis=-1)
+
+
+def test_between_offsets_of_a_knuckled_hull_the_surface_is_within_a_millimetre(tmp_path):
+    stations, lines = np.arange(13.0)[:, None], np.arange(8)[None] / 7
+    names = ["Keel", "A", "B", "C", "Chine", "D", "E", "Sheer"]
+    rows = ["station\tline\tx (m)\ty\tz"]
+    for k, station in enumerate(knuckled(stations, lines).tolist()):
+        rows += ["\t".join([f"{k}", name, *map(str, place)]) for name, place in zip(names, station)]
+    file = tmp_path / "offsets.tsv"
+    file.write_text("\n".join(rows))
+    half = imported(file)
+    surface = fair(**asdict(Settings.of(bpy.context.scene.discrete_fairing)))
+    truth = knuckled(np.arange(2.0, 10.0, 0.125)[:, None], np.arange(57)[None] / 56).reshape(-1, 3)
+    nearest = np.array([surface.closest_point_on_mesh(place)[1] for place in truth.tolist()])
+    off = np.linalg.norm(nearest - truth, axis=1)
+    assert len(half.data.polygons) == 84 and off.max() < 1e-3
