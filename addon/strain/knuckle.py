@@ -44,20 +44,31 @@ def knuckle(
 
 
 def _worst_in_a_row(lengths: np.ndarray, beside: dict[int, list[int]]) -> list[int]:
-    """The vertices of the largest `lengths` above zero, as long as each goes on from an end of those before."""
+    """As many of the vertices of the largest `lengths` above zero as are together one chain, in its order."""
     order = np.argsort(-np.nan_to_num(lengths, nan=-np.inf), kind="stable")
     chain: list[int] = []
+    near: dict[int, list[int]] = {}  # of those taken, in both directions
     for v in order.tolist():
         if not lengths[v] > 0.0:
             break
-        touched = [w for w in beside.get(v, ()) if w in chain]
-        if chain and (len(touched) != 1 or touched[0] not in (chain[0], chain[-1])):
-            break
-        if chain and touched[0] == chain[0]:
-            chain.insert(0, v)
-        else:
-            chain.append(v)
+        near[v] = [w for w in beside.get(v, ()) if w in near]
+        for w in near[v]:
+            near[w].append(v)
+        if max(map(len, (near[w] for w in (v, *near[v])))) > 2:
+            break  # and stays so
+        chain = _walked(near) or chain
     return chain
+
+
+def _walked(near: dict[int, list[int]]) -> list[int]:
+    """From the end with the lower id to the other; empty if these are more than one chain, or closed."""
+    walk = sorted(v for v, ways in near.items() if len(ways) < 2)[:1]
+    while walk:
+        ahead = [w for w in near[walk[-1]] if w not in walk[-2:]]
+        if not ahead:
+            break
+        walk.append(ahead[0])
+    return walk if len(walk) == len(near) else []
 
 
 def _run_into(
