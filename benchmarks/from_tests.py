@@ -14,7 +14,6 @@ sys.path.append(str(TESTS))  # last: benchmarks has a control_meshes of its own
 
 measures = importlib.import_module("surface_measures")
 thin_walls = importlib.import_module("thin_walls")
-judge = importlib.import_module("surface_judge")
 
 
 def small_meshes() -> ModuleType:

@@ -130,7 +130,7 @@ def loop(points: np.ndarray, polygons: list[list[int]], levels: int) -> Surface:
 
 
 def modified_butterfly(points: np.ndarray, polygons: list[list[int]], levels: int) -> Surface:
-    """The NumPy version that the tests have."""
+    """Modified butterfly, in NumPy."""
     import butterfly
 
     triangles = triangulate(points, polygons)

@@ -300,9 +300,3 @@ def test_valence_360(boundary, levels):
     assert np.isfinite(result.vertices).all() and np.abs(result.vertices).max() < 2
     assert np.array_equal(result.vertices[: len(vertices)], vertices)
     assert result.report["converged"]
-
-
-def test_predicted_size_refuses_too():
-    for arguments in ((12, FACES[:, :2], 2), (12, FACES, -1), (12, FACES, 99), (-1, FACES, 2)):
-        with pytest.raises(df.FairingError):
-            df.predicted_size(*arguments)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Closed control meshes with what CAD exports and quick modelling leave: thin plates, bevels,
-slivers, stars, vertices that nearly coincide. All of them are drawn by seed, so the same everywhere.
+"""Closed control meshes with what CAD exports and quick modelling leave: slivers, stars, vertices that nearly
+coincide. All of them are drawn by seed, so the same everywhere.
 
 Each maker takes a random generator and returns vertices (n, 3) and faces as lists.
 """
@@ -11,8 +11,6 @@ import numpy as np
 from sliver_meshes import rim_fan, zigzag
 
 Mesh = tuple[np.ndarray, list[list[int]]]
-EACH = 27  # meshes of a family
-MOST_BEVEL = 0.4  # of the narrowest cell
 
 
 def inset(outline: np.ndarray, distance: float) -> np.ndarray:
@@ -69,20 +67,9 @@ def logarithmic(random, low: float, high: float) -> float:
     return float(np.exp(random.uniform(np.log(low), np.log(high))))
 
 
-def thin_plate(random) -> Mesh:
-    """A rectangle with rows of quads, bevelled on both sides."""
-    m, n = random.integers(1, 6, 2)
-    x, y = np.linspace(0, 1, m + 1), np.linspace(0, random.uniform(0.1, 1), n + 1)
-    height = logarithmic(random, 0.002, 0.08)
-    return cells(x, y, np.ones((m, n), bool), height, height * logarithmic(random, 0.02, 0.45))
-
-
 def near_coincident(random) -> Mesh:
-    """A torus or plate with some vertices split in two, 1e-5 to 2e-7 of the size apart."""
-    if random.random() < 0.5:
-        points, faces = thin_plate(random)
-    else:
-        points, faces = bent_torus(random)
+    """A torus with some vertices split in two, 1e-5 to 2e-7 of the size apart."""
+    points, faces = bent_torus(random)
     faces = [part for face in faces for part in ([face[:3], [face[0], *face[2:]]][: len(face) - 2])]
     size = np.linalg.norm(np.ptp(points, axis=0))
     for vertex in random.choice(len(points), min(3, len(points)), replace=False).tolist():
@@ -132,26 +119,6 @@ def bent_torus(random) -> Mesh:
     return points.reshape(-1, 3), np.stack(corners, -1).reshape(-1, 4).tolist()
 
 
-def t_shape(random) -> Mesh:
-    """A T of four quads, bevelled above and below; half of them with their corners cut too."""
-    w, h, length = random.uniform(0.05, 0.3), random.uniform(0.1, 0.4), random.uniform(0.3, 1)
-    a = w + random.uniform(0.2, 0.7)
-    outline = [(-w, -length), (w, -length), (w, 0), (a, 0), (a, h), (w, h)]
-    outline = np.array([*outline, (-w, h), (-a, h), (-a, 0), (-w, 0)])
-    bevel = min(w, h) * logarithmic(random, 0.003, 0.3)
-    height = 2 * bevel + logarithmic(random, 0.005, 0.5)
-    if random.random() < 0.5:
-        return chamfered(
-            outline, height, bevel, [[0, 1, 2, 9], [9, 2, 5, 6], [2, 3, 4, 5], [9, 6, 7, 8]]
-        )
-    outline = np.delete(outline, [5, 6], 0)
-    before, after = np.roll(outline, 1, 0) - outline, np.roll(outline, -1, 0) - outline
-    cut = [outline + bevel * d / np.linalg.norm(d, axis=1)[:, None] for d in (before, after)]
-    outline = np.stack(cut, 1).reshape(-1, 2)
-    caps = [[0, 1, 2, 3, 4, 15], [15, 4, 5, 14], [14, *range(5, 14)]]
-    return chamfered(outline, height, bevel * random.uniform(0.3, 1), caps)
-
-
 def sliver_fan(random) -> Mesh:
     """A disk whose caps are fans or strips without a vertex inside; every other one is bevelled."""
     sides = int(random.integers(12, 120))
@@ -177,99 +144,14 @@ def star(random) -> Mesh:
     return starred(plate, height=random.choice([0.0, 0.1, 0.3]))
 
 
-def panel(random) -> Mesh:
-    """A bent sheet with two sides, one edge thick."""
-    m, n = random.integers(2, 11, 2)
-    thickness = logarithmic(random, 3e-4, 0.05)
-    points, faces = cells(
-        np.linspace(0, 1, m + 1),
-        np.linspace(0, random.uniform(0.3, 1), n + 1),
-        np.ones((m, n), bool),
-        thickness,
-    )
-    x, y, z = points.T
-    wave = random.uniform(0, 0.2) * np.sin(random.uniform(1, 6) * x + random.uniform(0, 3) * y)
-    return np.stack([x, y, z + wave], -1), faces
-
-
-def long_box(random) -> Mesh:
-    """A bar of square or flat section, in one piece or some, now and then in triangles."""
-    pieces = int(random.integers(1, 9))
-    x = np.sort(random.uniform(0, 1, pieces + 1)) if random.random() < 0.5 else None
-    x = np.linspace(0, 1, pieces + 1) if x is None else (x - x[0]) / (x[-1] - x[0])
-    width = logarithmic(random, 0.002, 0.1)
-    y = np.array([0, width])
-    height = width * random.uniform(0.1, 1)
-    bevel = height * logarithmic(random, 0.02, 0.4) if random.random() < 0.5 else 0.0
-    points, faces = cells(x, y, np.ones((pieces, 1), bool), height, bevel)
-    if random.random() < 0.4:
-        faces = [part for f in faces for part in ([f[:3], [f[0], *f[2:]]][: len(f) - 2])]
-    return points, faces
-
-
-def plate_with_holes(random) -> Mesh:
-    """A grid of quads with some left out, none beside another; half of them bevelled."""
-    m, n = 2 * random.integers(1, 4, 2) + 1
-    solid = np.ones((m, n), bool)
-    solid[1::2, 1::2] = random.random((m // 2, n // 2)) < 0.3
-    x, y = (np.cumsum(random.uniform(0.1, 1, k + 1)) for k in (m, n))
-    height = logarithmic(random, 0.005, 0.3)
-    bevel = logarithmic(random, 0.02, 0.4) * min(height, 0.1) if random.random() < 0.5 else 0.0
-    return cells(x / x[-1], y / y[-1], solid, height / x[-1], bevel / x[-1])
-
-
-def cells(x, y, solid: np.ndarray, height: float, bevel: float = 0.0) -> Mesh:
-    """Cells of a grid as a plate with two sides and a wall; with a bevel, its rims are moved
-    inwards above and below. `solid` (len(x) - 1, len(y) - 1): the cells there are."""
-    bevel = min(bevel, MOST_BEVEL * min(np.diff(x).min(), np.diff(y).min()))
-    number: dict[tuple, int] = {}
-    faces, walls = [], {}
-    for i, j in zip(*np.nonzero(solid)):
-        around = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)]
-        faces.append([number.setdefault(("top", *p), len(number)) for p in around])
-        faces.append([number.setdefault(("bottom", *p), len(number)) for p in around[::-1]])
-        for p, q in zip(around, [*around[1:], around[0]]):
-            walls[p, q] = (q, p) not in walls
-            if (q, p) in walls:
-                walls[q, p] = False
-    levels = ["bottom", "low", "high", "top"] if bevel else ["bottom", "top"]
-    turn = {}  # at a vertex of the rim: where the two sides there lead in, added up
-    for (p, q), outer in walls.items():
-        if not outer:
-            continue
-        inwards = np.sign(np.array([p[1] - q[1], q[0] - p[0]], float))
-        for r in (p, q):
-            turn.setdefault(r, []).append(inwards)
-        for low, high in zip(levels, levels[1:]):
-            faces.append(
-                [
-                    number.setdefault((side, *r), len(number))
-                    for side, r in ((low, p), (low, q), (high, q), (high, p))
-                ]
-            )
-    points = np.empty((len(number), 3))
-    heights = {"bottom": 0.0, "low": bevel, "high": height - bevel, "top": height}
-    for (side, i, j), v in number.items():
-        points[v] = x[i], y[j], heights[side]
-        if bevel and side in ("top", "bottom") and (i, j) in turn:
-            one, two = turn[i, j]
-            points[v, :2] += bevel * (one if (one == two).all() else one + two)
-    return points, faces
-
-
 FAMILIES: dict[str, Callable[[np.random.Generator], Mesh]] = {
-    "thin plates": thin_plate,
     "near-coincident": near_coincident,
-    "T-shaped": t_shape,
     "fans of slivers": sliver_fan,
     "stars": star,
-    "panels": panel,
-    "long boxes": long_box,
-    "plates with holes": plate_with_holes,
 }
 
 
-def meshes(each: int = EACH) -> Iterator[tuple[str, str, np.ndarray, list[list[int]]]]:
+def meshes(each: int) -> Iterator[tuple[str, str, np.ndarray, list[list[int]]]]:
     """Family, name, vertices, faces; `each` of every family."""
     for number, (family, make) in enumerate(FAMILIES.items()):
         for seed in range(each):
