@@ -16,6 +16,7 @@ import numpy as np
 
 from .choices import EDGE_BOUNDARIES
 from .settings import AnySettings, PatchOptions, Settings, is_limit, is_near
+from .triangles import border
 
 MISSING = "The native module 'discrete_fairing' could not be loaded: reinstall the extension for this Blender version"
 
@@ -414,9 +415,7 @@ def border_corners(arrays: ControlArrays, plane: int | None = None) -> np.ndarra
     single = np.bincount(corners, minlength=count)[corners] == 1
     angles = np.where(single, np.abs(angles), angles % (2 * np.pi))
     angle = np.bincount(corners, angles, minlength=count)
-    sides = np.sort(np.stack([corners, corners[after]], axis=1), axis=1)
-    _, place, uses = np.unique(sides, axis=0, return_inverse=True, return_counts=True)
-    ends = sides[uses[place.ravel()] == 1].ravel()
+    ends = border(corners, arrays.offsets).ravel()
     # at 120° themselves rounding would decide
     turns = (angle < np.arccos(-_COSINE_OF_CORNER) - 1e-9) & np.isin(np.arange(count), ends)
     if arrays.boundary_edge is not None:

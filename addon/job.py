@@ -7,7 +7,6 @@ run on any thread.
 
 from collections.abc import Mapping
 from contextlib import nullcontext
-from time import perf_counter
 from typing import Any
 
 import numpy as np
@@ -18,6 +17,7 @@ from .check.faults import find_faults
 from .choices import energy_name
 from .errors import JobError
 from .inspection import display, measures
+from .mesh.begun import TimedRun
 from .mesh.layers import read_data, write_data
 from .mesh.modifiers import copy_modifiers, without_inspection
 from .mesh.object import Reference, new_object
@@ -43,7 +43,7 @@ from .transfer.seams import seam_pairs
 NOTICED_MEMORY = 2**28  # bytes: less than this is nothing beside Blender itself
 
 
-class Job:
+class Job(TimedRun):
     """The fairing of one object. A failed or cancelled job leaves everything as it was."""
 
     made_name = "Fair"  # of a new object, behind its source's
@@ -61,10 +61,11 @@ class Job:
         `target`: an object that gets the surface as its mesh; None: a new one is made. `region`:
         (r,) ids of the faces to fair with `use_selection`; None: those that are selected now.
         """
-        self._source = Reference(source)
+        self.reference = Reference(source)
         self._target = None if target is None else Reference(target)
         self.name = source.name
         self.settings = settings.for_source(source)
+        self.kind = self.settings.energy
         evaluated = is_evaluated(self.settings)
         with (
             without_inspection(context, source) if evaluated else nullcontext(),
@@ -113,11 +114,8 @@ class Job:
                 )
         self.pieces: int | None = None  # faired one after another; None: as a whole
         self.spread: core.Spread | None = None  # how pieces are faired otherwise
-        self.result: Any = None
 
-    def compute(self, **watchers: Any) -> None:
-        """Runs the core; `watchers` are its `monitor` and `progress`."""
-        begun = perf_counter()
+    def _compute(self, watchers: dict[str, Any]) -> None:
         with errors.explained(self.name):
             self.result = self.surface(**watchers)
         self.transfer = AttributeTransfer(self.result, self.arrays, self.settings.levels)
@@ -134,7 +132,6 @@ class Job:
         if self.settings.keep_symmetry:
             self._symmetrize()
         self._seams = seam_pairs(self.result, self.arrays, self.settings, self._edges)
-        self._taken = perf_counter() - begun
 
     def surface(self, **watchers: Any) -> Any:
         """The core's result."""
@@ -145,18 +142,22 @@ class Job:
         return self.shape.of_arrays(self.arrays)
 
     @property
+    def _key(self) -> Any:
+        return self.reference.key
+
+    @property
     def predicted_seconds(self) -> float:
-        """How long `compute` will take; on a new machine rather too short, so that it is tried."""
-        energy, work = self.settings.energy, self._work(self.settings.levels)
-        return prediction.hoped_seconds(energy, work, self._source.key)
+        """On a new machine rather too short, so that it is tried."""
+        return prediction.hoped_seconds(self.kind, self._work(), self._key)
 
     def predict(self, energy: str, levels: int) -> float:
         """How long it would take by another energy, with other levels."""
-        return prediction.seconds(energy, self._work(levels), self._source.key)
+        return prediction.seconds(energy, self._work(levels), self._key)
 
-    def _work(self, levels: int) -> int:
-        """Triangles, of the surface and of each shape, mirror images too."""
+    def _work(self, levels: int | None = None) -> int:
+        """Of the surface and of each shape, mirror images too."""
         shapes = len(self.arguments.get("shapes", ()))
+        levels = self.settings.levels if levels is None else levels
         one = size.triangle_count(self.arrays.face_sizes, levels)
         return one * (1 + shapes) * halves(self.settings)
 
@@ -196,7 +197,7 @@ class Job:
     @property
     def source(self) -> Object | None:
         """Found again each time: a long run leaves time for undo, and to delete it; None then."""
-        return self._source.find()
+        return self.reference.find()
 
     @property
     def target(self) -> Object | None:
@@ -205,7 +206,7 @@ class Job:
 
     def is_writable(self) -> bool:
         """Whether all objects that writing needs still exist."""
-        return all(r.find() is not None for r in (self._source, self._target) if r is not None)
+        return all(r.find() is not None for r in (self.reference, self._target) if r is not None)
 
     def write(self, context: Context, own: OwnData | None = None) -> Object:
         """Makes the object, or gives `target` its new mesh, and returns it.
@@ -249,13 +250,8 @@ class Job:
             place.follow(context, target)
         freshness.note(target, self._made)
         display.refresh(target, scene_of(target).discrete_fairing_inspection)
-        self.note_time()
+        self.note()
         return target
-
-    def note_time(self) -> None:
-        """For the next prediction."""
-        work = self._work(self.settings.levels)
-        prediction.note(self.settings.energy, work, self._taken, self._source.key)
 
     def warnings(self) -> list[str]:
         """What the user should know of a finished job, a sentence each."""

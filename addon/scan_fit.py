@@ -86,6 +86,7 @@ class FitJob(Job):
                 f"{cage.name}: Select the scan, too. What is selected beside the cage has no points."
             )
         super().__init__(context, cage, settings_of_fit(settings), target)
+        self.kind = "FIT"
         self._units = Units.of(context.scene)
         self._scans = [Reference(scan) for scan in fit.objects]
         self._amount = fit.tolerance
@@ -95,8 +96,8 @@ class FitJob(Job):
     def surface(self, **watchers: Any) -> Any:
         return core.module().fit(**core.of_fits(self.arguments), **self._near, **watchers)
 
-    def compute(self, **watchers: Any) -> None:
-        super().compute(**watchers)
+    def _compute(self, watchers: dict[str, Any]) -> None:
+        super()._compute(watchers)
         self.notes.insert(0, self.said())
 
     def control(self) -> core.ControlArrays:
@@ -106,13 +107,10 @@ class FitJob(Job):
         return replace(world, positions=moved)
 
     def predict(self, _energy: str, levels: int) -> float:
-        return prediction.seconds("FIT", self._work(levels), self._source.key)
+        return prediction.seconds(self.kind, self._work(levels), self._key)
 
-    def _work(self, levels: int) -> int:
+    def _work(self, levels: int | None = None) -> int:
         return super()._work(levels) + self._points
-
-    def note_time(self) -> None:
-        prediction.note("FIT", self._work(self.settings.levels), self._taken, self._source.key)
 
     def write(self, context: Context, own: Any = None) -> Object:
         target = super().write(context, own)

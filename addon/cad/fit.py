@@ -85,7 +85,7 @@ class PatchJob(Job):
             self.arguments["shapes"] = np.stack([given[place - 1] for place in used])
             self.arguments["blend"] = Blend(self.arrays, list(used.values()))
 
-    def compute(self, **watchers: Any) -> None:
+    def _compute(self, watchers: dict[str, Any]) -> None:
         with errors.explained(self.name):
             try:
                 self.patches = core.module().fit_patches(**self.arguments, **watchers)
@@ -105,7 +105,7 @@ class PatchJob(Job):
 
     def predict(self, energy: str, levels: int) -> float:
         finest = max(levels, self.arguments["levels"] or _USUAL_LEVELS)
-        return prediction.seconds(energy, self._work(finest), self._source.key)
+        return prediction.seconds(energy, self._work(finest), self._key)
 
     def is_writable(self) -> bool:
         return super().is_writable() and self._shown.find() is not None

@@ -5,7 +5,6 @@ What is drawn hangs on the object's settings alone. Points on the graphics card 
 change of a mesh, undo and a new file throw it away, and the next drawing makes it again.
 """
 
-from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any, cast
 
@@ -16,8 +15,8 @@ from gpu_extras import batch as _batch
 from mathutils import Matrix
 
 from .. import events
-from ..blender import Object, all_objects, current_context
-from ..mesh.object import Reference, changed_keys, session_key
+from ..blender import Object, current_context
+from ..mesh.object import Showing, changed_keys, session_key
 from .drawn import Drawn
 from .overlay_arrays import lines_of, pulled, surface_of
 
@@ -35,8 +34,7 @@ class _Entry:
 
 
 _entries: dict[int | str, _Entry] = {}
-_shown: list[Reference] | None = None  # objects with something to draw; None: to be looked for
-_count = 0  # of the file's objects, when they were looked through
+_shown = Showing(lambda target: bool(target.discrete_fairing_inspection.sections))
 _handle: Any = None
 
 
@@ -47,8 +45,7 @@ def is_on() -> bool:
 
 def shown_changed() -> None:
     """To be called when an object has been told to show something else."""
-    global _shown
-    _shown = None
+    _shown.forget()
     redraw()
 
 
@@ -65,25 +62,12 @@ def redraw() -> None:
                 area.tag_redraw()
 
 
-def _objects() -> Iterable[Object]:
-    global _shown, _count
-    count = len(bpy.data.objects)
-    if _shown is None or count != _count:
-        _count = count
-        _shown = [
-            Reference(o)
-            for o in all_objects()
-            if o.type == "MESH" and o.discrete_fairing_inspection.sections
-        ]
-    return [found for reference in _shown if (found := reference.find()) is not None]
-
-
 def _draw() -> None:
     context = current_context()
     space, view = cast(Any, context.space_data), cast(Any, context.region_data)
     if space is None or space.type != "VIEW_3D" or view is None:
         return
-    for target in _objects():
+    for target in _shown:
         if target.mode in {"OBJECT", "EDIT"} and target.visible_in_viewport_get(space):
             _draw_object(context, target, view)
 
@@ -138,15 +122,14 @@ def _note_changes(_scene: Any, depsgraph: bpy.types.Depsgraph) -> None:
     if not _entries:
         return
     changed = changed_keys(depsgraph, moved=False)
-    for reference in _shown or ():
+    for reference in _shown.references or ():
         target = reference.find()
         if target is None or changed & {session_key(target), session_key(target.data)}:
             _entries.pop(reference.key, None)
 
 
 def _forget(*_: Any) -> None:
-    global _shown
-    _shown = None
+    _shown.forget()
     _entries.clear()
 
 

@@ -70,7 +70,11 @@ class TimedRun:
     @property
     def predicted_seconds(self) -> float:
         """How long `compute` will take."""
-        return prediction.seconds(self.kind, self.triangles, self._key)
+        return prediction.seconds(self.kind, self._work(), self._key)
+
+    def _work(self) -> int:
+        """Triangles of all that is computed."""
+        return self.triangles
 
     def compute(self, **watchers: Any) -> None:
         """Runs the core, on any thread; `watchers` are its `monitor` and `progress`. Raises JobError."""
@@ -87,4 +91,4 @@ class TimedRun:
 
     def note(self) -> None:
         """For predictions, on the main thread."""
-        prediction.note(self.kind, self.triangles, self._taken, self._key)
+        prediction.note(self.kind, self._work(), self._taken, self._key)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The new object beside its source: same place, same collections, same materials."""
 
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 from contextlib import contextmanager
 from typing import Any, cast
 
@@ -51,6 +51,29 @@ class Reference:
         if target is not None:
             self._name = target.name
         return target
+
+
+class Showing:
+    """The mesh objects of which something is `wanted` in viewports: looked for again once the file has another
+    number of objects, or after `forget`.
+    """
+
+    def __init__(self, wanted: Callable[[Object], bool]) -> None:
+        self._wanted = wanted
+        self.references: list[Reference] | None = None
+        self._count = 0
+
+    def forget(self) -> None:
+        self.references = None
+
+    def __iter__(self) -> Iterator[Object]:
+        count = len(bpy.data.objects)
+        if self.references is None or count != self._count:
+            self._count = count
+            meshes = (o for o in all_objects() if o.type == "MESH")
+            self.references = [Reference(o) for o in meshes if self._wanted(o)]
+        found = [reference.find() for reference in self.references]
+        return (target for target in found if target is not None)
 
 
 def new_object(context: Context, source: Object, mesh: Mesh) -> Object:

@@ -71,6 +71,12 @@ def read_scans(context: Context, targets: Sequence[Object]) -> Scan:
     )
 
 
+def in_metres(context: Context, target: Object) -> tuple[np.ndarray, np.ndarray]:
+    """One of them: points (n, 3) in metres, and triangles (m, 3)."""
+    found = read_scans(context, [target])
+    return found.points * context.scene.unit_settings.scale_length, found.triangles
+
+
 def _own(context: Context, target: Object) -> Iterator[Scan]:
     matrix = np.array(world_matrix(target), dtype=np.float64)
     if target.type == "POINTCLOUD":

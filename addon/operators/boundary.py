@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Single border edges that are smooth, straight or free, whatever the surface's setting."""
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 import bpy
@@ -18,9 +19,7 @@ class _OfEdges(ExplainedPoll):
     if TYPE_CHECKING:
         boundary: str
 
-    @staticmethod
-    def poll_reason(context: Context) -> str:
-        return edit_mode_reason(context, "border edges")
+    poll_reason = staticmethod(partial(edit_mode_reason, chosen="border edges"))
 
 
 class OBJECT_OT_fairing_boundary(_OfEdges, bpy.types.Operator):

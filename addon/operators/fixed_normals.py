@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Vertices at which the surface gets a normal that somebody chooses, and at which it finds its own."""
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 import bpy
@@ -23,9 +24,7 @@ class _OfVertices(ExplainedPoll):
     if TYPE_CHECKING:
         origin: str
 
-    @staticmethod
-    def poll_reason(context: Context) -> str:
-        return edit_mode_reason(context, "vertices")
+    poll_reason = staticmethod(partial(edit_mode_reason, chosen="vertices"))
 
 
 class OBJECT_OT_fairing_fix_normal(_OfVertices, bpy.types.Operator):

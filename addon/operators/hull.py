@@ -13,7 +13,7 @@ from ..mesh.layers import make_layer
 from ..mesh.object import new_object, select_only
 from ..mesh.offset_names import read_names, write_names
 from ..mesh.read import control_mesh, read_mesh
-from ..mesh.scans import of_mesh, read_scans
+from ..mesh.scans import in_metres, of_mesh
 from ..poll import ExplainedPoll, object_mode_reason
 from ..settings import Settings
 from ..strain.measure import mixed_positions
@@ -55,7 +55,7 @@ class OBJECT_OT_fairing_close(ExplainedPoll, bpy.types.Operator):
         if settings is not None:
             options = asdict(replace(settings, symmetry_plane="NONE", use_selection=False))
             cast(Any, bpy.ops.object).fairing_surface(**options)
-        found = _solid(context, cast(Object, context.active_object))
+        found = solid(*in_metres(context, cast(Object, context.active_object)))
         self.report({"INFO"}, f"Closed: {_solid_text(context, found)}")
         return {"FINISHED"}
 
@@ -103,22 +103,6 @@ def _crease(mesh: Mesh, made: Whole, weights: dict[frozenset[int], float]) -> No
     make_layer(mesh, "crease_edge", "FLOAT", "EDGE").data.foreach_set(
         "value", np.array(values, np.float32)
     )
-
-
-def in_metres(context: Context, target: Object) -> tuple[np.ndarray, np.ndarray]:
-    """As `triangles_of`, with points in metres."""
-    points, triangles = triangles_of(context, target)
-    return points * context.scene.unit_settings.scale_length, triangles
-
-
-def triangles_of(context: Context, target: Object) -> tuple[np.ndarray, np.ndarray]:
-    """The mesh as it is seen, modifiers and all: points (n, 3) in the world, and triangles (m, 3)."""
-    found = read_scans(context, [target])
-    return found.points, found.triangles
-
-
-def _solid(context: Context, target: Object) -> Solid:
-    return solid(*in_metres(context, target))
 
 
 def _solid_text(context: Context, found: Solid) -> str:

@@ -9,9 +9,10 @@ from bpy.props import FloatProperty, IntProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper
 
 from ..blender import Answer, Context, Object, registration
+from ..mesh.scans import in_metres
 from ..poll import ExplainedPoll
 from ..yard.hydrostatics import Hydrostatics, NotClosed, hydrostatics
-from .hull import in_metres, poll_reason
+from .hull import poll_reason
 from .text_file import write_text_file
 
 _COLUMNS = (

@@ -15,12 +15,12 @@ from ..inspection.sections import cut
 from ..memory import active_source
 from ..mesh.object import collections_for, select_only
 from ..mesh.offset_names import read_names, stations
-from ..mesh.scans import of_mesh
+from ..mesh.scans import of_mesh, read_scans
 from ..mesh.world_shape import world_matrix
 from ..poll import ExplainedPoll
 from ..yard.dxf import text
 from ..yard.plan import Cut, Plane, in_space, opened, places, scaled, sheet
-from .hull import poll_reason, triangles_of
+from .hull import poll_reason
 from .text_file import write_text_file
 
 _AXES = {"STATIONS": 0, "BUTTOCKS": 1, "WATERLINES": 2}
@@ -31,8 +31,8 @@ _FILE_UNITS = {"MM": 1e-3, "CM": 1e-2, "M": 1.0, "IN": 0.0254, "FT": 0.3048}
 
 def _surface(context: Context, target: Object) -> Drawn:
     """As it is seen, in the world; normals, which would part it at sharp edges, are left out."""
-    points, triangles = triangles_of(context, target)
-    return Drawn(points, np.zeros_like(points), triangles)
+    found = read_scans(context, [target])
+    return Drawn(found.points, np.zeros_like(found.points), found.triangles)
 
 
 def _imported_stations(context: Context, target: Object) -> list[tuple[str, float]]:

@@ -5,7 +5,7 @@ It exists while Blender runs. Nothing runs while nothing is shown; without a win
 measure.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from time import monotonic
 from typing import Any, cast
@@ -13,11 +13,11 @@ from typing import Any, cast
 import bpy
 
 from .. import core, events
-from ..blender import Context, Object, all_objects, current_context
+from ..blender import Context, Object, current_context
 from ..errors import JobError
 from ..inspection import overlay
 from ..live.full_level import is_dragging
-from ..mesh.object import Reference, changed_keys, session_key
+from ..mesh.object import Reference, Showing, changed_keys, session_key
 from ..queue import Queue
 from ..redraw import tag_sidebars
 from ..settings import Settings
@@ -110,8 +110,7 @@ class _Watch:
 
 
 _watches: dict[int | str, _Watch] = {}
-_shown: list[Reference] | None = None  # None: to be looked for
-_count = 0  # of the file's objects, when they were looked through
+shown_sources = Showing(lambda target: bool(target.discrete_fairing_strain.show))
 _reading = False  # whether changes that Blender tells of are our own reading
 
 
@@ -147,24 +146,9 @@ def trouble(source: Object) -> str:
     return "" if watch is None else watch.error
 
 
-def shown_sources() -> Iterable[Object]:
-    """The objects whose strain is to be seen."""
-    global _shown, _count
-    count = len(bpy.data.objects)
-    if _shown is None or count != _count:
-        _count = count
-        _shown = [
-            Reference(o)
-            for o in all_objects()
-            if o.type == "MESH" and o.discrete_fairing_strain.show
-        ]
-    return [found for reference in _shown if (found := reference.find()) is not None]
-
-
 def shown_changed() -> None:
     """To be called when an object has been told to show its strain, or not to."""
-    global _shown
-    _shown = None
+    shown_sources.forget()
     _start_timer()
 
 
@@ -181,7 +165,7 @@ def _on_timer() -> float | None:
     context, news = current_context(), False
     if core.why_missing():
         return None
-    sources = list(shown_sources())
+    sources = list(shown_sources)
     for source in sources:
         news |= _watch(source).advance(context)
     if news:
@@ -225,11 +209,10 @@ def _mark_all_stale(*_: Any) -> None:
 
 
 def _forget(*_: Any) -> None:
-    global _shown
     for watch in _watches.values():
         watch.cancel()
     _watches.clear()
-    _shown = None
+    shown_sources.forget()
 
 
 def _resume(*_: Any) -> None:

@@ -81,7 +81,7 @@ def _seen(space: Any) -> list[tuple[Object, Strained]]:
     """Sources that are to be drawn in this viewport: they or what is made of them can be seen."""
     return [
         (source, strained)
-        for source in known.shown_sources()
+        for source in known.shown_sources
         if source.mode in {"OBJECT", "EDIT"}
         and (strained := known.found_of(source)) is not None
         and any(o.visible_in_viewport_get(space) for o in (source, *surfaces_of(source)))

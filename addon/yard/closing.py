@@ -7,6 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..triangles import border
+
 _NEAR = 1e-6  # of the hull's size: as far from the middle plane as a vertex in it may be
 
 
@@ -34,12 +36,13 @@ def whole(positions: np.ndarray, corners: np.ndarray, offsets: np.ndarray, axis:
     half[middle, axis] = 0.0
     if (half[:, axis] < 0.0).any() and (half[:, axis] > 0.0).any():
         raise NotHalf(f"it crosses the plane {'XYZ'[axis]} = 0: only one half may be there")
-    border = _border(corners, offsets)
-    if not (middle[border].all(axis=1)).any():
+    open_sides = border(corners, offsets)
+    in_middle = middle[open_sides].all(axis=1)
+    if not in_middle.any():
         raise NotHalf(
             f"no edge lies in the plane {'XYZ'[axis]} = 0: move the middle of the hull there"
         )
-    rim = border[~middle[border].all(axis=1)]
+    rim = open_sides[~in_middle]
     _require_ends(rim, middle)
     image = np.arange(len(half))
     sides = np.flatnonzero(~middle)
@@ -59,17 +62,6 @@ def whole(positions: np.ndarray, corners: np.ndarray, offsets: np.ndarray, axis:
         np.arange(len(all_sizes)) >= 2 * len(sizes),
         edges,
     )
-
-
-def _border(corners: np.ndarray, offsets: np.ndarray) -> np.ndarray:
-    """(b, 2) edges with one face, as that runs along them."""
-    after = np.arange(1, len(corners) + 1)
-    after[offsets[1:] - 1] = offsets[:-1]
-    sides = np.stack([corners, corners[after]], axis=1)
-    _, place, uses = np.unique(
-        np.sort(sides, axis=1), axis=0, return_inverse=True, return_counts=True
-    )
-    return sides[uses[place.ravel()] == 1]
 
 
 def _turned(corners: np.ndarray, offsets: np.ndarray) -> np.ndarray:

@@ -55,7 +55,7 @@ def test_a_run_is_noted_and_the_panel_says_seconds(monkeypatch):
     activate(source)
     assert "768 triangles" in draw(main.VIEW3D_PT_fairing)
     job = Job(bpy.context, source, Settings.of(bpy.context.scene.discrete_fairing))
-    prediction.note("THIN_PLATE", 768, 12.0, job._source.key)
+    prediction.note("THIN_PLATE", 768, 12.0, job.reference.key)
     assert "768 triangles, about 12 s" in draw(main.VIEW3D_PT_fairing)
     assert job.predicted_seconds == pytest.approx(12.0)
     assert job.predict("THIN_PLATE", 4) == pytest.approx(48.0)
@@ -100,7 +100,7 @@ def test_where_even_a_small_surface_takes_too_long(redo, monkeypatch):
 
 def test_redo_shows_a_small_surface_and_recompute_the_whole_one(redo, monkeypatch):
     source = add("Box", *CUBE)
-    key = Job(bpy.context, source, Settings.of(bpy.context.scene.discrete_fairing))._source.key
+    key = Job(bpy.context, source, Settings.of(bpy.context.scene.discrete_fairing)).reference.key
     prediction.note("THIN_PLATE", 12 * 4**4, 1.0, key)  # a second at level 4
     target = fair(levels=5)
     assert len(target.data.polygons) == 6 * 4**3, "a quarter of a second"
@@ -113,7 +113,7 @@ def test_redo_shows_a_small_surface_and_recompute_the_whole_one(redo, monkeypatc
 
 def test_a_slow_energy_is_stood_in_for(redo, monkeypatch):
     source = add("Box", *CUBE)
-    key = Job(bpy.context, source, Settings.of(bpy.context.scene.discrete_fairing))._source.key
+    key = Job(bpy.context, source, Settings.of(bpy.context.scene.discrete_fairing)).reference.key
     prediction.note(ENERGY, 12 * 4, 10.0, key)
     target = fair(levels=3, energy=ENERGY)
     assert target.discrete_fairing.energy == ENERGY and len(target.data.polygons) == 6 * 4**3

@@ -158,7 +158,7 @@ def test_shown_and_hidden_again():
     for show in (True, False):
         assert bpy.ops.object.fairing_strain() == {"FINISHED"}
         assert source.discrete_fairing_strain.show is show
-        assert list(known.shown_sources()) == ([source] if show else [])
+        assert list(known.shown_sources) == ([source] if show else [])
 
 
 def read_table(path):
