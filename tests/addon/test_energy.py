@@ -56,15 +56,6 @@ def test_a_cube_becomes_a_sphere_by_total_curvature_only():
     assert np.ptp(radii(again(source, levels=3, energy="THIN_PLATE"))) > 0.1
 
 
-def test_recompute_remembers_it():
-    add("Box", *CUBE)
-    result = fair(levels=2, energy="THIN_PLATE")
-    assert result.discrete_fairing.energy == "THIN_PLATE"
-    result.discrete_fairing.energy = "TOTAL_CURVATURE"
-    assert bpy.ops.object.fairing_recompute() == {"FINISHED"}
-    assert result.discrete_fairing.energy == "TOTAL_CURVATURE" and np.ptp(radii(result)) < 1e-5
-
-
 def test_report_has_the_steps():
     source = add("Box", *CUBE)
     report = recall(fair(levels=2, energy="TOTAL_CURVATURE"), "report")

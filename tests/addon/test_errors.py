@@ -20,23 +20,17 @@ def expect_refusal(match, **settings):
     assert (len(bpy.data.objects), len(bpy.data.meshes)) == before
 
 
-def test_no_faces():
-    add("Wire", [(0, 0, 0), (1, 0, 0)], [], [(0, 1)])
-    expect_refusal("Wire: .*face")
-
-
-def test_empty_mesh():
-    add("Nothing", [], [])
-    expect_refusal("Nothing: ")
-
-
-def test_not_a_number():
-    add("Hole", [(float("nan"), 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
-    expect_refusal("Hole: .*finite")
-
-
-def test_nothing_selected():
-    expect_refusal("Select a mesh")
+@pytest.mark.parametrize(
+    ("points", "edges", "faces", "match"),
+    [
+        ([(0, 0, 0), (1, 0, 0)], [(0, 1)], [], "Bad: .*face"),
+        ([], [], [], "Bad: "),
+        ([(float("nan"), 0, 0), (1, 0, 0), (0, 1, 0)], [], [(0, 1, 2)], "Bad: .*finite"),
+    ],
+)
+def test_what_is_no_surface(points, edges, faces, match):
+    add("Bad", points, faces, edges)
+    expect_refusal(match)
 
 
 def test_other_modes():

@@ -47,14 +47,14 @@ def redraw():
 
 
 def spoilt(record):
-    """The record with one value after another, at any depth, in the place of which is another."""
-    for key in list(record) if isinstance(record, dict) else range(len(record)):
+    """The record with one value after another, at any depth, in the place of which is another; of lists the first."""
+    for key in list(record) if isinstance(record, dict) else range(len(record[:1])):
         value = record[key]
         for other in VALUES:
             record[key] = other
             yield record
         record[key] = value
-        if isinstance(value, dict | list) and len(value) < 40:
+        if isinstance(value, dict | list):
             yield from (record for _ in spoilt(value))
 
 

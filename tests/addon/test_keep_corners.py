@@ -27,17 +27,3 @@ def test_the_border_of_a_square_sheet_stays_square():
 def test_a_smooth_border_rounds_them():
     tent()
     assert farthest_from_square(fair(levels=3, boundary="CURVE").data) > 0.05
-
-
-def test_the_end_of_a_square_tube_stays_round():
-    ring = ((1, 0), (0, 1), (-1, 0), (0, -1))
-    points = [(x, y, z) for z in range(4) for x, y in ring]
-    faces = [
-        (4 * z + i, 4 * z + (i + 1) % 4, 4 * z + 4 + (i + 1) % 4, 4 * z + 4 + i)
-        for z in range(3)
-        for i in range(4)
-    ]
-    add("Tube", points, faces)
-    made = positions(fair(levels=3).data)
-    end = np.linalg.norm(made[made[:, 2] < 1e-6][:, :2], axis=1)
-    assert len(end) == 32 and end.min() > 0.95  # a square's sides come as near as 0.71

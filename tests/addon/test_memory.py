@@ -13,19 +13,6 @@ def custom_properties(owner):
     return set(owner.keys()) - set(owner.bl_rna.properties.keys())
 
 
-def test_settings_stay_in_a_file(tmp_path):
-    add("Box", *CUBE)
-    result = fair(levels=1, interpolation="APPROXIMATE", tolerance=0.25)
-    bpy.context.scene.discrete_fairing.interpolation = "APPROXIMATE"
-    name = result.name
-    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "new.blend"))
-    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "new.blend"))
-    kept = bpy.data.objects[name].discrete_fairing
-    assert (kept.tolerance_unit, kept.tolerance) == ("RELATIVE", 0.25)
-    assert kept.pad_size == 1.0
-    assert bpy.context.scene.discrete_fairing.tolerance_unit == "RELATIVE"
-
-
 def test_nothing_is_in_sight():
     add("Box", *CUBE)
     target = fair(levels=1)

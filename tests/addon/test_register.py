@@ -31,15 +31,6 @@ def test_register_and_unregister_twice():
         assert all(registered())
 
 
-def test_operator_can_be_undone_and_redone():
-    assert bpy.types.OBJECT_OT_fairing_surface.bl_options == {"REGISTER", "UNDO", "PRESET"}
-    assert bpy.types.OBJECT_OT_fairing_recompute.bl_options == {"REGISTER", "UNDO"}
-
-
-def test_panel_stands_in_its_tab():
-    assert bpy.types.VIEW3D_PT_fairing.bl_category == "Fairing"
-
-
 def test_without_the_native_module_the_button_is_grey_and_nothing_breaks(monkeypatch):
     monkeypatch.setattr(core, "_load", lambda: (None, core.MISSING))
     bpy.ops.mesh.primitive_cube_add()

@@ -113,28 +113,6 @@ def test_many_files_of_all_kinds_and_bad_ones():
         assert set(POINTS) <= set(obj_vertices(f"new/{name}.obj")), name
 
 
-def test_the_other_formats_come_out():
-    write_obj("in.obj")
-    code, whole = report("in.obj", "{name}_fair.ply", "--levels", 1)
-    assert (code, whole["inputs"][0]["output"]) == (0, "in_fair.ply")
-    assert Path("in_fair.ply").read_bytes().startswith(b"ply")
-    assert call("in_fair.ply", "again.stl", "--levels", 1)[0] == 0
-    assert Path("again.stl").stat().st_size == 84 + 50 * 2 * len(FACES) * 4**2  # binary
-
-
-def test_usage_errors_are_two():
-    write_obj("in.obj")
-    for bad in (
-        (),
-        ("in.obj",),
-        ("in.obj", "in.obj"),
-        ("in.obj", "out.fbx"),
-        ("in.obj", "o.obj", "--no-such"),
-    ):
-        code, _, error = call(*bad)
-        assert code == 2 and "usage: " in error, (bad, code, error)
-
-
 def test_files_side_by_side():
     for name in ("a.obj", "b.obj", "c.obj"):
         write_obj(name)

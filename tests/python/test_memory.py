@@ -87,8 +87,7 @@ def test_prediction_bounds_the_peak_of_steps(name, energy):
     assert alone == report["predicted_bytes"]
 
 
-@pytest.mark.parametrize("levels", [1, 2])
-@pytest.mark.parametrize("tolerance", [0.0, 0.02])
+@pytest.mark.parametrize(("levels", "tolerance"), [(1, 0.0), (2, 0.0), (1, 0.02)])
 def test_many_faces_on_few_levels(levels, tolerance):
     """The rows of level 1 are the most there, and control vertices that move are factored."""
     near = NEAR | {"tolerance": tolerance} if tolerance else {}

@@ -200,7 +200,7 @@ def test_beside_other_sheets():
     assert np.abs(corners_of(result, own) - corners_of(alone, np.arange(len(quads)))).max() <= 1e-9
 
 
-def test_shapes_a_solver_and_threads():
+def test_shapes_and_a_solver():
     vertices, faces = strip(AROUND, ACROSS)
     moved = vertices + 0.1 * np.sin(3 * vertices[:, [1, 2, 0]])
     result = fair(vertices, faces, 2, shapes=[moved])
@@ -210,8 +210,6 @@ def test_shapes_a_solver_and_threads():
     solver.rebase(moved)
     again = fair(moved, faces, 2)
     assert np.abs(solver.solve().vertices - again.vertices).max() <= 1e-6
-    two = fair(vertices, faces, 2, threads=2)
-    assert np.array_equal(fair(vertices, faces, 2, threads=1).vertices, two.vertices)
 
 
 def test_as_smooth_where_it_closes_as_anywhere():

@@ -48,7 +48,7 @@ def test_a_large_ring_is_solved_as_a_small_one():
 
 def test_level_beyond_the_direct_limit_is_solved():
     """Narrow levels have small factors; without one this takes minutes."""
-    report = df.fair(*disc(4000), 3).report
+    report = df.fair(*disc(2000), 3).report
     assert report["levels"][-1]["direct"] and report["converged"]
 
 

@@ -12,8 +12,6 @@ from live_scenes import follow, live, move
 from scenes import CUBE, activate, add, fair, positions, snapshot
 
 from addon.memory import recall
-from addon.operators.presets import NOT_KEPT
-from addon.settings import NAMES
 
 BAD = Path(__file__).resolve().parents[4] / "shared" / "data" / "bad"
 FILES = [
@@ -177,10 +175,6 @@ def test_symmetry_is_kept_where_a_vertex_was_merged():
     assert set(map(tuple, found + 0.0)) == set(map(tuple, image + 0.0))
 
 
-def test_presets_keep_it():
-    assert "repair" in NAMES and "repair" not in NOT_KEPT and "repair_orientation" not in NAMES
-
-
 def write_apart(path, gap=0.0):
     """A box as an OBJ whose faces have vertices of their own, moved apart by up to `gap`."""
     points = box()[np.ravel(CUBE[1])] + gap * np.random.default_rng(2).uniform(-1, 1, (24, 3))
@@ -200,21 +194,6 @@ def test_the_command_line_welds(tmp_path, monkeypatch, capfd):
     assert len(imported("out.obj")[0]) == 26, "the surface is closed now"
     assert run("in.obj", "loose.obj", "--levels", 1) == 0
     assert len(imported("loose.obj")[0]) == 6 * 9
-
-
-def test_the_command_line_refuses_on_request(tmp_path, monkeypatch, capfd):
-    monkeypatch.chdir(tmp_path)
-    lines = [f"v {x} {y} {z}" for x, y, z in box()]
-    lines += ["f " + " ".join(str(v + 1) for v in face) for face in CUBE[1]]
-    lines += ["f 1 5 2"]
-    flipped = CUBE[1][0][::-1]
-    lines[8] = "f " + " ".join(str(v + 1) for v in flipped)
-    (tmp_path / "in.obj").write_text("\n".join(lines[:14]) + "\n")
-    assert run("in.obj", "out.obj", "--levels", 1, "--repair", "refuse") == 1
-    assert run("in.obj", "out.obj", "--levels", 1, "--repair", "mend") == 0
-    assert "mended: 1 face flipped" in capfd.readouterr().err
-    assert run("in.obj", "out.obj", "--repair", "refuse", "--weld", 0) == 2
-    assert run("in.obj", "out.obj", "--weld", -1) == 2
 
 
 @pytest.mark.skipif(not FILES, reason="no shared meshes")

@@ -152,7 +152,7 @@ def test_what_is_no_network_is_refused_in_words():
     with pytest.raises(JobError, match="the point of 'Side 0'"):
         covered(wrong, CoverOptions())
     with pytest.raises(JobError, match="Lower Edges per Side"):
-        covered(networks.three_by_four(), CoverOptions(per_side=400))
+        covered(networks.three_by_four(), CoverOptions(per_side=100))
 
 
 def test_a_mesh_keeps_its_faces_while_curves_are_drawn_about():

@@ -107,13 +107,6 @@ def test_only_the_selected_faces_are_faired():
     assert len(result.data.polygons) == 36 * 16
 
 
-@pytest.mark.parametrize("joint", ["POSITION", "TANGENT", "CURVATURE"])
-def test_joints(joint):
-    source = grid()
-    select_faces(source, lambda p: all(1 <= c <= 5 for c in p.center[:2]))
-    assert fair(levels=2, use_selection=True, joint=joint).discrete_fairing.joint == joint
-
-
 def test_edit_mode_selection_of_this_moment():
     source = grid()
     select_faces(source, lambda p: False)

@@ -70,8 +70,8 @@ def test_measured_points_lose_their_scatter(seed):
     assert source.data.shape_keys.key_blocks["Eased"].value == 1
 
 
-def noisy_sphere(noise=0.004):
-    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=5)
+def noisy_sphere(noise=0.004, subdivisions=5):
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=subdivisions)
     scan = bpy.context.object
     points = positions(scan.data).astype(float)
     points /= np.linalg.norm(points, axis=1)[:, None]
@@ -165,7 +165,7 @@ def test_settings_of_ones_own_are_no_job():
 
 
 def test_a_scan_with_shape_keys_is_refused_in_object_mode():
-    scan = noisy_sphere()
+    scan = noisy_sphere(subdivisions=3)
     scan.shape_key_add(name="Basis")
     before = positions(scan.data)
     with pytest.raises(RuntimeError, match="Press Tab, select all"):
@@ -194,7 +194,7 @@ def test_a_job_takes_selected_meshes_beside_another_active_object():
 def test_undo_takes_the_surface_and_nothing_before_it(purpose, how):
     """As a button calls it: with a step of undo of its own."""
     bpy.context.preferences.edit.use_global_undo = True
-    scan = noisy_sphere()
+    scan = noisy_sphere(subdivisions=3)
     bpy.ops.ed.undo_push(message="there")
     scan.location.x = 5.0
     bpy.ops.ed.undo_push(message="moved")

@@ -55,6 +55,7 @@ def test_recompute_with_other_settings():
     result.discrete_fairing.levels = 3
     recompute()
     assert len(result.data.polygons) == 6 * 4**3
+    assert recall(result, "report")["levels"][-1]["level"] == 3
 
 
 def test_what_was_put_on_it_stays():
@@ -142,11 +143,3 @@ def test_survives_saving(tmp_path):
     activate(result)
     recompute()
     assert np.array_equal(positions(result.data)[:8], positions(bpy.data.objects["Box"].data))
-
-
-def test_report_is_the_latest():
-    add("Box", *CUBE)
-    result = fair(levels=1)
-    result.discrete_fairing.levels = 2
-    recompute()
-    assert [level["level"] for level in recall(result, "report")["levels"]][-1] == 2

@@ -200,13 +200,6 @@ def test_what_is_not_said_is_that_of_the_panel():
     assert (given.levels, given.tension, given.tolerance) == (4, 0.25, 0.125)
 
 
-def test_drawing_touches_no_operator():
-    add("Box", *CUBE)
-    before = dict(vars(Layout.button))
-    draw(main.VIEW3D_PT_fairing)
-    assert dict(vars(Layout.button)) == before
-
-
 def test_menus_have_every_operator():
     """Blender's search finds what stands in a menu."""
     add("Box", *CUBE)
@@ -270,16 +263,6 @@ def test_copy_settings():
 
     copy_settings(bpy.context.scene.discrete_fairing, Target)
     assert {name for name in vars(Target) if not name.startswith("_")} == set(NAMES)
-
-
-def test_layout_draws_operator_properties_too():
-    log = Layout()
-    properties = bpy.context.window_manager.operator_properties_last("object.fairing_surface")
-    settings_layout.draw_job(log, properties)
-    settings_layout.draw_shape(log, properties)
-    settings_layout.draw_creases(log, properties)
-    settings_layout.draw_advanced(log, properties)
-    assert "levels" in log.log
 
 
 def test_a_grey_button_says_what_to_do():
