@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A release as a folder that any static host can serve: Blender's repository of the zips, wheels, source, site, sums."""
+"""A release as a folder that any static host can serve: Blender's repository of the zips, wheels, source, site, samples, sums."""
 
 import hashlib
 import os
@@ -12,6 +12,7 @@ import components
 import extension
 import site_pages
 from layout import OUT, ROOT, VENV_PYTHON
+from python_environment import has_bpy
 from real_blender import places
 from shell import DevError, output, run, say
 from stamp import alone
@@ -51,6 +52,14 @@ def sums(folder: Path) -> str:
     )
 
 
+def add_samples(folder: Path) -> None:
+    """A .blend file for each trade, which Blender as a Python module writes."""
+    if has_bpy():
+        run(VENV_PYTHON, ROOT / "examples" / "sample_files.py", folder)
+    else:
+        say("bpy exists for Python 3.11 only: the release has no sample files.")
+
+
 def build(zips: list[list[Path]]) -> Path:
     """The release's folder, with a zip for each list of wheels."""
     epoch = commit_time()
@@ -65,6 +74,7 @@ def build(zips: list[list[Path]]) -> Path:
         shutil.copy(wheel, RELEASE / "wheels")
     run(VENV_PYTHON, "-c", BUILD_SDIST, RELEASE)
     shutil.copytree(site_pages.build(), RELEASE / "site")
+    add_samples(RELEASE / "samples")
     (RELEASE / COMPONENTS).write_text(components.listing(manifest_version(), epoch), "utf-8")
     (RELEASE / "NOTES.md").write_text(notes((ROOT / "CHANGELOG.md").read_text("utf-8")), "utf-8")
     (RELEASE / SUMS).write_text(sums(RELEASE), "utf-8")

@@ -7,7 +7,6 @@
 Rendered by Cycles on the processor, some ten seconds a tile.
 """
 
-import re
 import sys
 from dataclasses import replace
 from functools import partial
@@ -19,23 +18,13 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT), str(ROOT / "examples")]
 
 from render_row import View, draw_rows, render_tile  # noqa: E402
+from trade_pages import scripted  # noqa: E402
 
 OUT = ROOT / "docs" / "images" / "tutorials"
-PAGES = {"fender": "panel"}  # where a picture has another name than its page
 HULL = View(5.2, turn=168, elevation=14, height=0.6, stripes=24)
 FENDER = View(2.9, turn=-28, elevation=14, height=0.58, stripes=14)
 SCAN = View(2.5, turn=20, elevation=12, height=1.0)
 MISREAD, MEANT = 22, 0.70  # the vertex of the hull, and its half-breadth
-
-
-def scripted(tutorial, scripts=1):
-    """The active object after so many of the tutorial's scripts."""
-    text = (ROOT / "docs" / "trades" / f"{PAGES.get(tutorial, tutorial)}.md").read_text("utf-8")
-    found = re.findall(r"^```python\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
-    names = {}
-    for script in found[:scripts]:
-        exec(compile(script, tutorial, "exec"), names)
-    return bpy.context.active_object
 
 
 def centred(target):
@@ -48,7 +37,7 @@ def centred(target):
 
 
 def draw_hull(label, look, corrected, path):
-    hull = centred(scripted("hull"))
+    hull = centred(scripted("trades/hull"))
     if corrected:
         hull.data.vertices[MISREAD].co.y = MEANT
     bpy.ops.object.fairing_for(purpose="HULL")
@@ -57,13 +46,13 @@ def draw_hull(label, look, corrected, path):
 
 
 def draw_fender(label, look, scripts, path):
-    surface = centred(scripted("fender", scripts))
+    surface = centred(scripted("trades/panel", scripts))
     control = surface.discrete_fairing.source or surface
     render_tile(path, label, replace(FENDER, look=look), control, [surface], control is surface)
 
 
 def draw_scan(label, look, steps, path):
-    scan = scripted("scan")
+    scan = scripted("trades/scan")
     if steps > 0:
         bpy.ops.object.fairing_fill()
     if steps > 1:
