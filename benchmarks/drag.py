@@ -5,10 +5,15 @@ Three vertices in turn, twelve moves each, by a hundredth of the mesh's size; CP
 thread, default settings.
 """
 
+import json
+import subprocess
+from pathlib import Path
 from statistics import median
+from tempfile import TemporaryDirectory
 from time import process_time
 from typing import Any
 
+import cholesky
 import control_meshes as meshes
 import discrete_fairing as df
 import numpy as np
@@ -30,7 +35,22 @@ def run() -> dict[str, Any]:
         for name, (mesh, levels) in MESHES.items()
         for size in (0.0, 1.0)
     }
+    if cholesky.PROGRAM.exists():
+        result["kept"] = {name: _kept(*mesh, levels) for name, (mesh, levels) in MESHES.items()}
     return result
+
+
+def _kept(vertices: np.ndarray, faces: np.ndarray, levels: int) -> dict[str, float]:
+    """CPU milliseconds of CHOLMOD on one thread, for the same system on point forces."""
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "mesh.txt"
+        cholesky.write_mesh((vertices, faces), path)
+        words = [str(cholesky.PROGRAM), str(path), str(levels), "1", "3"]
+        found = json.loads(subprocess.run(words, check=True, capture_output=True).stdout)
+    return {
+        "whole": 1e3 * median(found["cholmod"]["processor"]),
+        "kept": 1e3 * median(found["kept"]["processor"]),
+    }
 
 
 def _drag(vertices: np.ndarray, faces: np.ndarray, levels: int, size: float) -> dict[str, Any]:
@@ -62,6 +82,8 @@ def drag_table(result: dict[str, Any]) -> str:
     heads = ["control mesh, level", "pad size", "first moves", "following", "slowest of these"]
     rows = []
     for key, d in result.items():
+        if key == "kept":
+            continue
         name, pad = key.rsplit(", ", 1)
         first = f"{d['first']:.0f} ms, {d['first_iterations']} iterations"
         following = f"{d['following']:.1f} ms, {d['iterations']}"
@@ -69,11 +91,19 @@ def drag_table(result: dict[str, Any]) -> str:
     return table.markdown(heads, rows)
 
 
+def kept_table(result: dict[str, Any]) -> str:
+    """What CHOLMOD takes for the same moves."""
+    heads = ["control mesh, level", "CHOLMOD, whole", "each move, factor kept"]
+    rows = [
+        [name, f"{d['whole']:.0f} ms", f"{d['kept']:.0f} ms"] for name, d in result["kept"].items()
+    ]
+    return table.markdown(heads, rows)
+
+
 def tables(result: dict[str, Any]) -> dict[str, str]:
     """Those of the documents, by their names."""
-    return {
-        "drag": drag_table(result),
-    }
+    found = {"drag": drag_table(result)}
+    return found | ({"drag.kept": kept_table(result)} if "kept" in result else {})
 
 
 if __name__ == "__main__":

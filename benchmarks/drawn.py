@@ -15,6 +15,10 @@ from pads import mean_curvature
 LEVELS = 3
 OFF_BORDER = 0.2  # cells: nearer to a border or crease nothing is judged
 TOLERANCE = 0.02  # edges
+SUBDIVISION = {
+    "Subdivision Surface": rivals.catmull_clark,
+    "cage pushed out": rivals.catmull_clark_through,
+}
 SETTINGS: dict[str, dict[str, Any]] = {
     "thin plate": {"energy": "thin_plate"},
     "total curvature": {"energy": "total_curvature"},
@@ -57,8 +61,8 @@ def swing(points: np.ndarray, places: np.ndarray, sheet: Any) -> float:
 
 def surface(sheet: Any, vertices: np.ndarray, setting: str) -> tuple[np.ndarray, np.ndarray]:
     """Points and triangles about these control vertices."""
-    if setting == "Subdivision Surface":
-        return rivals.catmull_clark(vertices, sheet.faces, LEVELS, sheet.crease_edges)
+    if setting in SUBDIVISION:
+        return SUBDIVISION[setting](vertices, sheet.faces, LEVELS, sheet.crease_edges)
     options = dict(SETTINGS[setting])
     if options.get("interpolation") == "approximate":
         corner = vertices[np.array(sheet.faces)]
@@ -78,7 +82,7 @@ def surface(sheet: Any, vertices: np.ndarray, setting: str) -> tuple[np.ndarray,
 
 def judged(sheet: Any, setting: str, flat: dict[str, np.ndarray]) -> dict[str, float]:
     """`flat`: rows and columns at which points are, of ours and of Subdivision Surface's."""
-    places = flat["theirs" if setting == "Subdivision Surface" else "ours"]
+    places = flat["theirs" if setting in SUBDIVISION else "ours"]
     points, triangles = surface(sheet, sheet.vertices, setting)
     inside = np.ones(len(points), bool)
     for axis in (0, 1):
@@ -111,13 +115,14 @@ def run() -> dict[str, Any]:
         for name, make in models.items():
             sheet = make()
             flat = places_of(sheet)
-            for setting in ("Subdivision Surface", *SETTINGS):
+            for setting in (*SUBDIVISION, *SETTINGS):
                 found = judged(sheet, setting, flat)
                 result.setdefault(job, {}).setdefault(name, {})[setting] = found
     return result
 
 
 DRAWN = {
+    "cage pushed out": "the same, cage pushed out",
     "minimum variation": "minimum variation",
     "minimum variation, near": "*Near*",
     "thin plate": "thin plate",

@@ -12,6 +12,7 @@ import rivals
 from self_intersections import crossing_triangles
 from subdivision import LEVELS, beside_subdivision, cages, figures
 
+PUSHED = "cage pushed out"
 SETTINGS = {
     "through the cage": {"interpolation": "exact"},
     "limit": {"interpolation": "limit"},
@@ -32,7 +33,8 @@ def run() -> dict[str, Any]:
     for name, vertices, faces in cages():
         polygons = [list(map(int, face)) for face in faces]
         other = judged(*rivals.catmull_clark(vertices, polygons, LEVELS))
-        entry = {"Subdivision Surface": other}
+        pushed = judged(*rivals.catmull_clark_through(vertices, polygons, LEVELS))
+        entry = {"Subdivision Surface": other, PUSHED: pushed}
         for setting, options in SETTINGS.items():
             start = time.process_time()
             ours = df.fair(vertices, polygons, levels=LEVELS, repair="mend", threads=1, **options)
@@ -49,6 +51,7 @@ def tables(result: dict[str, Any]) -> dict[str, str]:
         "limits": beside_subdivision(
             result,
             [
+                (PUSHED, "the same, cage pushed out"),
                 ("through the cage", "thin plate, *Through*"),
                 ("limit", "thin plate"),
                 ("Character", "*Character*"),

@@ -15,6 +15,11 @@ import table
 LEVELS = 3
 FOLD, CORNER = math.radians(30), math.radians(45)  # as Fair for > Mechanical has them
 ENERGIES = ("thin_plate", "total_curvature", "minimum_variation")
+SUBDIVISION = {
+    "Subdivision Surface": rivals.catmull_clark,
+    "the same, cage pushed out": rivals.catmull_clark_through,
+}
+TOOLS = (*SUBDIVISION, *ENERGIES)
 
 
 def folds(vertices: np.ndarray, faces: list[tuple[int, ...]]) -> list[tuple[int, int]]:
@@ -34,9 +39,9 @@ def folds(vertices: np.ndarray, faces: list[tuple[int, ...]]) -> list[tuple[int,
 
 def surface(vertices: np.ndarray, faces: list[tuple[int, ...]], tool: str) -> np.ndarray:
     """Its points."""
-    if tool == "Subdivision Surface":
+    if tool in SUBDIVISION:
         polygons = [list(face) for face in faces]
-        return rivals.catmull_clark(vertices, polygons, LEVELS, folds(vertices, faces))[0]
+        return SUBDIVISION[tool](vertices, polygons, LEVELS, folds(vertices, faces))[0]
     ours = df.fair(vertices, faces, LEVELS, energy=tool, crease_angle=FOLD, corner_angle=CORNER)
     return ours.vertices
 
@@ -46,7 +51,7 @@ def run() -> dict[str, Any]:
     result: dict[str, Any] = {}
     for name, make in from_tests.machine_parts().PARTS.items():
         vertices, faces, off = make()
-        for tool in ("Subdivision Surface", *ENERGIES):
+        for tool in TOOLS:
             away = 1e3 * off(surface(vertices, faces, tool)) / np.ptp(vertices, axis=0).max()
             found = {"rms": float(np.sqrt((away**2).mean())), "largest": float(away.max())}
             result.setdefault(name, {})[tool] = found
@@ -55,18 +60,17 @@ def run() -> dict[str, Any]:
 
 def machine_parts_table(result: dict[str, Any]) -> str:
     """Distances from parts that are known."""
-    tools = ("Subdivision Surface", "thin_plate", "total_curvature", "minimum_variation")
     rows = [
         [
             part,
             *(
                 " · ".join(f"{d:.2g}" if d > 1e-3 else "0" for d in found[tool].values())
-                for tool in tools
+                for tool in TOOLS
             ),
         ]
         for part, found in result.items()
     ]
-    return table.markdown(["part", *(tool.replace("_", " ") for tool in tools)], rows)
+    return table.markdown(["part", *(tool.replace("_", " ") for tool in TOOLS)], rows)
 
 
 def tables(result: dict[str, Any]) -> dict[str, str]:

@@ -1,39 +1,43 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/images/pieces/rings.png from out/bench/piecewise.json. Needs matplotlib, which nothing else
-here does: run it with a Python that has it.
+"""docs/images/pieces/rings.png from benchmarks/results/tables/pieces.rings.md. Needs matplotlib, which nothing else here
+does but plot_convergence.py: where .venv has none, the picture stays.
 """
 
-import json
 import sys
 from pathlib import Path
 
-from matplotlib import pyplot
+try:
+    from matplotlib import pyplot
+except ImportError:
+    print("matplotlib is not here: rings.png stays")
+    sys.exit(0)
 
-HERE = Path(__file__).resolve().parent
-PICTURE = HERE.parent / "docs" / "images" / "pieces" / "rings.png"
+ROOT = Path(__file__).resolve().parent.parent
+TABLE = ROOT / "benchmarks" / "results" / "tables" / "pieces.rings.md"
+PICTURE = ROOT / "docs" / "images" / "pieces" / "rings.png"
 LINES = {"torus, triangles": "-", "sphere, quads": "--", "rough sphere": ":"}
 COLOURS = {
-    "thin_plate": "#1f5a8a",
-    "total_curvature": "#c2571a",
-    "minimum_variation": "#3c8a4e",
+    "thin plate": "#1f5a8a",
+    "total curvature": "#c2571a",
+    "minimum variation": "#3c8a4e",
 }
 
 
-def draw(source: Path) -> None:
-    entries = json.loads(source.read_text())["result"]["rings"]
+def draw() -> None:
+    head, _, *lines = [line.strip("|").split("|") for line in TABLE.read_text("utf-8").splitlines()]
+    rings = [int(cell) for cell in head[1:]]
     figure, axes = pyplot.subplots(figsize=(7.2, 4.6), dpi=140)
-    for energy, mesh in dict.fromkeys((e["energy"], e["mesh"]) for e in entries):
-        own = [e for e in entries if (e["energy"], e["mesh"]) == (energy, mesh)]
+    for name, *cells in lines:
+        energy, mesh = name.strip().split(", ", 1)
         axes.semilogy(
-            [e["rings"] for e in own],
-            [e["difference"] for e in own],
+            rings,
+            [float(cell) for cell in cells],
             LINES[mesh],
             color=COLOURS[energy],
             marker="o",
             markersize=3.5,
-            label=f"{energy.replace('_', ' ')}, {mesh}",
+            label=name.strip(),
         )
-    rings = sorted({e["rings"] for e in entries})
     axes.semilogy(rings, [5e-3 * 2.6**-r for r in rings], color="#aaaaaa", linewidth=4, zorder=0)
     axes.text(
         rings[-1], 5e-3 * 2.6 ** -(rings[-1] - 0.9), "0.005 / 2.6^r", ha="right", color="#777777"
@@ -49,4 +53,4 @@ def draw(source: Path) -> None:
 
 
 if __name__ == "__main__":
-    draw(Path(sys.argv[1]) if sys.argv[1:] else HERE.parent / "out" / "bench" / "piecewise.json")
+    draw()

@@ -21,6 +21,7 @@ import numpy as np
 sys.path.append(str(Path(__file__).resolve().parent.parent / "tests" / "python"))
 
 Surface = tuple[np.ndarray, np.ndarray]
+PUSHED, ROUNDS = 1e-5, 100  # of pushing a cage out: what may remain, as a share; the most rounds
 
 
 class Missing(Exception):
@@ -162,6 +163,25 @@ def catmull_clark(
     modifier.levels = levels
     result = target.evaluated_get(bpy.context.evaluated_depsgraph_get()).data
     return mesh_arrays(result)
+
+
+def catmull_clark_through(
+    points: np.ndarray,
+    polygons: list[list[int]],
+    levels: int,
+    creases: Sequence[tuple[int, int]] = (),
+) -> Surface:
+    """Subdivision Surface of a cage that is pushed out until the surface meets the given points."""
+    from scipy.sparse.linalg import LinearOperator, gmres
+
+    def met(cage: np.ndarray) -> np.ndarray:
+        surface, _ = catmull_clark(cage.reshape(-1, 3), polygons, 1, creases)
+        return surface[: len(points)].ravel()
+
+    wanted = points.astype(float).ravel()
+    map_of_cages = LinearOperator((len(wanted), len(wanted)), met)
+    cage, _ = gmres(map_of_cages, wanted, wanted, rtol=PUSHED, restart=ROUNDS, maxiter=1)
+    return catmull_clark(cage.reshape(-1, 3), polygons, levels, creases)
 
 
 def mesh_arrays(mesh: Any) -> Surface:

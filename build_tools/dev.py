@@ -17,6 +17,7 @@ python3 build_tools/dev.py wheels         wheels for machines of this kind under
 python3 build_tools/dev.py docs           the site under out/site/; a warning is an error
 python3 build_tools/dev.py release        all that is published, as a folder for any static host under out/release/
 python3 build_tools/dev.py release --platforms linux-x64 …   the same for these alone; --wheels DIR as for extension
+python3 build_tools/dev.py pictures [NAME…]   the documents' pictures and recordings, made again and dated; --meshes DIR for the gallery
 python3 build_tools/dev.py format         clang-format and ruff on all sources
 """
 
@@ -126,6 +127,14 @@ def docs() -> None:
     say(f"{site_pages.build().relative_to(ROOT)}/index.html is ready")
 
 
+def make_pictures(names: list[str], meshes: Path | None) -> int:
+    """The documents' pictures."""
+    import pictures
+
+    setup()
+    return pictures.make(names, meshes)
+
+
 def format_sources() -> int:
     """Rewrites the sources in the project's style."""
     import style
@@ -143,6 +152,7 @@ COMMANDS: dict[str, Callable[[Namespace], int | None]] = {
     "extension": lambda given: extension(given.wheels, given.all),
     "wheels": lambda given: wheels_of_this_machine(),
     "docs": lambda given: docs(),
+    "pictures": lambda given: make_pictures(given.names, given.meshes),
     "release": lambda given: release(given.wheels, given.platforms),
     "format": lambda given: format_sources(),
 }
@@ -155,7 +165,9 @@ def main() -> int:
     parser = ArgumentParser(description=__doc__, formatter_class=RawDescriptionHelpFormatter)
     add, names = parser.add_argument, [target.name for target in TARGETS]
     add("command", choices=COMMANDS)
-    add("names", nargs="*", help="bench, demo, test: only these; test blender:TEXT: parts so named")
+    only = "bench, demo, pictures, test: only these; test blender:TEXT: parts so named"
+    add("names", nargs="*", help=only)
+    add("--meshes", type=Path, metavar="DIR", help="pictures: the gallery's meshes of others")
     add("--wheels", type=Path, metavar="DIR", help="extension, release: pack this folder's wheels")
     add("--platforms", nargs="+", choices=names, help="release: for these; by default for all")
     add("--minutes", type=float, default=10.0, metavar="N", help="fuzz: how long; 10 by default")

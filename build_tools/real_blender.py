@@ -68,9 +68,11 @@ class RealBlender:
         """The command line of Blender without a window."""
         return self.command("blender", "--background", *arguments, **extra)
 
-    def window(self, *arguments: str | Path, **extra: str) -> list[str]:
+    def window(
+        self, *arguments: str | Path, size: tuple[int, int] = WINDOW, **extra: str
+    ) -> list[str]:
         """The command line of Blender in a window on a screen of its own, drawn by the processor."""
-        width, height = map(str, WINDOW)
+        width, height = map(str, size)
         number = FIRST_SCREEN + self.lane
         screen = ["xvfb-run", f"--server-num={number}"]
         screen += ["--server-args", SCREEN.format(width, height)]

@@ -25,7 +25,6 @@ import settings_meshes  # noqa: E402
 LEVELS = 3  # of Subdivision Surface, as Fair Surface has
 NOISE = 0.004  # of the scanned ball's radius, root mean square
 SCATTER = 0.012  # of the measured sheet's half width
-SMOOTHINGS = 10
 
 
 @dataclass(frozen=True)
@@ -121,9 +120,9 @@ def subdivided(control):
 
 
 def smoothed(control):
-    """Smooth Vertices, repeated."""
-    modifier = control.modifiers.new("Smooth", "SMOOTH")
-    modifier.factor, modifier.iterations = 0.5, SMOOTHINGS
+    """Blender's Laplacian Smooth, at the best of 18 settings for this noise."""
+    modifier = control.modifiers.new("Laplacian Smooth", "LAPLACIANSMOOTH")
+    modifier.iterations, modifier.lambda_factor, modifier.lambda_border = 3, 1.0, 0.0
     shade_smooth(control)
     return control
 
@@ -197,7 +196,7 @@ JOBS = {
         ball,
         FAIR_FOR,
         {"purpose": "SCAN_PATCH"},
-        {f"Smooth, {SMOOTHINGS} times": smoothed, "Shrinkwrap": shrinkwrapped},
+        {"Laplacian Smooth": smoothed, "Shrinkwrap": shrinkwrapped},
     ),
     "points": Job(dome, FAIR_FOR, {"purpose": "POINTS"}, SUBDIVISION),
     "curves": Job(

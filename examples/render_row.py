@@ -38,9 +38,9 @@ class View:
     wires: bool = False  # on the surfaces; a control mesh has them anyway
 
 
-def draw_rows(names, rows, folder):
+def draw_rows(names, rows, folder, lengths=None):
     """PNGs in `folder` of those `rows` that `names` has, of all if it is empty. Each is a list of
-    functions that render one tile to a path.
+    functions that render one tile to a path. `lengths`: tiles a line, of pictures with several lines.
     """
     unknown = {*names} - {*rows}
     if unknown:
@@ -51,18 +51,18 @@ def draw_rows(names, rows, folder):
     addon.register()
     try:
         for name in names or rows:
-            _draw_row(rows[name], folder / f"{name}.png")
+            _draw_row(rows[name], folder / f"{name}.png", (lengths or {}).get(name))
     finally:
         addon.unregister()  # the module bpy would hang at exit with classes of ours still registered
 
 
-def _draw_row(row, path):
+def _draw_row(row, path, length):
     with TemporaryDirectory() as folder:
         tiles = [Path(folder) / f"{i}.png" for i in range(len(row))]
         for tile, draw in zip(tiles, row, strict=True):
             bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
             draw(tile)
-        compose_row(tiles, path)
+        compose_row(tiles, path, length)
     print(f"{path.name}: {path.stat().st_size // 1000} kB", flush=True)
 
 
@@ -84,9 +84,12 @@ def render_tile(path, label, view, control, surfaces, wired):
     render(path, SAMPLES[view.look])
 
 
-def compose_row(tiles, path):
-    """The tiles side by side on paper, at half their size."""
-    row = np.concatenate([_on_paper(load_pixels(tile)) for tile in tiles], axis=1)
+def compose_row(tiles, path, length=None):
+    """The tiles side by side on paper, at half their size; `length` in each line, all by default."""
+    papers = [_on_paper(load_pixels(tile)) for tile in tiles]
+    length = length or len(tiles)
+    lines = [papers[k : k + length] for k in range(0, len(papers), length)]
+    row = np.concatenate([np.concatenate(line, axis=1) for line in lines])
     height, width, _ = row.shape
     write_indexed_png(path, row.reshape(height // 2, 2, width // 2, 2, 3).mean(axis=(1, 3)))
 

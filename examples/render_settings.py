@@ -70,6 +70,12 @@ FIGURES = {
         ),
         SMOOTH | {"levels": 5},
     ),
+    "zebra": Figure(
+        meshes.torus,
+        View(3.3, turn=0, elevation=17, height=1.0, look="zebra"),
+        (Variant("Control mesh", as_it_is=True, wires=False), Variant("Fair Surface")),
+        SMOOTH,
+    ),
     "vertices": Figure(
         meshes.scan,
         View(2.5, look="zebra", height=0.9, stripes=9),

@@ -23,6 +23,7 @@ from trade_pages import scripted  # noqa: E402
 OUT = ROOT / "docs" / "images" / "tutorials"
 HULL = View(5.2, turn=168, elevation=14, height=0.6, stripes=24)
 FENDER = View(2.9, turn=-28, elevation=14, height=0.58, stripes=14)
+BOAT = View(6.3, turn=236, elevation=26, height=0.7)
 SCAN = View(2.5, turn=20, elevation=12, height=1.0)
 MISREAD, MEANT = 22, 0.70  # the vertex of the hull, and its half-breadth
 
@@ -62,7 +63,31 @@ def draw_scan(label, look, steps, path):
     render_tile(path, label, replace(SCAN, look=look), scan, [scan], False)
 
 
+def draw_boat(label, modelled, path):
+    """The whole hull without the misread offset: its control mesh, or its surface."""
+    hull = centred(scripted("trades/hull"))
+    hull.data.vertices[MISREAD].co.y = MEANT
+    bpy.ops.object.fairing_for(purpose="HULL")
+    half = bpy.context.active_object
+    bpy.ops.object.fairing_close()
+    surface = bpy.context.active_object
+    hull.hide_render = half.hide_render = surface.hide_render = True
+    control = surface.discrete_fairing.source
+    shown = control if modelled else surface
+    shown.hide_set(False)
+    shown.hide_render = False
+    render_tile(path, label, BOAT, control, [shown], modelled)
+
+
 ROWS = {
+    "hero": [
+        partial(draw_boat, "Hull, 40 points", True),
+        partial(draw_fender, "Panel, 54 points", "clay", 1),
+        partial(draw_scan, "Scan with a hole", "clay", 0),
+        partial(draw_boat, "Fair Surface", False),
+        partial(draw_fender, "Fair Surface", "clay", 2),
+        partial(draw_scan, "Filled, without noise", "clay", 2),
+    ],
     "hull": [
         partial(draw_hull, "0.76, as read", "zebra", False),
         partial(draw_hull, "0.70", "zebra", True),
@@ -82,4 +107,4 @@ ROWS = {
 }
 
 if __name__ == "__main__":
-    draw_rows(sys.argv[1:], ROWS, OUT)
+    draw_rows(sys.argv[1:], ROWS, OUT, {"hero": 3})

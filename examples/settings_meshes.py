@@ -40,6 +40,18 @@ def octahedron():
     return add(vertices, faces)
 
 
+def torus():
+    """Twelve by eight quads, shaded smooth."""
+    bpy.ops.mesh.primitive_torus_add(
+        major_segments=12, minor_segments=8, major_radius=1.0, minor_radius=0.45
+    )
+    control = bpy.context.object
+    control.rotation_euler = (radians(35), 0, 0)
+    bpy.ops.object.transform_apply(rotation=True)
+    control.data.shade_smooth()
+    return control
+
+
 def _boxes(cells, offset):
     """The outside of unit cubes."""
     ids, faces = {}, []

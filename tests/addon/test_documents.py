@@ -36,6 +36,9 @@ PYTHON = {
     "../README.md": [],
 }
 
+NOT_FOR_USERS = ("developers", "site", "explanation/mathematics.md")
+MOST_WORDS = 12_500  # 12,000 in November 2026; what comes in takes the place of something
+TABLE = re.compile(r"<!-- table: .*?<!-- /table -->", re.DOTALL)
 LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 OPERATOR = re.compile(r"\b(?:bpy\.ops\.)?(object|mesh|view3d)\.(fair(?:ing)?_\w+)")
@@ -164,6 +167,18 @@ def test_every_argument_of_the_core_is_explained_once():
     by_place = set(inspect.signature(discrete_fairing.fair).parameters) - {"settings"}
     for name in by_place | set(SETTINGS):
         assert len(re.findall(rf"^\| [^|]*`{name}`", tables, re.MULTILINE)) == 1, name
+
+
+def test_users_pages_are_short():
+    """In all, without code, tables of figures and the mathematics."""
+    pages = [
+        page
+        for page in DOCS.rglob("*.md")
+        if not page.relative_to(DOCS).as_posix().startswith(NOT_FOR_USERS)
+    ]
+    text = "".join(TABLE.sub("", prose(p.read_text("utf-8"))) for p in pages)
+    words = re.findall(r"[A-Za-z][A-Za-z'’-]*", re.sub(r"\]\([^)]*\)", "", text))
+    assert len(words) <= MOST_WORDS
 
 
 @pytest.mark.parametrize(("name", "left"), PYTHON.items())
