@@ -154,6 +154,13 @@ def test_one_number_is_held_against_the_tolerance():
     assert patches.largest_off >= patches.refinement_error.max() > 1e-4 * patches.size
 
 
+def test_levels_that_give_a_patch_no_more_spans_are_not_tried(levels):
+    """No patch has normals as near as this; the surface itself settles at once."""
+    patches = df.fit_patches(*control_meshes.cube(), tolerance=1e-2, normal_tolerance=1e-5)
+    assert levels == [4, 5, 6] and (patches.patch_spans == 16).all()
+    assert len(patches.unmet_by_fit) == 6
+
+
 @pytest.mark.parametrize("levels", [4, 5])
 def test_what_a_given_level_is_off_by_is_measured_too(levels):
     by_level = df.fit_patches(*control_meshes.cube(), levels=levels, **CURVED)

@@ -130,6 +130,18 @@ def test_control_vertices_stay_and_weights_of_nothing_and_one_are_as_ever():
     assert np.array_equal(df.fair(points, faces, soft_creases=(line(), 1.0)).vertices, sharp)
 
 
+@pytest.mark.parametrize("weight", [0.3, 0.5])
+def test_one_patch_of_a_sheet_follows_the_turn(weight):
+    patches = df.fit_patches(*roof(), soft_creases=(line(), weight))
+    assert len(patches) == 1 and not len(patches.unmet)
+
+
+def test_patches_across_a_fading_crease_miss_at_most_where_it_becomes_soft():
+    patches = df.fit_patches(*bonnet(), levels=5, soft_creases=(line(5), WEIGHTS))
+    assert not len(patches.unresolved)
+    assert set(patches.unmet) <= {CENTRE - 1, CENTRE, CENTRE - 1 + COLUMNS, CENTRE + COLUMNS}
+
+
 def test_any_number_of_threads_pieces_a_solver_and_a_mended_mesh_give_the_same():
     points, faces = bonnet()
     given = {"levels": 3, "soft_creases": (line(5), WEIGHTS)}
