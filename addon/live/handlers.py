@@ -123,6 +123,8 @@ def _follow_frame(_scene: Scene, depsgraph: bpy.types.Depsgraph) -> None:
     def step(session: Session) -> None:
         session.stand()
         session.follow(depsgraph)
+        if bpy.app.background and not _rendering:  # no timer looks later
+            session.follow_unseen()
 
     for session in registry.sessions():
         if _is_awake(session):

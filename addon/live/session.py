@@ -308,10 +308,14 @@ class Session:
             if full is not None:
                 full.start()
 
-    def complete(self, context: Context) -> None:
-        """The full level now, if it is due: for scripts, and where there is no window."""
+    def follow_unseen(self) -> None:
+        """What Blender's update did not see. Not within one."""
         if self._unseen:
             self.follow()
+
+    def complete(self, context: Context) -> None:
+        """The full level now, if it is due: for scripts, and where there is no window."""
+        self.follow_unseen()
         full = self._begin(context) if self._schedule.is_planned else None
         if full is None:
             return
