@@ -155,11 +155,16 @@ class HoleJob(TimedRun):
 
     @property
     def closes_caps(self) -> bool:
-        """Whether the holes are named by their border, lie each in a plane, and the faces around stand across it: caps
-        and transoms, no repairs.
+        """Whether the holes lie each in a plane, and the faces around stand across it: caps and transoms, no repairs. In
+        Object Mode, where nobody has named them, small rims may be in a plane by chance.
         """
-        chosen = self._editing and not self._options.replaces
-        return chosen and all(_is_cap(self._points, self._arrays, hole) for hole in self._holes)
+        if self._editing and self._options.replaces:
+            return False
+        least = 0 if self._editing else _BY_CHANCE
+        return all(
+            sum(map(len, hole)) > least and _is_cap(self._points, self._arrays, hole)
+            for hole in self._holes
+        )
 
     def flatten(self) -> None:
         """Whatever the joint was."""
@@ -249,6 +254,7 @@ class HoleJob(TimedRun):
             store_defects(context, target, known + new)
 
 
+_BY_CHANCE = 6  # vertices of a rim: twice as many as a plane has
 _PLANAR = 1e-3  # of a rim's width: as far from its plane as its vertices may be
 
 

@@ -24,6 +24,7 @@ from .files import write_text
 from .numbers import number
 from .places import Place, tables
 
+_STIFFNESS = number("a number, 0 or more", lambda value: 0.0 <= value < inf)
 _LENGTH = number("a length above 0", lambda value: 0.0 < value < inf)
 
 
@@ -54,6 +55,12 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         help="the same with no vertex moved farther than this, in the file's unit; implies --ease",
     )
     group.add_argument(
+        "--ease-stiffness",
+        type=_STIFFNESS,
+        metavar="X",
+        help="all vertices as with a batten, whatever their scatter: the larger, the farther they move; implies --ease",
+    )
+    group.add_argument(
         "--strain",
         metavar="FILE.csv",
         help="write a table of the vertices: how far the surface would move at each if that vertex were released, "
@@ -63,8 +70,10 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def options_of(arguments: argparse.Namespace, files: Sequence[Place]) -> PrepareOptions:
     """What was said. Raises ValueError where options contradict, and BadPlaces."""
-    bound = arguments.ease_tolerance
-    eases = arguments.ease or bound is not None
+    bound, stiffness = arguments.ease_tolerance, arguments.ease_stiffness
+    if bound is not None and stiffness is not None:
+        raise ValueError("--ease-tolerance and --ease-stiffness are two amounts: give one")
+    eases = arguments.ease or bound is not None or stiffness is not None
     if eases or arguments.strain is not None:
         named = "--ease" if eases else "--strain"
         for other in ("fill", "clean"):
@@ -72,9 +81,9 @@ def options_of(arguments: argparse.Namespace, files: Sequence[Place]) -> Prepare
                 raise ValueError(f"{named} is for fairing, and --{other} does not fair: call twice")
         if arguments.pieces is not None:
             raise ValueError(f"{named} needs the whole mesh and cannot be used with --pieces")
-    amount = "AUTOMATIC" if bound is None else "TOLERANCE"
+    amount = "TOLERANCE" if bound is not None else "AUTOMATIC" if stiffness is None else "STIFFNESS"
     return PrepareOptions(
-        EaseOptions(amount, bound or 0.0) if eases else None,
+        EaseOptions(amount, bound or 0.0, stiffness=stiffness or 0.0) if eases else None,
         tables(arguments.strain, files, arguments.json) if arguments.strain is not None else None,
     )
 
@@ -83,8 +92,12 @@ def shown(prepare: PrepareOptions) -> dict[str, Any]:
     """For the report: nothing, unless the mesh is eased."""
     if prepare.options is None:
         return {}
-    within = prepare.options.amount == "TOLERANCE"
-    return {"ease": True, "ease_tolerance": prepare.options.tolerance if within else None}
+    options = prepare.options
+    return {
+        "ease": True,
+        "ease_tolerance": options.tolerance if options.amount == "TOLERANCE" else None,
+        "ease_stiffness": options.stiffness if options.amount == "STIFFNESS" else None,
+    }
 
 
 class Preparing:

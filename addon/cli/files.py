@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Files in and out with Blender's own importers and exporters, in the files' own coordinates."""
 
+import re
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -12,6 +13,7 @@ import numpy as np
 
 from .. import core
 from ..blender import Mesh, Object, current_context
+from ..mesh.layers import fill_layer, make_layer
 from .materials import free_stem
 from .places import FORMATS, file_format
 from .whole import why_incomplete
@@ -74,10 +76,40 @@ def read_file(path: Path, merge: bool = False) -> list[Object]:
     found = [o for o in current_context().scene.objects if o.type == "MESH"]
     if not found:
         raise FileError("NO_MESH", f"{path} has no mesh that Blender can read.")
+    if kind == "obj":
+        _crease(found, path)
     if merge:
         for item in found:
             _merge(item.data)
     return found
+
+
+def _crease(found: list[Object], path: Path) -> None:
+    """Creases of an OBJ as OpenSubdiv writes them, which Blender's importer drops: `t crease 2/1/0 v w sharpness`,
+    vertices counted from 0 over the whole file. FileError where the objects do not have all vertices in order.
+    """
+    text = path.read_text("utf-8", "replace")
+    tags = [
+        tag.split() for tag in re.findall(r"^t[ \t]+crease[ \t]+2/1/0\b(.*)$", text, re.MULTILINE)
+    ]
+    if not tags:
+        return
+    mesh, count = found[0].data, len(re.findall(r"^v[ \t]", text, re.MULTILINE))
+    try:
+        sharpness = {frozenset((int(v), int(w))): float(s) for v, w, s in tags}
+    except ValueError:
+        raise FileError(
+            "UNREADABLE", f"{path} cannot be read: a crease is 't crease 2/1/0 v w sharpness'."
+        ) from None
+    if len(found) > 1 or len(mesh.vertices) != count:
+        raise FileError(
+            "UNREADABLE", f"{path} cannot be read: creases need one object that has all vertices."
+        )
+    steps = [sharpness.get(frozenset(edge.vertices), 0.0) for edge in mesh.edges]
+    weights = np.sqrt(
+        np.clip(steps, 0.0, 10.0) / 10.0
+    )  # Blender's crease c is sharp for 10 c² steps
+    fill_layer(make_layer(mesh, "crease_edge", "FLOAT", "EDGE"), np.float32(weights))
 
 
 def write_file(path: Path) -> None:

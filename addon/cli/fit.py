@@ -74,7 +74,7 @@ def options_of(arguments: argparse.Namespace, settings: Settings) -> FitOptions 
             raise ValueError(
                 f"{_option(name)} is not for --fit, which moves all vertices by itself"
             )
-    for name in ("pieces", "ease", "ease_tolerance", "strain", "fill", "clean"):
+    for name in ("pieces", "ease", "ease_tolerance", "ease_stiffness", "strain", "fill", "clean"):
         if getattr(arguments, name, None) not in (None, False):
             raise ValueError(f"{_option(name)} is not for --fit: call twice")
     if arguments.cage is not None and arguments.cage_faces is not None:

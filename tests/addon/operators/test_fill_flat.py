@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Flat: caps and transoms without new vertices, between rims that stay sharp."""
 
+from dataclasses import replace
+
 import bpy
 import numpy as np
 import pytest
@@ -37,6 +39,7 @@ def test_a_cap_is_flat_and_its_rim_sharp():
 def test_caps_are_offered_flat_and_repairs_are_not():
     options = FillOptions("CURVATURE", "THIN_PLATE", 1.0, 0.0, False)
     target = tube()
+    assert HoleJob(bpy.context, target, replace(options, largest=9.0)).closes_caps
     edit(target, "EDGE", borders(target, lambda z: z > 0))
     assert HoleJob(bpy.context, target, options).closes_caps
     bpy.ops.object.mode_set(mode="OBJECT")
