@@ -10,7 +10,9 @@ from ..blender import Object
 from .drawn import Drawn, drawn
 from .sections import combs, sections, segments, teeth
 
-CURVE, COMB, TOOTH = (0.02, 0.02, 0.02, 1.0), (0.85, 0.3, 0.05, 1.0), (0.85, 0.3, 0.05, 0.5)
+CURVE = (0.02, 0.02, 0.02, 1.0)
+# of planes across X, Y, Z: combs over one another are told apart
+COMBS = ((0.85, 0.3, 0.05), (0.15, 0.55, 0.1), (0.1, 0.35, 0.85))
 
 _PULL = 1e-3  # towards the eye, a share of the distance: else surface and lines would mix
 
@@ -47,20 +49,24 @@ def _corner_normals(mesh: Any, corners: np.ndarray, smooth: bool) -> np.ndarray:
 
 
 def lines_of(surface: Drawn, settings: Any) -> list[tuple[np.ndarray, tuple[float, ...]]]:
-    """Points (s, 3) float32, two a line, and their colour: section curves and their combs."""
+    """Points (s, 3) float32, two a line, and their colour: section curves and their combs, whose scale and colour are
+    those of the axis: a hull bends along its length far less than across.
+    """
     low, high = (getattr(surface.points, end)(axis=0, initial=0.0) for end in ("min", "max"))
     diagonal = float(np.linalg.norm(high - low))
-    found = [
-        section
-        for axis, name in enumerate("XYZ")
-        if name in settings.section_axes
-        for section in sections(surface, axis, settings.section_count)
-    ]
-    lines = [(segments([section.curve for section in found]), CURVE)]
-    if settings.show_combs:
-        ends = combs(found, diagonal, settings.comb_scale)
-        lines += [(teeth(found, ends), TOOTH), (segments(ends), COMB)]
-    return [line for line in lines if len(line[0])]
+    curves, over = [], []
+    for axis, name in enumerate("XYZ"):
+        if name not in settings.section_axes:
+            continue
+        found = sections(surface, axis, settings.section_count)
+        curves += [section.curve for section in found]
+        if settings.show_combs:
+            ends = combs(found, diagonal, settings.comb_scale)
+            over += [
+                (teeth(found, ends), (*COMBS[axis], 0.5)),
+                (segments(ends), (*COMBS[axis], 1.0)),
+            ]
+    return [line for line in [(segments(curves), CURVE), *over] if len(line[0])]
 
 
 def pulled(projection: np.ndarray, distance: float) -> np.ndarray:

@@ -255,7 +255,8 @@ class EXPORT_SCENE_OT_fairing_lines(_Spaced, ExplainedPoll, ExportHelper, bpy.ty
             self.report({"ERROR"}, "Select the surface of a hull: no plane cuts this mesh")
             return {"CANCELLED"}
         factor = context.scene.unit_settings.scale_length / _FILE_UNITS[self.unit] / self.scale
-        drawing = in_space(found) if self.in_space else sheet(*found.values())
+        title = f"{target.name}   1 : {self.scale:g}   {self.unit.lower()}"
+        drawing = in_space(found) if self.in_space else sheet(*found.values(), title)
         if not write_text_file(self, self.filepath, text(scaled(drawing, factor))):
             return {"CANCELLED"}
         count = ", ".join(f"{len(cuts)} {kind.lower()}" for kind, cuts in found.items())

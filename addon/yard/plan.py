@@ -44,27 +44,60 @@ def places(text: str, low: float, high: float, spacing: float, start: float) -> 
 
 
 def sheet(
-    stations: list[Cut], buttocks: list[Cut], waterlines: list[Cut]
+    stations: list[Cut], buttocks: list[Cut], waterlines: list[Cut], title: str
 ) -> list[Polyline | Label]:
     """Below one another: profile (x, z), half-breadths (x, y), and beside the profile the body plan: the half
-    nearer to low x on the right, the other one on the left.
+    nearer to low x on the right, the other one on the left. Each over the grid of the other planes, with the
+    stations' names below, in one frame with `title`.
     """
     points = np.concatenate([c for cut in (*stations, *buttocks, *waterlines) for c in cut.curves])
     low, high = points.min(axis=0), points.max(axis=0)
     length, beam = high[0] - low[0], np.abs(points[:, 1]).max()
     gap, text = _GAP * length, _TEXT * length
     middle = 0.5 * (low[0] + high[0])
-    drawn: list[Polyline | Label] = []
-    below = low[2] - gap - beam
+    below, centre = low[2] - gap - beam, high[0] + gap + beam
+    x, y, z = (_places(cuts) for cuts in (stations, buttocks, waterlines))
+    level, out = np.unique([low[2], *z]), np.unique([0.0, *np.abs(y)])
+    drawn: list[Polyline | Label] = [
+        *_grid((low[0], high[0]), (low[2], high[2]), x, level),
+        *_grid((low[0], high[0]), (below, below + beam), x, below + out),
+        *_grid((centre - beam, centre + beam), (low[2], high[2]), centre + np.r_[-out, out], level),
+    ]
+    for cut in stations:
+        name = cut.plane.name.removeprefix("station ")
+        drawn += [
+            Label("TEXT", (cut.plane.place, bottom - 2.0 * text), text, name)
+            for bottom in (low[2], below)
+        ]
     for cut in buttocks:
         drawn += _view("BUTTOCKS", cut, (1, 0, 0), (0, 0, 1), (0.0, 0.0), text)
     for cut in waterlines:
         drawn += _view("WATERLINES", cut, (1, 0, 0), (0, 1, 0), (0.0, below), text)
     for cut in stations:
         side = 1 if cut.plane.place <= middle else -1
-        centre = high[0] + gap + beam
         drawn += _view("STATIONS", cut, (0, side, 0), (0, 0, 1), (centre, 0.0), text)
-    return drawn
+    corner = (low[0] - gap, below - gap)
+    drawn.append(Label("TEXT", (corner[0] + text, corner[1] + text), 2.0 * text, title))
+    around = _box(corner, (centre + beam + gap, high[2] + gap))
+    return [*drawn, Polyline("FRAME", around, closed=True)]
+
+
+def _places(cuts: list[Cut]) -> np.ndarray:
+    return np.array([cut.plane.place for cut in cuts])
+
+
+def _box(low: tuple[float, float], high: tuple[float, float]) -> np.ndarray:
+    (left, bottom), (right, top) = low, high
+    return np.array([(left, bottom, 0), (right, bottom, 0), (right, top, 0), (left, top, 0)], float)
+
+
+def _grid(
+    across: tuple[float, float], up: tuple[float, float], x: np.ndarray, y: np.ndarray
+) -> list[Polyline]:
+    """Lines at each `x` from end to end of `up`, and at each `y` of `across`."""
+    upright = [[(at, end, 0.0) for end in up] for at in x]
+    level = [[(end, at, 0.0) for end in across] for at in y]
+    return [Polyline("GRID", np.array(line)) for line in (*upright, *level)]
 
 
 def in_space(found: dict[str, list[Cut]]) -> list[Polyline | Label]:

@@ -148,12 +148,33 @@ def test_lines_come_in_pairs_for_what_is_asked():
     asked = SimpleNamespace(
         section_axes={"X", "Z"}, section_count=3, show_combs=True, comb_scale=1.0
     )
-    curves, tooth_lines, outline = (points for points, _ in overlay_arrays.lines_of(target, asked))
-    assert all(len(points) % 2 == 0 for points in (curves, tooth_lines, outline))
+    (curves, _), *over = overlay_arrays.lines_of(target, asked)
     assert np.abs(np.linalg.norm(curves, axis=1) - 2.0).max() < 0.01
-    assert np.linalg.norm(outline, axis=1).min() > 2.1
+    assert len(over) == 4 and len({colour[:3] for _, colour in over}) == 2, "a colour for an axis"
+    assert all(len(points) % 2 == 0 for points in (curves, *(points for points, _ in over)))
+    assert all(np.linalg.norm(over[k][0], axis=1).min() > 2.1 for k in (1, 3))
     asked.show_combs = False
     assert len(overlay_arrays.lines_of(target, asked)) == 1
+
+
+def test_combs_of_the_axis_that_bends_less_are_as_long():
+    """A half cylinder of 1 by 20: sections along it are straight but for a bend of a hundredth."""
+    x, angle = np.meshgrid(np.linspace(-10, 10, 41), np.linspace(0, np.pi, 17), indexing="ij")
+    points = np.stack([x, np.cos(angle), np.sin(angle) - 0.001 * x**2], axis=-1).reshape(-1, 3)
+    grid = np.arange(points.shape[0]).reshape(x.shape)
+    quads = np.stack([grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]], -1).reshape(
+        -1, 4
+    )
+    target = add("Half Tube", points.tolist(), quads.tolist())
+    for polygon in target.data.polygons:
+        polygon.use_smooth = True
+    surface = overlay_arrays.surface_of(target, bpy.context.evaluated_depsgraph_get())
+    asked = SimpleNamespace(
+        section_axes={"X", "Y"}, section_count=4, show_combs=True, comb_scale=1.0
+    )
+    _, across, _, along, _ = (points for points, _ in overlay_arrays.lines_of(surface, asked))
+    longest = [np.linalg.norm(teeth[1::2] - teeth[::2], axis=1).max() for teeth in (across, along)]
+    assert 0.3 < longest[1] / longest[0] < 3.0
 
 
 def deviation(target):

@@ -187,9 +187,23 @@ def test_the_lines_plan_has_a_body_plan_with_both_halves(tmp_path):
     found = groups(path)
     assert found[-1] == (0, "EOF") and (1, "AC1009") in found
     layers = [value for code, value in found if code == 8]
-    assert {"STATIONS", "BUTTOCKS", "WATERLINES", "TEXT"} == set(layers)
+    assert {"STATIONS", "BUTTOCKS", "WATERLINES", "TEXT", "GRID", "FRAME"} == set(layers)
     texts = [value for (code, value) in found if code == 1][1:]
-    assert "station 5" in texts
+    assert "station 5" in texts and texts.count("5") == 2, "below profile and half-breadths"
+    assert "offsets_yacht Closed Fair   1 : 10   mm" in texts
+    places = {
+        layer: np.array(
+            [
+                [float(found[k + 2][1]), float(found[k + 3][1])]
+                for k, pair in enumerate(found)
+                if pair == (0, "VERTEX") and found[k + 1][1] == layer
+            ]
+        )
+        for layer in ("FRAME", "GRID", "STATIONS", "WATERLINES", "BUTTOCKS")
+    }
+    frame = places.pop("FRAME")
+    for layer, there in places.items():
+        assert (there > frame.min(axis=0)).all() and (there < frame.max(axis=0)).all(), layer
     station = [
         k for k, pair in enumerate(found) if pair == (0, "VERTEX") and found[k + 1][1] == "STATIONS"
     ]
