@@ -109,7 +109,7 @@ def _crease(found: list[Object], path: Path) -> None:
     weights = np.sqrt(
         np.clip(steps, 0.0, 10.0) / 10.0
     )  # Blender's crease c is sharp for 10 c² steps
-    fill_layer(make_layer(mesh, "crease_edge", "FLOAT", "EDGE"), np.float32(weights))
+    fill_layer(make_layer(mesh, "crease_edge", "FLOAT", "EDGE"), np.asarray(weights, np.float32))
 
 
 def write_file(path: Path) -> None:

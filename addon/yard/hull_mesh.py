@@ -9,7 +9,7 @@ from difflib import SequenceMatcher
 
 import numpy as np
 
-from .offsets import Offset, Offsets, is_buttock, is_sharp, is_waterline
+from .offsets import Offset, Offsets, is_buttock, is_diagonal, is_sharp, is_waterline
 
 
 @dataclass(frozen=True)
@@ -147,10 +147,10 @@ def _mean_x(points: list[Offset]) -> float:
 
 def _ladder(points: list[Offset], table: Offsets) -> list[Offset]:
     """A station's points from the keel to the sheer: in the table's order where all lines are named, by height
-    where there are waterlines, by the angle seen from the top of the middle where there are buttocks.
+    where there are waterlines, by the angle seen from the top of the middle where there are buttocks or diagonals.
     """
     top = max(p.place[2] for p in points)
-    if any(is_buttock(p.line) for p in points):
+    if any(is_buttock(p.line) or is_diagonal(p.line) for p in points):
         return sorted(points, key=lambda p: np.arctan2(abs(p.place[1]), top - p.place[2]))
     if any(is_waterline(line) for line in table.lines):
         return sorted(points, key=lambda p: p.place[2])

@@ -8,17 +8,19 @@ point.
 
 import re
 from dataclasses import dataclass
-from math import isnan
+from math import cos, isnan, radians, sin
 
 from .sheet import Cell, OffsetsError, Sheet, read_sheet
 
 _QUANTITY = {"x": "x", "y": "y", "z": "z", "half-breadth": "y", "half breadth": "y", "height": "z"}
 _LINE = re.compile(r"(wl|waterline|btk|buttock)\b[\s.]*(.*)$|(b)[\s.]*(\d.*)$")
+_DIAGONAL = re.compile(r"diag(onal)?\b")
 _LAST = re.compile(r"(.*?)[\s,:]+(x|y|z|half[- ]breadth|height)$", re.IGNORECASE)
 _AXIS = {"w": "z", "b": "y"}  # what a waterline's or buttock's own number is
 _PROFILE = re.compile(r"stem|stern|profile")  # whose cells are places along the hull
 _SHARP = re.compile(r"knuckle|chine|sharp")
 _STATION_PLACE = {"x", "position", "from bow", "from ap", "from fp"}
+_ANGLE = "angle"  # of a diagonal below level, in degrees
 _LINE_PLACE = {"height", "half-breadth", "half breadth", "position", "at"}
 
 
@@ -50,8 +52,10 @@ class _Series:
     """A line's cells of one quantity, station by station."""
 
     line: str
-    quantity: str
-    fixed: dict[str, float]  # what the line's own number says
+    quantity: str  # x, y, z; d: along a diagonal, from the middle
+    fixed: dict[
+        str, float
+    ]  # what the line's own number says; of a diagonal its height in the middle and its angle
     head: Cell
     cells: list[Cell]
 
@@ -67,6 +71,10 @@ def is_waterline(line: str) -> bool:
 
 def is_buttock(line: str) -> bool:
     return line.lower().startswith("b") and _LINE.match(line.lower()) is not None
+
+
+def is_diagonal(line: str) -> bool:
+    return _DIAGONAL.match(line.lower()) is not None
 
 
 def read(text: str, unit: float | None = None) -> Offsets:
@@ -129,12 +137,15 @@ def _by_station(sheet: Sheet, rows: list[list[Cell]], head: str) -> list[Offset]
     lines, body = rows[0], rows[1:]
     kinds: list[Cell] | None = None
     places: list[Cell] | None = None
+    angles: list[Cell] | None = None
     while body:
         words = [cell.word for cell in body[0][1:] if not cell.is_blank]
         if words and all(word in _QUANTITY for word in words):
             kinds = body.pop(0)
         elif body[0][0].word in _LINE_PLACE:
             places = body.pop(0)
+        elif body[0][0].word == _ANGLE:
+            angles = body.pop(0)
         else:
             break
     where = next((k for k in range(1, len(lines)) if lines[k].word in _STATION_PLACE), None)
@@ -144,6 +155,7 @@ def _by_station(sheet: Sheet, rows: list[list[Cell]], head: str) -> list[Offset]
             lines[k],
             kinds[k] if kinds else None,
             places[k] if places else None,
+            angles[k] if angles else None,
             head,
             [r[k] for r in body],
         )
@@ -177,7 +189,13 @@ def _station_x(sheet: Sheet, station: Cell, where: Cell | None, index: int) -> f
 
 
 def _series(
-    sheet: Sheet, head: Cell, kind: Cell | None, place: Cell | None, first: str, cells: list[Cell]
+    sheet: Sheet,
+    head: Cell,
+    kind: Cell | None,
+    place: Cell | None,
+    angle: Cell | None,
+    first: str,
+    cells: list[Cell],
 ) -> _Series:
     label = head.text.split("(")[0].split("[")[0].strip()
     quantity = _QUANTITY[kind.word] if kind is not None and not kind.is_blank else ""
@@ -204,6 +222,12 @@ def _series(
         if isnan(fixed[_AXIS[family]]):
             raise head.error(f"{label} has no number: where it lies")
         quantity = quantity or ("y" if family == "w" else "z")
+    elif is_diagonal(label) and not quantity:
+        for name, cell in (("height", place), (_ANGLE, angle)):
+            if cell is None or cell.is_blank:
+                raise head.error(f"{label} needs its {name} in a row '{name}' below the head")
+            fixed[name] = sheet.number(cell)
+        quantity = "d"
     elif "keel" in label.lower():
         quantity = quantity or "z"
     if not quantity:
@@ -225,7 +249,7 @@ def _points(
     """Of one station. In a profile the place along the hull stands where else the half-breadth does; a line
     with heights and no half-breadths lies in the middle.
     """
-    broad = {one.line for one in series if one.quantity == "y" or "y" in one.fixed}
+    broad = {one.line for one in series if one.quantity in "yd" or "y" in one.fixed}
     values: dict[str, dict[str, float]] = {}
     cells: dict[str, Cell] = {}
     for one in series:
@@ -235,6 +259,10 @@ def _points(
         if not isnan(number):
             known["x" if x is None and one.quantity == "y" else one.quantity] = number
             cells[one.line] = cell
+            if one.quantity == "d":
+                tilt = radians(known[_ANGLE])
+                known["y"] = number * cos(tilt)
+                known["z"] = known["height"] - number * sin(tilt)
     found = []
     for line, known in values.items():
         if line not in cells:

@@ -98,6 +98,31 @@ def test_buttocks_and_waterlines_stand_along_the_section():
     assert all(len(face) in (3, 4) for face in made.faces)
 
 
+def test_diagonals_are_measured_from_the_middle():
+    text = """station (m),x,Keel,Diagonal 1,Diag B,Sheer half-breadth,Sheer height
+angle,,,45,30,,
+height,,,0.4,0.9,,
+0,0,0,0.2,0.4,0.6,1
+1,1,0,{0},0.8,0.9,1
+"""
+    made = hull_mesh(read(text.format(0.5)))
+    r = np.sqrt(0.5)
+    assert made.positions[5] == pytest.approx([1, 0.5 * r, 0.4 - 0.5 * r])
+    assert made.positions[6] == pytest.approx([1, 0.4 * np.sqrt(3), 0.5])
+    assert made.names[5:7] == ["station 1, Diagonal 1", "station 1, Diag B"]
+    assert [len(face) for face in made.faces] == [4, 4, 4]
+    with pytest.raises(OffsetsError, match="Row 1, column 3: Diag 1 needs its angle in a row"):
+        read("station (m),Keel,Diag 1\nheight,,1\n0,0,1\n1,0,1\n")
+
+
+def test_a_raked_transom_has_columns_of_its_places():
+    made = hull_mesh(
+        read("station (m),x,Keel,WL 0.5,WL 0.5 x,WL 1,WL 1 x\n0,0,0,.1,,.2,\n1,1,0,.5,1.1,.6,1.2\n")
+    )
+    assert made.positions[:, 0].tolist() == pytest.approx([0, 0, 0, 1, 1.1, 1.2])
+    assert made.positions[4:, 1:] == pytest.approx(np.array([(0.5, 0.5), (0.6, 1.0)]))
+
+
 def test_a_profile_has_places_along_the_hull():
     made = hull_mesh(read("station (m),Keel,WL 0.5,WL 1\nStem,,-0.2,-0.5\n0,0,.1,.2\n1,0,.5,.6\n"))
     assert made.positions[:2] == pytest.approx(np.array([(-0.2, 0, 0.5), (-0.5, 0, 1.0)]))
@@ -162,9 +187,9 @@ def test_the_examples_are_the_hulls_as_measured(make):
     made = hull_mesh(table)
     assert len(made.names) == len(made.positions) and set(map(len, made.faces)) <= {3, 4}
     middle = made.positions[np.array(made.creases), 1].max(axis=1) == 0.0
-    # stem and sternpost; stem and keel; stem
+    # stem, sternpost and the keel before it; stem and keel; stem and the keel behind it
     assert (
         middle.sum()
-        == {"offsets_bulb.csv": 13, "offsets_chine.csv": 12, "offsets_yacht.tsv": 7}[hull.file]
+        == {"offsets_bulb.csv": 14, "offsets_chine.csv": 12, "offsets_yacht.tsv": 8}[hull.file]
     )
     assert (~middle).sum() == (8 if hull.file == "offsets_chine.csv" else 0), "the chine"
