@@ -256,7 +256,7 @@ class EXPORT_SCENE_OT_fairing_lines(_Spaced, ExplainedPoll, ExportHelper, bpy.ty
             return {"CANCELLED"}
         factor = context.scene.unit_settings.scale_length / _FILE_UNITS[self.unit] / self.scale
         title = f"{target.name}   1 : {self.scale:g}   {self.unit.lower()}"
-        drawing = in_space(found) if self.in_space else sheet(*found.values(), title)
+        drawing = in_space(found) if self.in_space else sheet(title, *found.values())
         if not write_text_file(self, self.filepath, text(scaled(drawing, factor))):
             return {"CANCELLED"}
         count = ", ".join(f"{len(cuts)} {kind.lower()}" for kind, cuts in found.items())

@@ -44,7 +44,7 @@ def places(text: str, low: float, high: float, spacing: float, start: float) -> 
 
 
 def sheet(
-    stations: list[Cut], buttocks: list[Cut], waterlines: list[Cut], title: str
+    title: str, stations: list[Cut], buttocks: list[Cut], waterlines: list[Cut]
 ) -> list[Polyline | Label]:
     """Below one another: profile (x, z), half-breadths (x, y), and beside the profile the body plan: the half
     nearer to low x on the right, the other one on the left. Each over the grid of the other planes, with the

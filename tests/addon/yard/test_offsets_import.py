@@ -9,7 +9,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
-from scenes import fair, positions
+from scenes import activate, fair, positions
 
 from addon.mesh.offset_names import read_names, stations
 from addon.settings import Settings
@@ -204,3 +204,35 @@ def test_between_offsets_of_a_knuckled_hull_the_surface_is_within_a_millimetre(t
     nearest = np.array([surface.closest_point_on_mesh(place)[1] for place in truth.tolist()])
     off = np.linalg.norm(nearest - truth, axis=1)
     assert len(half.data.polygons) == 84 and off.max() < 1e-3
+
+
+def folds(surface):
+    """Degrees by which both halves turn at each edge of the keel and the bulb's underside."""
+    middle = positions(surface.data)[:, 1] == 0.0
+    low = positions(surface.data)[:, 2] < -1.2
+    found = [
+        2.0 * np.arcsin(abs(polygon.normal.y))
+        for polygon in surface.data.polygons
+        for v, w in polygon.edge_keys
+        if middle[v] and middle[w] and low[v] and low[w]
+    ]
+    return np.degrees(found)
+
+
+def test_a_bulb_is_round_at_the_symmetry_plane_and_its_keel_has_no_lumps():
+    half = imported(EXAMPLES / "offsets_bulb.csv")
+    panel = asdict(Settings.of(bpy.context.scene.discrete_fairing))
+    coarse = fair(**panel | {"levels": 2})
+    activate(half)
+    fine = fair(**panel)
+    assert np.median(folds(fine)) < 0.6 * np.median(folds(coarse)) < 20.0, "smooth: half a level"
+    points = positions(fine.data)
+    keel = points[(points[:, 1] == 0.0) & (points[:, 2] < -0.94) & (points[:, 0] < 10.8)]
+    truth = [hulls.bulb_ends(min(1000.0 * x, 0.0))[0] if x <= 0 else -1500.0 for x in keel[:, 0]]
+    off = np.abs(keel[:, 2] - np.array(truth) / 1000.0)
+    assert len(keel) > 80 and off[keel[:, 0] > 1.2].max() < 0.012
+    for edge in half.data.edges:
+        if not positions(half.data)[list(edge.vertices), 1].any():
+            half.data.attributes["crease_edge"].data[edge.index].value = 1.0
+    activate(half)
+    assert np.median(folds(fair(**panel))) > 3.0 * np.median(folds(fine)), "unless creased"
