@@ -102,7 +102,7 @@ class FairingSettings:
     )
     pull_group: StringProperty(
         name="Pull Group",
-        description="Vertex group or float attribute: how strongly each vertex draws the surface to itself, from 0 to 1 in a group",
+        description="Vertex group or float attribute: how strongly each vertex attracts the surface, from 0 to 1 in a group",
         search=_vertex_values,
         search_options={"SUGGESTION"},
     )
@@ -116,7 +116,7 @@ class FairingSettings:
     )
     tension: FloatProperty(
         name="Tension",
-        description="Draws the surface taut, so that fins, ears and ends of limbs do not swell (not with Flow Lines)",
+        description="Keeps fins, ears and ends of limbs from swelling (not with Flow Lines)",
         default=0.0,
         min=0.0,
         max=1.0,
@@ -150,7 +150,7 @@ class FairingSettings:
     )
     keep_symmetry: BoolProperty(
         name="Keep Symmetry",
-        description="If the source is its own mirror image in the object's X, Y or Z, the surface is too, to the last digit",
+        description="A source that is symmetric in the object's X, Y or Z gives an exactly symmetric surface",
         default=True,
     )
 

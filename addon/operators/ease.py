@@ -83,7 +83,7 @@ class OBJECT_OT_fairing_ease(_Easing, bpy.types.Operator):
     )
     stiffness: FloatProperty(
         name="Stiffness",
-        description="At 1 half of what scatters from one vertex to the next is removed, above it more",
+        description="At 1 it removes half of the scatter between neighbouring vertices; larger values remove more",
         default=1.0,
         min=0.0,
         soft_max=10.0,

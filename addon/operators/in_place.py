@@ -92,7 +92,7 @@ class InPlace(WholeFairing):
     )
     tension: FloatProperty(
         name="Tension",
-        description="Draws the surface taut, so that it does not swell",
+        description="Keeps the surface from swelling",
         default=0.0,
         min=0.0,
         max=1.0,

@@ -219,7 +219,7 @@ class EXPORT_SCENE_OT_fairing_lines(_Spaced, ExplainedPoll, ExportHelper, bpy.ty
     )
     unit: EnumProperty(
         name="Unit",
-        description="What one unit of the drawing is",
+        description="Length of one unit of the drawing",
         items=[(key, key.lower(), f"One unit is one {key.lower()}") for key in _FILE_UNITS],
     )
     in_space: BoolProperty(
