@@ -2,6 +2,7 @@
 """Faces that are meant flat: a Boolean attribute on faces."""
 
 from collections.abc import Iterable
+from typing import Any
 
 import bmesh
 import numpy as np
@@ -14,17 +15,14 @@ FLAT = "fair_flat"
 
 
 def mark_selected(mesh: Mesh, flat: bool) -> int:
-    """Marks the selected faces of `mesh`, which is in Edit Mode, or unmarks them; returns how many there are."""
-    edit = bmesh.from_edit_mesh(mesh)
-    layer = edit.faces.layers.bool.get(FLAT)
-    if layer is None and flat and any(face.select for face in edit.faces):
-        layer = edit.faces.layers.bool.new(FLAT)
-    chosen = [face for face in edit.faces if face.select]
-    if layer is not None:
-        for face in chosen:
-            face[layer] = flat
-    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
-    return len(chosen)
+    """Marks the selected faces of `mesh`, which is in Object Mode, or unmarks them; returns how many there are."""
+    chosen = np.empty(len(mesh.polygons), bool)
+    mesh.polygons.foreach_get("select", chosen)
+    if flat:
+        mark(mesh, chosen)
+    elif (layer := find_layer(mesh, FLAT, "BOOLEAN", "FACE")) is not None:
+        fill_layer(layer, layer_values(layer) & ~chosen)
+    return int(chosen.sum())
 
 
 def mark(mesh: Mesh, faces: np.ndarray) -> None:
@@ -47,14 +45,19 @@ def clear(mesh: Mesh) -> int:
 
 
 def count(sources: Iterable[Object]) -> int:
-    """How many faces are marked."""
+    """How many faces are marked; none in the Edit Mode of a Blender that does not show it."""
     return sum(shown(source.data, FLAT, _count, 0) for source in sources)
 
 
 def _count(mesh: Mesh) -> int:
     if mesh.is_editmode:  # then the mesh lists no values
         edit = bmesh.from_edit_mesh(mesh)
-        marked = edit.faces.layers.bool.get(FLAT)
+        marked = None if (flags := _flags(edit)) is None else flags.get(FLAT)
         return 0 if marked is None else sum(face[marked] for face in edit.faces)
     layer = find_layer(mesh, FLAT, "BOOLEAN", "FACE")
     return 0 if layer is None else int(layer_values(layer).sum())
+
+
+def _flags(edit: bmesh.types.BMesh) -> Any:
+    """The Boolean layers of faces; None in Blender 4.3 and 4.4, which do not show them."""
+    return getattr(edit.faces.layers, "bool", None)

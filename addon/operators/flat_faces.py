@@ -52,7 +52,11 @@ class OBJECT_OT_fairing_flat_faces(ExplainedPoll, bpy.types.Operator):
     def execute(self, context: Context) -> Answer:
         targets = _targets(context)
         if context.mode == "EDIT_MESH":
-            count = sum(flat_marks.mark_selected(o.data, not self.clear) for o in targets)
+            bpy.ops.object.mode_set(mode="OBJECT")  # where every Blender writes the marks
+            try:
+                count = sum(flat_marks.mark_selected(o.data, not self.clear) for o in targets)
+            finally:
+                bpy.ops.object.mode_set(mode="EDIT")
             if not count:
                 self.report({"ERROR"}, "Select faces first")
                 return {"CANCELLED"}
