@@ -7,6 +7,7 @@ from typing import Any
 
 import discrete_fairing as df
 import from_tests
+import inscribed
 import numpy as np
 import table
 
@@ -17,7 +18,6 @@ TIGHT = {"relative_residual": 1e-8, "step_tolerance": 1e-9, "max_steps": 40}
 
 def solids() -> Iterator[tuple[str, Any, Any]]:
     """Kind, vertices on the unit sphere, faces."""
-    inscribed = from_tests.inscribed()
     for name, make in inscribed.NAMED.items():
         points, faces = make()
         size = np.linalg.norm(points, axis=1)[:, None]

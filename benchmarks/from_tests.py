@@ -27,11 +27,6 @@ def small_meshes() -> ModuleType:
     return module
 
 
-def inscribed() -> ModuleType:
-    """tests/python/inscribed.py, which imports those control meshes by their own name."""
-    return _beside_own_meshes("inscribed", TESTS)
-
-
 def modelled() -> ModuleType:
     """examples/modelling_meshes.py, a fender and a mug, which imports control meshes of its own."""
     return _beside_own_meshes("modelling_meshes", EXAMPLES)

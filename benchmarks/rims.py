@@ -7,6 +7,7 @@ from typing import Any
 
 import from_tests
 import table
+import thin_models
 from from_tests import thin_walls
 
 LEVELS = 3
@@ -31,7 +32,7 @@ def mug() -> tuple[Any, Any, Any]:
 def run() -> dict[str, Any]:
     """All models."""
     result = {}
-    for name, make in {"mug": mug, **thin_walls.MODELS}.items():
+    for name, make in {"mug": mug, **thin_models.MODELS}.items():
         model = make()
         result[name] = {"Subdivision Surface": thin_walls.of_subdivision(model, LEVELS)}
         for setting, options in SETTINGS.items():

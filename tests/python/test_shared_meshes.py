@@ -56,6 +56,10 @@ def test_good_meshes_converge(path):
         assert_sound(result, vertices)
         assert result.report["converged"]
         assert max(result.report["iterations"]) <= 40
+        curved = tight.fair(vertices, faces, 2, "total_curvature", **option)
+        assert_sound(curved, vertices)
+        finest = curved.report["curvature"][-1]
+        assert 0 <= finest["energy"] <= finest["plate_energy"]
 
 
 @pytest.mark.parametrize("path", TOROIDAL)

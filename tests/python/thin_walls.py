@@ -64,13 +64,6 @@ def turned(profile: Sequence[tuple[float, float]], around: int, rim: int) -> Mod
     return np.concatenate(rings), faces, list(range(rim * around, (rim + 1) * around))
 
 
-def ear() -> Model:
-    """A cup of a blade that narrows upwards."""
-    x, y = plane(7, 5, (80, 50))
-    wide = 1 - 0.6 * (x / 80 + 0.5) ** 2
-    return thickened(np.stack([x, y * wide, 0.03 * (y * wide) ** 2], axis=2), 3)
-
-
 def cup() -> Model:
     """Of 12 sides, without a handle; its lip is 3 mm of edges of 20."""
     profile = ((34, 0), (40, 6), (40, 60), (40, 95), (37, 95), (37, 60), (36, 9), (30, 4))
@@ -83,45 +76,6 @@ def sheet() -> Model:
     return thickened(np.stack([x, y, 0.004 * x**2], axis=2), 2)
 
 
-def phone_case() -> Model:
-    """A tray with a wall of 1.6 mm, its corners cut."""
-    x, y = plane(8, 6, (150, 76))
-    outer = (np.abs(x) > 74) | (np.abs(y) > 37)
-    inner = np.where(outer, 0.98, 1.0)
-    corner = (np.abs(x) > 74) & (np.abs(y) > 37)
-    inner = np.where(corner, 0.95, inner)
-    return thickened(np.stack([x * inner, y * inner, np.where(outer, 10.0, 0.0)], axis=2), 1.6)
-
-
-def leaf() -> Model:
-    """Broad in the middle, narrow at both ends, arched."""
-    x, y = plane(9, 4, (100, 40))
-    wide = 0.15 + 0.85 * (1 - (x / 50) ** 2)
-    return thickened(np.stack([x, y * wide, 0.01 * y**2 - 0.002 * x**2], axis=2), 1.2)
-
-
-def fish_fin() -> Model:
-    """A forked tail, thin beside its faces."""
-    x, y = plane(6, 7, (60, 80))
-    behind = x / 60 + 0.5
-    return thickened(
-        np.stack([x + 0.35 * behind * np.abs(y), y * (0.3 + 0.7 * behind), 0 * x], axis=2), 1.5
-    )
-
-
-def handle() -> Model:
-    """A strap of 4 mm, bent to half a ring."""
-    turn = np.linspace(0, np.pi, 7)[:, None]
-    across = np.array([-10.0, 10.0])[None]
-    return thickened(
-        np.stack(
-            [40 * np.cos(turn) + 0 * across, 30 * np.sin(turn) + 0 * across, across + 0 * turn],
-            axis=2,
-        ),
-        4,
-    )
-
-
 def wing() -> Model:
     """Tapered and swept, 12 mm thick at the nose, 1.5 at the trailing edge."""
     x, y = plane(6, 7, (300, 100))
@@ -130,38 +84,7 @@ def wing() -> Model:
     return thickened(np.stack([x, y * chord + 0.3 * x, 0.0002 * x**2], axis=2), thickness)
 
 
-def bottle() -> Model:
-    """Of 10 sides; its lip is 2 mm of edges of 9."""
-    profile = ((25, 0), (30, 5), (30, 90), (14, 120), (14, 140), (12, 140), (12, 120), (10, 110))
-    return turned(profile, 10, 4)
-
-
-def knob() -> Model:
-    """Of 16 sides with a skirt of 1.5 mm."""
-    profile = ((24, 0), (30, 0), (30, 1.5), (18, 4), (16, 18), (12, 20))
-    return turned(profile, 16, 1)
-
-
-def propeller() -> Model:
-    """A blade that twists by a right angle."""
-    x, y = plane(7, 4, (120, 30))
-    turn = np.pi / 4 * x / 60
-    return thickened(np.stack([x, y * np.cos(turn), y * np.sin(turn)], axis=2), 1.5)
-
-
-MODELS = {
-    "cup": cup,
-    "phone case": phone_case,
-    "sheet": sheet,
-    "leaf": leaf,
-    "ear": ear,
-    "fish fin": fish_fin,
-    "handle": handle,
-    "wing": wing,
-    "bottle": bottle,
-    "knob": knob,
-    "propeller": propeller,
-}
+MODELS = {"cup": cup, "sheet": sheet, "wing": wing}
 
 
 def along_edges(quads: np.ndarray, rim: list[int], pieces: int) -> list[int]:

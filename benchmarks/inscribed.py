@@ -2,8 +2,10 @@
 """Control meshes whose vertices lie on the unit sphere: for total curvature their surface is known,
 the sphere."""
 
-import control_meshes as meshes
+import from_tests
 import numpy as np
+
+meshes = from_tests.small_meshes()
 
 GOLDEN = (1 + 5**0.5) / 2
 
