@@ -10,6 +10,7 @@ import sys
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import partial
+from math import radians
 from pathlib import Path
 
 import bpy
@@ -119,6 +120,17 @@ def subdivided(control):
     return control
 
 
+def creased(control):
+    """Subdivision Surface with the creases of Mechanical: edges folded by 30° and more."""
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="DESELECT")
+    bpy.ops.mesh.select_mode(type="EDGE")
+    bpy.ops.mesh.edges_select_sharp(sharpness=radians(30))
+    bpy.ops.transform.edge_crease(value=1.0)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    return subdivided(control)
+
+
 def smoothed(control):
     """Blender's Laplacian Smooth, at the best of 18 settings for this noise."""
     modifier = control.modifiers.new("Laplacian Smooth", "LAPLACIANSMOOTH")
@@ -184,7 +196,10 @@ JOBS = {
     "hull": Job(hull, FAIR_FOR, {"purpose": "HULL"}, SUBDIVISION),
     "panel": Job(fender, FAIR_FOR, {"purpose": "PANEL"}, SUBDIVISION),
     "mechanical": Job(
-        partial(settings_meshes.can, sides=16), FAIR_FOR, {"purpose": "MECHANICAL"}, SUBDIVISION
+        partial(settings_meshes.can, sides=16),
+        FAIR_FOR,
+        {"purpose": "MECHANICAL"},
+        {"Subdivision Surface, creased": creased},
     ),
     "character": Job(
         cage,

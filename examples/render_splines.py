@@ -15,7 +15,7 @@ from tempfile import TemporaryDirectory
 import bpy
 
 ROOT = Path(__file__).resolve().parents[1]
-sys.path[:0] = [str(ROOT / "examples")]
+sys.path[:0] = [str(ROOT), str(ROOT / "examples")]
 
 import control_meshes  # noqa: E402
 import discrete_fairing as df  # noqa: E402
