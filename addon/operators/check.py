@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Check Mesh, and what follows from it: show a defect or a hole, mend a defect."""
+"""Check Mesh, and what follows from it: show a defect or a hole, mend a defect; and Select Places of a surface."""
 
 from collections.abc import Sequence
 from typing import Any, cast
@@ -18,9 +18,11 @@ from ..check.defects import (
     select_in_all,
     store_defects,
 )
+from ..check.faults import faulty_vertices
 from ..check.holes import edges_of
 from ..holes import count_text
 from ..mesh.read import source_objects
+from ..mesh.write import FAULTS
 from ..poll import ExplainedPoll, mesh_poll_reason
 
 
@@ -152,6 +154,28 @@ class OBJECT_OT_fairing_select_hole(_Checking, bpy.types.Operator):
         return {"FINISHED"}
 
 
+class OBJECT_OT_fairing_select_faults(ExplainedPoll, bpy.types.Operator):
+    """Select in Edit Mode where this surface crosses itself, bulges far from its source, or is folded"""
+
+    bl_idname = "object.fairing_select_faults"
+    bl_label = "Select Places"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @staticmethod
+    def poll_reason(context: Context) -> str:
+        active = context.active_object
+        if context.mode != "OBJECT" or active is None or active.type != "MESH":
+            return "Select a faired surface in Object Mode first"
+        if not any(name in active.data.attributes for name in FAULTS.values()):
+            return "Nothing to do: nothing was found wrong with this surface"
+        return mesh_poll_reason([active])
+
+    def execute(self, context: Context) -> Answer:
+        target = cast(Object, context.active_object)
+        select_defects(context, target, "vertex", faulty_vertices(target.data).tolist())
+        return {"FINISHED"}
+
+
 def _groups(defects: list[dict[str, Any]]) -> list[tuple[str, Sequence[Any]]]:
     return [(d["kind"], d["elements"]) for d in defects]
 
@@ -161,6 +185,7 @@ CLASSES = (
     OBJECT_OT_fairing_select_defect,
     OBJECT_OT_fairing_repair,
     OBJECT_OT_fairing_select_hole,
+    OBJECT_OT_fairing_select_faults,
 )
 
 register, unregister = registration(*CLASSES)

@@ -13,7 +13,7 @@ from ..mesh.scans import in_metres
 from ..poll import ExplainedPoll
 from ..yard.hydrostatics import Hydrostatics, NotClosed, hydrostatics
 from .hull import poll_reason
-from .text_file import write_text_file
+from .written_files import write_text_file
 
 _COLUMNS = (
     "draught_m,trim_deg,volume_m3,displacement_kg,lcb_m,vcb_m,wetted_m2,waterplane_m2,lcf_m,bm_m,"

@@ -21,7 +21,7 @@ from ..poll import ExplainedPoll
 from ..yard.dxf import text
 from ..yard.plan import Cut, Plane, in_space, opened, places, scaled, sheet
 from .hull import poll_reason
-from .text_file import write_text_file
+from .written_files import write_text_file
 
 _AXES = {"STATIONS": 0, "BUTTOCKS": 1, "WATERLINES": 2}
 _WORDS = {"STATIONS": "station", "BUTTOCKS": "buttock", "WATERLINES": "waterline"}

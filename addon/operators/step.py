@@ -16,7 +16,7 @@ from ..memory import source_of
 from ..mesh.read import source_objects
 from ..settings import PatchOptions
 from . import fair, redo
-from .by_browser import ByFileBrowser
+from .written_files import ByFileBrowser
 
 
 def _to_fit(context: Context) -> list[Object]:

@@ -21,9 +21,8 @@ from ..strain import known, table, words
 from ..strain.measure import StrainJob
 from ..strain.strained import Strained, above
 from ..units import Units
-from .by_browser import ByFileBrowser
 from .fair import WholeFairing, poll_reason
-from .text_file import write_text_file
+from .written_files import ByFileBrowser, write_text_file
 
 
 def active_sources(context: Context) -> list[Object]:

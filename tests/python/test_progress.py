@@ -79,18 +79,6 @@ def test_cancelling_midway():
     assert cancelled(progress=lambda fraction, phase: phase != "solve") < 10
 
 
-def test_phases_of_patches():
-    """Those of the surface first, then their own, to the end."""
-    seen = []
-    df.fit_patches(
-        *meshes.random_hull(), levels=5, force=True, progress=lambda *heard: seen.append(heard)
-    )
-    fractions, phases = zip(*seen)
-    assert set(phases) <= set(PHASES) and phases[-2:] == ("patches", "done")
-    assert phases.index("solve") < phases.index("patches")
-    assert fractions == tuple(sorted(fractions)) and fractions[-1] == 1
-
-
 @pytest.mark.parametrize("reports", [1, 4])
 def test_cancelling_while_patches_are_fitted(reports):
     """At once, and the same call goes through afterwards, with the same bits."""
@@ -146,12 +134,6 @@ def test_monitor_cancels_from_another_thread():
     monitor = df.Monitor()
     threading.Timer(0.1, monitor.cancel).start()
     assert cancelled(monitor=monitor) < 10
-
-
-def test_monitor_cancelled_before():
-    monitor = df.Monitor()
-    monitor.cancel()
-    assert cancelled(monitor=monitor) < 5
 
 
 def test_monitor_is_watched_from_another_thread():

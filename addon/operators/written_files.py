@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Operators that write a file which the file browser asks for, or that a script names."""
+"""Operators that write a file, which the file browser asks for, or a script names."""
 
 from typing import TYPE_CHECKING, Any, cast
 
 import bpy
 from bpy_extras.io_utils import ExportHelper
 
+from .. import core
 from ..blender import Answer, Context
 from .fair import Fairing
 
@@ -34,3 +35,16 @@ class ByFileBrowser(ExportHelper, Fairing):
     def begin(self, context: Context) -> Answer:
         """As a button does."""
         return Fairing.invoke(self, context, cast(Any, None))
+
+
+def write_text_file(operator: bpy.types.Operator, path: str, text: str) -> bool:
+    """Whether it was written; why not is reported. The file is whole or as it was."""
+    place = bpy.path.abspath(path)
+    try:
+        with core.module().whole_files.whole_file(place) as part:
+            part.write_text(text, encoding="utf-8", newline="")
+    except OSError as error:
+        why = error.strerror or error
+        operator.report({"ERROR"}, f"Choose another file: {place} cannot be written ({why}).")
+        return False
+    return True
