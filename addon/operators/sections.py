@@ -62,6 +62,8 @@ def even_planes(
             (f"{_WORDS[kind]} {at:.6g}", at) for at in places(listed, low, high, spacing, start)
         ]
     inset = 1e-5 * (high - low)  # the end stations are the border, which a plane only touches
+    if axis == 1 and abs(low) <= inset and not listed.strip():
+        named = [("profile", 0.0), *named]  # of a half hull
     return [
         Plane(name, cast(Any, normal), float(np.clip(at, low + inset, high - inset)))
         for name, at in named
