@@ -121,12 +121,13 @@ def subdivided(control):
 
 
 def creased(control):
-    """Subdivision Surface with the creases of Mechanical: edges folded by 30° and more."""
+    """Subdivision Surface with the edges that Mechanical keeps, folded by 30° and more, creased and sharp."""
     bpy.ops.object.mode_set(mode="EDIT")
     bpy.ops.mesh.select_all(action="DESELECT")
     bpy.ops.mesh.select_mode(type="EDGE")
     bpy.ops.mesh.edges_select_sharp(sharpness=radians(30))
     bpy.ops.transform.edge_crease(value=1.0)
+    bpy.ops.mesh.mark_sharp()
     bpy.ops.object.mode_set(mode="OBJECT")
     return subdivided(control)
 

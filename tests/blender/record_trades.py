@@ -272,7 +272,12 @@ def record_cad(film):
     yield from seen(jobs.begin("cad"), turn=3.6)
     yield from film.shoot(HOLD)
     yield from job(film, "HULL")
+    surface = bpy.context.view_layer.objects.active
     yield from film.click("fairing_show_patches(", 230, share=0.75)
+    surface.hide_set(True)  # which is at the same place
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.object.mode_set(mode="EDIT")
+    yield from film.shoot(HOLD)
     yield from film.orbit()
 
 
