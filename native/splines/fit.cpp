@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "splines/assembly.h"
 #include "splines/chains.h"
@@ -31,7 +32,9 @@ class Fitting {
     const Walls walls = find_walls(lattice_, topology_, options_.groups, options_.normal_tolerance);
     std::vector<FaceGrid> grids = lay_out(lattice_, topology_, walls);
     do {
+      const Topology before = topology_;
       make_patches(lattice_, walls, grids, topology_);
+      take_over(before);
       fit_all();
     } while (split(grids));
     assemble({lattice_, topology_, curves_, fitted_, workers_}, out);
@@ -40,13 +43,56 @@ class Fitting {
   }
 
  private:
-  void fit_all() {
-    curves_.assign(std::size_t(topology_.curves(lattice_)), {});
+  // Curves and patches that are as they were before some grids became two are not fitted again.
+  void take_over(const Topology& before) {
+    const std::size_t chains = topology_.chains.size(), old_chains = before.chains.size();
+    auto curves = std::exchange(curves_, {});
+    auto fitted = std::exchange(fitted_, {});
+    const auto strict = std::exchange(strict_, {}), sharper = std::exchange(sharper_, {}),
+               settled = std::exchange(settled_, {});
+    curves_.resize(std::size_t(topology_.curves(lattice_)));
+    new_curves_.assign(curves_.size(), 1);
     strict_.assign(curves_.size(), 0);
-    sharper_.assign(curves_.size(), 0);
-    fitted_.assign(topology_.patches.size(), {});
+    sharper_ = strict_;
+    fitted_.resize(topology_.patches.size());
+    new_patches_.assign(fitted_.size(), 1);
     settled_.assign(fitted_.size(), 0);
-    fit_curves(std::vector<std::uint8_t>(curves_.size(), 1));
+    if (old_chains == 0) return;
+    const auto keep_curve = [&](std::size_t c, std::size_t old) {
+      curves_[c] = std::move(curves[old]);
+      strict_[c] = strict[old];
+      sharper_[c] = sharper[old];
+      new_curves_[c] = 0;
+    };
+    for (std::size_t c = 0; c < chains; ++c) {
+      const Index old = before.places[std::size_t(topology_.chains[c].edges[0])].chain;
+      if (old >= 0 && before.chains[std::size_t(old)] == topology_.chains[c])
+        keep_curve(c, std::size_t(old));
+    }
+    for (std::size_t k = 0; chains + k < curves_.size(); ++k)
+      if (!new_curves_[std::size_t(chain_of(Index(k / 3), int(k % 3)))])
+        keep_curve(chains + k, old_chains + k);
+    std::vector<std::array<std::size_t, 3>> place_of(std::size_t(lattice_.faces()));
+    const auto place = [&](const PatchPlace& patch) -> std::size_t& {
+      return place_of[std::size_t(patch.grid.faces[0].face)]
+                     [std::size_t(std::max(0, patch.corner))];
+    };
+    for (std::size_t p = 0; p < before.patches.size(); ++p) place(before.patches[p]) = p + 1;
+    for (std::size_t p = 0; p < fitted_.size(); ++p) {
+      const PatchPlace& own = topology_.patches[p];
+      const std::size_t old = place(own);
+      if (old == 0 || !(before.patches[old - 1].grid == own.grid) ||
+          std::any_of(own.side.begin(), own.side.end(),
+                      [&](const PatchSide& side) { return new_curves_[std::size_t(side.curve)]; }))
+        continue;
+      fitted_[p] = std::move(fitted[old - 1]);
+      settled_[p] = settled[old - 1];
+      new_patches_[p] = 0;
+    }
+  }
+
+  void fit_all() {
+    fit_curves(new_curves_);
     monitor_.report(Phase::patches, 0.25);
     fit_patches();
     monitor_.report(Phase::patches, 0.625);
@@ -82,16 +128,23 @@ class Fitting {
     return lattice_.size() * std::min(options_.tolerance, options_.normal_tolerance / 8) /
            (sharper_[c] ? 8 : 2);
   }
-  // On so many faces' sides, or on a third's; of so many steps a span. The equations of a patch take
-  // time by the fourth power: a long side has fewer on each face, in all as many as an edge has samples.
-  int most_on(int faces, bool third, int steps = steps_a_span) const {
-    int each = std::clamp(lattice_.n() / (third ? 2 * steps : steps), 1, most_spans);
+  // On so many faces' sides of all in a row, or on a third's; of so many steps a span. The equations of
+  // a patch take time by the fourth power of its spans: one face has many, where it needs them, and
+  // several have few on each, in all as many as an edge has samples.
+  int most_on(int faces, bool several, bool third, int steps = steps_a_span) const {
+    int each = std::clamp(lattice_.n() / (third ? 2 * steps : steps), 1,
+                          several ? most_spans / steps_a_span : most_spans);
     while (each > 1 && faces * each > steps_a_span * most_spans) each /= 2;
     return faces * each;
   }
+  int most_of(const PatchPlace& place, int faces, int steps = steps_a_span) const {
+    return most_on(faces, place.several(), place.corner >= 0, steps);
+  }
 
   // Where neighbours lean, their normals vary faster beside a vertex than a span's steps tell.
-  int most_at_edges(int faces, bool third) const { return most_on(faces, third, steps_a_span / 2); }
+  int most_at_edges(const PatchPlace& place, int faces) const {
+    return most_of(place, faces, steps_a_span / 2);
+  }
 
   template <class Body>
   void for_each(std::size_t size, Body&& body) {
@@ -112,7 +165,7 @@ class Fitting {
     const auto limits = [&](std::size_t c) {
       const EdgeChain& chain = topology_.chains[c];
       const int least = least_spans(chain);
-      return SpanLimits{least, std::max(least, most_on(chain.halves() / 2, false)),
+      return SpanLimits{least, std::max(least, most_on(chain.halves() / 2, false, false)),
                         curve_tolerance(c)};
     };
     const auto fit_kind = [&](bool smooth, auto&& data_of) {
@@ -135,7 +188,7 @@ class Fitting {
       CurveData data = source.inner(f, s, curves_);
       hold_to_line(data, chains + k);
       curves_[chains + k] =
-          fit_curve(data, SpanLimits{1, most_on(1, true), curve_tolerance(chains + k)});
+          fit_curve(data, SpanLimits{1, most_on(1, false, true), curve_tolerance(chains + k)});
     });
   }
 
@@ -152,22 +205,21 @@ class Fitting {
 
   void fit_patch_to(std::size_t p, int spans_u, int spans_v, bool to_tolerance) {
     const PatchPlace& place = topology_.patches[p];
-    const bool third = place.corner >= 0;
     PatchData data = patch_data(lattice_, topology_, place, curves_);
     const FaceSurface surface(Sheet(lattice_, place.grid), topology_);
     data.surface = &surface;
     data.faces = place.grid.faces.size();
     data.corner = place.corner;
     data.tolerance = tolerance() / 2;
-    data.normal_tolerance = options_.normal_tolerance / 2;  // two patches meet
-    data.may_fold = turns_sharply(place);
+    data.normal_tolerance = options_.normal_tolerance / 2;    // two patches meet
+    data.may_fold = place.several() || turns_sharply(place);  // several are cut in two
     for (const int s : {0, 2}) spans_u = std::max(spans_u, data.side[std::size_t(s)].spans);
     for (const int s : {1, 3}) spans_v = std::max(spans_v, data.side[std::size_t(s)].spans);
-    const int most_u = std::max(most_on(place.grid.columns, third), spans_u),
-              most_v = std::max(most_on(place.grid.rows, third), spans_v);
+    const int most_u = std::max(most_of(place, place.grid.columns), spans_u),
+              most_v = std::max(most_of(place, place.grid.rows), spans_v);
     const auto fit = [&](int u, int v, bool last) {
       choose_fitted(lattice_, place, u, v, data);
-      FittedPatch next = fit_patch(data, u, v, last);
+      FittedPatch next = fit_patch(data, u, v, last && !place.several());
       // one that leans less at an edge, and turns by more inside, swings between its samples
       const bool swings = !to_tolerance && next.turned > std::max(folded / 4, fitted_[p].turned);
       if (fitted_[p].patch.net.empty() || (next.misses < fitted_[p].misses && !swings))
@@ -180,7 +232,7 @@ class Fitting {
       const bool grows = to_tolerance && (more_u > spans_u || more_v > spans_v);
       if (fit(spans_u, spans_v, !grows) || !grows) return;
       // of several faces one direction may do
-      if (place.grid.faces.size() > 1 && more_u > spans_u && more_v > spans_v &&
+      if (place.several() && more_u > spans_u && more_v > spans_v &&
           (fit(spans_u, more_v, false) || fit(more_u, spans_v, false)))
         return;
       spans_u = more_u;
@@ -196,6 +248,7 @@ class Fitting {
 
   void fit_patches() {
     for_each(fitted_.size(), [&](std::size_t p) {
+      if (!new_patches_[p]) return;
       fit_patch_to(p, topology_.patches[p].grid.columns, topology_.patches[p].grid.rows, true);
     });
   }
@@ -207,11 +260,13 @@ class Fitting {
     for (const std::uint8_t strict : {1, 2}) {
       std::vector<std::uint8_t> which(curves_.size(), 0);
       for (std::size_t p = 0; p < fitted_.size(); ++p)
-        if (fitted_[p].misses.folds && !turns_sharply(topology_.patches[p]))
-          for (const PatchSide& side : topology_.patches[p].side) {
-            which[std::size_t(side.curve)] = 1;
-            strict_[std::size_t(side.curve)] = strict;
-          }
+        if (fitted_[p].misses.folds && !topology_.patches[p].several() &&
+            !turns_sharply(topology_.patches[p]))
+          for (const PatchSide& side : topology_.patches[p].side)
+            if (strict_[std::size_t(side.curve)] < strict) {
+              which[std::size_t(side.curve)] = 1;
+              strict_[std::size_t(side.curve)] = strict;
+            }
       fit_again(which);
     }
   }
@@ -221,7 +276,7 @@ class Fitting {
     std::vector<std::uint8_t> which(curves_.size(), 0);
     for (std::size_t p = 0; p < fitted_.size(); ++p)
       for (std::size_t s = 0; s < 4; ++s)
-        if (fitted_[p].side_angle[s] > options_.normal_tolerance / 2) {
+        if (new_patches_[p] && fitted_[p].side_angle[s] > options_.normal_tolerance / 2) {
           const std::size_t c = std::size_t(topology_.patches[p].side[s].curve);
           which[c] = sharper_[c] = 1;
         }
@@ -285,7 +340,7 @@ class Fitting {
       const int spans_u = fitted_[p].patch.spans_u, spans_v = fitted_[p].patch.spans_v;
       const Misses before = fitted_[p].misses;
       const auto more = [&](int spans, int faces) {
-        return (2 * spans <= most_at_edges(faces, place.corner >= 0) ? 2 : 1) * spans;
+        return (2 * spans <= most_at_edges(place, faces) ? 2 : 1) * spans;
       };
       const int more_u = more(spans_u, place.grid.columns), more_v = more(spans_v, place.grid.rows);
       const int u = wanted[p].u ? more_u : spans_u, v = wanted[p].v ? more_v : spans_v;
@@ -306,7 +361,8 @@ class Fitting {
   std::vector<FittedCurve> curves_;
   std::vector<std::uint8_t> strict_, sharper_;  // curves; 2: at the lattice's own parameters
   std::vector<FittedPatch> fitted_;
-  std::vector<std::uint8_t> settled_;  // patches that more spans do not serve
+  std::vector<std::uint8_t> settled_;                   // patches that more spans do not serve
+  std::vector<std::uint8_t> new_curves_, new_patches_;  // that no earlier round has fitted
   std::vector<double> turns_;
 };
 

@@ -64,12 +64,16 @@ class Lattice {
 struct PlacedFace {
   Index face;
   int turn;
+
+  bool operator==(const PlacedFace&) const = default;
 };
 
 // Control quads side by side, row by row; or one triangle.
 struct FaceGrid {
   int columns = 1, rows = 1;
   std::vector<PlacedFace> faces;
+
+  bool operator==(const FaceGrid&) const = default;
 };
 
 // The points of a grid of faces, as those of one: (0, 0) … (columns n, rows n).

@@ -43,6 +43,7 @@ struct EdgeChain {
   std::vector<int> cuts;               // where patches end, in half edges; both ends included
 
   int halves() const { return 2 * int(edges.size()); }
+  bool operator==(const EdgeChain&) const = default;
 };
 
 // Where an edge is in its chain; -1: inside a patch.
@@ -64,6 +65,8 @@ struct PatchPlace {
   FaceGrid grid;
   int corner = -1;  // of a triangle; -1: quads
   std::array<PatchSide, 4> side;
+
+  bool several() const { return grid.faces.size() > 1; }
 };
 
 // Whether the creases that bound a sector of a vertex lie in one plane there, as in a surface that

@@ -11,6 +11,7 @@ import example_meshes
 import half_hulls
 import numpy as np
 import pytest
+import thin_walls
 from discrete_fairing import fitting
 from mesh_files import read_mesh
 from shared_data import SHARED, read_obj
@@ -400,6 +401,16 @@ def test_a_finer_level_that_folds_takes_no_patches_away(levels):
     )
     assert not len(patches.unresolved) and patches.shell_closed.all()
     assert patches.levels == 5 and levels == [4, 5, 6]
+
+
+def test_a_thin_tray_misses_few_faces():
+    """Where they shared patches with many spans, 24 of 94 faces missed."""
+    tray = thin_walls.phone_case()
+    patches = df.fit_patches(
+        *tray[:2], levels=5, crease_angle=np.radians(30), corner_angle=np.radians(45)
+    )
+    assert not len(patches.unresolved) and patches.largest_angle < patches.normal_tolerance
+    assert len(patches.unmet_by_fit) <= 16
 
 
 def test_faces_much_longer_than_wide_do_not_fold():
