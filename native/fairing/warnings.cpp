@@ -148,7 +148,11 @@ void warn_of_thickness(const GridLevel& grid, Workers& workers, const double* x,
   const ControlMesh& mesh = grid.mesh();
   std::vector<Vec3> control;
   for (Index v = 0; v < mesh.vertex_count(); ++v) control.push_back(point_at(x, v));
-  const ThicknessChange change = Thickness(mesh, control, workers).of(grid, workers, x);
+  // Total curvature has no flats: what it makes of them is seen early on closed bodies.
+  const bool is_closed = std::none_of(mesh.edges.begin(), mesh.edges.end(),
+                                      [](const Edge& edge) { return edge.boundary(); });
+  const bool of_flats = is_closed && options.energy == Energy::total_curvature;
+  const ThicknessChange change = Thickness(mesh, control, workers).of(grid, workers, x, of_flats);
   if (change.faces.empty()) return;
   std::vector<std::int64_t> polygons;
   for (const Index f : change.faces) polygons.push_back(mesh.faces[std::size_t(f)].polygon);

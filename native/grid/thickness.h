@@ -14,8 +14,9 @@ namespace fairing {
 // The change of thickness from the control mesh to a surface.
 struct ThicknessChange {
   // Control faces behind which the thickness differs from that of the mesh with its edges rounded
-  // off: by over a fifth where the mesh is thin, elsewhere by more than the whole thickness.
-  // Thicker places count only if they are a fifth of the area.
+  // off: by over a fifth where the mesh is thin, elsewhere by more than the whole thickness. Thicker
+  // flat faces, if asked for, by over a twentieth and a fifth. Thicker places count only if they are
+  // a fifth of the area.
   std::vector<Index> faces;
   // The largest change among them, in thicknesses of the mesh there; negative: thinner.
   double worst = 0;
@@ -32,8 +33,10 @@ class Thickness {
   // `control`: the held positions, one for each control vertex. `mesh` must outlive it.
   Thickness(const ControlMesh& mesh, std::span<const Vec3> control, Workers& workers);
 
-  // The change for the surface x on a level, 3 numbers a point.
-  ThicknessChange of(const GridLevel& grid, Workers& workers, const double* x) const;
+  // The change for the surface x on a level, 3 numbers a point. `of_flats`: flat faces are judged by
+  // a finer measure.
+  ThicknessChange of(const GridLevel& grid, Workers& workers, const double* x,
+                     bool of_flats = false) const;
 
  private:
   const ControlMesh& mesh_;

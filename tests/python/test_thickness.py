@@ -5,8 +5,10 @@ bubble. And what is as round as its mesh is not spoken of."""
 import bevelled_boxes
 import control_meshes as meshes
 import discrete_fairing as df
+import flat_parts
 import numpy as np
 import pytest
+from ragged_holes import sphere
 
 CURVED = ("total_curvature", "minimum_variation")
 
@@ -102,6 +104,16 @@ def test_bevelled_bodies_are_told_of():
     assert told(result)
 
 
+@pytest.mark.parametrize("size, tension", [((33, 120), 0), ((40, 50), 0), ((50, 20), 1)])
+def test_flats_that_total_curvature_lifts_are_told_of_and_limit_is_a_cure(size, tension):
+    """Cans grow by 76, 18 and 9 % in the mean, without a word: their faces are narrower than they are."""
+    points, faces, *_ = flat_parts.can(*size)
+    settings = {"energy": "total_curvature", "tension": tension, "threads": 1}
+    (warning,) = told(df.fair(points, faces, 2, **settings))
+    assert 'interpolation="limit"' in warning["message"]
+    assert not told(df.fair(points, faces, 2, interpolation="limit", **settings))
+
+
 def test_tension_is_a_cure():
     mesh = bevelled_boxes.bevelled_box((0.45, 0.39, 0.2), 0.034)
     (warning,) = told(df.fair(*mesh, 3, threads=1))
@@ -162,7 +174,11 @@ def test_a_hollow_edge_is_told_of_and_a_smaller_exponent_is_the_cure():
 
 @pytest.mark.parametrize("energy", ["thin_plate", *CURVED])
 @pytest.mark.parametrize(
-    "mesh", [meshes.cube, meshes.icosahedron, meshes.octahedron, meshes.torus, meshes.wavy_patch]
+    "mesh",
+    [
+        *(meshes.cube, meshes.icosahedron, meshes.octahedron, meshes.torus, meshes.creature),
+        *(meshes.wavy_patch, lambda: sphere(1), lambda: sphere(2)),
+    ],
 )
 def test_round_bodies_and_open_sheets_are_not(mesh, energy):
     assert not told(df.fair(*mesh(), 2, energy, threads=1))
