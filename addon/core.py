@@ -259,6 +259,21 @@ def patches_on_scan(arguments: Mapping[str, Any], scan: Mapping[str, Any]) -> di
     return of_fits(arguments) | {name: arguments[name] for name in kept} | {"scan": scan}
 
 
+class MatchSolver:
+    """As discrete_fairing.Solver, for a surface whose border meets a neighbour: each is made from the start."""
+
+    vertex_origin = None
+
+    def __init__(self, arguments: Mapping[str, Any]) -> None:
+        self._arguments = dict(arguments)
+
+    def solve(self, vertices: np.ndarray | None = None, **watchers: Any) -> Any:
+        moved = {} if vertices is None else {"vertices": vertices}
+        result = module().fair(**(self._arguments | moved), **watchers)
+        result.report["warm"] = False
+        return result
+
+
 class ScanSolver:
     """As discrete_fairing.Solver, for the surface near a scan: each is fitted from the start, with a
     weight that is known.
@@ -279,6 +294,8 @@ class ScanSolver:
 def solver(arguments: Mapping[str, Any]) -> Any:
     """What makes surfaces again and again while vertices move; with a `scan` among the arguments, near it."""
     own = dict(arguments)
+    if "neighbour" in own:
+        return MatchSolver(own)
     scan = own.pop("scan", None)
     return module().Solver(**own) if scan is None else ScanSolver(scan, own)
 

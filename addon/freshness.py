@@ -14,7 +14,7 @@ from typing import Any
 import bpy
 import numpy as np
 
-from . import curve_cage, events, memory, place
+from . import curve_cage, events, memory, neighbours, place
 from .blender import Context, Object, Scene, all_objects, current_context
 from .core import ControlArrays
 from .errors import JobError
@@ -115,7 +115,9 @@ def why_stale(target: Object) -> str:
     know(target)
     if target.discrete_fairing.unfinished:
         return UNFINISHED
-    if _differ(made["settings"], target.discrete_fairing):
+    neighbour = neighbours.neighbour_of(target)
+    met = made.get("neighbour", "")
+    if _differ(made["settings"], target.discrete_fairing) or met != getattr(neighbour, "name", ""):
         return SETTINGS_CHANGED
     key = session_key(target)
     if key not in _sums or key in _unread:

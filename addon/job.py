@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from . import core, errors, freshness, memory, place, prediction, size
+from . import core, errors, freshness, memory, neighbours, place, prediction, size
 from .blender import Context, Object, scene_of
 from .check.faults import find_faults
 from .choices import energy_name
@@ -55,11 +55,15 @@ class Job(TimedRun):
         settings: Settings,
         target: Object | None = None,
         region: np.ndarray | None = None,
+        neighbour: Object | None = None,
+        surface: Object | None = None,
     ) -> None:
         """Reads all that will be needed.
 
         `target`: an object that gets the surface as its mesh; None: a new one is made. `region`:
         (r,) ids of the faces to fair with `use_selection`; None: those that are selected now.
+        `neighbour`: which the border meets, None: that of the target, if it has one; it does so where
+        `surface` stands, None: the target.
         """
         self.reference = Reference(source)
         self._target = None if target is None else Reference(target)
@@ -100,6 +104,13 @@ class Job(TimedRun):
             pulls,
             self.edge_length,
         )
+        neighbour = neighbour or neighbours.neighbour_of(target)
+        self._neighbour = None if neighbour is None else Reference(neighbour)
+        self._made["neighbour"] = "" if neighbour is None else neighbour.name
+        if neighbour is not None:
+            self.arguments |= neighbours.arguments(
+                context, neighbour, surface or target or source, source, self.settings
+            )
         self.notes = list(self.data.notes)  # what the user may want to know, a sentence each
         if "shapes" in self.arguments and self.settings.energy != "THIN_PLATE":
             self.notes.append(
@@ -129,7 +140,7 @@ class Job(TimedRun):
         given_way = errors.pads_text(self.result.report["pads"])
         if given_way:
             self.notes.append(given_way)
-        if self.settings.keep_symmetry:
+        if self.settings.keep_symmetry and self._neighbour is None:
             self._symmetrize()
         self._seams = seam_pairs(self.result, self.arrays, self.settings, self._edges)
 
@@ -244,6 +255,8 @@ class Job(TimedRun):
             "at_tolerance": self._at_tolerance,
         }
         memory.remember(target, source, settings, report)
+        if self._neighbour is not None:
+            target.discrete_fairing.neighbour = self._neighbour.find()
         if old is None:
             place.note(source, target)
         else:

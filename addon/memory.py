@@ -45,6 +45,10 @@ def _fits(group: Any, source: Object) -> bool:
     return not why_unfit(group.id_data, source)
 
 
+def _may_meet(group: Any, other: Object) -> bool:
+    return other.type == "MESH" and other not in {group.id_data, group.source}
+
+
 class FAIRING_PG_surface(KeptSettings, bpy.types.PropertyGroup):
     """What a faired object remembers: where it comes from, and how it was made."""
 
@@ -53,6 +57,12 @@ class FAIRING_PG_surface(KeptSettings, bpy.types.PropertyGroup):
         description="The object whose mesh controls this surface",
         type=bpy.types.Object,
         poll=_fits,
+    )
+    neighbour: PointerProperty(
+        name="Neighbour",
+        description="The object that the border of this surface meets, where the two have vertices in common",
+        type=bpy.types.Object,
+        poll=_may_meet,
     )
     report: StringProperty(
         name="Report", description="What the core has reported, as JSON", options={"HIDDEN"}

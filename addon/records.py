@@ -121,7 +121,7 @@ _FORMS = {
     ),
     "carried": _dict({}, _NAMES),
     "stood": _any_dict,
-    "made": _dict({"settings": _any_dict, "source": _whole}),
+    "made": _dict({"settings": _any_dict, "source": _whole}, {"neighbour": _text}),
     "defects": _dict(
         {"defects": _all(_defect), "counts": _all(_whole)},
         {"holes": _all(_dict({"edges": _id, "at": _pair})), "cleaned": _all(_text)},

@@ -7,7 +7,7 @@ from typing import Any, cast
 
 import numpy as np
 
-from .. import core, errors, prediction
+from .. import core, errors, neighbours, prediction
 from ..blender import Context, Object
 from ..check.defects import store_defects
 from ..errors import JobError
@@ -52,7 +52,13 @@ class PatchJob(Job):
         settings = settings or Settings.of(context.scene.discrete_fairing)
         settings = settings if fit is None else settings_of_fit(settings)
         # the lattice has levels of its own
-        super().__init__(context, source or shown, replace(settings, levels=1))
+        super().__init__(
+            context,
+            source or shown,
+            replace(settings, levels=1),
+            neighbour=neighbours.neighbour_of(shown),
+            surface=shown,
+        )
         self.name = shown.name
         self._shown = Reference(shown)
         self._way_back = self.shape.way_back

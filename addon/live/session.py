@@ -11,7 +11,7 @@ from typing import Any, TypeAlias
 import bpy
 import numpy as np
 
-from .. import core, errors, memory, place, size
+from .. import core, errors, memory, neighbours, place, size
 from ..blender import Context, Mesh, Object, current_context, scene_of
 from ..core import ControlArrays
 from ..errors import JobError
@@ -71,6 +71,8 @@ class Session:
         self._settings: Any = None
         self._shape = WorldShape(None)
         self._scan: Any = None  # as core.solver takes it
+        self._neighbour: int | str | None = None  # its key
+        self._beside: dict[str, Any] = {}  # of it, for the core
         self._region: np.ndarray | None = None
         self._tolerance_factors: np.ndarray | None = None
         self._pulls: np.ndarray | None = None
@@ -145,6 +147,12 @@ class Session:
             )
             self._shape = world_shape(source)
             self._scan = live_scan(current_context(), source, target)
+            self._neighbour = _key_of_neighbour(target)
+            neighbour = neighbours.neighbour_of(target)
+            if neighbour is not None:
+                self._beside = neighbours.arguments(
+                    current_context(), neighbour, target, source, self._settings
+                )
         with self._mesh_now(source, depsgraph) as mesh:
             arrays = read_mesh(mesh)
             if not self._has_values_of(arrays):
@@ -223,6 +231,7 @@ class Session:
         arguments["energy"] = self._pace.energy(arguments["energy"])
         if self._scan is not None:
             arguments["scan"] = self._scan
+        arguments |= self._beside
         if (
             self.solver is not None
             and core.are_equal(
@@ -274,6 +283,7 @@ class Session:
             self._settings == Settings.of(target.discrete_fairing)
             and self._chosen == _chosen_level(target)
             and self._shape == world_shape(source)
+            and self._neighbour == _key_of_neighbour(target)
         )
 
     def _has_values_of(self, arrays: ControlArrays) -> bool:
@@ -399,3 +409,8 @@ class Session:
 
 def _chosen_level(target: Object) -> int:
     return min(target.discrete_fairing_live.levels, target.discrete_fairing.levels)
+
+
+def _key_of_neighbour(target: Object) -> int | str | None:
+    neighbour = neighbours.neighbour_of(target)
+    return None if neighbour is None else session_key(neighbour)

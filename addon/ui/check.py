@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The panel "Check": what is wrong with the mesh, and how to mend it."""
 
+from math import degrees
 from typing import Any
 
 import bpy
 
 from .. import errors
 from ..blender import Context, registration
-from ..check import repair
+from ..check import joints, repair
 from ..check.defects import recall_cleaned, recall_defects, recall_holes
 from ..check.holes import MOST
 from ..units import Text, Units
@@ -24,6 +25,8 @@ class VIEW3D_PT_fairing_check(Folded, bpy.types.Panel):
         layout = self.layout
         layout.operator("object.fairing_check", icon="CHECKMARK")
         layout.operator("object.fairing_clean", icon="BRUSH_DATA")
+        layout.operator("object.fairing_joints", icon="SNAP_EDGE")
+        _draw_joints(layout, context)
         target = context.active_object
         if target is None or target.type != "MESH":
             return
@@ -40,6 +43,22 @@ class VIEW3D_PT_fairing_check(Folded, bpy.types.Panel):
         for index, defect in enumerate(defects[:_SHOWN]):
             _draw_defect(layout, index, defect, stale)
         _draw_holes(layout, context, recall_holes(target), stale)
+
+
+def _draw_joints(layout: bpy.types.UILayout, context: Context) -> None:
+    """`Bonnet Fair, Fender Fair`, then gap, kink and jump, each with its worst place."""
+    found = joints.rows()
+    text = Units.of(context.scene).lengths(max((row.gap for row in found), default=0.0))
+    for index, joint in enumerate(found[:_SHOWN]):
+        column = layout.column(align=True)
+        row = column.row(align=True)
+        row.label(text=", ".join(joint.names), icon="SNAP_EDGE")
+        button: Any = row.operator(
+            "object.fairing_select_joint", text="", icon="RESTRICT_SELECT_OFF"
+        )
+        button.index = index
+        figures = f"{degrees(joint.kink):.2f}° kink, {100 * joint.jump:.1f} % curvature"
+        column.label(text=f"{figures}, {text(joint.gap)} gap", icon="BLANK1")
 
 
 def _draw_defect(

@@ -125,6 +125,8 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
                 draw_fairness(more, settings, known)
             draw_shape(more, settings, known)
             _draw_flats(more, bool(known.flats))
+            if memory is not None:
+                _draw_neighbour(more, memory)
             draw_folded(more, settings, "fairing")
 
 
@@ -324,6 +326,15 @@ def _draw_flats(layout: bpy.types.UILayout, marked: bool) -> None:
     if marked:
         button: Any = row.operator("object.fairing_flat_faces", text="", icon="X")
         button.clear = True
+
+
+def _draw_neighbour(layout: bpy.types.UILayout, memory: FAIRING_PG_surface) -> None:
+    """Which object the border meets, and how."""
+    layout.prop(memory, "neighbour")
+    if memory.neighbour is not None:
+        layout.prop(memory, "joint")
+    else:
+        layout.operator("object.fairing_match_border", icon="SNAP_EDGE")
 
 
 def _draw_cad(layout: bpy.types.UILayout) -> None:

@@ -8,6 +8,7 @@
 
 from . import whole_files as whole_files  # through which the add-on writes, too
 from ._native import FairingError, Monitor, __version__
+from .borders import Joint, joint
 from .checking import Defect, check, predicted_size
 from .cleaning import Act, Cleaned, clean, hole_width, holes_to_fill
 from .denoising import Denoised, denoise
@@ -37,6 +38,7 @@ __all__ = [
     "Filled",
     "Fitted",
     "FilledHole",
+    "Joint",
     "MemoryWarning",
     "Monitor",
     "Part",
@@ -60,6 +62,7 @@ __all__ = [
     "hole_width",
     "holes_to_fill",
     "join",
+    "joint",
     "largest_jump",
     "pieces",
     "predicted_size",

@@ -11,8 +11,10 @@ from numpy.typing import ArrayLike
 
 from . import _native
 from .arrays import face_arrays, shape_array, vertex_array
+from .borders import mesh_arrays
 from .errors import written_report
 from .halves import Half
+from .matching import match_border, require_matchable
 from .options import Settings, native_options
 from .result import Result
 from .strain import require_strain, strain_of
@@ -26,6 +28,8 @@ def fair(
     energy: str = "thin_plate",
     *,
     symmetry_plane: str | None = None,
+    neighbour: tuple[ArrayLike, Any] | None = None,
+    border: ArrayLike | None = None,
     shapes: ArrayLike | Sequence[ArrayLike] | None = None,
     strain: bool = False,
     progress: Progress | None = None,
@@ -53,6 +57,13 @@ def fair(
     symmetry_plane : "x", "y", "z" or None
         The mesh is half of a symmetric one: at its border in the plane x = 0 (y, z) the surface crosses
         to its mirror image. The result is the half; the report is that of the whole.
+    neighbour : (vertices, faces)
+        Another mesh, refined or not, which the border meets as `joint` says: its border is the surface's,
+        and its tangent planes and curvatures there. Faces as `faces`, or (triangles, quads) as
+        Result.faces.
+    border : (k, 2) int
+        Vertex pairs of the border edges that meet the neighbour. None: those whose ends lie on its border
+        within a twentieth of their length.
     shapes : (k, n, 3) float, or a list of (n, 3)
         Further positions of the same control vertices, such as shape keys. Their surfaces
         (result.shapes) use the charts and stencils of `vertices`, so the surface is linear in the
@@ -91,10 +102,19 @@ def fair(
         corners, offsets = half.faces(corners, offsets)
     options = native_options(given)
     watch = monitor or _native.Monitor()
+    beside = None
+    if neighbour is not None:
+        require_matchable(given, len(others))
+        beside = mesh_arrays(neighbour)
+        if half:
+            beside = half.beside(*beside)
+            border = None if border is None else half.with_images("border", "vertex", border)
     if strain:
         require_strain(given)
     with half.named() if half else nullcontext():
         found = _native.fair(points, corners, offsets, others, options, watch, progress)
+        if beside is not None:
+            match_border(found, corners, offsets, given, beside, border, len(points))
     result = Result(written_report(half.cut(found) if half else found))
     if strain:
         strained = strain_of(points, corners, offsets, given, half, watch)

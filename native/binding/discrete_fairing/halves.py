@@ -134,6 +134,21 @@ class Half:
         images[..., self.axis] *= -1.0
         return np.ascontiguousarray(np.concatenate([own, images], axis=-2))
 
+    def beside(
+        self, points: np.ndarray, corners: np.ndarray, offsets: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """A neighbour of the half → with its mirror image, of the double."""
+        images = points.copy()
+        images[:, self.axis] *= -1.0
+        sizes = np.diff(offsets)
+        place = np.arange(len(corners)) - np.repeat(offsets[:-1], sizes)
+        turned = corners[np.repeat(offsets[1:], sizes) - 1 - place]
+        return (
+            np.concatenate([points, images]),
+            np.concatenate([corners, turned + len(points)]),
+            np.concatenate([offsets, offsets[-1] + offsets[1:]]),
+        )
+
     def faces(self, corners: np.ndarray, offsets: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Corners and offsets of the double; images run the other way round. An id that the mesh does
         not have would be that of an image: it becomes -1.
@@ -158,14 +173,14 @@ class Half:
             given["normals"] = self._normals(normals)
         for name, kind in _IDS.items():
             if given.get(name) is not None:
-                given[name] = self._with_images(name, kind, given[name])
+                given[name] = self.with_images(name, kind, given[name])
         for name in ("edge_sharpness", "soft_creases"):
             if given.get(name) is not None:
                 pairs, values = edges_with_values(name, given[name])
-                given[name] = (self._with_images(name, "vertex", pairs), np.tile(values, 2))
+                given[name] = (self.with_images(name, "vertex", pairs), np.tile(values, 2))
         if given.get("boundary_edges") is not None:
             given["boundary_edges"] = {
-                mode: self._with_images("boundary_edges", "vertex", pairs)
+                mode: self.with_images("boundary_edges", "vertex", pairs)
                 for mode, pairs in given["boundary_edges"].items()
             }
         return given
@@ -178,7 +193,7 @@ class Half:
         images[:, self.axis] *= -1.0
         return np.concatenate([own, images])
 
-    def _with_images(self, name: str, kind: str, ids: Any) -> np.ndarray:
+    def with_images(self, name: str, kind: str, ids: Any) -> np.ndarray:
         """Elements, and what they are in the other half. Refuses those that only the other half has."""
         ids = np.asarray(ids)
         if not ids.size:

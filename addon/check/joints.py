@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The joints between objects whose borders meet, worst first. Kept until the file is closed."""
+
+from dataclasses import dataclass
+from itertools import permutations
+from math import degrees
+
+import numpy as np
+
+from .. import core
+from ..blender import Context, Object
+from ..mesh.object import Reference
+from ..mesh.read import control_mesh, read_mesh
+from ..mesh.world_shape import transformed, world_matrix
+
+
+@dataclass(frozen=True)
+class Row:
+    """One joint: of which objects, and its largest gap (scene units), kink (radians) and jump (a share of the
+    largest curvature across it); `worst`: the vertex of the first with that kink.
+    """
+
+    first: Reference
+    names: tuple[str, str]
+    gap: float
+    kink: float
+    jump: float
+    worst: int
+
+    def text(self) -> str:
+        return f"{self.names[0]} and {self.names[1]}: kink {degrees(self.kink):.2f}°, curvature {100 * self.jump:.0f} %"
+
+
+_rows: list[Row] = []
+
+
+def rows() -> list[Row]:
+    """What `measure` found last, of objects that are still there."""
+    return [row for row in _rows if row.first.find() is not None]
+
+
+def chosen(context: Context) -> list[Object]:
+    """The selected meshes."""
+    return [o for o in context.selected_objects if o.type == "MESH"]
+
+
+def measure(context: Context) -> list[Row]:
+    """Every pair of the selected objects whose borders meet, as the window shows them."""
+    objects = chosen(context)
+    meshes = [_in_world(context, target) for target in objects]
+    found: dict[tuple[int, int], Row] = {}
+    for a, b in permutations(range(len(objects)), 2):
+        joint = core.module().joint(meshes[a], meshes[b])
+        known = found.get((b, a))
+        if not len(joint.vertex) or (known is not None and known.kink >= joint.kink.max()):
+            continue
+        found.pop((b, a), None)
+        found[a, b] = Row(
+            Reference(objects[a]),
+            (objects[a].name, objects[b].name),
+            float(joint.gap.max()),
+            float(joint.kink.max()),
+            float(joint.jump.max()),
+            int(joint.vertex[np.argmax(joint.kink)]),
+        )
+    _rows[:] = sorted(found.values(), key=lambda row: -row.kink)
+    return rows()
+
+
+def _in_world(context: Context, target: Object) -> tuple[np.ndarray, tuple[np.ndarray, np.ndarray]]:
+    with control_mesh(context, target, evaluated=True) as mesh:
+        arrays = read_mesh(mesh)
+    matrix = np.array(world_matrix(target), np.float64)
+    points = transformed(arrays.positions.astype(np.float64), matrix)
+    return points, (arrays.corners.astype(np.int64), arrays.offsets.astype(np.int64))

@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The neighbour that the border of a surface meets: which object it is, and its mesh."""
+
+from typing import Any
+
+import numpy as np
+
+from .blender import Context, Object
+from .mesh.read import control_mesh, read_mesh
+from .mesh.world_shape import transformed, world_matrix, world_shape
+from .settings import AnySettings
+
+
+def neighbour_of(target: Object | None) -> Object | None:
+    """The mesh object that the border of `target` meets, or None."""
+    if target is None or target.type != "MESH":
+        return None
+    found = target.discrete_fairing.neighbour
+    return found if found is not None and found.type == "MESH" else None
+
+
+def arguments(
+    context: Context, neighbour: Object, surface: Object, source: Object, settings: AnySettings
+) -> dict[str, Any]:
+    """Of `discrete_fairing.fair`: the neighbour as the window shows it, where the own coordinates of the
+    `surface` are, in the size that its source has in the world.
+    """
+    with control_mesh(context, neighbour, evaluated=True) as mesh:
+        arrays = read_mesh(mesh)
+    way = np.linalg.inv(np.array(world_matrix(surface), np.float64))
+    matrix = way @ np.array(world_matrix(neighbour), np.float64)
+    points = world_shape(source).of(transformed(arrays.positions.astype(np.float64), matrix))
+    faces = (arrays.corners.astype(np.int64), arrays.offsets.astype(np.int64))
+    return {"neighbour": (points, faces), "joint": settings.joint.lower()}

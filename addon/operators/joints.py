@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Match Border, and the table of joints between objects."""
+
+from typing import cast
+
+import bpy
+from bpy.props import EnumProperty, IntProperty
+
+from .. import errors
+from ..blender import Answer, Context, Object, registration
+from ..check import joints
+from ..check.defects import select_defects
+from ..choices import JOINTS
+from ..freshness import is_own
+from ..job import Job
+from ..memory import no_source_reason, source_of
+from ..poll import ExplainedPoll
+from ..settings import Settings
+from .fair import Fairing, poll_reason
+
+
+def _other(context: Context) -> Object | None:
+    """The one mesh object that is selected beside the active one."""
+    others = [o for o in context.selected_objects if o != context.active_object]
+    return others[0] if len(others) == 1 and others[0].type == "MESH" else None
+
+
+class OBJECT_OT_fairing_match_border(Fairing, bpy.types.Operator):
+    """Make the border of the active surface meet that of the other selected object, which stays as it is"""
+
+    bl_idname = "object.fairing_match_border"
+    bl_label = "Match Border"
+    bl_options = {"REGISTER", "UNDO"}
+
+    joint: EnumProperty(
+        name="Joint",
+        description="How the border meets the other object",
+        items=JOINTS,
+        default="TANGENT",
+    )
+
+    @staticmethod
+    def poll_reason(context: Context) -> str:
+        active = context.active_object
+        if poll_reason(context):
+            return poll_reason(context)
+        if active is None or source_of(active) is None:
+            return no_source_reason(active)
+        if not is_own(active):
+            return "Make it local first (Object > Relations > Make Local): a linked object cannot be changed"
+        if _other(context) is None:
+            return "Select the other object first, and the surface that is to change last"
+        return ""
+
+    def make_jobs(self, context: Context) -> list[Job]:
+        target, other = cast(Object, context.active_object), cast(Object, _other(context))
+        source = cast(Object, source_of(target))
+        kept = Settings.of(target.discrete_fairing)
+        settings = Settings(**{**kept.__dict__, "joint": self.joint})
+        return [Job(context, source, settings, target, neighbour=other)]
+
+
+class OBJECT_OT_fairing_joints(ExplainedPoll, bpy.types.Operator):
+    """Measure gaps, kinks and jumps of curvature where the borders of the selected objects meet"""
+
+    bl_idname = "object.fairing_joints"
+    bl_label = "Check Joints"
+    bl_options = {"REGISTER"}
+
+    @staticmethod
+    def poll_reason(context: Context) -> str:
+        if context.mode != "OBJECT":
+            return "Go to Object Mode first"
+        return "" if len(joints.chosen(context)) > 1 else "Select two mesh objects or more first"
+
+    def execute(self, context: Context) -> Answer:
+        with errors.explained("Check Joints"):
+            found = joints.measure(context)
+        if not found:
+            self.report({"INFO"}, "No two borders of these objects meet")
+            return {"CANCELLED"}
+        worst = max(found, key=lambda row: row.kink)
+        self.report(
+            {"INFO"}, f"{len(found)} joints, listed in the panel Check; the worst is {worst.text()}"
+        )
+        return {"FINISHED"}
+
+
+class OBJECT_OT_fairing_select_joint(ExplainedPoll, bpy.types.Operator):
+    """Select the vertex of this joint with the largest kink in Edit Mode, and bring it into view"""
+
+    bl_idname = "object.fairing_select_joint"
+    bl_label = "Show Joint"
+    bl_options = {"REGISTER", "UNDO"}
+
+    index: IntProperty(
+        name="Joint", description="Which line of the table", min=0, options={"HIDDEN"}
+    )
+
+    @staticmethod
+    def poll_reason(_context: Context) -> str:
+        return "" if joints.rows() else "Press Check Joints first"
+
+    def execute(self, context: Context) -> Answer:
+        rows = joints.rows()
+        target = rows[self.index].first.find() if self.index < len(rows) else None
+        if target is None or rows[self.index].worst >= len(target.data.vertices):
+            self.report({"INFO"}, "This joint is no longer there")
+            return {"FINISHED"}
+        select_defects(context, target, "vertex", [rows[self.index].worst])
+        if context.area is not None and context.area.type == "VIEW_3D":
+            bpy.ops.view3d.view_selected()
+        return {"FINISHED"}
+
+
+CLASSES = (
+    OBJECT_OT_fairing_match_border,
+    OBJECT_OT_fairing_joints,
+    OBJECT_OT_fairing_select_joint,
+)
+
+register, unregister = registration(*CLASSES)

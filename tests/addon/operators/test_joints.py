@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Match Border and Check Joints, as a stylist presses them."""
+
+import bpy
+import numpy as np
+import pytest
+from fake_layout import draw
+from polygons import grid
+from scenes import activate, add, positions
+
+from addon import core
+from addon.check import joints
+from addon.freshness import why_stale
+from addon.live import registry
+from addon.ui import check as check_panel
+from addon.ui import main
+
+
+def strip(name, first, last, height):
+    """A sheet of 4 x 3 faces between y = first and y = last."""
+    x, y = np.meshgrid(np.linspace(0, 1.4, 5), np.linspace(first, last, 4), indexing="ij")
+    z = height(y) + 0.1 * np.sin(2 * x)
+    return add(name, np.stack([x, y, z], axis=-1).reshape(-1, 3).tolist(), grid(5, 4).tolist())
+
+
+def fair(source, **options):
+    activate(source)
+    assert bpy.ops.object.fairing_surface(levels=3, **options) == {"FINISHED"}
+    return bpy.context.active_object
+
+
+@pytest.fixture
+def panels():
+    bonnet = fair(strip("Bonnet", 0, 1.2, lambda y: 0.3 - 0.2 * y * y))
+    fender = fair(strip("Fender", 1.2, 2, lambda y: 0.012 - 0.9 * (y - 1.2)))
+    return bonnet, fender
+
+
+def select(*objects):
+    activate(objects[-1])
+    for each in objects:
+        each.select_set(True)
+    bpy.context.view_layer.update()
+
+
+def check(*objects):
+    select(*objects)
+    assert bpy.ops.object.fairing_joints() == {"FINISHED"}
+    (row,) = joints.rows()
+    return row
+
+
+def test_two_panels_meet_without_a_kink(panels):
+    bonnet, fender = panels
+    fender.location = bonnet.location = (3, 2, 1)
+    assert np.degrees(check(*panels).kink) > 3
+    select(*panels)
+    assert bpy.ops.object.fairing_match_border() == {"FINISHED"}
+    row = check(*panels)
+    assert np.degrees(row.kink) < 0.05 and row.gap < 1e-6
+    assert fender.discrete_fairing.neighbour == bonnet
+    assert why_stale(fender) == ""
+
+
+def test_curvature_too_and_again_by_recompute(panels):
+    bonnet, fender = panels
+    select(*panels)
+    assert bpy.ops.object.fairing_match_border(joint="CURVATURE") == {"FINISHED"}
+    assert np.degrees(check(*panels).kink) < 0.05
+    meshes = [joints._in_world(bpy.context, panel) for panel in (fender, bonnet)]
+    assert np.median(core.module().joint(*meshes).jump) < 0.02
+    made = positions(fender.data)
+    activate(fender)
+    assert bpy.ops.object.fairing_recompute() == {"FINISHED"}
+    assert np.array_equal(positions(fender.data), made)
+    fender.discrete_fairing.neighbour = None
+    assert why_stale(fender) == "Settings changed"
+    assert bpy.ops.object.fairing_recompute() == {"FINISHED"}
+    assert np.degrees(check(*panels).kink) > 3
+
+
+def test_live_keeps_the_joint(panels):
+    bonnet, fender = panels
+    select(*panels)
+    bpy.ops.object.fairing_match_border()
+    activate(fender)
+    assert bpy.ops.object.fairing_live() == {"FINISHED"}
+    source = fender.discrete_fairing.source
+    source.data.vertices[6].co.z += 0.1
+    source.data.update()
+    bpy.context.view_layer.update()
+    for session in registry.sessions():
+        session.follow()
+    assert np.degrees(check(*panels).kink) < 0.1
+
+
+def test_the_worst_place_is_shown(panels):
+    row = check(*panels)
+    drawn = draw(check_panel.VIEW3D_PT_fairing_check)
+    assert any(line.startswith(f"{np.degrees(row.kink):.2f}° kink") for line in drawn)
+    assert "object.fairing_select_joint" in drawn
+    assert bpy.ops.object.fairing_select_joint(index=0) == {"FINISHED"}
+    target = row.first.find()
+    assert target.mode == "EDIT"
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert [v.index for v in target.data.vertices if v.select] == [row.worst]
+
+
+def test_the_panel_has_the_neighbour(panels):
+    bonnet, fender = panels
+    activate(fender)
+    assert "object.fairing_match_border" in draw(main.VIEW3D_PT_fairing)
+    fender.discrete_fairing.neighbour = bonnet
+    assert "neighbour" in draw(main.VIEW3D_PT_fairing)
+
+
+def test_what_is_to_be_selected_is_said(panels):
+    activate(panels[1])
+    with pytest.raises(RuntimeError, match="Select the other object first"):
+        bpy.ops.object.fairing_match_border()
+    with pytest.raises(RuntimeError, match="Select two mesh objects"):
+        bpy.ops.object.fairing_joints()

@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A border that meets a neighbour's: kinks and jumps of curvature along the joint."""
+
+import discrete_fairing as df
+import numpy as np
+import pytest
+
+CORNERS = np.radians(30)
+
+
+def sheet(place, us, vs):
+    """(vertices, quads) of place(u, v) → (3, k), u slowly."""
+    u, v = np.meshgrid(us, vs, indexing="ij")
+    at = np.arange(u.size).reshape(u.shape)
+    quads = np.stack([at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]], axis=-1)
+    return np.stack(place(u.ravel(), v.ravel()), axis=1), quads.reshape(-1, 4)
+
+
+def bonnet_and_fender():
+    def crown(u):
+        return 0.12 * np.sin(0.8 * np.pi * u + 0.3)
+
+    def bonnet(u, v):
+        return 1.4 * u, 1.2 * v, crown(u) + 0.25 * (1 - v * v * (1 + 0.2 * u))
+
+    def fender(u, v):
+        down = 0.35 * (1 - np.cos(1.3 * v)) + 0.12 * np.sin(1.3 * v)
+        return 1.4 * u, 1.2 + 0.3 * np.sin(1.3 * v), crown(u) - 0.05 * u - down
+
+    along = np.linspace(0, 1, 6)
+    return sheet(bonnet, along, np.linspace(0, 1, 5)), sheet(fender, along, np.linspace(0, 1, 4))
+
+
+def hull_and_deck():
+    def side(degrees):
+        def place(u, v):
+            turn = np.radians(degrees[0] + (degrees[1] - degrees[0]) * v)
+            width = 0.2 + 0.8 * np.sin(np.pi * (0.1 + 0.75 * u))
+            over = np.maximum(np.sin(turn) - np.sin(np.radians(25)), 0)
+            height = 0.7 * np.sin(turn) - 0.15 * over
+            return 4 * u, width * np.cos(turn), height + 0.3 * (2 * u - 1) ** 2
+
+        return place
+
+    along = np.linspace(0, 1, 9)
+    hull = sheet(side((-80, 25)), along, np.linspace(0, 1, 7))
+    return hull, sheet(side((25, 90)), along, np.linspace(0, 1, 5))
+
+
+def bottle_halves():
+    height = np.array([0, 0.25, 0.5, 0.75, 1, 1.2, 1.4, 1.6, 1.8, 2.05, 2.3])
+    radius = np.array([0.51, 0.52, 0.52, 0.51, 0.49, 0.46, 0.42, 0.34, 0.26, 0.21, 0.19])
+
+    def half(first):
+        def place(u, v):
+            r = np.interp(v, height, radius)
+            return r * np.cos(first + u), 0.8 * r * np.sin(first + u), v
+
+        return sheet(place, np.linspace(0, np.pi, 7), height)
+
+    return half(0.0), half(np.pi)
+
+
+def triangles(mesh):
+    quads = mesh[1]
+    return mesh[0], np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+
+
+def seam(first, other):
+    return df.joint((first.vertices, first.faces), (other.vertices, other.faces))
+
+
+PAIRS = {"bonnet": bonnet_and_fender, "hull": hull_and_deck, "bottle": bottle_halves}
+
+
+def fair(mesh, levels, **settings):
+    return df.fair(*mesh, levels, corner_angle=CORNERS, **settings)
+
+
+# degrees: the halves of the bottle met at up to 34, over faces that turn by 30
+@pytest.mark.parametrize(
+    ("pair", "levels", "most"),
+    [
+        ("bonnet", 3, 0.05),
+        ("bonnet", 4, 0.05),
+        ("hull", 3, 0.05),
+        ("hull", 4, 0.05),
+        ("bottle", 3, 0.15),
+        ("bottle", 4, 0.05),
+    ],
+)
+def test_tangents_join(pair, levels, most):
+    fixed, other = PAIRS[pair]()
+    first, before = fair(fixed, levels), fair(other, levels)
+    assert np.degrees(seam(before, first).kink.max()) > 5
+    met = fair(other, levels, neighbour=(first.vertices, first.faces))
+    joint = seam(met, first)
+    assert len(joint.kink) >= 5 * 2**levels - 3 and joint.gap.max() < 1e-12
+    assert np.degrees(joint.kink.max()) < most
+    # ids, faces, and the control vertices, bit for bit
+    assert all(np.array_equal(a, b) for a, b in zip(met.faces, before.faces))
+    assert np.array_equal(met.vertices[: len(other[0])], other[0])
+
+
+@pytest.mark.parametrize("pair", PAIRS)
+def test_curvature_joins(pair):
+    """At nine points in ten; beside the ends of the joint it jumps by more."""
+    fixed, other = PAIRS[pair]()
+    first = fair(fixed, 4)
+    met = fair(other, 4, neighbour=(first.vertices, first.faces), joint="curvature")
+    joint = seam(met, first)
+    assert np.degrees(joint.kink.max()) < 0.05
+    assert np.quantile(joint.jump, 0.9) < 0.03 and np.median(joint.jump) < 0.01
+
+
+def curved(u, v):
+    return (
+        u,
+        v + 0.1 * np.sin(3 * u),
+        0.3 * np.sin(2 * u + v) + 0.2 * u * u * v + 0.2 * np.cos(2 * v),
+    )
+
+
+@pytest.mark.parametrize("make", [lambda mesh: mesh, triangles])
+def test_one_surface_in_two_parts_has_no_kink(make):
+    """What `joint` finds on an analytic surface falls at least with the third power of the step."""
+    kinks = []
+    for count in (16, 32):
+        v = np.linspace(0, 1, count + 1)
+        a, b = (make(sheet(curved, np.linspace(u, u + 0.5, count + 1), v)) for u in (0.0, 0.5))
+        found = df.joint(a, b)
+        assert len(found.kink) == count - 1 and found.gap.max() == 0 and found.jump.max() < 0.015
+        kinks.append(np.degrees(found.kink.max()))
+    assert kinks[0] < 0.01 and kinks[1] < kinks[0] / 6
+
+
+def test_joint_measures_a_fold_and_a_gap():
+    flat = sheet(lambda u, v: (u, -v, 0 * u), np.linspace(0, 1, 9), np.linspace(0, 1, 9))
+    flat = flat[0], flat[1][:, ::-1]
+    slope = sheet(
+        lambda u, v: (u, v * np.cos(0.3) + 0.01, v * np.sin(0.3)),
+        np.linspace(0, 1, 9),
+        np.linspace(0, 1, 9),
+    )
+    found = df.joint(slope, flat)
+    assert found.kink == pytest.approx(0.3) and found.gap == pytest.approx(0.01)
+    assert len(df.joint(slope, (flat[0] - [0, 9, 0], flat[1])).vertex) == 0
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [{"region": [0]}, {"border": [(0, 5)]}, {"levels": 1}, {"shapes": [bonnet_and_fender()[1][0]]}],
+)
+def test_what_does_not_go_with_a_neighbour_is_refused(settings):
+    fixed, other = bonnet_and_fender()
+    with pytest.raises(df.FairingError) as error:
+        df.fair(*other, **{"levels": 2, "neighbour": fixed, **settings})
+    assert error.value.code == "BAD_OPTION"
+
+
+def test_a_neighbour_that_is_not_met_is_refused():
+    fixed, other = bonnet_and_fender()
+    with pytest.raises(df.FairingError, match="No border edge meets"):
+        df.fair(*other, 2, neighbour=(fixed[0] + [0, 5, 0], fixed[1]))
