@@ -211,6 +211,7 @@ def test_menus_have_every_operator():
         "select_defect",
         "go_to_strained",
         "select_hole",
+        "select_joint",
         "repair",
         "viewport",
         "preset_add",
