@@ -236,9 +236,11 @@ def _faults(patches: SplinePatches, serves: bool) -> tuple[int, int]:
 def _has_all_spans(patches: SplinePatches) -> bool:
     """Whether patches miss what no finer level mends: the surface is fine enough everywhere, and a patch
     has no more than 16 spans, of four steps of the lattice each; one of a triangle is half as wide.
+    What folds on one level may not on the next.
     """
     level = 7 if len(patches.result.faces[0]) else 6
-    return patches.levels >= level and not len(patches.unmet_by_surface)
+    settled = not len(patches.unresolved) and not len(patches.unmet_by_surface)
+    return patches.levels >= level and settled
 
 
 def _finest(count: Callable[[int], int], level: int) -> int:
