@@ -19,19 +19,19 @@ bool is_outside(const ControlMesh& mesh, const Run& run) {
   }
 }
 
-// The triangles about the points of a run, by slots.
+// The triangles around the points of a run, by slots.
 struct FanTriangle {
   int a, b;
   double share;
 };
 
-// What a thread keeps from run to run.
+// A thread's buffers, reused from run to run.
 class RunArea {
  public:
   RunArea(const GridLevel& grid, const double* x) : grid_(grid), gather_(grid, x, buffer_) {}
   RunArea(const RunArea&) = delete;
 
-  // Sets `area`, and cotangent(s)[i] for all slots but the points' own. Returns the positions.
+  // Sets `area`, and cotangent(s)[i] for all slots but slot 0. Returns the positions.
   const double* const* operator()(const Run& run) {
     list_triangles(run);
     count_ = run.count;
@@ -88,7 +88,7 @@ class RunArea {
   std::size_t count_ = 0;
 };
 
-// Calls visit(run, rings, x) for all runs that are not outside. Returns the whole area.
+// Calls visit(run, rings, x) for all runs that are not outside the region. Returns the total area.
 template <class Visit>
 double visit_areas(const GridLevel& grid, Workers& workers, const double* x, Visit&& visit) {
   ElementSums sums(grid.mesh());

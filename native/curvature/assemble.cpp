@@ -9,7 +9,7 @@
 namespace fairing {
 namespace {
 
-// L, and a share of W.
+// L + share W.
 SparseMatrix connection_matrix(const RingJacobian& rows, double share) {
   Triplets entries;
   std::size_t count = 0;
@@ -35,7 +35,7 @@ SparseMatrix connection_matrix(const RingJacobian& rows, double share) {
   const auto moments = Eigen::Index(3 * rows.grid().size());
   SparseMatrix connection(moments, moments);
   connection.setFromTriplets(entries.begin(), entries.end());
-  const CountedBytes twice(2 * matrix_bytes(connection));  // filled by way of its transpose
+  const CountedBytes twice(2 * matrix_bytes(connection));  // filled through its transpose
   return connection;
 }
 

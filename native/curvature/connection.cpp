@@ -10,11 +10,11 @@
 namespace fairing {
 namespace {
 
-// What is known of one point of a ring.
+// One point of a ring.
 struct TensorPoint {
   const double *x, *normal, *axis, *tensor;
   double area;
-  double root;  // of the stiffness
+  double root;  // of the point's stiffness
 };
 
 struct TurnedEdge {
@@ -27,8 +27,8 @@ Vec2 direction(const Vec3& along, const TensorPoint& p) {
   return Vec2(along.dot(axis), along.dot(normal.cross(axis))).normalized();
 }
 
-// The turn between two charts, by the edge that both see (its two directions there differ by half a
-// turn, which twice the angle does not notice).
+// The rotation between two charts, from the edge between their points. The edge's directions at its
+// two ends differ by half a turn, which does not change twice the angle.
 TurnedEdge edge_between(const TensorPoint& a, const TensorPoint& b, double weight) {
   if (!(weight > 0) || !(b.area > 0)) return {0, 1, 0};
   const Vec3 along = Eigen::Map<const Vec3>(b.x) - Eigen::Map<const Vec3>(a.x);
@@ -38,7 +38,7 @@ TurnedEdge edge_between(const TensorPoint& a, const TensorPoint& b, double weigh
   return {weight, c * c - s * s, 2 * c * s};
 }
 
-// Reads the weights of a run's point i, writes its rows; returns the energy of half its edges.
+// Reads the weights of point i of a run and writes its rows; returns the energy of half its edges.
 template <class Neighbour>
 double set_point(const RowRun<float>& run, std::size_t i, const TensorPoint& own,
                  Neighbour&& neighbour, double* force) {
@@ -68,7 +68,7 @@ double set_point(const RowRun<float>& run, std::size_t i, const TensorPoint& own
   return energy;
 }
 
-// z <- the rows of a run on y, whose neighbours' tensors are at y[s] + 3 i.
+// z <- the rows of a run times y; the tensors of the neighbours are at y[s] + 3 i.
 void apply_run(const RowRun<const float>& run, double damping, const double* const* y, double* z) {
   for (std::size_t i = 0; i < run.count; ++i) {
     const double* own = y[0] + 3 * i;
@@ -87,7 +87,7 @@ void apply_run(const RowRun<const float>& run, double damping, const double* con
   }
 }
 
-// What a thread gathers of the surface: the points and their rings.
+// A thread's copy of the points and their rings.
 struct SurfaceGather {
   SurfaceGather(const GridLevel& grid, const Connection::Surface& surface, const double* tensor)
       : x(grid, surface.x, buffer[0]),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The connection Laplacian on symmetric tensors in the tangent planes of a surface's points: how
-// much a shape operator differs from its neighbours', once these are turned from their charts into
-// its own. Its energy is the variation of curvature [Moreton and Sequin 1992].
+// The connection Laplacian on symmetric tensors in the tangent planes of a surface's points: the
+// difference between a shape operator and its neighbours', after they are rotated from their charts
+// into its own. Its energy is the variation of curvature [Moreton and Sequin 1992].
 #pragma once
 
 #include "curvature/ring_jacobian.h"
@@ -9,8 +9,8 @@
 
 namespace fairing {
 
-// Tensors have the orthonormal components of point_curvature.h, 3 numbers a point, each scaled with
-// the root of its point's area; points without an area count for nothing.
+// Tensors have the orthonormal components of point_curvature.h, 3 numbers a point, each times the
+// root of its point's area; points without an area are ignored.
 class Connection {
  public:
   struct Surface {
@@ -18,12 +18,13 @@ class Connection {
     const double* normal;  // 3 a point
     const double* axis;    // the chart's u axis in space
     const double* area;    // 1 a point; zero: no fit
-    // 1 a point, the root of the surface's stiffness: an edge has its ends' product. Null: one.
+    // 1 a point, the root of the surface's stiffness; an edge has the product of its ends'. Null:
+    // one.
     const double* root = nullptr;
   };
-  // L about a surface. `cotangents` are the edges' weights, in the first row of each point, slot by
-  // slot; their memory becomes L's. Negative ones count as zero: there are few, and without them L is
-  // positive. force <- L tensor for unscaled tensors, over the root of the area.
+  // L about a surface. `cotangents` are the weights of the edges, in the first row of each point,
+  // slot by slot; L takes over their memory. Negative weights, which are rare, count as zero, so
+  // that L is positive. force <- L tensor for unscaled tensors, over the root of the area.
   Connection(RingJacobian cotangents, const Surface& surface, const double* tensor,
              Workers& workers, double* force);
   // tensor . L tensor
@@ -32,14 +33,15 @@ class Connection {
   // z <- (L + damping) y
   void apply(double damping, Workers& workers, const double* y, double* z) const;
 
-  // z <- the rows of the first component, which no turn of a chart changes, on y, 1 number a point.
+  // z <- the rows of the first component times y, 1 number a point. Rotations of charts do not
+  // change that component.
   void apply_to_scalar(Workers& workers, const float* y, float* z) const;
 
-  // Slot 0: the sum of weights; the others: minus the weight, and that times cosine and sine of
-  // twice the angle between the charts.
+  // Slot 0: the sum of the weights; the others: minus the weight, and minus the weight times cosine
+  // and sine of twice the angle between the charts.
   const RingJacobian& rows() const { return rows_; }
 
-  // The memory, for another surface's cotangents.
+  // Releases the memory for another surface's cotangents.
   RingJacobian release() && { return std::move(rows_); }
 
  private:

@@ -29,7 +29,7 @@ struct Sums {
     const double scale = 0.5 * share / sine, at_a = scale * (aa - ab), at_b = scale * (bb - ab);
     laplacian += at_b * a + at_a * b;
     if (ab < 0)
-      area += 0.25 * share * sine;  // half the triangle, where the obtuse angle is the point's
+      area += 0.25 * share * sine;  // half of the triangle if the obtuse angle is at the point
     else if (at_a < 0 || at_b < 0)
       area += 0.125 * share * sine;
     else

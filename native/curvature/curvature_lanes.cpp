@@ -9,7 +9,8 @@
 namespace fairing {
 namespace {
 
-// What point_curvature() and linearize() do for one point with a regular ring, lane by lane.
+// Does for several points with regular rings, one in each lane, what point_curvature() and
+// linearize() do for one.
 template <class T, int Bytes>
 struct ShapeLoop {
   using P = Packs<T, Bytes>;
@@ -51,7 +52,7 @@ struct ShapeLoop {
     for (int l = 0; l < P::size; ++l) to[l] = T(from[l]);
   }
 
-  // The ring as a fit reads it.
+  // The ring in the form that the fit reads.
   struct Neighbours {
     const Fan& fan;
     DF_INLINE void operator()(int j, Pack& u, Pack& v, Pack& weight) const {
@@ -61,7 +62,7 @@ struct ShapeLoop {
       weight = n.weight;
     }
   };
-  // sum += neighbour j's terms, times its weight and `height`.
+  // sum += the terms of neighbour j, times its weight and `height`.
   DF_INLINE static void add(const Fit& fit, const Fan& fan, int j, const Pack& height,
                             typename Fit::Term& sum) {
     Pack u, v, weight;

@@ -10,8 +10,8 @@
 namespace fairing {
 namespace {
 
-// What counts as folded: in which of the ways to cut the quads an edge has to be, and the cosine of the
-// turn from which on it is.
+// The definition of a fold: in any or in every way to cut the quads, and the cosine of the turn
+// from which an edge counts as folded.
 enum class Ways { any, every };
 struct Cut {
   Ways ways = Ways::any;
@@ -22,7 +22,7 @@ struct Cut {
 
 using Point = Eigen::Map<const Vec3>;
 
-// Triangles p q r and q p s.
+// Whether the edge between the triangles p q r and q p s is folded.
 bool is_folded(const Cut& cut, const Point& p, const Point& q, const Point& r, const Point& s) {
   const Vec3 along = q - p;
   const Vec3 left = along.cross(r - p), right = (s - p).cross(along);
@@ -30,8 +30,7 @@ bool is_folded(const Cut& cut, const Point& p, const Point& q, const Point& r, c
   return left.dot(right) < least;
 }
 
-// The corners that triangles on one side of an edge may have for their third: a quad's may have
-// two.
+// The possible third corners of triangles on one side of an edge; a quad has two.
 struct Corners {
   const double* at[2];
   int count;
@@ -46,7 +45,7 @@ bool is_folded(const Cut& cut, const double* p, const double* q, const Corners& 
   return cut.any() ? folded > 0 : folded == left.count * right.count;
 }
 
-// Calls visit(a, b) for every folded edge inside a face, a and b in closed coordinates.
+// Calls visit(a, b) for every folded edge inside a face; a and b are closed coordinates.
 template <class Visit>
 void visit_in_face(Cut cut, bool quad, int n, const double* closed, Visit&& visit) {
   const auto at = [&](GridPoint p) {
@@ -57,7 +56,7 @@ void visit_in_face(Cut cut, bool quad, int n, const double* closed, Visit&& visi
         is_folded(cut, Point(at(a)), Point(at(b)), Point(at(left)), Point(at(right)));
     if (folded) visit(a, b);
   };
-  if (!quad) {  // every edge inside belongs to one triangle that points down
+  if (!quad) {  // every inner edge belongs to one triangle that points down
     for (int j = 0; j + 1 < n; ++j)
       for (int i = 0; i + j + 1 < n; ++i) {
         const GridPoint a{i + 1, j}, b{i + 1, j + 1}, c{i, j + 1};
@@ -84,7 +83,7 @@ void visit_in_face(Cut cut, bool quad, int n, const double* closed, Visit&& visi
     }
 }
 
-// Calls visit(k) for every folded piece k … k + 1 of a control edge.
+// Calls visit(k) for every folded piece from k to k + 1 of a control edge.
 template <class Visit>
 void visit_on_edge(Cut cut, const GridLevel& grid, Index e, const double* x,
                    std::vector<double>& scratch, Visit&& visit) {

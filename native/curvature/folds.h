@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Folds of a refined surface: edges across which the normals of the triangles turn by more than 90
-// degrees. A quad counts as cut along either diagonal, so that none is preferred.
+// degrees. Both diagonals of a quad are considered.
 #pragma once
 
 #include "grid/grid_level.h"
@@ -9,22 +9,21 @@
 
 namespace fairing {
 
-// Numbers of folded edges inside control faces, and on control edges.
+// Numbers of folded edges inside control faces and on control edges.
 struct Folds {
   std::vector<std::uint32_t> in_face, on_edge;
 
   std::size_t count() const;
 };
 
-// Folds of the surface x (3 numbers a point). Edges on curves, which are creases by wish, do not
-// count, nor those outside the region, nor those in control faces that are `excused` or beside
-// them.
+// Folds of the surface x (3 numbers a point). Edges of curves, which are creases, do not count, nor
+// do edges outside the region, and edges in or next to control faces that are `excused`.
 Folds find_folds(const GridLevel& grid, Workers& workers, const double* x,
                  const std::vector<std::uint8_t>& excused);
 
-// The control faces at folds of the control mesh itself, along whatever diagonals its quads are
-// cut, which no surface through its vertices can do without. `cosine`: of the turn from which on an
-// edge is a fold of it.
+// The control faces at folds of the control mesh itself, for either diagonal of its quads; every
+// surface through its vertices folds there. `cosine` is that of the turn from which an edge is a
+// fold.
 std::vector<std::uint8_t> folded_control_faces(const ControlMesh& mesh,
                                                std::span<const Vec3> control, Workers& workers,
                                                double cosine = 0);

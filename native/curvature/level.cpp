@@ -32,11 +32,11 @@ void CurvatureLevel::apply(const float* x, float* y) {
   if (!varies()) add_to_product(x, y);
 }
 
-// As it is now.
+// For the present rows.
 NormalMatrix& CurvatureLevel::square() const {
   auto& matrix = square_.matrix;
   if (!square_.is_old) return *matrix;
-  // Some vertices were held, or let go.
+  // The unknowns have changed.
   if (square_.vertices != shared_.unknowns.vertex) matrix.reset();
   if (!matrix) matrix = std::make_unique<NormalMatrix>(rows_, shared_.unknowns);
   square_.vertices = shared_.unknowns.vertex;
@@ -71,8 +71,8 @@ void CurvatureLevel::find_between(const Array<double>& area) {
   root.resize(points);
   for_each_index(shared_.workers, points,
                  [&](std::size_t i) { root[i] = float(std::sqrt(area[i])); });
-  // Two edges lead to the border, and C's weights are about one. (With half or twice as much panels
-  // take up to a half more iterations.)
+  // Two edges lead to the border, and C's weights are about one. (Measured: with half or twice this
+  // number, panels take up to half as many iterations more.)
   const auto stiffness = float(2 * grid_.n());
   beside_border.resize(points);
   for_each_run(
@@ -167,7 +167,7 @@ void CurvatureLevel::invert_diagonal(std::size_t i) {
   inverse_diagonal_[i] = d > 0 ? 1 / d : 1.0f;
 }
 
-// For the variation that of J^T diag(L + share W) J, which is as good a scale as its own.
+// The variation takes the diagonal of J^T diag(L + share W) J; it scales as well as the exact one.
 void CurvatureLevel::update_diagonal() {
   const std::size_t points = grid_.size();
   Array<float> weight;

@@ -5,9 +5,9 @@
 //   total curvature     E = sum_i w_i |M_i|^2                       K = J^T W J
 //   minimum variation   E = sum_ij c_ij |M_i - T_ij M_j T_ij^T|^2   K = J^T (L + share W) J
 //
-// where M_i is the second fundamental form (point_curvature.h), w_i its point's area, J its change
-// with h, c_ij the cotangent weight of the edge ij, T_ij the rotation from one chart to the other,
-// and L the connection Laplacian. Under tension the surface's area joins either (area.h).
+// where M_i is the second fundamental form (point_curvature.h), w_i the area of its point, J its
+// derivative by h, c_ij the cotangent weight of the edge ij, T_ij the rotation from one chart to
+// the other, and L the connection Laplacian. Tension adds the surface's area to either (area.h).
 #pragma once
 
 #include <memory>
@@ -24,7 +24,7 @@
 
 namespace fairing {
 
-// What all levels share.
+// Data that all levels share.
 struct CurvatureShared {
   const ControlMesh& mesh;
   Unknowns unknowns;
@@ -32,23 +32,23 @@ struct CurvatureShared {
   double tension = 0;  // tension times area is added to the energy
   ElementSlots<double, 1> double_slots{};
   ElementSlots<float, 1> float_slots{};
-  Array<double> moment{}, turned{};  // of minimum variation
+  Array<double> moment{}, turned{};  // for minimum variation
 };
 
-// What a surface is linearized for.
+// The functional to linearize.
 struct Functional {
   CurvatureEnergy energy = CurvatureEnergy::total_curvature;
-  // Pads that control vertices stand on, where the force is wanted too; null: on the unknowns alone.
+  // Pads of control vertices, for which the force is computed too; null: for the unknowns only.
   Pads* pads = nullptr;
-  bool with_axes = false;  // whether the charts' axes are wanted
+  bool with_axes = false;  // whether to compute the charts' axes
 
   bool operator==(const Functional&) const = default;
 };
 
-// What linearizing about a surface gives beside K. Numbers are zero where a point carries no fit.
+// The results of linearizing about a surface, apart from K. They are zero at points without a fit.
 struct Linearization {
-  // Minus half the energy's gradient along the normals, on the unknowns and on the control vertices
-  // on pads: K h = force is the step where there are none.
+  // Minus half the energy's gradient along the normals, on the unknowns and on control vertices on
+  // pads. Without pads K h = force gives the step.
   Array<double> force;
   Array<double> normal;  // 3 a point, of unit length
   Array<float> shape;    // 4 a point: M's orthonormal components, and the root of its area
@@ -59,47 +59,48 @@ class CurvatureLevel final : public LevelOperator {
  public:
   CurvatureLevel(CurvatureShared& shared, const GridLevel& grid);
 
-  // K about the surface x (3 numbers a point), with no share of total curvature. Returns the energy,
-  // tension's part included.
+  // K about the surface x (3 numbers a point), without a share of total curvature. Returns the
+  // energy with that of tension.
   double linearize(const double* x, const Functional& functional, Linearization* out = nullptr);
 
-  // The latest energy: what surfaces are compared by. Then without tension's part.
+  // The latest energy, by which surfaces are compared; then that without tension.
   double fairness() const { return bending_ + tension_; }
   double bending() const { return bending_; }
 
   int linearizations() const { return linearizations_; }
 
-  // Where K varies, in single precision apply() and inverse_diagonal() are those of J^T W J, and this
-  // is the S that stands between two cycles with them (LinearSystem::between): y <- S x. The cotangent
-  // Laplacian C is of second order, and J^T W J C^-1 J^T W J of sixth, along thin faces as well. Beside
-  // a border, where J^T W J has surfaces without a moment and K has not, S has a spring of some n: what
-  // a moment there takes falls with the length of its waves, of which a control edge is the longest.
+  // For minimum variation apply() and inverse_diagonal() in single precision are those of J^T W J,
+  // and this is the S between two cycles with them (LinearSystem::between): y <- S x. The cotangent
+  // Laplacian C is of second order, and J^T W J C^-1 J^T W J of sixth, along thin faces too. Next
+  // to a border J^T W J has surfaces without a moment that K does not have; there S has a spring of
+  // about n, since the energy of a moment there falls with the length of its waves, at most a
+  // control edge.
   void apply_between(const float* x, float* y);
   bool varies() const { return energy_ == CurvatureEnergy::minimum_variation; }
 
-  // M as it would be after the displacement h, to first order: 3 numbers a point.
+  // predicted <- M after the displacement h, to first order: 3 numbers a point.
   void predict(const Array<float>& shape, const double* h, Array<float>& predicted);
 
-  // From here on mu_i K_ii is added to the diagonal; empty: nothing. Minimum variation: K has
-  // `share` of W beside L.
+  // Adds mu_i K_ii to the diagonal; empty: nothing. For minimum variation, adds `share` of W to L.
   void set_damping(const Array<float>& mu, double share = 0);
-  // Coarser levels are about another surface too, so that eigenvalues are others.
+  // Call it when the coarser levels are linearized about another surface, which changes the
+  // eigenvalues.
   void spectrum_changed() { ++version_.spectrum; }
-  // Other control vertices are unknowns from here on; K has to be linearized.
+  // Call it when other control vertices become unknowns; then linearize again.
   void unknowns_changed() { ++version_.unknowns; }
-  // Of springs at control vertices along the normals; empty: none.
+  // Weights of springs at control vertices along the normals; empty: none.
   void set_weights(const VertexWeights& weights);
   const VertexWeights& weights() const { return weights_; }
 
-  // Of K without weights and damping; zero where a point is no unknown.
+  // Diagonal of K without weights and damping; zero for points that are not unknowns.
   const Array<float>& diagonal() const { return diagonal_; }
 
   std::size_t points() const override { return grid_.size(); }
   std::size_t components() const override { return 1; }
   void apply(const double* x, double* y) override;
   void apply(const float* x, float* y) override;
-  // y <- K x on `rows` without the weights, for an x that is zero off the unknowns. Total curvature
-  // only.
+  // y <- K x on `rows` without the weights; x is zero at points that are not unknowns. For total
+  // curvature only.
   void apply_on(const Unknowns& rows, const double* x, double* y);
   bool single_precision_suffices() const override {
     return grid_.n() <= most_of_single && !varies();
@@ -118,7 +119,7 @@ class CurvatureLevel final : public LevelOperator {
   NormalMatrix& square() const;
   void apply_rows(const double* x, double* y);
   void apply_rows(const float* x, float* y);
-  // The weights' part and the damping's.
+  // Adds the part of weights and damping.
   template <class T>
   void add_to_product(const T* x, T* y) const;
   template <class T>
@@ -131,26 +132,26 @@ class CurvatureLevel final : public LevelOperator {
   const GridLevel& grid_;
   CurvatureEnergy energy_ = CurvatureEnergy::total_curvature;
   VertexWeights weights_;
-  double share_ = 0;  // minimum variation: of W beside L
+  double share_ = 0;  // for minimum variation: the share of W beside L
   double bending_ = 0, tension_ = 0;
   int linearizations_ = 0;
   RingJacobian rows_;  // sqrt(w) J
-  // Of the rows, once it has been wanted.
+  // R^T R, computed on first use.
   struct Square {
-    bool suits;  // passes over the level
+    bool suits;  // is it faster than passes over the rows?
     bool is_old = true;
     std::unique_ptr<NormalMatrix> matrix{};
-    std::vector<std::uint8_t> vertices{};  // that were unknowns then
+    std::vector<std::uint8_t> vertices{};  // the unknowns when it was computed
   };
   mutable Square square_;
   struct Variation {
     std::optional<Connection> connection;
     Array<float> root;            // of points' areas
-    Array<float> beside_border;   // what S has there beside C, on its diagonal
+    Array<float> beside_border;   // diagonal of S - C
     Array<float> cycle_diagonal;  // of J^T W J
   };
-  std::unique_ptr<Variation> variation_;  // of minimum variation, once linearized
-  std::unique_ptr<AreaTerm> area_;        // under tension only, once linearized
+  std::unique_ptr<Variation> variation_;  // for minimum variation, once linearized
+  std::unique_ptr<AreaTerm> area_;        // with tension, once linearized
   Array<float> diagonal_, inverse_diagonal_, damping_;
 };
 

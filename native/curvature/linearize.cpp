@@ -12,20 +12,20 @@
 namespace fairing {
 namespace {
 
-// What a thread works in, whatever the surface.
+// A thread's buffers; they do not depend on the surface.
 struct PointScratch {
   ShapeRows rows;
   CurvatureLanes lanes;
   RingInSpace ring;
-  double lane_root[lane_count];  // of the lanes' areas, with what else weighs the energy
-  double root = 0;               // the same of `rows`
+  double lane_root[lane_count];  // roots of the lanes' areas, times the weight of the energy
+  double root = 0;               // the same for `rows`
 
-  // The rows of point i of a run; returns its energy, and adds its part of the force.
+  // Stores the rows of point i of a run; returns its energy and adds its part of the force.
   double store(const RingInSpace& at, bool closed, CurvatureEnergy energy, double weight,
                const RowRun<float>& run, std::size_t i, double* const* force) {
     linearize(at.view(closed), energy, rows);
     if (!rows.point.has_rows()) {
-      const double out = rows.point.area;  // infinite, or none
+      const double out = rows.point.area;  // infinite, or zero
       for (int c = 0; c < 3; ++c)
         for (int s = 0; s < run.slots; ++s) run.at(c, s, i) = 0;
       rows.point.area = 0;
@@ -45,8 +45,8 @@ struct PointScratch {
     return area * rows.shape.squaredNorm();
   }
 
-  // The rows of points i … i + count - 1 of a run from the lanes, as far as these have them;
-  // returns their energy.
+  // Stores the rows of points i … i + count - 1 of a run from the lanes, except the points that the
+  // lanes leave out; returns their energy.
   template <class Weight>
   double store_lanes(std::size_t count, Weight&& weight, const RowRun<float>& run, std::size_t i,
                      double* const* force) {
@@ -69,7 +69,7 @@ struct PointScratch {
     return energy;
   }
 
-  // The cotangents of point i's edges, for the connection.
+  // Stores the cotangents of point i's edges for the connection.
   void store_cotangents(const RingInSpace& at, const RowRun<float>& run, std::size_t i) const {
     for (int s = 0; s < run.slots; ++s) run.at(0, s, i) = 0;
     if (!(rows.point.area > 0)) return;
@@ -83,7 +83,7 @@ PointScratch& point_scratch() {
   return own;
 }
 
-// What a thread keeps from run to run of one surface.
+// A thread's data of one surface, reused from run to run.
 struct Gather {
   PointScratch& point;
   RingWalk walk;
@@ -100,8 +100,8 @@ bool has_fit(const ControlMesh& mesh, const Run& run) {
 
 }  // namespace
 
-// What the connection needs of the points, in double: at its minimum nothing but rounding is left
-// of the force.
+// The connection's input at the points, in double: at the minimum, rounding errors would otherwise
+// exceed the force.
 struct CurvatureLevel::Tensors {
   Array<double> shape, axis, area;
 
@@ -169,7 +169,7 @@ double CurvatureLevel::linearize(const double* x, const Functional& functional,
     if (functional.with_axes) std::fill_n(to.axis.data() + 3 * p, 3 * count, 0.0f);
     if (varies()) tensors.clear(p, count);
   };
-  if (!mesh.region.whole())  // faces outside are not visited
+  if (!mesh.region.whole())  // points outside are not visited
     shared_.workers.for_parts(
         grid_.size(), vector_grain / 8,
         [&](std::size_t begin, std::size_t end) { clear_points(begin, end - begin); });
@@ -246,7 +246,7 @@ double CurvatureLevel::linearize(const double* x, const Functional& functional,
   return fairness();
 }
 
-// L about the surface, and with it the force: minus J^T L M. Returns the energy M . L M.
+// Computes L about the surface and the force, minus J^T L M. Returns the energy M . L M.
 double CurvatureLevel::connect(RingJacobian cotangents, const double* x, const Tensors& tensors,
                                const double* normal, double* force) {
   const std::size_t points = grid_.size();

@@ -12,15 +12,16 @@
 namespace fairing {
 namespace {
 
-// mu where a prediction fails first, and what filled points keep (measured: without any they may fold
-// again, with 1 they hardly follow); by what it grows where one fails, and falls where one holds.
+// mu at the first failure of a prediction, which is also the least mu of filled points (measured:
+// without damping they may fold again, with mu = 1 they hardly move); the factors by which mu grows
+// after a failure and falls after a success.
 constexpr float first = 0.05f, growth = 8, decay = 0.25f;
-// Squared difference from the prediction, relative to both squares and the mean density: above the
-// first it has failed (half of that after each rejected step), below the second it has held. In
-// between mu stays, for the next step to decide.
+// Squared difference from the prediction, relative to the sum of both squares and the mean density.
+// Above `failed` (half of that after each rejected step) the prediction has failed, below `held` it
+// was right. In between mu stays.
 constexpr double failed = 0.15, held = 0.02;
-// After so many accepted steps mu grows by `insistence` with each of them where predictions have
-// failed twice, until it may fall: the steps would not end otherwise.
+// After this number of accepted steps mu grows by `insistence` a step where predictions have failed
+// twice, until it may fall; otherwise the steps might not end.
 constexpr int patience = 5;
 constexpr float insistence = 3;  // times, each step
 
@@ -88,8 +89,7 @@ bool LocalDamping::judge(const Array<float>& predicted, const Linearization& bef
   const double bound = failed * std::pow(0.5, rejections);
   for_each_index(workers_, points, [&](std::size_t i) {
     const float *m = &before.shape[4 * i], *now = &after.shape[4 * i];
-    // Charts turn with their first neighbour, which is nobody's choice: tensors are compared in
-    // space.
+    // Charts start at an arbitrary neighbour, so tensors are compared in space.
     const Eigen::Matrix3d change = tensor(now, after, i) - tensor(&predicted[3 * i], before, i);
     const double scale = square(m) + square(now) + mean;
     miss[i] = m[3] > 0 && now[3] > 0 && scale > 0 ? float(change.squaredNorm() / scale)
@@ -105,7 +105,7 @@ bool LocalDamping::judge(const Array<float>& predicted, const Linearization& bef
       failures_[i] = std::uint8_t(std::min(failures_[i] + 1, 100));
       return;
     }
-    // Near the end mu would just slow the last steps.
+    // Near the end damping would only slow the last steps.
     const bool released =
         double(miss[i]) < held && (failures_[i] < 2 || decrement < damped_decrement);
     if (released)

@@ -5,30 +5,30 @@
 
 namespace fairing {
 
-// Marks (above zero) the neighbours of marked points as well; those that are no unknowns lose
-// theirs, unless `unknowns` is null.
+// Also marks (above zero) the neighbours of marked points; removes marks from points that are not
+// unknowns, unless `unknowns` is null.
 void dilate(const GridLevel& grid, Workers& workers, ElementSlots<float, 1>& slots,
             const Unknowns* unknowns, Array<float>& marks);
 
-// Damping of Gauss-Newton steps, point by point: mu_i K_ii is added to the operator's diagonal.
-// Where a step finds another second fundamental form than M + J h, which it predicted, the surface
-// is crumpled: steps that go on undamped there make folds, and a uniform damping would stop the
-// whole surface for a few such places. So each mu_i grows where the prediction failed, with the
-// ring around, and falls where it held.
+// Damping of Gauss-Newton steps for each point: mu_i K_ii is added to the diagonal. Where the
+// second fundamental form after a step differs from the predicted M + J h, the surface is crumpled.
+// Undamped steps make folds there, and uniform damping would stop the whole surface for a few such
+// places. So mu_i grows where the prediction failed, with the ring around, and falls where it was
+// right.
 class LocalDamping {
  public:
   LocalDamping(const GridLevel& grid, const Unknowns& unknowns, Workers& workers);
 
-  // Empty while there is none.
+  // Empty if there is no damping.
   const Array<float>& mu() const { return any_ ? mu_ : none_; }
 
-  // After a full step: `predicted`, M + J h (3 numbers a point, in the charts of `before`), against
-  // what was found before the step and after it; both with axes. `rejections` and `steps`: how many
-  // have been rejected and accepted before; `decrement`: of this step. Returns whether mu changed.
+  // Call it after a full step. `predicted`: M + J h (3 numbers a point, in the charts of `before`).
+  // `before` and `after` must have axes. `rejections` and `steps`: numbers of rejected and accepted
+  // steps so far. Returns whether mu changed.
   bool judge(const Array<float>& predicted, const Linearization& before, const Linearization& after,
              int rejections, int steps, double decrement);
 
-  // Marked points (above zero) keep the least factor from here on.
+  // Keeps mu of marked points (above zero) at the initial factor at least.
   void hold(const Array<float>& marks);
 
  private:

@@ -16,11 +16,11 @@ using Block = Packs<float, 16>;
 constexpr std::size_t block_size = Block::size;
 
 constexpr std::uint16_t none = 0xffff;
-// Rows worth a thread, of about as many blocks as a ring has points.
+// Number of rows for a thread; a row has about as many blocks as a ring has points.
 constexpr std::size_t grain = vector_grain / (block_size * most_slots);
 
-// Whether no rings are so large that their squares are not linear, nor that 16 bits do not tell the
-// places in a row apart: a vertex' ring of rings has three points a slot, at most each in a block.
+// Whether all rings are so small that the size of their squares stays linear and 16 bits number the
+// places in a row. A ring of rings has three points a slot, each at most in its own block.
 bool are_small(const GridLevel& grid, const RingJacobian& rows) {
   std::size_t products = 81 * grid.size();
   for (Index v = 0; v < grid.mesh().vertex_count(); ++v) {
@@ -31,7 +31,7 @@ bool are_small(const GridLevel& grid, const RingJacobian& rows) {
   return worth_products(products, grid.size());
 }
 
-// The columns of one row after another, and their blocks.
+// The columns of one row after another, grouped into blocks.
 class RowBlocks {
  public:
   RowBlocks(std::size_t points, Array<Index>& block)
@@ -44,7 +44,7 @@ class RowBlocks {
   void name(Index q) {
     if (std::exchange(seen_[std::size_t(q)], row_) != row_) column_.push_back(q);
   }
-  // The row has all its columns: from here on places are known.
+  // Call it after the last column; it computes the places.
   void finish_row() {
     std::sort(column_.begin(), column_.end());
     const std::size_t begin = block_.size();
@@ -58,10 +58,10 @@ class RowBlocks {
   std::uint16_t place(Index q) const { return place_[std::size_t(q)]; }
 
  private:
-  std::vector<std::uint32_t> seen_;   // in which row last
-  std::vector<std::uint16_t> place_;  // there
+  std::vector<std::uint32_t> seen_;   // the last row with this block
+  std::vector<std::uint16_t> place_;  // its place in that row
   std::vector<Index> column_;
-  Index last_first_;  // of blocks that end with the last point
+  Index last_first_;  // the first column of blocks that end with the last point
   std::uint32_t row_ = 0;
   Array<Index>& block_;
 };
@@ -180,7 +180,7 @@ void NormalMatrix::add_tension(const RingJacobian& weights, Workers& workers) {
       std::size_t k = ring_slot_begin_[p];
       const std::size_t last = ring_slot_begin_[p + 1];
       for (; k < last && ring_slot_[k].ring != p; ++k) target += jacobian_.size(ring_slot_[k].ring);
-      if (k == last) continue;  // no unknown
+      if (k == last) continue;  // not an unknown
       float* row = number_.data() + block_size * block_begin_[p];
       for (int s = 1; s < own.slots; ++s) {
         const Place to = target[s];
@@ -191,7 +191,7 @@ void NormalMatrix::add_tension(const RingJacobian& weights, Workers& workers) {
   });
 }
 
-// Two sums, neither of which waits for the other.
+// Two independent sums, so that neither waits for the other.
 void NormalMatrix::apply(const float* x, Workers& workers, float* y) const {
   workers.for_parts(grid_.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// R^T R, with tension's Laplacian, as one sparse matrix in single precision, for levels that have rows
-// (sparse/matrix.h).
+// R^T R, with tension's Laplacian, as one sparse matrix in single precision, for levels whose rows
+// are stored (sparse/matrix.h).
 //
-// Of a row's columns most lie beside one another, as the points of a run do. So a row is kept in
-// blocks: four numbers, zeros where it has none, and the first of their columns. In eight pieces an
-// edge it has 18 columns in 7 blocks.
+// Most columns of a row are adjacent, as the points of a run are. So a row is stored in blocks of
+// four numbers, zero where there is no entry, with the first of their columns. With eight pieces an
+// edge, a row has 18 columns in 7 blocks.
 #pragma once
 
 #include <cstdint>
@@ -17,29 +17,31 @@ namespace fairing {
 
 class NormalMatrix {
  public:
-  // Whether a level is better served so: it has rows, as many points as a block has columns, and no
-  // rings whose squares are too large.
+  // Whether it is faster for a level: rows are stored, there are as many points as a block has
+  // columns, and the rings are small enough.
   static bool suits(const RingJacobian& rows);
 
-  // The pattern: the unknowns that share a ring. The grid of `rows` must outlive it. Throws
+  // The pattern: pairs of unknowns that share a ring. The grid of `rows` must outlive it. Throws
   // ErrorCode::cancelled.
   NormalMatrix(const RingJacobian& rows, const Unknowns& unknowns);
 
-  // The numbers of rows with that pattern; `tension`: the weights of AreaTerm.
+  // Computes the numbers for rows with that pattern; `tension`: the weights of AreaTerm.
   void update(const RingJacobian& rows, Workers& workers, const RingJacobian* tension = nullptr);
 
-  // y <- the matrix times x; zero where a point is no unknown. All numbers of x have to be finite.
+  // y <- the matrix times x; zero for points that are not unknowns. All numbers of x must be
+  // finite.
   void apply(const float* x, Workers& workers, float* y) const;
 
  private:
   using Place = std::uint16_t;
 
-  // In RingJacobian row c's coefficient for slot s is data()[first + (c * slots + s) * stride].
+  // Row c of RingJacobian has its coefficient for slot s at data()[first + (c * slots + s) *
+  // stride].
   struct Ring {
     std::size_t first;
     std::uint32_t stride;
   };
-  // Three rows a point, over the same members: those of point p begin at member[begin[p]].
+  // Three rows a point with the same members: those of point p begin at member[begin[p]].
   struct MomentRows {
     Array<std::uint32_t> begin;  // one a point, and one more
     Array<Index> member;
@@ -47,7 +49,7 @@ class NormalMatrix {
 
     std::size_t size(std::size_t p) const { return begin[p + 1] - begin[p]; }
   };
-  // A point's part in a ring: it is in this slot.
+  // A ring that contains a point, and the point's slot in it.
   struct RingSlot {
     std::uint32_t ring, slot;
   };
@@ -57,14 +59,14 @@ class NormalMatrix {
 
   const GridLevel& grid_;
   Array<Ring> ring_;     // one a point
-  MomentRows jacobian_;  // R: over the rings, a point itself first
-  // By point, and one more: where its ring slots, blocks and targets begin.
+  MomentRows jacobian_;  // R; the first member of a ring is the point itself
+  // By point, and one more: the begin of its ring slots, blocks and targets.
   Array<std::size_t> ring_slot_begin_, block_begin_, target_begin_;
   Array<RingSlot> ring_slot_;
-  // For each ring slot of a point, for each member of that ring: the number, counted within
-  // the point's row, to which their product is added; `none` where the member is no unknown.
+  // For each ring slot of a point and each member of that ring: the place in the point's row to
+  // which their product is added; `none` if the member is not an unknown.
   Array<Place> target_;
-  Array<Index> block_;   // its first column
+  Array<Index> block_;   // the first column of each block
   Array<float> number_;  // four a block
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the Gauss-Newton solver is asked, and what it answers. Lengths and energies are in working
-// coordinates, where the mesh's size is about one.
+// Options and reports of the Gauss-Newton solver. Lengths and energies are in working coordinates,
+// where the mesh's size is about one.
 #pragma once
 
 #include <cstddef>
@@ -12,43 +12,43 @@
 
 namespace fairing {
 
-// The functional whose rows are assembled. Displacing a surface by h along its normals turns its
-// metric by -2 h M, so that J h has a term of h itself beside the Hessian of h:
+// The functional whose rows are assembled. Displacing a surface by h along its normals changes its
+// metric by -2 h M, so J h has, beside the Hessian of h, the term
 //
-//   total_curvature     h (M^2 - tr(M) M / 2): the variation of |M|^2 dA, the change of area in it
+//   total_curvature     h (M^2 - tr(M) M / 2): the variation of |M|^2 dA, with the change of area
 //   minimum_variation   h M^2: the variation of the shape operator alone
 enum class CurvatureEnergy { total_curvature, minimum_variation };
 
 struct GaussNewtonOptions {
-  // What the finest level's surface minimizes. Coarser levels minimize total curvature, and look
-  // ahead to less variation from there (variation.h).
+  // The functional that the finest level minimizes. Coarser levels minimize total curvature, and
+  // then variation as a start for the next level (variation.h).
   CurvatureEnergy energy = CurvatureEnergy::total_curvature;
-  // So many times the surface's area is minimized with total curvature; 0 for minimum variation.
+  // Factor of the surface's area in the energy; 0 for minimum variation.
   double tension = 0;
-  // Steps end where less is left to move, in working units (the mesh's size is about one).
+  // Steps end when the estimated distance to the solution is below this, in working units.
   double step_tolerance = 0;
-  // How exact the loads on pads have to be: what is left of the force, relative.
+  // Tolerance of the loads on pads: the remaining force, relative.
   double load_tolerance = 0;
-  int max_steps = 20;  // on each level, for each way of stepping that is tried there
+  int max_steps = 20;  // on each level, for each method that is tried
   SolveOptions solve;
 };
 
 // One Gauss-Newton step.
 struct StepReport : HeldReport {
-  bool variation = false;  // of minimum variation; else of total curvature
-  double energy = 0;       // before the step, tension's part included
-  // sqrt(h . K h / energy): the share of the energy's root that a full step would take off.
+  bool variation = false;  // for minimum variation; else for total curvature
+  double energy = 0;       // before the step, with that of tension
+  // sqrt(h . K h / energy): a full step lowers the root of the energy by this share.
   double decrement = 0;
-  double length = 1;     // the share of the step that was taken; 0: rejected
-  double movement = 0;   // the farthest that the last trial took any point
+  double length = 1;     // share of the full step that was taken; 0: rejected
+  double movement = 0;   // largest move of a point by the last trial
   int iterations = 0;    // of the linear solve
   double residual = 0;   // of the linear solve, relative to its start
-  bool solved = true;    // whether it came to its end
+  bool solved = true;    // whether the linear solve converged
   bool direct = false;   // solved by a factorization, without iterations
-  double load_work = 0;  // of a full step against the loads on pads
+  double load_work = 0;  // work of the loads on pads in a full step
 };
 
-// What a level took, all that was tried and left included.
+// Work on a level, including attempts that were discarded.
 struct StepWork {
   int steps = 0, linearizations = 0;  // of the level itself
   int iterations = 0, pad_corrections = 0;
@@ -60,34 +60,34 @@ struct StepWork {
   }
 };
 
-// Energies are of curvature alone where the solver returns; steps judge by tension's part too.
+// Energies are without tension once the solver returns; steps compare them with tension.
 struct CurvatureLevelReport {
   int level = 0;
   double plate_energy = 0;  // total curvature of the thin plate's surface
   double start_energy = 0;  // of the surface that the steps started from
   double energy = 0;        // of the surface returned
-  // Minimum variation's energy before its steps and after them; on the finest level alone.
+  // Energy of minimum variation before and after its steps; on the finest level only.
   double start_variation = 0, variation = 0;
   double constraint_gap = 0;  // of the last step
-  // Folded edges that the control mesh does not have (folds.h), before unfolding and after it.
+  // Folded edges that the control mesh does not have (folds.h), before and after fold repair.
   std::size_t folds_before = 0, folds = 0;
   std::vector<StepReport> steps;
-  int last_steps = 0;  // of the last way of stepping, which max_steps bounds
+  int last_steps = 0;  // with the last method, for which max_steps is the limit
   StepWork work;
-  // How far the surface is from the solution of its equation, as its last steps tell
-  // (left_to_move.h); infinity where they tell nothing.
+  // Estimated distance from the solution, from the last steps (left_to_move.h); infinity if
+  // unknown.
   double left = std::numeric_limits<double>::infinity();
-  // The one meaning of converged, for both energies: the surface is as near to the solution of its
-  // equation as was promised. On the finest level `left` is below the step tolerance. Surfaces of
-  // other levels only start the next one; there a decrement of 3e-2 at the most is promised.
+  // Whether the surface is as near to the solution of its equation as promised, for both energies.
+  // On the finest level `left` is at most the step tolerance. Coarser levels only start the next
+  // one; there the decrement is at most 3e-2.
   bool converged = false;
-  // The steps ended at a worse surface than they began at, which is kept in its place.
+  // The steps ended at a worse surface than their start, which was kept.
   bool kept_start = false;
-  // The level below is a bubble (grid/thickness.h), the energy's least perhaps, to which few steps do
-  // not lead: the thin plate's surface is kept in its place.
+  // The level below is a bubble (grid/thickness.h), perhaps the energy's minimum, which a few steps
+  // do not reach; the thin plate's surface was kept.
   bool swollen = false;
-  // Plain steps did not lead to this surface: there may be others, and which one is found may hang
-  // on how the mesh lies and is numbered.
+  // Plain steps did not lead to this surface: there may be other minima, and the one found may
+  // depend on the position and numbering of the mesh.
   bool damped = false;
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 using Fan = RingFan<double>;
 
-// Of an open ring, which few points have.
+// Hessian at the centre of an open ring; few points have one.
 Vec3 open_hessian(const SurfaceChart& chart) {
   const FitRows rows = fit({chart.ring, 0, false});
   Vec3 hessian = Vec3::Zero();
@@ -21,7 +21,7 @@ Vec3 open_hessian(const SurfaceChart& chart) {
   return hessian;
 }
 
-// False where a neighbour is at the point itself. `angles`: whether they are wanted.
+// False if a neighbour coincides with the point. `angles`: whether to compute the angles.
 template <bool angles>
 bool sum_up(const SurfaceRing& ring, SurfaceChart& chart, Fan& fan) {
   const std::size_t size = ring.offset.size();
@@ -38,15 +38,15 @@ bool sum_up(const SurfaceRing& ring, SurfaceChart& chart, Fan& fan) {
   return apart;
 }
 
-// Of a ring whose sums give no curvature: none where it has shrunk to nothing, but infinite where
-// it has burst, lest that be what takes the least energy.
+// The result for a ring that determines no curvature: zero if it has shrunk to a point, infinite if
+// it is not finite, so that such a surface never has the least energy.
 PointCurvature without_shape(const SurfaceRing& ring) {
   for (const Vec3& offset : ring.offset)
     if (!(offset.squaredNorm() < ring_farthest)) return PointCurvature::infinite();
   return {};
 }
 
-// What the fits read of it.
+// Copies the fit's input from the fan to the chart.
 void read_chart(const SurfaceRing& ring, const Fan& fan, const Vec3& normal, SurfaceChart& chart) {
   const std::size_t size = ring.offset.size();
   for (auto* numbers : {&chart.height, &chart.weight, &chart.rest, &chart.cotangent})
@@ -103,8 +103,8 @@ PointCurvature point_curvature(const SurfaceRing& ring, SurfaceChart& chart) {
   if (out.area != fan.circumcentric)
     out.trace += (1 - fan.circumcentric / out.area) * std::numbers::sqrt2 *
                  fitted_hessian(chart.ring, chart.height, chart.weight)[0];
-  // What the trace explains is not the trace-free part's; the same where the ring determines a
-  // quadratic.
+  // The trace-free part fits what the trace does not explain; where the ring determines a quadratic
+  // both fits agree.
   for (std::size_t j = 0; j < chart.rest.size(); ++j)
     chart.rest[j] = chart.height[j] - 0.25 * out.trace * fan.at[j].square;
   const Vec3 hessian = fitted_hessian(chart.ring, chart.rest, chart.weight);
@@ -119,7 +119,7 @@ void linearize(const SurfaceRing& ring, CurvatureEnergy energy, ShapeRows& out) 
   if (ring.closed) {
     hessian_rows(out.chart.ring, out.chart.weight, out.row);
     const double scale = root_half / out.point.area;
-    // Like the trace-free part itself, its rows leave to the trace what is the trace's.
+    // The trace's part is subtracted from the trace-free rows too.
     Eigen::Vector2d of_round = Eigen::Vector2d::Zero();
     for (std::size_t j = 0; j < out.row.size(); ++j)
       of_round += out.chart.ring[j].squaredNorm() * out.row[j].tail<2>();

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The second fundamental form M of a surface at one of its points, from the point's one-ring in
-// space alone: what total curvature, the integral of k1^2 + k2^2, is measured with and minimized
-// by. And how M answers to displacements along the normals: the rows of the Gauss-Newton steps.
+// The second fundamental form M of a surface at a point, from the point's one-ring in space only.
+// Total curvature, the integral of k1^2 + k2^2, is measured and minimized with it. Its derivatives
+// by displacements along the normals are the rows of the Gauss-Newton steps.
 //
 // On a mesh inscribed in a sphere of radius R, M is exactly -I/R for any valence and any shape of
 // triangles: chart radii are edge lengths, the normal is exact there, and so the heights n . (p_j -
 // p_i) = -|p_j - p_i|^2 / 2R are a quadratic of the chart. The trace comes from the cotangent
-// Laplacian over the circumcentric area, which takes the same squares to the same value and, unlike
+// Laplacian over the circumcentric area, which maps the same squares to the same value and, unlike
 // least squares, is symmetric: so these meshes are critical points of the discrete energy as well.
 //
-// The trace-free part is a least-squares fit with weights 1 / distance^2, 0.3 times that for a
-// quad's far corner: where spacing is uneven, as beside control vertices, the far neighbours would
-// otherwise decide (on the Clifford torus this takes the error to a third).
+// The trace-free part is a least-squares fit with weights 1 / distance^2, times 0.3 for the far
+// corner of a quad. With uneven spacing, as next to control vertices, the far neighbours would
+// otherwise dominate (on the Clifford torus these weights reduce the error to a third).
 //
 // A quad counts as the mean of its two triangulations; its far corner is a neighbour like any
-// other, at its own distance and between its own angles (rather than where a flattened quad would
-// have it): so it stays exact too.
+// other, at its own distance and between its own angles (not where a flattened quad would place
+// it), so that it is exact too.
 #pragma once
 
 #include <array>
@@ -33,24 +33,24 @@
 namespace fairing {
 
 constexpr double least_area_share = 0.1;  // of the barycentric area
-// In the fit, beside what its distance makes of a quad's far corner.
+// Additional weight of a quad's far corner in the fit.
 constexpr double far_corner_weight = 0.3;
-// Squared distance below which a neighbour is the point itself.
+// A neighbour with a smaller squared distance coincides with the point.
 constexpr double ring_nearest = 1e-200;
-// And from which on it is out of reach: the squares of areas would overflow.
+// A neighbour with a larger squared distance is rejected: squares of areas would overflow.
 constexpr double ring_farthest = 1e150;
 
 // The ring of a point p_i, counter-clockwise; a closed one has three neighbours or more.
 struct SurfaceRing {
   std::span<const Vec3> offset;  // p_j - p_i
-  // 1: p_j is the corner across a quad, between the quad's other two.
+  // 1: p_j is a far corner, across a quad, between the quad's other two corners.
   std::span<const std::uint8_t> far;
-  bool closed = true;             // else it runs from one boundary edge to the other
+  bool closed = true;             // otherwise it runs from one boundary edge to the other
   std::span<const float> lift{};  // of the neighbours (area_lift); empty: all zero
   float own_lift = 0;
 };
 
-// A neighbour on the way to a chart, of one point or of a pack of them (ring_fan.h).
+// A neighbour during the computation of a chart, of one point or of a pack of points (ring_fan.h).
 template <class N>
 struct RingNeighbour {
   struct Vector {
@@ -62,31 +62,31 @@ struct RingNeighbour {
 
   Vector p;                                   // p_j - p_i
   N square, radius, inverse, inverse_radius;  // its length, squared, and reciprocals
-  Turn turn;            // from the neighbour before; once laid out, the direction in the chart
+  Turn turn;            // from the previous neighbour; after lay_out(), the direction in the chart
   N angle;              // of that turn
   N cotangent, weight;  // as in SurfaceChart
 };
 
-// The chart of a ring: the exponential map of the surface itself. Edge lengths are radii; the
-// angles between neighbours are summed from the first one, which lies on the u axis, and scaled to
-// a full turn.
+// The chart of a ring: the exponential map of the surface. Radii are edge lengths; the angles
+// between neighbours are summed from the first one, which is on the u axis, and scaled to a full
+// turn.
 struct SurfaceChart {
   std::vector<Vec2> ring;
   std::vector<double> height;     // n . (p_j - p_i)
-  std::vector<double> weight;     // of the neighbours in the fit of the trace-free part
-  std::vector<double> rest;       // the heights without the trace's part
-  std::vector<double> cotangent;  // half the cotangents across the edge to p_j, added up
+  std::vector<double> weight;     // in the fit of the trace-free part
+  std::vector<double> rest;       // heights without the trace's part
+  std::vector<double> cotangent;  // half the sum of the cotangents across the edge to p_j
   std::vector<RingNeighbour<double>> neighbour;
 };
 
 struct PointCurvature {
-  // Of unit length; weighted as by Max (1999), so exact on spheres.
+  // Unit length; weighted as by Max (1999), so exact on spheres.
   Vec3 normal = Vec3::Zero();
-  // M_uu + M_vv = k1 + k2: negative where the surface bends away from its normal.
+  // M_uu + M_vv = k1 + k2; negative if the surface bends away from its normal.
   double trace = 0;
   // ((M_uu - M_vv)/sqrt 2, sqrt 2 M_uv) in the chart.
   std::array<double, 2> trace_free{};
-  // The point's share: circumcentric, but at least a tenth of the barycentric one.
+  // The point's area: circumcentric, but at least a tenth of the barycentric one.
   double area = 0;
 
   // k1^2 + k2^2
@@ -94,7 +94,8 @@ struct PointCurvature {
     return 0.5 * trace * trace + trace_free[0] * trace_free[0] + trace_free[1] * trace_free[1];
   }
 
-  // Of a ring that is not finite, or beyond ring_farthest: no energy is less.
+  // For a ring that is not finite, or exceeds ring_farthest: such a surface never has the least
+  // energy.
   static PointCurvature infinite() {
     PointCurvature out;
     out.area = out.trace = std::numeric_limits<double>::infinity();
@@ -104,28 +105,28 @@ struct PointCurvature {
   bool has_rows() const { return area > 0 && area < std::numeric_limits<double>::infinity(); }
 };
 
-// The curvature of one ring. Its steps, with cot_j half the cotangents across the edge to p_j:
+// The curvature of one ring, with cot_j half the sum of the cotangents across the edge to p_j:
 //
 //   normal       Max's: the sum of (p_j x p_k) / (|p_j|^2 |p_k|^2) over the ring's triangles
 //   area         circumcentric: the sum of cot_j |p_j|^2 / 4
 //   trace        n . (sum of cot_j p_j) / area
-//   trace-free   least squares of the heights n . p_j, less the trace's share |p_j|^2 trace / 4
+//   trace-free   least squares of the heights n . p_j, minus the trace's share |p_j|^2 trace / 4
 //
 // Obtuse triangles make cotangents negative, and the area too small or negative. Any symmetric
-// weights serve in place of the cotangents, with the area that belongs to them. So where an end of
-// an edge needs it (area_lift), its negative cotangent is raised by the greater lift of both ends,
-// a share of its distance to zero. Where the area is still below its floor, the floor is taken, and
-// the fit's trace stands for the share that is missing: spheres stay exact.
+// weights can replace the cotangents, with the area that belongs to them. So where an end of an
+// edge needs it (area_lift), its negative cotangent is raised by the greater lift of both ends, a
+// share of its distance to zero. If the area is still below its floor, the floor is used, and the
+// trace of the fit replaces the missing share: spheres stay exact.
 //
-// An open ring has the barycentric area, and all of M from the fit. A ring with a neighbour at the
-// point itself, or without a normal, has no curvature and no area; one that is not finite has an
-// infinite curvature and area.
+// An open ring has the barycentric area, and all of M from the fit. A ring with a coincident
+// neighbour, or without a normal, has zero curvature and area; one that is not finite has infinite
+// ones.
 //
-// `chart` is written; it takes no new memory once it has held a ring of that size.
+// `chart` is overwritten; it allocates no memory once it has held a ring of that size.
 PointCurvature point_curvature(const SurfaceRing& ring, SurfaceChart& chart);
 
 // The share of their distance to zero, 0 to 1, by which the negative cotangents around a closed
-// ring have to rise for its area to reach the floor; 0 for an open ring. `chart` is scratch.
+// ring must rise for its area to reach the floor; 0 for an open ring. `chart` is scratch.
 float area_lift(const SurfaceRing& ring, SurfaceChart& chart);
 
 // M and its rows in the orthonormal components ((M_uu + M_vv)/sqrt 2, (M_uu - M_vv)/sqrt 2, sqrt 2
@@ -134,13 +135,13 @@ struct ShapeRows {
   PointCurvature point;
   SurfaceChart chart;
   Vec3 shape = Vec3::Zero();  // M
-  std::vector<Vec3> row;      // times the displacement of neighbour j
-  Vec3 own = Vec3::Zero();    // times that of the point
+  std::vector<Vec3> row;      // by the displacement of neighbour j
+  Vec3 own = Vec3::Zero();    // by the displacement of the point itself
 };
 
-// h's own term in the components of M, from its trace, its trace-free part (a, b) and a^2 + b^2:
-// with M = t/2 I + F, F^2 = f^2 I it is M^2 = (t^2/4 + f^2) I + t F, or M^2 - t M / 2. N: a number
-// or a pack of them.
+// The term of h itself, in the components of M, from its trace, its trace-free part (a, b) and a^2
+// + b^2: with M = t/2 I + F, F^2 = f^2 I it is M^2 = (t^2/4 + f^2) I + t F, or M^2 - t M / 2. N: a
+// number or a pack of numbers.
 template <class N>
 DF_INLINE void own_term(CurvatureEnergy energy, const N& trace, const N& a, const N& b,
                         const N& square, N& sum, N& difference, N& mixed) {
@@ -155,14 +156,14 @@ DF_INLINE void own_term(CurvatureEnergy energy, const N& trace, const N& a, cons
   }
 }
 
-// The trace's row is the cotangent Laplacian over the point's area, which is symmetric once it is
-// weighted with the areas; the trace-free rows are those of the least-squares fit. No area: nothing
-// else is set.
+// The trace's row is the cotangent Laplacian over the point's area, which is symmetric after
+// weighting with the areas; the trace-free rows are those of the least-squares fit. If the area is
+// zero, nothing else is set.
 void linearize(const SurfaceRing& ring, CurvatureEnergy energy, ShapeRows& out);
 
-// The chart's u axis in space. Charts scale their angles to a full turn, so that no neighbour's
-// direction agrees with the chart's but by chance; the axis is where all of them agree best,
-// whichever neighbour the chart started from.
+// The chart's u axis in space. Charts scale their angles to a full turn, so the neighbours'
+// directions in space differ from those in the chart; this axis fits all of them best, and does not
+// depend on the neighbour that the chart started from.
 Vec3 chart_axis(const Vec3& normal, SurfaceChart& chart);
 
 }  // namespace fairing

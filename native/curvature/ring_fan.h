@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The triangles between a point and its ring, summed up, and the ring's chart: for numbers, one point's,
-// and for packs of them (base/simd.h), several points' of a run.
+// Sums over the triangles between a point and its ring, and the ring's chart: for numbers, one
+// point, or for packs of numbers (base/simd.h), several points of a run.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@
 
 namespace fairing {
 
-// Nothing is done for less than all lanes: a pack's `sound` loses those that need another way, which a
-// number takes at once. S: a single number of N.
+// Lanes are never left out of a computation: a pack's `sound` excludes those that need another
+// method, to which a single number branches at once. S: a single number of N.
 template <class N, class S = N>
 struct RingFan {
   static constexpr bool is_pack = !std::is_arithmetic_v<N>;
@@ -28,7 +28,7 @@ struct RingFan {
   int size;
   Vector normal = {}, laplacian = {};
   N circumcentric = {}, barycentric = {};  // areas
-  N total = {};                            // of the angles between neighbours
+  N total = {};                            // sum of the angles between neighbours
 
   DF_INLINE static void dot(const Vector& a, const Vector& b, N& out) {
     out = a.x * b.x + a.y * b.y + a.z * b.z;
@@ -45,7 +45,8 @@ struct RingFan {
       out = std::sqrt(of);
   }
 
-  // Of a neighbour whose offset is set. `sound`: it is not at the point itself.
+  // Computes the lengths of a neighbour whose offset is set. `sound`: it does not coincide with the
+  // point.
   DF_INLINE static void measure(Neighbour& n, Mask& sound) {
     dot(n.p, n.p, n.square);
     sound &= n.square > S(ring_nearest);
@@ -55,7 +56,7 @@ struct RingFan {
     n.cotangent = N{};
   }
 
-  // `far`: of the neighbours, as in SurfaceRing. `angles`: whether they are wanted.
+  // `far`: as in SurfaceRing. `angles`: whether to compute the angles.
   template <bool angles>
   DF_INLINE void sum_up(const std::uint8_t* far, bool closed, Mask& sound) {
     for (int j = 1; j < size + closed; ++j) {
@@ -73,7 +74,8 @@ struct RingFan {
     }
   }
 
-  // Negative cotangents rise by shares of their distance to zero: share(j, out), at neighbour j.
+  // Raises negative cotangents by shares of their distance to zero; share(j, out) gives that of
+  // neighbour j.
   template <class Share>
   DF_INLINE void lift(Share&& share) {
     const N zero = {};
@@ -87,7 +89,7 @@ struct RingFan {
     }
   }
 
-  // To unit length. `sound`: there is one, and the ring is finite.
+  // Scales the normal to unit length. `sound`: it exists and is finite.
   DF_INLINE void normalize(Mask& sound) {
     N length;
     dot(normal, normal, length);
@@ -97,8 +99,8 @@ struct RingFan {
     normal = {unit * normal.x, unit * normal.y, unit * normal.z};
   }
 
-  // From the turns between neighbours to their directions in the chart, where `full` angles are a full
-  // turn; and their weights in the fit.
+  // Replaces the turns between neighbours by their directions in the chart, where the angle `full`
+  // is a full turn; computes their weights in the fit.
   DF_INLINE void lay_out(const N& full, const std::uint8_t* far, Mask& sound) {
     const N excess = S(full_turn) / full - S(1);
     at[0].turn = {N{} + S(1), N{}};
@@ -118,7 +120,7 @@ struct RingFan {
       at[j].weight = (far[j] ? S(far_corner_weight) : S(1)) * at[j].inverse;
   }
 
-  // The chart's u axis in space (chart_axis()). Neighbours straight above the point do not tell.
+  // Computes the chart's u axis in space (chart_axis()). Neighbours along the normal are ignored.
   DF_INLINE void find_axis(Vector& axis) const {
     N along, unit;
     dot(at[0].p, normal, along);
@@ -158,7 +160,7 @@ struct RingFan {
     out = {a.cosine * b.cosine - a.sine * b.sine, a.cosine * b.sine + a.sine * b.cosine};
   }
 
-  // angle_of(), at unit length.
+  // angle_of(), for unit length.
   DF_INLINE static void angle_of_turn(const Turn& turn, N& out) {
     const N n = turn.sine, d = S(1) + turn.cosine;
     const Mask steep = n > d;
@@ -168,7 +170,7 @@ struct RingFan {
     out = steep ? S(std::numbers::pi) - S(2) * half : S(2) * half;
   }
 
-  // A triangle without an area counts for nothing.
+  // A triangle without an area is ignored.
   DF_INLINE void add_triangle(int a, int b, S weight, Turn& between, Mask& sound) {
     Neighbour &m = at[a], &n = at[b];
     const Vector &p = m.p, &q = n.p;

@@ -43,7 +43,7 @@ RowRun<float> RingJacobian::face(Index f, int j) {
 
 namespace {
 
-// Three lanes from interleaved numbers.
+// Splits interleaved numbers into three lanes.
 template <class T>
 void split(std::size_t count, const T* y, T* lanes) {
   for (std::size_t i = 0; i < count; ++i)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The matrix R = sqrt(W) J of a level: three rows over the one-ring of every point, in single
-// precision, with the passes R x, R^T y and R^T R x. 84 bytes a point in triangles' grids, 108 in
-// quads', against 228 for a row of R^T R. Coefficients lie by neighbour along runs of points
-// (grid/runs.h), so that loops along a run need no index.
+// precision, with the products R x, R^T y and R^T R x. It takes 84 bytes a point in grids of
+// triangles and 108 in grids of quads, against 228 for a row of R^T R. Coefficients are stored by
+// neighbour along runs of points (grid/runs.h), so that loops along a run need no index.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@
 namespace fairing {
 
 // `coefficient[(c * slots + s) * count + i]` is row c's number for slot s of point i; slot 0 is the
-// point itself, the others are its neighbours in the order of their ring.
+// point itself, the others are its neighbours in the order of the ring.
 template <class T>
 struct RowRun {
   std::size_t count = 0;
@@ -28,7 +28,7 @@ struct RowRun {
 
 class RingJacobian {
  public:
-  // `rows` a point: with one in place of three, the passes below are not for it.
+  // `rows` a point; the passes below require three.
   explicit RingJacobian(const GridLevel& grid, int rows = 3);
 
   const GridLevel& grid() const { return *grid_; }
@@ -45,7 +45,7 @@ class RingJacobian {
     return {rows.count, rows.slots, rows.coefficient};
   }
 
-  // Where all coefficients begin.
+  // The begin of all coefficients.
   const float* data() const { return data_.data(); }
 
  private:
@@ -66,12 +66,13 @@ class RingJacobian {
 
   const GridLevel* grid_;
   int rows_;
-  // Each has one more than elements.
+  // Each has one element more than there are vertices, edges or faces.
   std::vector<std::size_t> vertex_offset_, edge_offset_, face_offset_;
   Array<float> data_;
 };
 
-// y_c[i] = sum_s coefficient(c, s, i) x_s[i] for i from `begin` on; y holds three lanes of `count`.
+// y_c[i] = sum_s coefficient(c, s, i) x_s[i] for i from `begin` on; y holds three lanes of `count`
+// numbers.
 template <class T>
 inline void forward(const RowRun<const float>& run, const T* const* x, T* y,
                     std::size_t begin = 0) {
@@ -118,7 +119,7 @@ inline void backward_one(const RowRun<const float>& run, const T* y, T* const* o
   for (int s = 0; s < run.slots; ++s) *out[s] += T(a[s]) * y[0] + T(b[s]) * y[1] + T(c[s]) * y[2];
 }
 
-// The same in packs, as far as a run has whole ones.
+// The same in packs, as long as the run has whole packs.
 template <class T, int Bytes>
 struct ForwardLoop {
   using P = Packs<T, Bytes>;
@@ -173,7 +174,7 @@ struct BackwardLoop {
   }
 };
 
-// A run of one point is a control vertex: packs would cost it more than its sums.
+// A run of one point is a control vertex: packs would cost more than its sums.
 inline void forward(const RowRun<const float>& run, const float* const* x, float* y) {
   if (run.count == 1) return forward_one(run, x, y);
   const std::size_t whole = run.count / lane_block * lane_block;
@@ -200,7 +201,7 @@ inline void backward(const RowRun<const float>& run, const double* y, double* co
 
 // Passes over a whole level. x has one number a point, moments R x have three.
 
-// What a thread keeps while it makes moments.
+// A thread's buffers for moments.
 template <class T>
 struct MomentState {
   MomentState(const RingJacobian& rows, const T* x)
@@ -241,12 +242,12 @@ template <class T>
 void apply_square(const RingJacobian& rows, const Unknowns& unknowns, Workers& workers,
                   ElementSlots<T, 1>& slots, const T* x, T* out);
 
-// out <- the diagonal of R^T D R on the unknowns, where D has the number weight[p], the same for a
-// point's three rows; no weights: one.
+// out <- the diagonal of R^T D R on the unknowns. D has weight[p] for the three rows of point p; no
+// weights: one.
 void square_diagonal(const RingJacobian& rows, const Unknowns& unknowns, Workers& workers,
                      ElementSlots<float, 1>& slots, const float* weight, float* out);
 
-// The rows as multigrid/ring_lines.h asks for them.
+// The rows in the form that multigrid/ring_lines.h reads.
 struct JacobianRows {
   const RingJacobian& rows;
   RowRun<const float> own{};
@@ -261,8 +262,8 @@ struct JacobianRows {
   static bool is_same_along_run() { return false; }
 };
 
-// Calls visit(p, rows, i, points) for every point p in order, which is point i of its run with
-// these rows; points[s] is slot s.
+// Calls visit(p, rows, i, points) for every point p in order. It is point i of its run, with these
+// rows; points[s] is slot s.
 template <class Visit>
 void visit_rows(const RingJacobian& rows, Visit&& visit) {
   std::vector<Index> points;

@@ -6,13 +6,13 @@
 namespace fairing {
 namespace {
 
-// Interleaved coordinates apart.
+// Splits interleaved coordinates.
 void split(std::size_t size, const double* interleaved, double* const* to) {
   for (std::size_t i = 0; i < size; ++i)
     for (std::size_t a = 0; a < 3; ++a) to[a][i] = interleaved[3 * i + a];
 }
 
-// Room for so many numbers and for lanes that read beyond the last one.
+// Space for `size` numbers, and for lanes that read beyond the last one.
 template <class T>
 T* lane_room(std::vector<T>& buffer, std::size_t size) {
   return room_in(buffer, size + lane_count);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The rings in space of a level's points, run by run (grid/runs.h) and in memory that is taken
+// The rings in space of a level's points, run by run (grid/runs.h), in memory that is allocated
 // once: each ring alone, for any point; or all rings of a run together, coordinate by coordinate,
 // for points with regular rings.
 #pragma once
@@ -12,7 +12,7 @@
 
 namespace fairing {
 
-// One ring. `slot()[j]` is where neighbour j stands in the order of the grid (RingJacobian).
+// One ring. `slot()[j]` is the place of neighbour j in the order of the grid (RingJacobian).
 class RingInSpace {
  public:
   void start(const double* centre, float lift) {
@@ -41,7 +41,7 @@ class RingInSpace {
   float own_lift_ = 0;
 };
 
-// Point i's ring alone.
+// Copies point i's ring.
 inline void ring_at(const RunRings& rings, std::size_t i, RingInSpace& ring) {
   const auto point = [&](int s, double* p) {
     for (int a = 0; a < 3; ++a) p[a] = rings.at[s][a][i];
@@ -56,8 +56,8 @@ inline void ring_at(const RunRings& rings, std::size_t i, RingInSpace& ring) {
   }
 }
 
-// Each ring of a run alone: calls visit(i, ring, closed) for its points i. x: 3 numbers a point;
-// `lift`: one, or null. Both must outlive the walk. One thread's.
+// Visits each ring of a run alone: calls visit(i, ring, closed) for its points i. x: 3 numbers a
+// point; `lift`: one, or null. Both must outlive the walk. For one thread.
 class RingWalk {
  public:
   RingWalk(const GridLevel& grid, const double* x, const float* lift)
@@ -96,7 +96,7 @@ class RingWalk {
 };
 
 // All rings of a run together, for runs inside faces and inside edges between two faces. Valid
-// until the next run; rows of a face have to come one after another. One thread's.
+// until the next run; rows of a face must follow one another. For one thread.
 class RingLanes {
  public:
   RingLanes(const GridLevel& grid, const double* x, const float* lift)
@@ -122,8 +122,8 @@ class RingLanes {
   RunRings rings_;
 };
 
-// The lifts of all points (point_curvature.h); empty where there is none. Inside faces nothing is
-// irregular, and the area needs no lift but where the surface is crumpled.
+// The lifts of all points (point_curvature.h); empty if all are zero. Regular points inside faces
+// need none except where the surface is crumpled.
 Array<float> area_lifts(const GridLevel& grid, Workers& workers, const double* x);
 
 }  // namespace fairing

@@ -12,8 +12,8 @@ namespace {
 
 using Normal = Eigen::Map<const Vec3>;
 
-// Of each control vertex: the least cosine between its normal and those at the points of its star,
-// those on curves apart, which have none.
+// For each control vertex the least cosine between its normal and those at the points of its star.
+// Points on curves have no normal and are skipped.
 std::vector<double> facing_of_stars(const GridLevel& grid, const Array<double>& normals) {
   const ControlMesh& mesh = grid.mesh();
   std::vector<double> least(std::size_t(mesh.vertex_count()), 1.0);
@@ -64,8 +64,8 @@ void RoughSteps::run_on_points(const StepStart& start, CurvatureLevelReport& rep
   if (it_.level == it_.system.finest()) unfolding_.run(start, report);
 }
 
-// The surface on pads stands if it is hardly more bent than that on points, no more folded, and as
-// near to a solution; else all vertices stay on points.
+// Accepts the surface on pads if it has hardly more energy than the one on points, no more folds,
+// and is as near to a solution; otherwise all vertices stay on point forces.
 void RoughSteps::go_onto(Pads& pads, const StepStart& start, CurvatureLevelReport& report) {
   leave_turned(pads);
   if (!pads.any()) return;
@@ -76,7 +76,7 @@ void RoughSteps::go_onto(Pads& pads, const StepStart& start, CurvatureLevelRepor
   steps_.run_damped(&pads, from, {}, report);
   report.folds_before = of_points.folds_before;
   report.folds = unfolding_.find().count();
-  // Without any step where nothing is bent to begin with, or no step can be.
+  // There is no step if nothing is bent at the start, or if no step is possible.
   const bool ends = report.steps.empty() ? report.converged : report.steps.back().length > 0;
   const bool is_as_near =
       ends && is_near(report, damped_decrement) >= is_near(of_points, damped_decrement);
@@ -92,8 +92,8 @@ void RoughSteps::leave_all(Pads& pads) {
   for (std::size_t v = 0; v < pads.places().size(); ++v) leave(pads, v);
 }
 
-// A load acts along the normals of its pad. Where these turn sharply away from the vertex's own, less
-// than half of it holds the vertex, and pads fight each other.
+// A load acts along the normals of its pad. If these turn sharply away from the vertex's normal,
+// less than half of the load holds the vertex, and neighbouring pads oppose each other.
 void RoughSteps::leave_turned(Pads& pads) {
   const std::vector<double> facing = facing_of_stars(it_.grid(), it_.current.linearization.normal);
   for (std::size_t v = 0; v < facing.size(); ++v)

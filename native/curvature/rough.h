@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Surfaces of meshes so rough that plain steps on pads run wild: first on point forces, where steps go
-// down an energy, then on to the pads that the surface can stand on.
+// Fallback for meshes so rough that plain steps on pads diverge: damped steps on point forces,
+// which lower an energy, and then a change to the pads that the surface allows.
 #pragma once
 
 #include "curvature/unfold.h"
@@ -9,14 +9,14 @@ namespace fairing {
 
 class RoughSteps {
  public:
-  // All must outlive it.
+  // All references must outlive it.
   RoughSteps(SurfaceIterate& iterate, Unfolding& unfolding, CurvatureSteps& steps)
       : it_(iterate), unfolding_(unfolding), steps_(steps) {}
 
-  // From `start` to the least total curvature on point forces, and on the finest level on to those
-  // of `pads`, where there are any, that the surface can stand on; the others go. All go where folds
-  // had to be filled (measured: of eleven such surfaces nine folded again on pads, bent more, or
-  // were not as near to a solution). `report` begins anew with it. Throws ErrorCode::cancelled.
+  // Steps from `start` to least total curvature on point forces; on the finest level then on to
+  // those of `pads`, if any, that the surface allows, and deactivates the others. Deactivates all
+  // if folds had to be repaired (measured: of eleven such surfaces nine folded again on pads, had
+  // more energy, or were not as near to a solution). Resets `report`. Throws ErrorCode::cancelled.
   void run(Pads* pads, const StepStart& start, CurvatureLevelReport& report);
 
  private:
@@ -25,7 +25,7 @@ class RoughSteps {
   void leave_turned(Pads& pads);
   void leave_all(Pads& pads);
   void leave(Pads& pads, std::size_t v);
-  // Plain steps to the end, where these make no folds.
+  // Plain steps to the end, undone if they make folds.
   void polish(CurvatureLevelReport& report);
 
   SurfaceIterate& it_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A Gauss-Newton step whose control vertices are held on pads, by weights or within tolerances
+// One Gauss-Newton step with control vertices on pads, with weights or within tolerances
 // (constraints/held_solve.h). The loads act along the normals.
 #include <utility>
 
@@ -10,16 +10,17 @@
 namespace fairing {
 namespace {
 
-// What a step on the finest level leaves: each solve of what it finds, and corrections of the loads of
-// the force that the step began with; the next step begins with other loads anyway (measured: of 0.1,
-// 0.2, 0.3 and 0.5, bob, a hull and spheres take the least time with 0.2). Below it solves leave less,
-// since where a coarse level ends decides where points lie along the surface, and loads more. Where
-// control vertices may move, all leave `inexact`: ends hang on forces.
+// Tolerances of a step on the finest level: of each solve, relative to its first residual, and of
+// the load corrections, relative to the force at the start of the step. The next step changes the
+// loads anyway (measured: of 0.1, 0.2, 0.3 and 0.5, bob, a hull and spheres take the least time
+// with 0.2). On coarser levels solves are more accurate, since their end decides where points lie
+// along the surface, and loads are less accurate. If control vertices may move, both are `inexact`,
+// since the active intervals depend on the forces.
 constexpr double left_on_finest = 0.2, force_left_below = 0.3;
-// Loads that do not settle with their ends make steps that burst.
+// Steps whose loads and active intervals do not settle within this number of corrections diverge.
 constexpr int most_load_corrections = 6;
 
-// Omega: the points' areas, with what else weighs the energy.
+// Omega: the areas of the points, times the weight of the energy.
 Array<double> areas_of(const Array<float>& shape, Workers& workers) {
   Array<double> areas(shape.size() / 4);
   for_each_index(workers, areas.size(), [&](std::size_t i) {
@@ -28,7 +29,7 @@ Array<double> areas_of(const Array<float>& shape, Workers& workers) {
   return areas;
 }
 
-// The loads that leave the least of the whole force, over Omega: M f = -Phi^T force.
+// The loads that minimize the total force over Omega: M f = -Phi^T force.
 NormalLoads fitting_loads(const Hats& hats, const Array<double>& force) {
   NormalLoads under = hats.gather(force), loads;
   for (auto& f : under) f = -f;
@@ -57,7 +58,7 @@ void GaussNewtonSystem::set_weights(int level) {
   for (int l = base_; l <= level; ++l) op(l).set_weights(constraints_->weights());
 }
 
-// The coarsest level's K knows control vertices alone.
+// On the coarsest level the points of K are control vertices only.
 void GaussNewtonSystem::linearize_about(const LinearizedSurface& about,
                                         const Multipliers<1>& held) {
   const Array<float>& diagonal = op(base_).diagonal();
@@ -92,7 +93,7 @@ LevelSolve GaussNewtonSystem::solve_held(int level, const LinearizedSurface& abo
   IntervalConstraints* const constraints = is_bound() ? constraints_ : nullptr;
   if (constraints) constraints->put_on_ends(h.data());
   const Unknowns& rows = hats ? hats->rows() : shared_.unknowns;
-  bool is_zero = !constraints;  // h
+  bool is_zero = !constraints;  // whether h is zero
   const auto residual = [&](const double* x, double* r) {
     if (std::exchange(is_zero, false)) {
       for_each_index(workers(), h.size(), [&](std::size_t i) { r[i] = force[i]; });

@@ -13,17 +13,17 @@
 namespace fairing {
 namespace {
 
-// Plain steps below the finest level end here on pads, and where they only begin another energy's:
-// what is left is less than what the next level, or that energy, changes.
+// Below the finest level, steps on pads end at this decrement, as do steps that only start another
+// energy: the remaining error is smaller than the change by the next level or by that energy.
 constexpr double start_decrement = 1e-2;
 
-// The first level on which variation is minimized for the next level's sake: below it faces have
-// too few points for derivatives of third order (measured: bob, level 3, 3.2 s with level 2, 2.1 s
+// First level on which variation is minimized as a start for the next level. On coarser ones faces
+// have too few points for third derivatives (measured: bob, level 3, 3.2 s with level 2, 2.1 s
 // without).
 constexpr int first_of_variation = 3;
 
-// So many times as far from the mesh's centre as the plate: a surface that has folded there is a
-// spike. One that has not may be the large sphere through a flat cap.
+// A folded surface is a spike if it reaches this many times farther from the mesh's centre than the
+// plate. One without folds may be the large sphere through a flat cap.
 constexpr double farthest_over_plate = 2;
 
 }  // namespace
@@ -87,7 +87,7 @@ bool GaussNewtonSolver::solve_total_curvature(const StepStart& start, const Arra
   return is_plain;
 }
 
-// Levels help each other only where all of them are even.
+// The change of one level starts the next only if plain steps converged on all levels.
 void GaussNewtonSolver::vary(bool is_plain, CurvatureLevelReport& report) {
   if (!is_plain || report.kept_start) variation_.forget();
   if (is_finest() && !report.kept_start)
@@ -97,9 +97,9 @@ void GaussNewtonSolver::vary(bool is_plain, CurvatureLevelReport& report) {
     variation_.look_ahead(end());
 }
 
-// Plain steps, which on an even mesh settle without a fold; else the mesh is rough, on finer levels
-// too. A surface that they have found stands unless the other one is as near to its solution and
-// folds less.
+// Plain steps, which converge without folds on an even mesh. If they fail, the mesh is rough on
+// finer levels too, and the fallback runs. If they converge with folds, the fallback's surface
+// replaces theirs only if it is as near to its solution and has fewer folds.
 bool GaussNewtonSolver::step(const StepStart& start, CurvatureLevelReport& report) {
   if (below_.is_plain) steps_.run_plain(pads_.now(), end(), long_patience, report);
   const bool is_plain = below_.is_plain && is_settled(report);
@@ -150,7 +150,7 @@ double GaussNewtonSolver::tension_of(const Array<double>& x) {
   return options_.tension * surface_area(iterate_.grid(), iterate_.workers(), x.data());
 }
 
-// Of what is reported.
+// The report has energies without tension.
 void GaussNewtonSolver::leave_out_tension(const StepStart& start, const Array<double>& plate,
                                           CurvatureLevelReport& report) {
   report.plate_energy -= tension_of(plate);
@@ -158,8 +158,8 @@ void GaussNewtonSolver::leave_out_tension(const StepStart& start, const Array<do
   report.energy -= tension_of(surface());
 }
 
-// Steps may end in a fold; then the surface that they began at is the better one. Where control
-// vertices are held it may have left the bounds that the thin plate's keeps.
+// Steps may end in a fold; then the surface at their start is better. If control vertices are
+// constrained, that surface may violate the bounds, which the plate satisfies.
 void GaussNewtonSolver::keep_start_if_worse(const StepStart& start, const Array<double>& plate,
                                             CurvatureLevelReport& report) {
   const double bound = report.converged ? energy_bound(report) : equal_energy * report.start_energy;
@@ -182,7 +182,7 @@ void GaussNewtonSolver::keep(const Array<double>& x, const StepStart& start,
   report.kept_start = true;
 }
 
-// However long a spike of folds is, it costs the same energy.
+// A folded spike of any length has the same energy, so the energy does not reveal it.
 bool GaussNewtonSolver::is_thrown(const Array<double>& x, const Array<double>& plate) {
   const auto extent = [&](const Array<double>& y) {
     return largest(iterate_.workers(), 3 * iterate_.grid().size(),
@@ -200,7 +200,7 @@ bool GaussNewtonSolver::is_settled(const CurvatureLevelReport& report) {
   return gap_closed && is_near(report, plain_decrement) && report.energy <= energy_bound(report);
 }
 
-// Where steps had to be damped, or control vertices take part in them, all levels are needed.
+// If steps were damped, or control vertices may move, all levels are solved again.
 bool GaussNewtonSolver::can_move() const { return solved_.is_sound && !constraints_.any(); }
 
 bool GaussNewtonSolver::solve_moved(Mirrors mirrors, Array<double>& found,

@@ -12,12 +12,11 @@
 namespace fairing {
 namespace {
 
-// An energy that is this many times the level below's calls for the polyhedron, as an unlike one does
-// for the refined surface (measured: always with it, a mirror ends at 2.5 times the energy; never with
-// it, a bishop at 1.3 times).
+// If the energy is this many times that of the level below, the polyhedron is tried (measured:
+// tried always, a mirror ends at 2.5 times the energy; never, a bishop at 1.3 times).
 constexpr double desperately_above = 10;
 
-// The candidates after the first. `below` is the level below's solution; a candidate that is taken
+// The candidates after the first. `below` is the solution on the level below; an accepted candidate
 // becomes iterate.current.
 class Candidates {
  public:
@@ -39,7 +38,7 @@ class Candidates {
     take_if_lower();
   }
 
-  // Zero normals: the polyhedron.
+  // Zero normals give the polyhedron.
   void try_refined(const Array<double>& below, const Array<double>& normal) {
     prolong_with_normals(coarse(), it_.grid(), it_.workers(), below.data(), normal.data(),
                          trial().data());
@@ -74,7 +73,7 @@ class Candidates {
 
   SurfaceIterate& it_;
   const Array<double>& plate_;
-  const Array<float>& diagonal_;  // of the latest surface; which points are unknowns stays the same
+  const Array<float>& diagonal_;  // zero, on every surface, for points that are not unknowns
   CurvatureLevelReport& report_;
 };
 
@@ -93,7 +92,7 @@ void choose_start(SurfaceIterate& iterate, int level, Pads* pads, const Array<do
   start_at_plate(iterate, level, plate);
   iterate.linearize({CurvatureEnergy::total_curvature, pads});
   report.plate_energy = report.start_energy = iterate.op().fairness();
-  // Among flat surfaces rounding would choose.
+  // Rounding errors would decide between flat surfaces.
   if (report.start_energy < flat_energy) return;
   Candidates candidates(iterate, plate, report);
   if (below.points.empty()) {
@@ -105,7 +104,7 @@ void choose_start(SurfaceIterate& iterate, int level, Pads* pads, const Array<do
     candidates.try_refined(below.points, below.linearization.normal);
   if (report.start_energy > desperately_above * below.energy)
     candidates.try_refined(below.points, Array<double>(below.points.size(), 0.0));
-  iterate.current.held = below.held;  // densities, which hardly change from level to level
+  iterate.current.held = below.held;  // densities, which hardly change between levels
 }
 
 }  // namespace fairing

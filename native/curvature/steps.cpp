@@ -13,37 +13,38 @@
 namespace fairing {
 namespace {
 
-// A step that an eighth of does not help is in the wrong direction: other damping is worth more
-// than another linearization at a shorter length.
+// A step that does not help at an eighth of its length has the wrong direction: more damping is
+// worth more than another linearization after a shorter step.
 constexpr double least_length = 1.0 / 8;
 
-// The share of the energy that two damped steps have to gain together.
+// Share of the energy that two successive damped steps have to gain.
 constexpr double worthwhile_gain = 0.005;
-// Damped steps: the energy may rise by this share of the decrement. Along a right step it does so
-// near the end, where the minimum of the discrete energy lies beside the solution of the equation.
+// Share of the decrement by which damped steps may raise the energy. Near the end correct steps do
+// raise it, since the solution of the equation is near the minimum of the discrete energy and not
+// at it.
 constexpr double allowed_rise = 0.1;
 
-// Steps of total curvature are accelerated once they are settling: each then leaves a fixed share of
-// the error. Those of minimum variation are below damped_decrement (measured: a creature wanders about
-// otherwise).
-constexpr std::size_t accelerated_steps = 3;  // that are remembered
+// Number of steps that the acceleration uses. Steps to least total curvature are accelerated once
+// they settle, since each then leaves a fixed share of the error; steps to minimum variation below
+// damped_decrement (measured: earlier, a creature's do not converge).
+constexpr std::size_t accelerated_steps = 3;
 
-// Of minimum variation: so much of total curvature, in shares of both energies, and times the last
-// step's decrement, joins the operator (measured: without any, a creature's steps do not settle).
+// For minimum variation: K has this share of W, relative to both energies, times the last step's
+// decrement (measured: without it a creature's steps do not settle).
 constexpr double share_of_curvature = 0.1;
 
-// Near a sphere nothing varies, and decrements relative to nothing say nothing: the energy is
-// measured against itself and this share of the mean squared curvature.
+// Near a sphere the variation vanishes, and decrements relative to it mean nothing: they are
+// relative to the variation plus this share of the mean squared curvature.
 constexpr double flat_share = 1e-4;
 
-// A step, and what it changes of the loads on pads.
+// A step with its change of the loads on pads.
 struct HeldStep {
-  Array<double> along;  // the normals, 1 number a point
-  NormalLoads loads;    // empty: there are none
+  Array<double> along;  // along the normals, 1 number a point
+  NormalLoads loads;    // empty: no pads
 };
 
-// Steps in the norm of the operator, as it is linearized where the latest one begins. Loads follow
-// from the surface: they go along, and are not judged by.
+// Steps with the norm of the operator, linearized at the start of the latest step. Loads are
+// extrapolated with them but are not in the norm, since they follow from the surface.
 struct StepSpace {
   using Vector = HeldStep;
 
@@ -90,11 +91,11 @@ Bending bending_of(const LinearizedSurface& surface, Workers& workers) {
   return {sum(workers, shape.size() / 4, square), sum(workers, shape.size() / 4, area)};
 }
 
-// A direction, the longest share of it that is acceptable, and the same again from there.
+// Repeats: solve for a direction, find the longest acceptable length, move.
 class StepLoop {
  public:
-  // `damping` is null for plain steps. `patience`: steps in which plain_decrement has to be reached;
-  // 0: any number.
+  // `damping` is null for plain steps. `patience`: number of steps to reach plain_decrement; 0: any
+  // number.
   StepLoop(SurfaceIterate& iterate, const Functional& functional, LocalDamping* damping,
            const StepEnd& end, int patience)
       : it_(iterate),
@@ -108,8 +109,8 @@ class StepLoop {
     flat_ = flat_energy_about(it_.current, it_.workers());
   }
 
-  // Steps until one is the last, or `most` have been tried. Every step is added to report.steps; a
-  // rejected one has length 0. Damped steps go on after one: damping has grown.
+  // Takes steps until an end or `most` trials. Adds every step to report.steps; a rejected one has
+  // length 0, after which damped steps go on with more damping.
   void run(int most, CurvatureLevelReport& report) {
     report.last_steps = 0;
     while (report.last_steps < most && is_bent(report)) {
@@ -127,14 +128,14 @@ class StepLoop {
   }
 
  private:
-  // Else nothing is left to gain.
+  // False if there is no energy left to lower.
   bool is_bent(CurvatureLevelReport& report) const {
     report.converged = it_.current.energy < flat_energy;
     if (report.converged) report.left = 0;
     return !report.converged && std::isfinite(it_.current.energy);
   }
 
-  // An energy that is not finite is no step's.
+  // Rejects an energy that is not finite.
   bool finds_length(StepReport& step) {
     for (step.length = 1; step.length >= least_length; step.length /= 2) {
       const double energy = try_length(step);
@@ -155,14 +156,14 @@ class StepLoop {
     step.energy = it_.current.energy;
     const double gain = it_.system.solve(it_.level, it_.current, it_.step, held_, step);
     const double share = gain / scale();
-    const bool is_of_use = share > -plain_decrement * plain_decrement;  // else it is no rounding
+    const bool is_of_use = share > -plain_decrement * plain_decrement;  // or rounding
     step.decrement =
         is_of_use ? std::sqrt(std::max(share, 0.0)) : std::numeric_limits<double>::infinity();
     if (step.decrement < (varies() ? damped_decrement : settling_decrement)) accelerate();
     if (damping_) it_.op().predict(it_.current.linearization.shape, it_.step.data(), predicted_);
   }
 
-  // The potential: the energy less the work of the loads, which a step on pads goes down.
+  // The potential is the energy minus the work of the loads; a step on pads lowers it.
   double try_length(StepReport& step) {
     const double energy = it_.try_step(step.length);
     step.movement = it_.movement(step.length);
@@ -180,7 +181,7 @@ class StepLoop {
            !(energy > it_.current.energy + allowed_rise * step.decrement * scale());
   }
 
-  // Goes to the latest trial. Returns whether that is the end.
+  // Moves to the latest trial. Returns whether it is the end.
   bool is_last(const StepReport& step, CurvatureLevelReport& report) {
     ++accepted_;
     if (step.length != 1) anderson_.took_share(step.length);
@@ -194,8 +195,8 @@ class StepLoop {
     const bool too_late =
         patience_ > 0 && accepted_ >= patience_ && step.decrement > plain_decrement;
     flat_ = flat_energy_about(it_.current, it_.workers());
-    // Where linear solves end too early for a step to lessen the decrement by half, the next ones
-    // would gain as little.
+    // If a solve ends too early for the step to halve the decrement, later steps would gain as
+    // little.
     const bool is_stuck = varies() && !step.solved && before > 0 && 2 * step.decrement > before;
     return report.converged || too_late || is_stuck || leads_nowhere(step);
   }
@@ -210,18 +211,18 @@ class StepLoop {
   bool varies() const {
     return it_.current.functional.energy == CurvatureEnergy::minimum_variation;
   }
-  // What decrements are relative to.
+  // Decrements are relative to this energy.
   double scale() const { return it_.current.energy + flat_; }
 
-  // Variation hardly sees long waves; total curvature's matrix does. It joins as far as the last step
-  // was from the end.
+  // The variation is insensitive to long waves, the matrix of total curvature is not. Its share is
+  // proportional to the last decrement.
   double share_for_long_waves() {
     const double last = remainder_.last_decrement() > 0 ? remainder_.last_decrement() : 1;
     return share_of_curvature * last * scale() / bending_of(it_.current, it_.workers()).square;
   }
 
-  // Loads go along: those of a plain step would lag behind the surface, and the next step make up
-  // for it. The first step's are fitted, and change from nothing known.
+  // Accelerates the loads too: those of a plain step lag behind the surface, and the next step
+  // would correct that. The loads of the first step are fitted, and have no change yet.
   void accelerate() {
     const NormalLoads& before = it_.current.held.loads;
     const bool with_loads = !varies() && !damping_ && !it_.system.is_bound();
@@ -234,8 +235,8 @@ class StepLoop {
     it_.step = std::move(step.along);
   }
 
-  // Whether plain steps have climbed too long, or damped ones gain next to nothing. The potential is
-  // the energy less the work of the loads, which are others in each step: its changes are summed.
+  // Whether plain steps have climbed too long, or damped ones gain next to nothing. The work of the
+  // loads differs from step to step, so changes of the potential are summed.
   bool leads_nowhere(const StepReport& step) {
     if (step.decrement < damped_decrement) return false;
     gained_ += gain_;
@@ -248,7 +249,7 @@ class StepLoop {
     return climbed_ >= longest_climb;
   }
 
-  // So near the end the energy says nothing about a step any more.
+  // Closer to the end the energy is too inaccurate to judge a step.
   bool is_checked(const StepReport& step) const {
     return damping_ && !(step.decrement < damped_decrement);
   }
@@ -259,12 +260,13 @@ class StepLoop {
   int patience_;
   Anderson<StepSpace> anderson_;
   Array<float> predicted_;
-  Multipliers<1> held_;  // that goes with the step
+  Multipliers<1> held_;  // of the latest step
   LeftToMove remainder_;
-  double flat_ = 0;  // an energy that counts for nothing
-  // Of the potential: by the latest trial, by the last step, by all steps, and the most so far.
+  double flat_ = 0;  // energy that counts as zero
+  // Changes of the potential: by the latest trial, by the last step, by all steps, and the largest
+  // sum so far.
   double gain_ = 0, last_gain_ = 0, gained_ = 0, most_gained_ = 0;
-  int accepted_ = 0, rejected_ = 0, climbed_ = 0, damped_ = 0;  // steps
+  int accepted_ = 0, rejected_ = 0, climbed_ = 0, damped_ = 0;  // numbers of steps
 };
 
 }  // namespace
@@ -283,7 +285,7 @@ bool is_near(const CurvatureLevelReport& report, double decrement) {
 
 void CurvatureSteps::run(Pads* pads, LocalDamping* damping, const StepEnd& end, int patience,
                          CurvatureLevelReport& report) {
-  // Local damping compares tensors in space.
+  // Local damping compares tensors in space, so it needs the charts' axes.
   StepLoop(iterate_, {CurvatureEnergy::total_curvature, pads, damping != nullptr}, damping, end,
            patience)
       .run(options_.max_steps, report);
@@ -296,8 +298,8 @@ void CurvatureSteps::run_variation(const StepEnd& end, CurvatureLevelReport& rep
   try {
     StepLoop(iterate_, of_variation, &damping, end, 0).run(options_.max_steps, report);
   } catch (const FairingError& error) {
-    // where variation hardly sees what vertices leave open, its system has no factor: the surface that
-    // there is stands
+    // The variation may leave vertices undetermined that only its long waves move; then its matrix
+    // has no factor, and the present surface is the result
     if (error.code != ErrorCode::underdetermined) throw;
     report.steps.pop_back();
     --report.last_steps;

@@ -11,13 +11,13 @@
 namespace fairing {
 namespace {
 
-// Of the residual's norm. More accuracy gains no outer step, or at most one.
+// Relative to the first residual. More accuracy saves no outer step, or at most one.
 constexpr double inner_accuracy = 1e-2;
-// Iterations of a solve for minimum variation. What they leave goes to the next step, which does not
-// count as having arrived (left_to_move.h).
+// Most iterations of a solve for minimum variation. The next step corrects the rest; a step with an
+// unfinished solve does not count as the last one (left_to_move.h).
 constexpr int most_of_variation = 24;
 
-constexpr double progress_begin = 0.3, progress_end = 0.85;  // of the whole run
+constexpr double progress_begin = 0.3, progress_end = 0.85;  // shares of the whole run
 
 HierarchyOptions hierarchy_options(const Unknowns& unknowns, const GaussNewtonOptions& options,
                                    bool keeps_factors) {
@@ -26,7 +26,7 @@ HierarchyOptions hierarchy_options(const Unknowns& unknowns, const GaussNewtonOp
   out.always_factor = unknowns.any_vertex;
   out.cheap_factor = direct_limit_of_steps;
   out.keeps_factors = keeps_factors;
-  // As for the thin plate: the area's share of the diagonal falls from level to level.
+  // As for the thin plate, the area's share of the diagonal falls from level to level.
   if (options.tension > 0) ++out.settled;
   return out;
 }
@@ -88,7 +88,7 @@ void GaussNewtonSystem::linearize_below(int level, const LinearizedSurface& abou
     Array<double>& coarse = buffer[l % 2];
     coarse.resize(3 * grid(l).size());
     inject<3>(grid(l), grid(l + 1), workers(), fine->data(), coarse.data());
-    op(l).linearize(coarse.data(), {});  // of total curvature, which cycles are of
+    op(l).linearize(coarse.data(), {});  // of total curvature, which the cycles use
     op(l).spectrum_changed();
     fine = &coarse;
   }
@@ -128,7 +128,7 @@ double GaussNewtonSystem::solve(int level, const LinearizedSurface& about, Array
     set_weights(level);
   }
   LevelSolve solved;
-  Array<double> of_held;  // what holds control vertices, in the force
+  Array<double> of_held;  // force of loads and springs
   const Array<double>& force = about.linearization.force;
   if (functional.pads || constraints_) {
     solved = solve_held(level, about, h, held, of_held, report);
@@ -166,7 +166,7 @@ StepWork GaussNewtonSystem::work(int level) const {
 void GaussNewtonSystem::report_progress(int level, std::size_t steps) {
   monitor_.check_cancelled();
   if (level < finest()) return;
-  // Nobody knows how many there will be.
+  // The number of steps is unknown.
   const double share = double(steps) / double(steps + 1);
   monitor_.report(Phase::solve, progress_begin + (progress_end - progress_begin) * share);
 }

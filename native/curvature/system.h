@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The Gauss-Newton systems K h = f of all levels about one surface, and linear solves with them:
-// conjugate gradients around V-cycles, whose transfers are those of the thin plate. And the surface
-// itself, with its linearization and a trial beside it: what all kinds of steps work on.
+// The Gauss-Newton systems K h = f of all levels about one surface, with linear solves: conjugate
+// gradients with V-cycles, whose transfers are those of the thin plate. Also the surface with its
+// linearization and a trial surface, on which all methods work.
 #pragma once
 
 #include <memory>
@@ -20,9 +20,9 @@ namespace fairing {
 // Of all levels; they must outlive the system.
 using GridLevels = std::vector<const GridLevel*>;
 
-// Keeps mirror symmetries: surfaces and steps become the mean with their mirror images. Rounding
-// differs between the two sides of a mirror, and steps over crumpled places amplify the difference
-// until damping decides differently on either side, so this is needed after every step.
+// Keeps mirror symmetries: replaces surfaces and steps by the mean with their mirror images.
+// Rounding differs between the two sides of a mirror, and steps over crumpled places amplify the
+// difference until damping decides differently, so this is necessary after every step.
 class Symmetrizer {
  public:
   Symmetrizer(Mirrors mirrors, const Unknowns& unknowns, Workers& workers)
@@ -30,7 +30,7 @@ class Symmetrizer {
 
   void set_mirrors(Mirrors mirrors) { mirrors_ = std::move(mirrors); }
 
-  // 3 numbers a point; what is no unknown stays.
+  // 3 numbers a point; points that are not unknowns stay.
   void points(const GridLevel& grid, Array<double>& x) const;
   // 1 number a point, along the normals.
   void displacements(const GridLevel& grid, Array<double>& h) const;
@@ -46,22 +46,22 @@ struct LinearizedSurface {
   Functional functional;
   Linearization linearization;  // of the functional about `points`
   double energy = 0;
-  int number = 0;       // which of its level's linearizations it is: K is about the latest
-  Multipliers<1> held;  // what holds its control vertices; empty: not known
+  int number = 0;       // number of its linearization on its level: K is about the latest one
+  Multipliers<1> held;  // multipliers of its control vertices; empty: unknown
 };
 
-// Decrement below which the surface changes so little from step to step that coarse levels, their
-// factor and the spectra serve as they are.
+// Below this decrement the surface changes so little that coarse levels, their factor and the
+// eigenvalues are kept.
 constexpr double settling_decrement = 0.1;
 
-// What solves leave of their error where what they solve for is about to change: loads, and ends.
+// Tolerance of solves whose loads or active intervals are about to change, relative to the error.
 constexpr double inexact = 0.1;
 
 class GaussNewtonSystem {
  public:
-  // `levels`: all from 0 on; those below `base` have no unknowns worth a solve. `constraints`: what holds the
-  // control vertices that move, along the normals, while total curvature is minimized, until let_go();
-  // or null. All references must outlive the system.
+  // `levels`: all from 0 on; those below `base` have no unknowns that are worth a solve.
+  // `constraints`: those of control vertices that move, along the normals, while total curvature is
+  // minimized, until let_go(); or null. All references must outlive the system.
   GaussNewtonSystem(const ControlMesh& mesh, const GridLevels& grids, int base,
                     const Stencils& stencils, const Unknowns& unknowns,
                     const GaussNewtonOptions& options, IntervalConstraints* constraints,
@@ -79,44 +79,44 @@ class GaussNewtonSystem {
   Symmetrizer& symmetrizer() { return symmetrizer_; }
   Workers& workers() { return shared_.workers; }
 
-  // The surface's linearization about its points, and with it K of `level`.
+  // Linearizes about the surface's points, which sets K of `level`.
   void linearize(int level, LinearizedSurface& surface);
-  // The systems of the levels below `level` about a surface of that level, injected.
+  // Linearizes the levels below `level` about the injected surface of that level.
   void linearize_below(int level, const LinearizedSurface& about);
 
-  // mu_i K_ii is added to the diagonal of `level`, and injected of those below; empty: nothing.
-  // `share`: as for CurvatureLevel.
+  // Adds mu_i K_ii to the diagonal of `level`, and the injected mu on the levels below; empty:
+  // nothing. `share`: as for CurvatureLevel.
   void set_damping(int level, const Array<float>& mu, double share);
 
-  // From here on nothing holds control vertices: those that are none of `unknowns` stay. The systems
-  // of `level` and below are linearized about `surface`, with factors of those unknowns.
+  // Ends the constraints: control vertices that are not among `unknowns` are fixed. Linearizes
+  // `level` and those below about `surface`, with factors for these unknowns.
   void let_go(Unknowns unknowns, int level, LinearizedSurface& surface);
-  // Whether it keeps any within a tolerance, and the gap that is wanted then on a level.
+  // Whether control vertices have tolerances; then the duality gap wanted on a level.
   bool is_bound() const { return constraints_ && constraints_->active(); }
   double wanted_gap(int level) const { return level == finest() ? gap_wanted : coarse_gap; }
-  // The share of its error that the solve of a step on `level` leaves.
+  // Share of its error that the solve of a step on `level` leaves.
   double share_left(int level, const Functional& functional) const;
-  // Solves K h = force to a hundredth of the residual; h is symmetrized. Where control vertices
-  // stand on pads or are held otherwise, the force has the loads' part beside it (solve_held.cpp):
-  // `held` takes corrections, from that of the step before; empty loads start as those that fit
-  // best. The linear solve's part of `report` is set. Returns h . K h = force . h, by which a full step would lower a
-  // quadratic energy; below zero where the solve, or the loads, have found nothing of use.
+  // Solves K h = force to a hundredth of the residual and symmetrizes h. With pads or other
+  // constraints the loads add to the force (solve_held.cpp): `held` is corrected from that of the
+  // previous step; empty loads start at a least-squares fit. Sets the linear solve's part of
+  // `report`. Returns h . K h = force . h, by which a full step would lower a quadratic energy; it
+  // is negative if the solve or the loads have failed.
   double solve(int level, const LinearizedSurface& about, Array<double>& h, Multipliers<1>& held,
                StepReport& report);
 
-  // All that `level` has taken so far.
+  // All work on `level` so far.
   StepWork work(int level) const;
 
-  // Before each step: progress, on the finest level. Throws ErrorCode::cancelled.
+  // Call it before each step; reports progress on the finest level. Throws ErrorCode::cancelled.
   void report_progress(int level, std::size_t steps);
 
  private:
   PcgLimits limits(const Functional& functional) const;
   void linearize_about(const LinearizedSurface& about, const Multipliers<1>& held);
-  // The springs' present weights, on all levels up to `level`.
+  // Sets the present weights of the springs on all levels up to `level`.
   void set_weights(int level);
   HeldLimits held_limits(int level, const Functional& functional) const;
-  // `of_held`: the forces of loads and springs.
+  // of_held <- the forces of loads and springs.
   LevelSolve solve_held(int level, const LinearizedSurface& about, Array<double>& h,
                         Multipliers<1>& held, Array<double>& of_held, StepReport& report);
 
@@ -131,7 +131,7 @@ class GaussNewtonSystem {
   std::unique_ptr<Hierarchy> hierarchy_;
   Symmetrizer symmetrizer_;
   StepWork work_;
-  IntervalConstraints* constraints_;  // null: nothing
+  IntervalConstraints* constraints_;  // null: none
 };
 
 struct SurfaceIterate {
@@ -139,32 +139,32 @@ struct SurfaceIterate {
   int level = 0;
   LinearizedSurface current{};
   LinearizedSurface trial{};
-  Array<double> step{};  // from `current` to the trials: along the normals, 1 number a point
-  // The next step begins so near an earlier surface of this level that coarse levels, which only
-  // precondition, may stay as they are.
+  Array<double> step{};  // from `current` to the trials along the normals, 1 number a point
+  // The next step starts so near an earlier surface of this level that coarse levels, which only
+  // precondition, are kept.
   bool is_near_earlier = false;
 
   const GridLevel& grid() const { return system.grid(level); }
   CurvatureLevel& op() { return system.op(level); }
   Workers& workers() { return system.workers(); }
 
-  // `current` about its points, and K.
+  // Linearizes about `current`, which sets K.
   void linearize() { system.linearize(level, current); }
   void linearize(const Functional& functional) {
     current.functional = functional;
     linearize();
   }
-  // The same, unless both are already.
+  // The same, unless it is done already.
   void begin(const Functional& functional);
 
-  // trial <- current + length step, symmetrized, and K about it. Returns its energy.
+  // trial <- current + length step, symmetrized; linearizes about it. Returns its energy.
   double try_step(double length);
 
-  // The farthest that a step of that length takes a point.
+  // Largest move of a point by a step of that length.
   double movement(double length);
 
-  // Before the next step: whether coarse levels have to be linearized anew. `last_decrement` of the
-  // step before; 0: there was none, or it was rejected.
+  // Call it before each step. Returns whether to linearize coarse levels again. `last_decrement`:
+  // of the previous step; 0 if there was none, or it was rejected.
   bool needs_coarse_levels(double last_decrement);
 };
 

@@ -37,7 +37,7 @@ double total_curvature(const GridLevel& grid, Workers& workers, const double* x)
           gauss.of(run) += point.gauss;
         });
       });
-  // What is left beside the mean curvature's part is the integral of (k1 - k2)^2 / 2.
+  // The remainder beside the part of the mean curvature is the integral of (k1 - k2)^2 / 2.
   const double sum = mean.total();
   return sum + std::max(sum - 2 * gauss.total(), 0.0);
 }

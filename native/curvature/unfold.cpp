@@ -12,10 +12,10 @@
 namespace fairing {
 namespace {
 
-// Places of all folds so far are filled at most so many times, with the folds' neighbours: one ring
-// more each time.
+// Most times that the places of all folds so far are filled again, each time with one more ring of
+// neighbours.
 constexpr int most_rounds = 3;
-constexpr int rings = 2;  // the first time
+constexpr int rings = 2;  // in the first round
 
 double point_energy(const Linearization& about, std::size_t i) {
   const float* m = &about.shape[4 * i];
@@ -35,7 +35,7 @@ struct Ring {
   bool closed = true;
 };
 
-// Calls visit(point, ring) for the marked unknowns, in order; `ring` is reused.
+// Calls visit(point, ring) for the marked unknowns in order; `ring` is reused.
 template <class Visit>
 void visit_marked(const GridLevel& grid, const Unknowns& unknowns, const Array<float>& marks,
                   Visit&& visit) {
@@ -58,7 +58,7 @@ void visit_marked(const GridLevel& grid, const Unknowns& unknowns, const Array<f
         ring.closed = !edge.boundary();
         all.clear();
         append_ring(grid, run, i, all);
-        const std::size_t start = edge.side[0] < 0 ? 1 : 0;  // open: from the rim
+        const std::size_t start = edge.side[0] < 0 ? 1 : 0;  // an open ring starts at the border
         for (std::size_t j = 0; j < all.size(); ++j) {
           const std::size_t k = (start + j) % all.size();
           if (!run.ring->far[k]) ring.points.push_back(all[k]);
@@ -79,7 +79,8 @@ double half_tangent(const Vec3& a, const Vec3& b) {
   return std::tan(std::atan2(a.cross(b).norm(), a.dot(b)) / 2);
 }
 
-// Sums to one. A neighbour at the point's own place has all the weight, as in the limit.
+// Weights that sum to one. A neighbour that coincides with the point has all the weight, as in the
+// limit.
 void mean_value_weights(const double* shape, Index point, const Ring& ring,
                         std::vector<double>& weights) {
   const std::size_t size = ring.points.size();
@@ -170,7 +171,7 @@ void Unfolding::run(const StepStart& start, CurvatureLevelReport& report) {
     folds = find();
     again.folds_before = report.folds_before;
     again.folds = folds.count();
-    // Mostly the energy falls: the folds had trapped the steps.
+    // The energy mostly falls, since the folds had trapped the steps.
     const double most = again.folds < report.folds
                             ? std::min(anothers_least * report.energy, report.plate_energy)
                             : report.energy / anothers_least;
@@ -191,7 +192,7 @@ void Unfolding::solve_again(const StepStart& start, const Array<float>& marks,
   steps_.run_damped(nullptr, filled, marks, report);
 }
 
-// As the control mesh has the marked points between those around.
+// Places the marked points between their neighbours as they lie on the control mesh.
 void Unfolding::refill(const Array<float>& marks, Array<double>& x) {
   const Unknowns& unknowns = it_.system.shared().unknowns;
   Array<double> linear(x.size());
@@ -201,8 +202,8 @@ void Unfolding::refill(const Array<float>& marks, Array<double>& x) {
   it_.system.symmetrizer().points(it_.grid(), x);
 }
 
-// Marks what is around the points that have gained so much that the energy is no equal one; false:
-// none has.
+// Marks the surroundings of points whose energy has grown so much that the total is no longer
+// comparable. Returns whether there are any.
 bool Unfolding::mark_bursts(const Linearization& before, double energy, Array<float>& marks) {
   Array<float> bursts(marks.size());
   for_each_index(it_.workers(), bursts.size(), [&](std::size_t i) {

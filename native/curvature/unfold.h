@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Taking folds out that steps have left. They lie along the surface, so that no displacement along
-// its normals undoes them: places with folds are filled anew in the start, and the steps taken
-// again.
+// Fold repair. Folds lie along the surface, so displacements along its normals do not remove them:
+// the places with folds are filled again in the start, and the steps are repeated.
 #pragma once
 
 #include "curvature/folds.h"
@@ -9,27 +8,27 @@
 
 namespace fairing {
 
-// Gives the marked points (above zero), where they are unknowns, the positions on the surface x
-// that are harmonic by the mean value weights [Floater 2003] of `shape`; all others stay. Weights
-// are positive and reproduce linear maps of a flat `shape`, so that where the surface around is not
-// folded, neither is the filling. 3 numbers a point. If the weights' matrix is singular, x stays.
+// Gives marked points (above zero) that are unknowns the positions on the surface x that are
+// harmonic with the mean value weights [Floater 2003] of `shape`; other points stay. The weights
+// are positive and reproduce linear maps of a flat `shape`, so if the surrounding surface is not
+// folded, the filling is not either. 3 numbers a point. If the matrix is singular, x stays.
 void fill_harmonically(const GridLevel& grid, const Unknowns& unknowns, const Array<float>& marks,
                        const double* shape, double* x);
 
 class Unfolding {
  public:
-  // `folded_faces`: control faces whose folds are excused (folded_control_faces). All must outlive
-  // it.
+  // `folded_faces`: control faces whose folds are excused (folded_control_faces). All references
+  // must outlive it.
   Unfolding(SurfaceIterate& iterate, const ControlConstraints& constraints,
             const std::vector<std::uint8_t>& folded_faces, CurvatureSteps& steps)
       : it_(iterate), constraints_(constraints), folded_faces_(folded_faces), steps_(steps) {}
 
-  // Folds of the surface as it is.
+  // Folds of the present surface.
   Folds find() const;
 
-  // Replaces iterate.current, at which the damped steps from `start` ended, by a surface with fewer
-  // folds if one is found that has hardly more energy, or by one with much less energy; sets
-  // folds_before and folds of `report`, or replaces it.
+  // Tries to replace iterate.current, the end of the damped steps from `start`, by a surface with
+  // fewer folds and hardly more energy, or with much less energy. Sets folds_before and folds of
+  // `report`, or replaces it.
   void run(const StepStart& start, CurvatureLevelReport& report);
 
  private:

@@ -9,9 +9,9 @@
 
 namespace fairing {
 
-// The variation of such a start says nothing: what prolongation leaves is rough, and goes in the
-// first step (measured: two to six times that of total curvature's surface, and a tenth of the way to
-// go).
+// The variation of such a start says nothing, since prolongation leaves short waves, which the
+// first step removes (measured: its variation is two to six times that of the surface of least
+// total curvature, and it is ten times nearer to the solution).
 bool VariationSteps::begin_with_change() {
   if (change_.empty()) return false;
   const Array<double> below = std::exchange(change_, {});
@@ -37,13 +37,14 @@ void VariationSteps::go_to(const Array<double>& points) {
   iterate_.linearize(of_variation);
 }
 
-// Returns whether the steps from iterate.current have ended at no more than `most`.
+// Returns whether the steps from iterate.current end at no more than `most`.
 bool VariationSteps::steps_fall(double most, const StepEnd& end, CurvatureLevelReport& report) {
   steps_.run_variation(end, report);
   return iterate_.current.energy <= most;
 }
 
-// iterate.current becomes the surface of least variation, if that varies less. Returns whether.
+// Makes iterate.current the surface of least variation if that varies less. Returns whether it
+// does.
 bool VariationSteps::vary(const Array<double>& start, const StepEnd& end,
                           CurvatureLevelReport& report) {
   iterate_.linearize(of_variation);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From the surface of least total curvature to that of least variation of curvature [Moreton and
-// Sequin 1992], on the same level and along its normals, so that points keep their places on the
-// surface. The level below tells where to begin: its own change from the one to the other, prolonged.
+// Moves from the surface of least total curvature to that of least variation of curvature [Moreton
+// and Sequin 1992], on the same level and along its normals, so that points keep their places on
+// the surface. It starts with the prolongated change on the level below.
 #pragma once
 
 #include "curvature/steps.h"
@@ -14,21 +14,19 @@ class VariationSteps {
       : iterate_(iterate), steps_(steps) {}
 
   // On the finest level: from iterate.current, which must be linearized for total curvature, to the
-  // surface that the steps end at, or where they began if that varies less; it is linearized for
-  // total curvature again. `report` has the steps added; energy, both variations, `left` and
-  // `converged` are set. A surface without any curvature stays as it is. Throws
-  // ErrorCode::cancelled.
+  // end of the steps, or back to their start if that varies less; then it is linearized for total
+  // curvature again. Adds the steps to `report`, and sets energy, both variations, `left` and
+  // `converged`. A surface without curvature stays. Throws ErrorCode::cancelled.
   void run(const StepEnd& end, CurvatureLevelReport& report);
 
-  // On a level below: the same, but iterate.current stays as it is. The next level begins with what
-  // has been found.
+  // On a coarser level: the same, but iterate.current stays; the next level starts with the result.
   void look_ahead(const StepEnd& end);
 
-  // Whether nothing varied on a level below, as on spheres: total curvature's steps lead there too,
-  // and are the cheaper ones.
+  // Whether the variation was zero on a coarser level, as on spheres: then total curvature's steps
+  // lead to the same surface and cost less.
   bool vanishes() const { return vanishes_; }
 
-  // The next level is to begin with nothing but its own surface.
+  // The next level starts with its own surface only.
   void forget() { change_.clear(); }
 
  private:
@@ -39,7 +37,8 @@ class VariationSteps {
 
   SurfaceIterate& iterate_;
   CurvatureSteps& steps_;
-  // On the level before: from total curvature to variation, 3 numbers a point; empty: not known.
+  // The change from total curvature to variation on the previous level, 3 numbers a point; empty:
+  // unknown.
   Array<double> change_;
   bool vanishes_ = false;
 };
