@@ -16,7 +16,7 @@ namespace {
 // The faces around a control vertex in its chart.
 struct Star {
   std::vector<Vec2> ring;
-  std::vector<Vec3> at;     // in space, from the vertex
+  std::vector<Vec3> at;     // in space, relative to the vertex
   std::vector<Index> edge;  // from each point of the ring to the next
 };
 
@@ -35,7 +35,8 @@ Star star_of(const ControlMesh& mesh, const ChartMaker& charts, std::span<const 
   return out;
 }
 
-// Where a ray from the vertex leaves its star: how far away in the chart, and in space.
+// The point where a ray from the vertex leaves its star: distance in the chart, and offset in
+// space.
 struct Exit {
   double distance = 0;
   Vec3 at = Vec3::Zero();
@@ -55,7 +56,7 @@ Exit leave(const Star& star, const Vec2& direction) {
   return {};
 }
 
-// The second derivative of the control mesh across an edge of the ring.
+// Second derivative of the control mesh across an edge of the ring.
 Vec3 bend_across(const Star& star, Index edge) {
   const auto k =
       std::size_t(std::find(star.edge.begin(), star.edge.end(), edge) - star.edge.begin());
@@ -66,7 +67,8 @@ Vec3 bend_across(const Star& star, Index edge) {
   return 2 / (to.distance + from.distance) * (to.at / to.distance + from.at / from.distance);
 }
 
-// A stretch of a curve from one side: the edges in turn, and the vertices on pads that face them.
+// A stretch of a curve seen from one side: its edges in order, and the vertices on pads that face
+// them.
 class Row {
  public:
   Row(const GridLevel& grid, const ChartMaker& charts, const Pads& pads, const Unknowns& unknowns,
@@ -78,7 +80,8 @@ class Row {
         unknowns_(unknowns),
         positions_(positions) {}
 
-  // The next edge, seen from one of its sides, which runs along with the stretch or against it.
+  // Adds the next edge, by one of its sides, which has the direction of the stretch or the opposite
+  // one.
   void add(const Side& side, bool along) {
     sides_.push_back(&side);
     const Face& face = mesh_.faces[std::size_t(side.face)];
@@ -86,7 +89,7 @@ class Row {
       add_vertex(far_corner(side, along ? face.size + 1 - k : k), side.edge);
   }
 
-  // Adds forces to those of all rows.
+  // Adds the forces of all rows to `forces`.
   void bend(bool closed, std::vector<double>& forces) {
     if (beside_.empty()) return;
     if (forces.empty()) forces.resize(3 * grid_.size());
@@ -99,7 +102,7 @@ class Row {
     Index vertex;
     Vec3 normal;
     double bend;  // along the normal
-    int edges;    // that it is the sum of
+    int edges;    // number of edges in the sum
   };
 
   Index far_corner(const Side& side, int k) const {
@@ -119,7 +122,7 @@ class Row {
     }
   }
 
-  // One of the last two, or on a closed curve the first.
+  // Finds v among the last two and, on a closed curve, the first.
   Beside* find(Index v) {
     const std::size_t m = beside_.size();
     for (std::size_t k = m; k-- > 0 && k + 2 >= m;)
@@ -141,7 +144,7 @@ class Row {
     }
   }
 
-  // A moment on the border bends the energy of the first row of points: of the force there times its
+  // A moment on the border changes the energy of the first row of points: the force there times the
   // distance there is one for each piece of the border.
   void bend_face(const Side& side, std::vector<double>& forces) const {
     const Face& face = mesh_.faces[std::size_t(side.face)];
@@ -164,7 +167,7 @@ class Row {
     }
   }
 
-  // Of points on the face's side before this one (-1), behind it (1), and inside.
+  // Position relative to the side: -1 is before it, 1 after it.
   bool is_unknown(const Side& side, int at) const {
     const Face& face = mesh_.faces[std::size_t(side.face)];
     if (at == 0) return unknowns_.has_face(std::size_t(side.face));

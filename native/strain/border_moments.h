@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A border's condition of third order. The plate ends free at a curve, so no moment crosses it, and
-// where a shape bends on its border as it does beside it, the first rows of vertices are loaded in
-// its place. That says nothing of them. With the moment of the first row on the curve too, a shape
-// that bends evenly there has no loads.
+// A condition of third order at borders. The plate ends free at a curve, so no moment crosses it.
+// If a shape bends on its border as it does next to it, the first rows of vertices carry loads
+// instead, which do not indicate strain. With the moment of the first row applied to the curve, a
+// shape that bends evenly has no loads there.
 #pragma once
 
 #include <span>
@@ -14,11 +14,11 @@
 
 namespace fairing {
 
-// What turns the sheets on both sides of all smoothed curves: forces on the points beside them, 3
-// numbers a point of the level; empty where no control vertex on a pad is beside a curve. A vertex'
-// bending across the curve is the median of its own and its two neighbours' along the curve, so that
-// none that is out of line makes the moment, or hides behind it. `positions` of all control vertices,
-// in working coordinates.
+// The moments on both sides of all smoothed curves: forces on the points next to them, 3 numbers a
+// point of the level; empty if no control vertex on a pad is next to a curve. The bending of a
+// vertex across the curve is the median of its own and that of its two neighbours along the curve,
+// so that a single vertex with an error neither causes the moment nor is hidden by it. `positions`
+// of all control vertices are in working coordinates.
 std::vector<double> border_moments(const GridLevel& grid, const ChartMaker& charts,
                                    const Pads& pads, const Unknowns& unknowns,
                                    std::span<const Vec3> positions);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t in_a_row = 5;  // vertices of a fourth difference
 
-// The weights of a fourth divided difference, times 4!: of the derivative.
+// The weights of a fourth divided difference, times 4! to approximate the derivative.
 std::array<double, in_a_row> fourth_derivative(const std::array<double, in_a_row>& at) {
   std::array<double, in_a_row> weight{};
   for (std::size_t k = 0; k < in_a_row; ++k) {
@@ -26,7 +26,7 @@ std::array<double, in_a_row> fourth_derivative(const std::array<double, in_a_row
 
 CurveLoads::CurveLoads(const ControlMesh& mesh, std::span<const Vec3> positions, double exponent) {
   std::vector<Eigen::Triplet<double, Index>> entries;
-  std::vector<double> middle;  // of each row, the length that is the middle vertex'
+  std::vector<double> middle;  // of each row, the length that belongs to the middle vertex
   double sum = 0;
   const auto add = [&](const Stretch& stretch) {
     const std::size_t m = stretch.vertices.size();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Loads on the control vertices of feature curves: the fourth derivative of the curve, by divided
-// differences of five vertices in a row. Where a batten through the vertices has no load, neither
-// have they; but battens end straight, and curves of a shape need not.
+// differences of five consecutive vertices. It is zero where a batten through the vertices carries
+// no load; but a batten's ends are straight, and those of a curve need not be.
 #pragma once
 
 #include <span>
@@ -14,19 +14,19 @@ namespace fairing {
 
 class CurveLoads {
  public:
-  // Of the curves that are smoothed. `positions` of the control vertices give chord lengths, to the
-  // power `exponent`, and say where curves have corners.
+  // For the curves that are smoothed. `positions` of the control vertices give chord lengths, to
+  // the power `exponent`, and the corners of the curves.
   CurveLoads(const ControlMesh& mesh, std::span<const Vec3> positions, double exponent);
 
-  // All on curves but ends and corners, curve by curve; none of them twice.
+  // All control vertices on curves except ends and corners, curve by curve, each once.
   const std::vector<Index>& vertices() const { return vertices_; }
-  // Those of them that are in the middle of five: what is next to an end takes part in one load or
-  // two, and scatter of the others would be read as its own.
+  // Those of them that are in the middle of five. A vertex next to an end is in one or two loads
+  // only, so the scatter of other vertices would be attributed to it.
   const std::vector<Index>& middles() const { return middles_; }
-  // Square roots of the length that is each one's, in the parameter, the mean of lengths one.
+  // Square roots of the parameter length that belongs to each vertex; the lengths have mean one.
   const std::vector<double>& roots() const { return roots_; }
-  // One row for each five vertices in a row, times the root of the middle one's length; one column a
-  // control vertex of the mesh.
+  // One row for five consecutive vertices, times the root of the middle one's length; one column
+  // for each control vertex of the mesh.
   const LoadMatrix& differences() const { return differences_; }
 
  private:

@@ -16,27 +16,30 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Up to so many unknowns all eigenvalues are found: 0.3 s.
+// Up to this number of unknowns all eigenvalues are computed, in 0.3 s.
 constexpr Eigen::Index most_dense = 600;
-// Of Lanczos.
+// for Lanczos
 constexpr int quadrature_nodes = 60;
-// Amounts that are tried, times the mean of G's eigenvalues: ten a decade, up to the inverse.
+// Amounts that are tried, times the mean of G's eigenvalues: ten a decade, up to the inverse of the
+// least.
 constexpr double least_amount = 1e-3, ten_a_decade = 1.2589254117941673;
-// How much the score keeps of what plain cross-validation says: 1 is all. On 35 vertices with little
-// scatter that chose no amount at all in three of sixteen cases, and with 0.8 in none; below, more is
-// eased than is best.
+// Weight of plain cross-validation in the score; 1 is plain. With 35 vertices and little scatter,
+// plain cross-validation chose no amount in three of sixteen cases, this weight in none; smaller
+// weights ease more than is best.
 constexpr double robustness = 0.8;
-// Scatter is faint where no easing at all has less than so many times the least score. Then the
-// smallest amount of nearly that score is taken: what uneven stars ask for is no less than the scatter,
-// and cross-validation takes both for one. On eight shapes of 28 to 162 unknowns, scattered by 0.0025 to
-// 0.04 of an edge, errors are on average 1.10 times those of the best amount, and 1.19 with the least
-// score always; a sphere scattered by 0.005 came out 1.5 times as far off as it was.
+// Scatter is faint if the score without easing is less than `faint` times the least score. Then the
+// smallest amount with a score within `leeway` of the least is chosen: the loads of uneven stars
+// are as large as the scatter, and cross-validation does not distinguish them. On eight shapes of
+// 28 to 162 unknowns, scattered by 0.0025 to 0.04 of an edge, errors are on average 1.10 times
+// those of the best amount, and 1.19 times with the least score; a sphere scattered by 0.005 ended
+// with 1.5 times its error.
 constexpr double faint = 2, leeway = 1.15;
-// Of the largest bound: how far moves may be from their copies within bounds, and change, at the end.
+// Relative to the largest bound: the difference between moves and their bounded copies, and their
+// change, at convergence.
 constexpr double bound_tolerance = 1e-3;
-constexpr int most_splittings = 200;  // of drawing together
+constexpr int most_splittings = 200;  // of the alternating directions
 
-// Signs by Steele's splitmix64.
+// Random signs by Steele's splitmix64.
 VectorXd random_signs(Eigen::Index n, std::uint64_t seed) {
   VectorXd out(n);
   std::uint64_t state = seed;
@@ -84,8 +87,9 @@ void EaseSystem::probe_eigenvalues() {
     all.node.insert(all.node.end(), more.node.begin(), more.node.end());
     for (const double weight : more.weight) all.weight.push_back(share * weight);
   };
-  // The trace is the mean of vectors of signs (Hutchinson 1990): with one a coordinate, and over
-  // `most_dense` unknowns, within 5 per cent, alike for all amounts.
+  // The trace is estimated by vectors of random signs (Hutchinson 1990). With one for each
+  // coordinate and over `most_dense` unknowns the error is within 5 per cent, the same for all
+  // amounts.
   for (Eigen::Index a = 0; a < pulls_.cols(); ++a) {
     add(lanczos(pulls_.col(a)), 1, of_pulls_);
     add(lanczos(random_signs(unknowns(), std::uint64_t(a + 1))), 1.0 / double(pulls_.cols()),
@@ -93,7 +97,8 @@ void EaseSystem::probe_eigenvalues() {
   }
 }
 
-// Without a second orthogonalization: a sum over eigenvalues does not mind some of them twice.
+// Without a second orthogonalization, which may repeat eigenvalues; the sum over them stays the
+// same.
 EaseSystem::Quadrature EaseSystem::lanczos(const VectorXd& from) const {
   Quadrature out;
   const double length = from.norm();
@@ -160,10 +165,10 @@ double EaseSystem::squared_trace(double s) const {
   return sum;
 }
 
-// The kurtosis of the moves' parts along the eigenvectors, in units of the filter, is no more than
+// The kurtosis of the moves' components along the eigenvectors, in units of the filter, is at most
 // three standard deviations above its mean for n normal numbers about zero, whose squares over
-// their sum are Dirichlet's; for scatter in several directions it is less. Of so few that a single
-// part which is all would pass, nothing can be told.
+// their sum have a Dirichlet distribution; for scatter in several directions it is less. If n is so
+// small that a single component with all of the sum would pass, the test says nothing.
 bool EaseSystem::may_be_scatter(double s) const {
   if (values_.size() == 0) return true;
   double squares = 0, fourths = 0, moved = 0, moved_squared = 0;
@@ -183,7 +188,7 @@ bool EaseSystem::may_be_scatter(double s) const {
   return n > most && n * moved_squared <= most * moved * moved;
 }
 
-// By eigenvectors, or by conjugate gradients on the diagonal, all columns side by side.
+// Uses eigenvectors, or conjugate gradients with the diagonal, for all columns together.
 Columns EaseSystem::solve(double s, double shift, const Columns& wanted,
                           const Columns& start) const {
   if (values_.size() > 0) {
@@ -224,8 +229,8 @@ Columns EaseSystem::moves(double s) const {
   return solve(s, 0, -s * s * pulls_, none);
 }
 
-// The moves and their copies within bounds are drawn together by a weight between the least and the
-// largest eigenvalue of (*).
+// The moves and their bounded copies are coupled by a weight between the least and the largest
+// eigenvalue of (*).
 Columns EaseSystem::moves_within(double s, const VectorXd& bounds) const {
   const double weight = 1 + s * mean_;
   const Columns wanted = -s * s * pulls_;
@@ -251,7 +256,7 @@ Columns EaseSystem::moves_within(double s, const VectorXd& bounds) const {
 
 namespace {
 
-// All that are tried, rising. None where G is nothing.
+// All amounts that are tried, ascending; none if G is zero.
 std::vector<double> ladder(const EaseSystem& system) {
   std::vector<double> out;
   if (!(system.mean() > 0)) return out;
@@ -282,7 +287,7 @@ double cross_validated(const EaseSystem& system) {
   return chosen != score.begin() && system.may_be_scatter(s) ? s : 0;
 }
 
-// Moves grow with the amount, so the ladder of amounts is halved.
+// Moves grow with the amount, so bisection finds it.
 double with_moves_within(const EaseSystem& system, const VectorXd& bounds) {
   const std::vector<double> amount = ladder(system);
   const auto fits = [&](double s) {
@@ -295,7 +300,8 @@ double with_moves_within(const EaseSystem& system, const VectorXd& bounds) {
   return outside == amount.begin() ? 0 : *(outside - 1);
 }
 
-// By the moves themselves: what Lanczos knows of the least eigenvalues is too little for large amounts.
+// Computes the moves themselves: the least eigenvalues from Lanczos are too inaccurate for large
+// amounts.
 double with_noise_up_to(const EaseSystem& system, double s, double noise) {
   std::vector<double> amount = ladder(system);
   amount.erase(std::upper_bound(amount.begin(), amount.end(), s), amount.end());

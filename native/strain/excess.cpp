@@ -61,7 +61,7 @@ class LettingGo {
     const Way normal = of_.normals.row(j);
     return normal.isZero(0) ? 1.0 : normal.dot(of_.normals.row(image));
   }
-  // Of a row that is let go with its images.
+  // The way of a row that is released with its images.
   Way way(Index j) const { return with_images_[std::size_t(j)] * left_.row(j); }
   double length_of(Index j) const { return way_length(way(j), of_.normals.row(j)); }
   void offer(Index j) {
@@ -70,7 +70,7 @@ class LettingGo {
       longest_.emplace(length, j);
   }
 
-  // What letting go of a row and its images does to all ways.
+  // Changes of all ways when a row and its images are released.
   std::map<Index, Way> changes(Index j) const {
     std::map<Index, Way> out;
     for (const Index from : images_of(j))
@@ -79,8 +79,8 @@ class LettingGo {
     return out;
   }
 
-  // A row between others that are images of each other strains by all of them, more than they do. Of
-  // it and such others, what leaves the least.
+  // A row between rows that are images of each other is strained by all of them, more than they
+  // are. Returns the one, among it and such rows, whose release leaves the smallest sum.
   Index culprit(Index longest) const {
     Index best = longest;
     double least = left_without(longest);
@@ -93,7 +93,7 @@ class LettingGo {
     return best;
   }
 
-  // All lengths together, more than now.
+  // Sum of the lengths of all ways after the release.
   double left_without(Index j) const {
     double left = 0;
     for (const auto& [row, change] : changes(j)) {
@@ -104,12 +104,12 @@ class LettingGo {
   }
 
   const Straining& of_;
-  LoadMatrix columns_;  // row j: the ways that a way of j, all of it, takes off
+  LoadMatrix columns_;  // row j: the ways that a whole way of j removes from the others
   Columns left_;
   const std::vector<double>& floors_;
   std::vector<std::uint8_t> gone_;
   std::vector<double> with_images_;
-  std::priority_queue<std::pair<double, Index>> longest_;  // as it was when offered
+  std::priority_queue<std::pair<double, Index>> longest_;  // with lengths at the time of insertion
 };
 
 }  // namespace

@@ -45,9 +45,9 @@ ProbedMatrix load_matrix(ThinPlateSolver& solver, const FeatureCurves& curves,
 }
 
 std::size_t bytes_of_load_matrix(std::size_t vertices, int rings_apart) {
-  // sets of a mesh of triangles and quads, about; more around vertices of many faces
+  // usual number of sets in a mesh of triangles and quads; more around vertices of high valence
   const auto usual_sets = std::size_t(rings_apart * rings_apart + rings_apart);
-  // while rows are put together, and twice as a matrix: for a product with it and its transpose
+  // once as rows, and twice as a matrix, for a product with its transpose
   return vertices * usual_sets *
          (sizeof(std::pair<Index, double>) + 2 * (sizeof(double) + sizeof(Index)));
 }

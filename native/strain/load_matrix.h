@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// G (probes.h) as a sparse matrix: as many solves as sets of vertices far apart, not as vertices.
+// G (probes.h) as a sparse matrix. It takes one solve for each set of distant vertices, not for
+// each vertex.
 #pragma once
 
 #include <vector>
@@ -10,20 +11,19 @@
 namespace fairing {
 
 struct ProbedMatrix {
-  LoadMatrix g;    // rows and columns of the vertices asked for
-  int solves = 0;  // of three sets each
+  LoadMatrix g;    // rows and columns of the given vertices
+  int solves = 0;  // number of solves, each with three sets
 };
 
-// G of `vertices`, input vertices on pads, ascending, by sets that are so many rings apart. Of each
-// set's answer a vertex takes its share
-// as if it came from the set's nearest vertex alone: what is cut off of a column far away goes to a
-// nearer one, so that rows keep their sums and moves of all alike ask for what they should. Exact
-// where no two vertices share a set.
+// G of `vertices`, input vertices on pads, ascending, from sets with members at least `rings_apart`
+// rings apart. In the result of a set each vertex is attributed to the nearest member. The part of
+// a column beyond that goes to a nearer member, so rows keep their sums and a common move of all
+// vertices has correct loads. Exact if every set has one member.
 ProbedMatrix load_matrix(ThinPlateSolver& solver, const FeatureCurves& curves,
                          const std::vector<Index>& vertices, int rings_apart,
                          const OnPart& on_part);
 
-// Bytes of the matrix of so many vertices, about.
+// Approximate bytes of the matrix.
 std::size_t bytes_of_load_matrix(std::size_t vertices, int rings_apart);
 
 }  // namespace fairing

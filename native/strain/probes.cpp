@@ -8,7 +8,7 @@
 namespace fairing {
 namespace {
 
-// visit(u) for all vertices that share an edge or a quad with v.
+// Calls visit(u) for all vertices that share an edge or a quad with v.
 template <class Visit>
 void visit_neighbours(const ControlMesh& mesh, Index v, Visit&& visit) {
   for (const Spoke& spoke : mesh.ring(v)) {
@@ -18,13 +18,13 @@ void visit_neighbours(const ControlMesh& mesh, Index v, Visit&& visit) {
   }
 }
 
-// The vertices around a vertex, ring after ring, from face to face.
+// The vertices around a vertex, ring after ring, by way of faces.
 class Rings {
  public:
   explicit Rings(const ControlMesh& mesh)
       : mesh_(mesh), seen_(std::size_t(mesh.vertex_count()), -1) {}
 
-  // v, its copies, and all vertices at most so many rings away from them.
+  // v, its copies, and all vertices at most `rings` rings away from them.
   const std::vector<Index>& around(Index v, int rings) {
     found_.clear();
     mesh_.for_each_copy(v, [&](Index u) { add(u, v); });
@@ -46,7 +46,7 @@ class Rings {
   }
 
   const ControlMesh& mesh_;
-  std::vector<Index> seen_;  // from which vertex last
+  std::vector<Index> seen_;  // the last vertex that each was reached from
   std::vector<Index> found_;
 };
 
@@ -56,7 +56,7 @@ std::vector<std::vector<Index>> vertices_apart(const ControlMesh& mesh, const Pa
                                                int rings) {
   std::vector<std::vector<Index>> sets;
   std::vector<Index> set_of(std::size_t(mesh.vertex_count()), -1);
-  std::vector<Index> too_near;  // of each set: for which vertex it is too near, last
+  std::vector<Index> too_near;  // of each set: the last vertex that is too near to it
   Rings rings_of(mesh);
   for (Index v = 0; v < mesh.input_vertices; ++v) {
     if (!pads.under(std::size_t(v))) continue;
@@ -120,7 +120,7 @@ void probe_loads(ThinPlateSolver& solver, const FeatureCurves& curves,
                            [&](Index u) { targets[std::size_t(u)][Eigen::Index(s - first)] = 1; });
     PlateState state = solver.unheld();
     state.loads.assign(targets.size(), Vec3::Zero());
-    // twice as much of the forces is left at control vertices
+    // the force at control vertices may be twice the tolerance
     solver.solve_again({targets, none}, difference_tolerance, state, x, 2 * difference_tolerance);
     for (std::size_t s = first; s < end; ++s) {
       for (std::size_t v = 0; v < loads.size(); ++v)

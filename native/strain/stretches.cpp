@@ -7,8 +7,9 @@
 namespace fairing {
 namespace {
 
-// A curve has a corner where it turns, whether the corner has been named or not: a regular polygon of six
-// sides has six, one of seven none, so where it turns by more than one of six and a half would.
+// A curve has a corner where it turns sharply, even if the corner is not marked. A regular hexagon
+// has six corners, a regular heptagon none, so the limit is the turn of a polygon with six and a
+// half sides.
 constexpr double full_turn = 2 * std::numbers::pi;
 bool is_corner(const Vec3& before, const Vec3& after) {
   return before.dot(after) < std::cos(full_turn / 6.5) * before.norm() * after.norm();

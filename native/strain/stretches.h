@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Feature curves from one corner to the next, those corners too that nobody has named.
+// Feature curves from one corner to the next, including corners that are not marked.
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace fairing {
 
-// A chain, or a part of one: as Chain has its vertices and edges.
+// A chain or a part of one, with vertices and edges as in Chain.
 struct Stretch {
   std::vector<Index> vertices, edges;
   bool closed;

@@ -10,14 +10,14 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Rows and columns that have been picked, and the inverse of the matrix between them, which is
-// bordered by one more each time.
+// The picked rows and columns, and the inverse of the matrix between them, bordered by one more
+// each time.
 class Picked {
  public:
   Picked(const LoadMatrix& g, const Columns& loads)
       : g_(g), columns_(g.transpose()), loads_(loads) {}
 
-  // Whether it could be told from the others.
+  // Returns whether the row is independent of the others.
   bool add(Index row) {
     const auto k = Eigen::Index(rows_.size());
     VectorXd above(k), beside(k);
@@ -28,7 +28,7 @@ class Picked {
     const MatrixXd before = inverse_.topLeftCorner(k, k);
     const VectorXd by_column = before * above, by_row = before.transpose() * beside;
     const double own = g_.coeff(row, row), pivot = own - beside.dot(by_column);
-    // nothing of its own load is left beside those picked before
+    // nothing of its own load remains beside the rows picked before
     if (!(std::abs(pivot) > rounding * std::abs(own))) return false;
     if (inverse_.rows() == k) inverse_.conservativeResize(2 * k + 1, 2 * k + 1);
     inverse_.topLeftCorner(k, k) = before + by_column * by_row.transpose() / pivot;
@@ -46,7 +46,7 @@ class Picked {
     return -inverse_.topLeftCorner(k, k) * wanted;
   }
 
-  // The loads once these have moved.
+  // The loads after the moves.
   Columns left() const {
     Columns out = loads_;
     const Columns moved = moves();
@@ -60,7 +60,7 @@ class Picked {
 
  private:
   const LoadMatrix& g_;
-  const LoadMatrix columns_;  // row j: G's column j
+  const LoadMatrix columns_;  // row j: column j of G
   const Columns& loads_;
   std::vector<Index> rows_;
   MatrixXd inverse_;

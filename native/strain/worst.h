@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The few unknowns of strain/ease.h that strain most, one after the other, let go of.
+// Releases the few most strained unknowns of strain/ease.h, one after another.
 #pragma once
 
 #include "strain/ease.h"
@@ -7,8 +7,8 @@
 namespace fairing {
 
 struct Candidates {
-  const std::vector<std::uint8_t>& may;  // one a row: over zero where it may move
-  // Of each row: it and its mirror images, which move with it and are not counted.
+  const std::vector<std::uint8_t>& may;  // one a row: positive if it may move
+  // For each row: the row and its mirror images, which move with it and are not counted.
   const std::vector<std::vector<Index>>& images;
   Index most;
 };
@@ -19,8 +19,8 @@ struct Worst {
   Columns moves;                       // likewise
 };
 
-// Each time the row with the largest |g_j| / G_jj that is left; then all that have been picked let go
-// of their loads together: those of the columns picked are zero. g is square.
+// Each time picks the remaining row with the largest |g_j| / G_jj, and then releases all picked
+// rows together: the loads of their columns become zero. g is square.
 Worst moves_of_worst(const LoadMatrix& g, const Columns& loads, const Candidates& candidates);
 
 }  // namespace fairing
