@@ -9,13 +9,14 @@
 namespace fairing {
 namespace {
 
-// Cells of a triangle's rows below row j: each row has one less that points up, and one less that points
-// down, than the row before.
+// Number of cells of a face before row j. In a triangle each row has one cell less that points up,
+// and one less that points down, than the row before.
 constexpr int cells_below(bool quad, int n, int j) { return quad ? j * n : j * (2 * n - j); }
 
 }  // namespace
 
-// In a triangle's row a cell that points up is followed by the one beside it that points down.
+// In a row of a triangle, each cell that points up is followed by the adjacent one that points
+// down.
 Cells::Cells(const GridLevel& grid, Workers& workers) : grid_(grid) {
   const ControlMesh& mesh = grid.mesh();
   const int n = grid.n();
@@ -66,7 +67,7 @@ FacePlace Cells::place(Index cell, const CornerShares& shares) const {
                  v = double(shares[2]) + double(shares[3]);
     return {f, rank % n + u, rank / n + v};
   }
-  int j = int(n - std::sqrt(double(n) * n - rank));  // but for rounding
+  int j = int(n - std::sqrt(double(n) * n - rank));  // up to rounding
   while (j > 0 && cells_below(false, n, j) > rank) --j;
   while (cells_below(false, n, j + 1) <= rank) ++j;
   const int in_row = rank - cells_below(false, n, j), i = in_row / 2;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The cells of a level, triangles and quads between its points, as a surface that points are projected
-// on: which cells meet at a point, and where in its control face a place on a cell lies.
+// The cells of a level, triangles and quads between its points, as a surface to project points on.
+// Finds the cells at a point, and the place of a cell in its control face.
 #pragma once
 
 #include <array>
@@ -13,10 +13,10 @@
 
 namespace fairing {
 
-// A place on a cell: shares of its corners, of which a triangle has three.
+// A place on a cell: weights of its corners, three for a triangle.
 using CornerShares = std::array<float, 4>;
 
-// A place in a control face in closed coordinates (grid_level.h) of a level.
+// A place in a control face, in closed coordinates of a level (grid_level.h).
 struct FacePlace {
   Index face;
   double i, j;
@@ -34,7 +34,7 @@ class Cells {
   const std::array<Index, 4>& corners(Index cell) const { return corner_[std::size_t(cell)]; }
   Index face(Index cell) const { return face_[std::size_t(cell)]; }
 
-  // A cell at a point, and which of its corners the point is.
+  // A cell at a point, and the corner that is the point.
   struct AtPoint {
     Index cell;
     std::uint8_t corner;
@@ -45,10 +45,11 @@ class Cells {
   }
 
   FacePlace place(Index cell, const CornerShares& shares) const;
-  // The cell of this level at a place in coordinates of level `of`, and the corner nearest to it.
+  // The cell of this level at a place in coordinates of level `of`, and its corner nearest to the
+  // place.
   AtPoint cell_at(const FacePlace& place, int of) const;
 
-  // Of what is kept, a point of a level of quads.
+  // Memory for each point of a level of quads.
   static constexpr std::int64_t bytes_a_point =
       sizeof(std::array<Index, 4>) + sizeof(Index) + sizeof(std::size_t) + 4 * sizeof(AtPoint);
 
@@ -56,7 +57,7 @@ class Cells {
   Index first_cell(Index face) const { return first_[std::size_t(face)]; }
 
   const GridLevel& grid_;
-  std::vector<Index> first_;  // of each control face
+  std::vector<Index> first_;  // by control face
   Array<std::array<Index, 4>> corner_;
   Array<Index> face_;
   Array<std::size_t> begin_;

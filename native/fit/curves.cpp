@@ -34,7 +34,7 @@ CurveFit::CurveFit(const FairingProblem& problem, const Scan& scan,
   }
 }
 
-// From the feet beside: each on a cell that has points of curves.
+// Uses the feet on cells next to a curve.
 std::vector<CurveFit::Wish> CurveFit::wishes(const LevelFit& fit) const {
   const Cells& cells = fit.cells();
   const GridLevel& grid = cells.grid();
@@ -60,7 +60,8 @@ std::vector<CurveFit::Wish> CurveFit::wishes(const LevelFit& fit) const {
   return out;
 }
 
-// Border points of the scan to the nearest border edges of the level, across these.
+// Projects the scan's border points to the nearest border edges of the level, perpendicular to
+// these.
 void CurveFit::add_borders(const LevelFit& fit, std::vector<Wish>& wishes) const {
   const GridLevel& grid = fit.cells().grid();
   const ControlMesh& mesh = problem_.mesh;
@@ -73,7 +74,7 @@ void CurveFit::add_borders(const LevelFit& fit, std::vector<Wish>& wishes) const
       for (int k = 0; k < grid.n(); ++k)
         sides.push_back({grid.edge_point(Index(e), k), grid.edge_point(Index(e), k + 1)});
   const double* const x = fit.surface().data();
-  // Farther off, a border of the scan is one of its holes.
+  // A border of the scan that is farther away is the rim of a hole.
   const double reach = problem_.units.edge_in_space / 2;
   for (std::size_t b = 0; b < scan_.border.size(); ++b) {
     stop_if_cancelled();
@@ -123,7 +124,7 @@ void CurveFit::move(const LevelFit& fit, ControlPositions& control) const {
   std::vector<double> world(3 * std::size_t(mesh.input_vertices));
   for (std::size_t v = 0; v < sum.size(); ++v) {
     Vec3 place = control.world[v];
-    // directions that hardly anything asks for stay
+    // directions without enough points stay
     const double trace = sum[v].square.trace();
     if (trace > 0) {
       const Eigen::Matrix3d square = sum[v].square + trace / 64 * Eigen::Matrix3d::Identity();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Borders and creases of a surface that is fitted: the control vertices of their curves, which the plate
-// does not move, follow the scan's points beside the curves, and its own borders.
+// Borders and creases of a fitted surface. The plate does not move the control vertices of these
+// curves; they follow the scan's points next to the curves, and the scan's own borders.
 #pragma once
 
 #include "fairing/problem.h"
@@ -10,19 +10,19 @@ namespace fairing {
 
 class CurveFit {
  public:
-  // `fixed`: one an input vertex, or empty. References must outlive it.
+  // `fixed`: one for each input vertex, or empty. References must outlive it.
   CurveFit(const FairingProblem& problem, const Scan& scan, std::span<const std::uint8_t> fixed);
 
   // Whether any control vertex of a curve may move.
   bool any() const { return any_; }
-  // control <- with curves nearer to the scan: each control vertex moves by what the points beside its two
-  // curve edges ask for, by least squares [progressive iteration, Deng and Lin 2014]. Points beside a
-  // border say how far it is along the normal; on a crease both sides have a say, so that it goes to where
-  // they meet.
+  // Moves curves nearer to the scan: each control vertex moves by a least-squares fit to the points
+  // next to its two curve edges [progressive iteration, Deng and Lin 2014]. At a border points give
+  // the distance along the normal; at a crease those of both sides do, so that it moves to their
+  // intersection.
   void move(const LevelFit& fit, ControlPositions& control) const;
 
  private:
-  // Of least squares for one move: sum of |row . move - offset|^2.
+  // Normal equations of one move: the sum of |row . move - offset|^2.
   struct Wish {
     Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
     Vec3 rest = Vec3::Zero();
@@ -31,7 +31,7 @@ class CurveFit {
       rest += weight * rows * offset;
     }
   };
-  // Of all points of curves, by their numbers.
+  // By the numbers of the curves' points.
   std::vector<Wish> wishes(const LevelFit& fit) const;
   void add_borders(const LevelFit& fit, std::vector<Wish>& wishes) const;
 

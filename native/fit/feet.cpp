@@ -14,7 +14,7 @@
 namespace fairing {
 namespace {
 
-// Shares of the corners of a triangle at its point nearest to p [Ericson 2005, 5.1.5].
+// Weights of a triangle's corners at its nearest point to p [Ericson 2005, 5.1.5].
 Vec3 nearest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 ab = b - a, ac = c - a, ap = p - a;
   const double d1 = ab.dot(ap), d2 = ac.dot(ap);
@@ -35,12 +35,12 @@ Vec3 nearest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3
   return {va / sum, vb / sum, vc / sum};
 }
 
-// Which corner of its cell a foot is nearest to.
+// The corner of its cell that is nearest to a foot.
 std::size_t nearest_corner(const CornerShares& shares) {
   return std::size_t(std::max_element(shares.begin(), shares.end()) - shares.begin());
 }
 
-// A surface's points as nanoflann reads them.
+// The points of a surface, as an adaptor for nanoflann.
 struct PointsOfSurface {
   const double* x;
   std::size_t count;
@@ -54,7 +54,8 @@ struct PointsOfSurface {
 using Tree = nanoflann::KDTreeSingleIndexAdaptor<
     nanoflann::L2_Simple_Adaptor<double, PointsOfSurface, double>, PointsOfSurface, 3, Index>;
 
-// The nearest point of those that count; of two as near the one with the smaller number.
+// The nearest of the points that count; of two at the same distance the one with the smaller
+// number.
 template <class Counts>
 class NearestThatCounts {
  public:
@@ -143,12 +144,12 @@ std::array<Vec3, 4> FeetFinder::corner_normals(Index cell) const {
 }
 
 Vec3 FeetFinder::normal_at(const Foot& foot, const std::array<Vec3, 4>& corners) {
-  Vec3 sum = Vec3::Zero();  // the fourth corner of a triangle has no share
+  Vec3 sum = Vec3::Zero();  // a triangle's fourth corner has weight zero
   for (std::size_t k = 0; k < 4; ++k) sum += double(foot.shares[k]) * corners[k];
   return unit_or_zero(sum);
 }
 
-// A quad counts as four triangles around its middle: no diagonal is chosen.
+// A quad is four triangles around its centre, so that no diagonal is preferred.
 FeetFinder::Nearest FeetFinder::nearest_on(Index cell, const Vec3& point) const {
   const auto& corner = cells_.corners(cell);
   if (corner[3] < 0) {
@@ -179,11 +180,11 @@ bool FeetFinder::agrees(Index cell, std::size_t point) const {
          scan_.normal[point].cast<double>().dot(cell_normal_[std::size_t(cell)]) >= 0;
 }
 
-// From a point of the surface and a foot at this squared distance on: whether a nearer one is found on
-// the cells around. Then on from there.
+// Starts at a point of the surface and a foot at this squared distance, and descends to nearer feet
+// on the cells around. Returns whether there was a nearer one.
 bool FeetFinder::descend(std::size_t point, Index start, Foot& foot, double square) const {
   bool any = false;
-  for (;;) {  // distances fall, so that this ends
+  for (;;) {  // ends, since distances decrease
     bool nearer = false;
     for (const auto& [cell, corner] : cells_.at_point(start)) {
       if (!agrees(cell, point)) continue;
@@ -245,7 +246,7 @@ void FeetFinder::search(Array<Foot>& feet, bool any_side, double beyond) const {
           if (agrees(cell, s)) return true;
         return false;
       };
-      // within bounds: where a scan is inside out, all of the surface would be looked at
+      // the search has a bound: for a scan that is inside out it would visit the whole surface
       if (nearest >= 0 && !any_side && !agrees_at(nearest))
         nearest = nearest_to(s, agrees_at, (scan_.point[s] - at(nearest)).norm() + reach_);
       if (nearest < 0) continue;
@@ -267,7 +268,7 @@ void FeetFinder::follow(Array<Foot>& feet) const {
       if (foot.cell < 0) continue;
       const Nearest here = nearest_on(foot.cell, scan_.point[s]);
       foot.shares = here.shares;
-      // inside its cell a foot is nearest to begin with; elsewhere cells beside have a say
+      // a foot inside its cell is the nearest; otherwise adjacent cells are tried
       const bool inside =
           std::all_of(foot.shares.begin(), foot.shares.begin() + (cells_.quad(foot.cell) ? 4 : 3),
                       [](float share) { return share > 0; });

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The points of a surface nearest to those of a scan: their feet. A foot is on a cell whose normal agrees
-// with that of the scan's point, where this has one, so that the two sides of a thin wall are not
-// confused.
+// Feet: the points of a surface nearest to those of a scan. The normal of a foot's cell agrees with
+// that of the scan's point, if known, so that the two sides of a thin wall are not confused.
 #pragma once
 
 #include "fit/cells.h"
@@ -10,44 +9,44 @@
 namespace fairing {
 
 struct Foot {
-  Index cell = -1;  // -1: the surface has none
+  Index cell = -1;  // -1: no foot
   CornerShares shares{};
-  // Of the scan's point along the surface's normal at the foot; working units.
+  // Distance of the scan's point along the surface's normal at the foot; working units.
   float offset = 0;
-  // Beyond the surface's border: it has no say.
+  // Beyond the surface's border; it is ignored.
   bool outside = false;
 
   bool pulls() const { return cell >= 0 && !outside; }
 };
 
-// The surface of a level, which changes: its points' normals, and feet on it.
+// The present surface of a level, with its normals, and feet on it.
 class FeetFinder {
  public:
-  // `reach`: how much farther than the surface's nearest point a foot whose normal agrees may be. References
-  // must outlive it. May throw FairingError(cancelled).
+  // `reach`: how much farther than the nearest point of the surface a foot with an agreeing normal
+  // may be. References must outlive it. May throw FairingError(cancelled).
   FeetFinder(const Cells& cells, const Scan& scan, double reach, Workers& workers);
 
-  // The surface has become x, 3 numbers a point.
+  // Changes the surface to x, 3 numbers a point.
   void set_surface(const double* x);
-  // Of the surface at a foot: mean of its corners' normals; on curves that of the cell.
+  // Normal of the surface at a foot: the mean of the corners' normals; on curves that of the cell.
   Vec3 normal_at(const Foot& foot) const { return normal_at(foot, corner_normals(foot.cell)); }
-  // The same, where those of its cell's corners are known.
+  // The same with known normals of the cell's corners.
   static Vec3 normal_at(const Foot& foot, const std::array<Vec3, 4>& corners);
   std::array<Vec3, 4> corner_normals(Index cell) const;
   Vec3 point_at_foot(const Foot& foot) const;
-  // Of a point of the scan from its foot, positive on the side of the normal.
+  // Distance of a scan's point from its foot, positive on the side of the normal.
   double distance(std::size_t point, const Foot& foot) const {
     const double far = (scan_.point[point] - point_at_foot(foot)).norm();
     return foot.offset < 0 ? -far : far;
   }
 
-  // From anywhere: by the surface's point nearest to each. `any_side`: whatever the normals.
+  // Finds all feet, starting at the nearest point of the surface. `any_side`: ignores normals.
   void find(Array<Foot>& feet, bool any_side = false) const;
-  // Those again that are farther off than this, or not there.
+  // Finds again the feet that are farther away than `distance`, or missing.
   void find_beyond(double distance, Array<Foot>& feet) const;
-  // From feet that are near: down the distance, from cell to cell.
+  // Updates feet after a small move of the surface, by descent from cell to cell.
   void follow(Array<Foot>& feet) const;
-  // Offsets again, where only the surface has moved a little: the feet stay.
+  // Updates the offsets only; the feet stay.
   void measure(Array<Foot>& feet) const;
 
   const Cells& cells() const { return cells_; }
@@ -70,7 +69,7 @@ class FeetFinder {
   double reach_;
   Workers& workers_;
   const double* x_ = nullptr;
-  Array<Vec3> cell_normal_;   // of length one
+  Array<Vec3> cell_normal_;   // unit length
   Array<Vec3> point_normal_;  // the same; zero on curves
   std::vector<std::uint8_t> on_curve_, on_border_;
 };

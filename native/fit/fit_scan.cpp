@@ -23,12 +23,12 @@
 namespace fairing {
 namespace {
 
-// The level on which the weight is sought: waves that it decides on are longer than its edges. Coarse
-// control meshes, whose faces have many points each, take a finer one.
+// The level on which the weight is chosen: the waves that matter are longer than its edges. Coarse
+// control meshes with many points a face use a finer level.
 constexpr int level_of_search = 2;
 constexpr std::size_t cells_of_search = std::size_t(1)
-                                        << 14;  // the search takes some twenty rounds
-// Points that say which weight is best; more make the choice no better.
+                                        << 14;  // the choice takes some twenty iterations
+// Number of points for the choice of the weight; more do not improve it.
 constexpr std::size_t enough_points = std::size_t(1) << 18;
 
 FairOptions options_of_fit(const FairOptions& given, const FitSettings& settings,
@@ -56,7 +56,7 @@ FairOptions options_of_fit(const FairOptions& given, const FitSettings& settings
   return options;
 }
 
-// Every so many-th point.
+// Every `step`-th point.
 Scan thinned(const Scan& scan, std::size_t step) {
   Scan out;
   for (std::size_t s = 0; s < scan.size(); s += step) {
@@ -110,14 +110,14 @@ class ScanFit {
     weight_ *= choice.more_points(thin_.size());
     const bool is_automatic = !(settings_.weight > 0) && !choice.is_by_tolerance();
     const FitProblem whole = problem_of(scan_);
-    // What residuals fall by from level to level are not noise but the level's edges: the weight goes with
-    // the shorter waves that the level has.
+    // The decrease of the residual from level to level is not noise but the resolution of the
+    // level. Such shapes need the shorter waves of the next level, so the weight grows with them.
     double left_below = 0;
     for (int level = search_; level <= levels_.top(); ++level) {
       const bool is_last = level == levels_.top();
       Array<double> x = level == search_ ? fit->surface() : above(*fit);
       report.iterations += fit->iterations();
-      // coarser levels are a start for it: they have no use for more points
+      // coarser levels are only a start, so they use fewer points
       fit = std::make_unique<LevelFit>(is_last ? whole : rough, level);
       if (is_last) weight_ *= choice.more_points(scan_.size()) / choice.more_points(thin_.size());
       fit->set_surface(std::move(x));
@@ -151,7 +151,8 @@ class ScanFit {
   }
   PlateData data() const { return {control_.working, control_.working_curves}; }
 
-  // From the control polyhedron onto the scan, smoothly: feet that are far off say little of details.
+  // Moves from the control polyhedron to the scan with a smooth surface, since distant feet carry
+  // no detail.
   void begin(LevelFit& fit) {
     const GridLevel& grid = levels_.grid(search_);
     Array<double> x(3 * grid.size());
@@ -166,7 +167,7 @@ class ScanFit {
 
   void require_match(const LevelFit& fit) const;
 
-  // Rounds; where there are curves, some more, since surface and curves move in turns.
+  // With curves it takes more iterations, since surface and curves move alternately.
   void fit_curves(LevelFit& fit, double weight, int rounds, bool robust) {
     if (!curves_.any()) return fit.rounds(weight, rounds, robust);
     for (int k = 0; k < 3 * rounds; ++k) {
@@ -179,7 +180,7 @@ class ScanFit {
     fit.rounds(weight, 1, robust);
   }
 
-  // What the coarser level has found may be a little off on the finest.
+  // The weight from the coarser level may miss the tolerance on the finest.
   void keep_tolerance(LevelFit& fit) {
     if (!(settings_.tolerance > 0) || !is_kept_) return;
     while (covered_within(fit.feet()) * problem_.frame.scale > settings_.tolerance &&
@@ -189,10 +190,10 @@ class ScanFit {
     }
   }
 
-  // Faces without any point keep to the control polyhedron, so weakly that only where several lie side by
-  // side it shows.
+  // Faces without points are kept near the control polyhedron, by a weight so small that it matters
+  // only where several of them are adjacent.
   Prior prior(const LevelFit& fit) const {
-    constexpr double weak = 1e-3;  // holds waves of five and more control edges
+    constexpr double weak = 1e-3;  // keeps waves of at least five control edges
     const Cells& cells = fit.cells();
     std::vector<Index> count(levels_.grid(0).mesh().faces.size());
     for (const Foot& foot : fit.feet())
@@ -229,10 +230,10 @@ class ScanFit {
   int search_;
   Scan thin_;
   double unit_, area_, weight_ = 0;
-  bool is_kept_ = false;  // the tolerance
+  bool is_kept_ = false;  // whether the tolerance is met
 };
 
-// What makes no fit: most points see the surface's other side, or hardly any has a foot.
+// Throws if most points are on the surface's other side, or hardly any has a foot.
 void ScanFit::require_match(const LevelFit& fit) const {
   std::size_t pull = 0;
   for (const Foot& foot : fit.feet()) pull += foot.pulls();
@@ -256,13 +257,13 @@ void ScanFit::require_match(const LevelFit& fit) const {
          "Move one onto the other, or draw the control mesh over the scan."});
 }
 
-// Adds what a fit takes beside the plate to what was predicted.
+// Adds the memory of a fit to that predicted for the plate.
 void require_room(const PolygonMesh& input, const FairingProblem& problem, std::size_t points,
                   Report& report) {
   const FairOptions& options = problem.options;
   RunSize size = predict_size(input.vertex_count(), input.corners, input.offsets, 0, options);
-  constexpr std::int64_t vectors = 4 * sizeof(Vec3);  // surface, residual, goal, forces
-  // kept in all, and of those that say the weight: once more, with the best feet
+  constexpr std::int64_t vectors = 4 * sizeof(Vec3);  // surface, residual, target, forces
+  // kept for all points, and again for the points that choose the weight, with the best feet
   constexpr std::int64_t in_round = sizeof(Foot) + sizeof(float) + sizeof(Index),
                          in_report = sizeof(Foot) + sizeof(double) + sizeof(std::int32_t),
                          in_choice = Scan::bytes_a_point + in_round + sizeof(Foot);

@@ -51,7 +51,7 @@ void LevelFit::take_spread() {
   spread_.rms = std::max(spread_.rms, least_noise * problem_.edge);
 }
 
-// weight_, and goal_ <- what the solve is to come up to: W x + forces.
+// Computes weight_, and goal_ <- W x + forces, the right-hand side of the solve.
 void LevelFit::pull(double weight, bool robust) {
   Workers& workers = problem_.levels.workers();
   take_spread();
@@ -99,7 +99,7 @@ void LevelFit::solve() {
   limits.tolerance = difference_tolerance;
   limits.from_start = true;
   limits.noise = rounding_of_terms * terms;
-  limits.may_end_early = true;  // the next round goes on
+  limits.may_end_early = true;  // the next iteration continues
   limits.max_iterations = problem_.most_iterations;
   iterations_ +=
       levels.solve(level_, limits, {residual, x_.data(), r_.data()}, [](const PcgResult&) {})

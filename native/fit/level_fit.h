@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One level of a surface that is fitted to a scan: rounds of feet, pulls and a solve.
+// One level of a surface that is fitted to a scan: iterations of feet, forces and a solve.
 #pragma once
 
 #include "fit/pull.h"
@@ -7,20 +7,21 @@
 
 namespace fairing {
 
-// Where the surface is to stay in the absence of points: a weight and a place a point; or empty.
+// Keeps the surface near a place where there are no points: a weight and a place for each point; or
+// empty.
 struct Prior {
   VertexWeights weight;
   Array<double> place;  // 3 numbers a point
 };
 
-// What all levels share. References must outlive them.
+// Data that all levels share. References must outlive them.
 struct FitProblem {
   ThinPlateLevels& levels;
   const Scan& scan;
-  // A point's weight is this times the caller's: the stiffness of the plate, by area, against a wave as
-  // long as the mean control edge.
+  // The weight of a point is this times the caller's: the stiffness of the plate, by area, against
+  // a wave as long as the mean control edge.
   double unit;
-  double area;          // of the surface, about
+  double area;          // of the surface, approximate
   double edge;          // the mean control edge
   int most_iterations;  // of each solve
   const Monitor& monitor;
@@ -39,18 +40,20 @@ class LevelFit {
   Spread spread() const { return spread_; }
   int iterations() const { return iterations_; }
 
-  // The surface becomes x. Its feet are found from anywhere.
+  // Changes the surface to x, and finds all feet.
   void set_surface(Array<double> x);
-  // The same with feet that are near its own.
+  // The same with feet near those of x.
   void set_surface(Array<double> x, Array<Foot> feet);
-  // Flags of points that have a say; empty: all.
+  // Flags of points that are used; empty: all.
   void train_on(std::vector<std::uint8_t> points) { trained_ = std::move(points); }
   void stay_near(Prior prior) { prior_ = std::move(prior); }
 
-  // So many times: feet, pulls, solve. `robust`: strays count less. Whatever is no unknown stays.
+  // `count` iterations of feet, forces and solve. `robust`: outliers have less weight. Points that
+  // are not unknowns stay.
   void rounds(double weight, int count, bool robust);
 
-  // The most that is of use here: against waves as long as the level's edges, or as the points are apart.
+  // The largest useful weight: against waves as long as the level's edges, or as the distance
+  // between points.
   double stiffest() const;
 
  private:
@@ -66,7 +69,7 @@ class LevelFit {
   std::vector<std::uint8_t> unknown_;
   std::vector<std::uint8_t> trained_;
   Prior prior_;
-  Array<double> x_, r_, goal_;  // goal: of all weights, times these
+  Array<double> x_, r_, goal_;  // goal_ is the right-hand side
   Array<Foot> feet_;
   Array<float> trust_;
   Array<Vec3> force_;

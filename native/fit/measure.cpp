@@ -13,7 +13,7 @@
 namespace fairing {
 namespace {
 
-// The finest level up to this one whose cells have so many points on average; at least the control mesh.
+// The finest level up to `most` whose cells have this many points on average; at least level 0.
 int level_with(double points_a_cell, const Cells& cells, std::size_t points, int most) {
   int level = std::min(most, cells.grid().level());
   const auto faces = double(cells.grid().mesh().faces.size());
@@ -21,13 +21,13 @@ int level_with(double points_a_cell, const Cells& cells, std::size_t points, int
   return level;
 }
 
-// Of every cell of a level that is coarser: its points, their offsets, none counted for more than `most`,
-// and the squares of these.
+// For each cell of a coarser level: the number of its points, and the sums of their offsets and
+// squared offsets, each offset limited to `most`.
 struct CellSums {
   std::vector<Index> count;
   std::vector<double> sum, squares;
 
-  // What is left where the mean of each cell is taken off: noise, without what the surface is off.
+  // Deviation from the mean of each cell: the noise without the error of the surface.
   double scatter() const {
     double left = 0, free = 0;
     for (std::size_t c = 0; c < count.size(); ++c) {
@@ -55,7 +55,7 @@ CellSums sums_on(const Cells& coarse, const Cells& cells, const Array<Foot>& fee
   return out;
 }
 
-// The scatter of points about the mean of their cell, none counted for more than `most`.
+// Returns the scatter of the points about the mean of their cell, with offsets limited to `most`.
 double measure_coverage(const Cells& cells, const Array<Foot>& feet, Workers& workers,
                         std::size_t polygons, double most, FitReport& report) {
   const ControlMesh& mesh = cells.grid().mesh();
@@ -74,10 +74,11 @@ double measure_coverage(const Cells& cells, const Array<Foot>& feet, Workers& wo
   return sums.scatter();
 }
 
-// Offsets of one sign over a quarter of a face: larger than the noise, and than its mean can be by chance.
+// Faces with offsets of one sign over a quarter of the face: larger than the noise, and larger than
+// a mean of noise can be by chance.
 void find_too_coarse(const Cells& cells, const Array<Foot>& feet, Workers& workers, double noise,
                      double most, FitReport& report) {
-  constexpr double by_chance = 4;  // deviations of a mean of noise: one cell in 16,000
+  constexpr double by_chance = 4;  // standard deviations of a mean of noise: one cell in 16,000
   const ControlMesh& mesh = cells.grid().mesh();
   const GridLevel grid(mesh, std::min(1, cells.grid().level()));
   const Cells coarse(grid, workers);
@@ -125,7 +126,7 @@ void measure_fit(const LevelFit& fit, const FairingProblem& problem, FitReport& 
   const ControlMesh& mesh = cells.grid().mesh();
   const double scale = problem.frame.scale;
   Array<Foot> feet = fit.feet();
-  // those that are near have followed the surface; strays may have come into another one's reach
+  // near points have followed the surface; outliers may now be within reach of another part
   fit.finder().find_beyond(2 * spread_of(feet, {}).rms, feet);
   const double rms = spread_of(feet, {}).rms;
   report.noise = rms * scale;

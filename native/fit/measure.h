@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How a surface fits its scan, in numbers for the caller.
+// The report of a fit.
 #pragma once
 
 #include "fit/fit_scan.h"
@@ -7,14 +7,14 @@
 
 namespace fairing {
 
-// What 95 % of the offsets of feet that pull are within; working units.
+// The 95 % quantile of the offsets of feet that are used; working units.
 double covered_within(const Array<Foot>& feet);
 
 // Of one cell of the surface x, 3 numbers a point.
 double cell_area(const Cells& cells, const double* x, Index cell);
 double surface_area(const Cells& cells, const double* x);
 
-// Distances, noise, coverage, faces that are too coarse, outliers.
+// Sets distances, noise, coverage, faces that are too coarse, and outliers.
 void measure_fit(const LevelFit& fit, const FairingProblem& problem, FitReport& report);
 
 }  // namespace fairing

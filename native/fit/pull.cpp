@@ -89,7 +89,7 @@ VertexWeights weights_below(const GridLevel& fine, const GridLevel& coarse,
         if (run.quad) {
           for (const Index p : {at(low, below), at(high, below), at(low, above), at(high, above)})
             add(p, weight / 4);
-        } else {  // across the diagonal where both are odd
+        } else {  // across the diagonal if both are odd
           add(at(low, above), weight / 2);
           add(at(high, below), weight / 2);
         }

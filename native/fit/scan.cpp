@@ -49,7 +49,7 @@ void require_arrays(const ScanInput& input) {
   }
 }
 
-// Weighted by area; of length one, or zero. In the order of `given`.
+// Area-weighted, of unit length or zero, in the order of `given`.
 Array<Eigen::Vector3f> normals_of(const ScanInput& input, const Array<Index>& given) {
   const std::size_t count = input.coordinates.size() / 3;
   Array<Eigen::Vector3f> out;
@@ -75,7 +75,7 @@ Array<Eigen::Vector3f> normals_of(const ScanInput& input, const Array<Index>& gi
   return out;
 }
 
-// Ends of edges that one triangle alone has.
+// Ends of edges with one triangle.
 std::vector<std::int64_t> border_of(const std::vector<std::int64_t>& triangles) {
   std::vector<std::array<std::int64_t, 2>> sides;
   sides.reserve(triangles.size());
@@ -103,8 +103,8 @@ Eigen::AlignedBox3d box_of(std::span<const Vec3> points) {
   return box;
 }
 
-// Numbers of points, box by box of their bounding box cut into 16 along each axis, and the boxes so that
-// the next one is mostly beside [Morton 1966].
+// Numbers of points sorted by boxes, 16 along each axis of their bounding box, in Morton order
+// [Morton 1966], so that most boxes follow an adjacent one.
 Array<Index> in_order_of_place(const ScanInput& input) {
   constexpr int bits = 4;  // a box has some hundred cells of a fine level, which stay in the cache
   const std::size_t count = input.coordinates.size() / 3;
@@ -151,8 +151,9 @@ Scan make_scan(const ScanInput& input, const Frame& frame, Workers& workers) {
 }
 
 void require_same_place(const Scan& scan, std::span<const Vec3> control, const Frame& frame) {
-  // Of the sizes of two things that are one: a scan of a part, or a cage with a part that is not scanned,
-  // differ by less; millimetres and metres by more, inches and millimetres as well.
+  // Ratio of sizes from which units differ. A scan of a part, and a cage with a part that is not
+  // scanned, have smaller ratios; millimetres and metres, or inches and millimetres, have larger
+  // ones.
   constexpr double other_unit = 20;
   const Eigen::AlignedBox3d cage = box_of(control), box = box_of(scan.point);
   const double ratio = box.diagonal().norm() / cage.diagonal().norm();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The points that a surface is fitted to, in working coordinates.
+// The points to which a surface is fitted, in working coordinates.
 #pragma once
 
 #include <cstdint>
@@ -14,36 +14,37 @@
 
 namespace fairing {
 
-// As the caller gives it, in world coordinates.
+// The caller's scan, in world coordinates.
 struct ScanInput {
   std::vector<double> coordinates;  // 3 a point
-  std::vector<double> normals;      // 3 a point, outwards, of any length; zero: unknown. Or empty
-  // Vertex ids of triangles, counter-clockwise seen from outside; or empty. Normals come from them where
-  // none are given, and borders.
+  std::vector<double> normals;      // 3 a point, outwards, of any length; zero: unknown; or empty
+  // Vertex ids of triangles, counter-clockwise seen from outside; or empty. They give the borders,
+  // and normals if none are given.
   std::vector<std::int64_t> triangles;
 };
 
-// Three hold a plane, and noise is in all.
+// Three points define a plane, and all have noise.
 constexpr std::size_t fewest_points = 10;
 
-// Points in an order in which neighbours in space are near one another: their feet share cells, and memory.
+// Points sorted so that neighbours in space are close in memory: their feet share cells.
 struct Scan {
   Array<Vec3> point;
-  Array<Index> given;             // the caller's number of each
-  Array<Eigen::Vector3f> normal;  // of length one, or zero; or empty
-  std::vector<Vec3> border;       // its points on borders of its triangles
+  Array<Index> given;             // caller's number of each point
+  Array<Eigen::Vector3f> normal;  // unit length or zero; or empty
+  std::vector<Vec3> border;       // points on borders of the triangles
   std::size_t size() const { return point.size(); }
 
   static constexpr std::int64_t bytes_a_point =
       sizeof(Vec3) + sizeof(Index) + sizeof(Eigen::Vector3f);
 };
 
-// Throws FairingError: bad_shape, index_out_of_range and non_finite for arrays that are no scan, or have
-// too few points.
+// Throws FairingError: bad_shape, index_out_of_range and non_finite for invalid arrays, or too few
+// points.
 Scan make_scan(const ScanInput& input, const Frame& frame, Workers& workers);
 
-// Throws FairingError(bad_shape) where the scan and the control mesh are not of one size, as in different
-// units, or too far apart for nearest points to mean anything. Both in working coordinates.
+// Throws FairingError(bad_shape) if the sizes of scan and control mesh differ as those of different
+// units do, or if they are too far apart for nearest points to be meaningful. Both in working
+// coordinates.
 void require_same_place(const Scan& scan, std::span<const Vec3> control, const Frame& frame);
 
 // Three digits, for messages.

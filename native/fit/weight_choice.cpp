@@ -11,10 +11,10 @@
 namespace fairing {
 namespace {
 
-constexpr double ratio = 4;       // from one weight tried to the next
-constexpr double softest = 1e-4;  // holds waves of ten control edges
+constexpr double ratio = 4;       // from one weight to the next
+constexpr double softest = 1e-4;  // keeps waves of ten control edges
 
-// One in ten, by a number that has been mixed well [splitmix64].
+// One in ten, by a well mixed number [splitmix64].
 bool is_held_out(std::uint64_t blob) {
   blob += 0x9e3779b97f4a7c15u;
   blob = (blob ^ (blob >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -37,16 +37,17 @@ double WeightChoice::choose(Monitor& monitor) {
   return by_held_out(monitor);
 }
 
-// Of a plate under noise the best weight by area grows with the 2/5 power of the points' number: the
-// bias falls as its square, the variance grows as its root over that number.
+// For a plate under noise the best weight by area grows with the 2/5 power of the number of points:
+// the bias falls with the square of the weight, the variance grows with its root over that number.
 double WeightChoice::more_points(std::size_t points) const {
   if (!is_chosen_by_points_) return 1;
   const auto trained = std::count(trained_.begin(), trained_.end(), 1);
   return trained > 0 ? std::pow(double(points) / double(trained), 2.0 / 5) : 1;
 }
 
-// Blobs of points, since the noise of scanners is alike from one point to the next: cells. Wider ones, as
-// wide as half a control edge, want surfaces that pull across them, and weights three times too large.
+// Holds out cells, since the noise of scanners is correlated between adjacent points. (Wider
+// groups, of half a control edge, favour surfaces that span them, and weights three times too
+// large.)
 void WeightChoice::hold_out() {
   const GridLevel& grid = fit_.cells().grid();
   const auto faces = double(grid.mesh().faces.size());
@@ -68,8 +69,8 @@ void WeightChoice::hold_out() {
   }
 }
 
-// Along the normals of one calm surface: a rough one comes nearer to points than one is off that is
-// right. Root mean square, strays cut off where they would pull no more.
+// Root mean square distance along the normals of one smooth surface, with outliers limited as in
+// the fit. (Along its own normals, a rough surface is nearer to the points than the true one is.)
 double WeightChoice::held_out_error() {
   std::vector<double> far;
   for (const HeldOut& held : held_)
@@ -88,8 +89,9 @@ double WeightChoice::held_out_error() {
 }
 
 double WeightChoice::by_held_out(Monitor& monitor) {
-  // Feet and normals of a calm surface, that of the waves of two control edges and more: those of one
-  // that has the noise are askew, and measure calm ones along themselves.
+  // Feet and normals are those of a surface with waves of two control edges and more. A surface
+  // that follows the noise has tilted normals, which make the distances of smooth surfaces too
+  // large.
   Array<double> start = fit_.surface();
   Array<Foot> feet = fit_.feet();
   fit_.rounds(1 / (ratio * ratio), 2, false);
@@ -111,7 +113,7 @@ double WeightChoice::by_held_out(Monitor& monitor) {
     }
     if (error > 1.25 * trials_[best][1]) break;
   }
-  // the vertex of the parabola through three logarithms
+  // the minimum of the parabola through three logarithms
   double weight = trials_[best][0];
   if (best > 0 && best + 1 < trials_.size()) {
     const double up = std::log(trials_[best - 1][1]), here = std::log(trials_[best][1]),
@@ -135,7 +137,7 @@ double WeightChoice::by_tolerance(Monitor& monitor) {
   while (low > softest && is_within(low / ratio)) low /= ratio;
   high = low;
   low /= ratio;
-  for (int k = 0; k < 5; ++k) {  // to a tenth
+  for (int k = 0; k < 5; ++k) {  // bisects to a tenth
     const double middle = std::sqrt(low * high);
     (is_within(middle) ? high : low) = middle;
   }

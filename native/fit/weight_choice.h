@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How strongly a scan's points are to pull: so that points held out are nearest to the surface, or so
-// weakly that it just stays within a tolerance.
+// Chooses the weight of a scan's points: the one with the least error at held-out points, or the
+// least one that keeps the surface within a tolerance.
 #pragma once
 
 #include "fit/fit_scan.h"
@@ -8,23 +8,23 @@
 
 namespace fairing {
 
-// On average, in a cell that is held out, where fewer would be single points, or that counts as covered:
-// one in fifty has none by chance.
+// Average number of points in a cell that is held out, or that counts as covered: with this number
+// one cell in fifty is empty by chance.
 constexpr double points_a_blob = 4;
 
 class WeightChoice {
  public:
-  // `fit` is on the scan already; it is left with the surface of the weight chosen. `scale`: of the
-  // frame.
+  // `fit` must be on the scan already; it ends with the surface of the chosen weight. `scale`: of
+  // the frame.
   WeightChoice(LevelFit& fit, const FitSettings& settings, double scale)
       : fit_(fit), settings_(settings), scale_(scale) {}
 
   double choose(Monitor& monitor);
   bool is_by_tolerance() const { return !is_chosen_by_points_ && settings_.tolerance > 0; }
-  // What the weight is to be multiplied by where there are so many points in all.
+  // Factor of the weight for this total number of points.
   double more_points(std::size_t points) const;
 
-  // Weights tried, and the root mean square of what points held out were off, in mesh units.
+  // Weights tried, and the root mean square error at held-out points, in mesh units.
   const std::vector<std::array<double, 2>>& trials() const { return trials_; }
 
  private:
@@ -43,7 +43,7 @@ class WeightChoice {
   };
   std::vector<std::uint8_t> trained_;
   std::vector<HeldOut> held_;
-  double cut_ = 0;  // beyond it a distance counts less
+  double cut_ = 0;  // larger distances have less weight
   std::vector<std::array<double, 2>> trials_;
   bool is_chosen_by_points_ = false;
 };
