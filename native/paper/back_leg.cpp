@@ -9,7 +9,7 @@
 namespace fairing {
 namespace {
 
-// Gauss-Seidel sweeps on K e = r. Auxiliary unknowns of K follow at once.
+// Gauss-Seidel sweeps on K e = r. Auxiliary unknowns of K are updated at once.
 class Sweeps {
  public:
   Sweeps(AssembledSystem system, const Array<double>& residual)
@@ -94,7 +94,7 @@ void solve_back_leg(ThinPlateLevels& levels, const PlateData& data, int sweeps,
     }
     gauss_seidel.add_to(x);
     report.residual = report.residuals.back();
-    report.converged = true;  // it does what it promises: so many sweeps
+    report.converged = true;  // the given number of sweeps is all that it promises
     reports.push_back(report);
   }
 }

@@ -9,8 +9,8 @@
 namespace fairing {
 namespace {
 
-// Directions of a face's grid at its corner c (exact for a triangle, the bilinear map's tangents
-// for a quad).
+// Directions of a face's grid at its corner c (exact for a triangle; for a quad the tangents of the
+// bilinear map).
 struct Corner {
   Vec3 along, up;  // to the next corner, to the previous one
 };
@@ -22,7 +22,7 @@ Corner corner(const ControlMesh& mesh, const Face& face, int c) {
   return {at(c + 1) - at(c), at(c - 1) - at(c)};
 }
 
-// The same in the middle of side s: a quad's grid is that of its parallelogram.
+// The same at the middle of side s; the grid of a quad is that of its parallelogram.
 Corner middle(const ControlMesh& mesh, const Face& face, int s) {
   if (!face.quad()) return corner(mesh, face, s);
   const Corner here = corner(mesh, face, s), there = corner(mesh, face, (s + 2) % 4);
@@ -132,7 +132,7 @@ Stencils make_stencils(const ControlMesh& mesh, const ChartMaker& charts,
   if (!out.membrane.any() || alpha == 1) return out;
   const ChartMaker uniform(mesh, 0);
   const Membrane other = make_membrane(mesh, uniform, out.ring_offset, tension);
-  // The blend keeps the charts' size.
+  // Keeps the mean radius of the charts.
   const double ratio = mean_edge(mesh, uniform.flat()) / mean_edge(mesh, charts.flat()),
                scale = ratio * ratio;
   blend(other.vertex, alpha, scale, out.membrane.vertex);

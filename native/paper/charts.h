@@ -9,7 +9,7 @@
 
 namespace fairing {
 
-// The linearly refined control mesh seen along its normal. Inside a face the grid is flat already;
+// Projection of the linearly refined control mesh along its normal. Inside a face the grid is flat;
 // where there is no tangent plane, charts are exponential.
 class TangentCharts : public ChartMaker {
  public:
@@ -18,12 +18,12 @@ class TangentCharts : public ChartMaker {
   Chart edge(Index e) const override;
 };
 
-// chart <- (1 - alpha) uniform + alpha chart [Kobbelt 1997b], after the uniform chart has been
-// brought to the chart's mean radius and turned by the rotation that fits best: so the blend
-// depends on no choice of a first neighbour.
+// chart <- (1 - alpha) uniform + alpha chart [Kobbelt 1997b], after the uniform chart is scaled to
+// the chart's mean radius and rotated by the best fit, so that the blend does not depend on a first
+// neighbour.
 void blend(const Chart& uniform, double alpha, Chart& chart);
 
-// `Base`: the charts that are blended, with its constructor's arguments after alpha.
+// `Base`: the charts to blend; its constructor's arguments follow alpha.
 template <class Base>
 class BlendedCharts final : public Base {
  public:
@@ -44,12 +44,12 @@ class BlendedCharts final : public Base {
   ChartMaker uniform_;
 };
 
-// The charts that `options` ask for: without any of the paper's, those of stencil/chart.h.
+// The charts for these options; without any of the paper's, those of stencil/chart.h.
 std::unique_ptr<ChartMaker> make_charts(const ControlMesh& mesh, double exponent,
                                         const PaperOptions& options);
 
-// The stencils of such charts, with `tension` as in make_membrane(), whose weights are blended too.
-// Throws where the run has been cancelled.
+// The stencils of such charts. `tension` is as in make_membrane(); its weights are blended too.
+// Throws if the run is cancelled.
 Stencils make_stencils(const ControlMesh& mesh, const ChartMaker& charts,
                        const PaperOptions& options, Workers& workers, double tension);
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the paper does that the product does otherwise, kept to be compared with: charts, the solve
-// without coarse-grid corrections, and the release of control vertices afterwards. For the thin
-// plate.
+// Options of the paper that the product replaced, kept for comparison: charts, the solve without
+// coarse-grid corrections, and the subsequent release of control vertices. For the thin plate only.
 #pragma once
 
 namespace fairing {
@@ -11,9 +10,9 @@ enum class ChartKind {
   tangent,      // orthogonal projection to the tangent plane of the control mesh
 };
 
-// How the linear system is solved.
+// The solver of the linear system.
 enum class Method {
-  // Full multigrid, V-cycles inside conjugate gradients, to `relative_residual`.
+  // Full multigrid, then conjugate gradients with V-cycles, to `relative_residual`.
   multigrid,
   // Refine, then a few Gauss-Seidel sweeps, level by level [Kobbelt 1997a, §5].
   back_leg,
@@ -23,15 +22,15 @@ struct PaperOptions {
   ChartKind chart = ChartKind::exponential;
   double chart_blend = 1;  // 0: the uniform chart … 1: the chart itself [Kobbelt 1997b]
   Method method = Method::multigrid;
-  int sweeps = 10;  // of Gauss-Seidel a level, for back_leg
-  // Interpolated control vertices are released by so much afterwards, which takes cusps off; mesh
-  // units.
+  int sweeps = 10;  // Gauss-Seidel sweeps a level, for back_leg
+  // Interpolated control vertices are released by at most this afterwards, which removes cusps;
+  // mesh units.
   double epsilon = 0;
 
-  // Whether control vertices are held by point forces: epsilon takes their cusps off, back_leg
-  // solves without loads.
+  // Whether control vertices have point forces: epsilon removes their cusps, back_leg solves
+  // without loads.
   bool needs_point_forces() const { return epsilon > 0 || method == Method::back_leg; }
-  // Of the metric: a tangent plane shows lengths as they are.
+  // Exponent of the metric: a tangent plane keeps lengths.
   double metric_exponent(double chosen) const { return chart == ChartKind::tangent ? 1.0 : chosen; }
 };
 

@@ -7,7 +7,7 @@
 namespace fairing {
 namespace {
 
-// In each every vertex takes one step, and the surface follows.
+// Number of steps of every vertex, each followed by a solve.
 constexpr int release_rounds = 3;
 
 }  // namespace
@@ -30,18 +30,19 @@ int release_control_vertices(ThinPlateSolver& solver, const PlateData& data, dou
   if (!any) return 0;
   freed.any_vertex = true;
   const Array<float> diagonal = levels.diagonal_with(top, freed);
-  // A row reaches two points far: edges in two pieces couple neighbouring vertices, which step half as
-  // far there.
+  // A row reaches two points, so with two pieces an edge neighbouring vertices are coupled, and
+  // their steps are halved.
   const double damping = levels.grid(top).n() > 2 ? 1.0 : 0.5;
-  const double within = (1 - single_rounding) * epsilon;  // rounding must not carry a vertex beyond
+  // so that rounding does not exceed epsilon
+  const double within = (1 - single_rounding) * epsilon;
   std::vector<Vec3> targets(given.begin(), given.end());
   Array<double> gradient(x.size());
   for (int round = 0; round < release_rounds; ++round) {
     levels.apply_with(top, freed, x.data(), gradient.data());
     for (std::size_t v = 0; v < std::size_t(mesh.first_centre()); ++v) {
       if (!freed.vertex[v] || !(diagonal[v] > 0)) continue;
-      // The energy is isotropic in one vertex, so the nearest point of the ball is the best one in
-      // it.
+      // The energy is isotropic in one vertex, so the nearest point of the ball is the minimum
+      // within it.
       Vec3 offset =
           targets[v] - damping / double(diagonal[v]) * point_at(gradient, Index(v)) - given[v];
       const double length = offset.norm();
