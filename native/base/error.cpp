@@ -7,7 +7,7 @@
 namespace fairing {
 namespace {
 
-constexpr std::size_t shown = 5;  // ids in a message: a line of text
+constexpr std::size_t shown = 5;  // ids in a message, which fit on one line
 
 struct Noun {
   std::string_view one, many;
@@ -28,7 +28,7 @@ std::string listed(const Noun& noun, ElementKind kind, std::span<const std::int6
   return out + (count > shown ? ", …)" : ")");
 }
 
-// What a place stands for; nothing where the braces are part of the text.
+// The replacement of a placeholder; nothing if the braces are ordinary text.
 std::optional<std::string> filled(std::string_view place, ElementKind kind,
                                   std::span<const std::int64_t> ids) {
   if (const std::size_t bar = place.find('|'); bar != place.npos) {
