@@ -22,13 +22,13 @@
 namespace fairing {
 namespace {
 
-thread_local std::vector<MemoryLedger*> ledgers;  // the open one last
+thread_local std::vector<MemoryLedger*> ledgers;  // the innermost is last
 thread_local MemoryNews* run_news = nullptr;
 
 MemoryLedger* open_ledger() { return ledgers.empty() ? nullptr : ledgers.back(); }
 
-// A run that takes no more than this is not told of; nor is one within a tenth of what was predicted.
-// Afterwards every quarter more is.
+// A run with less memory than this is not announced, nor one within a tenth of the prediction.
+// Beyond that every additional quarter is.
 constexpr std::size_t small_run = std::size_t(16) << 20, slack = 10, further = 4;
 constexpr int longest_wait = 200;  // for a listener, in milliseconds
 
@@ -63,7 +63,7 @@ bool is_expected_memory(std::size_t bytes) {
 
 MemoryLedger::MemoryLedger(std::size_t limit) : limit_(limit) { ledgers.push_back(this); }
 
-// A solver's may end before one that was opened later.
+// A solver's ledger may end before one that was opened later.
 MemoryLedger::~MemoryLedger() { std::erase(ledgers, this); }
 
 void MemoryLedger::add(std::size_t bytes) {
@@ -71,7 +71,7 @@ void MemoryLedger::add(std::size_t bytes) {
   if (!open) return;
   open->current_ += bytes;
   open->peak_ = std::max(open->peak_, open->current_);
-  announce_memory(0);  // a new array has no pages before it is written
+  announce_memory(0);  // pages of a new array count once they are written
 }
 
 void MemoryLedger::remove(std::size_t bytes) {
@@ -90,12 +90,13 @@ bool MemoryLedger::fits(std::size_t bytes) {
 
 void prefer_large_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
 #if defined(__linux__)
-  // Whole pages only: what lies beside the array stays as it is.
+  // Whole pages only; memory next to the array is not affected.
   constexpr std::uintptr_t page = std::uintptr_t(1) << 21;
   const auto begin = reinterpret_cast<std::uintptr_t>(memory);
   const std::uintptr_t first = (begin + page - 1) / page * page,
                        last = (begin + bytes) / page * page;
-  if (first < last) madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);  // a wish
+  if (first < last)
+    madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);  // only a hint
 #endif
 }
 

@@ -8,7 +8,7 @@
 namespace fairing {
 namespace {
 
-// Passes over small levels follow one another within microseconds: spin that long before sleeping.
+// Passes over small levels are microseconds apart: threads spin this many times before they sleep.
 constexpr int spins = 4000;
 
 inline void relax() {
@@ -74,8 +74,8 @@ void Workers::run_part(Task task, void* data, int part) {
   if (unfinished_.fetch_sub(1, std::memory_order_acq_rel) == 1) unfinished_.notify_one();
 }
 
-// The caller takes parts from the front, the others from the end: in the next pass, each finds
-// again in its cache what it has worked on.
+// The caller takes parts from the front, the others from the end, so that in the next pass each
+// thread finds its last parts in its cache.
 void Workers::work(State state, bool from_end) {
   const std::uint64_t call = call_of(state);
   while (call_of(state) == call && first_of(state) < end_of(state)) {
