@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The points after a step are numbered [vertices | edges | faces] of the level before; face k of a
-// level is the quad at corner k before.
+// The points after a step are numbered [vertices | edges | faces] of the previous level; face k of
+// a level is the quad at corner k of the previous one.
 #include "mesh/catmull_clark.h"
 
 #include "base/points.h"
@@ -71,7 +71,7 @@ void CatmullClark::set_polygons(const PolygonMesh& mesh, const ControlMesh& cont
     else if (control.fans_meet(v))
       vertices.emplace_back(v, 0.0);
   set_specials(level, vertices);
-  // one edge of three faces or more may pass through a vertex where fans meet
+  // an edge of three faces or more may pass through a vertex where fans meet
   for (Special& special : level.specials)
     if (control.fans_meet(special.vertex) && rule_of(special.sharp, 0) != VertexRule::crease)
       special.sharp.vertex = sharp_for_ever;
@@ -79,7 +79,7 @@ void CatmullClark::set_polygons(const PolygonMesh& mesh, const ControlMesh& cont
 
 void CatmullClark::set_specials(Level& level,
                                 const std::vector<std::pair<Index, double>>& vertices) {
-  std::vector<std::pair<Index, std::size_t>> around;  // vertex, which of the sharp edges
+  std::vector<std::pair<Index, std::size_t>> around;  // vertex, number of the sharp edge
   for (std::size_t i = 0; i < level.sharp_edges.size(); ++i)
     for (const Index v : level.ends[std::size_t(level.sharp_edges[i].first)])
       around.emplace_back(v, i);
@@ -222,7 +222,7 @@ Array<double> CatmullClark::step(std::size_t l, std::span<const double> x) const
   return out;
 }
 
-// x: the points after that level's step.
+// x: the points after the step of that level.
 Array<double> CatmullClark::to_limit(std::size_t l, std::span<const double> x) const {
   const Level& level = levels_[l];
   const auto vertices = std::size_t(level.vertices);
@@ -299,12 +299,12 @@ std::vector<double> CatmullClark::vertex_limits(std::span<const double> cage) co
   return limits;
 }
 
-// Of vertices whose limit takes many steps: on their rings alone. x: the points after the first step.
+// Limits that need many steps, computed on their rings only. x: the points after the first step.
 void CatmullClark::put_exact_limits(std::span<const double> x, std::vector<double>& limits) const {
   const Level& level = levels_[0];
   const auto vertices = std::size_t(level.vertices);
-  std::vector<Index> which(vertices, -1);                // of the rings
-  std::vector<std::vector<std::array<Index, 3>>> rings;  // of each corner: both edges, the face
+  std::vector<Index> which(vertices, -1);                // number of the ring
+  std::vector<std::vector<std::array<Index, 3>>> rings;  // of each corner: both edges and the face
   std::vector<const Special*> specials;
   for (const Special& special : level.specials)
     if (takes_many_steps(special.sharp)) {

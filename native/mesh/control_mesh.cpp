@@ -29,10 +29,10 @@ void set_faces(const SplitMesh& split, ControlMesh& control) {
   control.sides.reserve(std::size_t(sides));
 }
 
-// --- edges, sides and rings, by OpenMesh, which only fill/refine.cpp knows beside ---
+// --- edges, sides and rings, by OpenMesh, which only fill/refine.cpp uses as well ---
 
-// The half-edges alone: positions have no business here. Only handles and prev/next/opposite are
-// used, as circulators changed their sense between OpenMesh versions.
+// Half-edges without positions. Only handles and prev/next/opposite are used, since the sense of
+// circulators differs between versions of OpenMesh.
 using HalfEdgeMesh = OpenMesh::PolyConnectivity;
 using Half = OpenMesh::HalfedgeHandle;
 
@@ -52,7 +52,7 @@ HalfEdgeMesh build(const ControlMesh& control) {
     OpenMesh::VertexHandle corners[4];
     for (int i = 0; i < face.size; ++i)
       corners[i] = OpenMesh::VertexHandle(face.vertex[std::size_t(i)]);
-    // check() leaves nothing that could fail here; but a bug must not become a broken table.
+    // check() excludes failures here; but a bug must not produce a broken table.
     if (!mesh.add_face(corners, std::size_t(face.size)).is_valid())
       throw FairingError(
           ErrorCode::nonmanifold_vertex,
@@ -72,7 +72,8 @@ void fill_edges(const HalfEdgeMesh& mesh, ControlMesh& control) {
   }
 }
 
-// OpenMesh's half-edges 2e and 2e + 1 are the edge's two directions, as Edge::side is.
+// The half-edges 2e and 2e + 1 of OpenMesh are the two directions of the edge, in the order of
+// Edge::side.
 void fill_sides(const HalfEdgeMesh& mesh, ControlMesh& control) {
   for (std::size_t f = 0; f < control.faces.size(); ++f) {
     stop_if_cancelled(f);
@@ -91,7 +92,7 @@ void fill_sides(const HalfEdgeMesh& mesh, ControlMesh& control) {
 void fill_ring(const HalfEdgeMesh& mesh, Index v, ControlMesh& control) {
   const OpenMesh::VertexHandle centre(v);
   if (mesh.is_isolated(centre)) return;
-  // A boundary vertex refers to its boundary half-edge, behind which there is no face: the last
+  // A boundary vertex refers to its boundary half-edge, which has no face behind it: the last
   // spoke.
   const Half last = mesh.halfedge_handle(centre);
   const bool open = mesh.is_boundary(last);
@@ -114,7 +115,7 @@ void fill_ring(const HalfEdgeMesh& mesh, Index v, ControlMesh& control) {
   } while (h != first);
 }
 
-// Fills sides, edges and rings from the faces.
+// Fills the tables of sides, edges and rings from the faces.
 void connect_faces(ControlMesh& control) {
   const HalfEdgeMesh mesh = build(control);
   fill_edges(mesh, control);
@@ -127,7 +128,7 @@ void connect_faces(ControlMesh& control) {
   }
 }
 
-// Where edges and sides are in the rings of their vertices.
+// Fills the places of edges and sides in the rings of their vertices.
 void index_spokes(ControlMesh& control) {
   control.spoke_of_edge.resize(2 * control.edges.size());
   control.spoke_of_side.resize(control.sides.size());

@@ -14,13 +14,13 @@ class Lifter {
   Lifter(const PolygonMesh& mesh, const DoubleCover& cover)
       : mesh_(mesh), over_(cover.over), cover_(cover), turned_(over_.size(), 0) {}
 
-  // A centre belongs to one polygon, and looks as that does.
+  // A centre belongs to one polygon and has its orientation.
   void add_centre(Index copy) {
     over_.push_back(copy);
     turned_.push_back(0);
   }
 
-  // For the faces of a polygon, until the next one.
+  // Before the faces of a polygon.
   void add_polygon(Index f) {
     const auto begin = std::size_t(mesh_.offsets[std::size_t(f)]),
                end = std::size_t(mesh_.offsets[std::size_t(f) + 1]);
@@ -35,7 +35,7 @@ class Lifter {
       const auto v = std::size_t(face.vertex[i]);
       if (bool(turned_[v]) != second) out.vertex[i] = over_[v];
     }
-    // The first corner stays the first.
+    // The first corner stays first.
     if (second) std::reverse(out.vertex.begin() + 1, out.vertex.begin() + std::ptrdiff_t(size));
     return out;
   }
@@ -44,7 +44,7 @@ class Lifter {
   const PolygonMesh& mesh_;
   std::vector<Index> over_;
   const DoubleCover& cover_;
-  std::vector<std::uint8_t> turned_;  // of the vertices of the polygon that was taken
+  std::vector<std::uint8_t> turned_;  // for the vertices of the present polygon
 };
 
 }  // namespace

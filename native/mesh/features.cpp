@@ -50,8 +50,7 @@ class FeatureFinder {
   }
 
  private:
-  // Outside a region edges are straight lines, whatever is asked for; on its joint they are
-  // straight creases.
+  // Edges outside a region are always straight lines; those on its joint are straight creases.
   bool feature(Index e) const {
     return control_.feature_edge[std::size_t(e)] != 0 &&
            control_.edge_part(e) != RegionPart::outside;
@@ -59,7 +58,7 @@ class FeatureFinder {
   bool curve(Index e) const { return feature(e) && control_.edge_part(e) == RegionPart::inside; }
   const Edge& edge(Index e) const { return control_.edges[std::size_t(e)]; }
   const Vec3& position(Index v) const { return control_.positions[std::size_t(v)]; }
-  // Of the polygon on a side, with the length of twice its area.
+  // Normal of the polygon on a side; its length is twice the area.
   Vec3 normal(const std::vector<Vec3>& of_polygons, Index side) const {
     const Index f = control_.sides[std::size_t(side)].face;
     const Vec3& normal = of_polygons[std::size_t(control_.faces[std::size_t(f)].polygon)];
@@ -79,14 +78,14 @@ class FeatureFinder {
     return edge(e).boundary() && !control_.nonmanifold(e) && mode(e) == BoundaryMode::linear;
   }
 
-  // Where sheets meet, whatever is asked for: no other curve could hold more than two faces.
+  // Edges where sheets meet are always boundaries: other curves have at most two faces.
   void mark_boundary() {
     for (Index e = 0; e < Index(control_.edges.size()); ++e)
       control_.feature_edge[std::size_t(e)] =
           control_.nonmanifold(e) || (edge(e).boundary() && mode(e) != BoundaryMode::free);
   }
 
-  // The edge between two input vertices, one of them where it is non-manifold; -1: none.
+  // The edge between two input vertices, one of the edges if it is non-manifold; -1: none.
   Index find_edge(Index a, Index b) const {
     if (control_.ring(a).size() > control_.ring(b).size()) std::swap(a, b);
     Index found = -1;
@@ -99,7 +98,7 @@ class FeatureFinder {
     return found;
   }
 
-  // Both halves of a double cover have the same creases.
+  // Both sides of a double cover have the same creases.
   void mark_copies() {
     for (Index e = control_.first_copied_edge(); e < Index(control_.edges.size()); ++e) {
       std::uint8_t& original = control_.feature_edge[std::size_t(control_.original_edge(e))];
@@ -122,7 +121,7 @@ class FeatureFinder {
     });
   }
 
-  // Once all creases are known.
+  // Call it once all creases are known.
   void weigh_soft_creases() {
     SoftCreases& soft = control_.soft;
     bool any = false;
@@ -152,7 +151,7 @@ class FeatureFinder {
     return count > 1 || !control_.interior(v) ? sum / count : 0;
   }
 
-  // visit(e, place in `pairs`) for the edges that the caller has named; `where` and `noun` say what they are to be.
+  // Calls visit(e, place in `pairs`) for the caller's edges; `where` and `noun` are for messages.
   template <class Visit>
   void for_each_edge(const std::vector<std::array<std::int64_t, 2>>& pairs, const char* where,
                      const char* noun, Visit&& visit) const {
@@ -199,7 +198,7 @@ class FeatureFinder {
     }
   }
 
-  // The feature edges at v = joined_.first(v), copies left out; valid until the next call.
+  // The feature edges at v = joined_.first(v), without copies; valid until the next call.
   const std::vector<Index>& feature_edges_at(Index v) {
     found_.clear();
     joined_.for_each(v, [&](Index w) {
@@ -214,7 +213,7 @@ class FeatureFinder {
     return found_;
   }
 
-  // What the edge leads to from v = joined_.first(v).
+  // The other end of the edge, seen from v = joined_.first(v).
   Index across(Index e, Index v) const {
     const Index first = joined_.first(edge(e).vertex[0]);
     return first == v ? joined_.first(edge(e).vertex[1]) : first;
@@ -227,8 +226,8 @@ class FeatureFinder {
     return angle_between(in, out) > options_.corner_angle;
   }
 
-  // A curve ends where no other one goes on, where sheets begin or end to meet along it, and where
-  // it becomes straight.
+  // A curve ends at v if no other curve continues it, if the sheets that meet along it change, or
+  // if it becomes straight.
   bool ends(Index v, const std::vector<Index>& edges) const {
     return edges.size() != 2 || straight(edges[0]) != straight(edges[1]) ||
            control_.vertex_part(v) == RegionPart::joint ||
@@ -269,7 +268,7 @@ class FeatureFinder {
             collect_chain(v, e, visited);
       });
     }
-    for (Index e = 0; e < control_.first_copied_edge(); ++e)  // what no corner reaches are loops
+    for (Index e = 0; e < control_.first_copied_edge(); ++e)  // the remaining curves are closed
       if (unseen(e)) collect_chain(joined_.first(edge(e).vertex[0]), e, visited);
   }
 
@@ -298,8 +297,8 @@ class FeatureFinder {
   const FeatureOptions& options_;
   ControlMesh& control_;
   const JoinedVertices joined_;
-  std::vector<BoundaryMode> mode_;    // of edges that are no copies
-  std::vector<std::uint8_t> corner_;  // of vertices that are joined, the first
+  std::vector<BoundaryMode> mode_;    // for edges that are not copies
+  std::vector<std::uint8_t> corner_;  // for the first of joined vertices
   std::vector<Index> found_;
 };
 

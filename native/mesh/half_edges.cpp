@@ -27,7 +27,8 @@ std::int32_t HalfEdges::previous(std::int32_t k) const {
   return k == mesh_.offsets[f] ? std::int32_t(mesh_.offsets[f + 1]) - 1 : k - 1;
 }
 
-// By their lower vertices half-edges make buckets of about three, each sorted by the higher ones.
+// Sorts half-edges by their lower vertices into groups of about three, and each group by the higher
+// vertex.
 void HalfEdges::find_twins() {
   struct Side {
     std::int32_t high, half_edge;

@@ -6,7 +6,7 @@
 namespace fairing {
 namespace {
 
-// The ring after the subdivision step number `steps`.
+// The ring after step number `steps`.
 void subdivide(const AroundVertex& sharp, int steps, LimitRing& ring) {
   const auto n = double(ring.spokes.size());
   std::vector<Vec3> beside(ring.spokes.size(), Vec3::Zero());
@@ -45,8 +45,8 @@ bool takes_many_steps(const AroundVertex& sharp) {
 }
 
 Vec3 limit_of(LimitRing ring, const AroundVertex& sharp) {
-  // What is left of a ring shrinks by a third a step at the least, the second eigenvalue for high
-  // valences: two steps take a binary digit.
+  // The rest of a ring shrinks by a third a step at least, the second eigenvalue for high valences:
+  // two steps give a binary digit.
   const int steps = int(always_sharp) + 2 * std::numeric_limits<double>::digits;
   for (int s = 1; s <= steps; ++s) subdivide(sharp, s, ring);
   return ring.vertex;

@@ -10,18 +10,18 @@
 namespace fairing {
 namespace {
 
-// Searches a vertex over all candidate planes; symmetry is given up after that.
+// Most searches for a vertex over all candidate planes; more give up the symmetry.
 constexpr std::size_t most_searches = 64;
 
-// Finds the vertex at a place, copies left out: those that have faces, sorted along a direction that
-// no mesh is aligned with.
+// Finds the vertex at a place, without copies. Vertices with faces are sorted along a direction
+// that no mesh is aligned with.
 class PointSearch {
  public:
   explicit PointSearch(const ControlMesh& mesh);
 
   static constexpr Index none = -1, several = -2;
 
-  // The one vertex within `tolerance` of p.
+  // The only vertex within `tolerance` of p.
   Index at(const Vec3& p, double tolerance) const;
 
  private:
@@ -33,7 +33,7 @@ class PointSearch {
   std::vector<Entry> entries_;
 };
 
-// The coordinate along that direction.
+// Coordinate along that direction.
 double key_of(const Vec3& p) {
   static const Vec3 along = Vec3(std::numbers::e, std::numbers::pi, std::numbers::phi).normalized();
   return p.dot(along);
@@ -63,7 +63,7 @@ Index PointSearch::at(const Vec3& p, double tolerance) const {
   return found;
 }
 
-// The side that runs from a to b; -1: none.
+// The side from a to b; -1: none.
 Index side_between(const ControlMesh& mesh, Index a, Index b) {
   const bool at_a = mesh.ring(a).size() <= mesh.ring(b).size();
   for (const Spoke& spoke : mesh.ring(at_a ? a : b)) {
@@ -127,7 +127,7 @@ class Finder {
     return true;
   }
 
-  // Where sheets meet, `image` has input vertices so far: a face of the sheet says which copy it is.
+  // Where sheets meet, `image` still has input vertices: the face of the sheet determines the copy.
   bool tell_copies_apart(std::vector<Index>& image) const {
     if (mesh_.copies.vertex.empty()) return true;
     const std::vector<Index> originals = image;
@@ -150,16 +150,16 @@ class Finder {
     return true;
   }
 
-  // Whether a face is its own image. So are all of its sheet then: where one left the plane, its image
-  // would be a third face at the edge. Only where sheets meet does a surface have such a part and
-  // another one.
+  // Whether a face is its own image. Then the whole sheet lies in the plane: if a face left the
+  // plane, its image would be a third face at the edge. Only where sheets meet does a surface have
+  // such a part and another one.
   bool lies_in_plane(const Face& face, const std::vector<Index>& image) const {
     return !mesh_.copies.vertex.empty() && std::ranges::all_of(corners(face), [&](Index v) {
       return mesh_.original_vertex(image[std::size_t(v)]) == mesh_.original_vertex(v);
     });
   }
 
-  // Whether the face behind `other` is the image of `face`, the spoke's corner that of `corner`.
+  // Whether the face at `other` is the image of `face`, and its corner that of `corner`.
   bool faces_match(const Face& face, int corner, const Spoke& other,
                    const std::vector<Index>& image) const {
     const Face& mirrored = mesh_.faces[std::size_t(other.face)];
@@ -172,7 +172,7 @@ class Finder {
     return true;
   }
 
-  // Of vertices at one place, faces say which is meant.
+  // Uses faces to distinguish vertices at one place.
   void tell_apart(std::vector<Index> unclear, std::vector<Index>& image) const {
     while (!unclear.empty()) {
       const Index v = unclear.back();
@@ -201,7 +201,7 @@ class Finder {
     return PointSearch::several;
   }
 
-  // The plane that all pairs make together; coordinate planes are exact.
+  // Fits the plane to all pairs; coordinate planes are exact.
   void centre_plane(Mirror& mirror) const {
     Plane& plane = mirror.plane;
     if (plane.offset == 0 && plane.normal.cwiseAbs().maxCoeff() == 1) return;
@@ -233,7 +233,7 @@ class Finder {
     return std::size_t((image.turn - c + image.size) % image.size);
   }
 
-  // A face runs the other way round in its image: side c, from a to b, has its image in that from
+  // The orientation of a face is reversed in its image: side c, from a to b, becomes the side from
   // b' to a'.
   FaceImage face_image(const Face& face, int c, const std::vector<Index>& image) const {
     const Index a = image[std::size_t(face.vertex[std::size_t(c)])],

@@ -34,7 +34,8 @@ const Vec3& farthest(const std::vector<Vec3>& points, Distance&& distance) {
   return *found;
 }
 
-// A mirror goes through the centre and takes every vertex to one at the same distance from it.
+// A mirror plane contains the centroid, so it maps every vertex to one at the same distance from
+// it.
 class Planes {
  public:
   Planes(const std::vector<Vec3>& points, double within)
@@ -84,7 +85,7 @@ std::vector<Plane> mirror_planes(const ControlMesh& mesh, double tolerance) {
   const auto like_first = [&](const Vec3& w) { return std::abs(radius(w) - along.norm()) <= near; };
   planes.add_bisectors(first, like_first);
 
-  // Planes that leave the first vertex where it is: they move the second one, or leave it as well.
+  // Planes that keep the first vertex; the second one is moved or kept.
   const auto off_axis = [&](const Vec3& p) { return along.cross(p - c).norm(); };
   const Vec3 second = farthest(points, off_axis);
   const auto like_second = [&](const Vec3& w) {

@@ -24,11 +24,11 @@ Eigen::AlignedBox3d bounding_box(const Corners& triangle) {
   return box.extend(triangle.at[1]).extend(triangle.at[2]);
 }
 
-// What the next triangle along a ray is found by (Eigen's BVMinimize).
+// Finds the next triangle along a ray (Eigen's BVMinimize).
 struct Ray {
-  using Scalar = double;  // as Eigen wants it
+  using Scalar = double;  // required by Eigen
   Vec3 from, along;
-  Index face;  // that it comes from
+  Index face;  // at the start of the ray
   std::span<const FacePlane> planes;
   Opposite next{};
 
@@ -44,7 +44,7 @@ struct Ray {
     return enters <= leaves ? enters : none;
   }
 
-  // As in [Möller and Trumbore 1997]; a triangle's sides are its own.
+  // As in [Möller and Trumbore 1997]; the sides belong to the triangle.
   double minimumOnObject(const Corners& triangle) {
     if (triangle.face == face || !(planes[std::size_t(triangle.face)].normal.dot(along) > 0))
       return none;
@@ -60,7 +60,7 @@ struct Ray {
   }
 };
 
-// Above zero: faces look outwards.
+// Positive if the faces are oriented outwards.
 double six_volumes(std::span<const FacePlane> planes) {
   Vec3 centre = Vec3::Zero();
   for (const FacePlane& plane : planes) centre += plane.middle / double(planes.size());

@@ -19,7 +19,7 @@ bool all_agree(const HalfEdges& half_edges) {
   return true;
 }
 
-// Spreads over each component which way its faces run: +1 as its first face does, -1 against it.
+// Finds the orientation of each face relative to the first one of its component: +1 or -1.
 class Senses {
  public:
   Senses(const PolygonMesh& mesh, const HalfEdges& half_edges)
@@ -27,7 +27,7 @@ class Senses {
 
   bool seen(std::int32_t f) const { return sense_[std::size_t(f)] != 0; }
 
-  // Visits the component of a face; false if it is one-sided.
+  // Visits the component of a face. Returns whether it is two-sided.
   bool visit(std::int32_t seed) {
     component_.assign(1, seed);
     sense_[std::size_t(seed)] = 1;

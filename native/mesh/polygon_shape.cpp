@@ -18,13 +18,13 @@
 namespace fairing {
 namespace {
 
-// Of a star's sides from its centre, relative to the root of its area.
+// Least distance of a star's sides from its centre, relative to the root of its area.
 constexpr double least_distance = 0.01;
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-// Sums with the same bits in whatever order the terms come, and the negative of these bits where all
-// terms change their sign: each sign is summed up for itself, from the smallest term on.
+// Sums with the same bits for any order of the terms, and with the negative bits if all terms
+// change their sign: positive and negative terms are summed separately, in ascending order.
 class OrderFreeSum {
  public:
   explicit OrderFreeSum(std::size_t terms) {
@@ -50,8 +50,8 @@ class OrderFreeSum {
   std::array<std::vector<double>, 3> term_;
 };
 
-// The mean of the corners. Not the middle of their box, which does not turn with them: the centroid of a
-// polygon that is not plane hangs on where triangles are summed up from.
+// The mean of the corners. The centre of the bounding box does not rotate with them, and the
+// centroid of a polygon that is not planar depends on the first triangle of the sum.
 Vec3 mean(std::span<const Vec3> p) {
   if (p.size() == 4) return 0.25 * ((p[0] + p[2]) + (p[1] + p[3]));
   Vec3 least = p[0], most = p[0];
@@ -74,9 +74,9 @@ struct Diagonal {
   }
 };
 
-// cost(i, length): the least badness of the part between the diagonal (i, i + length) and the sides
-// from i on to i + length. All starts i are tabulated, round the corner too: then the two sides of
-// a diagonal together give the cost of the best triangulation that uses it.
+// cost(i, length): least badness of the part between the diagonal (i, i + length) and the sides
+// from i to i + length, for all starts i, cyclically. The sum of the two sides of a diagonal is the
+// cost of the best triangulation with that diagonal.
 class Costs {
  public:
   Costs(const PolygonShape& shape, const std::function<bool(std::size_t, std::size_t)>& allowed)
@@ -90,7 +90,7 @@ class Costs {
     }
   }
 
-  // The same from every side on, but for rounding.
+  // The same for every start, up to rounding.
   double whole() const {
     double least = infinite;
     for (std::size_t i = 0; i < n_; ++i) least = std::min(least, cost_[i * n_ + n_ - 1]);
@@ -131,7 +131,7 @@ std::vector<Piece> cut(std::size_t corners, const std::vector<Diagonal>& diagona
   std::vector<Piece> pieces(1, Piece(corners));
   std::iota(pieces[0].begin(), pieces[0].end(), std::size_t(0));
   for (const Diagonal& d : diagonals) {
-    // The diagonals do not cross: exactly one piece holds both ends.
+    // Diagonals do not cross, so exactly one piece has both ends.
     for (Piece& piece : pieces) {
       const auto first = std::find(piece.begin(), piece.end(), d.i),
                  last = std::find(first, piece.end(), d.j);
@@ -199,7 +199,7 @@ bool PolygonShape::concave() const {
     const Vec2 in = plane_[i] - plane_[(i + size() - 1) % size()];
     const Vec2 out = plane_[(i + 1) % size()] - plane_[i];
     const double turn = cross(in, out), ahead = in.dot(out);
-    // 180 degrees, but for rounding by hand, is concave
+    // 180 degrees, up to rounding in a file, is concave
     if (!(turn > 0) || turn < collinear * ahead) return true;
   }
   return false;

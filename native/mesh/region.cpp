@@ -10,7 +10,7 @@
 namespace fairing {
 namespace {
 
-// The part of a vertex or edge that touches faces of these kinds.
+// The part of a vertex or edge with faces of these kinds.
 RegionPart part_of(bool some_inside, bool some_outside) {
   if (!some_inside) return RegionPart::outside;
   return some_outside ? RegionPart::joint : RegionPart::inside;
@@ -33,7 +33,7 @@ RegionPart edge_part(const ControlMesh& control, const Edge& edge) {
   return part_of(touches[0], touches[1]);
 }
 
-// Sheets that meet do so inside the region, outside, or on its joint.
+// Where sheets meet, all of them are inside the region, outside, or on its joint.
 void join_sheets(ControlMesh& control) {
   if (control.copies.edge.empty()) return;
   Region& region = control.region;

@@ -86,7 +86,7 @@ SharpRules::SharpRules(const ControlMesh& control, std::span<const std::int64_t>
       for (const Index v : chain.vertices) vertex_[std::size_t(v)] = sharp_for_ever;
   }
   for (std::size_t v = 0; v < vertex_.size(); ++v)
-    if (ends[v] == 2) vertex_[v] = sharp_for_ever;  // one curve, cut in two: it turns sharply
+    if (ends[v] == 2) vertex_[v] = sharp_for_ever;  // one curve in two parts: it turns sharply
   for (const std::int64_t v : corners) vertex_[std::size_t(v)] = sharp_for_ever;
   for (std::size_t v = 0; v < given.vertices.size(); ++v)
     if (given.vertices[v] > 0) vertex_[v] = forever(given.vertices[v]);

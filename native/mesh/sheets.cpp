@@ -10,15 +10,15 @@
 namespace fairing {
 namespace {
 
-// A vertex to be added: for a fan, or over that of a fan on a double cover.
+// A vertex to add, for a fan or above that of a fan on a double cover.
 struct Copy {
   std::int64_t of;
-  std::int32_t corner;  // one of the fan
+  std::int32_t corner;  // a corner of the fan
   bool second;
   auto operator<=>(const Copy&) const = default;
 };
 
-// For all fans but the first of each vertex, and over all fans of one-sided sheets; ascending.
+// For all fans but the first of each vertex, and above all fans of one-sided sheets; ascending.
 std::vector<Copy> copies_wanted(const HalfEdges& half_edges, std::size_t vertices,
                                 const DoubleCover& cover) {
   std::vector<Copy> copies;
@@ -36,9 +36,8 @@ std::vector<Copy> copies_wanted(const HalfEdges& half_edges, std::size_t vertice
   return copies;
 }
 
-// Edges between the same two vertices, the first of each apart: pairs of original and copy,
-// ascending. Only an edge that was cut, or is on a double cover, comes twice: splits join no two
-// vertices a second time.
+// Edges between the same two vertices: pairs of the first one and each copy, ascending. Only cut
+// edges and those on a double cover are repeated, since splits never join two vertices again.
 std::vector<std::array<Index, 2>> edges_that_came_apart(const ControlMesh& control) {
   struct Entry {
     std::array<Index, 2> ends;
@@ -66,7 +65,7 @@ std::vector<std::array<Index, 2>> edges_that_came_apart(const ControlMesh& contr
   return apart;
 }
 
-// Where the edges go when copies move behind all others, and which of them turn round.
+// New numbers of edges when copies move behind all others, and which edges are reversed.
 struct EdgeMoves {
   std::vector<Index> to;
   std::vector<std::uint8_t> turned;

@@ -24,8 +24,8 @@ PolygonShape shape_of(const PolygonMesh& mesh, std::span<const std::int64_t> fac
   return PolygonShape(corners);
 }
 
-// Vertices with two faces all around them: only a cut through one of these faces gives them a third
-// spoke.
+// Vertices with two faces that surround them: only a cut through one of these faces gives them a
+// third spoke.
 std::vector<std::uint8_t> pinched_vertices(const PolygonMesh& mesh) {
   struct Corner {
     std::int64_t before = -1, after = -1;
@@ -39,7 +39,7 @@ std::vector<std::uint8_t> pinched_vertices(const PolygonMesh& mesh) {
       const auto v = std::size_t(face[i]);
       const Corner corner{face[(i + face.size() - 1) % face.size()], face[(i + 1) % face.size()]};
       if (faces[v] == 0) first[v] = corner;
-      // In a one-sided sheet neighbours may run either way.
+      // Neighbours in a one-sided sheet may have either orientation.
       const bool against = corner.before == first[v].after && corner.after == first[v].before,
                  along = corner.before == first[v].before && corner.after == first[v].after;
       pinched[v] = faces[v] == 1 && (against || along);
@@ -49,9 +49,8 @@ std::vector<std::uint8_t> pinched_vertices(const PolygonMesh& mesh) {
   return pinched;
 }
 
-// Which of the vertex pairs that a cut might join are free. A pair is taken by an edge, or by a
-// second face that wants it: then neither face gets it, since any rule which one does would depend
-// on the order of faces.
+// The vertex pairs that a cut may join. A pair is excluded if an edge has it, or if two faces want
+// it: neither face gets it then, since any choice would depend on the order of faces.
 class Diagonals {
  public:
   void propose(std::int64_t a, std::int64_t b) { ++wanted_[key(a, b)]; }

@@ -9,14 +9,14 @@
 namespace fairing {
 namespace {
 
-// Where a corner is along the input's side from one corner to another; -1: not on it.
+// Position of a corner along the input's side between two corners; -1: not on it.
 double place_on(const CornerOrigin& origin, Index from, Index to) {
   if (origin.share == 0) return origin.from == from ? 0 : origin.from == to ? 1 : -1;
   if (origin.from == from && origin.beside == to) return origin.share;
   return origin.from == to && origin.beside == from ? 1 - origin.share : -1;
 }
 
-// Of a corner so far along from corner a to the next, b.
+// A point at this share of the way from corner a to the next corner b.
 CornerOrigin origin_between(const CornerOrigin& a, const CornerOrigin& b, double share) {
   const bool cut = a.share != 0 || b.share == 0;
   const Index from = a.share == 0 && b.share != 0 ? b.from : a.from;
@@ -60,10 +60,10 @@ void CutSides::add(CutSide side) {
   cut_.try_emplace(ends, std::move(side));
 }
 
-// Every piece is shorter than the whole (Dissolver::cut_side): this ends.
+// This ends, since every piece is shorter than the whole (Dissolver::cut_side).
 Loop CutSides::expanded(std::span<const MendCorner> loop) const {
   Loop longer;
-  std::vector<std::pair<MendCorner, MendCorner>> sides;  // still to come, the next one last
+  std::vector<std::pair<MendCorner, MendCorner>> sides;  // not yet visited, the next one last
   std::size_t steps = 0;
   for (std::size_t i = 0; i < loop.size(); ++i) {
     sides.push_back({loop[i], loop[(i + 1) % loop.size()]});

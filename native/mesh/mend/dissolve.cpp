@@ -19,8 +19,8 @@
 namespace fairing {
 namespace {
 
-// A face whose turn comes, the longest first: then its vertices go into faces that stay, rather than
-// into others that go. Its place does not depend on the order of faces.
+// A face in the queue, the longest first: so its vertices go into faces that stay, not into others
+// that are dissolved later. Its place does not depend on the order of faces.
 struct Waiting {
   double longest_side;
   std::vector<Index> vertices;
@@ -59,7 +59,7 @@ class Dissolver {
 
   Dissolved run(const std::vector<Index>& flat) {
     for (const Index f : flat) wait(f, face(f));
-    // Enough for any mesh that was not made to defeat it.
+    // Enough for any mesh that was not constructed to exceed it.
     std::size_t left = 16 * loops_.corners.size() + 1024;
     for (; left > 0; --left) {
       if (waiting_.empty()) cut_sides_of_faces();
@@ -81,7 +81,7 @@ class Dissolver {
     return std::move(done_);
   }
 
-  // The faces that are left, those of one origin together.
+  // The remaining faces, those of one origin together.
   Loops result() const {
     std::vector<Index> order(changed_at_.size());
     std::iota(order.begin(), order.end(), Index(0));
@@ -107,7 +107,7 @@ class Dissolver {
                               : new_origin_[std::size_t(f - loops_.count())];
   }
 
-  // As far as that can be said of a convex polygon without area, which is no wider.
+  // The test for a convex polygon without area, which is no wider.
   bool on_a_line(const Loop& loop) const {
     if (loop.size() == 3) return true;
     const auto farthest_from = [&](const Vec3& p) {
@@ -145,7 +145,7 @@ class Dissolver {
     if (!loop.empty() && is_flat(coordinates_, loop, ids_)) wait(f, loop);
     changed_[std::size_t(at)] = std::move(loop);
   }
-  // The first of several faces in the place of one, the others beside it.
+  // Replaces a face by the first of several; the others are appended.
   void replace(Index f, std::vector<Loop> loops) {
     const Index from = origin(f);
     if (loops.empty()) return set(f, {});
@@ -180,7 +180,7 @@ class Dissolver {
     if (std::exchange(state_[std::size_t(f)], State::to_cut) == State::sound) to_cut_.push_back(f);
   }
 
-  // A face on a line and all others that span the same side.
+  // A face on a line and all other faces with the same longest side.
   std::vector<Index> stack_at(Index f, const Loop& loop) const {
     const CutSide side = longest_side(coordinates_, loop);
     std::vector<Index> stack;
@@ -193,7 +193,7 @@ class Dissolver {
     return stack;
   }
 
-  // One by one, each would get the vertices of all before it.
+  // If they were dissolved one by one, each would get the vertices of all before it.
   void dissolve_together(const std::vector<Index>& stack) {
     std::vector<Loop> loops;
     for (const Index f : stack) {
@@ -214,8 +214,8 @@ class Dissolver {
     }
   }
 
-  // What has an area gets the vertices inside its sides once no flat face is left: a side may be cut
-  // many times over, and a face is long then.
+  // Inserts the vertices inside the sides of faces with an area, once no flat face is left: a side
+  // may be cut many times, and faces become long.
   void cut_sides_of_faces() {
     std::vector<Index> faces = std::move(to_cut_);
     to_cut_.clear();
@@ -239,7 +239,8 @@ class Dissolver {
     return {std::move(loop)};
   }
 
-  // Gives a flat face, if it still has this side in either direction, the vertices inside it.
+  // Inserts the vertices inside this side into a flat face, if it still has the side in either
+  // direction.
   void insert(Index f, const CutSide& side) {
     const auto loop = face(f);
     Loop longer;
@@ -267,7 +268,7 @@ class Dissolver {
     set(f, std::move(longer));
   }
 
-  // Into triangles about the lowest corner; of a quad's two diagonals, along that with the larger
+  // Cuts a face into triangles at its lowest corner; a quad along the diagonal with the larger
   // halves.
   void cut(Index f, const Loop& loop) {
     const auto lower = [](const MendCorner& a, const MendCorner& b) { return a.vertex < b.vertex; };
@@ -295,8 +296,8 @@ class Dissolver {
   std::span<const double> coordinates_;
   const Loops& loops_;
   EdgeFaces edges_;
-  // Of every face its loop in changed_, empty if it is gone, or -1 where it is as it was. Faces that
-  // have come are numbered on from the others.
+  // For each face the place of its loop in changed_, which is empty if the face is gone, or -1 if
+  // it is unchanged. New faces are numbered after the others.
   Array<Index> changed_at_;
   std::vector<Loop> changed_;
   std::vector<Index> new_origin_;
@@ -305,7 +306,7 @@ class Dissolver {
   std::set<Waiting> waiting_;
   std::vector<Index> to_cut_;
   CutSides cut_;
-  std::size_t steps_ = 0;  // between questions
+  std::size_t steps_ = 0;  // since the last check for cancellation
   Dissolved done_;
   std::vector<std::int64_t> ids_;
 };

@@ -11,7 +11,7 @@ namespace {
 
 using Indices = std::vector<Index>;
 
-// All vertices along a side, from end to end. Of several at one place, one is kept.
+// All vertices along a side, from end to end; of several at one place only one.
 class Line {
  public:
   Line(std::span<const double> coordinates, const CutSide& side, const Indices& vertices)
@@ -29,7 +29,7 @@ class Line {
 
   CutSide whole() const { return cut(kept_.front(), kept_.back(), 1, kept_.size() - 1); }
 
-  // Between any two of the vertices.
+  // The side between two of the vertices.
   CutSide side(Index a, Index b) const {
     auto from = rank(a), to = rank(b);
     if (from > to) {
@@ -41,7 +41,7 @@ class Line {
     return cut(a, b, from + 1, to);
   }
 
-  // Of the sides from either end that no face need have, but that are left of such as have been cut.
+  // Adds the sides from either end that no face has, but that remain of sides that were cut.
   void add_chains(std::vector<CutSide>& sides) const {
     for (std::size_t k = 1; k + 1 < kept_.size(); ++k) {
       stop_if_cancelled(k);
@@ -61,7 +61,7 @@ class Line {
     if (first >= end) return {std::min(a, b), std::max(a, b), {}};
     return cut_side(coordinates_, a, b, std::span(kept_).subspan(first, end - first));
   }
-  // By the vertex next to the end that is not the line's own.
+  // The side with the vertex next to the end that is not the line's end.
   CutSide nearest(Index a, Index b, std::size_t at, bool upwards) const {
     const auto is_end = [&](std::size_t k) { return k == 0 || k + 1 == kept_.size(); };
     for (std::size_t k = upwards ? at + 1 : at - 1; !is_end(k); upwards ? ++k : --k)

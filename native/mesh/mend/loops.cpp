@@ -9,8 +9,8 @@
 namespace fairing {
 namespace {
 
-// Whether more than one vertex comes again, doubled corners aside: then it matters where a walk begins
-// to be cut.
+// Whether more than one vertex is repeated, apart from doubled corners: then the result of cutting
+// the walk depends on its first corner.
 bool is_ambiguous(std::span<const MendCorner> walk) {
   std::vector<Index> vertices;
   for (std::size_t i = 0; i < walk.size(); ++i)
@@ -22,8 +22,8 @@ bool is_ambiguous(std::span<const MendCorner> walk) {
   return again > 1;
 }
 
-// Where the rotation of the walk begins whose vertices come first in order: where a walk is cut must
-// not hang on which corner a file names first.
+// The first corner of the walk's least rotation: the place of a cut must not depend on the corner
+// that a file names first.
 std::size_t least_rotation(std::span<const MendCorner> walk) {
   const auto vertex = [&](std::size_t from, std::size_t i) {
     return walk[(from + i) % walk.size()].vertex;
@@ -51,7 +51,7 @@ std::vector<Loop> simple_loops(std::span<const MendCorner> walk) {
     if (loop.size() >= 3) found.push_back(std::move(loop));
   };
   const std::size_t first = is_ambiguous(walk) ? least_rotation(walk) : 0;
-  std::unordered_map<Index, std::size_t> places;  // on the open end
+  std::unordered_map<Index, std::size_t> places;  // of the vertices on the open end
   for (std::size_t i = 0; i < walk.size(); ++i) {
     const MendCorner& corner = walk[(first + i) % walk.size()];
     const auto [at, is_new] = places.try_emplace(corner.vertex, open.size());

@@ -128,7 +128,7 @@ class Mender {
                        "No face has an area: the mesh has only points and lines.");
   }
 
-  // Vertices that have no position of their own any more go where a used one is.
+  // Moves unused vertices without a valid position to a used one.
   void place_vertices() {
     out_.vertex_origin.resize(std::size_t(mesh_.vertex_count()));
     for (std::size_t v = 0; v < out_.vertex_origin.size(); ++v) {
@@ -148,7 +148,7 @@ class Mender {
     out_.face_origin.assign(loops_.origin.begin(), loops_.origin.end());
     out_.corner_origin.reserve(loops_.corners.size());
     for (const MendCorner& corner : loops_.corners) out_.corner_origin.push_back(corner.origin);
-    const CountedBytes counted(out_.bytes());  // from here on the caller's
+    const CountedBytes counted(out_.bytes());  // from here on it belongs to the caller
   }
 
   void add_act(ErrorCode code, ElementKind kind, Ids ids, const char* done) {

@@ -18,7 +18,7 @@ using Ids = std::vector<std::int64_t>;
 
 Vec3 point(const PolygonMesh& mesh, std::int64_t v) { return point_at(mesh.coordinates, v); }
 
-// Kept vertices by the cube of space that they are in, in a table of chains.
+// Kept vertices by the cube of space that contains them, in a hash table with chains.
 class Cubes {
  public:
   Cubes(std::size_t points, double side)
@@ -32,7 +32,7 @@ class Cubes {
     next_[std::size_t(v)] = first;
     first = v;
   }
-  // Calls visit(v) for every vertex in a cube, and perhaps for others.
+  // Calls visit(v) for every vertex in a cube, and possibly for others.
   template <class Visit>
   void visit(const std::array<double, 3>& cube, Visit&& visit) const {
     for (Index v = first_[slot(cube)]; v >= 0; v = next_[std::size_t(v)]) visit(v);
@@ -58,7 +58,7 @@ double largest_coordinate_of(const PolygonMesh& mesh, const std::vector<std::uin
   return largest;
 }
 
-// A face with its vertices as they are now, each once where it comes twice in a row.
+// A face with merged vertices; consecutive repetitions are removed.
 void current_face(const PolygonMesh& mesh, std::int64_t f, UnionFind& merges, Ids& face) {
   face.clear();
   for (const std::int64_t v : mesh.face(f)) {
@@ -102,7 +102,7 @@ bool unite_short_sides(const PolygonMesh& mesh, const Ids& face, UnionFind& merg
 
 bool weld(const PolygonMesh& mesh, double distance, UnionFind& merges) {
   const std::vector<std::uint8_t> used = used_vertices(mesh);
-  // Cubes of rounding errors' size would be without number.
+  // Cubes as small as rounding errors would be too many to number.
   using Limits = std::numeric_limits<double>;
   const double side =
       std::max({distance, Limits::epsilon() * largest_coordinate_of(mesh, used), Limits::min()});
@@ -129,7 +129,7 @@ bool weld(const PolygonMesh& mesh, double distance, UnionFind& merges) {
   return any;
 }
 
-// What was merged may leave another side without length, in the next round.
+// A merge may leave another side without length, which the next round finds.
 bool merge_within_faces(const PolygonMesh& mesh, UnionFind& merges) {
   Ids face;
   bool any = false;

@@ -9,11 +9,10 @@ namespace {
 
 using Ids = std::vector<std::int64_t>;
 
-// Above this, squares and cubes of lengths would overflow later on.
+// Squares and cubes of larger lengths overflow.
 constexpr double largest_coordinate = 1e100;
 
-// A corner becomes up to three sides when its polygon is split, a side up to two half-edges; all
-// ids have 32 bits.
+// A split gives a corner up to three sides, and a side two half-edges; all ids have 32 bits.
 constexpr std::size_t largest_mesh = (std::size_t(1) << 31) / 8;
 
 bool cut_faces(std::span<const std::int64_t> offsets, std::size_t corners) {
@@ -33,7 +32,7 @@ Defect too_many() {
                 "The control mesh has more than 268 million corners or vertices.");
 }
 
-// The sizes fit together, so that every face's span of corners exists.
+// Checks that the sizes agree, so that every face's span of corners exists.
 bool check_sizes(const PolygonMesh& mesh, Defects& found) {
   const std::size_t before = found.size();
   if (mesh.coordinates.empty() && mesh.corners.empty())
@@ -74,7 +73,7 @@ bool check_finite(const PolygonMesh& mesh, Defects& found) {
   return false;
 }
 
-// A hint, where ids run from 1 to the number of vertices.
+// A hint if the ids are 1 to the number of vertices.
 std::string counts_from_one(const PolygonMesh& mesh) {
   const auto [lowest, highest] = std::minmax_element(mesh.corners.begin(), mesh.corners.end());
   if (*lowest != 1 || *highest != mesh.vertex_count()) return "";

@@ -45,7 +45,7 @@ CheckResult check(const PolygonMesh& mesh, const CheckOptions& options) {
   CheckResult result;
   for (const Defect& defect : findings.defects) {
     if (defect.severity == Severity::error) defect.raise();
-    if (!Defect::turns_faces(defect.code))  // told by flipped_faces
+    if (!Defect::turns_faces(defect.code))  // those are reported by flipped_faces
       result.warnings.push_back({name(defect.code), defect.message, defect.elements, defect.kind});
   }
   result.flipped_faces = std::move(findings.flipped_faces);

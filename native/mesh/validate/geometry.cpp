@@ -16,14 +16,14 @@ using Ids = std::vector<std::int64_t>;
 std::uint64_t hash(const double* point) {
   std::uint64_t h = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    const double value = point[axis] + 0.0;  // −0 and 0 are one point
+    const double value = point[axis] + 0.0;  // −0 becomes 0
     h = (h ^ std::bit_cast<std::uint64_t>(value)) * 0x9e3779b97f4a7c15u;
     h ^= h >> 32;
   }
   return h;
 }
 
-// For every vertex the first vertex at the same coordinates (itself, most often). Linear time.
+// For every vertex the first vertex with the same coordinates, mostly itself. Linear time.
 std::vector<std::int32_t> first_at_same_point(std::span<const double> coordinates) {
   const std::size_t vertices = coordinates.size() / 3;
   const std::size_t mask = std::bit_ceil(2 * vertices + 1) - 1;
@@ -46,7 +46,7 @@ std::vector<std::int32_t> first_at_same_point(std::span<const double> coordinate
 
 bool has_no_area(std::span<const double> coordinates, std::span<const std::int64_t> face) {
   const auto point = [&](std::size_t i) { return point_at(coordinates, face[i]); };
-  // Relative to one corner, or a small face far from the origin would drown in rounding.
+  // Relative to one corner, as rounding is too large for a small face far from the origin.
   const Vec3 origin = point(0);
   Vec3 twice_area = Vec3::Zero(), last = point(face.size() - 1) - origin;
   double longest = 0;
@@ -56,7 +56,7 @@ bool has_no_area(std::span<const double> coordinates, std::span<const std::int64
     longest = std::max(longest, (here - last).squaredNorm());
     last = here;
   }
-  return !(twice_area.norm() > 2 * rounding * longest);  // so written, NaN counts as none
+  return !(twice_area.norm() > 2 * rounding * longest);  // also true for NaN
 }
 
 void check_coincident_vertices(const PolygonMesh& mesh, Defects& found) {
@@ -69,7 +69,8 @@ void check_coincident_vertices(const PolygonMesh& mesh, Defects& found) {
     if (!listed[v]) shared.push_back(std::int64_t(v));
     listed[v] = 1;
   };
-  // A group is led by its first *used* vertex, so that an isolated one is not reported twice over.
+  // The leader of a group is its first *used* vertex, so that an isolated one is not reported
+  // twice.
   std::vector<std::int32_t> leader(first.size(), -1);
   for (std::size_t v = 0; v < first.size(); ++v) {
     stop_if_cancelled(v);

@@ -18,7 +18,7 @@ std::uint64_t scramble(std::uint64_t x) {  // splitmix64
 }
 
 struct Print {
-  std::uint64_t hash;  // of the vertex set: a sum, so that order does not matter
+  std::uint64_t hash;  // of the set of vertices: a sum, which does not depend on their order
   std::int32_t face;
 };
 
@@ -29,7 +29,7 @@ Ids sorted_vertices(const PolygonMesh& mesh, std::int32_t f) {
   return vertices;
 }
 
-// Faces of equal hash are compared in earnest.
+// Compares the vertices of faces with the same hash.
 void collect_equal_sets(const PolygonMesh& mesh, std::span<const Print> same_hash,
                         std::vector<SameVertices>& found) {
   std::vector<std::pair<Ids, std::int32_t>> sets;
@@ -54,7 +54,7 @@ std::int32_t fan_size(const HalfEdges& half_edges, std::int32_t k) {
 }  // namespace
 
 std::vector<SameVertices> faces_with_same_vertices(const PolygonMesh& mesh) {
-  // By their lowest vertices faces make buckets of two on average.
+  // Sorting faces by their lowest vertices gives groups of two on average.
   const auto lowest = [&](std::size_t f) { return std::ranges::min(mesh.face(std::int64_t(f))); };
   const auto print_of = [&](std::size_t f) {
     Print print{0, std::int32_t(f)};
