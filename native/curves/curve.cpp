@@ -6,7 +6,7 @@
 //   φ(i) = (i³ − N² i) / 6N,   h = H / N,
 //
 // where H is the segment's length in the parameter, |b − a|^exponent. The unknowns are the M at the
-// control vertices; there the definition of the second divided difference is one tridiagonal
+// control vertices; the definition of the second divided difference there gives one tridiagonal
 // equation a vertex:
 //
 //   (2N² + 1)(h₋ + h₊) M_j + (N² − 1)(h₊ M_{j+1} + h₋ M_{j−1})
@@ -26,7 +26,7 @@ namespace fairing {
 namespace {
 
 // Rounding depends on the order of operations, so every chain is first put into a canonical order
-// that depends on its coordinates alone: vertex i of the canonical chain is vertex start ± i of the
+// that depends only on its coordinates: vertex i of the canonical chain is vertex start ± i of the
 // given one.
 struct Order {
   std::size_t start = 0;
@@ -50,8 +50,8 @@ bool precedes(std::span<const Vec3> vertices, const Order& a, const Order& b) {
   return false;
 }
 
-// The least order, or all of them where the chain looks the same from several vertices or ends: a
-// boundary that runs along a slit and back does.
+// The least order, or all least ones if the chain is the same from several vertices or ends, as a
+// boundary that follows a slit and returns.
 std::vector<Order> canonical_orders(std::span<const Vec3> vertices, bool closed) {
   std::vector<Order> orders;
   const auto consider = [&](const Order& order) {
@@ -73,8 +73,8 @@ std::vector<Order> canonical_orders(std::span<const Vec3> vertices, bool closed)
   return orders;
 }
 
-// The second divided differences M at the control vertices; lengths[s] is that of the segment from
-// vertex s to s + 1.
+// The second divided differences M at the control vertices; lengths[s] is the length of the segment
+// from vertex s to s + 1.
 std::vector<Vec3> joint_moments(const std::vector<Vec3>& c, const std::vector<double>& lengths,
                                 bool closed, double n) {
   const std::size_t count = c.size(), segments = lengths.size();
@@ -134,7 +134,7 @@ std::vector<Vec3> refine_chain(std::span<const Vec3> parameters, std::span<const
   const auto inner = std::size_t(subdivisions - 1);
 
   std::vector<Order> orders = canonical_orders(parameters, closed);
-  // Orders are alike for the parameters; for other vertices they need not be.
+  // The orders are equal for the parameters, but may differ for other vertices.
   if (parameters.data() != vertices.data()) orders.resize(1);
   std::vector<Vec3> canonical_parameters, canonical;
   for (std::size_t i = 0; i < count; ++i) {
@@ -145,7 +145,7 @@ std::vector<Vec3> refine_chain(std::span<const Vec3> parameters, std::span<const
   const std::vector<Vec3> refined =
       refine_canonical(canonical_parameters, canonical, closed, subdivisions, exponent);
 
-  // Under several orders, segments at the same place all take the points of the first of them.
+  // If there are several orders, segments at the same place take the points of the first of them.
   std::vector<Vec3> points(segments * inner);
   std::vector<std::uint8_t> filled(segments, 0);
   for (std::size_t s = 0; s < segments; ++s) {

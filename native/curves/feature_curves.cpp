@@ -13,7 +13,7 @@ namespace {
 std::vector<Vec3> straight_points(std::span<const Vec3> vertices, bool closed, int subdivisions) {
   std::vector<Vec3> points;
   for (std::size_t s = 0; s < (closed ? vertices.size() : vertices.size() - 1); ++s) {
-    // An edge at a time, so a vertex elsewhere in the chain can change nothing.
+    // Each edge separately, so that other vertices of the chain have no influence.
     const Vec3 ends[2] = {vertices[s], vertices[(s + 1) % vertices.size()]};
     const bool backwards = std::lexicographical_compare(ends[1].data(), ends[1].data() + 3,
                                                         ends[0].data(), ends[0].data() + 3);

@@ -49,7 +49,7 @@ class NarrowFaces {
     const Vec3 &a = positions_[std::size_t(v[0])], &b = positions_[std::size_t(v[1])];
     return side.reversed ? Line{b, a} : Line{a, b};
   }
-  // Of point k, counted along the side, from where it is on the edge.
+  // The offset of point k, counted along the side, from the edge.
   Vec3 bulge(const Side& side, int k) const {
     const int last = curves_.points_per_edge + 1;
     const Vec3& point = curves_.of(side.edge)[std::size_t(side.reversed ? last - k : k) - 1];
@@ -93,8 +93,8 @@ class NarrowFaces {
   const ControlMesh& mesh_;
   std::span<const Vec3> positions_;
   const FeatureCurves& curves_;
-  std::vector<std::uint8_t> held_;    // per control vertex: on a curve
-  std::vector<std::uint8_t> narrow_;  // per run
+  std::vector<std::uint8_t> held_;    // by control vertex: on a curve
+  std::vector<std::uint8_t> narrow_;  // by run
 };
 
 }  // namespace

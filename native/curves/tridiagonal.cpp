@@ -28,8 +28,7 @@ std::vector<Vec3> solve_tridiagonal(const std::vector<double>& diagonal,
     solve_open(diagonal, right, value);
     return value;
   }
-  // Sherman–Morrison: the matrix is an open one, T, plus the rank-one c w wᵀ with w = e_first +
-  // e_last.
+  // Sherman–Morrison: the matrix is an open one, T, plus c w wᵀ with w = e_first + e_last.
   const double c = right.back();
   std::vector<double> open = diagonal;
   open.front() -= c;
