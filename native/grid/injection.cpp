@@ -8,7 +8,7 @@ namespace fairing {
 template <int C, class T>
 void inject(const GridLevel& coarse, const GridLevel& fine, Workers& workers, const T* x_fine,
             T* x_coarse) {
-  // Point i of a run is every second one of the fine level's run, from its second point on.
+  // The points of a run are every second one of the fine level's run, from its second point on.
   const auto first_of = [&](const Run& run) {
     if (run.kind == RunKind::edge) return std::size_t(fine.edge_base(run.element)) + 1;
     return std::size_t(fine.face_base(run.element)) +

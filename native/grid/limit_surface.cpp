@@ -19,11 +19,11 @@ bool all_quads(const ControlMesh& control) {
 
 }  // namespace
 
-// Where the points of one control face are on its polygon. In steps of 1/n of a side:
+// The places of a control face's points on its polygon, in steps of 1/n of a side:
 //
-// * a quad, and what it is cut into: the unit square, its centre in the middle;
+// * a quad, and the parts of a split one: the unit square, its centre in the middle;
 // * a triangle: each third, nearest to one corner, as the quad at that corner;
-// * a fan about a polygon's centre: a triangle of it is half of the quads at its two corners.
+// * a fan around a polygon's centre: each triangle is half of the quads at its two corners.
 class LimitSurface::FaceMap {
  public:
   FaceMap(const CatmullClark& subdivision, const GridLevel& grid, Index f)
@@ -46,10 +46,10 @@ class LimitSurface::FaceMap {
 
   bool known() const { return known_; }
 
-  // Of the subdivided mesh.
+  // Number of the point in the subdivided mesh.
   Index operator()(GridPoint p) const {
     if (size_ == 4) return in_square(p);
-    std::array<std::pair<int, Index>, 3> weight;  // steps, corner
+    std::array<std::pair<int, Index>, 3> weight;  // number of steps, corner
     weight[0] = {n_ - p.i - p.j, corner_[0]};
     weight[1] = {p.i, corner_[1]};
     weight[2] = {p.j, corner_[2]};
@@ -58,7 +58,7 @@ class LimitSurface::FaceMap {
       return near(weight[0].second, weight[1].second, 2 * weight[1].first + weight[2].first,
                   3 * weight[2].first);
     }
-    // the centre last
+    // the centre is last
     std::sort(weight.begin(), weight.end(), [](const auto& a, const auto& b) {
       return std::pair(a.second >= 0, a.first) > std::pair(b.second >= 0, b.first);
     });
@@ -87,7 +87,7 @@ class LimitSurface::FaceMap {
     return u > n_ ? quad(2, far - u, far - v) : quad(3, far - v, u);
   }
 
-  // a steps from one corner towards the other, which is next to it, and b to the other side.
+  // a steps from one corner towards an adjacent one, and b steps towards the other side.
   Index near(Index corner, Index other, int a, int b) const {
     return other == (corner + 1) % size_ ? quad(corner, a, b) : quad(corner, b, a);
   }
@@ -161,7 +161,7 @@ Array<float> hold_of_thin_faces(const GridLevel& grid, std::span<const Vec3> con
     for (const Index v : {a, b})
       shortest[std::size_t(v)] = std::min(shortest[std::size_t(v)], length);
   }
-  // the logarithm, and whether it counts
+  // the logarithm, and whether it is used
   std::vector<Vec3> at_vertex(vertices, Vec3::Zero());
   for (std::size_t v = 0; v < vertices; ++v)
     if (std::isfinite(shortest[v]))

@@ -16,7 +16,7 @@ void RingShape::set(const GridLevel& grid, const Run& run) {
       const Edge& edge = grid.mesh().edges[std::size_t(run.element)];
       far.assign(run.ring->far, run.ring->far + run.ring->size);
       closed = !edge.boundary();
-      first = edge.side[0] < 0 ? 1 : 0;  // without a left face: behind
+      first = edge.side[0] < 0 ? 1 : 0;  // without a left face: after it
       return;
     }
     case RunKind::face_row:

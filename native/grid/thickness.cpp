@@ -13,11 +13,11 @@
 namespace fairing {
 namespace {
 
-// A body is thin where a face is wider than the body is thick there. Thinner and thicker by this share
-// than one that is rounded off is what a designer sees (measured: a fair section through 8 points of a
-// circle changes it by 8 %, a hollowed leading edge by 24 to 86 %). And what swells is a body, no ear
-// or lip of it, where this share of the area does (measured: 9 animals, mugs and cases up to 12 %,
-// boxes and slabs 37 to 96 %).
+// A body is thin where its thickness is less than the width of the face. A change of thickness is
+// visible from this share on, beyond that of a rounded body (measured: a fair section through 8
+// points of a circle changes it by 8 %, a hollowed leading edge by 24 to 86 %). A body swells if
+// this share of its area does; otherwise it is an ear or a lip (measured: 9 animals, mugs and cases
+// up to 12 %, boxes and slabs 37 to 96 %).
 constexpr double seen_share = 0.2;
 // Where rounding its edges off lifts a face by less than this share, it is flat, and what makes its body
 // thicker by as much is seen (measured under total curvature: phones, soap boxes and cans 30 % and more on
@@ -27,18 +27,18 @@ constexpr double unlifted_share = 0.05;
 // 1.3, bubbles in boxes of six quads begin at 8; by one, a hull of 8 points lost its sphere).
 constexpr double lost_change = 4;
 
-// The point in the middle of the face.
+// The point at the centre of the face.
 Vec3 middle(const GridLevel& grid, Index f, const double* x) {
   const int n = grid.n();
   const auto at = [&](int i, int j) { return point_at(x, grid.face_point(f, i, j)); };
   if (grid.mesh().faces[std::size_t(f)].quad()) return at(n / 2, n / 2);
-  // around the middle, or in the middles of sides where no point lies inside
+  // around the centre, or at the midpoints of sides if there is no inner point
   const int near = n / 4, far = n / 2;
   return n > 2 ? Vec3((at(near, near) + at(far, near) + at(near, far)) / 3)
                : Vec3((at(1, 0) + at(1, 1) + at(0, 1)) / 3);
 }
 
-// The point of the face that is nearest to the line behind a middle, which is not its own.
+// The point of the face nearest to the line behind another face's centre.
 Vec3 behind(const GridLevel& grid, Index f, const FacePlane& line, const double* x) {
   const int n = grid.n();
   const bool quad = grid.mesh().faces[std::size_t(f)].quad();
@@ -53,16 +53,16 @@ Vec3 behind(const GridLevel& grid, Index f, const FacePlane& line, const double*
   return nearest;
 }
 
-// How far the middle of the face lies inside its side i.
+// Distance of the face's centre from its side i, positive inside.
 double inside(const Face& face, std::size_t i, const FacePlane& plane, const double* x) {
   const Vec3 from = point_at(x, face.vertex[i]);
   const Vec3 along = point_at(x, face.vertex[(i + 1) % std::size_t(face.size)]) - from;
   return (plane.middle - from).cross(unit_or_zero(along)).norm();
 }
 
-// By how much edges that are rounded off lift the middle of the face: where an arc takes the place of
-// two sides that turn by an angle, it rises by half a side times the tangent of the angle's quarter.
-// That reaches into the face as far as the face beyond the edge is wide.
+// Height by which rounded edges lift the centre of the face. An arc in place of two sides that turn
+// by an angle rises by half a side times the tangent of a quarter of the angle; it reaches as far
+// into the face as the face beyond the edge is wide.
 double rounding_off(const ControlMesh& mesh, std::size_t f, std::span<const FacePlane> planes,
                     const double* x) {
   const Face& face = mesh.faces[f];
@@ -99,7 +99,8 @@ ThicknessChange Thickness::of(const GridLevel& grid, Workers& workers, const dou
                               bool of_flats) const {
   ThicknessChange out;
   if (grid.n() == 1) return out;
-  // Of each face, how far its middle has left its plane, and the point behind it the opposite one.
+  // For each face the distance of its centre from its plane, and that of the point behind it from
+  // the opposite plane.
   std::vector<double> away(planes_.size()), away_behind(planes_.size());
   workers.for_parts(away.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) {
