@@ -8,20 +8,20 @@
 namespace fairing {
 namespace {
 
-// Of a full turn: the angle of an open ring that would overlap itself.
+// Share of a full turn: the angle of an open ring that would otherwise overlap itself.
 constexpr double widest_open = 0.95;
 
 Vec2 polar(double radius, double angle) {
   return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
-// A point's share of the face's area at unit spacing, for one corner of one cell.
+// The point's share of the face's area at unit spacing, for one corner of one cell.
 double corner_share(const Face& face, const FlatFace& flat) { return flat.area / face.size; }
 
-// The row of the face on one side of an edge point, front to back, in a frame whose x axis runs
-// along the side. The face is stretched along the edge until its side is as long as the edge: were
-// the two rows and the edge spaced differently, every function with a slope along the edge would
-// seem to twist, the more the finer the grid.
+// Appends the row of the face on one side of an edge point, front to back, in a frame whose x axis
+// is the side. The face is scaled along the edge until its side has the edge's length: with
+// different spacings of the two rows and the edge, every function with a slope along the edge would
+// have a twist, which grows as the grid is refined.
 void append_row(const Face& face, const FlatFace& flat, int s, double length, bool turned,
                 std::vector<Vec2>& ring) {
   const auto previous = std::size_t((s + face.size - 1) % face.size);

@@ -14,9 +14,9 @@ namespace {
 
 constexpr double half_root_half = std::numbers::sqrt2 / 4;  // 1 / (2 sqrt 2)
 
-// Whether the Cholesky factor of the scaled normal equations leaves nothing undetermined. The last two
-// columns turn into each other with the chart: what is left for them is judged by its eigenvalues, so
-// that it does not matter which neighbour is the first.
+// Whether the Cholesky factor of the scaled normal equations determines all coefficients. Rotations
+// of the chart mix the last two columns, so the remainder for them is judged by its eigenvalues and
+// does not depend on the first neighbour.
 bool determines(const Eigen::Matrix<double, 5, 5>& lower, const Coefficients& scale) {
   if (lower.diagonal().head<3>().minCoeff() < undetermined) return false;
   const Eigen::Matrix2d root = scale.tail<2>().asDiagonal() * lower.bottomRightCorner<2, 2>();
@@ -26,9 +26,9 @@ bool determines(const Eigen::Matrix<double, 5, 5>& lower, const Coefficients& sc
   return above(0, 0) > 0 && above(0, 0) * above(1, 1) > above(0, 1) * above(1, 0);
 }
 
-// Least squares after the ring has been made round: quadratics are invariant under linear maps, so
-// the fit is the same, and its normal equations are well-conditioned for any skew. Empty when
-// undetermined.
+// Least squares after a linear map makes the ring round: quadratics are invariant under linear
+// maps, so the fit is the same, and its normal equations are well-conditioned for any skew. Empty
+// if undetermined.
 bool round_fit(const std::vector<Vec2>& ring, FitRows& rows) {
   Eigen::Matrix2d moment = Eigen::Matrix2d::Zero();
   for (const Vec2& p : ring) moment += p * p.transpose();
@@ -50,7 +50,7 @@ bool round_fit(const std::vector<Vec2>& ring, FitRows& rows) {
   a = scale.cwiseInverse().asDiagonal() * a;
   factor.solveInPlace(a);
   a = scale.cwiseInverse().asDiagonal() * a;
-  // Back: gradient w^T g, Hessian w^T H w, column by column.
+  // Maps back: gradient w^T g, Hessian w^T H w, column by column.
   rows.resize(5, a.cols());
   for (Eigen::Index j = 0; j < a.cols(); ++j) {
     const auto c = a.col(j);
@@ -67,7 +67,7 @@ bool round_fit(const std::vector<Vec2>& ring, FitRows& rows) {
 
 using Round = RoundFit<double>;
 
-// False where the ring does not determine a quadratic. No weights: all are one.
+// False if the ring does not determine a quadratic. Without weights all are one.
 bool make(std::span<const Vec2> ring, std::span<const double> weight, Round& fit) {
   if (ring.size() < 5) return false;
   bool determined = true;

@@ -11,22 +11,22 @@
 namespace fairing {
 namespace {
 
-// Of one face: the weights of its grid's directions (face_directions() in grid/ring.h).
+// For one face the weights of the directions of its grid (face_directions() in grid/ring.h).
 struct FaceWeights {
   std::array<double, 4> direction{};
   bool quad = false;
 
-  // Of edges along side s, on both sides of which the face lies.
+  // Of edges along side s inside the face.
   double side(int s) const {
     constexpr std::size_t triangle[3] = {0, 2, 1};
     return direction[quad ? std::size_t(s % 2 * 2) : triangle[s]];
   }
-  // Of a quad's diagonals from corner c to the one across.
+  // Of a quad's diagonals from corner c to the opposite one.
   double diagonal(int c) const { return direction[c % 2 == 0 ? 1 : 3]; }
 };
 
-// Across each grid edge lie two equal triangles, each with half the cotangent of the angle there. Of
-// angles whose sine is less than `rounding`, cotangents are taken from that.
+// Two equal triangles share each grid edge, each with half the cotangent of its angle. Sines below
+// `rounding` are replaced by it.
 FaceWeights triangle_weights(const FlatFace& flat) {
   const auto square = [&](std::size_t s) { return flat.length[s] * flat.length[s]; };
   const double longest = std::max({square(0), square(1), square(2)}),
@@ -57,7 +57,7 @@ std::vector<FaceWeights> weigh(const ControlMesh& mesh, const std::vector<FlatFa
   return out;
 }
 
-// Both faces of an edge have their part in the edges along it.
+// The weight of edges along a control edge: the sum over both faces.
 double along(const ControlMesh& mesh, const std::vector<FaceWeights>& faces, Index e) {
   double sum = 0;
   for (const Index s : mesh.edges[std::size_t(e)].side) {

@@ -11,7 +11,7 @@
 namespace fairing {
 namespace {
 
-// Angle between sides a and b of a triangle whose third side is c.
+// The angle between sides a and b of a triangle with third side c.
 double angle_between(double a, double b, double c) {
   return std::acos(std::clamp((a * a + b * b - c * c) / (2 * a * b), -1.0, 1.0));
 }

@@ -16,8 +16,8 @@
 namespace fairing {
 namespace {
 
-// A quad along its sides k and k + 2 is number 2 f + k here: these are its long sides, the others
-// its ends. Quads that share ends are a strip.
+// Number 2 f + k is a quad in the direction of its sides k and k + 2: these are its long sides, the
+// others its ends. Quads that share ends form a strip.
 class Ridges {
  public:
   Ridges(const ControlMesh& mesh, double exponent)
@@ -55,7 +55,7 @@ class Ridges {
   bool quad(std::size_t f) const { return mesh_.faces[f].quad(); }
   bool joins(const Side* other) const { return other && quad(std::size_t(other->face)); }
 
-  // The side of the next face across side s of a quad; null at borders and creases, and of
+  // The same side of the next face, across side s of a quad; null at borders, creases and
   // triangles.
   const Side* beside(std::size_t f, int s) const {
     if (!quad(f)) return nullptr;
@@ -74,14 +74,14 @@ class Ridges {
     return (at(s + 1) - at(s)).norm();
   }
 
-  // Positive where the mesh is convex.
+  // Positive if the mesh is convex.
   double angle(std::size_t f, std::size_t o) const {
     const double angle = angle_between(planes_[f].normal, planes_[o].normal);
     return planes_[f].normal.dot(planes_[o].middle - planes_[f].middle) > 0 ? -angle : angle;
   }
 
-  // By how much more the mesh turns over the quad's width than at its ends. Of the turns at its long
-  // sides it has its share against the face beside it.
+  // The excess of the turns at the long sides over those at the ends. Each turn is divided between
+  // the two faces by their widths.
   double turn(std::size_t k) const {
     const std::size_t f = k / 2;
     double across = 0, at_ends = 0;
@@ -106,9 +106,9 @@ class Ridges {
     });
   }
 
-  // Starts from the strips that are ridges all along.
+  // Starts with the strips that are ridges along their whole length.
   void find(double exponent) {
-    std::vector<double> shares(shares_.size(), 1.0);  // of strips, by what leads them; 0: no ridge
+    std::vector<double> shares(shares_.size(), 1.0);  // of strips, by their leaders; 0: not a ridge
     for (std::size_t k = 0; k < shares.size(); ++k) {
       stop_if_cancelled(k);
       double& share = shares[std::size_t(strips_.lead(Index(k)))];

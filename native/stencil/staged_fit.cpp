@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// In a file of its own: decompositions of general size take longest to compile of all the core, and
-// half of that is reading Eigen's templates.
+// In a file of its own, since decompositions of dynamic size take the longest of all to compile,
+// and half of that is parsing Eigen's templates.
 #include "stencil/staged_fit.h"
 
 #include <Eigen/Eigenvalues>
@@ -14,13 +14,13 @@ namespace {
 
 using Columns = Eigen::MatrixXd;
 
-// So many rows and columns need no memory but the stack.
+// Up to this number of rows and columns the stack is used.
 constexpr int most_on_stack = 16;
 using FewColumns =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_on_stack, most_on_stack>;
 
 constexpr int thin = Eigen::ComputeThinU | Eigen::ComputeThinV;
-#if EIGEN_MAJOR_VERSION >= 5  // 3.4 has a 4 there
+#if EIGEN_MAJOR_VERSION >= 5  // has a 4 in version 3.4
 template <class Matrix>
 using ThinSvd = Eigen::JacobiSVD<Matrix, thin>;
 template <class Matrix>
@@ -36,15 +36,16 @@ void decompose(const Matrix& a, ThinSvd<Matrix>& svd) {
 }
 #endif
 
-// Without the directions whose singular values are below a share of the largest, or of `scale`, if
-// that is more.
+// Omits directions whose singular values are below a share of the largest, or of `scale` if that is
+// larger.
 template <class Matrix>
 Columns pseudo_inverse_of(const Matrix& a, double scale) {
   auto svd = std::make_unique<ThinSvd<Matrix>>();
   try {
     decompose(a, *svd);
   } catch (const std::bad_alloc&) {
-    static_cast<void>(svd.release());  // it would free once more what it has found no memory for
+    // its destructor would free memory that it failed to allocate
+    static_cast<void>(svd.release());
     throw;
   }
   const auto& sigma = svd->singularValues();
@@ -61,7 +62,7 @@ Columns pseudo_inverse(const Columns& a, double scale = 0) {
                                                        : pseudo_inverse_of(a, scale);
 }
 
-// Of a positive semidefinite matrix, by its eigenvectors; likewise.
+// The same for a positive semidefinite matrix, by its eigenvectors.
 template <int Size>
 Eigen::Matrix<double, Size, Size> gram_pseudo_inverse(const Eigen::Matrix<double, Size, Size>& gram,
                                                       double scale = 0) {
@@ -78,8 +79,8 @@ FitRows staged_fit(const Columns& a, int leading) {
   const Columns first = a.leftCols(leading), second = a.rightCols(5 - leading);
   const Columns first_inverse = pseudo_inverse(first);
   const Columns rest = second - first * (first_inverse * second);
-  // `rest` is compared with `second`: where nothing is left, its own largest singular value is
-  // noise. As a whole, since its columns turn into each other with the chart.
+  // `rest` is compared with `second`: if it is zero, its own largest singular value is noise. All
+  // columns together, since rotations of the chart mix them.
   const Columns second_rows = pseudo_inverse(rest, second.norm());
   FitRows rows(5, a.rows());
   rows.bottomRows(5 - leading) = second_rows;

@@ -35,8 +35,8 @@ void fill_vertex(const ControlMesh& mesh, const ChartMaker& charts, Index v, Ste
   }
 }
 
-// Linear half-way to a neighbour; across a quad the mean of its cell's corners: the far one, that
-// beside the point, and that along the edge.
+// Linear at the midpoint to a neighbour; across a quad the mean of its cell's corners: the far one,
+// the one next to the point, and the one along the edge.
 void fill_linear(const EdgeRingLanes& ring, float* half) {
   for (int j = 0; j < ring.size; ++j) {
     half[8 * j + j] = ring.far[j] ? 0.25f : 0.5f;

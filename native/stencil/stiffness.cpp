@@ -6,15 +6,17 @@
 namespace fairing {
 namespace {
 
-// Dimensionless. Of a ridge in one dimension the hump is as wide as the radius within 6 % at 3, 18 % at 10
-// and 38 % at 100, for weights from 0.2 to 0.9; the swing beside it is half of the plate's at 0.4.
+// Dimensionless. For a ridge in one dimension the width of the hump equals the radius within 6 %
+// with 3, 18 % with 10 and 38 % with 100, for weights from 0.2 to 0.9; the overshoot next to it is
+// half of the plate's with 0.4.
 constexpr double hinge = 3;
-// Of faces that are meant flat, in that of all others. A beam over supports of 70, 2, 2 and 70, which turns by
-// 90 degrees over the middle two, is off the long ones by 1.07 at 1, 0.26 at 100 and 0.003 at 10,000; the faces of a
-// phone shell by 2e-2, and 7e-4 at 10,000, of its size.
+// Stiffness of flat faces, relative to all others. Measured: a beam over supports at distances 70,
+// 2, 2 and 70, which turns by 90 degrees over the middle two, deviates from the long ones by 1.07
+// with 1, 0.26 with 100 and 0.003 with 10,000; the faces of a phone shell by 2e-2, and with 10,000
+// by 7e-4 of its size.
 constexpr double flat_stiffness = 1e5;
 
-// The integral of the bump from 0 to t.
+// Integral of the bump from 0 to t.
 double below(double t) {
   t = std::clamp(t, -1.0, 1.0);
   return t * (15 - t * t * (10 - 3 * t * t)) / 16;
@@ -36,7 +38,7 @@ bool Stiffness::soft_face(Index f) const {
   return false;
 }
 
-// The quadratic B-spline along the line, of which the edges' weights are the control points.
+// Quadratic B-spline along the line; its control points are the weights of the edges.
 double Stiffness::on_edge(Index e, double steps, double whole) const {
   const double middle = mesh_.soft.edge[std::size_t(e)];
   if (!(middle > 0) || !(whole > 0)) return 0;
@@ -84,8 +86,8 @@ double Stiffness::compliance_on_edge(Index e, int k) const {
                    compliance(at_vertex(ends[1]), n_ - k)});
 }
 
-// The steps to a side are its row; to a corner they are those that agree with the edges on either
-// side.
+// The distance to a side in steps is the row; the distance to a corner is the one that agrees with
+// the edges on both sides.
 double Stiffness::compliance_in_face(Index f, int i, int j) const {
   const Face& face = mesh_.faces[std::size_t(f)];
   const bool quad = face.quad();

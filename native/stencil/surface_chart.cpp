@@ -23,7 +23,7 @@ bool chart_in_space(const SpaceRing& ring, double exponent, Chart& chart) {
   chart.area = 0;
   chart.closed = ring.closed;
   const auto at = [&](std::size_t k) { return (ring.first + k) % size; };
-  // radii and turns, for now in place of coordinates
+  // radii and turns, stored in place of coordinates
   double longest = 0, shortest = HUGE_VAL, total = 0;
   for (std::size_t j = 0; j < size; ++j) {
     const double radius = power(ring.offset[j], exponent);

@@ -47,8 +47,8 @@ double EnergyWeight::beside_joint(Index e, int k) const {
   return off_joint(steps);
 }
 
-// The steps to a side are its row; to a corner they are those that agree with the edges on either
-// side.
+// The distance to a side in steps is the row; the distance to a corner is the one that agrees with
+// the edges on both sides.
 double EnergyWeight::beside_joint(Index f, int i, int j) const {
   if (!fades()) return 1;
   const Face& face = mesh_.faces[std::size_t(f)];
@@ -68,7 +68,7 @@ double EnergyWeight::beside_joint(Index f, int i, int j) const {
 
 namespace {
 
-// Of points of the runs that `factor` weighs.
+// For points of the runs that `factor` weights.
 template <class Number>
 Array<double> of_points(const GridLevel& grid, const EnergyWeight& factor, Number&& number) {
   Array<double> out(grid.size(), 1.0);
@@ -88,7 +88,7 @@ Array<double> point_weights(const GridLevel& grid) {
                    [&](const Run& run, std::size_t i) { return factor.point(run, i); });
 }
 
-// A plate of thickness t resists bending as t^3, and changes of it as t^5.
+// A plate of thickness t resists bending as t^3, and changes of bending as t^5.
 Array<double> stiffness_roots(const GridLevel& grid) {
   const EnergyWeight factor(grid);
   if (!factor.stiffness().any()) return {};
