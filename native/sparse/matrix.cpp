@@ -11,7 +11,7 @@ namespace {
 
 using Four = Packs<float, 16>;
 
-// C numbers of each of the chunk's columns: three of them in packs of four.
+// C numbers for each column of the chunk; three of them in packs of four.
 template <int C>
 constexpr std::size_t local_stride = C == 3 ? 4 : 1;
 
@@ -127,10 +127,10 @@ RowChunk::LocalColumn RowBuilder::local_column(std::uint32_t column) {
   return RowChunk::LocalColumn(mark - in_chunk_.last - 1);
 }
 
-// Where the chunk keeps the row's numbers: with one of the latest rows that differ from one
-// another, if it is equal, or else at the end.
+// The place of the row's numbers in the chunk: that of one of the latest different rows if it is
+// equal, else the end.
 std::uint32_t RowBuilder::keep_numbers() {
-  // Balances the time to compare with what equal rows save: those alike are near one another.
+  // Balances the time of comparisons against the memory of equal rows, which are near one another.
   constexpr std::size_t most_compared = 24;
   std::vector<float>& all = chunk_.number;
   for (std::size_t k = distinct_.size(); k > 0 && k + most_compared > distinct_.size(); --k) {

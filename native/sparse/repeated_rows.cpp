@@ -37,7 +37,7 @@ bool RepeatedRows::is_again(const Known& known, Index p) {
   return true;
 }
 
-// A vertex has one ring, and what it is a part of is like no other row.
+// A vertex has one ring, and its row and those next to it are not repeated.
 void RepeatedRows::keep(Index p, const RowBuilder& row) {
   const RingTable::Ring& own = rings_.about(p);
   const RingTable::Member* const centres = rings_.members(own);
