@@ -6,12 +6,12 @@
 namespace fairing {
 namespace {
 
-// The share of the fit that is evaluated half-way along a step inside a face.
+// The share of the fit that is evaluated at the midpoint of a step inside a face.
 constexpr double share_of(bool quad, GridPoint step) {
   return quad && step.i != 0 && step.j != 0 ? centre_share : midpoint_share;
 }
 
-// Linear values half-way to the ring of a control vertex without a fit: visit(slot, weight,
+// Linear values at the midpoints to the ring of a control vertex without a fit: visit(slot, weight,
 // neighbours, count).
 template <class T, class Visit>
 void linear_halves(const ControlMesh& mesh, Index v, Visit&& visit) {
@@ -146,7 +146,7 @@ void restrict_to(const GridLevel& coarse, const GridLevel& fine, const Stencils&
     visit_ring(fine, v, [&](Index point, std::size_t slot) {
       copy_point<C>(&scratch[C * slot], x + C * std::size_t(point));
     });
-    // What lands on a neighbour's difference is taken from the centre.
+    // Contributions to a neighbour's difference are subtracted at the centre.
     const auto add_to_difference = [&](std::size_t slot, const T* z) {
       for (std::size_t a = 0; a < C; ++a) {
         spokes[C * slot + a] += z[a];
