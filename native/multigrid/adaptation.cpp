@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How a hierarchy adapts: the smoother's degree, and factors.
+// Adaptation of a hierarchy: degree of the smoother, and factors.
 #include <algorithm>
 #include <cmath>
 
@@ -9,30 +9,31 @@
 namespace fairing {
 namespace {
 
-// Iterations after which the smoother's degree is thought over: the first time, and from then on.
+// Iterations before the smoother's degree is judged: at first, and from then on.
 constexpr int first_probe = 6, probe_interval = 10;
-// So many iterations are to remain after that: few enough that conjugate gradients and their sums
-// cost little beside the smoother, whose work hardly changes with the degree.
+// Number of iterations that should remain after a change: so few that conjugate gradients and their
+// sums cost little beside the smoother, whose work hardly depends on the degree.
 constexpr double iterations_wanted = 14;
-// Of one probe, and of all.
+// Largest rise of the degree at one probe, as a factor, and largest degree.
 constexpr double most_rise = 8;
 constexpr int most_degree = 96;  // steps before, and after, coarser levels
-// What a level's first solve may raise of the degree that the level below ended with.
+// Largest factor between the degree at the end of one level and that of the next level's first
+// solve.
 constexpr double most_rise_between_levels = 2;
-// After a level has become the coarsest, which takes the hardest part away.
+// After a level has become the coarsest, which removes the hardest part.
 constexpr int most_degree_over_factor = 12;
 
-// Numbers a column of a narrow level's factor; that of a plate has some 80.
+// Most numbers a column in the factor of a narrow level; that of a plate has some 80.
 constexpr std::size_t most_numbers_of_narrow = 20;
 
-// Of a level larger than direct_limit_of_hard that is factored nevertheless: half of what one of that
-// size takes on an even mesh.
+// Most numbers in the factor of a level above direct_limit_of_hard: half of those of a level of
+// this size on an even mesh.
 constexpr std::size_t most_factor_numbers = 50 * direct_limit_of_hard;
 
-// The smoother's degree from which on factoring a level is cheaper than smoothing it: it grows with
-// what a factor costs, and above most_degree_of_hard a factor is cheaper whatever it costs.
+// The smoother's degree from which factoring a level costs less than smoothing it. It grows with
+// the cost of the factor; from most_degree_of_hard on any factor costs less.
 constexpr int least_degree_of_hard = 8;
-constexpr std::size_t most_degree_of_hard = 60;  // that of 52,000 unknowns
+constexpr std::size_t most_degree_of_hard = 60;  // for a factor of 52,000 unknowns
 int degree_of_hard(std::size_t unknowns, bool is_cheap) {
   const std::size_t for_its_size = is_cheap ? unknowns / 5000 : unknowns / 1000;
   return int(std::min<std::size_t>(least_degree_of_hard + for_its_size, most_degree_of_hard));
@@ -40,8 +41,8 @@ int degree_of_hard(std::size_t unknowns, bool is_cheap) {
 
 }  // namespace
 
-// A narrow level, as a disc of thin faces about one vertex, has a factor of few numbers however large
-// it is; the factor of the level below tells.
+// A narrow level, such as a disc of thin faces around one vertex, has a factor with few numbers at
+// any size; the factor of the level below shows it.
 bool Hierarchy::knows_factor_below(std::size_t index) const {
   return index == cycle_.base + 1 && coarse_->direct();
 }
@@ -70,13 +71,13 @@ bool Hierarchy::fits_factor(std::size_t index, const PcgLimits& limits) const {
   return may_factor(index, limits) && MemoryLedger::fits(factor_bytes(unknowns_[index]));
 }
 
-// A factor only saves time here. Its matrix takes up to half as much beside it.
+// A factor only saves time here. Its matrix needs up to half as much memory again.
 bool Hierarchy::is_too_hard(std::size_t index, const PcgLimits& limits) const {
   return fits_factor(index, limits) && is_expected_memory(3 * factor_bytes(unknowns_[index]) / 2) &&
          cycle_.degree >= degree_of_hard(unknowns_[index], factors_cheaply(index));
 }
 
-// From here on this level is the coarsest, solved directly.
+// Makes this level the coarsest, solved directly.
 void Hierarchy::promote_to_coarsest(std::size_t index) {
   coarse_ =
       std::make_unique<CoarseSolver>(*cycle_.levels[index].op, workers_, unknowns_[index], true);
@@ -87,10 +88,10 @@ void Hierarchy::promote_to_coarsest(std::size_t index) {
   cycle_.degree = std::min(cycle_.degree, most_degree_over_factor);
 }
 
-// What the iterations so far have gained tells how hard the mesh is; the smoother's degree follows,
-// so that the rest takes few iterations. (Iterations times degree, the work, hardly changes.)
+// Raises the smoother's degree by the gain of the iterations so far, which shows how hard the mesh
+// is, so that few iterations remain. (The work, iterations times degree, hardly changes.)
 void Hierarchy::raise_degree(std::size_t index, const PcgResult& result, const PcgLimits& limits) {
-  // The first iterations are the easy ones; the latest tell more.
+  // The first iterations gain more than later ones, so the latest are used.
   const int window = std::min(result.iterations, probe_interval);
   const double gained =
       std::log(result.history[result.history.size() - 1 - std::size_t(window)] / result.residual);
@@ -102,9 +103,9 @@ void Hierarchy::raise_degree(std::size_t index, const PcgResult& result, const P
   cycle_.degree = std::min(degree, limits.may_end_early ? most_degree_over_factor : most_degree);
 }
 
-// Harder meshes take a larger degree than the usual one. Where a single iteration gained more than a
-// whole solve is to, a smaller one does: down to a half, where conjugate gradients cost as much as
-// the smoother. What has been raised stays.
+// Harder meshes need a larger degree than the usual one. If a single iteration gained more than a
+// whole solve should, the degree is lowered, at most by half, where conjugate gradients cost as
+// much as the smoother. A raised degree is kept.
 void Hierarchy::choose_degree(const LevelSolve& last, double tolerance, double next_tolerance,
                               double solve_gain) {
   if (!adapts(last.direct) || last.iterations == 0) return;

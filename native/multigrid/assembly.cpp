@@ -11,7 +11,7 @@
 namespace fairing {
 namespace {
 
-// A sparse column as it is summed up.
+// A sparse column while it is summed.
 class Column {
  public:
   explicit Column(Eigen::Index rows) : value_(std::size_t(rows)), used_(std::size_t(rows)) {}
@@ -44,7 +44,7 @@ class Column {
   std::vector<Index> rows_;
 };
 
-// Room for one more column: once it is needed, for all that are left, if they are as full as those
+// Space for one more column: when it is needed, for all remaining ones, at the mean size of those
 // so far.
 void make_room(SparseMatrix& matrix, Eigen::Index column, std::size_t entries) {
   auto& numbers = matrix.data();
@@ -54,8 +54,8 @@ void make_room(SparseMatrix& matrix, Eigen::Index column, std::size_t entries) {
   numbers.reserve(Eigen::Index(entries + std::size_t(mean * double(matrix.cols() - column - 1))));
 }
 
-// Control vertices whose rings hold more than most_coupled unknowns, ascending. `apart`: no two of them
-// are neighbours.
+// Control vertices whose rings have more than most_coupled unknowns, ascending. `apart`: no two of
+// them are neighbours.
 std::vector<Index> large_rings(const GridLevel& grid, const std::vector<Index>& number,
                                bool apart) {
   std::vector<Index> large;
@@ -71,7 +71,7 @@ std::vector<Index> large_rings(const GridLevel& grid, const std::vector<Index>& 
   return large;
 }
 
-// Adds to K the auxiliary unknowns of the rows u, then those of w.
+// Adds the auxiliary unknowns of the rows u, then those of w, to K.
 void border(const SparseMatrix& u, const SparseMatrix& w, AssembledSystem& system) {
   Triplets entries;
   auto first = Index(system.unknown_points.size());
@@ -89,7 +89,7 @@ void border(const SparseMatrix& u, const SparseMatrix& w, AssembledSystem& syste
   system.negative = Index(u.rows());
 }
 
-// The numbers of a ring's unknowns, ascending and each once.
+// The numbers of a ring's unknowns, ascending, each once.
 class RingColumns {
  public:
   struct Entry {
@@ -154,9 +154,9 @@ SparseMatrix congruence(const SparseMatrix& rows, const SparseMatrix* middle,
   return out;
 }
 
-// Three rows J_a about a control vertex with a large ring are left out of J, and become auxiliary
-// unknowns: of u = J_a where S is none. Else, with d > 0 the vertex' diagonal of S and h = S_ar J_r
-// what its neighbours add to it, the energy is
+// The three rows J_a of a control vertex with a large ring are left out of J and become auxiliary
+// unknowns: u = J_a if there is no S. Else, with the diagonal d > 0 of S at the vertex and the
+// neighbours' contribution h = S_ar J_r, the energy is
 //
 //   d |J_a x|^2 + 2 J_a x . h x = |u x|^2 - |w x|^2,   u = (d J_a + h) / sqrt d,   w = h / sqrt d
 AssembledSystem assemble_square(const GridLevel& grid, const std::vector<Index>& number,
@@ -166,7 +166,7 @@ AssembledSystem assemble_square(const GridLevel& grid, const std::vector<Index>&
   for (std::size_t p = 0; p < number.size(); ++p)
     if (number[p] >= 0) system.unknown_points.push_back(Index(p));
   const std::vector<Index> large = large_rings(grid, number, middle != nullptr);
-  const auto place_of = [&](Index p) {  // -1: its ring is no large one
+  const auto place_of = [&](Index p) {  // -1: its ring is not large
     const auto at = std::lower_bound(large.begin(), large.end(), p);
     return at != large.end() && *at == p ? Index(at - large.begin()) : -1;
   };

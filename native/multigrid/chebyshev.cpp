@@ -13,21 +13,21 @@
 namespace fairing {
 namespace {
 
-// A block of points. The diagonal, one number a point, is spread to all components first, a few
-// points at a time: the rest then runs on whole packs.
+// A block of points. The diagonal, one number a point, is first copied to all components, a few
+// points at a time, so that the rest uses whole packs.
 struct StepJob {
   SmoothingStep step;
   const float *inverse, *product;
   std::size_t components;  // 1 or 3
 };
 
-constexpr std::size_t spread_points = 64;  // at a time: they stay in the nearest cache
+constexpr std::size_t spread_points = 64;  // at a time; they stay in the L1 cache
 
-// Lanczos comes from below, and the smoother amplifies what lies above the eigenvalue that it is
-// given: hence the margin.
+// Lanczos approaches the eigenvalue from below, and the smoother amplifies vectors above its bound;
+// hence the margin.
 constexpr int lanczos_steps = 10;
-constexpr double lanczos_margin = 1.1;  // times what they have found
-// What is left of a Lanczos vector, to its eigenvalue, below which the rest is rounding.
+constexpr double lanczos_margin = 1.1;  // factor of Lanczos' result
+// If the next Lanczos vector is this small, relative to the eigenvalue, the rest is rounding.
 constexpr double lanczos_end = 1e-5;
 
 template <class T, int Bytes>
@@ -76,7 +76,7 @@ struct StepLoop {
   }
 };
 
-// z = step D^-1 r, and `copy` as well unless it is null.
+// z = step D^-1 r; copies it to `copy` unless that is null.
 void divide_by_diagonal(const LevelOperator& op, Workers& workers, float step, const float* r,
                         float* z, float* copy) {
   const std::size_t components = op.components();
@@ -139,8 +139,8 @@ void smooth(LevelOperator& op, const LineJacobi* lines, Workers& workers, double
 double largest_eigenvalue(LevelOperator& op, const LineJacobi* lines, Workers& workers,
                           const float* start) {
   const std::size_t size = op.size();
-  // Lanczos in the scalar product of B^-1, B being the diagonal with the lines: (v_i, z_j) = (i = j)
-  // for z = B^-1 v.
+  // Lanczos in the scalar product of B^-1, where B is the diagonal with the lines: (v_i, z_j) = (i
+  // = j) for z = B^-1 v.
   Array<float> v(size), before(size, 0.0f), z(size + vector_room), product(size);
   const auto length = [&](const Array<float>& r) {
     divide_by_diagonal(op, workers, 1, r.data(), z.data(), nullptr);

@@ -10,18 +10,19 @@
 namespace fairing {
 namespace {
 
-// Solves with a factor, each on the residual that the one before has left.
+// Solves with a factor, each on the residual of the previous one.
 constexpr int refinement_steps = 3;
 
-// Iterations after which a factor that is of another K is made anew.
+// Iterations after which a factor of an earlier K is computed again.
 constexpr int most_with_old_factor = 20;
-// Unknowns up to which a level is factored whenever its K is another: iterations cost as much.
+// Number of unknowns up to which a level is factored for every new K: iterations cost as much.
 constexpr std::size_t most_refactored = 4 * tiny_level;
 
-// On a largest eigenvalue that is taken from the level below. Lanczos' own margin is in that one.
+// Margin of a largest eigenvalue that is taken from the level below, which includes Lanczos'
+// margin.
 constexpr double settled_margin = 1.03;
 
-// Two numbers, the one for the other as long as it lives, where they are to be: a cancelled run throws.
+// Exchanges two numbers during its lifetime, since a cancelled run throws.
 class Exchanged {
  public:
   Exchanged(int& one, int& other, bool are) : one_(one), other_(are ? other : one) {
@@ -50,7 +51,7 @@ Hierarchy::Hierarchy(Workers& workers, const HierarchyOptions& options,
     own.state.resize(level.op.size());
     unknowns_.push_back(level.unknowns);
   }
-  std::size_t end = 0;  // of the cycle
+  std::size_t end = 0;  // the end of the cycle
   while (end + 1 < unknowns_.size() && unknowns_[end + 1] <= tiny_level) ++end;
   coarse_ = std::make_unique<CoarseSolver>(*cycle_.levels[end].op, workers_, unknowns_[end],
                                            options_.always_factor);
@@ -60,7 +61,8 @@ Hierarchy::Hierarchy(Workers& workers, const HierarchyOptions& options,
   factors_ += coarse_->direct();
 }
 
-// Lines keep their points unless others are unknowns. A level's eigenvalue follows from those below.
+// Lines keep their points unless the unknowns change. The eigenvalue of a level is derived from
+// those below.
 void Hierarchy::update(std::size_t top) {
   int spectrum = 0;
   for (std::size_t l = 0; l <= top; ++l) {
@@ -93,7 +95,7 @@ void Hierarchy::refactor() {
 LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits, const LinearSystem& system,
                             const std::function<void(const PcgResult&)>& each) {
   LevelSolve out;
-  if (index < cycle_.base) {  // beyond the cycle's end; met on the way up only
+  if (index < cycle_.base) {  // below the end of the cycle; met on the way up only
     CoarseSolver solver(*cycle_.levels[index].op, workers_, 0, true);
     solve_direct(solver, limits, system, out);
     return out;
@@ -164,8 +166,8 @@ bool Hierarchy::solve_by_old_factor(const PcgLimits& limits, const LinearSystem&
   return out.converged;
 }
 
-// Where the factor's trace keeps it from K, once more with less of one. What is then left in spite of
-// a factor may be rounding, of which iterations make no less.
+// If the factor's added trace makes it inaccurate, it is computed again with less. A residual that
+// remains in spite of a factor may be rounding, which iterations do not reduce.
 void Hierarchy::solve_direct(CoarseSolver& solver, const PcgLimits& limits,
                              const LinearSystem& system, LevelSolve& out) {
   const std::size_t size = solver.size();
@@ -192,9 +194,9 @@ void Hierarchy::solve_direct(CoarseSolver& solver, const PcgLimits& limits,
     out.converged = norm(workers_, size, r) <= rounding_of_terms * solver.norm_of_terms(x);
 }
 
-// Of the spectrum's upper end, from the level below to this one; 0: unknown. Stencils hardly change
-// from level to level. Lines reach farther from level to level, to no end: what that does to the
-// spectrum becomes a quarter with half the edges.
+// Ratio of the largest eigenvalue to that of the level below; 0: unknown. Stencils hardly change
+// between levels. Lines become longer without limit; their effect on the spectrum falls to a
+// quarter when edges are halved.
 double Hierarchy::growth_of_eigenvalue(std::size_t index) const {
   const auto of = [&](std::size_t below) {
     return index >= cycle_.base + below ? cycle_.levels[index - below].largest_eigenvalue : 0;
@@ -208,9 +210,9 @@ double Hierarchy::growth_of_eigenvalue(std::size_t index) const {
              : 0;
 }
 
-// Where a level is slow, the cause may be an eigenvalue taken from those below: what is above it the
-// smoother amplifies. (A toroidal tetrahedron's goes from 2.8 and 2.9 to 3.7 at level 5, where lines
-// come to lie beside each other.)
+// If a level converges slowly, an eigenvalue taken from the levels below may be too small, so that
+// the smoother amplifies what is above it. (On a toroidal tetrahedron it rises from 2.8 and 2.9 to
+// 3.7 at level 5, where lines become adjacent.)
 bool Hierarchy::corrects_eigenvalue(std::size_t index) {
   CycleLevel& level = cycle_.levels[index];
   const double measured =
@@ -220,8 +222,8 @@ bool Hierarchy::corrects_eigenvalue(std::size_t index) {
   return true;
 }
 
-// Each level's Lanczos iteration starts from the residual, restricted: that turns and
-// renumbers with the mesh.
+// Each level's Lanczos iteration starts with the restricted residual, which rotates and renumbers
+// with the mesh.
 void Hierarchy::estimate_eigenvalues(std::size_t top, const double* residual) {
   const auto unknown = [&](std::size_t l) { return cycle_.levels[l].largest_eigenvalue == 0; };
   std::size_t lowest = top + 1;

@@ -8,8 +8,9 @@
 namespace fairing {
 namespace {
 
-// Points: of fourth order, the longest wave on a line is n^4 times as soft as the shortest one, and
-// the 24 bits of single precision take 64^4. Longer lines are cut; coarse levels have their waves.
+// Number of points. In fourth order the longest wave of a line is n^4 times as soft as the shortest
+// one, and the 24 bits of single precision allow 64^4. Longer lines are cut; coarse levels handle
+// their waves.
 constexpr std::size_t longest_line = 64;
 
 }  // namespace
@@ -20,7 +21,7 @@ void LineBand::link() {
     return q != none && strongest_[std::size_t(q)].has(Index(p)) ? q : none;
   };
   std::vector<std::uint8_t> taken(points_, 0);
-  // From an end on, in pieces of about one length.
+  // From one end, in pieces of about equal length.
   const auto follow = [&](std::size_t p) {
     const std::size_t first = point_.size();
     Index last = none;
@@ -39,7 +40,7 @@ void LineBand::link() {
     const std::size_t pieces = (length + longest_line - 1) / longest_line;
     for (std::size_t k = 1; k <= pieces; ++k) begin_.push_back(first + length * k / pieces);
   };
-  // From their ends; those that are closed then from anywhere.
+  // Open lines from their ends, then closed ones from any point.
   for (const bool closed : {false, true})
     for (std::size_t p = 0; p < points_; ++p) {
       stop_if_cancelled(p);

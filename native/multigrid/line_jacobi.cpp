@@ -17,7 +17,7 @@ struct LineJob {
   const Bundle* bundle;
   float step;
   const float* r;
-  float *x, *change;  // the latter may be null
+  float *x, *change;  // `change` may be null
   float* room;        // components * points
 };
 
@@ -91,7 +91,7 @@ LineJacobi::LineJacobi(LevelOperator& op, Workers& workers)
   }
 }
 
-// Those of one length go together.
+// Groups lines of equal length.
 void LineJacobi::bundle_lines() {
   order_.resize(band_.lines());
   std::iota(order_.begin(), order_.end(), std::size_t(0));
@@ -127,11 +127,12 @@ void LineJacobi::factor() {
   band_.clear();
 }
 
-// L D L^T. What is off the band joins the diagonal, so that B is no less than K is on the line. Where
-// rounding leaves no pivot, another line begins.
+// L D L^T. Entries outside the band are added to the diagonal, so that B is at least K on the line.
+// If rounding leaves no pivot, another line begins.
 void LineJacobi::factor_line(std::size_t line, Bundle& b, std::size_t lane) const {
   const Array<float>& inverse = op_.inverse_diagonal();
-  double pivot = 0, last_pivot = 0, last_before = 0;  // one and two before; L's number one before
+  // one and two rows before; L's number one row before
+  double pivot = 0, last_pivot = 0, last_before = 0;
   for (std::size_t i = 0; i < band_.length(line); ++i) {
     const std::size_t at = lanes * i + lane;
     const auto p = std::size_t(band_.points_of(line)[i]);

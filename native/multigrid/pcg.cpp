@@ -10,17 +10,16 @@
 namespace fairing {
 namespace {
 
-// The residual is computed anew from x where it has become so small a share of what it was the last
-// time: single precision has digits enough for some steps more.
+// The residual is computed from x again when it falls below this share of the last computed one;
+// single precision has enough digits for some further steps.
 constexpr double replaced_below = 1e-2;
 
-// Of the error's estimate: the largest ratio of gains that it believes (it then takes the error for
-// three times the last gain), and the ratio before there are two gains.
+// For the error estimate: the largest ratio of gains that is used (with it the error is three times
+// the last gain), and the ratio before there are two gains.
 constexpr double largest_gain_ratio = 0.9, usual_gain_ratio = 0.5;
 
-// What is left of the error in the energy norm, from what the latest steps have gained of its
-// square [Hestenes and Stiefel 1952]: the last gain, and the ratio at which gains fall, the worse
-// of two.
+// Estimates the remaining error in the energy norm from the latest steps' gains of its square
+// [Hestenes and Stiefel 1952]: from the last gain and the larger of the last two ratios of gains.
 class ErrorLeft {
  public:
   void gained(double square) {
@@ -43,7 +42,7 @@ T* room(Array<T>& a, std::size_t size) {
   return a.data();
 }
 
-// T: of the iteration's vectors. Those in single precision have no room for tiny units, and work on
+// T: type of the iteration's vectors. Single precision has no range for tiny units, so those hold
 // residual / unit.
 template <class T>
 class Iteration {
@@ -112,7 +111,7 @@ class Iteration {
     return result_.enough;
   }
 
-  // From the error that the preconditioner sees at the start.
+  // Judges by the error that the preconditioner sees at the start.
   bool is_done_before(double error) {
     if (limits_.from_start) result_.energy_scale = error;
     result_.energy_error = result_.energy_scale > 0 ? error / result_.energy_scale : 0.0;
@@ -121,7 +120,7 @@ class Iteration {
     return result_.converged;
   }
 
-  // z <- M^-1 r, where z stands for unit z.
+  // z <- M^-1 r; z is in units of z_unit_.
   const float* precondition() {
     // The preconditioner works on a residual of order one.
     z_unit_ = is_single ? 1 : length_;
@@ -130,15 +129,16 @@ class Iteration {
     if (!system_.between || cycle_.solves(top_)) {
       cycle_.run(top_);
     } else {
-      // Each is the other's transpose. What the first one ends with S takes up, and the second one
-      // smooths. (Measured: without a step at its end bob takes 119 iterations for 46; with as many
-      // as at its beginning 43, in half as long again.)
+      // Each cycle is the transpose of the other. S adds to the end of the first one, and the
+      // second one smooths the result. (Measured: without a step at its end bob takes 119
+      // iterations, with these 46; with as many as at the beginning 43, in half as much time
+      // again.)
       const int few = std::max(1, cycle_.degree / 6);
       cycle_.run(top_, cycle_.degree, few);
       system_.between(level_.state.x.data(), level_.state.residual.data());
       cycle_.run(top_, few, cycle_.degree);
     }
-    return level_.state.x.data();  // only now: the smoother swaps its vectors
+    return level_.state.x.data();  // only now, since the smoother swaps its vectors
   }
 
   bool step() {
@@ -202,7 +202,7 @@ class Iteration {
     });
   }
 
-  // x takes the correction, and all vectors change to the unit of the residual that is left.
+  // Adds the correction to x, and changes all vectors to the unit of the present residual.
   void replace() {
     for_each_index(workers_, size_,
                    [&](std::size_t i) { system_.x[i] += unit_ * double(v_.e[i]); });
@@ -226,14 +226,14 @@ class Iteration {
   const PcgLimits& limits_;
   const LinearSystem& system_;
   std::size_t size_;
-  // The residual, the direction, K times it, and what x still has to take.
+  // The residual, the direction, K times the direction, and the correction not yet added to x.
   struct {
     T *r, *p, *q, *e = nullptr;
   } v_;
   struct {
     double rz = 0, length = 0;
     int degree = 0;  // of the smoother
-  } last_;           // of the step before
+  } last_;           // of the previous step
 
   PcgResult result_;
   double length_ = 0, unit_ = 1, z_unit_ = 1;  // length: of the residual, in the caller's unit

@@ -15,12 +15,13 @@ namespace fairing {
 
 struct CoarseSolver::Factor {
   std::vector<Index> points;
-  // Never analyzed twice: Eigen's vectors free their memory twice where a second size finds none.
+  // Analyzed once only: Eigen's vectors free their memory twice if a second size cannot be
+  // allocated.
   std::optional<Eigen::SimplicialLDLT<SparseMatrix>> ldlt{std::in_place};
-  // What the elimination's order was found for: columns, and rows one column after another.
+  // The pattern of the elimination's order: columns, and rows one column after another.
   std::vector<int> columns, rows;
 
-  // Finds the order anew where the pattern is another one.
+  // Computes the order again if the pattern has changed.
   void compute(const SparseMatrix& k) {
     const auto same = [](const std::vector<int>& known, const int* now, Eigen::Index count) {
       return std::equal(known.begin(), known.end(), now, now + count);
@@ -38,20 +39,21 @@ struct CoarseSolver::Factor {
 
 namespace {
 
-// Of the diagonal. A valence-three vertex alone cannot see some coarse waves; a trace of the
-// diagonal, well above rounding, keeps the factor definite, and the preconditioner as good. The same
-// serves what is left beside large rings. (More of it there spoils the steps: thin faces make K
-// ill-conditioned.) Where thousands of faces meet at a vertex they are so thin that it outweighs K on
+// Traces added to the diagonal, relative to it. A vertex of valence three does not determine some
+// coarse waves; a trace well above rounding keeps the factor definite, and the preconditioner as
+// good. Large rings need it too. (More of it there makes the steps worse: thin faces make K
+// ill-conditioned.) Thousands of faces at a vertex are so thin that the usual trace exceeds K on
 // smooth vectors; the least trace is just above rounding.
 constexpr double usual_trace = 1e-12, least_trace = 1e-15;
 
-// x <- (L D L^T)^-1 x, on C right-hand sides side by side: every number of the factor is read once.
+// x <- (L D L^T)^-1 x for C right-hand sides together, so that every number of the factor is read
+// once.
 template <int C, class Ldlt>
 void substitute(const Ldlt& ldlt, double* x) {
-  const SparseMatrix& l = ldlt.matrixL().nestedExpression();  // without its diagonal of ones
+  const SparseMatrix& l = ldlt.matrixL().nestedExpression();  // without its unit diagonal
   const int *const begin = l.outerIndexPtr(), *const row = l.innerIndexPtr();
   const double* const number = l.valuePtr();
-  const auto diagonal = ldlt.vectorD();  // a copy each time
+  const auto diagonal = ldlt.vectorD();  // copied each time
   double sum[C];
   for (int c = 0; c < l.cols(); ++c) {
     std::copy_n(x + C * c, C, sum);
@@ -103,13 +105,14 @@ bool CoarseSolver::factors() {
   strengthen_diagonal(system, trace_);
   factor_->points = std::move(system.unknown_points);
   if (factor_->points.empty()) return true;
-  MemoryLedger::remove(std::exchange(factor_bytes_, 0));  // it takes the place of the last one
+  // the new factor takes the place of the last one
+  MemoryLedger::remove(std::exchange(factor_bytes_, 0));
   const SparseMatrix lower = system.matrix.triangularView<Eigen::Lower>();
-  SparseMatrix().swap(system.matrix);  // assigning leaves the memory
-  // As it is, permuted, and as a pattern.
+  SparseMatrix().swap(system.matrix);  // assignment would keep the memory
+  // The matrix, its permuted copy, and its pattern.
   const CountedBytes held(2 * matrix_bytes(lower) + matrix_bytes(lower) / 3);
   factor_->compute(lower);
-  // A pivot that is no number is left to the steps, which refuse what comes of it.
+  // If a pivot is not finite, the steps reject the result.
   if (factor_->ldlt->info() != Eigen::Success ||
       (factor_->ldlt->vectorD().array() <= 0).count() > system.negative)
     return false;
@@ -151,7 +154,7 @@ double CoarseSolver::norm_of_terms(const double* x) const {
 void CoarseSolver::solve(const LineJacobi* lines, double largest_eigenvalue, int degree,
                          SmootherState& state) {
   if (!factor_) {
-    // As much as on any other level: more gains no iteration, and small faces are dear.
+    // As much as on other levels: more smoothing saves no iteration, and small faces are expensive.
     smooth(op_, lines, workers_, largest_eigenvalue, degree, SmoothFrom::zero, false, state);
     return;
   }
