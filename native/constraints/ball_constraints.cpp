@@ -7,10 +7,10 @@
 namespace fairing {
 namespace {
 
-// Weights in multipliers of the level below, and the least in stiffnesses of the surface. Measured on
-// three meshes within 0.003 to 0.1 of an edge: 2 to 5 take the same iterations, 1 a tenth more. With
-// 0.25 and with 1 stiffness ten meshes take as many, but a creature within 0.1 of an edge one and a
-// half times; with 0.001 the bishop diverges.
+// Weights in multipliers of the level below, at least in stiffnesses of the surface. Measured on
+// three meshes with tolerances of 0.003 to 0.1 of an edge: 2 to 5 take the same iterations, 1 a
+// tenth more. With 0.25 or 1 stiffness ten meshes take as many, but a creature within 0.1 of an
+// edge half as many more; with 0.001 the bishop diverges.
 constexpr double weight_by_multiplier = 3, weight_by_stiffness = 0.1;
 
 Vec3 point(const double* at, std::size_t v) { return Eigen::Map<const Vec3>(at + 3 * v); }
@@ -39,8 +39,8 @@ bool BallConstraints::renew(const double* at, bool, double*) {
   return true;
 }
 
-// The energy is convex: with the vertices at x, y within the balls and |z - x| = d, least energies
-// are between E + 2 sum P (y - x), for any y, and E + sum 2 (|P| + s d) d.
+// The energy is convex: with the vertices at x, y within the balls and |z - x| = d, the least
+// energy is between E + 2 sum P (y - x), for any y, and E + sum 2 (|P| + s d) d.
 bool BallConstraints::settled(double energy, double wanted, const double* at) {
   forces_.resize(size(), Vec3::Zero());
   double gap = 0, farthest = 0;

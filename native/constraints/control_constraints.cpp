@@ -9,8 +9,8 @@
 namespace fairing {
 namespace {
 
-// Energies below this share of the first do not count as such: a tolerance as large as the mesh leaves
-// none.
+// Least share of the first energy in relative gaps: with a tolerance as large as the mesh the
+// energy becomes zero.
 constexpr double least_energy = 1e-3;
 
 }  // namespace

@@ -62,11 +62,12 @@ void Couples::fill_arms(std::size_t c, const Chart& chart, const std::vector<Fla
   }
 }
 
-// visit(point, Omega, (u, v), phi) for the points under a hat but its top, where psi is nothing.
+// Calls visit(point, Omega, (u, v), phi) for the points under a hat except its top, where psi is
+// zero.
 template <class Visit>
 void LevelCouples::visit_points(std::size_t c, Visit&& visit) const {
   const int n = grid_.n();
-  const int reach = std::max(n / 2, 2);  // half the faces, so that hats do not meet
+  const int reach = std::max(n / 2, 2);  // half the faces, so that hats do not overlap
   const double step = 1.0 / n, share = step * step, fall = 1.0 / reach;
   const ControlMesh& mesh = grid_.mesh();
   const auto ring = mesh.ring(couples_.normals_[c].vertex);
@@ -109,7 +110,7 @@ LevelCouples::LevelCouples(const Couples& couples, const GridLevel& grid)
 }
 
 void LevelCouples::add(const std::vector<Couple>& couples, double* r) const {
-  // Whole hats meet: one after another.
+  // Whole hats overlap: one after another.
   const bool meet = grid_.n() < 1 << Couples::first_level;
   const std::size_t grain = meet ? size() : element_grain(grid_.n());
   couples_.workers_.for_parts(size(), grain, [&](std::size_t begin, std::size_t end) {
@@ -150,7 +151,7 @@ double LevelCouples::angle(std::size_t c, const double* x) const {
 Compliance LevelCouples::compliance(std::vector<Eigen::Matrix2d> slopes) const {
   for (Eigen::Matrix2d& slope : slopes) {
     const double mean = 0.5 * slope.trace();
-    // in its weak direction it is not trusted where that has no more than solves leave
+    // a weak direction is ignored if its slope is within the error of the solves
     if (!(slope.determinant() > coarse_force_tolerance * mean * mean))
       slope = (mean > 0 ? mean : slope.norm()) * Eigen::Matrix2d::Identity();
   }
@@ -177,7 +178,7 @@ void LevelCouples::carry(const LevelCouples& from, Moments& moments) const {
 std::vector<std::vector<std::size_t>> Couples::sets_apart() const {
   std::vector<std::vector<std::size_t>> sets;
   std::vector<std::int64_t> set_of(std::size_t(mesh_.vertex_count()), -1);
-  std::vector<std::size_t> taken;  // per set: by which normal, counted from one
+  std::vector<std::size_t> taken;  // per set: the normal that uses it, counted from one
   for (std::size_t c = 0; c < size(); ++c) {
     stop_if_cancelled(c);
     const Index v = normals_[c].vertex;

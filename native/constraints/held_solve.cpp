@@ -48,10 +48,10 @@ HeldSolve<N>::HeldSolve(const HeldSystem<N>& system, const HeldLimits& limits,
       forces_(zeros<N>(multipliers.loads.size())),
       vertices_(zeros<N>(system.unknowns.vertex.size())) {}
 
-// What holds control vertices at their points, into the rows of r: of a fixed one the force that its
-// row asks for, of another one its spring's w away(v), less what its pad has taken over of it. On
-// pads it becomes forces[v], which the loads are to take. r has none of a fixed vertex, be it fixed
-// since the pads were made.
+// Adds the forces that hold control vertices to their rows of r: for a fixed vertex the force of
+// its row, for another its spring's w away(v), without the part that its pad has taken. On pads
+// this becomes forces[v], for the loads. Then r is zero at fixed vertices, including those fixed
+// after the pads were made.
 template <int N>
 template <class Away>
 void HeldSolve<N>::add_springs(Away&& away, const LoadsOf<N>& loads, LoadsOf<N>& forces,
@@ -89,7 +89,7 @@ void HeldSolve<N>::solve(bool whole) {
   if (is_short) {
     now.from_start = true;
     now.tolerance = std::max(now.tolerance, solve_gain);
-    // After a correction something has to move: forces that are read again say nothing.
+    // After a correction the solve has to move something; otherwise the forces do not change.
     if (!constraints_ && iterations_ == 0) now.enough = limits_.solve.tolerance;
   }
   const double begun = norm(system_.workers, system_.size, r_);
@@ -110,7 +110,7 @@ void HeldSolve<N>::solve(bool whole) {
   correct_by_residual(solved_.direct);
 }
 
-// A direct solve has left none.
+// Zero after a direct solve.
 template <int N>
 void HeldSolve<N>::correct_by_residual(bool direct) {
   for (std::size_t v = 0; v < vertices_.size(); ++v)
@@ -126,10 +126,10 @@ void HeldSolve<N>::correct_by_residual(bool direct) {
   }
 }
 
-// A spring much softer than the surface leaves its load to itself.
+// A spring much softer than the surface hardly changes its own load.
 template <int N>
 typename HeldSolve<N>::Sizes HeldSolve<N>::correct_loads() {
-  std::vector<double> compliance;  // how much each spring gives way before its load: s / w
+  std::vector<double> compliance;  // how much each spring gives way to its load: s / w
   for (std::size_t v = 0; v < system_.stiffness.size(); ++v) {
     const double w = spring(v), s = system_.stiffness[v];
     compliance.push_back(w > 0 && on_pad(v) ? std::min(w / rounding, s) / w : 0.0);
@@ -157,8 +157,8 @@ typename HeldSolve<N>::Sizes HeldSolve<N>::correct_couples() {
   return out;
 }
 
-// Whether little enough is left of forces, and of the angles to fixed normals; the correction is what
-// would take it off.
+// Whether the remaining forces, and the angles to fixed normals, are small enough; computes the
+// correction for the rest.
 template <int N>
 bool HeldSolve<N>::read_loads() {
   if (!system_.hats && !system_.couples) return true;
@@ -182,8 +182,8 @@ bool HeldSolve<N>::read_bounds() {
   return settled;
 }
 
-// Whether one more correction will settle all, as the last ones did, with as much to spare as a solve
-// leaves.
+// Whether one more correction will satisfy all constraints at the rate of the last ones, with a
+// margin for the error of a solve.
 template <int N>
 bool HeldSolve<N>::nearly_settled() const {
   return force_.share * report_.pad_force <= solve_gain * limits_.force &&
@@ -191,8 +191,8 @@ bool HeldSolve<N>::nearly_settled() const {
          gap_.share * gap_.now <= solve_gain * limits_.gap;
 }
 
-// Of other springs earlier corrections tell nothing. After a correction of loads alone the residual is
-// known: that of the solve, and theirs.
+// Earlier corrections do not apply to other springs. After a correction of loads only, the residual
+// is known: that of the solve plus theirs.
 template <int N>
 void HeldSolve<N>::correct() {
   ++corrections_;
@@ -224,8 +224,9 @@ void HeldSolve<N>::correct() {
   for (std::size_t v = 0; v < forces_.size(); ++v) forces_[v] = own_forces_[v] + shift[v];
 }
 
-// A correction after a solve to the end may ask for less than that solve leaves: then nothing would
-// move, and forces would be read that say nothing. So short solves go on until all has settled.
+// The last solve can leave a larger residual than the correction; then the next solve would not
+// move, and the forces would not change. So short solves continue until all constraints are
+// satisfied.
 template <int N>
 LevelSolve HeldSolve<N>::run(double* x, double* r) {
   x_ = x, r_ = r;

@@ -10,10 +10,10 @@
 namespace fairing {
 namespace {
 
-// Of the tolerance, however much the part across the normal takes; and a vertex that is so near an
-// end at the start stands on it, in half intervals.
+// Least half interval, in tolerances, however large the component across the normal is; also the
+// distance, in half intervals, within which a vertex starts at an end.
 constexpr double least_reach = 0.1;
-// Of one vertex, from end to end, in a step: there is no other limit.
+// Of one vertex between ends in a step, which has no other limit.
 constexpr int most_changes = 4;
 
 }  // namespace
@@ -40,7 +40,7 @@ void IntervalConstraints::linearize_about(const double* normal, const double* x,
   }
 }
 
-// No spring at all would not keep a closed surface in its place.
+// Without any spring a closed surface could move away.
 void IntervalConstraints::choose_weight(std::size_t v) {
   const double least = std::max(base_[v], rounding * unit_);
   weights_[v] = on_end(v) ? std::max(least, stiff * std::max(stiffness_[v], unit_)) : least;

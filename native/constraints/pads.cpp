@@ -13,7 +13,7 @@ namespace fairing {
 namespace {
 
 // Bounds of the eigenvalues of M over its diagonal, element by element [Wathen 1987]: triangles
-// have 1/2 … 2, quads 1/4 … 9/4; hats narrower than the faces lie within.
+// have 1/2 … 2, quads 1/4 … 9/4; hats narrower than the faces are within these.
 constexpr double least_eigenvalue = 0.25, largest_eigenvalue = 2.25;
 constexpr int mass_steps = 12;  // each halves the error
 
@@ -68,7 +68,7 @@ Hats::RowHat Hats::row_hat(const Face& face, std::size_t corner, int j) const {
   const double step = 1.0 / grid_.n(), up = j * step, ahead = inverse_along(face, corner, false),
                back = inverse_along(face, (corner + size - 1) % size, true);
   if (face.quad()) {
-    const bool along = corner % 2 == 0;  // the side ahead runs along the rows
+    const bool along = corner % 2 == 0;  // the next side is along the rows
     const double in_row = along ? ahead : back, across = along ? back : ahead;
     const double factor = std::max(0.0, 1 - (corner < 2 ? up : 1 - up) * across);
     if (corner == 0 || corner == 3) return {factor, 1, -step * in_row};
@@ -177,7 +177,7 @@ Hats::Hats(const Pads& pads, const GridLevel& grid, Array<double> omega)
       diagonal_[v] = total_[v] = vertex_weight(v, weights());
       auto at = std::size_t(row_begin_[v]);
       for (const Spoke& spoke : mesh_.ring(Index(v))) {
-        // The neighbour along the spoke shares the edge, and the faces on both of its sides.
+        // The neighbour along the spoke shares the edge and the faces on both sides of it.
         const Edge& edge = mesh_.edges[std::size_t(spoke.edge)];
         const Element& along = edges[std::size_t(spoke.edge)];
         const int own = spoke.outward ? 0 : 1;
