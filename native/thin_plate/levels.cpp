@@ -15,14 +15,15 @@
 namespace fairing {
 namespace {
 
-// Edges in eight pieces below: from such levels on the largest eigenvalue hardly changes. (With four
-// it does: what the smoother then amplified took 14 iterations on a rough sphere in place of five.)
+// The level below has edges in eight pieces: from there on the largest eigenvalue hardly changes.
+// (With four pieces it does: the smoother then amplified vectors, and a rough sphere took 14
+// iterations, with eight five.)
 constexpr std::size_t settled_level = 4;
-// A membrane's share of the diagonal falls to a quarter from level to level: what is hardly anything
-// on edges in 16 pieces was much of it on those in four.
-constexpr std::size_t settled_under_tension = 2;  // levels later
+// A membrane's share of the diagonal falls to a quarter from level to level, so it is negligible
+// with edges in 16 pieces and large with four.
+constexpr std::size_t settled_under_tension = 2;  // in levels
 
-// The hierarchy counts from `base`, the coarsest level that is solved on.
+// The levels of the hierarchy start at `base`, the coarsest level with a solve.
 HierarchyOptions hierarchy_options(const Unknowns& unknowns, const ThinPlateOptions& options,
                                    int base, bool tense) {
   HierarchyOptions out;
@@ -33,7 +34,7 @@ HierarchyOptions hierarchy_options(const Unknowns& unknowns, const ThinPlateOpti
   return out;
 }
 
-// What the finest level has at the points of another.
+// Values of the finest level at the points of another level.
 template <int C, class T>
 Array<T> on_level(const std::vector<std::unique_ptr<GridLevel>>& grids, int level,
                   const Array<T>& finest, Workers& workers) {
@@ -46,7 +47,7 @@ Array<T> on_level(const std::vector<std::unique_ptr<GridLevel>>& grids, int leve
   return out;
 }
 
-// The unknowns and the control vertices that may stand on pads.
+// The unknowns, and the control vertices that may be on pads.
 Unknowns with_pads(const ControlMesh& mesh, const Unknowns& unknowns, double pad_size) {
   Unknowns out = unknowns;
   for (std::size_t v = 0; v < out.vertex.size() && pad_size > 0; ++v)
@@ -155,8 +156,8 @@ ThinPlateLevels::Scales ThinPlateLevels::scales(int level, const PlateData& data
     const double t = x[i] / double(inverse[i / 3]);
     return t * t;
   }));
-  // Where the control polyhedron's own residual is but rounding, it measures nothing: the polyhedron
-  // is the solution already.
+  // If the residual of the control polyhedron is rounding, it is no scale: the polyhedron is the
+  // solution.
   return {std::max(norm(workers(), size, r), single_rounding * terms), rounding_of_terms * terms};
 }
 

@@ -10,7 +10,7 @@
 namespace fairing {
 namespace {
 
-// Calls visit(member, number) for the membrane's row of a point, on the unknowns of its ring.
+// Calls visit(member, number) for a point's row of the membrane, on the unknowns of its ring.
 template <class Visit>
 void visit_membrane_row(const MembraneWeights& weights, const RingTable::Member* members,
                         Visit&& visit) {
@@ -20,7 +20,7 @@ void visit_membrane_row(const MembraneWeights& weights, const RingTable::Member*
     if (members[k + 1] >= 0) visit(members[k + 1], -weights[k]);
 }
 
-// Row p of K, from the rings that hold the point: they are those about its own ring's members.
+// Row p of K, from the rings that contain the point: those of its own ring's members.
 void sum_row(const PlateDifferences& plate, Index p, RowBuilder& row) {
   const RingTable& rings = plate.rings();
   const RingTable::Ring& own = rings.about(p);

@@ -18,7 +18,7 @@ struct Moment {
     for (std::size_t c = 0; c < 3; ++c)
       for (std::size_t a = 0; a < 3; ++a) y[c][a] += row[c * stride] * difference[a];
   }
-  // The transposed row's part for one neighbour.
+  // The transposed rows for one neighbour.
   void transposed(const T* row, std::size_t stride, T* z) const {
     for (std::size_t a = 0; a < 3; ++a)
       z[a] = row[0] * y[0][a] + row[stride] * y[1][a] + row[2 * stride] * y[2][a];
@@ -54,7 +54,7 @@ void edge_weights(const EnergyWeight& factor, int n, Index e, T* weight) {
   for (int k = 1; k < n; ++k) *weight++ = T(factor.edge_point(e, k));
 }
 
-// Three equal numbers a point of the closed face.
+// Three equal numbers for each point of the closed face.
 template <class T>
 void face_weights(const EnergyWeight& factor, bool quad, int n, Index f, T* weight) {
   for (int j = 0; j <= n; ++j)
@@ -62,12 +62,12 @@ void face_weights(const EnergyWeight& factor, bool quad, int n, Index f, T* weig
       std::fill(weight, weight + 3, T(factor.face_point(f, i, j)));
 }
 
-// The energy's rows of the element that a run is on, read once.
+// The energy's rows of a run's element.
 struct ElementRows {
   using Column = EnergyRows::Column;
   const ControlMesh& mesh;
   const Stencils& stencils;
-  // By neighbour; inside a face by direction, on second differences. None: no fit.
+  // By neighbour; inside a face by direction, for second differences. Empty: no fit.
   std::vector<Column> column{};
 
   void read(const Run& run) {
@@ -78,7 +78,7 @@ struct ElementRows {
   }
 };
 
-// y += W x behind the control vertices.
+// y += W x at the control vertices.
 template <class T>
 void add_weighted(const GridLevel& grid, const VertexWeights& weights, Workers& workers, const T* x,
                   T* y) {
@@ -94,7 +94,7 @@ double dot(const EnergyRows::Column& a, const EnergyRows::Column& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-// The energy's columns by the points of a ring, as multigrid/ring_lines.h asks for them.
+// The energy's columns by the points of a ring, in the form that multigrid/ring_lines.h reads.
 struct PlateRingRows {
   const GridLevel& grid;
   EnergyWeight factor;
@@ -229,7 +229,8 @@ template void apply_thin_plate<double>(const GridLevel&, const ThinPlateRows<dou
 Array<float> thin_plate_diagonal(const GridLevel& grid, const Stencils& stencils,
                                  const Unknowns& unknowns, const VertexWeights& weights,
                                  Workers& workers, ElementSlots<double>& slots) {
-  // The same sums as K's, of the squared coefficients; all three coordinates carry the same number.
+  // The same sums as those of K, with squared coefficients; all three coordinates have the same
+  // number.
   const auto body = [&](const Run& run, double* const* target, PlateRingRows& rows) {
     const auto put = [&](std::size_t slot, std::size_t i, double number) {
       for (std::size_t a = 0; a < 3; ++a) target[slot][3 * i + a] += number;

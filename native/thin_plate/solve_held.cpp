@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The plate on one level, with what holds its control vertices (constraints/held_solve.h).
+// The solve of one level with constraints (constraints/held_solve.h).
 #include <algorithm>
 #include <cmath>
 
@@ -9,13 +9,14 @@
 namespace fairing {
 namespace {
 
-// Who asks for an exact surface gets exact loads.
+// A more accurate surface requires more accurate loads.
 double force_tolerance(double relative_residual) {
   return std::min(10 * std::sqrt(relative_residual), largest_force_left);
 }
 
-// Rows at a free border may be stiff without bounds, and H follows them: the prolongation is not near
-// H there (docs/developers/notes/performance.md), and forces are read from the vertices' own rows.
+// Rows at a free border may be arbitrarily stiff, and H with them. Then the prolongation does not
+// approximate H (docs/developers/notes/performance.md), and forces come from the vertices' own
+// rows.
 bool has_free_border(const ControlMesh& mesh, const Unknowns& unknowns) {
   for (std::size_t e = 0; e < mesh.edges.size(); ++e)
     if (mesh.edges[e].boundary() && unknowns.edge[e]) return true;
@@ -53,7 +54,7 @@ ThinPlateSolver::Run::Solved ThinPlateSolver::Run::solve(int level, const PcgLim
   int iterations = 0;
   const auto solve_level = [&](const PcgLimits& now, const LinearSystem& system) {
     LevelSolve solved = levels().solve(level, now, system, [&](const PcgResult& so_far) {
-      // nobody knows how many iterations there will be
+      // the number of iterations is unknown
       report_done(level, 1 - 1 / std::sqrt(1.0 + iterations + so_far.iterations));
     });
     iterations += solved.iterations;
@@ -93,7 +94,7 @@ ThinPlateSolver::Run::Solved ThinPlateSolver::Run::solve(int level, const PcgLim
     constraints->enforce(x.data());
     report.converged &= report.constraint_gap <= held.gap;
   }
-  // Couples hold a tangent plane, whichever of its sides the surface turns up.
+  // Couples hold the tangent plane; the surface may still have the opposite normal.
   if (couples && level == top()) report.converged &= report.normal_angle <= largest_angle_left;
   LevelSolve equivalent = report;
   if (solve.gain() > 0 && (hats || constraints || couples))

@@ -12,7 +12,7 @@
 namespace fairing {
 namespace {
 
-// Of the next finer level's time: that of its points.
+// Share of the next finer level's time, in proportion to the number of points.
 constexpr double share_of_coarser = 0.25;
 
 }  // namespace
@@ -44,7 +44,7 @@ void ThinPlateSolver::Run::start(int level, bool foretells, const PlateSurface& 
   levels().start(level, data, below.x, x);
 }
 
-// `room` for a surface: the control polyhedron.
+// `room`: a surface's memory, for the control polyhedron.
 PcgLimits ThinPlateSolver::Run::limits(int level, double tolerance, double energy, double* room) {
   const ThinPlateLevels::Scales scale = levels().scales(level, data, goal, room, r.data());
   PcgLimits limits;
@@ -64,8 +64,8 @@ LevelReport ThinPlateSolver::Run::report_of(int level) const {
   return report;
 }
 
-// On the finest level the iterations are most of the run, unless Gauss-Newton steps follow: they go on
-// from where this level begins. Else measuring does from where it ends.
+// On the finest level the iterations take most of the run, unless Gauss-Newton steps follow; their
+// progress starts where that of this level starts. Otherwise measuring starts at its end.
 void ThinPlateSolver::Run::report_done(int level, double done) const {
   if (level != top() || solver.options_.starts_steps) return;
   const double share = share_of_coarser + 0.5 * std::clamp(done, 0.0, 1.0);
@@ -81,7 +81,7 @@ BallConstraints ThinPlateSolver::begin(ControlConstraints held) {
 
 double ThinPlateSolver::tolerance_of(int level) const {
   const double wanted = options_.solve.relative_residual;
-  // Coarse levels are only starts for finer ones: solving them further than their own error is waste.
+  // Coarse levels only start finer ones: solving them below their discretization error is wasted.
   return level >= levels_.top() ? wanted : std::max(SolveOptions().relative_residual, wanted);
 }
 
@@ -102,7 +102,7 @@ PlateSurface ThinPlateSolver::solve_level(int level, const PlateData& data,
   PcgLimits limits = run.limits(level, tolerance_of(level), below.energy, out.x.data());
   run.start(level, !active, below, out.forces);
   if (is_top && on_prediction) on_prediction(out.x.data());
-  // Energies hardly change from level to level.
+  // Energies hardly change between levels.
   if (is_base) limits.energy_scale = std::sqrt(levels_.energy(level, out.x.data()));
   if (is_top) out.state.limits = limits;
   Run::Solved solved = run.solve(level, limits, active);
@@ -130,7 +130,7 @@ void ThinPlateSolver::solve_moved(const PlateData& before, const PlateData& data
   double farthest = 0;
   for (std::size_t v = 0; v < data.targets.size(); ++v)
     farthest = std::max(farthest, (data.targets[v] - before.targets[v]).lpNorm<Eigen::Infinity>());
-  // What coordinates in single precision leave anyway, the finest level takes in its stride.
+  // The finest level removes errors of the size of single precision at no cost.
   if (farthest > single_rounding && levels_.base() < levels_.top())
     add_difference(before, data, state, x, reports);
   levels_.put_fixed(levels_.top(), data, x.data());
@@ -145,7 +145,7 @@ void ThinPlateSolver::solve_moved(const PlateData& before, const PlateData& data
 
 namespace {
 
-// What moves points of curves from where x has them to where they are to be.
+// The moves of the curves' points from their places in x to the new ones.
 FeatureCurves moves_of_curves(const FeatureCurves& curves, const GridLevel& grid,
                               const Array<double>& x) {
   FeatureCurves moves = curves;
@@ -162,7 +162,7 @@ FeatureCurves moves_of_curves(const FeatureCurves& curves, const GridLevel& grid
 
 }  // namespace
 
-// The difference solves the same system, for the differences of what is fixed or weighted.
+// The difference solves the same system, for the differences of fixed and weighted data.
 void ThinPlateSolver::add_difference(const PlateData& before, const PlateData& data,
                                      PlateState& state, Array<double>& x,
                                      std::vector<LevelReport>& reports) {

@@ -12,7 +12,7 @@
 namespace fairing {
 namespace {
 
-// Loads converge as the square of the mesh width, which is halved.
+// Loads converge with the square of the mesh width, which is halved.
 constexpr double change_left_by_level = 0.25;
 
 }  // namespace
@@ -59,10 +59,10 @@ void PlateSupports::start(int level, bool foretells, PlateState& state, Loads& f
   if (couples_) start_couples(level, state.moments);
 }
 
-// Loads are densities and hardly change from level to level where hats have points enough; what does
-// is the hats' samples. The coarsest level has so few that M f, what loads do, changes less than the
-// whole of each. Finer ones change by a quarter of what the level before has changed, which tells the
-// next; but for loads that go with weights.
+// Loads are densities and hardly change between levels if hats have enough points; the samples of
+// the hats do change. On the coarsest level they are so few that the product M f changes less than
+// the integral of each load. On finer levels the change is a quarter of the previous one, which
+// predicts the next, except for loads of vertices with weights.
 void PlateSupports::start_loads(int level, bool foretells, Loads& loads, Loads& forces_below) {
   const int base = levels_.base();
   loads.resize(std::size_t(levels_.shared().mesh.vertex_count()));
@@ -105,7 +105,7 @@ bool PlateSupports::deactivate_diverged_pads(int level, std::span<const Vec3> ta
   return any;
 }
 
-// Couples stay what they are as a whole.
+// Integrals of couples do not change.
 void PlateSupports::start_couples(int level, Moments& moments) {
   if (const auto below = level > levels_.base() ? couples(level - 1) : nullptr)
     couples(level)->carry(*below, moments);
@@ -118,8 +118,8 @@ const Compliance& PlateSupports::compliance(int level, int max_iterations) {
   return *compliance_;
 }
 
-// Couples far apart are tried out in one solve, and others along each axis. How well that goes says
-// nothing about the surface, which the smoother is to adapt to.
+// Distant couples are tested in one solve, and again for each axis. Its convergence says nothing
+// about the surface, so the smoother does not adapt to it.
 void PlateSupports::measure_couples(int level, int max_iterations) {
   const auto here = couples(level);
   const std::vector<std::vector<std::size_t>> sets = couples_->sets_apart();
@@ -127,7 +127,7 @@ void PlateSupports::measure_couples(int level, int max_iterations) {
   Workers& workers = levels_.workers();
   Array<double> y(3 * levels_.grid(level).size()), r(y.size());
   PcgLimits rough;
-  rough.tolerance = coarse_force_tolerance;  // slopes need no more to be corrected by
+  rough.tolerance = coarse_force_tolerance;  // slopes for corrections need no more
   rough.from_start = true;
   rough.max_iterations = max_iterations;
   rough.may_adapt = false;

@@ -12,7 +12,7 @@
 namespace fairing {
 namespace {
 
-// The point's share of the ring's area, as Chart::area in the ring's own lengths.
+// The point's share of the ring's area, as Chart::area, with the ring's own lengths.
 double area_of(const SpaceRing& ring) {
   const std::size_t size = ring.offset.size();
   double sum = 0;
@@ -24,7 +24,7 @@ double area_of(const SpaceRing& ring) {
   return sum;
 }
 
-// What the point adds to the energy of its ring, by its rows, which begin with its own numbers.
+// The point's part of the energy of its ring, by its rows, which begin with its own numbers.
 double bending_of(const SpaceRing& ring, const float* rows) {
   Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
   for (const Vec3& offset : ring.offset) {
@@ -94,7 +94,7 @@ void SurfaceDifferences::write_rows(const SurfaceMetric& metric, Workers& worker
           const double share = weight.empty() ? 1.0 : weight[p], scale = n * std::sqrt(share);
           const auto put = [&](auto&& row) {
             for (std::size_t c = 0; c < 3; ++c) {
-              double own = 0;  // of the numbers as they are kept: constants have no differences
+              double own = 0;  // constants have no differences
               for (std::size_t s = 0; s < ring; ++s)
                 own -= double(to[3 * (s + 1) + c] = float(scale * row(c, s)));
               to[c] = float(own);
@@ -133,7 +133,7 @@ void SurfaceDifferences::take_moments(Workers& workers, const T* x) {
     const RingTable::Ring& ring = rings_.about(Index(p));
     const RingTable::Member* const members = rings_.members(ring);
     const float* row = row_.data() + 3 * ring.member;
-    // differences from the point itself: what rows leave of it is rounding
+    // differences from the point itself avoid the rounding of the rows' sums
     const T* const own = x + 3 * p;
     T sum[9] = {};
     for (std::size_t s = 1; s < ring.size; ++s) {
