@@ -16,8 +16,8 @@ namespace fairing {
 namespace {
 
 // Affine weights of the corners that give a split polygon's centre: of all such weights those with
-// the least sum of squares, 1/n + (c_k - m) . S^-1 (centre - m), where m is the corners' mean and
-// S = sum (c_k - m)(c_k - m)^T. Returns the centre of `shape` by these weights.
+// the least sum of squares, 1/n + (c_k - m) . S^-1 (centre - m), where m is the corners' mean and S
+// = sum (c_k - m)(c_k - m)^T. Returns the centre of `shape` by these weights.
 Vec3 centre_of_shape(const ControlMesh& mesh, std::span<const Vec3> basis, Index centre,
                      std::span<const Vec3> shape) {
   std::vector<Index> corners;
@@ -33,8 +33,8 @@ Vec3 centre_of_shape(const ControlMesh& mesh, std::span<const Vec3> basis, Index
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
   const Vec3 along = axes.eigenvectors().transpose() * (basis[std::size_t(centre)] - mean);
-  // Across a flat polygon the extent is rounding, and the centre has no part in it. An eigenvalue is
-  // an extent squared: what is less than a millionth of the polygon's length is flat.
+  // The extent across a flat polygon is rounding and is ignored. An eigenvalue is a squared extent:
+  // below a millionth of the polygon's length it counts as flat.
   Vec3 scaled = Vec3::Zero();
   for (int a = 0; a < 3; ++a)
     if (axes.eigenvalues()[a] > rounding * axes.eigenvalues()[2])
@@ -58,7 +58,7 @@ ControlPositions in_both_systems(const ControlMesh& mesh, std::vector<Vec3> worl
   return control;
 }
 
-// Handed points take the place of those that a piece of the chain would have. `surface`: 0 for the
+// Replaces a chain's points by those that the caller of a piece has given. `surface`: 0 for the
 // mesh, s + 1 for shape s.
 void set_handed(const ControlMesh& mesh, const HandedCurves& handed, std::size_t surface,
                 FeatureCurves& curves) {
@@ -102,7 +102,7 @@ Frame working_frame(const ControlMesh& mesh, std::span<const Vec3> world) {
   Frame frame;
   Vec3 low = Vec3::Constant(INFINITY), high = -low;
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
-    if (mesh.ring(v).empty()) continue;  // an isolated vertex far away is no reason to lose digits
+    if (mesh.ring(v).empty()) continue;  // isolated vertices do not extend the range of coordinates
     low = low.cwiseMin(world[std::size_t(v)]);
     high = high.cwiseMax(world[std::size_t(v)]);
   }

@@ -18,12 +18,12 @@
 namespace fairing {
 namespace {
 
-// With more input vertices the loads are those of level 1, at a quarter of the cost.
+// Number of input vertices above which the loads are those of level 1, at a quarter of the cost.
 constexpr std::int64_t on_second_level = 2000;
-// Between two vertices of one solve: 81 sets, and so 27 solves, on quads.
+// Distance of two vertices in one solve: 81 sets, and so 27 solves, on quads.
 constexpr int rings_between_probes = 9;
 
-// Some rows and columns of a matrix, each given its weight: rows by it, columns by its inverse.
+// Some rows and columns of a matrix with weights: rows are multiplied by them, columns divided.
 LoadMatrix part_of(const LoadMatrix& all, const std::vector<Index>& row_of,
                    const std::vector<Index>& column_of, const std::vector<double>& row_weight,
                    const std::vector<double>& column_weight) {
@@ -42,7 +42,8 @@ LoadMatrix part_of(const LoadMatrix& all, const std::vector<Index>& row_of,
   return out;
 }
 
-// Of each row that has others like it, from their mean. `number`: of rows, those that count.
+// Differences of each row from the mean of those like it, if there are any. `number`: of the rows
+// that count.
 LoadMatrix differences_of(const std::vector<std::vector<Index>>& alike,
                           const std::vector<Index>& number, Eigen::Index count) {
   LoadMatrix out(count, count);
@@ -75,14 +76,14 @@ std::vector<Index> numbered(std::size_t size, const std::vector<Index>& vertices
   return number;
 }
 
-// Vertices that may move, of one kind, with what holds them in the unit of their roots.
+// Movable vertices of one kind, with their constraints in units of their roots.
 struct Movable {
   std::vector<Index> vertices;
-  std::vector<double> root;  // of each one's share of the area or the length
-  LoadMatrix g;              // scaled
-  // Of each load to the mean of those around it whose stars are alike. Where a mesh is a pattern, as
-  // triangles with alternating diagonals, its loads alternate without any scatter, and differ little
-  // there.
+  std::vector<double> root;  // roots of the vertices' shares of area or length
+  LoadMatrix g;              // scaled by the roots
+  // Differences of each load from the mean of nearby ones with similar stars. On a regular pattern,
+  // as triangles with alternating diagonals, loads alternate without any scatter, but those of
+  // similar stars differ little.
   LoadMatrix differences;
 
   EaseSystem system(Columns loads) const { return {g, std::move(loads)}; }
@@ -113,10 +114,11 @@ class Easing {
       move_worst(std::move(plate.turned), control);
     } else {
       find_movable();
-      // Scatter makes moments on borders too, and there is no knowing which are the shape's: with
-      // them, faint scatter of few vertices is made worse, by up to a tenth.
+      // Scatter also causes moments on borders, which cannot be distinguished from those of the
+      // shape: with them, results for few vertices with faint scatter are up to a tenth worse.
       Loads loads = std::move(plate.free);
-      // A curve has few vertices to tell scatter from shape by: no more than scatters beside it.
+      // A curve has too few vertices to distinguish scatter from shape, so the scatter of inner
+      // vertices is a bound.
       const EaseSystem inner = inner_system(loads, control), curve = curve_system(control);
       double s = amount(curve_, curve);
       if (wanted_.amount < 0 && inner.unknowns() > 0)
@@ -196,20 +198,20 @@ class Easing {
   Eigen::VectorXd bounds_of(const Movable& movable) const {
     Eigen::VectorXd bounds(Eigen::Index(movable.vertices.size()));
     for (std::size_t i = 0; i < movable.vertices.size(); ++i)
-      // less rounding, so that what is measured outside is within it
+      // the margin keeps rounded coordinates within the bound
       bounds[Eigen::Index(i)] = (1 - rounding) * movable.root[i] *
                                 wanted_.tolerance[std::size_t(movable.vertices[i])] /
                                 problem_->frame.scale;
     return bounds;
   }
 
-  // As much as the scatter says, and where it says nothing, as much as the bounds allow. Curves and
-  // what is between them may scatter by different lengths: each kind has an amount of its own.
+  // The amount from the estimated scatter, or, without an estimate, the largest within the bounds.
+  // Curves and inner vertices may scatter differently, so each kind has its own.
   double amount(const Movable& movable, const EaseSystem& system) const {
     if (!(system.mean() > 0)) return 0;
     if (wanted_.amount >= 0) return wanted_.amount / system.mean();
     double s = cross_validated(system);
-    // no more than differs from star to like star
+    // at most the difference between similar stars
     if (movable.differences.rows() > 0)
       if (const double noise = system.noise_of(movable.differences); std::isfinite(noise))
         s = with_noise_up_to(system, s, noise);
@@ -217,7 +219,7 @@ class Easing {
     return with_moves_within(system, bounds_of(movable));
   }
 
-  // Moves them, and says whether any does.
+  // Moves them. Returns whether any moves.
   bool take(const Movable& movable, const EaseSystem& system, double s) {
     if (!(s > 0)) return false;
     const Columns moves =
@@ -240,8 +242,7 @@ class Easing {
     for (int a = 0; a < 3; ++a) at_[3 * std::size_t(v) + std::size_t(a)] += way[a];
   }
 
-  // Where some of them are on curves, what is inside is picked again about the curves as they are by
-  // then.
+  // If some of the worst are on curves, the inner ones are chosen again with the new curves.
   void move_worst(Loads loads, ControlPositions control) {
     const std::vector<Index>& vertices = gauge_->vertices();
     const std::size_t inner = gauge_->on_pads();
@@ -265,7 +266,7 @@ class Easing {
     if (left > 0) move_all(pick(), 0);
   }
 
-  // Those of rows from `first` on; how many, images not counted.
+  // Moves the rows from `first` on. Returns their number without images.
   Index move_all(const Worst& worst, std::size_t first) {
     Index count = 0;
     for (std::size_t k = 0; k < worst.rows.size(); ++k) {
@@ -278,7 +279,7 @@ class Easing {
     return count;
   }
 
-  // Vertices that were merged are where the one is that they have become.
+  // Merged vertices take the position of the one that remains.
   void restore() {
     if (!mending_.mended()) return;
     const std::vector<Index>& origin = mending_.mended()->vertex_origin;
@@ -296,14 +297,14 @@ class Easing {
   std::unique_ptr<const FairingProblem> problem_;
   const ControlMesh& mesh_;
   FairingSystems systems_;
-  std::vector<double> at_;  // input vertices in world coordinates
+  std::vector<double> at_;  // positions of input vertices in world coordinates
   std::optional<StrainGauge> gauge_;
   Movable inner_, curve_;
-  std::vector<Eigen::Index> inner_rows_;  // of the gauge, of the inner ones
+  std::vector<Eigen::Index> inner_rows_;  // numbers of the gauge's rows
   EaseResult out_;
 };
 
-// What is said of vertices, of those that are left when some have been merged.
+// Values of vertices, mapped to the remaining ones after merges.
 struct Mapped {
   std::vector<double> tolerance;
   std::vector<std::uint8_t> fixed;

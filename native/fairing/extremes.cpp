@@ -12,8 +12,8 @@
 namespace fairing {
 namespace {
 
-// In sizes of the mesh that charts were made from, or in the usual distance from the middle: with the
-// requested accuracy relative to the farthest vertex, six digits are left to the others.
+// In sizes of the basis mesh, or in the usual distance from the centre: with the requested accuracy
+// relative to the farthest vertex, the others keep six digits.
 constexpr double far_out = 1e3;
 
 double median(std::vector<double> values) {
@@ -22,7 +22,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-// The input vertices on faces that are farther out than that, in working coordinates.
+// The input vertices on faces that are farther away than `distance`, in working coordinates.
 std::vector<std::int64_t> vertices_outside(double distance, const ControlMesh& mesh,
                                            const ControlPositions& control) {
   std::vector<std::int64_t> out;
@@ -61,7 +61,7 @@ bool lies_far_out(const ControlMesh& mesh, const ControlPositions& control) {
 }
 
 void require_in_reach(const ControlMesh& mesh, const ControlPositions& control) {
-  // in sizes of the mesh that charts were made from; single precision, too, holds the squares
+  // in sizes of the basis mesh; single precision holds the squares too
   const double out_of_reach = 1 / std::numeric_limits<double>::epsilon();
   std::vector<std::int64_t> far = vertices_outside(out_of_reach, mesh, control);
   if (far.empty()) return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// fair() and FairSolver take the same steps, both of them FairingSystems': solve, write.
-// fair() gives each surface away; FairSolver keeps it for the next start.
+// fair() and FairSolver call the same functions of FairingSystems: solve, write. fair() returns
+// each surface; FairSolver keeps it as the next start.
 #include "fairing/fair.h"
 
 #include <algorithm>
@@ -16,9 +16,9 @@
 namespace fairing {
 namespace {
 
-// A shape may repeat the mesh or an earlier shape, as unused shape keys do: the number of the first
-// surface with the same positions, 0 for the mesh itself and s + 1 for shape s; -1: none. Handed
-// curves may differ where these positions do not.
+// A shape may repeat the mesh or an earlier shape, as unused shape keys do. Returns the number of
+// the first surface with the same positions, 0 for the mesh and s + 1 for shape s; -1: none. Given
+// curves may differ in spite of equal positions.
 std::ptrdiff_t same_before(const PolygonMesh& input, const FairOptions& options,
                            std::size_t shape) {
   if (!options.whole.curves.edges.empty()) return -1;
@@ -32,7 +32,7 @@ std::ptrdiff_t same_before(const PolygonMesh& input, const FairOptions& options,
   return -1;
 }
 
-// points <- one surface from nothing, in world coordinates, its sheets joined.
+// points <- one surface, in world coordinates, with joined sheets.
 void fair_once(FairingSystems& systems, const ControlPositions& control, bool measured,
                Stopwatch& watch, Report& report, Array<double>& points) {
   Surface surface = systems.solve(control, measured, watch, report);
@@ -119,7 +119,7 @@ const FairOptions& without_back_leg(const FairOptions& options) {
   return options;
 }
 
-// What a call returns or throws, that it has found no memory by its name.
+// Returns the result of a call; replaces std::bad_alloc by FairingError.
 template <class Call>
 auto with_named_errors(Call&& call) {
   try {
@@ -181,7 +181,7 @@ void FairSolver::forget_surfaces() {
   systems_->drop();
 }
 
-// Whatever goes wrong on the way leaves nothing half done behind.
+// After an error the systems are dropped, so that none is half updated.
 template <class Call>
 auto FairSolver::guarded(Call&& call) {
   const CancelScope scope(&monitor_);
@@ -196,8 +196,8 @@ auto FairSolver::guarded(Call&& call) {
   }
 }
 
-// The basis' own positions give the basis itself: its centres of split polygons and its curves, to
-// the last bit.
+// The positions of the basis give exactly the basis, with its centres of split polygons and its
+// curves.
 void FairSolver::set_control(std::span<const double> coordinates) {
   const std::vector<Vec3>& basis = problem_->basis.cage;
   bool is_basis = true;
@@ -206,7 +206,7 @@ void FairSolver::set_control(std::span<const double> coordinates) {
   const ControlPositions next =
       is_basis ? problem_->basis : problem_->control_positions(coordinates);
   require_in_reach(problem_->mesh, next);
-  control_ = next;  // copied, not moved: solvers hold on to the arrays that are there
+  control_ = next;  // copied, not moved: solvers refer to the existing arrays
 }
 
 Report FairSolver::solve(std::span<const double> coordinates, double* out) {
@@ -249,8 +249,8 @@ Report FairSolver::solve_mended(std::span<const double> coordinates, double* out
   });
 }
 
-// The metric of a limit surface, and where folds of a plate are filled, are those of the basis,
-// whatever is solved first: then shapes mix, and nothing depends on what was solved before.
+// The metric of a limit surface and the fold repair of a plate are those of the basis, even if
+// another shape is solved first: so shapes can be mixed, and results do not depend on earlier ones.
 void FairSolver::solve_basis_first(Stopwatch& watch) {
   const ControlPositions& basis = problem_->basis;
   const bool has_metric =
@@ -271,7 +271,7 @@ void FairSolver::solve_from_nothing(Stopwatch& watch, Report& report) {
   recent_.remember(systems_->positions_of(control_));
 }
 
-// False where that does not go well: the report is as before then.
+// False if the solve fails; then it restores the report.
 bool FairSolver::solve_from_last(Stopwatch& watch, Report& report) {
   if (systems_->solve_moved(control_, recent_, watch, report)) return true;
   report.levels.clear();

@@ -14,7 +14,7 @@ std::vector<double> HeldPositions::of(std::span<const double> coordinates) const
   return {coordinates.begin(), coordinates.end()};
 }
 
-// Where limit positions fall together the charts would have no shape.
+// Coincident limit positions would give charts without a shape.
 void check_held(const HeldPositions& held, const PolygonMesh& input, Repair repair) {
   if (!held.limits) return;
   const std::vector<double> limits = held.of(input.coordinates);

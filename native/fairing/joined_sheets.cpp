@@ -6,7 +6,7 @@
 namespace fairing {
 namespace {
 
-// Where the points inside a face begin, and after the last one's they end.
+// The first point inside a face; for the last face + 1, the number of points.
 Index face_begin(const GridLevel& grid, Index f) {
   return f < Index(grid.mesh().faces.size()) ? grid.face_base(f) : Index(grid.size());
 }
@@ -31,7 +31,7 @@ std::size_t JoinedSheets::size() const {
 
 Index JoinedSheets::operator()(Index p) const {
   const ControlMesh& mesh = grid_.mesh();
-  Index before = 0;  // copies that come before p's block
+  Index before = 0;  // number of copies before p's block
   if (p < vertices_.end) return mesh.original_vertex(p);
   before += vertices_.end - vertices_.copies;
   if (p < centres_.end) return mesh.original_vertex(p) - before;

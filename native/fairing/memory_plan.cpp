@@ -16,7 +16,7 @@
 namespace fairing {
 namespace {
 
-// Of triangles and quads.
+// Numbers of triangles and quads, with edges and vertices.
 struct Elements {
   double vertices = 0, edges = 0, triangles = 0, quads = 0;
 
@@ -34,32 +34,31 @@ struct Elements {
 };
 
 struct Counts {
-  Elements surface;  // as it comes out
-  Elements solved;   // sheets apart, one-sided ones twice, no vertex without a face
+  Elements surface;  // of the output
+  Elements solved;   // sheets separated, one-sided ones doubled, without vertices that have no face
   Elements unknown;
-  double in_large_rings =
-      0;  // pairs of neighbours where many faces meet at a vertex: rows have all
+  double in_large_rings = 0;  // pairs of neighbours at vertices of high valence, which rows contain
 };
 
-// Bytes by energy: of a side and of a vertex of the control mesh (stencils, pads); of a point of every
-// level; of an unknown of a level that has rows; of a point of the finest level. Bounds of what was
-// measured on 13 meshes from level 0 to 6, of triangles and of quads.
+// Bytes by energy: for a side and a vertex of the control mesh (stencils, pads); for a point of
+// every level; for an unknown of a level with rows; for a point of the finest level. Bounds of
+// measurements on 13 meshes from level 0 to 6, of triangles and of quads.
 struct Costs {
   double side, vertex, point, unknown, finest;
 };
 constexpr Costs plate_costs{660, 960, 56, 230, 200}, curvature_costs{760, 960, 240, 830, 800},
     variation_costs{1100, 960, 420, 870, 800};
-// More while the rows of level 1 are summed, an unknown; of the finest level, a point, for the limit
-// surface beside the plate, or for the sweeps of the back leg.
+// In addition: for an unknown while the rows of level 1 are summed; for a point of the finest
+// level, with the limit surface beside the plate, or with the sweeps of the back leg.
 constexpr double first_rows = 1300, limit_or_sweeps = 950,
-                 pair_of_neighbours = 6;  // on a level that has rows
+                 pair_of_neighbours = 6;  // on a level with rows
 
 const Costs& costs_of(Energy energy) {
   if (energy == Energy::thin_plate) return plate_costs;
   return energy == Energy::total_curvature ? curvature_costs : variation_costs;
 }
 
-// Of the factor of so many unknowns: no more than a full one.
+// Bytes of a factor, at most those of a full one.
 double factor_of(double unknowns) {
   return std::min(double(factor_bytes(std::size_t(unknowns))),
                   double(matrix_entry) * unknowns * (1 + unknowns / 2));
@@ -82,7 +81,7 @@ double bytes_of(const Counts& c, std::size_t shapes, const FairOptions& options)
       costs.finest + double(shapes * sizeof(Vec3)) +
       (is_plate && options.interpolation == Interpolation::limit ? limit_or_sweeps : 0) +
       (options.paper.method == Method::back_leg ? limit_or_sweeps : 0);
-  // Borders and curves leave a factor fewer neighbours, half as many where all edges are such.
+  // Borders and curves have fewer neighbours in a factor, half as many if all edges are such.
   const double open = 0.5 + 0.5 * c.unknown.edges / std::max(c.solved.edges, 1.0);
   return bytes + finest * c.solved.points(options.levels) +
          (is_plate ? 1 : 3) * open * factor_of(factored);

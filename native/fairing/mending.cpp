@@ -26,14 +26,14 @@ std::vector<VertexPair> edges_of(const PolygonMesh& mesh) {
   return edges;
 }
 
-// Edges of the input as edges of the mended mesh.
+// Maps edges of the input to edges of the mended mesh.
 class NamedEdges {
  public:
   NamedEdges(const PolygonMesh& input, const MendedMesh& mended)
       : mended_(mended), before_(edges_of(input)), after_(edges_of(mended.mesh.view())) {}
 
-  // edges <- what they are now: their pieces, or none where their faces have gone. What never was an
-  // edge stays as it is, for the core to refuse.
+  // edges <- their pieces, or none if their faces are gone. A pair that was never an edge is kept,
+  // for the core to reject.
   void map(std::vector<VertexPair>& edges) const {
     std::vector<VertexPair> now;
     for (const VertexPair& edge : edges) add(edge, now);
@@ -57,7 +57,7 @@ class NamedEdges {
 
   void add_pieces(std::int64_t a, std::int64_t b, std::vector<VertexPair>& out) const {
     std::vector<VertexPair> waiting{ascending(a, b)};
-    // Every piece is shorter than the whole: this ends.
+    // This ends, since every piece is shorter than the whole.
     for (std::size_t i = 0; i < waiting.size(); ++i) {
       const VertexPair edge = waiting[i];
       if (has(after_, edge)) {
@@ -154,8 +154,7 @@ void Mending::map_faces(const PolygonMesh& input) {
   map(features.flat_faces, flags_of_faces(features.flat_faces, input.face_count(), "flat_faces"));
 }
 
-// Of vertices that became one, the one that holds the most speaks for all, and the first with a
-// normal.
+// Of merged vertices the strictest constraint is used, and the first normal.
 void Mending::map_vertex_values(const PolygonMesh& input) {
   const Ids lost = non_finite_vertices(input.coordinates);
   for (std::size_t v = 0; 3 * v < options_.normals.size(); ++v) {
@@ -206,7 +205,7 @@ void Mending::restore(Report& report) const {
                               report.flipped_faces, ElementKind::face});
 }
 
-// Vertices that were merged have no face, but are not left over.
+// Merged vertices have no face, but are not isolated.
 void Mending::restore(std::vector<Warning>& warnings) const {
   if (!mended_.changed()) return;
   for (Warning& warning : warnings) {

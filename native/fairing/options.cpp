@@ -37,7 +37,7 @@ void check_ranges(const FairOptions& o) {
   });
 }
 
-// One a vertex, and none negative or NaN.
+// Checks for one number a vertex, not negative or NaN.
 void check_per_vertex(const PolygonMesh& mesh, const char* option,
                       const std::vector<double>& values) {
   if (std::int64_t(values.size()) != mesh.vertex_count())
@@ -73,12 +73,13 @@ void check_normals(const PolygonMesh& mesh, const FairOptions& o) {
         "free the normals.");
 }
 
-// The strength at which swelling is gone on the meshes that tension is for, and cusps at control
-// vertices begin to cost more than it gains.
+// Strength at tension 1: swelling is gone on the meshes that tension is for, and cusps at control
+// vertices begin to cost more than more tension gains.
 constexpr double tautest = 30;
 
-// At 10 all 14 cages of benchmarks/limits.py bend less than under Subdivision Surface, and rims turn by
-// 0.3 % more at the most; at 3 the fox crosses itself, at 30 the angles of two cages are larger.
+// With 10 all 14 cages of benchmarks/limits.py have less energy than Subdivision Surface, and rims
+// turn by at most 0.3 % more; with 3 the fox intersects itself, with 30 two cages have larger
+// angles.
 constexpr double tightest = 10;
 
 void check_paper(const FairOptions& o) {
@@ -100,10 +101,11 @@ void check_paper(const FairOptions& o) {
 
 }  // namespace
 
-// By default what cannot be seen is left, as it is by the thin plate.
+// By default errors remain that are invisible, as with the thin plate.
 double FairOptions::step_tolerance_wanted() const {
   if (step_tolerance > 0) return step_tolerance;
-  // in sizes of the mesh; less for who asks for less, as far as rows in single precision tell
+  // in sizes of the mesh; with a smaller residual it is smaller, down to the accuracy of rows in
+  // single precision
   const double least = std::min(solve.relative_residual, SolveOptions().relative_residual);
   return std::max(0.1 * least, single_rounding);
 }
@@ -136,9 +138,9 @@ std::size_t FairOptions::bytes_allowed() const {
   return memory_limit ? memory_limit : physical_memory() / 4 * 3;
 }
 
-// Of the surface's swelling a membrane of strength t takes a share of about t / (t + c); c is 14 for
-// the thin plate, 6 for total curvature and less for bubbles (measured: volumes of two animals). So
-// with c = 10 every equal step of `tension` takes about the same.
+// A membrane of strength t removes a share of about t / (t + c) of the surface's swelling; c is 14
+// for the thin plate, 6 for total curvature and less for bubbles (measured: volumes of two
+// animals). With c = 10 equal steps of `tension` remove about equal shares.
 double membrane_strength(double tension) { return tautest * tension / (4 - 3 * tension); }
 
 double pull_to_limits(double limit) { return tightest * std::pow(limit, 4); }

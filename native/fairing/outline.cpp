@@ -16,7 +16,7 @@
 namespace fairing {
 namespace {
 
-// A control vertex as the result numbers it, without copies.
+// Number of a control vertex in the result, without copies.
 std::int32_t joined(const ControlMesh& mesh, Index v) {
   const Index original = mesh.original_vertex(v);
   return original < mesh.input_vertices ? original : original - Index(mesh.copies.vertex.size());
@@ -53,7 +53,8 @@ void set_edges(const ControlMesh& mesh, Outline& out) {
         out.edge_kind[std::size_t(e)] |= straight_edge;
 }
 
-// Curves and centres, of the mesh and of each shape. `held`: where the mesh is, one a control vertex.
+// Sets curves and centres of the mesh and of each shape. `held`: positions of the mesh, one a
+// control vertex.
 void set_surfaces(const ControlMesh& mesh, const HeldMesh& held, double exponent, Outline& out) {
   const int subdivisions = 1 << out.options.levels;
   const auto append = [&](const FeatureCurves& curves, std::span<const Vec3> world) {
@@ -98,7 +99,7 @@ Outline outline_of(const Mending& mending) {
   mesh.positions = std::move(held.world);
   out.units = measure_units(mesh, exponent);
   mending.restore(out.report);
-  out.options.shapes = {};  // of `mending`
+  out.options.shapes = {};  // they belong to `mending`
   return out;
 }
 

@@ -37,7 +37,7 @@ OutputFaces make_faces(const GridLevel& grid, Workers& workers) {
   const ControlMesh& mesh = grid.mesh();
   const int n = grid.n();
   const std::size_t cells = std::size_t(n) * std::size_t(n);
-  std::vector<std::size_t> rank;  // among the faces of the same kind
+  std::vector<std::size_t> rank;  // number among faces of the same kind
   std::size_t triangles = 0, quads = 0;
   const auto faces = std::size_t(mesh.first_copied_face());
   for (std::size_t f = 0; f < faces; ++f)

@@ -15,7 +15,7 @@
 namespace fairing {
 namespace {
 
-// Of a run, `held` and what mending took included.
+// Size of a run, including `held` and the memory of mending.
 RunSize size_of(const PolygonMesh& input, const FairOptions& options, std::int64_t held) {
   RunSize size = predict_size(input.vertex_count(), input.corners, input.offsets,
                               options.shape_count(input.coordinates.size()), options);
@@ -24,7 +24,7 @@ RunSize size_of(const PolygonMesh& input, const FairOptions& options, std::int64
   return size;
 }
 
-// The whole's, where this is a piece of it.
+// Units of the whole mesh if this is a piece of it.
 MeshUnits units_in_working(const FairingProblem& problem) {
   const OfWhole& whole = problem.options.whole;
   return whole.given ? in_lengths_of(whole.units, problem.frame.scale, problem.exponent)
@@ -39,8 +39,8 @@ double strength_of_membrane(const FairingProblem& problem) {
   return strength * ratio * ratio;
 }
 
-// `world`: one position a control vertex; `cage`: the caller's. From here on the mesh itself is in
-// working coordinates.
+// `world`: one position a control vertex; `cage`: the caller's. Afterwards the mesh is in working
+// coordinates.
 void make_about(std::vector<Vec3> world, std::vector<Vec3> cage, Stopwatch& watch,
                 FairingProblem& problem) {
   const FairOptions& options = problem.options;

@@ -10,10 +10,9 @@
 namespace fairing {
 namespace {
 
-// A change that the fit explains but for this share is of the kind that was seen before; otherwise
-// another kind begins, and the last surface becomes the earlier one.
-// Columns of the least squares that are shorter than that share of the present change are left out:
-// they would be enlarged together with their errors.
+// A change of the same kind is explained by the fit except for this share; otherwise a new kind
+// begins, and the last surface becomes the earlier one. Least-squares columns shorter than this
+// share of the present change are omitted, since their errors would be amplified.
 constexpr double same_kind = 1e-2;
 
 double farthest(std::span<const Vec3> a, std::span<const Vec3> b) {
@@ -51,7 +50,7 @@ RecentSurfaces::Coefficients RecentSurfaces::fit(std::span<const Vec3> positions
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 7, 7>> solver(unit.asDiagonal() * gram *
                                                                           unit.asDiagonal());
   Eigen::Matrix<double, 7, 1> inverse;
-  // A flat mesh, for one, leaves directions undetermined.
+  // A flat mesh, for example, leaves directions undetermined.
   for (int k = 0; k < 7; ++k)
     inverse[k] = solver.eigenvalues()[k] > rounding ? 1 / solver.eigenvalues()[k] : 0;
   return unit.asDiagonal() *

@@ -58,12 +58,13 @@ PlateLoads solve_loads(const FairingProblem& problem, FairingSystems& systems,
 
 namespace {
 
-// Between two vertices of one solve: 36 sets, and so 12 solves, on quads. G falls by some 2.6 a ring.
+// Distance of two vertices in one solve: 36 sets, and so 12 solves, on quads. G falls by a factor
+// of 2.6 a ring.
 constexpr int rings_apart = 6;
 
-// What is left of a gross error beside it once it has been let go, at most, as a share of it: 0.072 on
-// terrains of 676 and 1,681 vertices, one of them 100 m off. It bends charts, and the matrix of loads is
-// cut off.
+// Largest remainder next to a gross error after its release, as a share of the error: 0.072 on
+// terrains of 676 and 1,681 vertices with one vertex 100 m off. It comes from bent charts and the
+// truncated matrix of loads.
 constexpr double echo = 0.08;
 
 Strain strain_once(const PolygonMesh& mesh, const FairOptions& options, Monitor& monitor) {
@@ -88,13 +89,12 @@ double largest_wrong(const Excess& excess) {
   return largest;
 }
 
-// Gross errors are put right, and all is measured again, as long as that leaves less than half of
-// them.
+// Corrects gross errors and measures again, as long as their number falls below half.
 Strain strain_of(const Mending& mending, Monitor& monitor) {
   PolygonMesh mesh = mending.mesh();
   std::vector<double> at(mesh.coordinates.begin(), mesh.coordinates.end());
   mesh.coordinates = at;
-  double left = 0.25;  // of the progress
+  double left = 0.25;  // share of the progress
   monitor.enter_part(0, 1 - left);
   Strain out = strain_once(mesh, mending.options(), monitor);
   Excess& excess = out.excess;

@@ -14,10 +14,10 @@
 namespace fairing {
 namespace {
 
-// The floor, in standard deviations: of a thousand strains that are nothing but scatter, three are
-// larger. And the standard deviation of a bell curve, over the median of its absolute values.
+// The floor, in standard deviations: of a thousand strains of pure scatter three are larger. And
+// the standard deviation of a normal distribution over the median of its absolute values.
 constexpr double deviations_out = 3, of_median = 1.4826022185056018;
-// Around a vertex, in rings: what strains there says what the shape itself does. Of 1,681 vertices of an
+// Number of rings around a vertex whose strains show the shape itself. Of 1,681 vertices of an
 // exact terrain 0 are wrong with two rings, 1 with three, 3 with four.
 constexpr int rings_around = 2;
 
@@ -65,7 +65,7 @@ StrainGauge::StrainGauge(const FairingProblem& problem, ThinPlateSolver& solver,
   find_images();
 }
 
-// A mesh that is its own mirror image has what is wrong twice.
+// A mesh that is its own mirror image has each error twice.
 void StrainGauge::find_images() {
   for (std::size_t i = 0; i < vertices_.size(); ++i) images_.push_back({Index(i)});
   const std::vector<Index> row = row_of_vertices();
@@ -92,7 +92,7 @@ void StrainGauge::require_room(const FairingProblem& problem, int rings_apart,
                       "Raise memory_limit, or ease parts of the mesh."});
 }
 
-// To the matrix of loads on pads.
+// Adds the springs to the matrix of loads on pads.
 void StrainGauge::add_pulls() {
   for (const Index v : curves_.middles())
     if (problem_.mesh.vertex_part(v) == RegionPart::inside) vertices_.push_back(v);
@@ -149,7 +149,7 @@ Ways StrainGauge::strain(const Loads& on_pads, const ControlPositions& control) 
   return in_mesh_units(ways_of(loads(on_pads, control)));
 }
 
-// NaN where nothing strains.
+// NaN if there is no strain.
 std::vector<double> StrainGauge::lengths_of(const Columns& ways) const {
   std::vector<double> out(vertices_.size(), std::numeric_limits<double>::quiet_NaN());
   for (Eigen::Index i = 0; i < ways.rows(); ++i)
@@ -163,12 +163,12 @@ std::vector<Index> StrainGauge::row_of_vertices() const {
   return row;
 }
 
-// On a curve, beside one, or inside: beside a curve shapes strain more than inside
-// (strain/border_moments.h). And, where asked for, how many neighbours there are.
+// On a curve, next to one, or inside: next to a curve shapes have more strain than inside
+// (strain/border_moments.h). If requested, also the number of neighbours.
 StrainGauge::Kinds StrainGauge::kinds(bool by_neighbours) const {
   const ControlMesh& mesh = problem_.mesh;
   const std::vector<Index> row = row_of_vertices();
-  // a polygon's centre stands on no pad, and is on no curve
+  // a polygon's centre has no pad and is not on a curve
   const auto off_pads = [&](Index u) {
     const Index r = row[std::size_t(u)];
     return u < mesh.input_vertices && (r < 0 || r >= Index(on_pads_));
@@ -198,7 +198,7 @@ std::vector<std::vector<Index>> StrainGauge::alike(const Kinds& kinds) const {
 
 std::vector<std::vector<Index>> StrainGauge::of_same_star() const { return alike(kinds(true)); }
 
-// Of each row by those around it that are as it is.
+// The floor of each row, from nearby rows of the same kind.
 std::vector<double> StrainGauge::floors_of(const std::vector<double>& lengths, double floor) const {
   std::vector<double> out(vertices_.size(), floor);
   const std::vector<std::vector<Index>> rows = alike(kinds(false));
@@ -220,13 +220,14 @@ Excess StrainGauge::excess(const Loads& on_pads, const ControlPositions& control
     known.push_back(length);
     largest = std::max(largest, length);
   }
-  // What solves leave says nothing either.
+  // The error of solves is a floor too.
   const double floor = std::max(deviations_out * of_median * median(std::move(known)),
                                 problem_.options.solve.relative_residual * largest);
   const Straining straining{matrix_, normals_, images_};
   const std::vector<double> alone =
       lengths_of(ways_one_by_one(straining, all, std::vector<double>(vertices_.size(), floor)));
-  // Only what stands out is let go: of a shape that strains evenly, one would strain the next.
+  // Only outliers are released: if a shape is evenly strained, releasing one vertex would strain
+  // the next.
   std::vector<double> floors = floors_of(alone, floor);
   for (std::size_t i = 0; i < floors.size(); ++i)
     if (!(alone[i] > floors[i])) floors[i] = std::numeric_limits<double>::infinity();

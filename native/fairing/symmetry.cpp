@@ -8,14 +8,14 @@
 namespace fairing {
 namespace {
 
-// How far two positions in working coordinates may be apart and count as the same: what the caller's
-// own arithmetic makes at the mesh's size, and some units in the last place of world coordinates.
+// Largest distance of two positions in working coordinates that count as the same: rounding in the
+// caller's computation at the mesh's size, and some units in the last place of world coordinates.
 double same_place(const Frame& frame) {
   const double place = std::numeric_limits<double>::epsilon() * frame.centre.norm() / frame.scale;
   return rounding + 8 * place;
 }
 
-// Corners, and where chains begin and end, need no test of their own: they show in the curves.
+// Corners and ends of chains need no test of their own, since they change the curves.
 bool mirrors_curves(const ControlMesh& mesh, const Mirror& mirror, const FeatureCurves& curves,
                     double tolerance) {
   const auto count = std::size_t(curves.points_per_edge);

@@ -19,9 +19,8 @@
 namespace fairing {
 namespace {
 
-// The residual to which the thin plate's surface is solved where Gauss-Newton steps only start from
-// it. It balances conjugate gradients on a surface that is left anyway against steps from a worse
-// one.
+// Relative residual of the thin plate's surface if Gauss-Newton steps start from it: a balance
+// between iterations for a surface that is replaced anyway and steps from a worse start.
 constexpr double start_tolerance = 1e-3;
 
 PadReport report_of(const Pads& pads, std::size_t vertices, double unit) {
@@ -92,7 +91,7 @@ std::unique_ptr<GaussNewtonSolver> FairingSystems::make_steps(const ControlPosit
   options.tension = membrane_strength(problem_.options.tension) / (length * length);
   options.step_tolerance = problem_.options.step_tolerance_wanted();
   const double forces_left = 5 * problem_.options.solve.relative_residual;
-  // of what loads carry; less than 1e-4 has not been measured
+  // relative to the loads; less than 1e-4 has not been measured
   options.load_tolerance = std::clamp(forces_left, 1e-4, largest_force_left);
   options.max_steps = problem_.options.max_steps;
   options.solve = problem_.options.solve;
@@ -160,7 +159,7 @@ Surface FairingSystems::solve(const ControlPositions& control, bool measured, St
   return out;
 }
 
-// The steps' surface goes along with the plate's.
+// Moves the surface of the steps with that of the plate.
 bool FairingSystems::solve_moved(const ControlPositions& control, RecentSurfaces& recent,
                                  Stopwatch& watch, Report& report) {
   const FairOptions& options = problem_.options;
@@ -198,7 +197,7 @@ void FairingSystems::report_held(Report& report) {
   report_normals(problem_.normals, report.levels.back(), report);
 }
 
-// The energy of working coordinates in the unit of world ones.
+// The energy of working coordinates in world units.
 SurfaceEnergies FairingSystems::energies(const double* x) {
   SurfaceEnergies e;
   e.thin_plate = std::pow(problem_.frame.scale, 2 - 2 * problem_.exponent) *

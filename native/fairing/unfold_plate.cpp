@@ -13,7 +13,7 @@
 namespace fairing {
 namespace {
 
-// Vertices that weights or tolerances hold stay where these have them.
+// Vertices with weights or tolerances keep their positions.
 Unknowns points_to_fill(const FairingProblem& problem) {
   Unknowns unknowns = problem.unknowns;
   if (problem.options.interpolation == Interpolation::approximate)
@@ -21,7 +21,7 @@ Unknowns points_to_fill(const FairingProblem& problem) {
   return unknowns;
 }
 
-// Connected patches of marked points, each with the number of its first point; -1: not marked.
+// Connected patches of marked points, numbered by their first points; -1: not marked.
 class Patches {
  public:
   Patches(const GridLevel& grid, const Array<float>& marks) : marks_(marks), sets_(grid.size()) {
@@ -74,7 +74,7 @@ class PlateUnfolding {
     const Array<double> plate = surface;
     Array<float> marks;
     std::size_t before = folds.count();
-    // one ring more each time, until that is more than a control face
+    // one ring more each time, up to a control face
     for (int rings = 2; rings <= grid_.n() + 2 && folds.count() > 0; ++rings) {
       mark_folds(grid_, surface.data(), folds, marks);
       if (rings > 2 && folds.count() >= before) straighten_near(marks, repair.straightened);
@@ -97,7 +97,7 @@ class PlateUnfolding {
     return {};
   }
 
-  // `shape`: what the weights are of.
+  // `shape`: for the weights.
   void apply(const PlateRepair& repair, const Array<double>& shape, Array<double>& surface) {
     for (const Index e : repair.straightened)
       std::copy_n(polyhedron_.begin() + first_number(e), 3 * inner(),
@@ -109,12 +109,12 @@ class PlateUnfolding {
   std::size_t inner() const { return std::size_t(grid_.n() - 1); }  // points of an edge
   std::ptrdiff_t first_number(Index e) const { return 3 * std::ptrdiff_t(grid_.edge_base(e)); }
 
-  // With those of the control mesh.
+  // Including those of the control mesh.
   std::size_t count_all(const Array<double>& surface) const {
     return find_folds(grid_, workers_, surface.data(), {}).count();
   }
 
-  // On closed faces: beside folds of the control mesh nothing says what is upright.
+  // For closed faces: next to folds of the control mesh no orientation is right.
   void unmark(const std::vector<std::uint8_t>& faces, Array<float>& marks) const {
     const int n = grid_.n();
     for (Index f = 0; f < Index(faces.size()); ++f) {
@@ -126,14 +126,14 @@ class PlateUnfolding {
     }
   }
 
-  // A place that still has folds stays as it was: half a repair changes the surface there for nothing.
+  // Restores a place that still has folds, since an unsuccessful repair only changes the surface.
   // Returns whether there are such places.
   bool leave_out_folded(const Array<double>& surface, const Folds& folds, PlateRepair& repair) {
     Patches patches(grid_, repair.filled);
     Array<float> marks;
     mark_folds(grid_, surface.data(), folds, marks);
     dilate_by(1, marks);
-    std::vector<std::uint8_t> is_folded(grid_.size(), 0);  // by a patch's number
+    std::vector<std::uint8_t> is_folded(grid_.size(), 0);  // by number of the patch
     bool any = false;
     for (std::size_t i = 0; i < marks.size(); ++i) {
       const Index patch = marks[i] > 0 ? patches.of(Index(i)) : Index(-1);
@@ -159,14 +159,14 @@ class PlateUnfolding {
     for (int r = 0; r < rings; ++r) dilate(grid_, workers_, slots_, nullptr, marks);
   }
 
-  // Adds the edges whose curves come near a marked point, and their points to the marks.
+  // Adds the edges whose curves are near a marked point, and marks their points.
   void straighten_near(Array<float>& marks, std::vector<Index>& edges) {
     Array<float> near = marks;
     dilate_by(1, near);
     const auto begin = [&](auto& of, Index e) {
       return of.begin() + std::ptrdiff_t(grid_.edge_base(e));
     };
-    std::vector<std::uint8_t> is_near(curves_.points.size(), 0);  // per run
+    std::vector<std::uint8_t> is_near(curves_.points.size(), 0);  // by run
     const auto run = [&](Index e) { return std::size_t(curves_.run[std::size_t(e)]); };
     for (const Index e : on_curves())
       if (std::any_of(begin(near, e), begin(near, e) + std::ptrdiff_t(inner()),

@@ -10,8 +10,8 @@
 namespace fairing {
 namespace {
 
-// Whether control vertex v is an unknown of the solve. Sheets that touch in a point would each move
-// it elsewhere: it is fixed.
+// Whether control vertex v is an unknown of the solve. A vertex where sheets touch is fixed, since
+// each sheet would move it differently.
 bool control_vertex_moves(const ControlMesh& mesh, const FairOptions& options, Index v) {
   if (v >= mesh.first_centre()) return true;
   if (mesh.fans_meet(v)) return false;
@@ -44,7 +44,7 @@ void require_anchored(const ControlMesh& mesh, const Unknowns& unknowns,
   const auto anchored = [&](std::size_t v) {
     return !unknowns.vertex[v] || (!weights.empty() && weights[v] > 0);
   };
-  // Whatever anchors reach along edges is held.
+  // All vertices that are connected to anchors by edges are held.
   std::vector<std::uint8_t> held(std::size_t(mesh.vertex_count()), 0);
   std::vector<Index> front;
   for (std::size_t v = 0; v < held.size(); ++v)

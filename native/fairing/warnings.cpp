@@ -102,10 +102,10 @@ Warning of_steps(const CurvatureLevelReport& level, const FairOptions& options) 
                  level.level, level.steps.size(), level.left, options.step_tolerance_wanted());
 }
 
-// Of cures, those that have not been taken. Tension and limit positions hold what swells, and creases
-// what its sharp edges lift (measured: a wing with caps, 18 times as thick; exact with creases). What is
-// hollow spans long faces across a tight turn, which lengths to a smaller exponent make more even
-// (measured: a wing, at 0.25); tension would draw it in further.
+// The cures that are not in use yet. Tension and limit positions reduce swelling, and creases the
+// lift by sharp edges (measured: a wing with caps, 18 times as thick; exact with creases). Hollows
+// form where long faces span a tight turn; a smaller exponent of lengths makes them more even
+// (measured: a wing, with 0.25), while tension would make them deeper.
 std::string cure_of_thickness(const FairOptions& options, bool is_thicker) {
   std::vector<std::string> cures;
   if (options.energy != Energy::thin_plate) cures.push_back("energy=\"thin_plate\"");
