@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the package's clean() takes from the core: mending, turning faces over, numbers that become one.
+// Functions for the package's clean(): mending, flipping faces, joined components.
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
@@ -16,8 +16,8 @@ namespace py = pybind11;
 namespace fairing {
 namespace {
 
-// As to_python() has it, with "acts": the code of each and how many elements it concerned; None where
-// nothing was wrong.
+// As to_python(), with "acts": the code of each and the number of its elements; None if nothing was
+// wrong.
 py::object mended_arrays(const Numbers& vertices, const Ids& corners, const Ids& offsets,
                          Monitor& monitor, const py::object& progress) {
   const OwnedPolygonMesh mesh = copy_of(vertices, corners, offsets);
@@ -31,7 +31,7 @@ py::object mended_arrays(const Numbers& vertices, const Ids& corners, const Ids&
   return found;
 }
 
-// (k,) int64 faces that must turn over for neighbours to agree.
+// (k,) int64 faces to flip so that neighbours agree.
 py::array to_flip(const Numbers& vertices, const Ids& corners, const Ids& offsets, Monitor& monitor,
                   const py::object& progress) {
   const OwnedPolygonMesh mesh = copy_of(vertices, corners, offsets);
@@ -43,8 +43,8 @@ py::array to_flip(const Numbers& vertices, const Ids& corners, const Ids& offset
   return to_numpy(faces);
 }
 
-// (count,) int32: of 0 … count - 1, joined by `pairs` (k, 2), the least number that each hangs
-// together with.
+// (count,) int32: for each of 0 … count - 1, joined by `pairs` (k, 2), the least number in its
+// component.
 py::array joined(std::size_t count, const Ids& pairs) {
   const std::vector<std::int64_t> ids = copy_of(pairs);
   Array<std::int32_t> leads(count);

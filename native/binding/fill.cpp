@@ -20,13 +20,13 @@ namespace py = pybind11;
 namespace fairing {
 namespace {
 
-// A mesh with holes, and what fills them so far.
+// A mesh with holes and their fillings so far.
 class Filler {
  public:
   Filler(const Numbers& vertices, const Ids& corners, const Ids& offsets)
       : mesh_(copy_of(vertices, corners, offsets)) {}
 
-  // Loops, and dicts of why other border edges are around no hole.
+  // Loops, and dicts with reasons why other border edges surround no hole.
   py::tuple find(Monitor& monitor, const py::object& progress) {
     const auto lock = wait_for_others();
     FoundHoles found;
@@ -36,7 +36,8 @@ class Filler {
     return py::make_tuple(std::move(found.loops), unclear);
   }
 
-  // The loops as holes with their islands. Throws FairingError for what is no loop of this mesh.
+  // The loops as holes with their islands. Throws FairingError for loops that the mesh does not
+  // have.
   std::vector<Hole> with_islands(const std::vector<HoleLoop>& loops, Monitor& monitor,
                                  const py::object& progress) {
     const auto lock = wait_for_others();
@@ -50,8 +51,8 @@ class Filler {
     return holes;
   }
 
-  // What fills the holes, but for those that cannot be filled, and of each hole why it is not filled,
-  // a dict, or None.
+  // The fillings of the holes that can be filled, and for each hole the reason why it is not
+  // filled, a dict, or None.
   py::tuple fill(std::vector<Hole> holes, double density, bool bends, Monitor& monitor,
                  const py::object& progress) {
     const auto lock = wait_for_others();
@@ -72,8 +73,8 @@ class Filler {
     return py::make_tuple(arrays(), why);
   }
 
-  // `points`: (k, 3), of all new vertices; `chosen`: numbers of the holes to refine, and of those whose
-  // shape is `fair`.
+  // `points`: (k, 3), of all new vertices; `chosen`: numbers of the holes to refine, or, with
+  // `fair`, to shape.
   py::list refine(const Numbers& points, const std::vector<std::size_t>& chosen,
                   const std::vector<std::size_t>& fair, Monitor& monitor,
                   const py::object& progress) {
@@ -95,7 +96,7 @@ class Filler {
   }
 
  private:
-  // One call at a time: Python's lock is not kept while one runs.
+  // One call at a time, since a call releases Python's lock.
   std::unique_lock<std::mutex> wait_for_others() {
     const py::gil_scoped_release released;
     return std::unique_lock(mutex_);
@@ -109,7 +110,7 @@ class Filler {
     return *half_edges_;
   }
 
-  // Of each hole, its own vertices (k, 3) float64 and triangles (t, 3) int32.
+  // For each hole its new vertices (k, 3) float64 and triangles (t, 3) int32.
   py::list arrays() const {
     py::list found;
     for (const FilledHole& hole : filled_) {
@@ -132,7 +133,7 @@ class Filler {
   std::vector<FilledHole> filled_;
 };
 
-// Throws FairingError(index_out_of_range), with the triangles' rows.
+// Throws FairingError(index_out_of_range) with the rows of the triangles.
 void require_corners(const std::vector<std::int32_t>& corners, std::size_t points) {
   std::vector<std::int64_t> outside;
   for (std::size_t i = 0; i < corners.size(); ++i)
@@ -146,7 +147,7 @@ void require_corners(const std::vector<std::int32_t>& corners, std::size_t point
                        outside);
 }
 
-// Numbers (k,) of the triangles (t, 3) from the `first` on that cross another; corners are ids in
+// Numbers (k,) of the triangles (t, 3), from `first` on, that cross another; corners are ids in
 // points (n, 3). Throws FairingError(bad_shape, index_out_of_range).
 py::array crossings(const Numbers& points, const Contiguous<std::int32_t>& triangles,
                     std::size_t first, Monitor& monitor, const py::object& progress) {

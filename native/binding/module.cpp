@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The module discrete_fairing._native: NumPy arrays in, NumPy arrays out. This folder translates
-// and decides nothing: the package has made C-contiguous arrays of the right types and checked the
-// form of all settings (discrete_fairing/arrays.py, options.py); what they mean the core checks.
+// The module discrete_fairing._native: NumPy arrays in, NumPy arrays out. This folder only
+// translates: the package makes C-contiguous arrays of the right types and checks the form of all
+// settings (discrete_fairing/arrays.py, options.py); the core checks their meaning.
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
@@ -26,7 +26,7 @@ namespace {
 
 PyObject* fairing_error_type = nullptr;
 
-// The package's own errors have codes that the core does not know.
+// The package's own errors have codes that are not in the core.
 py::object python_error(const std::string& code, const std::string& cause, const std::string& cure,
                         const std::vector<std::int64_t>& elements, const std::string& kind) {
   const ElementKind of = kind_named(kind);
@@ -47,7 +47,7 @@ void set_python_error(const FairingError& error) {
   PyErr_SetObject(fairing_error_type, value.ptr());
 }
 
-// FairingError is the one exception of the core, and the one of this module.
+// FairingError is the only exception of the core and of this module.
 void bind_errors(py::module_& m) {
   fairing_error_type = PyErr_NewExceptionWithDoc(
       "discrete_fairing.FairingError",
@@ -57,7 +57,7 @@ void bind_errors(py::module_& m) {
       "kind: \"vertex\", \"edge\" (ids in pairs, end to end), \"face\" or, without elements,\n"
       "\"mesh\".",
       PyExc_ValueError, nullptr);
-  // One reference stays with set_python_error().
+  // set_python_error() keeps one reference.
   m.attr("FairingError") = py::reinterpret_borrow<py::object>(fairing_error_type);
   py::register_exception_translator([](std::exception_ptr p) {
     try {
@@ -74,7 +74,7 @@ void bind_monitor(py::module_& m) {
   py::class_<Monitor> monitor(m, "Monitor", "Watches a run, and cancels it, from any thread.");
   define_constructor(monitor);
   monitor
-      // for the package's calls of several runs, each with a monitor of its own
+      // for calls of the package with several runs, each with its own monitor
       .def("_report",
            [](Monitor& self, const std::string& phase, double fraction) {
              for (Phase known = Phase::check; known <= Phase::done; known = Phase(int(known) + 1))
@@ -108,7 +108,7 @@ py::dict fair_arrays(const Numbers& vertices, const Ids& corners, const Ids& off
   return d;
 }
 
-// What a short call returns that needs no progress, on this thread and without Python's lock.
+// Runs a short call without progress, on this thread and without Python's lock.
 template <class Call>
 auto beside_python(Call&& call) {
   Monitor monitor;

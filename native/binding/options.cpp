@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// FairOptions as Python sees it: flat, one attribute a setting, under the names of fair()'s
-// keywords. The package converts what callers write (discrete_fairing/options.py); here types are
-// exact.
+// FairOptions in Python: flat, one attribute for each setting, named like fair()'s keywords. The
+// package converts the callers' values (discrete_fairing/options.py); here types are exact.
 #include "fairing/settings.h"
 
 #include <pybind11/pybind11.h>
@@ -43,7 +42,7 @@ void bind_choices(py::module_& m) {
       .value("back_leg", Method::back_leg);
 }
 
-// Adds a setting: a member of FairOptions, or of a part of it.
+// Adds a setting: a member of FairOptions or of a part of it.
 template <class... Member>
 void bind_setting(py::class_<FairOptions>& options, const char* name, Member... member) {
   using Value = std::remove_cvref_t<decltype((std::declval<FairOptions&>().*....*member))>;
@@ -62,7 +61,7 @@ void bind_options(py::module_& m) {
   for_each_setting([&](const char* name, const auto&, auto... member) {
     bind_setting(options, name, member...);
   });
-  // Once it is set there is a region, be it an empty one.
+  // Setting it defines a region, which may be empty.
   options.def_property(
       "region", [](const FairOptions& o) { return o.features.region.faces; },
       [](FairOptions& o, std::vector<std::int64_t> faces) {

@@ -17,7 +17,7 @@ namespace py = pybind11;
 namespace fairing {
 namespace {
 
-// What happens on Python's side of a run.
+// The Python side of a run.
 class Watch {
  public:
   Watch(Monitor& monitor, Monitor* watcher, const py::object& progress)
@@ -46,7 +46,7 @@ class Watch {
     }
   }
 
-  // Before the run takes it: by a warning, which is an error where the caller wants that.
+  // Announces memory before it is allocated, by a warning, which may be an error in the caller.
   void tell_of_memory() {
     const std::size_t bytes = news_.unheard();
     if (bytes == 0) return;
@@ -68,7 +68,7 @@ class Watch {
 
   MemoryNews& news() { return news_; }
 
-  // After the job: Python's failure comes first.
+  // Call it after the job; an exception of Python has priority.
   void end(const std::exception_ptr& failure) {
     if (!failure) {
       tell_watcher();
@@ -113,12 +113,12 @@ class Runner::Thread {
     std::unique_lock lock(mutex_);
     finished_.wait(lock, [&] { return !job_; });
   }
-  // Whether the job is over after so long.
+  // Returns whether the job has ended within `time`.
   bool wait_for(std::chrono::milliseconds time) {
     std::unique_lock lock(mutex_);
     return finished_.wait_for(lock, time, [&] { return !job_; });
   }
-  // What the job that is over has thrown; null: nothing.
+  // The exception of the finished job; null: none.
   std::exception_ptr take_failure() { return std::exchange(failure_, nullptr); }
 
  private:
@@ -156,7 +156,7 @@ Runner::Runner() : process_(current_process()) {
   }
 }
 
-// In a forked process there is nobody to wait for, or to be told: what belongs to the thread stays.
+// A forked process does not have the thread, so its data are leaked.
 Runner::~Runner() {
   if (is_left_behind()) static_cast<void>(thread_.release());
 }

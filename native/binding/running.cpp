@@ -13,19 +13,19 @@ namespace py = pybind11;
 namespace fairing {
 namespace {
 
-// The list of all runs of `process`; a forked one begins its own.
+// The list of all runs of `process`; a forked process starts its own.
 RunningScope* newest = nullptr;
 long process = 0;
 bool is_ending = false;
 
-// Runs end within milliseconds; a progress callback may take its time.
+// Runs end within milliseconds, but a progress callback may take longer.
 constexpr std::chrono::seconds longest_end(10);
 
 }  // namespace
 
 long current_process() {
 #if defined(_WIN32)
-  return 0;  // which has no forks
+  return 0;  // no forks on this platform
 #else
   return long(getpid());
 #endif

@@ -13,7 +13,7 @@ namespace py = pybind11;
 namespace fairing {
 namespace {
 
-// A FairSolver and the thread that all its calls run on.
+// A FairSolver with the thread for all its calls.
 class Solver {
  public:
   Solver(const Numbers& vertices, const Ids& corners, const Ids& offsets,
@@ -28,12 +28,12 @@ class Solver {
   }
   ~Solver() {
     if (runner_.is_left_behind())
-      static_cast<void>(solver_.release());  // its threads are not here to be joined
+      static_cast<void>(solver_.release());  // its threads do not exist here and cannot be joined
     else
       runner_.run_quietly([&] { solver_.reset(); });
   }
 
-  // The faces, which are the same for all surfaces; read-only arrays.
+  // The faces, the same for all surfaces; read-only arrays.
   py::dict constants() {
     OutputFaces faces;
     Array<std::int32_t> creases;
@@ -72,7 +72,7 @@ class Solver {
   PolygonMesh mesh_of(const std::vector<double>& coordinates) const {
     return {coordinates, corners_, offsets_};
   }
-  // A monitor serves one call: it never goes back, and stays cancelled once it is.
+  // A monitor serves one call: its progress never falls, and it stays cancelled.
   template <class Job>
   void call(Job&& job, Monitor* watcher = nullptr, const py::object& progress = py::none()) {
     std::destroy_at(&monitor_);

@@ -24,8 +24,8 @@ std::span<const T> view(const Contiguous<T>& a) {
   return {a.data(), std::size_t(a.size())};
 }
 
-// The points of each item, one after another. Items give theirs up: large surfaces are not held
-// twice.
+// The points of all items in order. Each item releases its own, so that large surfaces are not in
+// memory twice.
 template <class Items, class PointsOf>
 py::array points_array(Items& items, PointsOf&& points_of) {
   std::size_t count = 0;
@@ -96,7 +96,7 @@ py::dict fit_arrays(const Numbers& vertices, const ShortIds& triangles, const Sh
                     const ShortIds& crease_edges, const ShortIds& groups, int levels,
                     double tolerance, double normal_tolerance, int threads, Monitor& monitor,
                     const py::object& progress) {
-  // The arrays are the package's own: nobody else writes to them.
+  // The arrays belong to the package; nobody else writes to them.
   const RefinedSurface refined{levels, view(vertices), view(triangles), view(quads),
                                view(crease_edges)};
   const SplineOptions options{.tolerance = tolerance,
@@ -120,7 +120,7 @@ py::dict fit_arrays(const Numbers& vertices, const ShortIds& triangles, const Sh
 py::array turns_array(const Numbers& vertices, const ShortIds& triangles, const ShortIds& quads,
                       const ShortIds& crease_edges, int levels, double least, int threads,
                       Monitor& monitor, const py::object& progress) {
-  // The arrays are the package's own: nobody else writes to them.
+  // The arrays belong to the package; nobody else writes to them.
   const RefinedSurface refined{levels, view(vertices), view(triangles), view(quads),
                                view(crease_edges)};
   std::vector<double> turns;
@@ -129,7 +129,7 @@ py::array turns_array(const Numbers& vertices, const ShortIds& triangles, const 
     const Lattice lattice(refined);
     Workers workers(threads);
     Topology topology = make_topology(lattice);
-    // turns count at slight ones
+    // slight turns count
     topology.kinks = CurveSource(lattice, topology).kinks(std::numeric_limits<double>::infinity());
     turns = lattice_turns(lattice, topology, least, workers);
   });
