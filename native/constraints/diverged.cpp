@@ -12,10 +12,6 @@
 namespace fairing {
 namespace {
 
-// In sizes of a star: a point farther from its centre is at least the star's size away from the
-// star.
-constexpr double far_away = 2.0;
-
 using Distances = std::array<double, 4>;  // squared, from each corner
 
 void take(const double* point, const Vec3& from, double& farthest) {

@@ -11,6 +11,10 @@
 
 namespace fairing {
 
+// In sizes of a part of the mesh: a point farther from its centre is at least that size away from
+// it.
+constexpr double far_away = 2;
+
 // The control vertices around which the surface x (3 numbers a point) has diverged: a point over
 // the faces around the vertex is farther from them than their size. `control`: the targets of the
 // control vertices. Ascending. A position that is not finite is far away.

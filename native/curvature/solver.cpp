@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "constraints/diverged.h"
 #include "curvature/start.h"
 #include "curvature/total_curvature.h"
 #include "parallel/reductions.h"
@@ -21,10 +22,6 @@ constexpr double start_decrement = 1e-2;
 // have too few points for third derivatives (measured: bob, level 3, 3.2 s with level 2, 2.1 s
 // without).
 constexpr int first_of_variation = 3;
-
-// A folded surface is a spike if it reaches this many times farther from the mesh's centre than the
-// plate. One without folds may be the large sphere through a flat cap.
-constexpr double farthest_over_plate = 2;
 
 }  // namespace
 
@@ -182,13 +179,14 @@ void GaussNewtonSolver::keep(const Array<double>& x, const StepStart& start,
   report.kept_start = true;
 }
 
-// A folded spike of any length has the same energy, so the energy does not reveal it.
+// A folded spike of any length has the same energy, so the energy does not reveal it. (A surface
+// without folds that reaches as far may be the large sphere through a flat cap.)
 bool GaussNewtonSolver::is_thrown(const Array<double>& x, const Array<double>& plate) {
   const auto extent = [&](const Array<double>& y) {
     return largest(iterate_.workers(), 3 * iterate_.grid().size(),
                    [&](std::size_t i) { return y[i]; });
   };
-  return !(extent(x) <= farthest_over_plate * extent(plate));
+  return !(extent(x) <= far_away * extent(plate));
 }
 
 double GaussNewtonSolver::energy_bound(const CurvatureLevelReport& report) {

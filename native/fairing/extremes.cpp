@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/median.h"
 #include "parallel/reductions.h"
 
 namespace fairing {
@@ -15,12 +16,6 @@ namespace {
 // In sizes of the basis mesh, or in the usual distance from the centre: with the requested accuracy
 // relative to the farthest vertex, the others keep six digits.
 constexpr double far_out = 1e3;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // The input vertices on faces that are farther away than `distance`, in working coordinates.
 std::vector<std::int64_t> vertices_outside(double distance, const ControlMesh& mesh,
@@ -47,7 +42,7 @@ std::vector<std::int64_t> vertices_far_away(const ControlMesh& mesh,
   }
   for (std::size_t i = 0; i < used.size(); ++i)
     values[i] = (control.working[std::size_t(used[i])] - middle).stableNorm();
-  const double usual = median(values);
+  const double usual = median(std::vector(values));
   std::vector<std::int64_t> out;
   for (std::size_t i = 0; i < used.size(); ++i)
     if (!(values[i] <= far_out * usual)) out.push_back(used[i]);

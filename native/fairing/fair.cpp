@@ -40,10 +40,7 @@ void fair_once(FairingSystems& systems, const ControlPositions& control, bool me
   if (!surface.curved.empty()) surface.plate = {};
   systems.write(control, measured, watch, report, surface, surface.points().data());
   points = std::move(surface.points());
-  const JoinedSheets joined(systems.finest());
-  if (!joined.needed()) return;
-  joined.join(points.data(), points.data());
-  points.resize(3 * joined.size());
+  JoinedSheets(systems.finest()).join(points);
 }
 
 void fair_shapes(const FairingProblem& problem, FairingSystems& systems, const PolygonMesh& input,
@@ -97,11 +94,7 @@ FairResult fair_all(const PolygonMesh& input, const FairOptions& options,
 
   monitor.enter_part(0, 1);
   systems.drop();
-  result.faces = make_faces(GridLevel(problem->mesh, options.levels), *problem->workers);
-  result.crease_edges = crease_edges(problem->mesh);
-  warn_of_memory(ledger, report);
-  watch.leave();
-  monitor.report(Phase::done, 1);
+  finish(*problem, ledger, watch, monitor, result);
   return result;
 }
 
@@ -119,21 +112,28 @@ const FairOptions& without_back_leg(const FairOptions& options) {
   return options;
 }
 
-// Returns the result of a call; replaces std::bad_alloc by FairingError.
-template <class Call>
-auto with_named_errors(Call&& call) {
-  try {
-    return call();
-  } catch (const std::bad_alloc&) {
-    throw out_of_memory();
-  }
-}
-
 }  // namespace
 
 FairingError out_of_memory() {
   return FairingError(ErrorCode::out_of_memory,
                       {"Out of memory.", "Use fewer levels, or close other programs."});
+}
+
+void finish(const FairingProblem& problem, const MemoryLedger& ledger, Stopwatch& watch,
+            Monitor& monitor, FairResult& result) {
+  result.faces = make_faces(GridLevel(problem.mesh, problem.options.levels), *problem.workers);
+  result.crease_edges = crease_edges(problem.mesh);
+  warn_of_memory(ledger, result.report);
+  watch.leave();
+  monitor.report(Phase::done, 1);
+}
+
+void restore(const Mending& mending, FairResult& result) {
+  mending.restore_points(result.vertices.data());
+  for (Array<double>& shape : result.shapes) mending.restore_points(shape.data());
+  mending.restore(result.faces);
+  mending.restore(result.report);
+  if (mending.mended()) result.mended = *mending.mended();
 }
 
 FairResult fair(const PolygonMesh& mesh, const FairOptions& options, Monitor& monitor) {
@@ -144,14 +144,10 @@ FairResult fair(const PolygonMesh& mesh, const FairOptions& options, Monitor& mo
     const std::chrono::duration<double> mended_in = std::chrono::steady_clock::now() - begun;
     FairResult result = mending.in_input_ids(
         [&] { return fair_all(mending.mesh(), mending.options(), ledger, monitor); });
-    mending.restore_points(result.vertices.data());
-    for (Array<double>& shape : result.shapes) mending.restore_points(shape.data());
-    mending.restore(result.faces);
-    mending.restore(result.report);
+    restore(mending, result);
     auto& seconds = result.report.seconds;
     if (options.repair == Repair::mend)
       seconds.insert(seconds.begin(), PhaseSeconds{"mend", mended_in.count()});
-    if (mending.mended()) result.mended = *mending.mended();
     return result;
   });
 }

@@ -2,6 +2,7 @@
 // The driver: plain arrays in, fair surface and report out. All coordinates are world coordinates.
 #pragma once
 
+#include <new>
 #include <optional>
 #include <span>
 #include <vector>
@@ -24,6 +25,22 @@ struct FairResult {
 
 // The error of a run that could not allocate.
 FairingError out_of_memory();
+
+// Returns the result of a call; replaces std::bad_alloc by FairingError.
+template <class Call>
+auto with_named_errors(Call&& call) {
+  try {
+    return call();
+  } catch (const std::bad_alloc&) {
+    throw out_of_memory();
+  }
+}
+
+// The end of a run whose points are computed: faces, crease edges, warnings of memory, progress.
+void finish(const FairingProblem& problem, const MemoryLedger& ledger, Stopwatch& watch,
+            Monitor& monitor, FairResult& result);
+// Translates a result of the mended mesh back to the input.
+void restore(const Mending& mending, FairResult& result);
 
 // The fair surface of a mesh, and of all shapes of `options`. Only reads the arrays of `mesh`. May
 // run on any thread; other threads may watch `monitor`. Throws FairingError only, with cancelled

@@ -82,4 +82,10 @@ void JoinedSheets::join(double* points, double* out) const {
   }
 }
 
+void JoinedSheets::join(Array<double>& points) const {
+  if (!needed()) return;
+  join(points.data(), points.data());
+  points.resize(3 * size());
+}
+
 }  // namespace fairing

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "grid/grid_level.h"
+#include "parallel/memory.h"
 
 namespace fairing {
 
@@ -22,6 +23,8 @@ class JoinedSheets {
   // out <- `points` of the grid, 3 numbers each, without copies; may be the same array. For double
   // covers the first half in `points` becomes the mean of both.
   void join(double* points, double* out) const;
+  // The same in place.
+  void join(Array<double>& points) const;
 
  private:
   void set_means(double* points) const;

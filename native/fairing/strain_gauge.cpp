@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/median.h"
 #include "fairing/symmetry.h"
 #include "mesh/normal.h"
 #include "strain/excess.h"
@@ -14,20 +15,11 @@
 namespace fairing {
 namespace {
 
-// The floor, in standard deviations: of a thousand strains of pure scatter three are larger. And
-// the standard deviation of a normal distribution over the median of its absolute values.
-constexpr double deviations_out = 3, of_median = 1.4826022185056018;
+// The floor, in standard deviations: of a thousand strains of pure scatter three are larger.
+constexpr double deviations_out = 3;
 // Number of rings around a vertex whose strains show the shape itself. Of 1,681 vertices of an
 // exact terrain 0 are wrong with two rings, 1 with three, 3 with four.
 constexpr int rings_around = 2;
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
-}
 
 }  // namespace
 
@@ -206,7 +198,7 @@ std::vector<double> StrainGauge::floors_of(const std::vector<double>& lengths, d
     std::vector<double> known;
     for (const Index r : rows[i])
       if (!std::isnan(lengths[std::size_t(r)])) known.push_back(lengths[std::size_t(r)]);
-    out[i] = std::max(floor, deviations_out * of_median * median(std::move(known)));
+    out[i] = std::max(floor, deviations_out * deviation_over_median * median(std::move(known)));
   }
   return out;
 }
@@ -221,7 +213,7 @@ Excess StrainGauge::excess(const Loads& on_pads, const ControlPositions& control
     largest = std::max(largest, length);
   }
   // The error of solves is a floor too.
-  const double floor = std::max(deviations_out * of_median * median(std::move(known)),
+  const double floor = std::max(deviations_out * deviation_over_median * median(std::move(known)),
                                 problem_.options.solve.relative_residual * largest);
   const Straining straining{matrix_, normals_, images_};
   const std::vector<double> alone =

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <new>
 #include <numbers>
 #include <utility>
 
 #include "base/points.h"
+#include "curvature/area.h"
 #include "fairing/extremes.h"
 #include "fairing/memory_plan.h"
 #include "fairing/warnings.h"
@@ -26,8 +26,8 @@ namespace {
 // The level on which the weight is chosen: the waves that matter are longer than its edges. Coarse
 // control meshes with many points a face use a finer level.
 constexpr int level_of_search = 2;
-constexpr std::size_t cells_of_search = std::size_t(1)
-                                        << 14;  // the choice takes some twenty iterations
+// Most cells of that level, since the choice takes some twenty iterations.
+constexpr std::size_t cells_of_search = std::size_t(1) << 14;
 // Number of points for the choice of the weight; more do not improve it.
 constexpr std::size_t enough_points = std::size_t(1) << 18;
 
@@ -79,7 +79,7 @@ int search_level(const ControlMesh& mesh, int top, std::size_t points) {
 double area_of(const GridLevel& grid, Workers& workers, const std::vector<Vec3>& control) {
   Array<double> x(3 * grid.size());
   refine_linearly(grid, control, workers, x.data());
-  return surface_area(Cells(grid, workers), x.data());
+  return surface_area(grid, workers, x.data());
 }
 
 class ScanFit {
@@ -335,16 +335,8 @@ FitResult fit_all(const PolygonMesh& input, const FairOptions& options, const Sc
                  result.vertices.data());
   warn_of_fit(result.fit, settings.tolerance, report);
   report.largest_deviation = largest_deviation(problem->basis.cage, result.vertices.data());
-  const JoinedSheets joined(finest);
-  if (joined.needed()) {
-    joined.join(result.vertices.data(), result.vertices.data());
-    result.vertices.resize(3 * joined.size());
-  }
-  result.faces = make_faces(finest, workers);
-  result.crease_edges = crease_edges(problem->mesh);
-  warn_of_memory(ledger, report);
-  watch.leave();
-  monitor.report(Phase::done, 1);
+  JoinedSheets(finest).join(result.vertices);
+  finish(*problem, ledger, watch, monitor, result);
   return result;
 }
 
@@ -352,21 +344,16 @@ FitResult fit_all(const PolygonMesh& input, const FairOptions& options, const Sc
 
 FitResult fit_scan(const PolygonMesh& mesh, const FairOptions& options, const ScanInput& scan,
                    const FitSettings& settings, Monitor& monitor) {
-  try {
+  return with_named_errors([&] {
     const FairOptions own = options_of_fit(options, settings, std::size_t(mesh.vertex_count()));
     const MemoryLedger ledger(own.bytes_allowed());
     const Mending mending(mesh, own);
     FitResult result = mending.in_input_ids([&] {
       return fit_all(mending.mesh(), mending.options(), scan, settings, ledger, monitor);
     });
-    mending.restore_points(result.vertices.data());
-    mending.restore(result.faces);
-    mending.restore(result.report);
-    if (mending.mended()) result.mended = *mending.mended();
+    restore(mending, result);
     return result;
-  } catch (const std::bad_alloc&) {
-    throw out_of_memory();
-  }
+  });
 }
 
 }  // namespace fairing

@@ -115,12 +115,6 @@ double cell_area(const Cells& cells, const double* x, Index cell) {
   return 0.5 * normal.norm();
 }
 
-double surface_area(const Cells& cells, const double* x) {
-  double sum = 0;
-  for (std::size_t c = 0; c < cells.size(); ++c) sum += cell_area(cells, x, Index(c));
-  return sum;
-}
-
 void measure_fit(const LevelFit& fit, const FairingProblem& problem, FitReport& report) {
   const Cells& cells = fit.cells();
   const ControlMesh& mesh = cells.grid().mesh();

@@ -12,7 +12,6 @@ double covered_within(const Array<Foot>& feet);
 
 // Of one cell of the surface x, 3 numbers a point.
 double cell_area(const Cells& cells, const double* x, Index cell);
-double surface_area(const Cells& cells, const double* x);
 
 // Sets distances, noise, coverage, faces that are too coarse, and outliers.
 void measure_fit(const LevelFit& fit, const FairingProblem& problem, FitReport& report);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/median.h"
 #include "grid/runs.h"
 #include "parallel/reductions.h"
 
@@ -14,10 +15,7 @@ Spread spread_of(const Array<Foot>& feet, std::span<const std::uint8_t> counts) 
   for (std::size_t s = 0; s < feet.size(); ++s)
     if (feet[s].pulls() && (counts.empty() || counts[s])) far.push_back(std::abs(feet[s].offset));
   stop_if_cancelled();
-  if (far.empty()) return {};
-  const auto middle = far.begin() + std::ptrdiff_t(far.size() / 2);
-  std::nth_element(far.begin(), middle, far.end());
-  return {of_median * double(*middle), far.size()};
+  return {deviation_over_median * median(far), far.size()};
 }
 
 void PullSums::sort(const Array<Foot>& feet, const Array<float>& trust) {

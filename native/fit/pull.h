@@ -18,9 +18,6 @@ struct Spread {
 // For the offsets of feet that are used, and whose flag in `counts` is set; empty: all.
 Spread spread_of(const Array<Foot>& feet, std::span<const std::uint8_t> counts);
 
-// Standard deviation of a normal distribution over the median of its absolute values.
-constexpr double of_median = 1.4826022185056018;
-
 // Least spread, in mean control edges: scans without noise leave residuals that the level's edges
 // cannot follow, which are not outliers.
 constexpr double least_noise = 1.0 / 256;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/median.h"
 #include "fit/measure.h"
 #include "parallel/cancel.h"
 
@@ -77,11 +78,7 @@ double WeightChoice::held_out_error() {
     far.push_back(std::abs(
         (fit_.scan().point[held.point] - fit_.finder().point_at_foot(held.foot)).dot(held.normal)));
   if (far.empty()) return 0;
-  if (trials_.empty()) {
-    std::vector<double> sorted = far;
-    std::nth_element(sorted.begin(), sorted.begin() + std::ptrdiff_t(far.size() / 2), sorted.end());
-    cut_ = 2 * of_median * sorted[far.size() / 2];
-  }
+  if (trials_.empty()) cut_ = 2 * deviation_over_median * median(std::vector(far));
   double sum = 0;
   for (const double d : far)
     sum += d <= cut_ ? d * d : cut_ * (2 * std::min(d, stray / 2 * cut_) - cut_);

@@ -16,7 +16,7 @@ constexpr double rounding_of_terms = 2e-15;
 struct PcgLimits {
   // Of the residual, relative to `residual_scale`, and of the error in the energy norm, relative to
   // `energy_scale`: residuals of fourth order hide the smooth part of an error.
-  double tolerance = 1e-8;
+  double tolerance = 0;
   double residual_scale = 0;  // the residual of the control polyhedron on this level
   double energy_scale = 0;    // sqrt(energy)
   double noise = 0;           // a residual up to this is rounding and counts as zero
