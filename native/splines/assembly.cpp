@@ -12,13 +12,13 @@
 namespace fairing {
 namespace {
 
-// Where a patch has an edge.
+// An edge of a patch.
 struct EdgeUse {
   Index patch;
   int side;
 };
 
-// A curve from a cut to the next one, in half edges of `all`.
+// A curve from one cut to the next, in half edges of `all`.
 struct EdgePart {
   std::size_t curve;
   int from, to, all;
@@ -48,7 +48,7 @@ class EdgeParts {
           parts[std::size_t(e)].uses.push_back({Index(p), s});
   }
 
-  // In the order of the side's own direction.
+  // In the direction of the side.
   std::vector<Index> of(const PatchSide& side) const {
     std::vector<Index> out;
     const auto c = std::size_t(side.curve);
@@ -63,10 +63,10 @@ class EdgeParts {
   std::vector<EdgePart> parts;
 
  private:
-  std::vector<Index> first_;  // of each curve, and the end
+  std::vector<Index> first_;  // by curve, and the end
 };
 
-// Of a patch at t of a curve along one of its sides.
+// The patch next to a curve, at t of the curve.
 struct Beside {
   const SplinePatch& patch;
   std::array<double, 2> at;
@@ -89,8 +89,8 @@ bool meets_smoothly(const Topology& topology, std::size_t curve) {
   return curve >= topology.chains.size() || topology.chains[curve].kind == EdgeKind::smooth;
 }
 
-// Whether t of a smooth curve is in the tip of such a kink or a sharper one: it has no normals
-// there.
+// Whether t of a smooth curve is in the tip of a kink of at least this kind, where it has no
+// normals.
 bool at_kink(const Fits& fits, std::size_t c, double t, Kink least) {
   const Topology& topology = fits.topology;
   if (c >= topology.chains.size()) return false;
@@ -107,8 +107,8 @@ bool at_kink(const Fits& fits, std::size_t c, double t, Kink least) {
   return curve.normals[k - 1].isZero() || curve.normals[k].isZero();
 }
 
-// Calls visit(edge, its share along it, t of its curve) evenly along all that two patches share
-// smoothly, but at kinks that are `unjudged` or sharper.
+// Calls visit(edge, share along it, t of its curve) at even intervals along all smooth edges of two
+// patches, except at kinks that are `unjudged` or sharper.
 template <class Visit>
 void along_edges(const Fits& fits, const EdgeParts& edges, Kink unjudged, Visit&& visit) {
   fits.workers.for_parts(edges.parts.size(), 16, [&](std::size_t begin, std::size_t end) {
@@ -146,7 +146,7 @@ void measure_edges(const Fits& fits, const EdgeParts& edges, SplineSurface& out)
   });
 }
 
-// By control faces.
+// For each control face.
 void measure_faces(const Fits& fits, const EdgeParts& edges, SplineSurface& out) {
   out.face_off.assign(std::size_t(fits.lattice.faces()), 0.0);
   out.face_angle = out.face_off;
@@ -156,7 +156,7 @@ void measure_faces(const Fits& fits, const EdgeParts& edges, SplineSurface& out)
     for (std::size_t k = 0; k < topology.patches[p].grid.faces.size(); ++k)
       raise(out.face_off[std::size_t(topology.patches[p].grid.faces[k].face)],
             fits.patches[p].residuals[k]);
-  // the faces beside control edge `at` of a curve
+  // the faces next to control edge `at` of a curve
   const auto beside = [&](std::size_t c, std::size_t at, auto&& visit) {
     if (c >= topology.chains.size()) return visit((c - topology.chains.size()) / 3);
     const Index edge = topology.chains[c].edges[at];
@@ -185,7 +185,7 @@ void measure_faces(const Fits& fits, const EdgeParts& edges, SplineSurface& out)
 class VertexNumbers {
  public:
   explicit VertexNumbers(std::vector<Vec3>& at) : at_(at) {}
-  // Keys: points of the lattice, and behind them the centroids of triangles.
+  // Keys are points of the lattice, followed by the centroids of triangles.
   Index of(std::int64_t key, const Vec3& position) {
     const auto [found, is_new] = number_.try_emplace(key, Index(at_.size()));
     if (is_new) at_.push_back(position);
@@ -197,7 +197,7 @@ class VertexNumbers {
   std::unordered_map<std::int64_t, Index> number_;
 };
 
-// Of a cut of a curve.
+// The key of a cut of a curve.
 std::int64_t vertex_key(const Fits& fits, std::size_t c, int cut) {
   const Lattice& lattice = fits.lattice;
   const int n = lattice.n();
@@ -249,7 +249,7 @@ void assemble(const Fits& fits, SplineSurface& out) {
     std::vector<LoopEdge> loop;
     for (std::size_t s = 0; s < 4; ++s) {
       PatchSide side = place.side[s];
-      if (s >= 2) side.reversed = !side.reversed;  // the loop runs against u and v there
+      if (s >= 2) side.reversed = !side.reversed;  // the loop is opposite to u and v there
       for (const Index e : edges.of(side)) loop.push_back({e, !side.reversed});
     }
     out.loops.push_back(std::move(loop));

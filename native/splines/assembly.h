@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fitted curves and patches, put together: edges, vertices, loops, and how patches meet at edges.
+// Assembles fitted curves and patches: edges, vertices, loops, and how patches meet at edges.
 #pragma once
 
 #include "splines/fit.h"
 
 namespace fairing {
 
-// What has been fitted.
+// The fitted curves and patches.
 struct Fits {
   const Lattice& lattice;
   const Topology& topology;
@@ -15,17 +15,18 @@ struct Fits {
   Workers& workers;
 };
 
-// Everything of `out` but turns of the lattice. Takes the patches.
+// Sets everything of `out` but the turns of the lattice. Takes over the patches.
 void assemble(const Fits& fits, SplineSurface& out);
 
-// Of a patch: where it needs more spans.
+// The directions in which a patch needs more spans.
 struct Directions {
   bool u = false, v = false;
 
   bool any() const { return u || v; }
 };
 
-// By patches: along which of its edges with too sharp an angle one is off by a half of it.
+// For each patch: the directions of those of its edges with too large an angle along which its
+// error is at least half of the tolerance.
 std::vector<Directions> patches_to_refine(const Fits& fits, double tolerance);
 
 }  // namespace fairing

@@ -27,7 +27,8 @@ class Chains {
         for (const int end : {0, 1}) ++lines_at_[vertex(e, end)];
   }
 
-  // Of the first closed one a side that begins where another line ends on the far side; or none.
+  // Returns a side of the first closed line, starting where another line ends on the far side; no
+  // face if there is none.
   HalfEdge run() {
     topology_.chains.clear();
     topology_.places.assign(drawn_.size(), {});
@@ -54,13 +55,13 @@ class Chains {
     return std::size_t(walls_.vertices[std::size_t(use.face)][std::size_t(c)]);
   }
 
-  // What a curve follows before a side or behind it; no face where it ends.
+  // The continuation of a curve beyond a side or before it; no face at its end.
   HalfEdge joined(HalfEdge h, bool forward) const {
     const int c = (h.side + forward) % lattice_.corners(h.face);
     const auto v = std::size_t(walls_.vertices[std::size_t(h.face)][std::size_t(c)]);
     if (!walls_.regular[v]) return {};
     const HalfEdge on = forward ? straight_on(topology_, h) : straight_back(topology_, h);
-    // where four lines meet, or three of them at a border, all end
+    // all lines end where four of them meet, or three at a border
     const bool border = topology_.edge(h).kind == EdgeKind::boundary;
     return on.face >= 0 && drawn_[edge(on)] && lines_at_[v] < (border ? 3 : 4) ? on : HalfEdge{};
   }
@@ -87,8 +88,8 @@ class Chains {
   const Lattice& lattice_;
   const Walls& walls_;
   Topology& topology_;
-  std::vector<std::uint8_t> drawn_;  // edges
-  std::vector<int> lines_at_;        // vertices
+  std::vector<std::uint8_t> drawn_;  // by edge
+  std::vector<int> lines_at_;        // by vertex
 };
 
 PatchSide side_along(const Topology& topology, HalfEdge first, HalfEdge last) {
@@ -109,12 +110,12 @@ PatchPlace grid_patch(const Topology& topology, FaceGrid grid) {
     PatchSide& side = out.side[std::size_t(s)];
     side = side_along(topology, half_edge(out.grid, s, 0),
                       half_edge(out.grid, s, length(out.grid, s) - 1));
-    side.reversed = side.reversed != (s >= 2);  // the last two sides run against u and v
+    side.reversed = side.reversed != (s >= 2);  // the last two sides are opposite to u and v
   }
   return out;
 }
 
-// u runs from corner c along side c, v along the side before it.
+// u starts at corner c along side c, v along the side before it.
 PatchPlace triangle_patch(const Topology& topology, Index f, int c) {
   const int last = (c + 2) % 3;
   const auto half = [&](int s, bool second) {
@@ -143,7 +144,7 @@ std::array<FaceGrid, 2> cut_above(FaceGrid grid, int rows) {
   return {std::move(grid), std::move(above)};
 }
 
-// The grid one of whose sides has the half edge behind its first, cut there.
+// Cuts the grid with the half-edge on a side behind that side's first one.
 bool cut_before(HalfEdge h, std::vector<FaceGrid>& grids) {
   for (std::size_t g = 0; g < grids.size(); ++g)
     for (int s = 0; s < 4; ++s)

@@ -10,13 +10,13 @@
 namespace fairing {
 namespace {
 
-// How far around a point normals are fitted to, in steps of the lattice.
+// Distance, in steps of the lattice, of the points around a point to which its normal is fitted.
 constexpr int reach = 3;
-// Creases that leave the fitted tangent plane by more (its sine) are not in one: the surface has a
-// kink at their vertex, as where straight boundary edges meet at a corner.
+// Sine of the angle from which creases are not in the fitted tangent plane: the surface has a kink
+// at their vertex, as where straight boundary edges meet at a corner.
 constexpr double off_plane = 2 * collinear;
 
-// Lagrange's weights at x of `count` nodes from `first` on, one apart.
+// Lagrange's weights at x of `count` nodes at unit distances from `first` on.
 std::vector<double> interpolation(double x, int first, int count) {
   std::vector<double> weights(std::size_t(count), 1.0);
   for (int a = 0; a < count; ++a)
@@ -25,7 +25,7 @@ std::vector<double> interpolation(double x, int first, int count) {
   return weights;
 }
 
-// What an edge has, behind what the edges before it have; they share a point.
+// Appends the points of an edge to those of the edges before it; they share a point.
 void append(std::vector<Vec3> more, bool backwards, std::vector<Vec3>& to) {
   if (backwards) std::reverse(more.begin(), more.end());
   to.insert(to.end(), more.begin() + (to.empty() ? 0 : 1), more.end());
@@ -50,7 +50,7 @@ CurveData CurveSource::sharp_chain(Index c) const {
   out.edges = int(chain.edges.size());
   for (std::size_t k = 0; k < chain.edges.size(); ++k)
     append(edge_points(chain.edges[k]), chain.reversed[k], out.points);
-  // Sharp curves have the lattice's own tangents, or patches bend at its ends.
+  // Sharp curves have the lattice's tangents at its ends; otherwise patches would bend there.
   const bool held = chain.kind != EdgeKind::smooth && out.edges > 1;
   for (const int cut : chain.cuts) {
     const bool inside = cut > 0 && cut < chain.halves();
@@ -61,7 +61,7 @@ CurveData CurveSource::sharp_chain(Index c) const {
   return out;
 }
 
-// Of the line at a vertex of a chain.
+// Tangent of the line at a vertex of a chain.
 Vec3 CurveSource::tangent_at(const EdgeChain& chain, int vertex) const {
   const auto at = std::size_t(std::max(0, vertex - 1));
   const bool at_end = vertex > 0;
@@ -133,7 +133,7 @@ void CurveSource::add_crease_tangent(Index f, int s, bool at_end,
   tangents.push_back(tangent.normalized());
 }
 
-// Between an edge and the next ones around one of its ends.
+// The narrowest angle to adjacent edges at one of its ends.
 double CurveSource::narrowest_angle(Index e, bool at_end) const {
   const std::vector<SideUse>& uses = topology_.edges[std::size_t(e)].uses;
   const Vec3 own = end_tangent(lattice_, uses.front().face, uses.front().side, at_end);
@@ -199,7 +199,7 @@ Vec3 CurveSource::sector_normal(Index sector, const std::vector<FittedCurve>* cu
   if (tangents.size() == 2) {
     const Vec3 both = tangents[0].cross(tangents[1]);
     const double along = both.normalized().dot(normal);
-    // collinear creases do not span a plane
+    // collinear creases do not define a plane
     if (both.norm() > collinear && std::abs(along) > std::sqrt(1 - off_plane * off_plane))
       return both.normalized() * (along < 0 ? -1.0 : 1.0);
     if (both.norm() > collinear) return Vec3::Zero();
@@ -208,7 +208,7 @@ Vec3 CurveSource::sector_normal(Index sector, const std::vector<FittedCurve>* cu
   return across(normal, tangents.front());
 }
 
-// The median of side s has lattice points in every other row.
+// The median of side s contains lattice points in every other row.
 Vec3 CurveSource::on_median(Index f, int s, double row) const {
   const int n = lattice_.n(), nodes = n / 2 + 1, count = std::min(6, nodes);
   const int first = std::clamp(int(row / 2) - count / 2 + 1, 0, nodes - count);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What curves are fitted to: points of the lattice, and normals from both sides of them.
+// The data of curve fits: points of the lattice, and normals from both sides of them.
 #pragma once
 
 #include "splines/curve_fit.h"
@@ -12,25 +12,26 @@ class CurveSource {
   CurveSource(const Lattice& lattice, const Topology& topology)
       : lattice_(lattice), topology_(topology) {}
 
-  // Of a chain that is a crease or a boundary.
+  // The data of a chain that is a crease or a boundary.
   CurveData sharp_chain(Index c) const;
-  // The normal of the surface at the vertex of a sector. Where creases bound the sector, their
-  // `curves` lie in its plane. Zero where these cannot: the surface has a kink there.
+  // The normal of the surface at the vertex of a sector. If creases bound the sector, their
+  // `curves` lie in its plane. Zero if they cannot, at a kink of the surface.
   Vec3 sector_normal(Index sector, const std::vector<FittedCurve>& curves) const {
     return sector_normal(sector, &curves);
   }
   CurveData smooth_chain(Index c, const std::vector<Vec3>& sector_normals) const;
-  // From the middle of side s of triangle f to its centroid.
+  // The data of the curve from the midpoint of side s of triangle f to its centroid.
   CurveData inner(Index f, int s, const std::vector<FittedCurve>& curves) const;
 
-  // The steps between the data of a control edge.
+  // Number of steps between the points of a control edge.
   int samples() const;
 
-  // By sectors, as the lattice's own lines say. Kinks of less than `least` radians are none.
+  // The kinks of all sectors, from the lattice's own lines. Kinks of less than `least` radians do
+  // not count.
   std::vector<Kink> kinks(double least) const;
 
  private:
-  // Away from the vertex, along the creases that bound a sector.
+  // Unit tangents of the creases that bound a sector, away from the vertex.
   std::vector<Vec3> crease_tangents(Index sector, const std::vector<FittedCurve>* curves) const;
   Vec3 sector_normal(Index sector, const std::vector<FittedCurve>* curves) const;
   Vec3 tangent_at(const EdgeChain& chain, int vertex) const;

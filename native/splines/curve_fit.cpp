@@ -15,14 +15,14 @@
 namespace fairing {
 namespace {
 
-// What sliding along the curve counts, what leaving the lattice's line within the surface does. A
-// tangent out of the surface's tangent plane counts their product.
+// Weights of distances along the curve, and of those across the lattice's line within the surface.
+// A tangent's angle to the surface's tangent plane has their product.
 constexpr double slide = 0.1, aside = 0.2;
 constexpr int refits = 3;  // each after the points have moved to their feet
-// Curvature has a pole at control vertices, where most energies hold the surface: spans that are
-// shorter towards both ends, by this share, follow it.
+// Curvature has a pole at control vertices, which most energies interpolate. Spans near both ends
+// are shorter by this share, to follow it.
 constexpr double end_share = 0.35;
-// Of its mean speed: no curve comes slower to a narrow corner.
+// Least speed at a narrow corner, relative to the mean speed.
 constexpr double slowest = 0.3;
 
 double length_of(const std::vector<Vec3>& points) {
@@ -31,8 +31,8 @@ double length_of(const std::vector<Vec3>& points) {
   return length;
 }
 
-// What a distance from point k counts. A smooth curve has to lie on the surface; where in it, is
-// almost its own affair.
+// Weights of distances from point k. A smooth curve must lie on the surface; its place in the
+// surface is almost free.
 Eigen::Matrix3d off_surface(const CurveData& data, std::size_t k) {
   const Eigen::Matrix3d all = Eigen::Matrix3d::Identity();
   if (data.strict || data.normals.empty() || data.normals[k].isZero() || data.is_cut(k)) return all;
@@ -45,7 +45,7 @@ class CurveSystem {
   CurveSystem(const CurveData& data, int spans) : data_(data), spans_(spans) {
     const int count = control_points(spans);
     fixed_ = Eigen::VectorXd::Zero(3 * count);
-    const auto normal = [&](int i) -> Vec3 {  // of the plane that holds a control point
+    const auto normal = [&](int i) -> Vec3 {  // of the plane that contains a control point
       if (data.normals.empty() || (i != 1 && i + 2 != count)) return Vec3::Zero();
       return i == 1 ? data.normals.front() : data.normals.back();
     };
@@ -66,7 +66,7 @@ class CurveSystem {
     basis_.setFromTriplets(entries.begin(), entries.end());
   }
 
-  // `along`: the tangents at the points; empty: all directions count alike.
+  // `along`: the tangents at the points; empty: all directions have the same weight.
   SplineCurve solve(const std::vector<double>& t, const std::vector<Vec3>& along) const {
     const bool tilted = !along.empty() && !data_.normals.empty();
     const Eigen::Index height = tilted ? 4 : 3;
@@ -116,7 +116,7 @@ class CurveSystem {
 
   void set_fixed(int i, const Vec3& at) { fixed_.segment<3>(3 * i) = at; }
 
-  // Of what is free.
+  // Reduces rows to the free control points.
   void reduce(const Rows& rows, Matrix& out, Eigen::VectorXd& target) const {
     Matrix all(rows.target.size(), fixed_.size());
     all.setFromTriplets(rows.entries.begin(), rows.entries.end());
@@ -124,7 +124,7 @@ class CurveSystem {
     out = all * basis_;
   }
 
-  // Cuts are met exactly, and the curve has its tangent there, or is in the surface's plane: by Lagrange's
+  // Interpolates the cuts exactly, with their tangents or the surface's tangent planes, by Lagrange
   // multipliers.
   void hold_cuts(const Eigen::SimplicialLDLT<Matrix>& factors, Eigen::VectorXd& free) const {
     Rows rows;
@@ -149,7 +149,7 @@ class CurveSystem {
     Eigen::VectorXd target;
     reduce(rows, held, target);
     const Eigen::MatrixXd moves = factors.solve(Eigen::MatrixXd(held.transpose()));
-    for (int round = 0; round < 2; ++round)  // the second takes what rounding has left
+    for (int round = 0; round < 2; ++round)  // the second pass removes rounding errors
       free += moves * (held * moves).ldlt().solve(target - held * free);
   }
 
@@ -159,7 +159,7 @@ class CurveSystem {
   Matrix basis_;
 };
 
-// The parameter where the curve is closest to p, from one nearby.
+// The parameter of the curve's nearest point to p, starting nearby.
 double foot_of(const SplineCurve& curve, const Vec3& p, double t) {
   for (int step = 0; step < 6; ++step) {
     const CurvePoint c = curve.at(t);
@@ -186,8 +186,8 @@ std::vector<double> even_parameters(std::size_t count) {
   return t;
 }
 
-// Within each control edge by the length of the points' polygon, so that vertices are at knots. In a
-// halved one by that rational function of it which keeps both ends and has the middle point at 1/2.
+// By the length of the polygon within each control edge, so that vertices are at knots. In a halved
+// edge by a rational function of the length, which maps the midpoint to 1/2.
 std::vector<double> length_parameters(const CurveData& data) {
   const std::size_t each = (data.points.size() - 1) / std::size_t(data.edges);
   std::vector<double> t;
@@ -206,7 +206,7 @@ std::vector<double> length_parameters(const CurveData& data) {
   return t;
 }
 
-// The parameter whose span is by length at `share`, where spans at both ends are shorter.
+// The parameter whose length is `share` with shorter spans at both ends.
 double graded(double share) {
   constexpr double turn = 2 * std::numbers::pi;
   double t = share;
@@ -226,9 +226,9 @@ FittedCurve fit_evenly(const CurveData& data, const CurveSystem& system) {
   return out;
 }
 
-// Whether the curve, which is near the points at t, runs along them rather than across, and nowhere
-// turns back. Points that slide may draw its end beyond its last point: there it turns back, and
-// patches beside it fold. So they do in corners of less than 45° where it almost stops.
+// Whether the curve near the points at t has their direction and never turns back. Sliding points
+// may pull its end beyond the last point, where it turns back and adjacent patches fold. The same
+// happens in corners of less than 45° where it almost stops.
 bool runs_along(const SplineCurve& curve, const CurveData& data, const std::vector<double>& t) {
   const std::size_t last = data.points.size() - 1;
   Vec3 before = curve.at(0).tangent;
@@ -247,7 +247,7 @@ bool runs_along(const SplineCurve& curve, const CurveData& data, const std::vect
   return true;
 }
 
-// Points move to their feet from where they are at first.
+// Moves the points from their first places to their feet.
 FittedCurve fit_from(const CurveData& data, const CurveSystem& system,
                      std::vector<double> parameters) {
   FittedCurve out;
@@ -274,14 +274,14 @@ FittedCurve fit_from(const CurveData& data, const CurveSystem& system,
 FittedCurve fit_with(const CurveData& data, int spans, double tolerance) {
   const CurveSystem system(data, spans);
   FittedCurve even = fit_evenly(data, system);
-  // the lattice's own, as along creases
+  // the lattice's parameters, as for creases
   if (data.own || even.error <= rounding * length_of(data.points)) return even;
   std::vector<double> start = length_parameters(data);
   FittedCurve plain = fit_from(data, system, start);
   if (plain.error <= tolerance || (spans <= 2 && data.edges == 1)) return plain;
-  if (data.edges == 1)  // where there are spans between those at the ends
+  if (data.edges == 1)  // only if there are spans between those at the ends
     for (double& t : start) t = graded(t);
-  else  // a border or crease is smooth by the lattice's own parameters
+  else  // a border or crease is smooth in the lattice's parameters
     start = even_parameters(data.points.size());
   FittedCurve other = fit_from(data, system, std::move(start));
   return other.error < plain.error ? other : plain;

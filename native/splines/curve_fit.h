@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One curve a control edge, and three in a control triangle, each shared by the patches on both
-// sides.
+// Fits one curve to each control edge, and three inside each control triangle. The patches on both
+// sides share them.
 #pragma once
 
 #include <algorithm>
@@ -11,22 +11,22 @@
 
 namespace fairing {
 
-// Points of the lattice that a curve runs through, ends included. Along smooth curves each has a
-// normal of the surface, zero where it has a kink; creases and boundaries have none.
+// Points of the lattice for a curve, including its ends. On smooth curves each has a normal of the
+// surface, zero at a kink; creases and boundaries have none.
 struct CurveData {
   std::vector<Vec3> points, normals;
-  int edges = 1;  // control edges, each with as many steps between its points
-  // Where patches end: points that are the curve's own at t, with the tangent that it has there if it
-  // has no normals; not zero. Those at the ends are among them where there is one.
+  int edges = 1;  // number of control edges, each with the same number of steps between its points
+  // Where patches end: points that the curve interpolates at t, with its tangent there if there are
+  // no normals; not zero. Includes the ends that have one.
   struct Cut {
     std::size_t point;
     double t;
     Vec3 along = Vec3::Zero();
   };
   std::vector<Cut> cuts;
-  bool strict = false;  // along the lattice's line; or anywhere near it on the surface
-  bool own = false;     // and at the lattice's own parameters
-  std::array<double, 2> corner{4, 4};  // the narrowest angle that it makes at each end, radians
+  bool strict = false;  // follows the lattice's line; otherwise it may move within the surface
+  bool own = false;     // also has the lattice's parameters
+  std::array<double, 2> corner{4, 4};  // narrowest angle to other curves at each end, radians
 
   bool halved() const { return edges == 1 && !cuts.empty(); }
   bool is_cut(std::size_t k) const {
@@ -36,17 +36,17 @@ struct CurveData {
 
 struct FittedCurve {
   SplineCurve curve;
-  std::vector<double> parameters;  // of the data's points: where the curve is closest
-  std::vector<Vec3> normals;       // the data's, turned to stand on the curve
-  std::vector<double> off;         // how far each point is from the curve, as `error` counts it
-  double error = 0;  // the farthest that a point is from the curve, across the surface mostly
-  bool own = false;  // as of its data
+  std::vector<double> parameters;  // of the data's points: where the curve is nearest
+  std::vector<Vec3> normals;       // the data's, made perpendicular to the curve
+  std::vector<double> off;         // distance of each point from the curve, as in `error`
+  double error = 0;  // largest distance of a point from the curve, mostly across the surface
+  bool own = false;  // as in its data
 };
 
-// The part of a normal that stands on a unit tangent, of length one; zero where there is none.
+// The component of a normal perpendicular to a unit tangent, of unit length; zero if there is none.
 Vec3 across(const Vec3& normal, const Vec3& tangent);
 
-// Between those of the data; of smooth curves only.
+// Interpolates the normals of the data; for smooth curves only.
 Vec3 normal_at(const FittedCurve& curve, double t);
 
 struct SpanLimits {
@@ -54,9 +54,9 @@ struct SpanLimits {
   double tolerance;
 };
 
-// Minimizes the distances of the points from the curve. To slide along it costs little; to leave the
-// line within the surface not much, unless the data are strict. Its ends
-// are the data's, with tangents in the planes of their normals. The spans are doubled until the
+// Minimizes the distances of the points from the curve. Distances along the curve have a small
+// weight, those within the surface a larger one, unless the data are strict. The ends are those of
+// the data, with tangents perpendicular to their normals. Doubles the number of spans until the
 // error is within the tolerance.
 FittedCurve fit_curve(const CurveData& data, const SpanLimits& limits);
 

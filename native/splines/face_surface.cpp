@@ -6,8 +6,8 @@
 
 namespace fairing {
 
-// The derivative along a direction, of second order also at the sides; false where too few points
-// lie that way.
+// The derivative along a direction, of second order also at the sides; false if there are too few
+// points in that direction.
 bool FaceSurface::slope(GridPoint p, int di, int dj, Vec3& out) const {
   const auto inside = [&](int k) { return sheet_.inside({p.i + k * di, p.j + k * dj}); };
   const auto from = [&](int k) { return at(p.i + k * di, p.j + k * dj); };
@@ -22,7 +22,7 @@ bool FaceSurface::slope(GridPoint p, int di, int dj, Vec3& out) const {
   return true;
 }
 
-// Next to a triangle's corners points lie along two of three directions only.
+// Next to a triangle's corners there are points along two of three directions only.
 Vec3 FaceSurface::normal_at(GridPoint p) const {
   const Sheet::Spot spot = sheet_.spot(p);
   if (in_tip(sheet_.lattice(), topology_, spot.face, spot.at)) return Vec3::Zero();

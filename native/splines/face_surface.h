@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The refined surface between the lattice's points, which patches are measured against.
+// The refined surface between the points of the lattice, with which patches are compared.
 #pragma once
 
 #include <array>
@@ -8,24 +8,24 @@
 
 namespace fairing {
 
-// Over a patch's control faces. What bends one way in a cell lies between the flat cell and the planes that
-// touch it at the cell's corners; what lies there is not off.
+// The surface over the control faces of a patch. A cell that bends in one direction lies between
+// the flat cell and its tangent planes at the corners; a patch between these has no error.
 class FaceSurface {
  public:
   FaceSurface(const Sheet& sheet, const Topology& topology) : sheet_(sheet), topology_(topology) {}
 
   struct Off {
     double by;
-    int place;  // of the grid's faces, where the foot is
+    int place;  // the face of the grid that contains the foot
   };
-  // How far a patch's point at (u, v) is off, along the normal; 0 where that is no more than `least`
-  // says of the face. The patch is all of the faces, or a third at a corner (PatchPlace). Beyond
-  // their sides the surface is continued.
+  // Distance of a patch's point at (u, v) along the normal; 0 if it is at most that face's entry of
+  // `least`. The patch covers all faces, or a third at a corner (PatchPlace). The surface is
+  // continued beyond the sides.
   Off height(const Vec3& point, int corner, double u, double v,
              std::span<const double> least) const;
 
  private:
-  // Its corners, as many as the face has, and what each counts at the foot.
+  // The corners of the face's cell, and their weights at the foot.
   struct Foot {
     std::array<GridPoint, 4> corner{};
     std::array<double, 4> share{};

@@ -101,8 +101,8 @@ class Fitting {
     if (sharpen()) refine_at_edges();
   }
 
-  // Grids that miss a tolerance become two; at folds of the lattice, which no patch follows, as many as
-  // they have faces. False where there are none.
+  // Cuts grids that miss a tolerance in two; those at folds of the lattice, which no patch can
+  // follow, into single faces. False if there are none.
   bool split(std::vector<FaceGrid>& grids) {
     const std::size_t thirds = fitted_.size() - grids.size(), count = grids.size();
     for (std::size_t g = 0; g < count; ++g) {
@@ -122,8 +122,8 @@ class Fitting {
   }
 
   double tolerance() const { return options_.tolerance * lattice_.size(); }
-  // The refined surface has the other half. A curve that is off leans as well, and patches cannot mend
-  // that either: it counts more where they lean.
+  // The other half is for the refined surface. A curve with an error also has wrong normals, which
+  // patches cannot correct; where these differ the tolerance is smaller.
   double curve_tolerance(std::size_t c) const {
     return lattice_.size() * std::min(options_.tolerance, options_.normal_tolerance / 8) /
            (sharper_[c] ? 8 : 2);
@@ -158,7 +158,7 @@ class Fitting {
     data.own = strict_[curve] > 1;
   }
 
-  // Those of `which`, by curves.
+  // The flagged curves.
   void fit_curves(const std::vector<std::uint8_t>& which) {
     const CurveSource source(lattice_, topology_);
     const std::size_t chains = topology_.chains.size();
@@ -197,7 +197,8 @@ class Fitting {
         .chain;
   }
 
-  // Thin plates have poles of curvature at vertices: all are at knots. Cuts take freedom.
+  // Thin plates have poles of curvature at vertices, so all vertices are at knots. Cuts take
+  // degrees of freedom.
   static int least_spans(const EdgeChain& chain) {
     const int edges = int(chain.edges.size()), cuts = int(chain.cuts.size()) - 2;
     return 2 * cuts > edges ? 2 * edges : edges;
@@ -253,9 +254,9 @@ class Fitting {
     });
   }
 
-  // Where curves that leave the lattice's lines make patches fold, as in narrow corners, they are
-  // fitted to these; and where that does not help, as on faces a hundred times as long as wide, at
-  // the lattice's own parameters, with the patches.
+  // If curves that leave the lattice's lines make patches fold, as in narrow corners, they are
+  // fitted to these lines; if that does not help, as on faces a hundred times as long as wide, they
+  // get the lattice's parameters, and the patches too.
   void unfold() {
     for (const std::uint8_t strict : {1, 2}) {
       std::vector<std::uint8_t> which(curves_.size(), 0);
@@ -271,7 +272,7 @@ class Fitting {
     }
   }
 
-  // Where neighbours still meet at too sharp an angle, their curve may be too coarse for them.
+  // If neighbours still meet at too large an angle, their curve may be too coarse.
   bool sharpen() {
     std::vector<std::uint8_t> which(curves_.size(), 0);
     for (std::size_t p = 0; p < fitted_.size(); ++p)
@@ -287,7 +288,7 @@ class Fitting {
     return true;
   }
 
-  // Curves that have become sharper are as before around patches that fold now, and did not.
+  // Restores curves that were refined around patches that fold now and did not before.
   void blunt_where_new(const std::vector<std::uint8_t>& folded_before) {
     std::vector<std::uint8_t> which(curves_.size(), 0);
     const auto blunt = [&](Index curve) {
@@ -304,7 +305,7 @@ class Fitting {
     fit_again(which);
   }
 
-  // Those curves, and the patches on both sides.
+  // Fits the flagged curves again, and the patches on both sides.
   bool fit_again(std::vector<std::uint8_t>& which) {
     if (std::find(which.begin(), which.end(), 1) == which.end()) return false;
     fit_curves(which);
@@ -323,13 +324,13 @@ class Fitting {
     return true;
   }
 
-  // Ends: a patch has no more than `most_spans` each way, and is tried once with each number.
+  // Ends, since a patch has at most `most_spans` in each direction, and each number is tried once.
   void refine_at_edges() {
     while (add_spans_at_edges()) stop_if_cancelled();
   }
 
-  // More spans where neighbours meet at too sharp an angle, along their edge if that halves what
-  // they miss, or both ways; false where nothing changed.
+  // Adds spans where neighbours meet at too large an angle: along their edge if that halves the
+  // error, otherwise in both directions. False if nothing changed.
   bool add_spans_at_edges() {
     const std::vector<Directions> wanted = patches_to_refine(
         {lattice_, topology_, curves_, fitted_, workers_}, options_.normal_tolerance);
@@ -359,7 +360,7 @@ class Fitting {
   Lattice lattice_;
   Topology topology_;
   std::vector<FittedCurve> curves_;
-  std::vector<std::uint8_t> strict_, sharper_;  // curves; 2: at the lattice's own parameters
+  std::vector<std::uint8_t> strict_, sharper_;  // by curve; 2: the lattice's parameters
   std::vector<FittedPatch> fitted_;
   std::vector<std::uint8_t> settled_;                   // patches that more spans do not serve
   std::vector<std::uint8_t> new_curves_, new_patches_;  // that no earlier round has fitted

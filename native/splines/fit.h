@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From a refined surface to bicubic spline patches, C² inside, that share their edges' curves:
-// vertices, then edges, then patches, each by small least squares.
+// Fits bicubic spline patches, C² inside, that share their edges' curves, to a refined surface:
+// vertices, then edges, then patches, each by small least-squares problems.
 #pragma once
 
 #include "parallel/workers.h"
@@ -12,14 +12,14 @@ namespace fairing {
 
 struct SplineOptions {
   double tolerance;         // share of the surface's size
-  double normal_tolerance;  // radians, between the normals on both sides of an edge
+  double normal_tolerance;  // radians, between the normals of both sides of an edge
   int threads = 0;
-  // Of control faces, triangles first: those of different numbers are in different patches. Empty: no
-  // matter.
+  // Numbers of control faces, triangles first: faces with different numbers are in different
+  // patches. Empty: no restriction.
   std::span<const std::int32_t> groups = {};
 };
 
-// An edge of the patches: a curve, or half of one.
+// An edge between patches: a curve, or half of one.
 struct SplineEdge {
   SplineCurve curve;
   EdgeKind kind;
@@ -38,16 +38,17 @@ struct SplineSurface {
   std::vector<Vec3> vertices;
   std::vector<SplineEdge> edges;
   std::vector<SplinePatch> patches;
-  std::vector<std::vector<Index>> faces;     // the control faces of each patch
+  std::vector<std::vector<Index>> faces;     // control faces of each patch
   std::vector<std::vector<LoopEdge>> loops;  // of each patch, counter-clockwise
-  std::vector<double> residual, turned;      // of each patch
-  // angles_an_edge a smooth edge, the largest near each of so many places evenly along it, between
-  // normals; NaN in tips and else. The jump of the curvature across the edge, in the same way.
+  std::vector<double> residual, turned;      // by patch
+  // For each smooth edge angles_an_edge values: the largest angle between normals near each of as
+  // many places, evenly spaced along it; NaN in tips and for other edges. The same for the jump of
+  // the curvature across the edge.
   std::vector<double> angles, jumps;
-  // Of each control face: the farthest that its part of a patch, or a curve beside it, is off, and
-  // the sharpest angle at its sides.
+  // For each control face: the largest error of its part of a patch, or of a curve next to it, and
+  // the largest angle at its sides.
   std::vector<double> face_off, face_angle;
-  // The sharpest turn of the lattice, by control faces, and whether patches there fold.
+  // The largest angle of the lattice in each control face, and whether patches fold there.
   std::vector<double> lattice_turn;
   double size = 0;
 };

@@ -12,7 +12,7 @@
 namespace fairing {
 namespace {
 
-constexpr int most_levels = 12;  // as the message has it
+constexpr int most_levels = 12;  // as in the message
 
 void require_ids(std::span<const std::int32_t> ids, std::size_t points) {
   for (std::size_t k = 0; k < ids.size(); ++k) {

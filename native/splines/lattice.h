@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A refined surface as its output has it: the cells of every control face, row by row (fairing/
-// output.h). Points are found by arithmetic; control faces are numbered triangles first.
+// A refined surface in the form of the output: the cells of every control face, row by row
+// (fairing/output.h). Numbers of points are computed; control faces are numbered triangles first.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -21,13 +21,14 @@ struct RefinedSurface {
   std::span<const std::int32_t> crease_edges;      // 2 control vertices an edge
 };
 
-// A span has at least so many steps of the lattice, and samples; more spans than that each way cost more
-// than they gain.
+// A span has at least this number of steps of the lattice, and samples; more than most_spans in a
+// direction cost more than they gain.
 constexpr int steps_a_span = 4, most_spans = 16;
 
 class Lattice {
  public:
-  // Throws FairingError(bad_shape) for arrays that are no whole control faces or name no vertices.
+  // Throws FairingError(bad_shape) if the arrays are not complete control faces or have indices out
+  // of range.
   explicit Lattice(const RefinedSurface& surface);
 
   int n() const { return n_; }
@@ -39,7 +40,7 @@ class Lattice {
 
   // Closed coordinates (grid/grid_level.h).
   Index point(Index f, GridPoint p) const;
-  // k along side s, r rows into the face.
+  // Point k along side s, r rows inside the face.
   Index point(Index f, int s, int k, int r) const {
     return point(f, closed_point(quad(f), n_, s, k, r));
   }
@@ -50,7 +51,7 @@ class Lattice {
   Vec3 position(Index f, GridPoint p) const { return position(point(f, p)); }
 
   const RefinedSurface& surface() const { return surface_; }
-  // The largest extent of the points along an axis.
+  // The largest extent of the points along a coordinate axis.
   double size() const { return size_; }
 
  private:
@@ -60,7 +61,7 @@ class Lattice {
   double size_ = 0;
 };
 
-// A control face, whose side `turn` is the first side of what it is part of.
+// A control face, with the side that is the first one of its grid.
 struct PlacedFace {
   Index face;
   int turn;
@@ -68,7 +69,7 @@ struct PlacedFace {
   bool operator==(const PlacedFace&) const = default;
 };
 
-// Control quads side by side, row by row; or one triangle.
+// Adjacent control quads, row by row; or one triangle.
 struct FaceGrid {
   int columns = 1, rows = 1;
   std::vector<PlacedFace> faces;
@@ -76,11 +77,11 @@ struct FaceGrid {
   bool operator==(const FaceGrid&) const = default;
 };
 
-// The points of a grid of faces, as those of one: (0, 0) … (columns n, rows n).
+// The points of a grid of faces, numbered as one face: (0, 0) … (columns n, rows n).
 class Sheet {
  public:
   Sheet(const Lattice& lattice, Index f) : lattice_(lattice), one_{f, 0} {}
-  // Keeps a view of the grid.
+  // Keeps a reference to the grid.
   Sheet(const Lattice& lattice, const FaceGrid& grid)
       : lattice_(lattice), many_(grid.faces), columns_(grid.columns), rows_(grid.rows) {}
 
@@ -94,7 +95,7 @@ class Sheet {
     return p.i >= 0 && p.j >= 0 &&
            (quads() ? p.i <= width() && p.j <= height() : p.i + p.j <= width());
   }
-  // Which of the grid's faces a point is on.
+  // The face of the grid that contains a point.
   int place(GridPoint p) const {
     const int n = lattice_.n();
     return std::min(p.j / n, rows_ - 1) * columns_ + std::min(p.i / n, columns_ - 1);
@@ -116,23 +117,24 @@ class Sheet {
   int columns_ = 1, rows_ = 1;
 };
 
-// Away from an end of a side of the lattice: that of the cubic through its first points.
+// The tangent at an end of a side of the lattice, away from it: that of the cubic through the first
+// points.
 Vec3 end_tangent(const Lattice& lattice, Index f, int s, bool at_end);
 
-// Two unit vectors that make a right-handed frame with n.
+// Two unit vectors that form a right-handed frame with n.
 Eigen::Matrix<double, 3, 2> tangents_of(const Vec3& n);
 
-// How far along both directions `rest` reaches, by least squares; not at all along parallel ones.
+// Components of `rest` along two directions, by least squares; zero if these are parallel.
 struct Slide {
   double along_u, along_v;
 };
 Slide slide_to(const Vec3& rest, const Vec3& u, const Vec3& v);
 
-// The normal at `centre` of the surface through these points nearby: that of a height function,
-// cubic as far as their number allows, over the plane of `guess`. Refitted once.
+// The normal at `centre` of the surface through nearby points: that of a height function over the
+// plane of `guess`, up to cubic if there are enough points. Refitted once.
 Vec3 fitted_normal(const Vec3& centre, const std::vector<Vec3>& nearby, const Vec3& guess);
 
-// The normal at a point of the lattice, from its neighbours; as long as the surface there is large.
+// The area-weighted normal at a point of the lattice, from its neighbours.
 Vec3 area_normal(const Sheet& sheet, GridPoint p);
 Vec3 lattice_normal(const Lattice& lattice, Index f, GridPoint p);
 

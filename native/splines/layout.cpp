@@ -38,7 +38,7 @@ class WallFinder {
   };
   struct Around {
     int corners = 0;
-    bool odd = false;  // triangles, faces that look other ways, or a corner between walls
+    bool odd = false;  // triangles, faces with other orientations, or a corner between walls
     std::vector<WallEnd> walls;
   };
 
@@ -121,7 +121,7 @@ class Layout {
   }
   bool regular(HalfEdge h) const { return walls_.regular[std::size_t(walls_.start(h))]; }
 
-  // All lines go on by an edge, then by the next: they meet half way.
+  // All lines advance by one edge, then by the next, so they meet half-way.
   void draw_lines() {
     std::vector<std::uint8_t> met(walls_.regular.size(), 0);
     std::vector<HalfEdge> ends;
@@ -153,7 +153,7 @@ class Layout {
         .vertices[std::size_t(h.face)][std::size_t((h.side + 1) % lattice_.corners(h.face))];
   }
 
-  // Row after row on all four sides.
+  // Adds row after row on all four sides.
   void grow(FaceGrid grid) {
     for (int failed = 0; failed < 4;) {
       std::vector<PlacedFace> row = beyond(grid);
@@ -180,7 +180,7 @@ class Layout {
     return grid;
   }
 
-  // The faces above a grid, if no line is between; else none.
+  // The faces above a grid, if no line is between; otherwise none.
   std::vector<PlacedFace> beyond(const FaceGrid& grid) const {
     std::vector<PlacedFace> row;
     for (int q = grid.columns - 1; q >= 0; --q) {
@@ -205,7 +205,7 @@ class Layout {
     return row;
   }
 
-  // Round a ring it would meet itself.
+  // Around a ring it would meet itself.
   bool touches_itself(const FaceGrid& grid) const {
     std::unordered_set<Index> seen;
     for (int s = 0; s < 4; ++s)
@@ -224,7 +224,7 @@ class Layout {
   }
 
   bool merge(std::size_t a, int side) {
-    FaceGrid grid = turned(grids_[a], (side + 2) % 4);  // `side` is above
+    FaceGrid grid = turned(grids_[a], (side + 2) % 4);  // `side` is at the top
     if (!may_cross(grid)) return false;
     const HalfEdge first = topology_.twin(half_edge(grid, 2, grid.columns - 1));
     const Index b = grid_of_[std::size_t(first.face)];
@@ -243,7 +243,7 @@ class Layout {
     return false;
   }
 
-  // Whether no wall is above a grid, and no line that has to be there.
+  // Whether there is no wall above a grid, and no line that is required there.
   bool may_cross(const FaceGrid& grid) const {
     for (int q = 0; q < grid.columns; ++q) {
       const HalfEdge own = half_edge(grid, 2, q);
@@ -264,8 +264,8 @@ class Layout {
   const Lattice& lattice_;
   const Topology& topology_;
   const Walls& walls_;
-  std::vector<std::uint8_t> drawn_;  // edges
-  std::vector<Index> grid_of_;       // faces
+  std::vector<std::uint8_t> drawn_;  // by edge
+  std::vector<Index> grid_of_;       // by face
   std::vector<FaceGrid> grids_;
 };
 

@@ -58,11 +58,11 @@ void NetSystem::add(const CubicBasis& u, const CubicBasis& v, const Eigen::Matri
         rest -= u.value[std::size_t(a)] * v.value[std::size_t(b)] * known_.net[known_.index(i, j)];
     }
   const Vec3 load = weight * rest;
-  // Of each list those that are no outermost control points.
+  // Without the outermost control points.
   const int slow_from = slow.first ? 0 : 1, slow_to = std::min(4, slows - 1 - slow.first),
             fast_from = fast.first ? 0 : 1, fast_to = std::min(4, fasts - 1 - fast.first);
   const Eigen::Index first = 3 * (fast.first + fast_from - 1), count = 3 * (fast_to - fast_from);
-  Eigen::Matrix<double, 3, 12, Eigen::RowMajor> along;  // weight, times the fast functions
+  Eigen::Matrix<double, 3, 12, Eigen::RowMajor> along;  // weight times the fast functions
   for (int m = fast_from; m < fast_to; ++m)
     along.block<3, 3>(0, 3 * (m - fast_from)) = fast.value[std::size_t(m)] * weight;
   for (int a = slow_from; a < slow_to; ++a)
@@ -110,7 +110,7 @@ void NetSystem::add_third_differences(double scale) {
     }
 }
 
-// Cholesky's factors, row of blocks by row of blocks.
+// Cholesky factorization by rows of blocks.
 bool NetSystem::factor() {
   const Eigen::Index blocks = band_.rows() / width_;
   for (Eigen::Index i = 0; i < blocks; ++i) {
@@ -153,7 +153,7 @@ bool NetSystem::solve(SplinePatch& patch, double most_balanced) {
   substitute(right_);
   const double off = rest_ - balance_.dot(right_);
   if (weighed_ > 0 && std::abs(off) <= most_balanced * weighed_) {
-    Eigen::VectorXd moved = balance_;  // the least change of the equations' own solution
+    Eigen::VectorXd moved = balance_;  // the smallest change of the unconstrained solution
     substitute(moved);
     right_ += off / balance_.dot(moved) * moved;
   }

@@ -13,8 +13,8 @@ SplineCurve part_of(const SplineCurve& curve, const PatchSide& side) {
   return side.reversed ? reversed(std::move(out)) : out;
 }
 
-// Normals of a smooth curve that belong to the side. Where spans are shorter than the lattice's
-// steps, there are more between: neighbours have to agree there, too.
+// The normals of a smooth curve on the side. Where spans are shorter than the lattice's steps,
+// there are additional ones between, since neighbours have to agree there too.
 std::vector<SideNormal> side_normals(const FittedCurve& curve, const PatchSide& side) {
   std::vector<SideNormal> out;
   const auto add = [&](double at, const Vec3& normal, double weight) {
@@ -34,8 +34,8 @@ std::vector<SideNormal> side_normals(const FittedCurve& curve, const PatchSide& 
   return out;
 }
 
-// Where a curve has the points that lie evenly along a side of the lattice: blended from side to
-// side, these are where a patch's samples start.
+// The parameters on a curve of evenly spaced points along a side of the lattice. Blended from side
+// to side, they are the start of a patch's samples.
 class SideMap {
  public:
   SideMap(const FittedCurve& curve, const PatchSide& side) : curve_(curve), side_(side) {
@@ -65,8 +65,8 @@ std::size_t index_of(const Sheet& sheet, GridPoint p) {
   return std::size_t(p.j) * std::size_t(sheet.width() + 1) + std::size_t(p.i);
 }
 
-// Of all points of quads, row by row: the share of its row's length that lies before each, or with
-// `upward` of its column's.
+// For all points of quads, row by row: the share of the row's length before the point, or with
+// `upward` of the column's.
 std::vector<double> length_shares(const Sheet& sheet, bool upward) {
   const int lines = upward ? sheet.width() : sheet.height(),
             n = upward ? sheet.height() : sheet.width();
@@ -86,7 +86,7 @@ std::vector<double> length_shares(const Sheet& sheet, bool upward) {
   return out;
 }
 
-// Where a side's curve has the share of the side's length.
+// The parameter of a side's curve at a share of the side's length.
 double at_share(const SideMap& map, std::span<const double> shares, double share) {
   const auto after = std::upper_bound(shares.begin() + 1, shares.end() - 1, share);
   const auto k = after - shares.begin();
@@ -95,7 +95,7 @@ double at_share(const SideMap& map, std::span<const double> shares, double share
   return map(std::clamp(even / double(shares.size() - 1), 0.0, 1.0));
 }
 
-// The shares along a line of length_shares.
+// The shares of length_shares along a line.
 std::vector<double> line_of(const std::vector<double>& shares, const Sheet& sheet, GridPoint from,
                             GridPoint step) {
   std::vector<double> out;
@@ -104,7 +104,7 @@ std::vector<double> line_of(const std::vector<double>& shares, const Sheet& shee
   return out;
 }
 
-// The inside of quads, at even parameters.
+// The inner points of quads, at even parameters.
 template <class Visit>
 void for_quad_points(const Sheet& sheet, Visit&& visit) {
   for (int j = 1; j < sheet.height(); ++j)
@@ -112,7 +112,7 @@ void for_quad_points(const Sheet& sheet, Visit&& visit) {
       visit(GridPoint{i, j}, double(i) / sheet.width(), double(j) / sheet.height(), i, j);
 }
 
-// The part of a triangle next to a corner, at the parameters of the bilinear map to it.
+// The part of a triangle next to a corner, with the parameters of the bilinear map.
 template <class Visit>
 void for_third_points(int n, int corner, Visit&& visit) {
   for (int r = 1; r < n; ++r)

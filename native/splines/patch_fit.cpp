@@ -13,14 +13,14 @@
 namespace fairing {
 namespace {
 
-// What counts beside distances along the lattice's normals: a cross derivative that leaves the
-// tangent plane of a side, and third differences of the net.
+// Weights relative to distances along the lattice's normals: of a cross derivative's component out
+// of the tangent plane at a side, and of third differences of the net.
 constexpr double tilt = 0.3, rough = 1e-3;
-// Tried one after the other until one serves. `slide` is what counts that a sample slides along the
-// patch: on poor surfaces the least lets patches fold. In narrow corners all do, unless `shear`,
-// what the cells of the net being no parallelograms counts, within the patch, keeps their rows apart.
-// An angle at a side weighs against distances of the model's size, or of the patch's own width: in a
-// narrow patch the former outweighs all that keeps its rows apart. Or not at all.
+// Tried one after another until one succeeds. `slide` is the weight of a sample's distance along
+// the patch: on poor surfaces the least weight lets patches fold. In narrow corners all do, unless
+// `shear`, a weight on the deviation of the net's cells from parallelograms, keeps their rows
+// apart. An angle at a side is weighted against distances of the model's size, or of the patch's
+// width, since in a narrow patch the former would outweigh `shear`. Or it has no weight.
 enum class Lean { of_model, of_patch, free };
 struct Way {
   double slide, shear;
@@ -31,10 +31,10 @@ constexpr Way ways[] = {{slides[0], 0}, {slides[1], 0}, {slides[2], 0}};
 constexpr Way in_place[] = {{slides[2], 0, Lean::of_patch}, {slides[2], 0, Lean::free}};
 constexpr Way unfolding[] = {
     {slides[1], slides[1]}, {slides[1], slides[2]}, {slides[2], slides[2]}};
-// Samples move to their feet and the patch is fitted again, as long as that brings the farthest to this
-// share of where it was.
+// Samples move to their feet and the patch is fitted again, as long as the largest distance falls
+// below this share.
 constexpr double improving = 0.7;
-constexpr int least_refits = 2;  // one round less costs angles
+constexpr int least_refits = 2;  // with one less, angles are larger
 
 // Sides first: v = 0 and v = 1, then the rest of u = 0 and u = 1.
 SplinePatch with_sides(const PatchData& data, int spans_u, int spans_v) {
@@ -63,7 +63,7 @@ std::array<NetTerm, 16> terms_of(const CubicBasis& bu, const CubicBasis& bv) {
   return out;
 }
 
-// The derivative across a side: of its own row of control points and the next one.
+// The derivative across a side, from its row of control points and the next one.
 std::array<NetTerm, 8> across_side(const SplinePatch& patch, int side, double t) {
   const bool along_u = side % 2 == 0, far = side == 1 || side == 2;
   const int spans = along_u ? patch.spans_u : patch.spans_v,
@@ -94,7 +94,8 @@ void add_shear(double shear, const SplinePatch& patch, NetSystem& system) {
     }
 }
 
-// One fit. Without a way all directions count alike, and derivatives across sides are not known.
+// A single fit. If `way` is null, all directions have the same weight, and derivatives across sides
+// are free.
 bool fit_once(const PatchData& data, SplinePatch& patch, const Way* way) {
   NetSystem system(patch);
   for (const PatchSample& sample : data.samples) {
@@ -122,8 +123,8 @@ bool fit_once(const PatchData& data, SplinePatch& patch, const Way* way) {
                      n.weight * squared(scale) * n.normal * n.normal.transpose(), Vec3::Zero());
       }
   SplinePatch solved = patch;
-  // Least squares alone favour a side. As much volume lies beyond the patch as within, where that
-  // moves it by less than its tolerance on average.
+  // Least squares alone may lie on one side. The volumes on both sides are made equal if that moves
+  // the patch by less than its tolerance on average.
   if (!system.solve(solved, data.tolerance)) return false;
   patch = std::move(solved);
   return true;
@@ -142,7 +143,7 @@ void move_to_foot(const SplinePatch& patch, PatchSample& sample) {
   }
 }
 
-// Of the samples that are fitted; returns how far the farthest one is from the patch.
+// For the samples that are fitted; returns the largest distance from the patch.
 double move_to_feet(const SplinePatch& patch, PatchData& data) {
   double far = 0;
   for (PatchSample& sample : data.samples) {
@@ -153,7 +154,7 @@ double move_to_feet(const SplinePatch& patch, PatchData& data) {
   return far;
 }
 
-// At the middles of each span's parts: where no sample is near, a patch may swing.
+// At the midpoints of the parts of each span: the patch may oscillate where no sample is near.
 void measure_between(const PatchData& data, FittedPatch& out) {
   const SplinePatch& patch = out.patch;
   const int nu = steps_a_span * patch.spans_u, nv = steps_a_span * patch.spans_v;
@@ -175,7 +176,8 @@ FittedPatch measured(const PatchData& data, SplinePatch patch) {
     const SurfacePoint p = patch.at(sample.u, sample.v);
     double& most = out.residuals[std::size_t(sample.place)];
     most = std::max(most, (p.at - sample.at).norm());
-    if (!sample.normal.isZero())  // with zero the angle is that of the signs: none, or 180 degrees
+    // with zero the angle would be 0 or 180 degrees, depending on signs
+    if (!sample.normal.isZero())
       out.turned = std::max(out.turned, angle_between(p.normal(), sample.normal));
   }
   for (int s = 0; s < 4; ++s)
@@ -202,7 +204,7 @@ FittedPatch fitted_by(const Way& way, const PatchData& data, SplinePatch patch) 
   double before = std::numeric_limits<double>::infinity();
   for (int round = 0;; ++round) {
     const double far = move_to_feet(patch, moved);
-    const bool improves = far <= improving * before;  // not where it is no number
+    const bool improves = far <= improving * before;  // false for NaN
     if (round >= least_refits && (far <= data.tolerance / 2 || !improves)) break;
     before = far;
     fit_once(moved, patch, &way);
@@ -212,7 +214,7 @@ FittedPatch fitted_by(const Way& way, const PatchData& data, SplinePatch patch) 
   return out;
 }
 
-// At the lattice's own parameters: a lattice that does not fold leaves a patch little room to.
+// At the lattice's parameters, with which a patch hardly folds if the lattice does not.
 FittedPatch fitted_in_place(const PatchData& data, const SplinePatch& start) {
   FittedPatch best;
   for (const Way& way : in_place) {

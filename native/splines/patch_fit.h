@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A patch: its sides are given, its inside is fitted.
+// Fits the inside of a patch between given sides.
 #pragma once
 
 #include <array>
@@ -16,9 +16,9 @@ namespace fairing {
 struct PatchSample {
   Vec3 at, normal;  // of the lattice; zero at the tip of a kink
   double u, v;
-  double area;  // that it stands for, to a factor that all share
-  int place;    // of the patch's faces, which one it is on
-  bool fitted;  // or only measured
+  double area;  // weight in the fit, up to a common factor
+  int place;    // the face of the patch that contains it
+  bool fitted;  // false: only measured
 };
 
 struct SideNormal {
@@ -28,21 +28,21 @@ struct SideNormal {
 };
 
 struct PatchData {
-  std::array<SplineCurve, 4> side;  // v = 0, u = 1, v = 1, u = 0; along growing u or v
+  std::array<SplineCurve, 4> side;  // v = 0, u = 1, v = 1, u = 0; in the direction of u or v
   std::array<std::vector<SideNormal>, 4> normals;
   std::vector<PatchSample> samples;
   std::size_t faces = 1;
-  const FaceSurface* surface = nullptr;  // between the samples
-  int corner = -1;                       // of which the patch is a third
-  double size;                           // of the model: what an angle weighs against a distance
-  // What is asked for, and ends the search.
+  const FaceSurface* surface = nullptr;  // for errors between the samples
+  int corner = -1;                       // of the triangle, if the patch is a third of one
+  double size;                           // of the model: the weight of an angle against a distance
+  // The search ends at these.
   double tolerance, normal_tolerance;
-  bool may_fold = false;  // no time is spent against it
-  bool own = false;       // sides and samples are at the lattice's own parameters
+  bool may_fold = false;  // then no time is spent on avoiding it
+  bool own = false;       // sides and samples have the lattice's parameters
 };
 
-// How far a patch is off: in tolerances, or where it folds, which is worse than anything else, by the
-// angle by which it does.
+// The errors of a patch in tolerances; if it folds, the angle of the fold, which is worse than any
+// other error.
 struct Misses {
   bool folds = true;
   double by = std::numeric_limits<double>::infinity();
@@ -52,24 +52,25 @@ struct Misses {
 
 struct FittedPatch {
   SplinePatch patch;
-  // The farthest that a sample is from the patch, or the patch from the surface between them; and the
-  // same on each of its faces.
+  // The largest distance of a sample from the patch, or of the patch from the surface between
+  // samples; also for each of its faces.
   double residual = 0;
   std::vector<double> residuals;
-  // The sharpest angle between the normals of patch and lattice, sides included; radians.
+  // The largest angle between the normals of patch and lattice, including the sides; radians.
   double turned = 0;
-  std::array<double, 4> side_angle{};  // the same along the sides
+  std::array<double, 4> side_angle{};  // along the sides
   Misses misses;
 };
 
-// A patch that turns by more against the lattice, in radians, folds. So does a lattice from cell to cell.
+// A patch whose normals deviate by more from the lattice, in radians, is folded; so is a lattice
+// whose cells deviate by more from their neighbours.
 constexpr double folded = std::numbers::pi / 4;
 
-// The sides are refined to the patch's spans, exactly. `last`: no patch with more spans is going to
-// be tried, so that what misses a tolerance is fitted in other ways, too.
+// The sides are refined exactly to the patch's spans. `last`: no more spans will be tried, so if a
+// tolerance is missed, the other ways to fit are tried too.
 FittedPatch fit_patch(const PatchData& data, int spans_u, int spans_v, bool last);
 
-// u and v at t along a side, and the point of a patch there.
+// u and v at t of a side, and the patch's point there.
 std::array<double, 2> place_on_side(int side, double t);
 SurfacePoint on_side(const SplinePatch& patch, int side, double t);
 

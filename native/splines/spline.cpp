@@ -11,7 +11,7 @@ namespace {
 // Knot i of s spans, in units of a span.
 double knot(int spans, int i) { return double(std::clamp(i - 3, 0, spans)); }
 
-// By powers of x, which runs from 0 to 1 within a span.
+// Coefficients of powers of x, from 0 to 1 within a span.
 using Cubic = std::array<double, 4>;
 using Cubics = std::array<Cubic, 4>;
 
@@ -21,8 +21,8 @@ constexpr Cubic times(const Cubic& p, double constant, double slope) {
   return out;
 }
 
-// The basis functions of a span with so many before and behind it; more than two are as two. De
-// Boor's recursion.
+// The basis functions of a span with this number of spans before and behind it; more than two have
+// no influence. De Boor's recursion.
 constexpr Cubics basis_of(int before, int behind) {
   const auto low = [&](int d) { return double(std::max(1 - d, -before)); };
   const auto high = [&](int d) { return double(std::min(d, 1 + behind)); };
@@ -57,7 +57,7 @@ std::vector<double> knots_of(int spans) {
   return knots;
 }
 
-// Boehm's insertion of one more knot; the curve stays.
+// Boehm's insertion of a knot; the curve is unchanged.
 void insert_knot(std::vector<double>& knots, std::vector<Vec3>& points, double t) {
   const auto after = std::upper_bound(knots.begin(), knots.end(), t);
   const std::size_t k = std::size_t(after - knots.begin()) - 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cubic B-splines over uniform clamped knots on [0, 1]: s spans, s + 3 control points.
+// Cubic B-splines with uniform clamped knots on [0, 1]: s spans, s + 3 control points.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -13,7 +13,7 @@ namespace fairing {
 
 constexpr int control_points(int spans) { return spans + 3; }
 
-// The four basis functions that are not zero at t, and their first and second derivatives.
+// The four basis functions that are nonzero at t, with first and second derivatives.
 struct CubicBasis {
   int first;
   std::array<double, 4> value, slope, bend;
@@ -47,13 +47,13 @@ struct SplinePatch {
   }
   SurfacePoint at(double u, double v) const;
   SurfacePoint at(const CubicBasis& u, const CubicBasis& v) const;
-  // The curvature along the surface at right angles to `way`, positive towards the normal.
+  // The normal curvature perpendicular to `way`, positive towards the normal.
   double curvature_across(double u, double v, const Vec3& way) const;
 };
 
-// The same curve with `spans` spans, a multiple of its own: exact.
+// The same curve with `spans` spans, a multiple of its own; exact.
 SplineCurve refined(const SplineCurve& curve, int spans);
-// The part on [from / all, to / all], where both are knots: exact.
+// The part on [from / all, to / all], where both are knots; exact.
 SplineCurve part_of(const SplineCurve& curve, int from, int to, int all);
 SplineCurve reversed(SplineCurve curve);
 

@@ -12,7 +12,7 @@
 namespace fairing {
 namespace {
 
-// The middle point of a side belongs to its control edge alone, whatever its ends are.
+// The middle point of a side belongs to its control edge only, whatever its ends are.
 void find_edges(const Lattice& lattice, Topology& out) {
   const int n = lattice.n();
   std::unordered_map<Index, Index> edge_of;
@@ -51,7 +51,7 @@ void find_kinds(const Lattice& lattice, Topology& out) {
   }
 }
 
-// Corners at one vertex that smooth edges join.
+// Joins the corners at one vertex across smooth edges.
 void find_sectors(const Lattice& lattice, Topology& out) {
   const auto corner = [](Index f, int c) { return 4 * f + c; };
   UnionFind groups(4 * std::size_t(lattice.faces()));

@@ -14,7 +14,7 @@ struct Cell {
   double extent;
 };
 
-// Of a quad, from its diagonals.
+// A quad by its diagonals.
 Cell cell_across(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   return {(c - a).cross(d - b), std::sqrt(std::max((c - a).squaredNorm(), (d - b).squaredNorm()))};
 }
@@ -28,7 +28,7 @@ Cell triangle_cell(const Vec3& a, const Vec3& b, const Vec3& c) {
 class Turn {
  public:
   explicit Turn(double least) : least_(least) {}
-  // A surface that rounds the edge off passes it in half the height of the smaller cell.
+  // A surface that rounds the edge off passes it at half the height of the smaller cell.
   void between(const Cell& a, const Cell& b) {
     const double angle = angle_between(a.normal, b.normal);
     const double height = std::min(a.extent, b.extent) * std::sin(angle / 2) / 2;
@@ -65,7 +65,7 @@ double turn_in_triangle(const Lattice& lattice, const Topology& topology, Index 
   };
   Turn turn(least);
   for (int j = 0; j < n; ++j)
-    for (int i = 0; i + j + 1 < n; ++i) {  // the downward cell, and its three neighbours
+    for (int i = 0; i + j + 1 < n; ++i) {  // the downward cell with its three neighbours
       if (in_tip(lattice, topology, f, {i, j}) || in_tip(lattice, topology, f, {i + 1, j}) ||
           in_tip(lattice, topology, f, {i, j + 1}))
         continue;
@@ -76,7 +76,7 @@ double turn_in_triangle(const Lattice& lattice, const Topology& topology, Index 
   return turn.sharpest();
 }
 
-// The cell that lies at step k of a side, counted from the edge's first end.
+// The cell at step k of a side, counted from the edge's first end.
 Cell beside_edge(const Lattice& lattice, const SideUse& use, int k) {
   const int n = lattice.n(), at = use.reversed ? n - 1 - k : k;
   const auto position = [&](int along, int row) {

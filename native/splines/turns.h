@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How far a lattice is from being smooth.
+// Measures the smoothness of a lattice.
 #pragma once
 
 #include "parallel/workers.h"
@@ -7,9 +7,10 @@
 
 namespace fairing {
 
-// By control faces, radians: the sharpest angle between the normals of two neighbouring cells, at
-// least one of which is the face's. Creases and tips of kinks do not count, nor turns that are lower
-// than `least`: at some control vertices the last cells turn at every level, ever smaller ones.
+// For each control face, in radians: the largest angle between the normals of two adjacent cells,
+// at least one of them in the face. Creases and tips of kinks do not count, nor do turns whose
+// height is less than `least`: at some control vertices the last cells turn at every level, but are
+// smaller and smaller.
 std::vector<double> lattice_turns(const Lattice& lattice, const Topology& topology, double least,
                                   Workers& workers);
 

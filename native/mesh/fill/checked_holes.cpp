@@ -36,7 +36,8 @@ void require_simple(const Hole& hole) {
     throw FairingError(ErrorCode::too_large, too_long_text(seen.size()));
 }
 
-// The first side that is on no border in this direction, or in none, as its two ends; empty: all are.
+// The first side that is not on a border in this direction, or with `in_any` in either one, as its
+// two ends; empty if there is none.
 std::vector<std::int64_t> first_missing(const HoleLoop& loop, const Rims& rims, bool in_any) {
   for (std::size_t i = 0; i < loop.size(); ++i) {
     const std::int64_t a = loop[i], b = loop[(i + 1) % loop.size()];
@@ -74,7 +75,7 @@ void require_manifold(const HoleLoop& loop, const HalfEdges& half_edges) {
         {"More than two faces meet at {edge} of the rim.", "Delete the surplus faces."}, found);
 }
 
-// Each side may be on one loop alone.
+// Each side may be on one loop only.
 using Used = std::unordered_set<std::uint64_t>;
 
 void check_loop(HoleLoop& loop, const HalfEdges& half_edges, const Rims& rims, const Used& used) {

@@ -25,7 +25,7 @@ class Cells {
       whole_.extend(box);
       extent += box.sizes().maxCoeff() / count;
     }
-    // no more cells than triangles, or a large one would fill too many
+    // at most as many cells as triangles; smaller ones would make a large triangle fill too many
     size_ = std::max(2 * extent, whole_.sizes().maxCoeff() / std::cbrt(count));
     if (size_ > 0)
       for (std::size_t t = first; t < triangles.size(); ++t)
@@ -42,7 +42,7 @@ class Cells {
         if (other != t && !(found[t] && found[other]) && meet(t, other))
           found[t] = found[other] = 1;
       };
-      if (cells_in(box) > double(triangles_.size() - first_)) {  // a large one, among small
+      if (cells_in(box) > double(triangles_.size() - first_)) {  // a large one among small ones
         for (std::size_t other = first_; other < triangles_.size(); ++other) look_at(other);
         continue;
       }
@@ -94,7 +94,7 @@ class Cells {
     return false;
   }
 
-  // Whether two triangles of one plane share a part of it: no side of either has the other one beyond.
+  // Whether two triangles in a plane overlap: no side of either separates them.
   bool lie_on_one_another(std::size_t a, std::size_t b) const {
     for (const auto& [t, other] : {std::pair(a, b), std::pair(b, a)}) {
       const Vec3 normal = (corner(t, 1) - corner(t, 0)).cross(corner(t, 2) - corner(t, 0));
@@ -118,8 +118,8 @@ class Cells {
     return true;
   }
 
-  // Whether a segment passes through the inside of a triangle [Möller and Trumbore 1997]. What is no
-  // more than rounding away from a side, barycentric, or from an end of the segment only touches.
+  // Whether a segment passes through the inside of a triangle [Möller and Trumbore 1997]. Points
+  // within rounding of a side, barycentric, or of an end of the segment only touch.
   bool passes(const Vec3& from, const Vec3& to, std::size_t t) const {
     const Vec3 direction = to - from, u = corner(t, 1) - corner(t, 0),
                v = corner(t, 2) - corner(t, 0);

@@ -33,7 +33,7 @@ class Ears {
       if (best.change != changes_[best.corner]) continue;
       const std::size_t i = best.corner, a = before_[i], b = after_[i];
       Triangle ear{Index(a), Index(i), Index(b)};
-      std::sort(ear.begin(), ear.end());  // the same as to turn it round
+      std::sort(ear.begin(), ear.end());  // equivalent to a rotation
       found.ears.push_back(ear);
       normals_[a] = normal(i);
       after_[a] = b, before_[b] = a;
@@ -58,7 +58,7 @@ class Ears {
   struct Candidate {
     double cosine;  // of the angle at the corner
     std::size_t corner;
-    int change;  // of the corner's neighbours, so many-th
+    int change;  // number of changes of the corner's neighbours
     bool operator<(const Candidate& other) const {
       return cosine < other.cosine || (cosine == other.cosine && corner > other.corner);
     }
@@ -68,7 +68,7 @@ class Ears {
     return polygon_.points[to] - polygon_.points[from];
   }
 
-  // Of unit length, of the ear at a corner; zero without area.
+  // Unit normal of the ear at a corner; zero without area.
   Vec3 normal(std::size_t i) const {
     return unit_or_zero(side(before_[i], i).cross(side(i, after_[i])));
   }
@@ -84,7 +84,7 @@ class Ears {
   }
 
   const SpacePolygon& polygon_;
-  std::vector<Vec3> normals_;  // of what is behind the side from each corner
+  std::vector<Vec3> normals_;  // of the face behind the side from each corner
   std::size_t count_, last_cut_ = 0;
   std::vector<std::size_t> before_, after_;
   std::vector<int> changes_;

@@ -16,10 +16,10 @@
 namespace fairing {
 namespace {
 
-// Sweeps by which the wanted lengths even out along a ragged rim.
+// Sweeps that smooth the requested lengths along a ragged rim.
 constexpr int length_sweeps = 2;
 
-// One hole in numbers of its own: the vertices of its loops, one loop after another.
+// One hole with its own numbers: the vertices of its loops, one loop after another.
 class OneHole {
  public:
   OneHole(const Hole& hole, Rims& rims) : rims_(rims) {
@@ -32,7 +32,7 @@ class OneHole {
 
   const std::vector<std::int64_t>& ids() const { return ids_; }
 
-  // The rim of the patch, without triangles.
+  // The rim of the patch without triangles.
   Patch rim(double density) const {
     Patch patch;
     patch.rim = Index(ids_.size());
@@ -51,7 +51,7 @@ class OneHole {
     return patch;
   }
 
-  // Whether the triangles are not to be drawn tight: a ring would close.
+  // Returns how to relax the triangles: a ring would close if they were taut.
   Relaxation triangulate_into(Patch& patch, bool bends) {
     const auto may_join = [&](std::size_t a, std::size_t b) { return !joined(Index(a), Index(b)); };
     if (begin_.size() == 3 && fill_ring(patch, begin_[1], bends, may_join))
@@ -67,7 +67,7 @@ class OneHole {
  private:
   void triangulate_walk_into(Patch& patch) {
     walk_all(patch.points);
-    // again and again without the edges that were there twice, at most once a corner
+    // repeats without the doubled edges, at most once for each corner
     std::set<std::pair<std::size_t, std::size_t>> forbidden;
     for (std::size_t tries = 0; tries < walk_.size(); ++tries) {
       const std::vector<Triangle> found = triangulate(polygon(patch.points, forbidden));
@@ -96,7 +96,7 @@ class OneHole {
     std::copy(even.begin(), even.end(), lengths.begin() + std::ptrdiff_t(begin_[l]));
   }
 
-  // One walk around the hole and, over bridges, around its islands: the nearest first.
+  // One walk around the hole and, by bridges, around its islands, the nearest first.
   void walk_all(const std::vector<Vec3>& points) {
     walk_.clear();
     for (std::size_t i = 0; i < begin_[1]; ++i) walk_.push_back(Index(i));
@@ -154,8 +154,8 @@ class OneHole {
     return found;
   }
 
-  // Around islands a triangulation may join two vertices twice. Whether it does; the second time is
-  // forbidden from now on.
+  // Around islands a triangulation may join two vertices twice. Returns whether it does, and
+  // forbids the second edge.
   bool forbid_twins(const std::vector<Triangle>& triangles,
                     std::set<std::pair<std::size_t, std::size_t>>& forbidden) const {
     std::map<std::pair<Index, Index>, std::pair<std::size_t, std::size_t>> first;
@@ -172,7 +172,7 @@ class OneHole {
     return forbidden.size() > before;
   }
 
-  // Where every triangulation would double an edge of the mesh: around a vertex in the middle.
+  // If every triangulation would double an edge of the mesh: a fan around a central vertex.
   void fan_into(Patch& patch) const {
     if (begin_.size() > 2) no_surface();
     const auto size = ids_.size();
@@ -197,12 +197,12 @@ class OneHole {
 
   Rims& rims_;
   std::vector<std::int64_t> ids_;
-  std::vector<std::size_t> begin_;  // of each loop, and the end
+  std::vector<std::size_t> begin_;  // by loop, and the end
   std::vector<Index> walk_;
   std::set<std::pair<Index, Index>> bridges_;
 };
 
-// The edges of `triangles` between two ids below `end`, each in every triangle that has it.
+// The edges of `triangles` between two ids below `end`, once for each triangle.
 template <class Use>
 void between(const std::vector<Triangle>& triangles, std::int64_t end, const Use& use) {
   for (const Triangle& t : triangles)
@@ -210,7 +210,7 @@ void between(const std::vector<Triangle>& triangles, std::int64_t end, const Use
       if (t[i] < end && t[(i + 1) % 3] < end) use(t[i], t[(i + 1) % 3]);
 }
 
-// With its own vertices numbered on from `first`.
+// Numbers its own vertices from `first` on.
 FilledHole numbered(const Patch& patch, const OneHole& hole, std::int64_t first) {
   FilledHole filled;
   const auto rim = std::size_t(patch.rim);
@@ -233,7 +233,7 @@ void refine_patch(Patch& patch, const OneHole& hole, const FillOptions& options,
     refine(patch, [&](Index a, Index b) { return hole.joined(a, b); }, relaxation);
 }
 
-// A rim that runs along itself leaves nothing between.
+// Rejects a rim that returns along itself, with no area between.
 void require_areas(const Patch& patch, const OneHole& hole) {
   for (const Triangle& t : patch.triangles) {
     Vec3 sides[3];
@@ -243,7 +243,7 @@ void require_areas(const Patch& patch, const OneHole& hole) {
       if (sides[i].squaredNorm() > sides[longest].squaredNorm()) longest = i;
     }
     const double area = sides[0].cross(sides[1]).norm();
-    if (area > 2 * rounding * sides[longest].squaredNorm()) continue;  // as validate/ has it
+    if (area > 2 * rounding * sides[longest].squaredNorm()) continue;  // as in validate/
     std::vector<std::int64_t> ids;
     for (std::size_t i = 0; i < 3; ++i)
       if (const Index a = t[i], b = t[(i + 1) % 3];

@@ -28,31 +28,31 @@ class Walks {
     pair_across_gaps(mesh);
   }
 
-  // An edge of one face. At the ends of edges with more faces nobody could say what a hole is.
+  // An edge of one face. At the ends of edges with more faces a hole is not defined.
   bool is_border(std::int32_t k) const { return half_edges_.twin(k) < 0 && !is_torn(k); }
 
-  // Whether an end of this border edge is one of an edge of more than two faces.
+  // Whether an end of this border edge is an end of an edge with more than two faces.
   bool is_torn(std::int32_t k) const {
     return torn_[std::size_t(half_edges_.from(k))] ||
            torn_[std::size_t(half_edges_.from(half_edges_.next(k)))];
   }
 
-  // The same of one that has no other face.
+  // The same for one without another face.
   bool is_torn_border(std::int32_t k) const {
     return half_edges_.twin(k) < 0 && is_torn(k) &&
            !crowded_.contains(
                std::minmax(half_edges_.from(k), half_edges_.from(half_edges_.next(k))));
   }
 
-  // The border's half-edge that ends where k begins, on the other side of the gap there; none where
-  // the faces around disagree, or the border ends.
+  // The border's half-edge that ends where k begins, on the other side of the gap there; none if
+  // the faces around have different orientations, or the border ends.
   std::int32_t onward(std::int32_t k) const {
     const auto across = across_.find(k);
     return across == across_.end() ? last_of_fan(k) : across->second;
   }
 
  private:
-  // The border's half-edge that ends where k begins, across the faces between.
+  // The border's half-edge that ends where k begins, at the other end of the fan.
   std::int32_t last_of_fan(std::int32_t k) const {
     std::int32_t at = half_edges_.previous(k);
     while (half_edges_.twin(at) >= 0) {
@@ -62,7 +62,7 @@ class Walks {
     return is_border(at) ? at : none;
   }
 
-  // Where several fans meet in a vertex, a gap is between one and the next around it.
+  // Where several fans meet at a vertex, a gap is between one and the next around it.
   void pair_across_gaps(const PolygonMesh& mesh) {
     std::vector<std::uint8_t> fans(std::size_t(mesh.vertex_count()), 0);
     const auto count_at = [&](std::int32_t k) -> std::uint8_t& {
@@ -70,13 +70,13 @@ class Walks {
     };
     for (std::int32_t k = 0; k < half_edges_.count(); ++k)
       if (is_border(k) && count_at(k) < 2) ++count_at(k);
-    std::map<std::int64_t, std::vector<std::int32_t>> firsts;  // of each such vertex
+    std::map<std::int64_t, std::vector<std::int32_t>> firsts;  // by vertex
     for (std::int32_t k = 0; k < half_edges_.count(); ++k)
       if (is_border(k) && count_at(k) == 2) firsts[half_edges_.from(k)].push_back(k);
     for (const auto& [v, fans_there] : firsts) pair_at(mesh, v, fans_there);
   }
 
-  // By the angle at which each fan begins; not where they look to different sides.
+  // In the order of the angles at which fans begin; not if their orientations differ.
   void pair_at(const PolygonMesh& mesh, std::int64_t v, const std::vector<std::int32_t>& firsts) {
     std::vector<Vec3> normals, ways;
     Vec3 sum = Vec3::Zero();
@@ -132,11 +132,11 @@ FairingError why_unclear(bool torn, std::vector<std::int64_t> edges) {
           ElementKind::edge};
 }
 
-// Of border edges (half-edges), by those that share vertices.
+// Errors for border edges (half-edges), one for those that share vertices.
 std::vector<FairingError> unclear(const std::vector<std::int32_t>& left, const Walks& walks,
                                   const HalfEdges& half_edges) {
   UnionFind groups(left.size());
-  std::map<std::int64_t, Index> at;  // a vertex, to the first edge there
+  std::map<std::int64_t, Index> at;  // from a vertex to its first edge
   const auto ends = [&](std::size_t i) {
     return std::pair<std::int64_t, std::int64_t>(half_edges.from(half_edges.next(left[i])),
                                                  half_edges.from(left[i]));

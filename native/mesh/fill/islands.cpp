@@ -17,13 +17,15 @@
 namespace fairing {
 namespace {
 
-// A loop in its mean plane.
+// A loop projected to its mean plane.
 struct FlatLoop {
   std::vector<Vec3> points;
-  Vec3 middle = Vec3::Zero(), normal = Vec3::Zero();  // as a face that fills it has it
-  double area = 0, reach = 0;                         // reach: of the points, from the middle
-  Vec3 onward = Vec3::Zero();  // how the faces at the rim go on, in the mean: no longer than 1
-  double outward = 0;          // away from the middle, in the plane
+  Vec3 middle = Vec3::Zero(), normal = Vec3::Zero();  // normal of a face that fills it
+  // reach: largest distance of a point from the centre
+  double area = 0, reach = 0;
+  // mean direction in which the faces at the rim continue, of length 1 at most
+  Vec3 onward = Vec3::Zero();
+  double outward = 0;  // its component away from the centre, in the plane
 
   FlatLoop(const HoleLoop& loop, const Rims& rims) {
     for (const std::int64_t v : loop) points.push_back(rims.point(v));
@@ -47,7 +49,7 @@ struct FlatLoop {
 
   Vec3 in_plane(const Vec3& v) const { return v - v.dot(normal) * normal; }
 
-  // Whether a point lies inside, seen along the normal.
+  // Whether a point is inside in the projection along the normal.
   bool contains(const Vec3& p) const {
     double turns = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -61,7 +63,7 @@ struct FlatLoop {
   const Vec3& next(std::size_t i) const { return points[(i + 1) % points.size()]; }
 };
 
-// Whether the two points nearest to one another are farther apart in the plane than along its normal.
+// Whether the two nearest points are farther apart in the plane than along its normal.
 bool is_beside(const FlatLoop& inner, const FlatLoop& rim) {
   double least = std::numeric_limits<double>::infinity();
   Vec3 way = Vec3::Zero();
@@ -75,8 +77,8 @@ bool is_beside(const FlatLoop& inner, const FlatLoop& rim) {
 bool is_island(const FlatLoop& inner, const FlatLoop& rim) {
   if (inner.area >= rim.area || inner.normal.dot(rim.normal) > -sharp_turn) return false;
   if ((inner.middle - rim.middle).norm() > rim.reach + inner.reach) return false;
-  // faces at the rim do not lie in the hole already, those at the island do not end at another one,
-  // and neither go away from the other
+  // faces at the rim must not lie in the hole, those at the island must not end at another island,
+  // and they must not point away from each other
   if (rim.outward > sharp_turn || inner.outward < -sharp_turn) return false;
   if (std::min(rim.onward.dot(rim.normal), inner.onward.dot(rim.normal)) < -sharp_turn)
     return false;
@@ -92,7 +94,7 @@ std::vector<Hole> with_islands(const PolygonMesh& mesh, const HalfEdges& half_ed
   const Rims rims(mesh, half_edges, single);
   std::vector<FlatLoop> flat;
   for (const Hole& hole : single) flat.emplace_back(hole[0], rims);
-  std::vector<std::size_t> order(single.size());  // the smallest first
+  std::vector<std::size_t> order(single.size());  // ascending by size
   std::iota(order.begin(), order.end(), std::size_t(0));
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return flat[a].area < flat[b].area; });

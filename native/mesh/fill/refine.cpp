@@ -20,12 +20,12 @@ using Half = OpenMesh::HalfedgeHandle;
 using EdgeHandle = OpenMesh::EdgeHandle;
 using VertexHandle = OpenMesh::VertexHandle;
 
-// An edge is split, or collapsed, where that brings its length nearer to the one wanted: halves of
-// 4/3 are as far from 1 as it is, and so are edges of 4/5 that become half as long again.
+// An edge is split or collapsed if its length becomes closer to the requested one: halves of 4/3
+// are as far from 1 as 4/3 is, and so is an edge of 4/5 after it becomes half as long again.
 constexpr double too_long = 4.0 / 3.0, too_short = 4.0 / 5.0;
 
-// Rounds of splits, and sweeps of relaxation in each: angles change no more after some ten, of
-// which the first one_percent find the number of points.
+// Rounds of splits with sweeps of relaxation: angles change no more after about ten rounds, of
+// which the first find the number of points to one per cent.
 constexpr int most_refinements = 40, settled_rounds = 6, sweeps = 4;
 
 class Refinement {
@@ -70,7 +70,7 @@ class Refinement {
   bool is_gone(EdgeHandle e) const { return mesh_.status(e).deleted(); }
   VertexHandle opposite(Half h) const { return to(mesh_.next_halfedge_handle(h)); }
 
-  // Length over the one wanted there.
+  // Length relative to the requested one.
   double relative_length(EdgeHandle e) {
     const Half h = mesh_.halfedge_handle(e, 0);
     return (point(to(h)) - point(from(h))).norm() * 2 / (wanted(to(h)) + wanted(from(h)));
@@ -80,7 +80,7 @@ class Refinement {
     return (point(b) - point(a)).cross(point(c) - point(a));
   }
 
-  // The smallest angle's cosine at the corners of a triangle: large is bad; 2 without area.
+  // Cosine of the smallest angle of a triangle: large is bad; 2 without area.
   double badness(VertexHandle a, VertexHandle b, VertexHandle c) const {
     const Vec3 sides[3] = {point(b) - point(a), point(c) - point(b), point(a) - point(c)};
     double worst = -1;
@@ -120,9 +120,9 @@ class Refinement {
     mesh_.split(e, mesh_.add_vertex());
   }
 
-  // What the middle of a cubic arc between two points, normal to their normals, is off its chord: along
-  // chords the bend of a surface would sit at the edges of the triangles that were split. None where
-  // these normals say little.
+  // Offset from the chord at the midpoint of a cubic arc between two points, perpendicular to their
+  // normals: otherwise the bend of the surface would concentrate at the edges that were split. Zero
+  // if the normals are unreliable.
   Vec3 bulge(VertexHandle a, VertexHandle b) {
     if (relaxation_ != Relaxation::curved) return Vec3::Zero();
     const Vec3 chord = point(b) - point(a), at_a = normal(a), at_b = normal(b);
@@ -130,7 +130,7 @@ class Refinement {
     return (chord.dot(at_b) * at_b - chord.dot(at_a) * at_a) / 8;
   }
 
-  // Of unit length: the mean of the triangles around, and of what is behind the rim.
+  // Unit normal: the mean of the triangles around and of the faces behind the rim.
   Vec3 normal(VertexHandle v) const {
     Vec3 sum = Vec3::Zero();
     const Half first = mesh_.halfedge_handle(v);
@@ -160,7 +160,7 @@ class Refinement {
     return count;
   }
 
-  // Whether from(h), inside, may go where to(h) is: no edge gets long, no triangle turns over.
+  // Whether from(h), an inner vertex, may move to to(h) without long edges or reversed triangles.
   bool may_collapse(Half h) {
     if (!mesh_.is_collapse_ok(h)) return false;
     const VertexHandle removed = from(h), kept = to(h);
@@ -183,11 +183,11 @@ class Refinement {
     return true;
   }
 
-  // Until no flip makes the smallest of two triangles' angles larger.
+  // Until no flip increases the smallest angle of two triangles.
   void flip_all() {
     std::vector<int> open(mesh_.n_edges());
     for (std::size_t e = 0; e < open.size(); ++e) open[e] = int(e);
-    while (!open.empty()) {  // each flip makes the worst of two angles larger, so it ends
+    while (!open.empty()) {  // ends, since each flip increases the smallest of their angles
       std::vector<int> next;
       for (std::size_t i = 0; i < open.size(); ++i) {
         stop_if_cancelled(i);
@@ -214,7 +214,7 @@ class Refinement {
     const double now = std::max(badness(a, b, c), badness(b, a, d));
     const double then = std::max(badness(c, d, b), badness(d, c, a));
     if (then >= now - rounding) return false;
-    // the sides b-c and a-d, c-a and d-b keep what is behind them
+    // the sides b-c and a-d, c-a and d-b keep their neighbours
     const Half bc = mesh_.next_halfedge_handle(h), ca = mesh_.prev_halfedge_handle(h);
     const Half ad = mesh_.next_halfedge_handle(back), db = mesh_.prev_halfedge_handle(back);
     const Vec3 old[2] = {unit_or_zero(area(a, b, c)), unit_or_zero(area(b, a, d))};
@@ -229,11 +229,12 @@ class Refinement {
     return after <= before;
   }
 
-  // Of a turn with this cosine, beyond what a flip or a step may make; where some are sharper already,
-  // their sum must not grow.
+  // Excess of a turn with this cosine over the limit for flips and moves; if some turns exceed it
+  // already, their sum must not grow.
   static double sharpness(double cosine) { return std::max(0.0, sharp_turn - cosine); }
 
-  // The cosine between a triangle's normal and the one behind its side h; 1 where nothing is there.
+  // The cosine between a triangle's normal and that of the neighbour across side h; 1 without a
+  // neighbour.
   double turn(Half h, const Vec3& normal) const {
     const Half back = mesh_.opposite_halfedge_handle(h);
     if (mesh_.is_boundary(back)) {
@@ -266,7 +267,7 @@ class Refinement {
     }
   }
 
-  // The neighbours of an inner vertex, in the order in which its triangles run.
+  // The neighbours of an inner vertex, in the direction of its triangles.
   void find_ring(VertexHandle vertex) {
     ring_.clear();
     const Half first = mesh_.halfedge_handle(vertex);
@@ -277,14 +278,14 @@ class Refinement {
     } while (h != first);
   }
 
-  // Of the triangle between two neighbours and the vertex itself at `middle`.
+  // Area vector of the triangle of two neighbours and the vertex at `middle`.
   Vec3 ring_area(std::size_t i, const Vec3& middle) const {
     const Half far = mesh_.next_halfedge_handle(ring_[i]);
     return (point(from(far)) - middle).cross(point(to(far)) - middle);
   }
 
-  // How sharply the triangles of the ring, with the vertex at `middle`, turn against the mean of all
-  // and against those behind them: the sum of what is beyond the allowed.
+  // The sum of excess turns of the ring's triangles, with the vertex at `middle`, against their
+  // mean and against their neighbours.
   double ring_sharpness(const Vec3& middle) {
     areas_.clear();
     Vec3 sum = Vec3::Zero();
@@ -302,8 +303,8 @@ class Refinement {
     return total;
   }
 
-  // As far along `step` as nothing leans over: beside a rim that turns inwards the mean of the
-  // neighbours may lie beyond it.
+  // Moves as far along `step` as no triangle turns too far: next to a rim that bends inwards, the
+  // mean of the neighbours may be beyond it.
   void move(VertexHandle vertex, const Vec3& step) {
     Vec3& place = patch_.points[std::size_t(vertex.idx())];
     const double before = ring_sharpness(place);

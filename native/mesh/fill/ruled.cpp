@@ -17,15 +17,15 @@ namespace {
 
 using Line = std::pair<Index, Index>;  // from one rim to the other
 
-// The lines across.
+// The lines between two rims.
 class Ring {
  public:
   Ring(const std::vector<Vec3>& points, std::size_t second,
        const std::function<bool(std::size_t, std::size_t)>& may_join)
       : points_(points), m_(points.size() - second), n_(second), may_join_(may_join) {}
 
-  // Along both rims from the shortest one to itself: at step (i, j) the line goes from the i-th vertex of
-  // one rim to the j-th of the other, backwards.
+  // From the shortest line around both rims and back to it: at step (i, j) the line connects the
+  // i-th vertex of one rim to the j-th of the other, backwards.
   std::vector<Line> run() {
     if (!begin()) return {};
     std::vector<double> least(m_ + 1, unreachable);
@@ -67,7 +67,7 @@ class Ring {
     return least < unreachable;
   }
 
-  // In order; the last is the first again. Empty where one comes twice.
+  // In order; the last one equals the first. Empty if one occurs twice.
   std::vector<Line> lines() const {
     std::vector<Line> found{{Index(one(0)), Index(other(0))}};
     std::set<Line> known;
@@ -80,14 +80,14 @@ class Ring {
   }
 
   const std::vector<Vec3>& points_;
-  std::size_t m_, n_;  // vertices of the second rim, of the first
+  std::size_t m_, n_;  // numbers of vertices of the second and the first rim
   const std::function<bool(std::size_t, std::size_t)>& may_join_;
-  std::size_t first_ = 0, last_ = 0;   // where the shortest line is
-  std::vector<std::uint8_t> forward_;  // whether the best way to a step came along the first rim
+  std::size_t first_ = 0, last_ = 0;   // ends of the shortest line
+  std::vector<std::uint8_t> forward_;  // whether the best path to a step came along the first rim
 };
 
-// A cubic curve from one rim to the other that leaves and meets them as the faces behind go on: for a
-// turn by an angle of one arc, nearly that arc.
+// A cubic curve between the rims that continues the faces behind both of them; for the turn of an
+// arc it is nearly that arc.
 class Bend {
  public:
   Bend(const Vec3& from, const Vec3& to, const Vec3& leaving, const Vec3& arriving)
@@ -111,7 +111,7 @@ class Bend {
   Vec3 from_, to_, leaving_, arriving_;
 };
 
-// How the faces behind go on at each point of a rim: of unit length, into the ring.
+// Direction in which the faces behind continue at each point of a rim: unit length, into the ring.
 void onward(const Patch& patch, std::size_t begin, std::size_t end, std::vector<Vec3>& found) {
   const auto across = [&](std::size_t i, std::size_t next) {
     return Vec3(patch.rim_normals[i].cross(patch.points[next] - patch.points[i]));
@@ -122,7 +122,7 @@ void onward(const Patch& patch, std::size_t begin, std::size_t end, std::vector<
   }
 }
 
-// The triangles between lines of `rows` pieces each.
+// Adds the triangles between lines of `rows` pieces each.
 void join(Patch& patch, const std::vector<Line>& lines, std::size_t rows) {
   const auto count = lines.size() - 1;
   const auto place = [&](std::size_t line, std::size_t row) {
@@ -166,7 +166,7 @@ Patch bent(const Patch& rims, std::size_t second, const std::vector<Line>& lines
   return patch;
 }
 
-// The least cosine of a turn from triangle to triangle, and of one to the faces behind the rims.
+// The least cosine of turns between triangles, and between them and the faces behind the rims.
 struct Turns {
   double between = 1, behind = 1;
 };

@@ -13,14 +13,14 @@
 namespace fairing {
 namespace {
 
-// Corners up to which all pairs are looked at: 0.2 s. A longer polygon loses ears first; where it is
-// too long even then, it is looked at through a window of so many corners, which doubles its stride
-// whenever it is full: 5,000 corners in 7 s.
+// Number of corners for which all pairs are considered: 0.2 s. Longer polygons lose ears first;
+// those that remain longer are processed through a window of this number of corners, which doubles
+// its stride whenever it is full: 5,000 corners in 7 s.
 constexpr std::size_t longest_whole = 400, window_size = 128;
 
-// What triangles cost: the least of these comes first.
+// The cost of triangles, in order of priority.
 struct Cost {
-  double folding = std::numeric_limits<double>::infinity();  // sum over folds, of their cosines
+  double folding = std::numeric_limits<double>::infinity();  // sum of the cosines of folds
   double cosine = -2;                                        // of the largest angle
   double area = std::numeric_limits<double>::infinity();
 
@@ -29,7 +29,7 @@ struct Cost {
     return cosine > other.cosine || (cosine == other.cosine && area < other.area);
   }
 
-  // Of two parts together, without what is between them.
+  // The cost of two parts, without the edge between them.
   Cost operator+(const Cost& other) const {
     return {folding + other.folding, std::min(cosine, other.cosine), area + other.area};
   }
@@ -37,12 +37,12 @@ struct Cost {
 
 struct Best {
   Cost cost;
-  Index middle = -1;  // the third corner of the triangle on this chord; -1: none
+  Index middle = -1;  // third corner of the triangle on this chord; -1: none
   Vec3 normal = Vec3::Zero();
 };
 
-// Which chords there are, and where each is kept. Corner i is at the place i of a line, the last one
-// where all strides meet.
+// The chords in use and where they are stored. Corner i is at place i of a line, the last one where
+// all strides meet.
 class Chords {
  public:
   explicit Chords(std::size_t corners) : corners_(corners) {
@@ -65,7 +65,7 @@ class Chords {
   std::size_t corner(std::size_t place) const { return place == end_ ? corners_ - 1 : place; }
   std::size_t last_place() const { return end_; }
 
-  // Null where the chord between two places is none that counts.
+  // Null if the chord between two places is not used.
   Best* find(std::size_t low, std::size_t high) {
     std::size_t level = 0;
     while (window_ << level < high - low) ++level;
@@ -74,8 +74,8 @@ class Chords {
     return &kept_[begin_[level] + (low >> level) * window_ + ((high - low) >> level) - 1];
   }
 
-  // Of chords no longer than the window, copies in the order in which look_at() reads them: of all from
-  // `low` on by their length, and of all to `high`.
+  // Copies of chords up to the window's length, in the order in which look_at() reads them: those
+  // from `low` by length, and those to `high`.
   void note(std::size_t low, std::size_t high, const Cost& cost) {
     if (high - low > window_) return;
     by_start_[low * window_ + high - low - 1] = by_end_[high * window_ + high - low - 1] = cost;
@@ -123,7 +123,7 @@ class Search {
   void look_at(std::size_t low, std::size_t high, std::size_t level) {
     const std::size_t first = chords_.corner(low), last = chords_.corner(high);
     const bool whole = first == 0 && last + 1 == polygon_.points.size();
-    if (last == first + 1) return;  // the last side, where it is long
+    if (last == first + 1) return;  // the last side, if it is long
     Best& best = *chords_.find(low, high);
     if (!whole && !polygon_.may_join(first, last)) return;
     if (level == 0) {
@@ -135,7 +135,7 @@ class Search {
       chords_.note(low, high, best.cost);
       return;
     }
-    // the longer of the other two sides spans half of this one at least
+    // the longer of the other two sides spans at least half of this one
     const std::size_t stride = std::size_t(1) << (level - 1);
     for (std::size_t middle = low + stride; middle < high; middle += stride) {
       if (!chords_.is_corner(middle)) continue;
@@ -146,7 +146,7 @@ class Search {
     }
   }
 
-  // The triangle between three places, with these `parts` beyond its other two sides.
+  // The triangle of three places, with these `parts` beyond its other two sides.
   void consider(std::size_t low, std::size_t middle, std::size_t high, const Cost& parts,
                 Best& best) {
     const std::vector<Vec3>& p = polygon_.points;
@@ -166,8 +166,8 @@ class Search {
     if (cost.is_less_than(best.cost)) best = {cost, Index(j), normal};
   }
 
-  // The cosine between two normals, in steps: the rounding of flat holes must not decide. A triangle
-  // without area has none, and is the worst.
+  // The cosine between two normals, in steps, so that rounding does not decide in flat holes. A
+  // triangle without area counts as the worst.
   static double turn(const Vec3& normal, const Vec3& other) {
     if (other.isZero()) return 1;
     return normal.isZero() ? -1 : std::round(normal.dot(other) / single_rounding) * single_rounding;
