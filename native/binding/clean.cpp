@@ -16,8 +16,7 @@ namespace py = pybind11;
 namespace fairing {
 namespace {
 
-// As to_python(), with "acts": the code of each and the number of its elements; None if nothing was
-// wrong.
+// As to_python(), with "acts": codes with numbers of elements; None if nothing was wrong.
 py::object mended_arrays(const Numbers& vertices, const Ids& corners, const Ids& offsets,
                          Monitor& monitor, const py::object& progress) {
   const OwnedPolygonMesh mesh = copy_of(vertices, corners, offsets);
@@ -43,8 +42,7 @@ py::array to_flip(const Numbers& vertices, const Ids& corners, const Ids& offset
   return to_numpy(faces);
 }
 
-// (count,) int32: for each of 0 … count - 1, joined by `pairs` (k, 2), the least number in its
-// component.
+// (count,) int32: for 0 … count - 1, joined by `pairs` (k, 2), the least number of each component.
 py::array joined(std::size_t count, const Ids& pairs) {
   const std::vector<std::int64_t> ids = copy_of(pairs);
   Array<std::int32_t> leads(count);

@@ -36,8 +36,7 @@ class Filler {
     return py::make_tuple(std::move(found.loops), unclear);
   }
 
-  // The loops as holes with their islands. Throws FairingError for loops that the mesh does not
-  // have.
+  // The loops as holes with islands. Throws FairingError for loops that are not in the mesh.
   std::vector<Hole> with_islands(const std::vector<HoleLoop>& loops, Monitor& monitor,
                                  const py::object& progress) {
     const auto lock = wait_for_others();
@@ -73,8 +72,7 @@ class Filler {
     return py::make_tuple(arrays(), why);
   }
 
-  // `points`: (k, 3), of all new vertices; `chosen`: numbers of the holes to refine, or, with
-  // `fair`, to shape.
+  // `points`: (k, 3), of all new vertices; `chosen`: holes to refine, or, if `fair`, to shape.
   py::list refine(const Numbers& points, const std::vector<std::size_t>& chosen,
                   const std::vector<std::size_t>& fair, Monitor& monitor,
                   const py::object& progress) {

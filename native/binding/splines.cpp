@@ -24,8 +24,7 @@ std::span<const T> view(const Contiguous<T>& a) {
   return {a.data(), std::size_t(a.size())};
 }
 
-// The points of all items in order. Each item releases its own, so that large surfaces are not in
-// memory twice.
+// The points of all items in order. Items release theirs, so that memory is not doubled.
 template <class Items, class PointsOf>
 py::array points_array(Items& items, PointsOf&& points_of) {
   std::size_t count = 0;

@@ -9,8 +9,7 @@
 namespace fairing {
 namespace {
 
-// Least share of the first energy in relative gaps: with a tolerance as large as the mesh the
-// energy becomes zero.
+// Least share of the first energy in relative gaps; a tolerance as large as the mesh leaves none.
 constexpr double least_energy = 1e-3;
 
 }  // namespace

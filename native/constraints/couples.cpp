@@ -62,8 +62,7 @@ void Couples::fill_arms(std::size_t c, const Chart& chart, const std::vector<Fla
   }
 }
 
-// Calls visit(point, Omega, (u, v), phi) for the points under a hat except its top, where psi is
-// zero.
+// Calls visit(point, Omega, (u, v), phi) under a hat except at its top, where psi is zero.
 template <class Visit>
 void LevelCouples::visit_points(std::size_t c, Visit&& visit) const {
   const int n = grid_.n();

@@ -11,8 +11,7 @@
 
 namespace fairing {
 
-// In sizes of a part of the mesh: a point farther from its centre is at least that size away from
-// it.
+// In sizes of a part of the mesh: a point farther from its centre is at least a size away.
 constexpr double far_away = 2;
 
 // The control vertices around which the surface x (3 numbers a point) has diverged: a point over

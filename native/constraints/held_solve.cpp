@@ -224,9 +224,8 @@ void HeldSolve<N>::correct() {
   for (std::size_t v = 0; v < forces_.size(); ++v) forces_[v] = own_forces_[v] + shift[v];
 }
 
-// The last solve can leave a larger residual than the correction; then the next solve would not
-// move, and the forces would not change. So short solves continue until all constraints are
-// satisfied.
+// The last solve can leave a larger residual than the correction; then the next one would change
+// nothing. So short solves continue until all constraints are satisfied.
 template <int N>
 LevelSolve HeldSolve<N>::run(double* x, double* r) {
   x_ = x, r_ = r;

@@ -21,8 +21,8 @@ class AreaTerm {
   explicit AreaTerm(const GridLevel& grid) : weight_(grid, 1) {}
 
   // Linearizes about the surface x and returns tau times its area. Adds minus half the gradient
-  // along the normals to `force` on the unknowns; both may be null. All functions throw if the run
-  // is cancelled.
+  // along the normals to `force` on the unknowns; both may be null. All throw if the run is
+  // cancelled.
   double linearize(double tau, const double* x, const double* normal, const Unknowns& unknowns,
                    Workers& workers, double* force);
 

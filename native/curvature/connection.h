@@ -18,8 +18,7 @@ class Connection {
     const double* normal;  // 3 a point
     const double* axis;    // the chart's u axis in space
     const double* area;    // 1 a point; zero: no fit
-    // 1 a point, the root of the surface's stiffness; an edge has the product of its ends'. Null:
-    // one.
+    // 1 a point, root of the stiffness; an edge has the product of its ends'. Null: one.
     const double* root = nullptr;
   };
   // L about a surface. `cotangents` are the weights of the edges, in the first row of each point,
@@ -33,8 +32,7 @@ class Connection {
   // z <- (L + damping) y
   void apply(double damping, Workers& workers, const double* y, double* z) const;
 
-  // z <- the rows of the first component times y, 1 number a point. Rotations of charts do not
-  // change that component.
+  // z <- the rows of the first component, which rotations keep, times y, 1 number a point.
   void apply_to_scalar(Workers& workers, const float* y, float* z) const;
 
   // Slot 0: the sum of the weights; the others: minus the weight, and minus the weight times cosine

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Curvature of a ring by cotangents and angles [Meyer, Desbrun, Schroeder, Barr 2003]: less
-// accurate than a fit (point_curvature.h), but bounded by the ring's own bending even if its
-// triangles are thin.
+// accurate than a fit (point_curvature.h), but bounded by the ring's own bending.
 #pragma once
 
 #include "curvature/point_curvature.h"

@@ -14,8 +14,7 @@ namespace fairing {
 constexpr int lane_count = 4;
 
 // The closed rings of a run's points: coordinate a of slot s of point i is at[s][a][i]. Slot 0 is
-// the point itself, the others are counter-clockwise. Readable for lane_count - 1 points beyond the
-// run.
+// the point itself, the others are counter-clockwise. Readable lane_count - 1 points further.
 struct RunRings {
   int size = 0;  // number of neighbours, at most 8
   std::uint8_t far[most_slots] = {};
@@ -34,8 +33,7 @@ struct CurvatureLanes {
   bool done[lane_count];
 };
 
-// Computes the lanes of the points first … first + lane_count - 1; `axis` only if requested. Throws
-// nothing.
+// Computes the lanes of points first … first + lane_count - 1; `axis` if requested. Throws nothing.
 void linearize(const RunRings& run, std::size_t first, CurvatureEnergy energy, bool wants_axis,
                CurvatureLanes& out);
 

@@ -22,8 +22,7 @@ Folds find_folds(const GridLevel& grid, Workers& workers, const double* x,
                  const std::vector<std::uint8_t>& excused);
 
 // The control faces at folds of the control mesh itself, for either diagonal of its quads; every
-// surface through its vertices folds there. `cosine` is that of the turn from which an edge is a
-// fold.
+// surface through its vertices folds there. `cosine`: from this turn on an edge is a fold.
 std::vector<std::uint8_t> folded_control_faces(const ControlMesh& mesh,
                                                std::span<const Vec3> control, Workers& workers,
                                                double cosine = 0);

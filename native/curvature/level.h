@@ -73,8 +73,7 @@ class CurvatureLevel final : public LevelOperator {
   // and this is the S between two cycles with them (LinearSystem::between): y <- S x. The cotangent
   // Laplacian C is of second order, and J^T W J C^-1 J^T W J of sixth, along thin faces too. Next
   // to a border J^T W J has surfaces without a moment that K does not have; there S has a spring of
-  // about n, since the energy of a moment there falls with the length of its waves, at most a
-  // control edge.
+  // about n, since waves of moments there are at most a control edge long.
   void apply_between(const float* x, float* y);
   bool varies() const { return energy_ == CurvatureEnergy::minimum_variation; }
 
@@ -83,8 +82,7 @@ class CurvatureLevel final : public LevelOperator {
 
   // Adds mu_i K_ii to the diagonal; empty: nothing. For minimum variation, adds `share` of W to L.
   void set_damping(const Array<float>& mu, double share = 0);
-  // Call it when the coarser levels are linearized about another surface, which changes the
-  // eigenvalues.
+  // Call it when coarser levels are linearized about another surface: eigenvalues change.
   void spectrum_changed() { ++version_.spectrum; }
   // Call it when other control vertices become unknowns; then linearize again.
   void unknowns_changed() { ++version_.unknowns; }
@@ -99,8 +97,7 @@ class CurvatureLevel final : public LevelOperator {
   std::size_t components() const override { return 1; }
   void apply(const double* x, double* y) override;
   void apply(const float* x, float* y) override;
-  // y <- K x on `rows` without the weights; x is zero at points that are not unknowns. For total
-  // curvature only.
+  // y <- K x on `rows` without weights; x is zero off the unknowns. For total curvature only.
   void apply_on(const Unknowns& rows, const double* x, double* y);
   bool single_precision_suffices() const override {
     return grid_.n() <= most_of_single && !varies();

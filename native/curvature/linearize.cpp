@@ -100,8 +100,7 @@ bool has_fit(const ControlMesh& mesh, const Run& run) {
 
 }  // namespace
 
-// The connection's input at the points, in double: at the minimum, rounding errors would otherwise
-// exceed the force.
+// The connection's input at the points, in double: rounding errors must not exceed the small force.
 struct CurvatureLevel::Tensors {
   Array<double> shape, axis, area;
 

@@ -13,8 +13,7 @@ void dilate(const GridLevel& grid, Workers& workers, ElementSlots<float, 1>& slo
 // Damping of Gauss-Newton steps for each point: mu_i K_ii is added to the diagonal. Where the
 // second fundamental form after a step differs from the predicted M + J h, the surface is crumpled.
 // Undamped steps make folds there, and uniform damping would stop the whole surface for a few such
-// places. So mu_i grows where the prediction failed, with the ring around, and falls where it was
-// right.
+// places. So mu_i grows where the prediction failed, with its ring, and falls elsewhere.
 class LocalDamping {
  public:
   LocalDamping(const GridLevel& grid, const Unknowns& unknowns, Workers& workers);

@@ -21,22 +21,19 @@ class NormalMatrix {
   // columns, and the rings are small enough.
   static bool suits(const RingJacobian& rows);
 
-  // The pattern: pairs of unknowns that share a ring. The grid of `rows` must outlive it. Throws
-  // ErrorCode::cancelled.
+  // The pattern: unknowns that share a ring. The grid of `rows` must outlive it. Throws cancelled.
   NormalMatrix(const RingJacobian& rows, const Unknowns& unknowns);
 
   // Computes the numbers for rows with that pattern; `tension`: the weights of AreaTerm.
   void update(const RingJacobian& rows, Workers& workers, const RingJacobian* tension = nullptr);
 
-  // y <- the matrix times x; zero for points that are not unknowns. All numbers of x must be
-  // finite.
+  // y <- the matrix times x; zero off the unknowns. All numbers of x must be finite.
   void apply(const float* x, Workers& workers, float* y) const;
 
  private:
   using Place = std::uint16_t;
 
-  // Row c of RingJacobian has its coefficient for slot s at data()[first + (c * slots + s) *
-  // stride].
+  // RingJacobian has row c, slot s at data()[first + (c * slots + s) * stride].
   struct Ring {
     std::size_t first;
     std::uint32_t stride;

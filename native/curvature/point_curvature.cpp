@@ -103,8 +103,7 @@ PointCurvature point_curvature(const SurfaceRing& ring, SurfaceChart& chart) {
   if (out.area != fan.circumcentric)
     out.trace += (1 - fan.circumcentric / out.area) * std::numbers::sqrt2 *
                  fitted_hessian(chart.ring, chart.height, chart.weight)[0];
-  // The trace-free part fits what the trace does not explain; where the ring determines a quadratic
-  // both fits agree.
+  // The trace-free part fits what the trace does not explain (nothing, for exact quadratics).
   for (std::size_t j = 0; j < chart.rest.size(); ++j)
     chart.rest[j] = chart.height[j] - 0.25 * out.trace * fan.at[j].square;
   const Vec3 hessian = fitted_hessian(chart.ring, chart.rest, chart.weight);

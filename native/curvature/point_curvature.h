@@ -68,8 +68,7 @@ struct RingNeighbour {
 };
 
 // The chart of a ring: the exponential map of the surface. Radii are edge lengths; the angles
-// between neighbours are summed from the first one, which is on the u axis, and scaled to a full
-// turn.
+// between neighbours are summed from the first one, on the u axis, and scaled to a full turn.
 struct SurfaceChart {
   std::vector<Vec2> ring;
   std::vector<double> height;     // n . (p_j - p_i)
@@ -94,8 +93,7 @@ struct PointCurvature {
     return 0.5 * trace * trace + trace_free[0] * trace_free[0] + trace_free[1] * trace_free[1];
   }
 
-  // For a ring that is not finite, or exceeds ring_farthest: such a surface never has the least
-  // energy.
+  // For a ring that is not finite, or exceeds ring_farthest: no surface has more energy.
   static PointCurvature infinite() {
     PointCurvature out;
     out.area = out.trace = std::numeric_limits<double>::infinity();
@@ -129,8 +127,7 @@ PointCurvature point_curvature(const SurfaceRing& ring, SurfaceChart& chart);
 // ring must rise for its area to reach the floor; 0 for an open ring. `chart` is scratch.
 float area_lift(const SurfaceRing& ring, SurfaceChart& chart);
 
-// M and its rows in the orthonormal components ((M_uu + M_vv)/sqrt 2, (M_uu - M_vv)/sqrt 2, sqrt 2
-// M_uv).
+// M and its rows, components ((M_uu + M_vv)/sqrt 2, (M_uu - M_vv)/sqrt 2, sqrt 2 M_uv).
 struct ShapeRows {
   PointCurvature point;
   SurfaceChart chart;

@@ -45,8 +45,7 @@ struct RingFan {
       out = std::sqrt(of);
   }
 
-  // Computes the lengths of a neighbour whose offset is set. `sound`: it does not coincide with the
-  // point.
+  // Computes the lengths of a neighbour with an offset. `sound`: it differs from the point.
   DF_INLINE static void measure(Neighbour& n, Mask& sound) {
     dot(n.p, n.p, n.square);
     sound &= n.square > S(ring_nearest);
@@ -74,8 +73,7 @@ struct RingFan {
     }
   }
 
-  // Raises negative cotangents by shares of their distance to zero; share(j, out) gives that of
-  // neighbour j.
+  // Raises negative cotangents by shares of their distance to zero, from share(j, out).
   template <class Share>
   DF_INLINE void lift(Share&& share) {
     const N zero = {};

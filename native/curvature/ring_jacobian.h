@@ -71,7 +71,7 @@ class RingJacobian {
   Array<float> data_;
 };
 
-// y_c[i] = sum_s coefficient(c, s, i) x_s[i] for i from `begin` on; y holds three lanes of `count`
+// y_c[i] = sum_s coefficient(c, s, i) x_s[i] for i >= begin; y holds three lanes of `count`
 // numbers.
 template <class T>
 inline void forward(const RowRun<const float>& run, const T* const* x, T* y,
@@ -242,7 +242,7 @@ template <class T>
 void apply_square(const RingJacobian& rows, const Unknowns& unknowns, Workers& workers,
                   ElementSlots<T, 1>& slots, const T* x, T* out);
 
-// out <- the diagonal of R^T D R on the unknowns. D has weight[p] for the three rows of point p; no
+// out <- the diagonal of R^T D R on the unknowns. D has weight[p] for each point's rows; no
 // weights: one.
 void square_diagonal(const RingJacobian& rows, const Unknowns& unknowns, Workers& workers,
                      ElementSlots<float, 1>& slots, const float* weight, float* out);

@@ -18,9 +18,8 @@ namespace {
 // energy: the remaining error is smaller than the change by the next level or by that energy.
 constexpr double start_decrement = 1e-2;
 
-// First level on which variation is minimized as a start for the next level. On coarser ones faces
-// have too few points for third derivatives (measured: bob, level 3, 3.2 s with level 2, 2.1 s
-// without).
+// First level on which variation is minimized as a start for the next level. Coarser faces have too
+// few points for third derivatives (bob, level 3: 3.2 s with level 2, 2.1 s without).
 constexpr int first_of_variation = 3;
 
 }  // namespace

@@ -19,9 +19,8 @@ constexpr double least_length = 1.0 / 8;
 
 // Share of the energy that two successive damped steps have to gain.
 constexpr double worthwhile_gain = 0.005;
-// Share of the decrement by which damped steps may raise the energy. Near the end correct steps do
-// raise it, since the solution of the equation is near the minimum of the discrete energy and not
-// at it.
+// Share of the decrement by which damped steps may raise the energy. Near the end correct steps do,
+// since the solution of the equation is not exactly the minimum of the discrete energy.
 constexpr double allowed_rise = 0.1;
 
 // Number of steps that the acceleration uses. Steps to least total curvature are accelerated once
@@ -94,8 +93,7 @@ Bending bending_of(const LinearizedSurface& surface, Workers& workers) {
 // Repeats: solve for a direction, find the longest acceptable length, move.
 class StepLoop {
  public:
-  // `damping` is null for plain steps. `patience`: number of steps to reach plain_decrement; 0: any
-  // number.
+  // `damping` is null for plain steps. `patience`: steps to reach plain_decrement; 0: any.
   StepLoop(SurfaceIterate& iterate, const Functional& functional, LocalDamping* damping,
            const StepEnd& end, int patience)
       : it_(iterate),
@@ -195,8 +193,7 @@ class StepLoop {
     const bool too_late =
         patience_ > 0 && accepted_ >= patience_ && step.decrement > plain_decrement;
     flat_ = flat_energy_about(it_.current, it_.workers());
-    // If a solve ends too early for the step to halve the decrement, later steps would gain as
-    // little.
+    // If an unfinished solve does not halve the decrement, later steps would gain as little.
     const bool is_stuck = varies() && !step.solved && before > 0 && 2 * step.decrement > before;
     return report.converged || too_late || is_stuck || leads_nowhere(step);
   }
@@ -263,8 +260,8 @@ class StepLoop {
   Multipliers<1> held_;  // of the latest step
   LeftToMove remainder_;
   double flat_ = 0;  // energy that counts as zero
-  // Changes of the potential: by the latest trial, by the last step, by all steps, and the largest
-  // sum so far.
+  // Changes of the potential: of the latest trial, the last step, all steps; the largest sum so
+  // far.
   double gain_ = 0, last_gain_ = 0, gained_ = 0, most_gained_ = 0;
   int accepted_ = 0, rejected_ = 0, climbed_ = 0, damped_ = 0;  // numbers of steps
 };

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Gauss-Newton steps on one level: to the least total curvature, and to the least variation of
-// curvature.
+// Gauss-Newton steps on one level, to least total curvature and to least variation of curvature.
 #pragma once
 
 #include "base/rounding.h"
@@ -61,8 +60,8 @@ struct StepStart {
 
 constexpr Functional of_variation{CurvatureEnergy::minimum_variation, nullptr, true};
 
-// Energy that counts as zero about a surface for minimum variation, since a sphere has none. Zero
-// for total curvature.
+// Minimum variation's energy that counts as zero, since a sphere has none. Zero for total
+// curvature.
 double flat_energy_about(const LinearizedSurface& surface, Workers& workers);
 
 // Two methods. Plain steps have full length: they may pass humps of the discrete energy, which stop
@@ -76,8 +75,7 @@ class CurvatureSteps {
       : iterate_(iterate), options_(options) {}
 
   // Steps from iterate.current with control vertices on these pads; null: on point forces. Adds the
-  // steps to `report`, and sets energy, `left` and `converged`, the latter for `end`. Throws
-  // ErrorCode::cancelled.
+  // steps to `report`, and sets energy, `left` and `converged`. Throws ErrorCode::cancelled.
   void run_plain(Pads* pads, const StepEnd& end, int patience, CurvatureLevelReport& report);
   // Steps from `start` to damped_decrement, or until the gain is too small. Resets `report`. Points
   // that are `filled` (above zero; empty: none) are damped throughout.

@@ -50,8 +50,7 @@ struct LinearizedSurface {
   Multipliers<1> held;  // multipliers of its control vertices; empty: unknown
 };
 
-// Below this decrement the surface changes so little that coarse levels, their factor and the
-// eigenvalues are kept.
+// Below this decrement coarse levels, their factor and the eigenvalues are accurate enough to keep.
 constexpr double settling_decrement = 0.1;
 
 // Tolerance of solves whose loads or active intervals are about to change, relative to the error.

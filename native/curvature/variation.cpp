@@ -43,8 +43,7 @@ bool VariationSteps::steps_fall(double most, const StepEnd& end, CurvatureLevelR
   return iterate_.current.energy <= most;
 }
 
-// Makes iterate.current the surface of least variation if that varies less. Returns whether it
-// does.
+// Makes iterate.current the surface of least variation. Returns whether it varies less.
 bool VariationSteps::vary(const Array<double>& start, const StepEnd& end,
                           CurvatureLevelReport& report) {
   iterate_.linearize(of_variation);

@@ -37,8 +37,7 @@ class VariationSteps {
 
   SurfaceIterate& iterate_;
   CurvatureSteps& steps_;
-  // The change from total curvature to variation on the previous level, 3 numbers a point; empty:
-  // unknown.
+  // The previous level's change from total curvature to variation, 3 numbers a point; or empty.
   Array<double> change_;
   bool vanishes_ = false;
 };

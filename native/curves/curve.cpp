@@ -26,8 +26,7 @@ namespace fairing {
 namespace {
 
 // Rounding depends on the order of operations, so every chain is first put into a canonical order
-// that depends only on its coordinates: vertex i of the canonical chain is vertex start ± i of the
-// given one.
+// that depends only on its coordinates: its vertex i is vertex start ± i of the given one.
 struct Order {
   std::size_t start = 0;
   bool backwards = false;
@@ -150,8 +149,8 @@ std::vector<Vec3> refine_chain(std::span<const Vec3> parameters, std::span<const
   std::vector<std::uint8_t> filled(segments, 0);
   for (std::size_t s = 0; s < segments; ++s) {
     for (const Order& order : orders) {
-      // Canonical segment s joins order(s) and order(s + 1); given segments are numbered by their
-      // first vertex.
+      // Canonical segment s joins order(s) and order(s + 1); given ones have their first vertex'
+      // number.
       const std::size_t given = order.backwards ? order(s + 1, count) : order(s, count);
       if (std::exchange(filled[given], std::uint8_t(1))) continue;
       for (std::size_t i = 0; i < inner; ++i)

@@ -42,8 +42,7 @@ LoadMatrix part_of(const LoadMatrix& all, const std::vector<Index>& row_of,
   return out;
 }
 
-// Differences of each row from the mean of those like it, if there are any. `number`: of the rows
-// that count.
+// Differences of rows from the mean of those like them. `number`: of the rows that count.
 LoadMatrix differences_of(const std::vector<std::vector<Index>>& alike,
                           const std::vector<Index>& number, Eigen::Index count) {
   LoadMatrix out(count, count);
@@ -117,8 +116,7 @@ class Easing {
       // Scatter also causes moments on borders, which cannot be distinguished from those of the
       // shape: with them, results for few vertices with faint scatter are up to a tenth worse.
       Loads loads = std::move(plate.free);
-      // A curve has too few vertices to distinguish scatter from shape, so the scatter of inner
-      // vertices is a bound.
+      // A curve has too few vertices to estimate scatter: that of inner vertices is a bound.
       const EaseSystem inner = inner_system(loads, control), curve = curve_system(control);
       double s = amount(curve_, curve);
       if (wanted_.amount < 0 && inner.unknowns() > 0)

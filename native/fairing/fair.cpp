@@ -192,8 +192,7 @@ auto FairSolver::guarded(Call&& call) {
   }
 }
 
-// The positions of the basis give exactly the basis, with its centres of split polygons and its
-// curves.
+// The positions of the basis give exactly the basis, with its centres and curves.
 void FairSolver::set_control(std::span<const double> coordinates) {
   const std::vector<Vec3>& basis = problem_->basis.cage;
   bool is_basis = true;

@@ -78,8 +78,7 @@ void check_normals(const PolygonMesh& mesh, const FairOptions& o) {
 constexpr double tautest = 30;
 
 // With 10 all 14 cages of benchmarks/limits.py have less energy than Subdivision Surface, and rims
-// turn by at most 0.3 % more; with 3 the fox intersects itself, with 30 two cages have larger
-// angles.
+// turn by at most 0.3 % more. With 3 the fox intersects itself; with 30 two have larger angles.
 constexpr double tightest = 10;
 
 void check_paper(const FairOptions& o) {
@@ -104,8 +103,7 @@ void check_paper(const FairOptions& o) {
 // By default errors remain that are invisible, as with the thin plate.
 double FairOptions::step_tolerance_wanted() const {
   if (step_tolerance > 0) return step_tolerance;
-  // in sizes of the mesh; with a smaller residual it is smaller, down to the accuracy of rows in
-  // single precision
+  // in sizes of the mesh; smaller with the residual, down to single precision
   const double least = std::min(solve.relative_residual, SolveOptions().relative_residual);
   return std::max(0.1 * least, single_rounding);
 }

@@ -53,8 +53,7 @@ void set_edges(const ControlMesh& mesh, Outline& out) {
         out.edge_kind[std::size_t(e)] |= straight_edge;
 }
 
-// Sets curves and centres of the mesh and of each shape. `held`: positions of the mesh, one a
-// control vertex.
+// Sets curves and centres of the mesh and its shapes. `held`: one position a control vertex.
 void set_surfaces(const ControlMesh& mesh, const HeldMesh& held, double exponent, Outline& out) {
   const int subdivisions = 1 << out.options.levels;
   const auto append = [&](const FeatureCurves& curves, std::span<const Vec3> world) {

@@ -39,8 +39,7 @@ double strength_of_membrane(const FairingProblem& problem) {
   return strength * ratio * ratio;
 }
 
-// `world`: one position a control vertex; `cage`: the caller's. Afterwards the mesh is in working
-// coordinates.
+// `world`: one position a control vertex; `cage`: the caller's. Sets working coordinates.
 void make_about(std::vector<Vec3> world, std::vector<Vec3> cage, Stopwatch& watch,
                 FairingProblem& problem) {
   const FairOptions& options = problem.options;

@@ -58,8 +58,7 @@ PlateLoads solve_loads(const FairingProblem& problem, FairingSystems& systems,
 
 namespace {
 
-// Distance of two vertices in one solve: 36 sets, and so 12 solves, on quads. G falls by a factor
-// of 2.6 a ring.
+// Distance of two vertices in one solve: 36 sets, 12 solves, on quads. G falls by 2.6 a ring.
 constexpr int rings_apart = 6;
 
 // Largest remainder next to a gross error after its release, as a share of the error: 0.072 on

@@ -218,8 +218,7 @@ Excess StrainGauge::excess(const Loads& on_pads, const ControlPositions& control
   const Straining straining{matrix_, normals_, images_};
   const std::vector<double> alone =
       lengths_of(ways_one_by_one(straining, all, std::vector<double>(vertices_.size(), floor)));
-  // Only outliers are released: if a shape is evenly strained, releasing one vertex would strain
-  // the next.
+  // Only outliers are released: in an evenly strained shape each release strains the next vertex.
   std::vector<double> floors = floors_of(alone, floor);
   for (std::size_t i = 0; i < floors.size(); ++i)
     if (!(alone[i] > floors[i])) floors[i] = std::numeric_limits<double>::infinity();

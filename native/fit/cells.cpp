@@ -15,8 +15,7 @@ constexpr int cells_below(bool quad, int n, int j) { return quad ? j * n : j * (
 
 }  // namespace
 
-// In a row of a triangle, each cell that points up is followed by the adjacent one that points
-// down.
+// In a triangle's row, each cell that points up precedes the adjacent one that points down.
 Cells::Cells(const GridLevel& grid, Workers& workers) : grid_(grid) {
   const ControlMesh& mesh = grid.mesh();
   const int n = grid.n();

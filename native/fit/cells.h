@@ -45,8 +45,7 @@ class Cells {
   }
 
   FacePlace place(Index cell, const CornerShares& shares) const;
-  // The cell of this level at a place in coordinates of level `of`, and its corner nearest to the
-  // place.
+  // The cell of this level at a place in coordinates of level `of`, and its nearest corner.
   AtPoint cell_at(const FacePlace& place, int of) const;
 
   // Memory for each point of a level of quads.

@@ -60,8 +60,7 @@ std::vector<CurveFit::Wish> CurveFit::wishes(const LevelFit& fit) const {
   return out;
 }
 
-// Projects the scan's border points to the nearest border edges of the level, perpendicular to
-// these.
+// Projects the scan's border points perpendicularly to the nearest border edges of the level.
 void CurveFit::add_borders(const LevelFit& fit, std::vector<Wish>& wishes) const {
   const GridLevel& grid = fit.cells().grid();
   const ControlMesh& mesh = problem_.mesh;

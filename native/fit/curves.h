@@ -17,8 +17,7 @@ class CurveFit {
   bool any() const { return any_; }
   // Moves curves nearer to the scan: each control vertex moves by a least-squares fit to the points
   // next to its two curve edges [progressive iteration, Deng and Lin 2014]. At a border points give
-  // the distance along the normal; at a crease those of both sides do, so that it moves to their
-  // intersection.
+  // the distance along the normal; at a crease those of both sides do.
   void move(const LevelFit& fit, ControlPositions& control) const;
 
  private:

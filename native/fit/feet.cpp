@@ -54,8 +54,7 @@ struct PointsOfSurface {
 using Tree = nanoflann::KDTreeSingleIndexAdaptor<
     nanoflann::L2_Simple_Adaptor<double, PointsOfSurface, double>, PointsOfSurface, 3, Index>;
 
-// The nearest of the points that count; of two at the same distance the one with the smaller
-// number.
+// The nearest of the points that count; at equal distance the one with the smaller number.
 template <class Counts>
 class NearestThatCounts {
  public:

@@ -151,8 +151,7 @@ class ScanFit {
   }
   PlateData data() const { return {control_.working, control_.working_curves}; }
 
-  // Moves from the control polyhedron to the scan with a smooth surface, since distant feet carry
-  // no detail.
+  // Moves a smooth surface from the control polyhedron to the scan: distant feet carry no detail.
   void begin(LevelFit& fit) {
     const GridLevel& grid = levels_.grid(search_);
     Array<double> x(3 * grid.size());

@@ -11,8 +11,7 @@ namespace fairing {
 struct FitSettings {
   // Mesh units: the smoothest surface that keeps 95 % of the points within this; 0: not given.
   double tolerance = 0;
-  // Weight of the points: 1 halves waves as long as the mean control edge; 0: chosen by held-out
-  // points.
+  // Weight of points: 1 halves waves of a mean control edge; 0: chosen by held-out points.
   double weight = 0;
   std::vector<std::uint8_t> fixed;  // one for each input vertex: it stays in place; or empty
 };
@@ -35,8 +34,7 @@ struct FitResult : FairResult {
   FitReport fit;
 };
 
-// As fair(). Also throws FairingError for scans that are empty, far away, inside out, or have too
-// few points.
+// As fair(). Also throws FairingError for scans with too few points, far away, or inside out.
 FitResult fit_scan(const PolygonMesh& mesh, const FairOptions& options, const ScanInput& scan,
                    const FitSettings& settings, Monitor& monitor);
 

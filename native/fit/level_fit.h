@@ -7,8 +7,7 @@
 
 namespace fairing {
 
-// Keeps the surface near a place where there are no points: a weight and a place for each point; or
-// empty.
+// Keeps the surface in place where the scan has no points: a weight and a place each; or empty.
 struct Prior {
   VertexWeights weight;
   Array<double> place;  // 3 numbers a point
@@ -48,12 +47,10 @@ class LevelFit {
   void train_on(std::vector<std::uint8_t> points) { trained_ = std::move(points); }
   void stay_near(Prior prior) { prior_ = std::move(prior); }
 
-  // `count` iterations of feet, forces and solve. `robust`: outliers have less weight. Points that
-  // are not unknowns stay.
+  // `count` iterations of feet, forces and solve. `robust`: outliers have less weight.
   void rounds(double weight, int count, bool robust);
 
-  // The largest useful weight: against waves as long as the level's edges, or as the distance
-  // between points.
+  // The largest useful weight: for waves as long as the level's edges, or as points are apart.
   double stiffest() const;
 
  private:

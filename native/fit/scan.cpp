@@ -152,8 +152,7 @@ Scan make_scan(const ScanInput& input, const Frame& frame, Workers& workers) {
 
 void require_same_place(const Scan& scan, std::span<const Vec3> control, const Frame& frame) {
   // Ratio of sizes from which units differ. A scan of a part, and a cage with a part that is not
-  // scanned, have smaller ratios; millimetres and metres, or inches and millimetres, have larger
-  // ones.
+  // scanned, have smaller ratios; metres, millimetres and inches have larger ones.
   constexpr double other_unit = 20;
   const Eigen::AlignedBox3d cage = box_of(control), box = box_of(scan.point);
   const double ratio = box.diagonal().norm() / cage.diagonal().norm();

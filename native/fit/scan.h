@@ -38,13 +38,11 @@ struct Scan {
       sizeof(Vec3) + sizeof(Index) + sizeof(Eigen::Vector3f);
 };
 
-// Throws FairingError: bad_shape, index_out_of_range and non_finite for invalid arrays, or too few
-// points.
+// Throws FairingError: bad_shape (also for too few points), index_out_of_range, non_finite.
 Scan make_scan(const ScanInput& input, const Frame& frame, Workers& workers);
 
 // Throws FairingError(bad_shape) if the sizes of scan and control mesh differ as those of different
-// units do, or if they are too far apart for nearest points to be meaningful. Both in working
-// coordinates.
+// units do, or if they are too far apart. Both in working coordinates.
 void require_same_place(const Scan& scan, std::span<const Vec3> control, const Frame& frame);
 
 // Three digits, for messages.

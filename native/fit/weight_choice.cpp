@@ -47,8 +47,7 @@ double WeightChoice::more_points(std::size_t points) const {
 }
 
 // Holds out cells, since the noise of scanners is correlated between adjacent points. (Wider
-// groups, of half a control edge, favour surfaces that span them, and weights three times too
-// large.)
+// groups, of half a control edge, favour weights three times too large.)
 void WeightChoice::hold_out() {
   const GridLevel& grid = fit_.cells().grid();
   const auto faces = double(grid.mesh().faces.size());
@@ -87,8 +86,7 @@ double WeightChoice::held_out_error() {
 
 double WeightChoice::by_held_out(Monitor& monitor) {
   // Feet and normals are those of a surface with waves of two control edges and more. A surface
-  // that follows the noise has tilted normals, which make the distances of smooth surfaces too
-  // large.
+  // that follows the noise has tilted normals, and distances along them are too large.
   Array<double> start = fit_.surface();
   Array<Foot> feet = fit_.feet();
   fit_.rounds(1 / (ratio * ratio), 2, false);

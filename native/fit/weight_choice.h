@@ -14,8 +14,7 @@ constexpr double points_a_blob = 4;
 
 class WeightChoice {
  public:
-  // `fit` must be on the scan already; it ends with the surface of the chosen weight. `scale`: of
-  // the frame.
+  // `fit` must be on the scan; it ends with the chosen weight's surface. `scale`: of the frame.
   WeightChoice(LevelFit& fit, const FitSettings& settings, double scale)
       : fit_(fit), settings_(settings), scale_(scale) {}
 

@@ -23,8 +23,7 @@ bool lies_in_plane(const ControlMesh& mesh, const Mirror& mirror, const Run& run
   }
 }
 
-// Calls write(p, q) for the unknowns p and their images q, once for each pair, at the run with the
-// smaller number.
+// Calls write(p, q) for the unknowns p and their images q, once a pair, at the lower run.
 template <class Write>
 void for_pairs(const GridLevel& grid, const Mirror& mirror, const Unknowns& unknowns,
                Workers& workers, const Write& write) {

@@ -99,8 +99,7 @@ ThicknessChange Thickness::of(const GridLevel& grid, Workers& workers, const dou
                               bool of_flats) const {
   ThicknessChange out;
   if (grid.n() == 1) return out;
-  // For each face the distance of its centre from its plane, and that of the point behind it from
-  // the opposite plane.
+  // For each face the move of its centre from its plane, and of the point behind it from the other.
   std::vector<double> away(planes_.size()), away_behind(planes_.size());
   workers.for_parts(away.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) {

@@ -72,8 +72,7 @@ void fill_edges(const HalfEdgeMesh& mesh, ControlMesh& control) {
   }
 }
 
-// The half-edges 2e and 2e + 1 of OpenMesh are the two directions of the edge, in the order of
-// Edge::side.
+// OpenMesh's half-edges 2e and 2e + 1 are the directions of the edge, in the order of Edge::side.
 void fill_sides(const HalfEdgeMesh& mesh, ControlMesh& control) {
   for (std::size_t f = 0; f < control.faces.size(); ++f) {
     stop_if_cancelled(f);
@@ -92,8 +91,7 @@ void fill_sides(const HalfEdgeMesh& mesh, ControlMesh& control) {
 void fill_ring(const HalfEdgeMesh& mesh, Index v, ControlMesh& control) {
   const OpenMesh::VertexHandle centre(v);
   if (mesh.is_isolated(centre)) return;
-  // A boundary vertex refers to its boundary half-edge, which has no face behind it: the last
-  // spoke.
+  // A boundary vertex refers to its boundary half-edge, with no face behind it: the last spoke.
   const Half last = mesh.halfedge_handle(centre);
   const bool open = mesh.is_boundary(last);
   Half first = last;

@@ -27,8 +27,7 @@ std::int32_t HalfEdges::previous(std::int32_t k) const {
   return k == mesh_.offsets[f] ? std::int32_t(mesh_.offsets[f + 1]) - 1 : k - 1;
 }
 
-// Sorts half-edges by their lower vertices into groups of about three, and each group by the higher
-// vertex.
+// Sorts half-edges by lower vertices, into groups of about three, and those by higher vertices.
 void HalfEdges::find_twins() {
   struct Side {
     std::int32_t high, half_edge;

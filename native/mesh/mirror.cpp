@@ -233,8 +233,7 @@ class Finder {
     return std::size_t((image.turn - c + image.size) % image.size);
   }
 
-  // The orientation of a face is reversed in its image: side c, from a to b, becomes the side from
-  // b' to a'.
+  // A face's image has the opposite orientation: side c, from a to b, becomes that from b' to a'.
   FaceImage face_image(const Face& face, int c, const std::vector<Index>& image) const {
     const Index a = image[std::size_t(face.vertex[std::size_t(c)])],
                 b = image[std::size_t(face.vertex[std::size_t((c + 1) % face.size)])];

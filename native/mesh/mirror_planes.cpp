@@ -34,8 +34,7 @@ const Vec3& farthest(const std::vector<Vec3>& points, Distance&& distance) {
   return *found;
 }
 
-// A mirror plane contains the centroid, so it maps every vertex to one at the same distance from
-// it.
+// Mirror planes contain the centroid, so they map every vertex to one at the same distance from it.
 class Planes {
  public:
   Planes(const std::vector<Vec3>& points, double within)

@@ -24,8 +24,7 @@ PolygonShape shape_of(const PolygonMesh& mesh, std::span<const std::int64_t> fac
   return PolygonShape(corners);
 }
 
-// Vertices with two faces that surround them: only a cut through one of these faces gives them a
-// third spoke.
+// Vertices surrounded by two faces: only a cut through one of these gives them a third spoke.
 std::vector<std::uint8_t> pinched_vertices(const PolygonMesh& mesh) {
   struct Corner {
     std::int64_t before = -1, after = -1;

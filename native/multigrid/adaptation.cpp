@@ -17,8 +17,7 @@ constexpr double iterations_wanted = 14;
 // Largest rise of the degree at one probe, as a factor, and largest degree.
 constexpr double most_rise = 8;
 constexpr int most_degree = 96;  // steps before, and after, coarser levels
-// Largest factor between the degree at the end of one level and that of the next level's first
-// solve.
+// Largest factor between the degree at the end of a level and at the begin of the next.
 constexpr double most_rise_between_levels = 2;
 // After a level has become the coarsest, which removes the hardest part.
 constexpr int most_degree_over_factor = 12;

@@ -44,8 +44,7 @@ class Column {
   std::vector<Index> rows_;
 };
 
-// Space for one more column: when it is needed, for all remaining ones, at the mean size of those
-// so far.
+// Space for one more column: when needed, for all remaining ones at the mean size so far.
 void make_room(SparseMatrix& matrix, Eigen::Index column, std::size_t entries) {
   auto& numbers = matrix.data();
   const auto now = std::size_t(numbers.size());
@@ -54,8 +53,8 @@ void make_room(SparseMatrix& matrix, Eigen::Index column, std::size_t entries) {
   numbers.reserve(Eigen::Index(entries + std::size_t(mean * double(matrix.cols() - column - 1))));
 }
 
-// Control vertices whose rings have more than most_coupled unknowns, ascending. `apart`: no two of
-// them are neighbours.
+// Control vertices with more than most_coupled unknowns in the ring, ascending. `apart`: no
+// neighbours.
 std::vector<Index> large_rings(const GridLevel& grid, const std::vector<Index>& number,
                                bool apart) {
   std::vector<Index> large;

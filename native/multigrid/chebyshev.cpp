@@ -23,8 +23,7 @@ struct StepJob {
 
 constexpr std::size_t spread_points = 64;  // at a time; they stay in the L1 cache
 
-// Lanczos approaches the eigenvalue from below, and the smoother amplifies vectors above its bound;
-// hence the margin.
+// Lanczos comes from below, and the smoother amplifies vectors above its bound: hence the margin.
 constexpr int lanczos_steps = 10;
 constexpr double lanczos_margin = 1.1;  // factor of Lanczos' result
 // If the next Lanczos vector is this small, relative to the eigenvalue, the rest is rounding.
@@ -139,8 +138,8 @@ void smooth(LevelOperator& op, const LineJacobi* lines, Workers& workers, double
 double largest_eigenvalue(LevelOperator& op, const LineJacobi* lines, Workers& workers,
                           const float* start) {
   const std::size_t size = op.size();
-  // Lanczos in the scalar product of B^-1, where B is the diagonal with the lines: (v_i, z_j) = (i
-  // = j) for z = B^-1 v.
+  // Lanczos in the scalar product of B^-1, the diagonal with the lines: (v_i, z_j) = (i = j), z =
+  // B^-1 v.
   Array<float> v(size), before(size, 0.0f), z(size + vector_room), product(size);
   const auto length = [&](const Array<float>& r) {
     divide_by_diagonal(op, workers, 1, r.data(), z.data(), nullptr);

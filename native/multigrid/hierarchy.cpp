@@ -18,8 +18,7 @@ constexpr int most_with_old_factor = 20;
 // Number of unknowns up to which a level is factored for every new K: iterations cost as much.
 constexpr std::size_t most_refactored = 4 * tiny_level;
 
-// Margin of a largest eigenvalue that is taken from the level below, which includes Lanczos'
-// margin.
+// Margin of a largest eigenvalue from the level below, where Lanczos' margin is included.
 constexpr double settled_margin = 1.03;
 
 // Exchanges two numbers during its lifetime, since a cancelled run throws.
@@ -61,8 +60,7 @@ Hierarchy::Hierarchy(Workers& workers, const HierarchyOptions& options,
   factors_ += coarse_->direct();
 }
 
-// Lines keep their points unless the unknowns change. The eigenvalue of a level is derived from
-// those below.
+// Lines keep their points unless unknowns change. Eigenvalues are derived from those below.
 void Hierarchy::update(std::size_t top) {
   int spectrum = 0;
   for (std::size_t l = 0; l <= top; ++l) {
@@ -222,8 +220,7 @@ bool Hierarchy::corrects_eigenvalue(std::size_t index) {
   return true;
 }
 
-// Each level's Lanczos iteration starts with the restricted residual, which rotates and renumbers
-// with the mesh.
+// Lanczos starts with the restricted residual, which rotates and renumbers with the mesh.
 void Hierarchy::estimate_eigenvalues(std::size_t top, const double* residual) {
   const auto unknown = [&](std::size_t l) { return cycle_.levels[l].largest_eigenvalue == 0; };
   std::size_t lowest = top + 1;

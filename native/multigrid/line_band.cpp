@@ -9,8 +9,7 @@ namespace fairing {
 namespace {
 
 // Number of points. In fourth order the longest wave of a line is n^4 times as soft as the shortest
-// one, and the 24 bits of single precision allow 64^4. Longer lines are cut; coarse levels handle
-// their waves.
+// one, and the 24 bits of single precision allow 64^4. Longer lines are cut.
 constexpr std::size_t longest_line = 64;
 
 }  // namespace

@@ -42,8 +42,8 @@ T* room(Array<T>& a, std::size_t size) {
   return a.data();
 }
 
-// T: type of the iteration's vectors. Single precision has no range for tiny units, so those hold
-// residual / unit.
+// T: of the iteration's vectors. In single precision, whose range is short, they hold residual /
+// unit.
 template <class T>
 class Iteration {
  public:
@@ -131,8 +131,7 @@ class Iteration {
     } else {
       // Each cycle is the transpose of the other. S adds to the end of the first one, and the
       // second one smooths the result. (Measured: without a step at its end bob takes 119
-      // iterations, with these 46; with as many as at the beginning 43, in half as much time
-      // again.)
+      // iterations, with these 46; with as many as at the beginning 43, but longer ones.)
       const int few = std::max(1, cycle_.degree / 6);
       cycle_.run(top_, cycle_.degree, few);
       system_.between(level_.state.x.data(), level_.state.residual.data());

@@ -15,8 +15,7 @@ namespace fairing {
 
 struct CoarseSolver::Factor {
   std::vector<Index> points;
-  // Analyzed once only: Eigen's vectors free their memory twice if a second size cannot be
-  // allocated.
+  // Analyzed once: Eigen's vectors free memory twice if a second size cannot be allocated.
   std::optional<Eigen::SimplicialLDLT<SparseMatrix>> ldlt{std::in_place};
   // The pattern of the elimination's order: columns, and rows one column after another.
   std::vector<int> columns, rows;
@@ -46,8 +45,7 @@ namespace {
 // smooth vectors; the least trace is just above rounding.
 constexpr double usual_trace = 1e-12, least_trace = 1e-15;
 
-// x <- (L D L^T)^-1 x for C right-hand sides together, so that every number of the factor is read
-// once.
+// x <- (L D L^T)^-1 x for C right-hand sides together: every number of the factor is read once.
 template <int C, class Ldlt>
 void substitute(const Ldlt& ldlt, double* x) {
   const SparseMatrix& l = ldlt.matrixL().nestedExpression();  // without its unit diagonal

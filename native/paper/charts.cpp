@@ -9,8 +9,7 @@
 namespace fairing {
 namespace {
 
-// Directions of a face's grid at its corner c (exact for a triangle; for a quad the tangents of the
-// bilinear map).
+// Directions of a face's grid at its corner c; for a quad the tangents of the bilinear map.
 struct Corner {
   Vec3 along, up;  // to the next corner, to the previous one
 };

@@ -19,8 +19,7 @@ class TangentCharts : public ChartMaker {
 };
 
 // chart <- (1 - alpha) uniform + alpha chart [Kobbelt 1997b], after the uniform chart is scaled to
-// the chart's mean radius and rotated by the best fit, so that the blend does not depend on a first
-// neighbour.
+// the chart's mean radius and rotated by the best fit: no first neighbour matters.
 void blend(const Chart& uniform, double alpha, Chart& chart);
 
 // `Base`: the charts to blend; its constructor's arguments follow alpha.

@@ -23,12 +23,10 @@ struct PaperOptions {
   double chart_blend = 1;  // 0: the uniform chart … 1: the chart itself [Kobbelt 1997b]
   Method method = Method::multigrid;
   int sweeps = 10;  // Gauss-Seidel sweeps a level, for back_leg
-  // Interpolated control vertices are released by at most this afterwards, which removes cusps;
-  // mesh units.
+  // Interpolated control vertices are then released by at most this, without cusps; mesh units.
   double epsilon = 0;
 
-  // Whether control vertices have point forces: epsilon removes their cusps, back_leg solves
-  // without loads.
+  // Whether control vertices have point forces: back_leg solves without loads.
   bool needs_point_forces() const { return epsilon > 0 || method == Method::back_leg; }
   // Exponent of the metric: a tangent plane keeps lengths.
   double metric_exponent(double chosen) const { return chart == ChartKind::tangent ? 1.0 : chosen; }

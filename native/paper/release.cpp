@@ -41,8 +41,7 @@ int release_control_vertices(ThinPlateSolver& solver, const PlateData& data, dou
     levels.apply_with(top, freed, x.data(), gradient.data());
     for (std::size_t v = 0; v < std::size_t(mesh.first_centre()); ++v) {
       if (!freed.vertex[v] || !(diagonal[v] > 0)) continue;
-      // The energy is isotropic in one vertex, so the nearest point of the ball is the minimum
-      // within it.
+      // The energy is isotropic in one vertex: the ball's nearest point is its minimum there.
       Vec3 offset =
           targets[v] - damping / double(diagonal[v]) * point_at(gradient, Index(v)) - given[v];
       const double length = offset.norm();

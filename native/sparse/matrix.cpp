@@ -127,8 +127,8 @@ RowChunk::LocalColumn RowBuilder::local_column(std::uint32_t column) {
   return RowChunk::LocalColumn(mark - in_chunk_.last - 1);
 }
 
-// The place of the row's numbers in the chunk: that of one of the latest different rows if it is
-// equal, else the end.
+// Place of the row's numbers in the chunk: that of an equal one among the latest rows, else the
+// end.
 std::uint32_t RowBuilder::keep_numbers() {
   // Balances the time of comparisons against the memory of equal rows, which are near one another.
   constexpr std::size_t most_compared = 24;

@@ -27,8 +27,7 @@ bool determines(const Eigen::Matrix<double, 5, 5>& lower, const Coefficients& sc
 }
 
 // Least squares after a linear map makes the ring round: quadratics are invariant under linear
-// maps, so the fit is the same, and its normal equations are well-conditioned for any skew. Empty
-// if undetermined.
+// maps, so the fit is the same, and well-conditioned for any skew. Empty if undetermined.
 bool round_fit(const std::vector<Vec2>& ring, FitRows& rows) {
   Eigen::Matrix2d moment = Eigen::Matrix2d::Zero();
   for (const Vec2& p : ring) moment += p * p.transpose();

@@ -55,8 +55,7 @@ class Ridges {
   bool quad(std::size_t f) const { return mesh_.faces[f].quad(); }
   bool joins(const Side* other) const { return other && quad(std::size_t(other->face)); }
 
-  // The same side of the next face, across side s of a quad; null at borders, creases and
-  // triangles.
+  // The side of the next face across side s of a quad; null at borders, creases, triangles.
   const Side* beside(std::size_t f, int s) const {
     if (!quad(f)) return nullptr;
     const Index own = mesh_.faces[f].first_side + s;

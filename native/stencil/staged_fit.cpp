@@ -36,8 +36,7 @@ void decompose(const Matrix& a, ThinSvd<Matrix>& svd) {
 }
 #endif
 
-// Omits directions whose singular values are below a share of the largest, or of `scale` if that is
-// larger.
+// Omits directions with singular values below a share of the largest, or of `scale` if larger.
 template <class Matrix>
 Columns pseudo_inverse_of(const Matrix& a, double scale) {
   auto svd = std::make_unique<ThinSvd<Matrix>>();

@@ -35,8 +35,7 @@ Star star_of(const ControlMesh& mesh, const ChartMaker& charts, std::span<const 
   return out;
 }
 
-// The point where a ray from the vertex leaves its star: distance in the chart, and offset in
-// space.
+// Where a ray from the vertex leaves its star: distance in the chart, and offset in space.
 struct Exit {
   double distance = 0;
   Vec3 at = Vec3::Zero();
@@ -67,8 +66,7 @@ Vec3 bend_across(const Star& star, Index edge) {
   return 2 / (to.distance + from.distance) * (to.at / to.distance + from.at / from.distance);
 }
 
-// A stretch of a curve seen from one side: its edges in order, and the vertices on pads that face
-// them.
+// A stretch of a curve from one side: its edges, and the vertices on pads that face them.
 class Row {
  public:
   Row(const GridLevel& grid, const ChartMaker& charts, const Pads& pads, const Unknowns& unknowns,
@@ -80,8 +78,7 @@ class Row {
         unknowns_(unknowns),
         positions_(positions) {}
 
-  // Adds the next edge, by one of its sides, which has the direction of the stretch or the opposite
-  // one.
+  // Adds the next edge by one of its sides, in the direction of the stretch or the opposite one.
   void add(const Side& side, bool along) {
     sides_.push_back(&side);
     const Face& face = mesh_.faces[std::size_t(side.face)];

@@ -20,8 +20,7 @@ using Eigen::VectorXd;
 constexpr Eigen::Index most_dense = 600;
 // for Lanczos
 constexpr int quadrature_nodes = 60;
-// Amounts that are tried, times the mean of G's eigenvalues: ten a decade, up to the inverse of the
-// least.
+// Amounts that are tried, times the mean of G's eigenvalues: ten a decade, up to 1 / the least.
 constexpr double least_amount = 1e-3, ten_a_decade = 1.2589254117941673;
 // Weight of plain cross-validation in the score; 1 is plain. With 35 vertices and little scatter,
 // plain cross-validation chose no amount in three of sixteen cases, this weight in none; smaller
@@ -87,9 +86,8 @@ void EaseSystem::probe_eigenvalues() {
     all.node.insert(all.node.end(), more.node.begin(), more.node.end());
     for (const double weight : more.weight) all.weight.push_back(share * weight);
   };
-  // The trace is estimated by vectors of random signs (Hutchinson 1990). With one for each
-  // coordinate and over `most_dense` unknowns the error is within 5 per cent, the same for all
-  // amounts.
+  // The trace is estimated by vectors of random signs (Hutchinson 1990). With one a coordinate and
+  // over `most_dense` unknowns the error is within 5 per cent.
   for (Eigen::Index a = 0; a < pulls_.cols(); ++a) {
     add(lanczos(pulls_.col(a)), 1, of_pulls_);
     add(lanczos(random_signs(unknowns(), std::uint64_t(a + 1))), 1.0 / double(pulls_.cols()),
@@ -97,8 +95,7 @@ void EaseSystem::probe_eigenvalues() {
   }
 }
 
-// Without a second orthogonalization, which may repeat eigenvalues; the sum over them stays the
-// same.
+// Without a second orthogonalization: repeated eigenvalues do not change the sum.
 EaseSystem::Quadrature EaseSystem::lanczos(const VectorXd& from) const {
   Quadrature out;
   const double length = from.norm();
@@ -229,8 +226,7 @@ Columns EaseSystem::moves(double s) const {
   return solve(s, 0, -s * s * pulls_, none);
 }
 
-// The moves and their bounded copies are coupled by a weight between the least and the largest
-// eigenvalue of (*).
+// A weight between the extreme eigenvalues of (*) couples the moves and their bounded copies.
 Columns EaseSystem::moves_within(double s, const VectorXd& bounds) const {
   const double weight = 1 + s * mean_;
   const Columns wanted = -s * s * pulls_;
@@ -300,8 +296,7 @@ double with_moves_within(const EaseSystem& system, const VectorXd& bounds) {
   return outside == amount.begin() ? 0 : *(outside - 1);
 }
 
-// Computes the moves themselves: the least eigenvalues from Lanczos are too inaccurate for large
-// amounts.
+// Computes the moves: Lanczos' least eigenvalues are too inaccurate for large amounts.
 double with_noise_up_to(const EaseSystem& system, double s, double noise) {
   std::vector<double> amount = ladder(system);
   amount.erase(std::upper_bound(amount.begin(), amount.end(), s), amount.end());

@@ -43,8 +43,7 @@ class EaseSystem {
   double squared_trace(double s) const;
   // Root mean square of the scatter that an amount removes.
   double noise(double s) const;
-  // Root mean square of the scatter, estimated from these differences of loads; not finite if they
-  // are none.
+  // Root mean square of the scatter, from these differences of loads; not finite without any.
   double noise_of(const LoadMatrix& differences) const;
   // Whether the part that an amount removes may be scatter: scatter has all eigenvectors alike,
   // designed shapes have few. True if the eigenvectors are not computed.
@@ -76,8 +75,7 @@ class EaseSystem {
 // if scatter cannot be distinguished from the shape, or if the removed part cannot be scatter.
 double cross_validated(const EaseSystem& system);
 
-// The largest amount whose moves are within the bounds without constraints; a bound of 0 is
-// ignored.
+// The largest amount whose free moves are within the bounds; a bound of 0 is ignored.
 double with_moves_within(const EaseSystem& system, const Eigen::VectorXd& bounds);
 
 // The amount s, or the largest smaller one that removes at most `noise`; 0 if none does.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// G (probes.h) as a sparse matrix. It takes one solve for each set of distant vertices, not for
-// each vertex.
+// G (probes.h) as a sparse matrix, by one solve for each set of distant vertices.
 #pragma once
 
 #include <vector>

@@ -2,8 +2,7 @@
 // The loads on pads (constraints/pads.h) that moves of control vertices cause while all else stays.
 // The loads of the thin plate depend linearly on the control vertices, f = G c plus a constant, in
 // the same way for x, y and z, so G is one matrix. The effect of a move falls by a factor of 2.6
-// with every ring of control faces, so distant vertices share a solve, with one set for each
-// coordinate.
+// with every ring of control faces, so distant vertices share a solve, a set for each coordinate.
 #pragma once
 
 #include <functional>

@@ -7,9 +7,8 @@
 namespace fairing {
 namespace {
 
-// A curve has a corner where it turns sharply, even if the corner is not marked. A regular hexagon
-// has six corners, a regular heptagon none, so the limit is the turn of a polygon with six and a
-// half sides.
+// A sharp turn is a corner, even if it is not marked. A regular hexagon has six, a heptagon none:
+// the limit is the turn of six and a half sides.
 constexpr double full_turn = 2 * std::numbers::pi;
 bool is_corner(const Vec3& before, const Vec3& after) {
   return before.dot(after) < std::cos(full_turn / 6.5) * before.norm() * after.norm();

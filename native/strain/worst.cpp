@@ -10,8 +10,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// The picked rows and columns, and the inverse of the matrix between them, bordered by one more
-// each time.
+// The picked rows and columns, and the inverse of their matrix, bordered by one each time.
 class Picked {
  public:
   Picked(const LoadMatrix& g, const Columns& loads)

@@ -156,8 +156,7 @@ ThinPlateLevels::Scales ThinPlateLevels::scales(int level, const PlateData& data
     const double t = x[i] / double(inverse[i / 3]);
     return t * t;
   }));
-  // If the residual of the control polyhedron is rounding, it is no scale: the polyhedron is the
-  // solution.
+  // If the polyhedron's residual is rounding, it is no scale: the polyhedron is the solution.
   return {std::max(norm(workers(), size, r), single_rounding * terms), rounding_of_terms * terms};
 }
 

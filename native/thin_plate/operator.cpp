@@ -229,8 +229,7 @@ template void apply_thin_plate<double>(const GridLevel&, const ThinPlateRows<dou
 Array<float> thin_plate_diagonal(const GridLevel& grid, const Stencils& stencils,
                                  const Unknowns& unknowns, const VertexWeights& weights,
                                  Workers& workers, ElementSlots<double>& slots) {
-  // The same sums as those of K, with squared coefficients; all three coordinates have the same
-  // number.
+  // The sums of K with squared coefficients; all three coordinates have the same number.
   const auto body = [&](const Run& run, double* const* target, PlateRingRows& rows) {
     const auto put = [&](std::size_t slot, std::size_t i, double number) {
       for (std::size_t a = 0; a < 3; ++a) target[slot][3 * i + a] += number;

@@ -15,8 +15,7 @@ double force_tolerance(double relative_residual) {
 }
 
 // Rows at a free border may be arbitrarily stiff, and H with them. Then the prolongation does not
-// approximate H (docs/developers/notes/performance.md), and forces come from the vertices' own
-// rows.
+// approximate H (docs/developers/notes/performance.md), and the vertices' own rows are used.
 bool has_free_border(const ControlMesh& mesh, const Unknowns& unknowns) {
   for (std::size_t e = 0; e < mesh.edges.size(); ++e)
     if (mesh.edges[e].boundary() && unknowns.edge[e]) return true;

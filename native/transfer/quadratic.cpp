@@ -11,8 +11,8 @@ constexpr double share_of(bool quad, GridPoint step) {
   return quad && step.i != 0 && step.j != 0 ? centre_share : midpoint_share;
 }
 
-// Linear values at the midpoints to the ring of a control vertex without a fit: visit(slot, weight,
-// neighbours, count).
+// Linear values half-way to the ring of a vertex without a fit: visit(slot, weight, neighbours,
+// count).
 template <class T, class Visit>
 void linear_halves(const ControlMesh& mesh, Index v, Visit&& visit) {
   const auto ring = mesh.ring(v);

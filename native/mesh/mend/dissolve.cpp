@@ -239,8 +239,7 @@ class Dissolver {
     return {std::move(loop)};
   }
 
-  // Inserts the vertices inside this side into a flat face, if it still has the side in either
-  // direction.
+  // Inserts the vertices inside this side into a flat face that still has it in either direction.
   void insert(Index f, const CutSide& side) {
     const auto loop = face(f);
     Loop longer;
@@ -268,8 +267,7 @@ class Dissolver {
     set(f, std::move(longer));
   }
 
-  // Cuts a face into triangles at its lowest corner; a quad along the diagonal with the larger
-  // halves.
+  // Cuts a face into triangles at its lowest corner; a quad along the diagonal with larger halves.
   void cut(Index f, const Loop& loop) {
     const auto lower = [](const MendCorner& a, const MendCorner& b) { return a.vertex < b.vertex; };
     auto hub = std::size_t(std::min_element(loop.begin(), loop.end(), lower) - loop.begin());

@@ -69,8 +69,7 @@ void check_coincident_vertices(const PolygonMesh& mesh, Defects& found) {
     if (!listed[v]) shared.push_back(std::int64_t(v));
     listed[v] = 1;
   };
-  // The leader of a group is its first *used* vertex, so that an isolated one is not reported
-  // twice.
+  // A group's leader is its first *used* vertex, so that isolated ones are not reported twice.
   std::vector<std::int32_t> leader(first.size(), -1);
   for (std::size_t v = 0; v < first.size(); ++v) {
     stop_if_cancelled(v);
