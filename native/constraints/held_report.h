@@ -6,7 +6,7 @@ namespace fairing {
 
 struct HeldReport {
   int pad_corrections = 0;    // of the loads on pads, and of couples
-  int constraint_rounds = 0;  // rounds of new springs or targets, for tolerances
+  int constraint_rounds = 0;  // augmented-Lagrangian iterations: springs or targets
   double constraint_gap = 0;  // how far the energy may be above the minimum, relative
   double pad_force = 0;       // the last change of the loads, relative
   double normal_angle = 0;    // the largest between a fixed normal and the surface's, radians

@@ -95,7 +95,7 @@ class HeldSolve {
             Multipliers<N>& multipliers, HeldReport& report);
 
   // Improves x in place, together with its multipliers. r: room for a residual. `residual` of the
-  // result is relative to the limits' scale, whatever each solve's own goal was.
+  // result is relative to the limits' scale, whatever each solve's own tolerance was.
   LevelSolve run(double* x, double* r);
 
   // Whether loads and couples had settled at the end.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Whether the surface passes through the control vertices or through their limit positions, and in
-// the latter case whether the plate between them is attracted to the limit surface.
+// the latter case whether the distance of the plate from the limit surface is penalized.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@ namespace fairing {
 
 struct HeldPositions {
   std::shared_ptr<const CatmullClark> limits{};   // to limit positions; null: the vertices stay
-  std::shared_ptr<const LimitSurface> surface{};  // if the thin plate is attracted to it
+  std::shared_ptr<const LimitSurface> surface{};  // if the distance from it is penalized
 
   // The positions to hold for other positions of the input's vertices, 3 numbers each.
   std::vector<double> of(std::span<const double> coordinates) const;

@@ -119,8 +119,8 @@ struct FairOptions {
 // from FairOptions::tension.
 double membrane_strength(double tension);
 
-// The factor of the attraction to the subdivision surface, relative to the plate's own bending
-// (grid/limit_surface.h), from FairOptions::limit.
+// The factor of the penalty on the distance from the subdivision surface, relative to the plate's
+// bending (grid/limit_surface.h), from FairOptions::limit.
 double pull_to_limits(double limit);
 
 // Throws FairingError(bad_option), naming the option and its range.

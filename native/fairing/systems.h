@@ -25,14 +25,14 @@ class FairingSystems {
   // surfaces until keep_smoother().
   ThinPlateSolver& plate();
   // The positions on which a surface depends, in working coordinates: the held ones, and the cage
-  // if the plate is attracted to its limit surface.
+  // if the distance from its limit surface is penalized.
   std::vector<Vec3> positions_of(const ControlPositions& control) const;
   const GridLevel& finest() { return plate().levels().grid(problem_.options.levels); }
   // Frees the memory of all of them.
   void drop();
 
   // Solves one surface level by level: the thin plate, then Gauss-Newton steps for a curvature
-  // energy. Reports levels, steps and rounds, and the prediction's energies if `measured`.
+  // energy. Reports levels, steps and corrections, and the prediction's energies if `measured`.
   Surface solve(const ControlPositions& control, bool measured, Stopwatch& watch, Report& report);
   // The same on the finest level alone, from the last surface of these systems. False if that does
   // not succeed: call solve(). `control` must outlive the next call.
@@ -67,7 +67,7 @@ class FairingSystems {
   // and as long as `control` is.
   PlateData data_of(const ControlPositions& control);
   // The limit surface of a cage in working coordinates on the finest level, with control vertices
-  // at their held positions; empty if nothing is attracted to it.
+  // at their held positions; empty without a penalty.
   Array<double> goal_of(std::span<const Vec3> cage, std::span<const Vec3> held);
   std::unique_ptr<GaussNewtonSolver> make_steps(const ControlPositions& control);
   void solve_levels(const ControlPositions& control, const ThinPlateSolver::OnPrediction& predicted,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The forces of a scan on a surface: each point pulls along the surface's normal at its foot,
+// The forces of a scan on a surface: each point acts along the surface's normal at its foot,
 // proportional to its distance. Lumped to a weight and a force for each point of a level
 // (docs/python/fit.md).
 #pragma once

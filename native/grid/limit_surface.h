@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The Catmull-Clark limit surface of the input's polygons at the points of a grid, and the strength
-// of a plate's attraction to it.
+// The Catmull-Clark limit surface of the input's polygons at the points of a grid, and the penalty
+// on a plate's distance from it.
 #pragma once
 
 #include <memory>
@@ -33,12 +33,12 @@ class LimitSurface {
   std::shared_ptr<const CatmullClark> subdivision_;
 };
 
-// Strength with which a plate is attracted to a surface so that it does not wave where faces are
-// thin. At a point with the area S at unit grid spacing, a distance d from the surface has the
-// weight of its own bending times (d / r)^2 (S / r^2)^2: it grows with the length of faces over r,
-// and with their turn. r is the shortest control edge at the control vertices near the point: their
-// geometric mean, smoothly from vertex to vertex. One number a point, the fourth root of 1 / r^6.
-// It fades to zero at the rim of a region.
+// Weight of the penalty, so that the plate does not oscillate where faces are thin. At a point with
+// the area S at unit grid spacing, a distance d from the surface has the weight of its own bending
+// times (d / r)^2 (S / r^2)^2: it grows with the length of faces over r, and with their turn. r is
+// the shortest control edge at the control vertices near the point: their geometric mean, smoothly
+// from vertex to vertex. One number a point, the fourth root of 1 / r^6. It fades to zero at the
+// rim of a region.
 Array<float> hold_of_thin_faces(const GridLevel& grid, std::span<const Vec3> control,
                                 Workers& workers);
 

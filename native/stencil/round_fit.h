@@ -12,9 +12,9 @@
 
 namespace fairing {
 
-// Least squares after the ring has been made round: x = w0 u and y = w1 u + w2 v have unit
-// covariance and no correlation. The linear terms then drop out of the normal equations by
-// division, and a 3 x 3 system is left, for the coefficients of
+// Least squares after whitening the ring: x = w0 u and y = w1 u + w2 v have unit covariance and no
+// correlation. The linear terms then drop out of the normal equations by division, and a 3 x 3
+// system is left, for the coefficients of
 //
 //   a = x^2 + y^2,    b = x^2 - y^2,    c = 2 x y.
 //

@@ -53,7 +53,7 @@ class ThinPlateLevel final : public LevelOperator {
     update();
   }
   bool is_measured() const { return surface_ != nullptr; }
-  // r += the attraction to the goal, in the metric of a surface.
+  // r += P goal, in the metric of a surface.
   void add_pull(const double* goal, double* r) const {
     surface_->add_pull(goal, shared_.workers, r);
   }

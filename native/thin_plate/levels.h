@@ -19,8 +19,7 @@ namespace fairing {
 struct PlateData {
   std::span<const Vec3> targets;  // control vertices: fixed at them, or on springs to them
   const FeatureCurves& curves;    // on the finest level
-  // The goal that attracts the plate, on the finest level, if the plate is in the metric of a
-  // surface.
+  // The surface of the penalty, on the finest level, if the plate is in the metric of a surface.
   const Array<double>* goal = nullptr;
 };
 
@@ -84,7 +83,7 @@ class ThinPlateLevels {
     if (!goal.empty()) operators_[index(level)]->add_pull(goal.data(), r);
   }
 
-  // The plate's energy with that of tension: what is minimized, without the attraction.
+  // The plate's energy with that of tension: what is minimized, without the penalty.
   double bending(int level, const double* x);
   double energy(int level, const double* x);
 

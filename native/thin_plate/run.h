@@ -14,7 +14,7 @@ struct ThinPlateSolver::Run {
   PlateState& state;
   Array<double>& x;                  // of the level
   Array<double> r{};                 // of x
-  Array<double> goal{};              // the attracting surface; or empty
+  Array<double> goal{};              // of the penalty; or empty
   double rough_force = 0;            // force that may be left, as a share of the loads
   std::span<const double> forces{};  // per point of the finest level; or empty
 

@@ -4,9 +4,9 @@
 // control faces has a cone at each control vertex and a kink along each control edge. A surface has
 // none, so the plate is close to its total curvature (docs/developers/notes/method.md).
 //
-// Such a plate swings between its fixed points, farther than a thin wall is thick. So it is
-// attracted to a surface that does not, the goal: P, a weight for each point, is part of the
-// matrix, and P goal of the right-hand side.
+// Such a plate oscillates between its fixed points, by more than the thickness of a thin wall. So
+// its squared distance from a surface that does not is penalized, the goal: P, a weight for each
+// point, is part of the matrix, and P goal of the right-hand side.
 #pragma once
 
 #include "sparse/ring_table.h"
@@ -15,7 +15,7 @@
 
 namespace fairing {
 
-// The metric of a surface and the attraction to the goal.
+// The metric of a surface and the penalty on the distance from the goal.
 struct SurfaceMetric {
   const double* surface;  // 3 numbers a point
   // k, one per point: the squared distance from the goal has the weight k^4 S^2 times the surface's
