@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Arrays from NumPy, copied; and to it, large ones without copies.
+// Copies arrays from NumPy, and passes large ones to NumPy without a copy.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -18,11 +18,11 @@ using Contiguous = pybind11::array_t<T, pybind11::array::c_style>;
 using Numbers = Contiguous<double>;
 using Ids = Contiguous<std::int64_t>;
 
-// An argument that is such an array already: the package has seen to that.
+// An argument whose type the package has checked.
 inline pybind11::arg exact(const char* name) { return pybind11::arg(name).noconvert(); }
 
-// While Python's lock is held: what other threads write into the caller's array from then on does
-// not reach a run. The array may be misaligned.
+// Call it with Python's lock: later writes to the caller's array do not reach a run. The array may
+// be misaligned.
 template <class T>
 std::vector<T> copy_of(const Contiguous<T>& a) {
   std::vector<T> out(std::size_t(a.size()));
@@ -34,7 +34,7 @@ inline OwnedPolygonMesh copy_of(const Numbers& vertices, const Ids& corners, con
   return {copy_of(vertices), copy_of(corners), copy_of(offsets)};
 }
 
-// Hands an Array over.
+// Passes an Array without a copy.
 template <class T>
 pybind11::array to_numpy(Array<T>&& values, pybind11::ssize_t columns) {
   auto owner = std::make_unique<Array<T>>(std::move(values));
@@ -45,7 +45,7 @@ pybind11::array to_numpy(Array<T>&& values, pybind11::ssize_t columns) {
   return pybind11::array_t<T>({size / columns, columns}, data, free_later);
 }
 
-// A copy of shorter ones.
+// Copies a short array.
 template <class T>
 pybind11::array to_numpy(const std::vector<T>& values, pybind11::ssize_t columns = 1) {
   return to_numpy(Array<T>(values.begin(), values.end()), columns);

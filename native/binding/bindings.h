@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The parts of the module _native, which module.cpp puts together.
+// The parts of the module _native; module.cpp calls them.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -8,7 +8,7 @@
 
 namespace fairing {
 
-// Adds the class Options, with one attribute a setting, and the enums of those that are choices.
+// Adds the class Options, with one attribute for each setting, and the enums of choices.
 void bind_options(pybind11::module_& m);
 
 // Adds the class Solver, which the package wraps.
@@ -26,12 +26,12 @@ void bind_strain(pybind11::module_& m);
 // Adds fit(), which the package wraps.
 void bind_fit(pybind11::module_& m);
 
-// Adds outline(), which the package's pieces() cuts up.
+// Adds outline(), which the package's pieces() cuts.
 void bind_outline(pybind11::module_& m);
-// What a piece takes from its whole: a dict of the package's, or None.
+// The data of a piece from its whole: a dict of the package's, or None.
 OfWhole whole_from(const pybind11::object& given);
 
-// Adds fit_splines(), which the package's fit_patches() calls, and what it wants of a Monitor.
+// Adds fit_splines() for the package's fit_patches(), and the members of Monitor that it needs.
 void bind_splines(pybind11::module_& m);
 
 }  // namespace fairing

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What runs beside Python has to be over before the interpreter ends: a thread that then comes back
-// to Python is killed, with our frames on its stack, and takes the process along. So runs say that
-// they are on their way, and Python's atexit cancels them and waits. All under Python's lock, which
-// is held at a fork, too.
+// Runs must be over before the interpreter ends: it kills a thread that returns to Python later,
+// with our frames on its stack, and the process with it. So runs are registered, and Python's
+// atexit cancels them and waits. All under Python's lock, which is also held during a fork.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -13,15 +12,15 @@
 
 namespace fairing {
 
-// How long to sleep between two looks at Python: 40 progress calls a second are smooth, and cost
-// nothing beside a run.
+// Sleep between two checks of Python: 40 progress calls a second are smooth, and cost nothing
+// beside a run.
 constexpr std::chrono::milliseconds pause(25);
 
-// What tells a process from its forked children.
+// Identifies the process; its forked children differ.
 long current_process();
 
-// A run is on its way while this exists; the calling thread may let go of Python's lock. Throws
-// FairingError(cancelled) where the interpreter is about to end.
+// Registers a run during its lifetime; the calling thread may release Python's lock. Throws
+// FairingError(cancelled) while the interpreter is ending.
 class RunningScope {
  public:
   explicit RunningScope(Monitor& monitor);
@@ -32,11 +31,11 @@ class RunningScope {
  private:
   Monitor& monitor_;
   long process_;
-  RunningScope *before_ = nullptr, *after_ = nullptr;  // in the list of all
+  RunningScope *before_ = nullptr, *after_ = nullptr;  // in the list of all runs
   friend void end_runs();
 };
 
-// Has Python's atexit end all runs.
+// Lets Python's atexit end all runs.
 void bind_end();
 
 }  // namespace fairing

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The control mesh: triangles and quads with edges, sides, one-rings and feature chains as flat
-// tables. Built once, through OpenMesh, from checked arrays; all later code reads only these
-// tables.
+// The control mesh: triangles and quads with edges, half-edges (sides and spokes), one-rings and
+// feature chains as flat tables. Built once, through OpenMesh, from checked arrays; all later code
+// reads only these tables.
 #pragma once
 
 #include <algorithm>
@@ -41,8 +41,8 @@ using EdgeValues = std::pair<std::vector<std::array<std::int64_t, 2>>, std::vect
 
 struct FeatureOptions {
   std::vector<std::array<std::int64_t, 2>> crease_edges{};  // vertex pairs, any order
-  EdgeValues soft_creases{};  // weights from 0, no crease, to 1, a crease like the others
-  std::vector<std::int64_t> flat_faces{};  // of the input: those that are meant flat
+  EdgeValues soft_creases{};               // weights from 0, no crease, to 1, an ordinary crease
+  std::vector<std::int64_t> flat_faces{};  // of the input
   // Curves end here; an interior one may be the tip of a cone.
   std::vector<std::int64_t> corner_vertices{};
   double crease_angle = -1.0;  // edges that fold by more are creases; radians; negative: none
@@ -54,17 +54,18 @@ struct FeatureOptions {
   RegionOptions region{};
 };
 
-// A face's side s runs from its corner s to its corner s + 1.
+// A half-edge of a face: side s runs from the face's corner s to its corner s + 1.
 struct Side {
   Index face;
   Index edge;
   std::int8_t local;  // s
-  bool reversed;      // the side runs against its edge
+  bool reversed;      // opposite to its edge
 };
 
 struct Edge {
   std::array<Index, 2> vertex;
-  std::array<Index, 2> side;  // [0] runs with the edge (face on its left), [1] against it; -1: none
+  // [0] has the edge's direction (face on its left), [1] the opposite one; -1: none
+  std::array<Index, 2> side;
   bool boundary() const { return side[0] < 0 || side[1] < 0; }
 };
 
@@ -76,7 +77,7 @@ struct Face {
   bool quad() const { return size == 4; }
 };
 
-// One spoke of a one-ring: an edge, and the face that follows it counter-clockwise.
+// A half-edge of a vertex: an edge of its one-ring, and the face that follows counter-clockwise.
 struct Spoke {
   Index edge;
   Index face;          // -1 behind the last spoke of an open ring
@@ -86,7 +87,7 @@ struct Spoke {
 
 // A maximal run of feature edges between corners, or a closed loop without any corner.
 struct Chain {
-  // Input vertices, and edges that are no copies.
+  // Input vertices, and edges that are not copies.
   std::vector<Index> vertices;  // m + 1 for m edges; a loop repeats no vertex (m vertices, m edges)
   std::vector<Index> edges;     // edges[k] joins vertices[k] and [k + 1] (cyclically in a loop)
   bool closed = false;
@@ -120,16 +121,17 @@ struct Copies {
   std::vector<Index> centre, face;
 };
 
-// Where the surface turns softly (stencil/stiffness.h), with weights from 0 to 1.
+// Soft creases (stencil/stiffness.h), with weights from 0 to 1.
 struct SoftCreases {
-  // Both empty: nowhere. Of edges, in the middle; 0 on creases. Of vertices: the mean of the soft edges
-  // where a line goes on; 0 where it ends, but that of the edge on a border; 1 on a crease.
+  // Both empty: none. Of edges, at the midpoint; 0 on creases. Of vertices: the mean of the soft
+  // edges where a line continues; 0 where it ends, but the edge's weight on a border; 1 on a
+  // crease.
   std::vector<double> edge, vertex;
 
   bool any() const { return !edge.empty(); }
 };
 
-// Which faces are meant flat; edges and vertices with such faces alone. Empty: none.
+// Flat faces, and edges and vertices with flat faces only. Empty: none.
 struct FlatFaces {
   std::vector<std::uint8_t> vertex, edge, face;
 };
@@ -219,7 +221,7 @@ struct ControlMesh {
     for (; copy != copies.vertex.end() && *copy == v; ++copy)
       visit(input_vertices + Index(copy - copies.vertex.begin()));
   }
-  // Cut by split_polygons: no edge of the input.
+  // Whether split_polygons has added the edge.
   bool inside_polygon(Index e) const {
     const Edge& edge = edges[std::size_t(e)];
     const auto polygon = [&](std::size_t h) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which elements of a control mesh belong to faces that are meant flat.
+// Marks the elements of a control mesh that belong to flat faces.
 #pragma once
 
 #include <span>
@@ -8,8 +8,8 @@
 
 namespace fairing {
 
-// Fills `flat` of a mesh with complete rings. Throws FairingError(index_out_of_range) for faces that do
-// not exist.
+// Fills `flat` of a mesh with complete rings. Throws FairingError(index_out_of_range) for missing
+// faces.
 void mark_flat_faces(std::span<const std::int64_t> faces, ControlMesh& control);
 
 }  // namespace fairing

@@ -14,8 +14,8 @@ namespace fairing {
 // whole mesh. Throws FairingError: index_out_of_range for missing faces, bad_option for no faces.
 void find_region(const RegionOptions& options, ControlMesh& control);
 
-// One flag an input face, of so many; throws what find_region does. And for other faces that are named
-// somewhere.
+// One flag for each of `count` input faces; throws as find_region(). Also for other settings that
+// name faces.
 std::vector<std::uint8_t> chosen_faces(const RegionOptions& options, std::int64_t count);
 std::vector<std::uint8_t> flags_of_faces(std::span<const std::int64_t> faces, std::int64_t count,
                                          const std::string& where);

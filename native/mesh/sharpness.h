@@ -20,7 +20,7 @@ namespace fairing {
 constexpr double always_sharp = 10;
 
 struct Sharpness {
-  EdgeValues edges;              // theirs counts, be they creases or not
+  EdgeValues edges;              // of edges, creases or not
   std::vector<double> vertices;  // one a vertex, or empty; 0: none is given
 };
 

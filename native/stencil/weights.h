@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Weights on a fairness energy, whatever the energy: a factor on every point beside the joint of a
-// region or a soft crease and on flat faces, and springs that hold control vertices.
+// Weights of either fairness energy: a factor at every point near the joint of a region or a soft
+// crease and on flat faces, and springs that hold control vertices.
 #pragma once
 
 #include <vector>
@@ -15,17 +15,17 @@ namespace fairing {
 // One per control vertex, >= 0, in the energy's own unit; empty: none.
 using VertexWeights = std::vector<double>;
 
-// The factor on the energy of each point: the surface's stiffness (stiffness.h), and what follows
-// at and near a joint, the closed line along which a region that is faired meets the surface that stays.
-// 1 everywhere else, and on a mesh without either.
+// The factor on the energy of each point: the surface's stiffness (stiffness.h), times the factor
+// at and near a joint, the closed line along which a faired region meets the surface outside. 1
+// elsewhere, and on a mesh without either.
 //
 // RegionContinuity::tangent: 2 on the joint itself. The second difference there contains half of
 // the curvature m inside, since the outside has none; the minimizer makes it m / factor; so 2 is
 // consistent with a clamped plate.
 //
-// RegionContinuity::curvature: 1 / t, where t runs from 0 on the joint to 1 across the first ring
-// of control faces. What minimizes the integral of m^2 / t has m of order t: the curvature fades
-// out towards the joint. On the joint itself, by the same count with a cubic, t stands for a sixth
+// RegionContinuity::curvature: 1 / t, where t grows from 0 on the joint to 1 across the first ring
+// of control faces. The minimizer of the integral of m^2 / t has m of order t: the curvature fades
+// out towards the joint. On the joint itself the same consideration for a cubic gives t of a sixth
 // of a grid step.
 class EnergyWeight {
  public:
@@ -33,18 +33,18 @@ class EnergyWeight {
   explicit EnergyWeight(const GridLevel& grid)
       : mesh_(grid.mesh()), n_(grid.n()), stiffness_(grid) {}
 
-  // Whether any point there has a factor other than 1.
+  // Whether a point there may have a factor other than 1.
   bool weighs_edge(Index e) const { return stiffness_.weighs_edge(e) || joint_weighs_edge(e); }
   bool weighs_face(Index f) const { return stiffness_.weighs_face(f) || joint_weighs_face(f); }
 
-  // The same for a run's points, and the factor of its point i.
+  // The same for a run's points; the factor at its point i.
   bool weighs(const Run& run) const;
   double point(const Run& run, std::size_t i) const;
 
-  // Its part that is the surface's own.
+  // The factor of the surface's own stiffness.
   const Stiffness& stiffness() const { return stiffness_; }
 
-  // Of a control vertex; of point k of an edge, 0 < k < n; of point (i, j) inside a face.
+  // At a control vertex; at point k of an edge, 0 < k < n; at point (i, j) inside a face.
   double vertex(Index v) const {
     return (any() && clamped_vertex(v) ? on_joint() : 1.0) * stiffness_.vertex(v);
   }
@@ -66,7 +66,7 @@ class EnergyWeight {
   const Edge& edge(Index e) const { return mesh_.edges[std::size_t(e)]; }
   bool fades() const { return any() && mesh_.region.joint == RegionContinuity::curvature; }
   double on_joint() const { return fades() ? 6.0 * n_ : 2.0; }
-  // At so many grid steps from the joint, at most n.
+  // At `steps` grid steps from the joint, at most n.
   double off_joint(double steps) const { return n_ / steps; }
 
   const ControlMesh& mesh_;
@@ -74,7 +74,7 @@ class EnergyWeight {
   Stiffness stiffness_;
 };
 
-// One factor a point; empty: all are one. And the root of the stiffness alone.
+// One factor a point; empty: all are one. And the root of the stiffness only.
 Array<double> point_weights(const GridLevel& grid);
 Array<double> stiffness_roots(const GridLevel& grid);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The divided differences of one level, ring by ring and one column at a time: what matrices are summed
-// from.
+// The divided differences of one level, ring by ring and one column at a time, from which matrices
+// are summed.
 #pragma once
 
 #include <cmath>
@@ -23,7 +23,7 @@ class PlateDifferences {
                    Workers& workers, const SurfaceDifferences* surface = nullptr);
 
   const RingTable& rings() const { return rings_; }
-  // Whether points differ in what the stencils do not know.
+  // Whether points have weights besides the stencils.
   bool is_weighted() const { return surface_ || !weight_.empty(); }
   double pull(Index p) const { return surface_ ? surface_->pull(p) : 0.0; }
   MembraneWeights membrane(const RingTable::Ring& ring) const {
@@ -33,8 +33,8 @@ class PlateDifferences {
   bool has_fit(const RingTable::Ring& ring) const {
     return begin_[std::size_t(ring.element)] != none;
   }
-  // Of a ring that has a fit: what a unit at a member does to the three differences there, but for the
-  // root of its weight().
+  // For a ring with a fit: the three differences there of a unit at a member, without the root of
+  // weight().
   Column column(Index centre, const RingTable::Ring& ring, std::size_t slot) const {
     if (surface_) return surface_->column(centre, slot);
     return column_[begin_[std::size_t(ring.element)] + slot];
@@ -51,7 +51,7 @@ class PlateDifferences {
   const SurfaceDifferences* surface_;
   const RingTable rings_;
   const Array<double> weight_;      // of the points; empty: all are one
-  std::vector<std::size_t> begin_;  // by element: of its columns, the centre's first
+  std::vector<std::size_t> begin_;  // by element: the begin of its columns, the centre's first
   Array<Column> column_;
 };
 

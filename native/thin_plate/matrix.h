@@ -14,20 +14,19 @@
 
 namespace fairing {
 
-// K with the control vertices' weights in double, with the differences of a surface if they are given:
-// for the direct solve on the coarsest level, for the paper's Gauss-Seidel, and to check the passes.
-// Throws where the run has been cancelled.
+// K with the control vertices' weights in double, with the differences of a surface if given: for
+// the direct solve on the coarsest level, the paper's Gauss-Seidel sweeps, and tests of the passes.
+// Throws if the run is cancelled.
 AssembledSystem assemble_thin_plate(const GridLevel& grid, const Stencils& stencils,
                                     const Unknowns& unknowns, const VertexWeights& weights,
                                     Workers& workers, const SurfaceDifferences* surface = nullptr);
 
-// K in single precision for the smoother, on levels whose faces have few points: there passes over
+// K in single precision for the smoother, on levels whose faces have few points: there, passes over
 // faces and edges cost more than an index for each number.
 class PlateMatrix {
  public:
-  // Null where rings are so large that their squares are not linear, and where the passes are better:
-  // with many points a face. With the differences of a surface if they are given. Throws where the run
-  // has been cancelled.
+  // Null if rings are so large that their squares are not linear, or if the passes are faster, with
+  // many points a face. With the differences of a surface if given. Throws if the run is cancelled.
   static std::unique_ptr<PlateMatrix> make(const GridLevel& grid, const Stencils& stencils,
                                            const Unknowns& unknowns, Workers& workers,
                                            const SurfaceDifferences* surface = nullptr);
@@ -41,7 +40,7 @@ class PlateMatrix {
   // One number a point; 1 if it is not an unknown.
   Array<float> inverse_diagonal(Workers& workers) const;
 
-  // Calls finish(point, count, product) with K x on so many points, 3 numbers each; x has
+  // Calls finish(point, count, product) with K x on `count` points, 3 numbers each; x has
   // `vector_room` extra numbers.
   template <class Finish>
   void visit_products(const float* x, Workers& workers, const Finish& finish) const {
