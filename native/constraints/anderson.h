@@ -12,7 +12,7 @@
 #include <deque>
 #include <utility>
 
-#include "base/rounding.h"
+#include "base/roundoff.h"
 
 namespace fairing {
 
@@ -73,7 +73,7 @@ typename Space::Vector Anderson<Space>::change(const Vector& step) {
       for (Eigen::Index b = 0; b < count; ++b)
         gram(a, b) = space_.dot(product, pairs_[std::size_t(b)].step_change);
     }
-    gram.diagonal() *= 1 + rounding;  // steps near the end may be linearly dependent
+    gram.diagonal() *= 1 + roundoff;  // steps near the end may be linearly dependent
     const Eigen::VectorXd share = gram.ldlt().solve(right);
     if (share.allFinite())
       for (Eigen::Index a = 0; a < count; ++a) {

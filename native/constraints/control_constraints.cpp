@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/rounding.h"
+#include "base/roundoff.h"
 
 namespace fairing {
 namespace {
@@ -60,7 +60,7 @@ VertexWeights ControlConstraints::start_weights() const {
 
 void ControlConstraints::set_gap(double gap, double energy, double farthest) {
   if (start_energy_ == 0) start_energy_ = energy;
-  const bool pulled = farthest > rounding && energy > 0;
+  const bool pulled = farthest > roundoff && energy > 0;
   gap_ = pulled ? gap / std::max(energy, least_energy * start_energy_) : 0.0;
 }
 

@@ -181,14 +181,14 @@ std::vector<std::vector<std::size_t>> Couples::sets_apart() const {
   for (std::size_t c = 0; c < size(); ++c) {
     stop_if_cancelled(c);
     const Index v = normals_[c].vertex;
-    const auto take = [&](Index w) {
+    const auto mark = [&](Index w) {
       const std::int64_t set = set_of[std::size_t(w)];
       if (set >= 0) taken[std::size_t(set)] = c + 1;
     };
     for (const Spoke& spoke : mesh_.ring(v)) {
       const Index w = neighbour(mesh_, spoke);
-      take(w);
-      for (const Spoke& next : mesh_.ring(w)) take(neighbour(mesh_, next));
+      mark(w);
+      for (const Spoke& next : mesh_.ring(w)) mark(neighbour(mesh_, next));
     }
     const std::size_t set = std::size_t(
         std::find_if(taken.begin(), taken.end(), [&](std::size_t by) { return by != c + 1; }) -

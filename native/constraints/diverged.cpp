@@ -14,7 +14,7 @@ namespace {
 
 using Distances = std::array<double, 4>;  // squared, from each corner
 
-void take(const double* point, const Vec3& from, double& farthest) {
+void enlarge(const double* point, const Vec3& from, double& farthest) {
   const double d = (Eigen::Map<const Vec3>(point) - from).squaredNorm();
   farthest = std::max(farthest, std::isfinite(d) ? d : std::numeric_limits<double>::infinity());
 }
@@ -36,7 +36,7 @@ std::vector<Index> diverged_stars(const GridLevel& grid, Workers& workers,
       for (std::size_t i = 0; i < inside; ++i) {
         stop_if_cancelled(i);
         for (std::size_t c = 0; c < std::size_t(face.size); ++c)
-          take(x + 3 * (first + i), control[std::size_t(face.vertex[c])], of_face[f][c]);
+          enlarge(x + 3 * (first + i), control[std::size_t(face.vertex[c])], of_face[f][c]);
       }
     }
   });
@@ -45,8 +45,8 @@ std::vector<Index> diverged_stars(const GridLevel& grid, Workers& workers,
                       for (std::size_t e = begin; e < end; ++e)
                         for (int k = 1; k < n; ++k)
                           for (std::size_t h = 0; h < 2; ++h)
-                            take(x + 3 * std::size_t(grid.edge_point(Index(e), k)),
-                                 control[std::size_t(mesh.edges[e].vertex[h])], of_edge[e][h]);
+                            enlarge(x + 3 * std::size_t(grid.edge_point(Index(e), k)),
+                                    control[std::size_t(mesh.edges[e].vertex[h])], of_edge[e][h]);
                     });
   std::vector<Index> out;
   for (Index v = 0; v < mesh.vertex_count(); ++v) {

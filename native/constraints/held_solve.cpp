@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "base/rounding.h"
+#include "base/roundoff.h"
 #include "parallel/reductions.h"
 
 namespace fairing {
@@ -30,7 +30,7 @@ MultiplierSteps<N> steps_of(const HeldSystem<N>& system,
 }  // namespace
 
 template <int N>
-void HeldSolve<N>::Left::set(double next) {
+void HeldSolve<N>::Convergence::set(double next) {
   const double before = std::exchange(now, next);
   if (first == 0) first = next;
   if (before > 0 && now > 0) share = std::min(now / before, 1.0);
@@ -132,7 +132,7 @@ typename HeldSolve<N>::Sizes HeldSolve<N>::correct_loads() {
   std::vector<double> compliance;  // how much each spring gives way to its load: s / w
   for (std::size_t v = 0; v < system_.stiffness.size(); ++v) {
     const double w = spring(v), s = system_.stiffness[v];
-    compliance.push_back(w > 0 && on_pad(v) ? std::min(w / rounding, s) / w : 0.0);
+    compliance.push_back(w > 0 && on_pad(v) ? std::min(w / roundoff, s) / w : 0.0);
   }
   const Hats& hats = *system_.hats;
   LoadsOf<N> product;
@@ -160,7 +160,7 @@ typename HeldSolve<N>::Sizes HeldSolve<N>::correct_couples() {
 // Whether the remaining forces, and the angles to fixed normals, are small enough; computes the
 // correction for the rest.
 template <int N>
-bool HeldSolve<N>::read_loads() {
+bool HeldSolve<N>::check_loads() {
   if (!system_.hats && !system_.couples) return true;
   const Sizes loads = system_.hats ? correct_loads() : Sizes{},
               couples = system_.couples ? correct_couples() : Sizes{};
@@ -173,7 +173,7 @@ bool HeldSolve<N>::read_loads() {
 }
 
 template <int N>
-bool HeldSolve<N>::read_bounds() {
+bool HeldSolve<N>::check_bounds() {
   if (!constraints_) return true;
   const double wanted = std::max(limits_.gap, limits_.of_first_gap * gap_.first);
   const bool settled = constraints_->settled(system_.energy(x_), wanted, vertices_[0].data());
@@ -232,8 +232,8 @@ LevelSolve HeldSolve<N>::run(double* x, double* r) {
   compute_residual(x_, r_);
   for (bool whole = !system_.hats && !system_.couples && !constraints_;; ++iterations_) {
     solve(whole);
-    loads_settled_ = read_loads();
-    const bool bounds = read_bounds(), settled = loads_settled_ && bounds;
+    loads_settled_ = check_loads();
+    const bool bounds = check_bounds(), settled = loads_settled_ && bounds;
     const bool loads_end = loads_settled_ || corrections_ >= limits_.corrections;
     const bool ends = (loads_end && bounds) || iterations_ >= most_corrections;
     if (ends && (whole || !limits_.ends_whole || solved_.enough)) return solved_;

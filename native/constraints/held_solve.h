@@ -106,7 +106,7 @@ class HeldSolve {
  private:
   // The quantity that corrections reduce, and the share that one correction leaves: that of a
   // solve, until two corrections have measured it.
-  struct Left {
+  struct Convergence {
     double now = 0, first = 0, share = solve_gain;
 
     void set(double next);
@@ -128,8 +128,8 @@ class HeldSolve {
   void correct_by_residual(bool direct);
   Sizes correct_loads();
   Sizes correct_couples();
-  bool read_loads();
-  bool read_bounds();
+  bool check_loads();
+  bool check_bounds();
   bool nearly_settled() const;
   void correct();
 
@@ -143,7 +143,7 @@ class HeldSolve {
   LoadsOf<N> own_forces_, forces_;  // left at vertices on pads: by their own rows, and corrected
   LoadsOf<N> vertices_;             // their positions after a whole solve
   double *x_ = nullptr, *r_ = nullptr;
-  Left force_{}, gap_{};  // forces and slopes together
+  Convergence force_{}, gap_{};  // forces and slopes together
   double tilt_ = 0;  // of a tangent plane from a fixed one; a normal may point to the wrong side
   int corrections_ = 0;  // with these springs
   int iterations_ = 0;   // of this run

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "base/rounding.h"
+#include "base/roundoff.h"
 
 namespace fairing {
 namespace {
@@ -42,7 +42,7 @@ void IntervalConstraints::linearize_about(const double* normal, const double* x,
 
 // Without any spring a closed surface could move away.
 void IntervalConstraints::choose_weight(std::size_t v) {
-  const double least = std::max(base_[v], rounding * unit_);
+  const double least = std::max(base_[v], roundoff * unit_);
   weights_[v] = on_end(v) ? std::max(least, stiff * std::max(stiffness_[v], unit_)) : least;
 }
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/rounding.h"
+#include "base/roundoff.h"
 #include "constraints/pad_reach.h"
 #include "parallel/cancel.h"
 #include "parallel/reductions.h"
@@ -26,7 +26,7 @@ Pads::Pads(const ControlMesh& mesh, const ChartMaker& charts, const Unknowns& un
   const auto vertices = std::size_t(mesh.vertex_count());
   under_.assign(vertices, 0);
   for (const auto& [ahead, back] : pad_reaches(mesh))
-    inverse_.push_back({1 / std::max(size * ahead, rounding), 1 / std::max(size * back, rounding)});
+    inverse_.push_back({1 / std::max(size * ahead, roundoff), 1 / std::max(size * back, roundoff)});
   for (std::size_t v = 0; v < vertices; ++v) {
     const bool held = !unknowns.vertex[v] || (!weights.empty() && weights[v] > 0);
     if (!held || !may_have_pad(mesh, Index(v))) continue;

@@ -48,13 +48,13 @@ AssembledSystem CurvatureLevel::assemble() const {
   const CountedBytes held(connection ? matrix_bytes(*connection) : 0);
   std::vector<double> numbers;
   AssembledSystem system = assemble_square(
-      grid_, number, connection ? &*connection : nullptr, [&](const TakeRows& take) {
+      grid_, number, connection ? &*connection : nullptr, [&](const VisitRows& visit) {
         visit_rows(rows_, [&](Index, const RowRun<const float>& run, std::size_t i,
                               const std::vector<Index>& ring) {
           numbers.clear();
           for (int s = 0; s < run.slots; ++s)
             for (int c = 0; c < 3; ++c) numbers.push_back(run.at(c, s, i));
-          take(ring, numbers);
+          visit(ring, numbers);
         });
       });
   if (is_tense()) {

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "curvature/ring_fan.h"
-#include "stencil/round_fit.h"
+#include "stencil/whitened_fit.h"
 
 namespace fairing {
 namespace {
@@ -18,7 +18,7 @@ struct ShapeLoop {
   using Mask = typename P::Mask;
   using Fan = RingFan<Pack, T>;
   using Vector = typename Fan::Vector;
-  using Fit = RoundFit<Pack, T>;
+  using Fit = WhitenedFit<Pack, T>;
 
   DF_INLINE static void put(const Mask& where, const Pack& value, T* to) {
     const Pack zero = {};

@@ -50,7 +50,7 @@ void CurvatureLevel::apply(const double* x, double* y) {
     Array<double>&moment = shared_.moment, &turned = shared_.turned;
     moment.resize(3 * grid_.size());
     turned.resize(3 * grid_.size());
-    take_moments(rows_, shared_.workers, x, moment.data());
+    compute_moments(rows_, shared_.workers, x, moment.data());
     variation_->connection->apply(share_, shared_.workers, moment.data(), turned.data());
     apply_transposed(rows_, shared_.unknowns, shared_.workers, shared_.double_slots, turned.data(),
                      y);

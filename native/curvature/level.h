@@ -64,7 +64,7 @@ class CurvatureLevel final : public LevelOperator {
   double linearize(const double* x, const Functional& functional, Linearization* out = nullptr);
 
   // The latest energy, by which surfaces are compared; then that without tension.
-  double fairness() const { return bending_ + tension_; }
+  double objective() const { return bending_ + tension_; }
   double bending() const { return bending_; }
 
   int linearizations() const { return linearizations_; }

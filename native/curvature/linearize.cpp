@@ -242,7 +242,7 @@ double CurvatureLevel::linearize(const double* x, const Functional& functional,
   update_diagonal();
   damping_.clear();
   invert_diagonal();
-  return fairness();
+  return objective();
 }
 
 // Computes L about the surface and the force, minus J^T L M. Returns the energy M . L M.

@@ -74,7 +74,7 @@ struct CurvatureLevelReport {
   std::vector<StepReport> steps;
   int last_steps = 0;  // with the last method, for which max_steps is the limit
   StepWork work;
-  // Distance from the solution, estimated (left_to_move.h); infinity if unknown.
+  // Distance from the solution, estimated (error_estimate.h); infinity if unknown.
   double left = std::numeric_limits<double>::infinity();
   // Whether the surface is as near to the solution of its equation as promised, for both energies.
   // On the finest level `left` is at most the step tolerance. Coarser levels only start the next

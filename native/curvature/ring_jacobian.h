@@ -224,7 +224,7 @@ void visit_moments(const RingJacobian& rows, Workers& workers, const T* x, Put&&
 
 // moment <- R x, three interleaved numbers a point.
 template <class T>
-void take_moments(const RingJacobian& rows, Workers& workers, const T* x, T* moment) {
+void compute_moments(const RingJacobian& rows, Workers& workers, const T* x, T* moment) {
   visit_moments(rows, workers, x, [&](const Run& run, const T* lanes) {
     for (std::size_t i = 0; i < run.count; ++i)
       for (std::size_t c = 0; c < 3; ++c)

@@ -39,11 +39,12 @@ NormalLoads fitting_loads(const Hats& hats, const Array<double>& force) {
 
 }  // namespace
 
-double GaussNewtonSystem::share_left(int level, const Functional& functional) const {
+double GaussNewtonSystem::error_reduction(int level, const Functional& functional) const {
   return functional.pads && !constraints_ && level == finest() ? left_on_finest : inexact;
 }
 
-void GaussNewtonSystem::let_go(Unknowns unknowns, int level, LinearizedSurface& surface) {
+void GaussNewtonSystem::fix_control_vertices(Unknowns unknowns, int level,
+                                             LinearizedSurface& surface) {
   constraints_ = nullptr;
   shared_.unknowns = std::move(unknowns);
   for (const auto& op : operators_) {
@@ -71,7 +72,7 @@ HeldLimits GaussNewtonSystem::held_limits(int level, const Functional& functiona
   const bool is_finest = level == finest();
   HeldLimits out;
   out.solve = limits(functional);
-  if (functional.pads || is_bound()) out.solve.tolerance = share_left(level, functional);
+  if (functional.pads || is_bound()) out.solve.tolerance = error_reduction(level, functional);
   out.force = is_finest ? load_tolerance_ : coarse_force_tolerance;
   out.of_first_force = constraints_ ? inexact : is_finest ? left_on_finest : force_left_below;
   out.gap = wanted_gap(level);
@@ -82,7 +83,7 @@ HeldLimits GaussNewtonSystem::held_limits(int level, const Functional& functiona
 
 LevelSolve GaussNewtonSystem::solve_held(int level, const LinearizedSurface& about,
                                          Array<double>& h, Multipliers<1>& held,
-                                         Array<double>& of_held, StepReport& report) {
+                                         Array<double>& constraint_force, StepReport& report) {
   using Vector = HeldSystem<1>::Vector;
   const Array<double>& force = about.linearization.force;
   const auto hats = about.functional.pads
@@ -129,13 +130,13 @@ LevelSolve GaussNewtonSystem::solve_held(int level, const LinearizedSurface& abo
       HeldSolve<1>(system, held_limits(level, about.functional), constraints, held, report)
           .run(h.data(), r.data());
   report.iterations = solved.iterations;
-  of_held.assign(h.size(), 0.0);
-  if (hats) hats->add_loads(held.loads, of_held.data());
+  constraint_force.assign(h.size(), 0.0);
+  if (hats) hats->add_loads(held.loads, constraint_force.data());
   if (constraints_) held.bounds = constraints_->ends();
   const VertexWeights& weights = op(level).weights();
   for (std::size_t v = 0; v < weights.size(); ++v)
     if (shared_.unknowns.vertex[v] && !(hats && hats->under(v)))
-      of_held[v] += weights[v] * (constraints_->target(v) - h[v]);
+      constraint_force[v] += weights[v] * (constraints_->target(v) - h[v]);
   return solved;
 }
 

@@ -39,8 +39,8 @@ GaussNewtonSolver::GaussNewtonSolver(const ControlMesh& mesh, const GridLevels& 
       folded_faces_(folded_control_faces(mesh, constraints_.targets(), workers)),
       thickness_(mesh, constraints_.targets(), workers),
       steps_(iterate_, options_),
-      unfolding_(iterate_, constraints_, folded_faces_, steps_),
-      rough_(iterate_, unfolding_, steps_),
+      fold_repair_(iterate_, constraints_, folded_faces_, steps_),
+      fallback_(iterate_, fold_repair_, steps_),
       variation_(iterate_, steps_) {}
 
 CurvatureLevelReport GaussNewtonSolver::solve_next_level(const Array<double>& plate,
@@ -49,7 +49,7 @@ CurvatureLevelReport GaussNewtonSolver::solve_next_level(const Array<double>& pl
   CurvatureLevelReport report;
   report.level = level;
   const StepWork before = system_.work(level);
-  if (pads_.take()) iterate_.current.held.loads.clear();
+  if (pads_.update()) iterate_.current.held.loads.clear();
   const std::span<const Vec3> given =
       is_finest() ? constraints_.targets() : std::span<const Vec3>{};
   choose_start(iterate_, level, pads_.now(), plate, below_.plate, given, report);
@@ -60,10 +60,10 @@ CurvatureLevelReport GaussNewtonSolver::solve_next_level(const Array<double>& pl
                 (!is_finest() &&
                  thickness_.of(iterate_.grid(), iterate_.workers(), surface().data()).is_bubble())};
   if (is_finest()) {
-    report.folds = unfolding_.find().count();
+    report.folds = fold_repair_.find().count();
     solved_ = {report.converged && is_plain, report.energy, report.folds};
   }
-  leave_out_tension(start, plate, report);
+  subtract_tension(start, plate, report);
   report.work = system_.work(level) - before;
   if (is_finest()) finest = std::move(surface());
   return report;
@@ -90,7 +90,7 @@ void GaussNewtonSolver::vary(bool is_plain, CurvatureLevelReport& report) {
     variation_.run(steps_.accurate_end(), report);
   else if (is_plain && !constraints_.any() && !variation_.vanishes() &&
            iterate_.level >= first_of_variation)
-    variation_.look_ahead(end());
+    variation_.prepare_next_level(end());
 }
 
 // Plain steps, which converge without folds on an even mesh. If they fail, the mesh is rough on
@@ -99,36 +99,36 @@ void GaussNewtonSolver::vary(bool is_plain, CurvatureLevelReport& report) {
 bool GaussNewtonSolver::step(const StepStart& start, CurvatureLevelReport& report) {
   if (below_.is_plain) steps_.run_plain(pads_.now(), end(), long_patience, report);
   const bool is_plain = below_.is_plain && is_settled(report);
-  if (is_plain && is_finest()) report.folds_before = report.folds = unfolding_.find().count();
+  if (is_plain && is_finest()) report.folds_before = report.folds = fold_repair_.find().count();
   if (is_lost(is_plain)) return false;
   if (is_plain && report.folds == 0) return true;
-  const Found plain = found(report);
-  rough_.run(pads_.now(), start, report);
+  const Snapshot plain = snapshot(report);
+  fallback_.run(pads_.now(), start, report);
   if (!is_plain ||
       (report.folds < plain.report.folds && report.converged >= plain.report.converged))
     return false;
-  go_back_to(plain, report);
+  restore(plain, report);
   return true;
 }
 
-bool GaussNewtonSolver::OwnPads::take() {
+bool GaussNewtonSolver::OwnPads::update() {
   if (!given || (own && places == given->places())) return false;
   own = *given;
   places = given->places();
   return true;
 }
 
-GaussNewtonSolver::Found GaussNewtonSolver::found(const CurvatureLevelReport& report) {
+GaussNewtonSolver::Snapshot GaussNewtonSolver::snapshot(const CurvatureLevelReport& report) {
   return {iterate_.current, report, pads_.own};
 }
 
-void GaussNewtonSolver::go_back_to(const Found& found, CurvatureLevelReport& report) {
-  iterate_.current = found.surface;
-  report = found.report;
-  pads_.own = found.pads;
+void GaussNewtonSolver::restore(const Snapshot& saved, CurvatureLevelReport& report) {
+  iterate_.current = saved.surface;
+  report = saved.report;
+  pads_.own = saved.pads;
 }
 
-StepEnd GaussNewtonSolver::end() {
+StopCriterion GaussNewtonSolver::end() {
   if (is_finest() && (!varies() || variation_.vanishes())) return steps_.accurate_end();
   return {pads_.now() ? start_decrement : plain_decrement, 0};
 }
@@ -137,7 +137,7 @@ void GaussNewtonSolver::end_constraints(CurvatureLevelReport& report) {
   const bool any_moved = constraints_.active();
   if (any_moved) constraints_.enforce(surface().data());
   iterate_.current.held.bounds.clear();
-  system_.let_go(constraints_.without_held(), iterate_.level, iterate_.current);
+  system_.fix_control_vertices(constraints_.without_held(), iterate_.level, iterate_.current);
   if (any_moved) steps_.polish(short_patience, report);
 }
 
@@ -147,8 +147,8 @@ double GaussNewtonSolver::tension_of(const Array<double>& x) {
 }
 
 // The report has energies without tension.
-void GaussNewtonSolver::leave_out_tension(const StepStart& start, const Array<double>& plate,
-                                          CurvatureLevelReport& report) {
+void GaussNewtonSolver::subtract_tension(const StepStart& start, const Array<double>& plate,
+                                         CurvatureLevelReport& report) {
   report.plate_energy -= tension_of(plate);
   report.start_energy -= tension_of(start.points);
   report.energy -= tension_of(surface());
@@ -159,10 +159,10 @@ void GaussNewtonSolver::leave_out_tension(const StepStart& start, const Array<do
 void GaussNewtonSolver::keep_start_if_worse(const StepStart& start, const Array<double>& plate,
                                             CurvatureLevelReport& report) {
   const double bound = report.converged ? energy_bound(report) : equal_energy * report.start_energy;
-  const bool is_spike = report.folds > 0 && is_thrown(surface(), plate);
+  const bool is_spike = report.folds > 0 && has_diverged(surface(), plate);
   if (report.energy <= bound && !is_spike) return;
   const bool keeps_plate =
-      (is_finest() && constraints_.any()) || (is_spike && is_thrown(start.points, plate));
+      (is_finest() && constraints_.any()) || (is_spike && has_diverged(start.points, plate));
   keep(keeps_plate ? plate : start.points, start, report);
 }
 
@@ -172,7 +172,7 @@ void GaussNewtonSolver::keep(const Array<double>& x, const StepStart& start,
   system_.symmetrizer().points(iterate_.grid(), surface());
   iterate_.current.held = start.held;
   iterate_.linearize();
-  report.energy = iterate_.op().fairness();
+  report.energy = iterate_.op().objective();
   report.left = std::numeric_limits<double>::infinity();
   report.converged = false;
   report.kept_start = true;
@@ -180,7 +180,7 @@ void GaussNewtonSolver::keep(const Array<double>& x, const StepStart& start,
 
 // A folded spike of any length has the same energy, so the energy does not reveal it. (A surface
 // without folds that reaches as far may be the large sphere through a flat cap.)
-bool GaussNewtonSolver::is_thrown(const Array<double>& x, const Array<double>& plate) {
+bool GaussNewtonSolver::has_diverged(const Array<double>& x, const Array<double>& plate) {
   const auto extent = [&](const Array<double>& y) {
     return largest(iterate_.workers(), 3 * iterate_.grid().size(),
                    [&](std::size_t i) { return y[i]; });
@@ -189,7 +189,7 @@ bool GaussNewtonSolver::is_thrown(const Array<double>& x, const Array<double>& p
 }
 
 double GaussNewtonSolver::energy_bound(const CurvatureLevelReport& report) {
-  return (pads_.now() ? anothers_least : 1.0) * report.plate_energy;
+  return (pads_.now() ? other_minimum : 1.0) * report.plate_energy;
 }
 
 bool GaussNewtonSolver::is_settled(const CurvatureLevelReport& report) {
@@ -215,8 +215,8 @@ bool GaussNewtonSolver::steps_go_well(Mirrors mirrors, CurvatureLevelReport& rep
   iterate_.linearize();
   report.level = iterate_.level;
   report.plate_energy = NAN;  // unknown: the thin plate's surface has not been linearized
-  report.start_energy = report.energy = iterate_.op().fairness();
-  if (!(report.start_energy <= unlike_energy * solved_.energy + flat_energy)) return false;
+  report.start_energy = report.energy = iterate_.op().objective();
+  if (!(report.start_energy <= incomparable_energy * solved_.energy + flat_energy)) return false;
   iterate_.is_near_earlier = std::max(report.start_energy, solved_.energy) <=
                              equal_energy * std::min(report.start_energy, solved_.energy);
   report.converged = true;
@@ -225,7 +225,7 @@ bool GaussNewtonSolver::steps_go_well(Mirrors mirrors, CurvatureLevelReport& rep
     variation_.run(steps_.accurate_end(), report);
   else
     steps_.run_plain(pads_.now(), steps_.accurate_end(), short_patience, report);
-  report.folds_before = report.folds = unfolding_.find().count();
+  report.folds_before = report.folds = fold_repair_.find().count();
   solved_.is_sound =
       report.converged && report.folds <= solved_.folds &&
       (varies() || report.energy <= equal_energy * report.start_energy + flat_energy);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Surfaces of least total curvature, or of least variation of curvature: Gauss-Newton steps along
 // the normals, level by level, from the thin plate's surface. This class decides the order; the
-// methods are in its parts: start.h, steps.h, unfold.h, variation.h.
+// methods are in its parts: start.h, steps.h, fold_repair.h, variation.h.
 #pragma once
 
 #include <optional>
 
-#include "curvature/rough.h"
+#include "curvature/fallback.h"
 #include "curvature/variation.h"
 #include "grid/thickness.h"
 
@@ -48,10 +48,10 @@ class GaussNewtonSolver {
 
     Pads* now() { return own ? &*own : nullptr; }
     // Copies the given pads if they have changed. Returns whether they have.
-    bool take();
+    bool update();
   };
   // A surface to go back to, with its pads.
-  struct Found {
+  struct Snapshot {
     LinearizedSurface surface;
     CurvatureLevelReport report;
     std::optional<Pads> pads;
@@ -68,10 +68,10 @@ class GaussNewtonSolver {
     double energy = 0;
     std::size_t folds = 0;
   };
-  Found found(const CurvatureLevelReport& report);
-  void go_back_to(const Found& found, CurvatureLevelReport& report);
+  Snapshot snapshot(const CurvatureLevelReport& report);
+  void restore(const Snapshot& saved, CurvatureLevelReport& report);
 
-  StepEnd end();
+  StopCriterion end();
   // Ends the constraints: control vertices are fixed from here on. A few plain steps move the
   // surface accordingly, if they converge.
   void end_constraints(CurvatureLevelReport& report);
@@ -90,14 +90,14 @@ class GaussNewtonSolver {
   bool is_settled(const CurvatureLevelReport& report);
   bool steps_go_well(Mirrors mirrors, CurvatureLevelReport& report);
   // Whether a part of the surface x is far from the mesh.
-  bool is_thrown(const Array<double>& x, const Array<double>& plate);
+  bool has_diverged(const Array<double>& x, const Array<double>& plate);
   void keep_start_if_worse(const StepStart& start, const Array<double>& plate,
                            CurvatureLevelReport& report);
   // Resets the surface to the start or to the plate and ends the steps.
   void keep(const Array<double>& x, const StepStart& start, CurvatureLevelReport& report);
   double tension_of(const Array<double>& x);
-  void leave_out_tension(const StepStart& start, const Array<double>& plate,
-                         CurvatureLevelReport& report);
+  void subtract_tension(const StepStart& start, const Array<double>& plate,
+                        CurvatureLevelReport& report);
   bool is_finest() const { return iterate_.level == system_.finest(); }
 
   GaussNewtonOptions options_;
@@ -109,8 +109,8 @@ class GaussNewtonSolver {
   std::vector<std::uint8_t> folded_faces_;  // of the control mesh
   Thickness thickness_;
   CurvatureSteps steps_;
-  Unfolding unfolding_;
-  RoughSteps rough_;
+  FoldRepair fold_repair_;
+  FallbackSteps fallback_;
   VariationSteps variation_;
   Below below_;
   Solved solved_;

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "base/rounding.h"
+#include "base/roundoff.h"
 #include "curvature/steps.h"
 #include "parallel/reductions.h"
 #include "transfer/point_normal.h"
@@ -14,7 +14,7 @@ namespace {
 
 // If the energy is this many times that of the level below, the polyhedron is tried (measured:
 // tried always, a mirror ends at 2.5 times the energy; never, a bishop at 1.3 times).
-constexpr double desperately_above = 10;
+constexpr double polyhedron_above = 10;
 
 // The candidates after the first. `below` is the solution on the level below; an accepted candidate
 // becomes iterate.current.
@@ -35,7 +35,7 @@ class Candidates {
     for_each_index(it_.workers(), plate_size(), [&](std::size_t i) {
       trial()[i] = plate_[i] + (is_unknown(i / 3) ? trial()[i] : 0.0);
     });
-    take_if_lower();
+    accept_if_lower();
   }
 
   // Zero normals give the polyhedron.
@@ -45,14 +45,14 @@ class Candidates {
     for_each_index(it_.workers(), plate_size(), [&](std::size_t i) {
       if (!is_unknown(i / 3)) trial()[i] = plate_[i];
     });
-    take_if_lower();
+    accept_if_lower();
   }
 
   void try_given(std::span<const Vec3> given) {
     for_each_index(it_.workers(), plate_size(), [&](std::size_t i) {
       trial()[i] = is_unknown(i / 3) ? given[i / 3][Eigen::Index(i % 3)] : plate_[i];
     });
-    take_if_lower();
+    accept_if_lower();
   }
 
  private:
@@ -61,13 +61,13 @@ class Candidates {
   std::size_t plate_size() const { return 3 * it_.grid().size(); }
   bool is_unknown(std::size_t p) const { return diagonal_[p] > 0; }
 
-  void take_if_lower() {
+  void accept_if_lower() {
     it_.system.symmetrizer().points(it_.grid(), trial());
     it_.trial.functional = it_.current.functional;
     it_.system.linearize(it_.level, it_.trial);
-    const double fairness = it_.op().fairness();
-    if (!(fairness < (1 - rounding) * report_.start_energy)) return;
-    report_.start_energy = fairness;
+    const double objective = it_.op().objective();
+    if (!(objective < (1 - roundoff) * report_.start_energy)) return;
+    report_.start_energy = objective;
     std::swap(it_.current, it_.trial);
   }
 
@@ -91,7 +91,7 @@ void choose_start(SurfaceIterate& iterate, int level, Pads* pads, const Array<do
   const LinearizedSurface below = std::exchange(iterate.current, {});
   start_at_plate(iterate, level, plate);
   iterate.linearize({CurvatureEnergy::total_curvature, pads});
-  report.plate_energy = report.start_energy = iterate.op().fairness();
+  report.plate_energy = report.start_energy = iterate.op().objective();
   // Rounding errors would decide between flat surfaces.
   if (report.start_energy < flat_energy) return;
   Candidates candidates(iterate, plate, report);
@@ -100,9 +100,9 @@ void choose_start(SurfaceIterate& iterate, int level, Pads* pads, const Array<do
     return;
   }
   candidates.try_change(below, plate_below);
-  if (report.start_energy > unlike_energy * below.energy)
+  if (report.start_energy > incomparable_energy * below.energy)
     candidates.try_refined(below.points, below.linearization.normal);
-  if (report.start_energy > desperately_above * below.energy)
+  if (report.start_energy > polyhedron_above * below.energy)
     candidates.try_refined(below.points, Array<double>(below.points.size(), 0.0));
   iterate.current.held = below.held;  // densities, which hardly change between levels
 }

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "constraints/anderson.h"
-#include "curvature/left_to_move.h"
+#include "curvature/error_estimate.h"
 #include "parallel/reductions.h"
 
 namespace fairing {
@@ -95,13 +95,13 @@ class StepLoop {
  public:
   // `damping` is null for plain steps. `patience`: steps to reach plain_decrement; 0: any.
   StepLoop(SurfaceIterate& iterate, const Functional& functional, LocalDamping* damping,
-           const StepEnd& end, int patience)
+           const StopCriterion& end, int patience)
       : it_(iterate),
         damping_(damping),
         end_(end),
         patience_(patience),
         anderson_({&iterate}, accelerated_steps),
-        remainder_(iterate.system.share_left(iterate.level, functional)) {
+        remainder_(iterate.system.error_reduction(iterate.level, functional)) {
     it_.trial.points.resize(3 * it_.grid().size());
     it_.begin(functional);
     flat_ = flat_energy_about(it_.current, it_.workers());
@@ -253,12 +253,12 @@ class StepLoop {
 
   SurfaceIterate& it_;
   LocalDamping* damping_;
-  StepEnd end_;
+  StopCriterion end_;
   int patience_;
   Anderson<StepSpace> anderson_;
   Array<float> predicted_;
   Multipliers<1> held_;  // of the latest step
-  LeftToMove remainder_;
+  ErrorEstimate remainder_;
   double flat_ = 0;  // energy that counts as zero
   // Changes of the potential: of the latest trial, the last step, all steps; the largest sum so
   // far.
@@ -280,16 +280,16 @@ bool is_near(const CurvatureLevelReport& report, double decrement) {
   return last.length > 0 && last.decrement <= decrement;
 }
 
-void CurvatureSteps::run(Pads* pads, LocalDamping* damping, const StepEnd& end, int patience,
+void CurvatureSteps::run(Pads* pads, LocalDamping* damping, const StopCriterion& end, int patience,
                          CurvatureLevelReport& report) {
   // Local damping compares tensors in space, so it needs the charts' axes.
   StepLoop(iterate_, {CurvatureEnergy::total_curvature, pads, damping != nullptr}, damping, end,
            patience)
       .run(options_.max_steps, report);
-  report.energy = iterate_.op().fairness();
+  report.energy = iterate_.op().objective();
 }
 
-void CurvatureSteps::run_variation(const StepEnd& end, CurvatureLevelReport& report) {
+void CurvatureSteps::run_variation(const StopCriterion& end, CurvatureLevelReport& report) {
   LocalDamping damping(iterate_.grid(), iterate_.system.shared().unknowns, iterate_.workers());
   const std::size_t before = report.steps.size();
   try {
@@ -305,7 +305,7 @@ void CurvatureSteps::run_variation(const StepEnd& end, CurvatureLevelReport& rep
   }
 }
 
-void CurvatureSteps::run_plain(Pads* pads, const StepEnd& end, int patience,
+void CurvatureSteps::run_plain(Pads* pads, const StopCriterion& end, int patience,
                                CurvatureLevelReport& report) {
   run(pads, nullptr, end, patience, report);
 }

@@ -2,7 +2,7 @@
 // Gauss-Newton steps on one level, to least total curvature and to least variation of curvature.
 #pragma once
 
-#include "base/rounding.h"
+#include "base/roundoff.h"
 #include "curvature/local_damping.h"
 #include "curvature/options.h"
 #include "curvature/system.h"
@@ -12,12 +12,12 @@ namespace fairing {
 // The condition for the last step. If `decrement` is positive: a step with at most that decrement;
 // else one after which the estimated distance to the solution is at most `movement`. Also two
 // successive damped steps that together gain less than the share `gain` of the energy.
-struct StepEnd {
+struct StopCriterion {
   double decrement = 0;
   double movement = 0;
   double gain = 0;
 
-  // `left`: the estimated distance after the step (left_to_move.h).
+  // `left`: the estimated distance after the step (error_estimate.h).
   bool is_reached(double step_decrement, double left) const {
     return decrement > 0 ? step_decrement <= decrement : left <= movement;
   }
@@ -34,11 +34,11 @@ constexpr double plain_decrement = 1e-3;
 // the solution of the equation is not exactly the minimum of the discrete energy.
 constexpr double equal_energy = 1.01;
 // The same between surfaces on pads and on points, or with fewer folds, which are different minima.
-constexpr double anothers_least = 1.15;
+constexpr double other_minimum = 1.15;
 // A surface with this many times the energy of another is not comparable with it.
-constexpr double unlike_energy = 1.5;
+constexpr double incomparable_energy = 1.5;
 // An energy below this is rounding: a sphere has 8 pi, a plane zero.
-constexpr double flat_energy = rounding;
+constexpr double flat_energy = roundoff;
 
 // Number of steps in which plain steps reach plain_decrement, or never do; and if earlier steps
 // have come near the solution.
@@ -76,7 +76,7 @@ class CurvatureSteps {
 
   // Steps from iterate.current with control vertices on these pads; null: on point forces. Adds the
   // steps to `report`, and sets energy, `left` and `converged`. Throws ErrorCode::cancelled.
-  void run_plain(Pads* pads, const StepEnd& end, int patience, CurvatureLevelReport& report);
+  void run_plain(Pads* pads, const StopCriterion& end, int patience, CurvatureLevelReport& report);
   // Steps from `start` to damped_decrement, or until the gain is too small. Resets `report`. Points
   // that are `filled` (above zero; empty: none) are damped throughout.
   void run_damped(Pads* pads, const StepStart& start, const Array<float>& filled,
@@ -84,17 +84,17 @@ class CurvatureSteps {
 
   // Damped steps on point forces from iterate.current to least variation. Adds the steps to
   // `report`, and sets `left` and `converged`.
-  void run_variation(const StepEnd& end, CurvatureLevelReport& report);
+  void run_variation(const StopCriterion& end, CurvatureLevelReport& report);
 
   // Plain steps to the step tolerance, on the present pads. If they do not come near it, or end
   // with more energy, surface and report are restored.
   void polish(int patience, CurvatureLevelReport& report);
 
   // The end at which the surface is as near to the solution as promised.
-  StepEnd accurate_end() const { return {0, options_.step_tolerance}; }
+  StopCriterion accurate_end() const { return {0, options_.step_tolerance}; }
 
  private:
-  void run(Pads* pads, LocalDamping* damping, const StepEnd& end, int patience,
+  void run(Pads* pads, LocalDamping* damping, const StopCriterion& end, int patience,
            CurvatureLevelReport& report);
 
   SurfaceIterate& iterate_;

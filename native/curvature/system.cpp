@@ -14,7 +14,7 @@ namespace {
 // Relative to the first residual. More accuracy saves no outer step, or at most one.
 constexpr double inner_accuracy = 1e-2;
 // Most iterations of a solve for minimum variation. The next step corrects the rest; a step with an
-// unfinished solve does not count as the last one (left_to_move.h).
+// unfinished solve does not count as the last one (error_estimate.h).
 constexpr int most_of_variation = 24;
 
 constexpr double progress_begin = 0.3, progress_end = 0.85;  // shares of the whole run
@@ -76,7 +76,7 @@ GaussNewtonSystem::~GaussNewtonSystem() = default;
 void GaussNewtonSystem::linearize(int level, LinearizedSurface& surface) {
   surface.energy =
       op(level).linearize(surface.points.data(), surface.functional, &surface.linearization);
-  surface.number = op(level).linearizations();
+  surface.version = op(level).linearizations();
 }
 
 void GaussNewtonSystem::linearize_below(int level, const LinearizedSurface& about) {
@@ -128,10 +128,10 @@ double GaussNewtonSystem::solve(int level, const LinearizedSurface& about, Array
     set_weights(level);
   }
   LevelSolve solved;
-  Array<double> of_held;  // force of loads and springs
+  Array<double> constraint_force;  // force of loads and springs
   const Array<double>& force = about.linearization.force;
   if (functional.pads || constraints_) {
-    solved = solve_held(level, about, h, held, of_held, report);
+    solved = solve_held(level, about, h, held, constraint_force, report);
   } else {
     Array<double> left = force;
     const auto residual = [&](const double* x, double* r) {
@@ -151,8 +151,8 @@ double GaussNewtonSystem::solve(int level, const LinearizedSurface& about, Array
   work_.iterations += report.iterations;
   work_.pad_corrections += report.pad_corrections;
   symmetrizer_.displacements(grid(level), h);
-  report.load_work =
-      sum(workers(), of_held.size(), [&](std::size_t i) { return of_held[i] * h[i]; });
+  report.load_work = sum(workers(), constraint_force.size(),
+                         [&](std::size_t i) { return constraint_force[i] * h[i]; });
   return report.load_work + sum(workers(), points, [&](std::size_t i) { return force[i] * h[i]; });
 }
 
@@ -172,7 +172,7 @@ void GaussNewtonSystem::report_progress(int level, std::size_t steps) {
 }
 
 void SurfaceIterate::begin(const Functional& functional) {
-  if (current.number != op().linearizations() || !(current.functional == functional))
+  if (current.version != op().linearizations() || !(current.functional == functional))
     linearize(functional);
 }
 

@@ -46,7 +46,7 @@ struct LinearizedSurface {
   Functional functional;
   Linearization linearization;  // of the functional about `points`
   double energy = 0;
-  int number = 0;       // number of its linearization on its level: K is about the latest one
+  int version = 0;      // number of its linearization on its level: K is about the latest one
   Multipliers<1> held;  // multipliers of its control vertices; empty: unknown
 };
 
@@ -60,7 +60,7 @@ class GaussNewtonSystem {
  public:
   // `levels`: all from 0 on; those below `base` have no unknowns that are worth a solve.
   // `constraints`: those of control vertices that move, along the normals, while total curvature is
-  // minimized, until let_go(); or null. All references must outlive the system.
+  // minimized, until fix_control_vertices(); or null. All references must outlive the system.
   GaussNewtonSystem(const ControlMesh& mesh, const GridLevels& grids, int base,
                     const Stencils& stencils, const Unknowns& unknowns,
                     const GaussNewtonOptions& options, IntervalConstraints* constraints,
@@ -89,12 +89,12 @@ class GaussNewtonSystem {
 
   // Ends the constraints: control vertices that are not among `unknowns` are fixed. Linearizes
   // `level` and those below about `surface`, with factors for these unknowns.
-  void let_go(Unknowns unknowns, int level, LinearizedSurface& surface);
+  void fix_control_vertices(Unknowns unknowns, int level, LinearizedSurface& surface);
   // Whether control vertices have tolerances; then the duality gap wanted on a level.
   bool is_bound() const { return constraints_ && constraints_->active(); }
   double wanted_gap(int level) const { return level == finest() ? gap_wanted : coarse_gap; }
   // Share of its error that the solve of a step on `level` leaves.
-  double share_left(int level, const Functional& functional) const;
+  double error_reduction(int level, const Functional& functional) const;
   // Solves K h = force to a hundredth of the residual and symmetrizes h. With pads or other
   // constraints the loads add to the force (solve_held.cpp): `held` is corrected from that of the
   // previous step; empty loads start at a least-squares fit. Sets the linear solve's part of
@@ -115,9 +115,9 @@ class GaussNewtonSystem {
   // Sets the present weights of the springs on all levels up to `level`.
   void set_weights(int level);
   HeldLimits held_limits(int level, const Functional& functional) const;
-  // of_held <- the forces of loads and springs.
+  // constraint_force <- the forces of loads and springs.
   LevelSolve solve_held(int level, const LinearizedSurface& about, Array<double>& h,
-                        Multipliers<1>& held, Array<double>& of_held, StepReport& report);
+                        Multipliers<1>& held, Array<double>& constraint_force, StepReport& report);
 
   const Stencils& stencils_;
   int base_, max_iterations_;

@@ -38,13 +38,14 @@ void VariationSteps::go_to(const Array<double>& points) {
 }
 
 // Returns whether the steps from iterate.current end at no more than `most`.
-bool VariationSteps::steps_fall(double most, const StepEnd& end, CurvatureLevelReport& report) {
+bool VariationSteps::steps_fall(double most, const StopCriterion& end,
+                                CurvatureLevelReport& report) {
   steps_.run_variation(end, report);
   return iterate_.current.energy <= most;
 }
 
 // Makes iterate.current the surface of least variation. Returns whether it varies less.
-bool VariationSteps::vary(const Array<double>& start, const StepEnd& end,
+bool VariationSteps::vary(const Array<double>& start, const StopCriterion& end,
                           CurvatureLevelReport& report) {
   iterate_.linearize(of_variation);
   report.start_variation = iterate_.current.energy;
@@ -59,7 +60,7 @@ bool VariationSteps::vary(const Array<double>& start, const StepEnd& end,
   return false;
 }
 
-void VariationSteps::run(const StepEnd& end, CurvatureLevelReport& report) {
+void VariationSteps::run(const StopCriterion& end, CurvatureLevelReport& report) {
   if (!(iterate_.current.energy > flat_energy)) return;
   const Functional total_curvature = iterate_.current.functional;
   report.kept_start = !vary(Array<double>(iterate_.current.points), end, report);
@@ -69,10 +70,10 @@ void VariationSteps::run(const StepEnd& end, CurvatureLevelReport& report) {
     report.converged = false;
   }
   iterate_.linearize(total_curvature);
-  report.energy = iterate_.op().fairness();
+  report.energy = iterate_.op().objective();
 }
 
-void VariationSteps::look_ahead(const StepEnd& end) {
+void VariationSteps::prepare_next_level(const StopCriterion& end) {
   if (!(iterate_.current.energy > flat_energy)) return;
   const LinearizedSurface start = iterate_.current;
   CurvatureLevelReport report;

@@ -17,10 +17,10 @@ class VariationSteps {
   // end of the steps, or back to their start if that varies less; then it is linearized for total
   // curvature again. Adds the steps to `report`, and sets energy, both variations, `left` and
   // `converged`. A surface without curvature stays. Throws ErrorCode::cancelled.
-  void run(const StepEnd& end, CurvatureLevelReport& report);
+  void run(const StopCriterion& end, CurvatureLevelReport& report);
 
   // On a coarser level: the same, but iterate.current stays; the next level starts with the result.
-  void look_ahead(const StepEnd& end);
+  void prepare_next_level(const StopCriterion& end);
 
   // Whether the variation was zero on a coarser level, as on spheres: then total curvature's steps
   // lead to the same surface and cost less.
@@ -32,8 +32,8 @@ class VariationSteps {
  private:
   bool begin_with_change();
   void go_to(const Array<double>& points);
-  bool steps_fall(double most, const StepEnd& end, CurvatureLevelReport& report);
-  bool vary(const Array<double>& start, const StepEnd& end, CurvatureLevelReport& report);
+  bool steps_fall(double most, const StopCriterion& end, CurvatureLevelReport& report);
+  bool vary(const Array<double>& start, const StopCriterion& end, CurvatureLevelReport& report);
 
   SurfaceIterate& iterate_;
   CurvatureSteps& steps_;

@@ -27,9 +27,9 @@ class NarrowFaces {
       if (curves_.run[std::size_t(side.edge)] < 0) continue;
       const Face& face = mesh_.faces[std::size_t(side.face)];
       if (!face.quad())
-        look_at_triangle(side, face);
+        check_triangle(side, face);
       else if (side.local < 2)
-        look_at_quad(side, mesh_.sides[s + 2]);
+        check_quad(side, mesh_.sides[s + 2]);
     }
     return edges_of_narrow_runs();
   }
@@ -57,7 +57,7 @@ class NarrowFaces {
   }
   void mark(const Side& side) { narrow_[std::size_t(curves_.run[std::size_t(side.edge)])] = 1; }
 
-  void look_at_triangle(const Side& side, const Face& face) {
+  void check_triangle(const Side& side, const Face& face) {
     const Index corner = face.vertex[std::size_t((side.local + 2) % 3)];
     const Line line = chord(side);
     const Vec3 height = across(positions_[std::size_t(corner)] - line.from, line.direction());
@@ -68,7 +68,7 @@ class NarrowFaces {
     }
   }
 
-  void look_at_quad(const Side& side, const Side& opposite) {
+  void check_quad(const Side& side, const Side& opposite) {
     if (curves_.run[std::size_t(opposite.edge)] < 0) return;
     const Line line = chord(side), beside = chord(opposite);
     const Vec3 direction = ((line.to - line.from) - (beside.to - beside.from)).normalized();

@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "base/points.h"
-#include "base/rounding.h"
+#include "base/roundoff.h"
 #include "mesh/validate/check.h"
 #include "mesh/vertex_pair.h"
 
@@ -37,7 +37,7 @@ Vec3 centre_of_shape(const ControlMesh& mesh, std::span<const Vec3> basis, Index
   // below a millionth of the polygon's length it counts as flat.
   Vec3 scaled = Vec3::Zero();
   for (int a = 0; a < 3; ++a)
-    if (axes.eigenvalues()[a] > rounding * axes.eigenvalues()[2])
+    if (axes.eigenvalues()[a] > roundoff * axes.eigenvalues()[2])
       scaled[a] = along[a] / axes.eigenvalues()[a];
   const Vec3 slope = axes.eigenvectors() * scaled;
   Vec3 result = Vec3::Zero();

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <optional>
 
-#include "base/rounding.h"
+#include "base/roundoff.h"
 #include "fairing/fair.h"
 #include "fairing/mending.h"
 #include "fairing/strain.h"
@@ -121,12 +121,12 @@ class Easing {
       double s = amount(curve_, curve);
       if (wanted_.amount < 0 && inner.unknowns() > 0)
         s = with_noise_up_to(curve, s, inner.noise(amount(inner_, inner)));
-      if (take(curve_, curve, s)) {
+      if (apply(curve_, curve, s)) {
         control = problem_->control_positions(at_);
         loads = loads_of(control).free;
       }
       const EaseSystem again = inner_system(loads, control);
-      take(inner_, again, amount(inner_, again));
+      apply(inner_, again, amount(inner_, again));
     }
     const ControlPositions after = problem_->control_positions(at_);
     out_.after = gauge_->excess(loads_of(after).turned, after);
@@ -197,7 +197,7 @@ class Easing {
     Eigen::VectorXd bounds(Eigen::Index(movable.vertices.size()));
     for (std::size_t i = 0; i < movable.vertices.size(); ++i)
       // the margin keeps rounded coordinates within the bound
-      bounds[Eigen::Index(i)] = (1 - rounding) * movable.root[i] *
+      bounds[Eigen::Index(i)] = (1 - roundoff) * movable.root[i] *
                                 wanted_.tolerance[std::size_t(movable.vertices[i])] /
                                 problem_->frame.scale;
     return bounds;
@@ -218,7 +218,7 @@ class Easing {
   }
 
   // Moves them. Returns whether any moves.
-  bool take(const Movable& movable, const EaseSystem& system, double s) {
+  bool apply(const Movable& movable, const EaseSystem& system, double s) {
     if (!(s > 0)) return false;
     const Columns moves =
         wanted_.tolerance.empty() ? system.moves(s) : system.moves_within(s, bounds_of(movable));

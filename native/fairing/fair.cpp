@@ -19,8 +19,8 @@ namespace {
 // A shape may repeat the mesh or an earlier shape, as unused shape keys do. Returns the number of
 // the first surface with the same positions, 0 for the mesh and s + 1 for shape s; -1: none. Given
 // curves may differ in spite of equal positions.
-std::ptrdiff_t same_before(const PolygonMesh& input, const FairOptions& options,
-                           std::size_t shape) {
+std::ptrdiff_t first_equal_surface(const PolygonMesh& input, const FairOptions& options,
+                                   std::size_t shape) {
   if (!options.whole.curves.edges.empty()) return -1;
   const std::span<const double> shapes = options.shapes;
   const std::size_t size = input.coordinates.size();
@@ -49,7 +49,7 @@ void fair_shapes(const FairingProblem& problem, FairingSystems& systems, const P
   const std::size_t count = problem.options.shape_count(input.coordinates.size());
   for (std::size_t s = 0; s < count; ++s) {
     monitor.enter_part(double(s + 1) / double(count + 1), double(s + 2) / double(count + 1));
-    const std::ptrdiff_t same = same_before(input, problem.options, s);
+    const std::ptrdiff_t same = first_equal_surface(input, problem.options, s);
     if (same == 0) {
       result.shapes.push_back(result.vertices);
       report.shapes.push_back(
@@ -232,8 +232,8 @@ Report FairSolver::solve_mended(std::span<const double> coordinates, double* out
     watch.enter(Phase::curves, 0);
     if (!coordinates.empty()) set_control(coordinates);
     solve_basis_first(watch);
-    report.warm = !recent_.empty() && !options.has_tolerance() && solve_from_last(watch, report);
-    if (!report.warm) solve_from_nothing(watch, report);
+    report.warm = !recent_.empty() && !options.has_tolerance() && solve_warm(watch, report);
+    if (!report.warm) solve_cold(watch, report);
     write(watch, report, out);
     systems_->plate().keep_smoother();
     was_far_out_ = lies_far_out(problem_->mesh, control_);
@@ -256,18 +256,18 @@ void FairSolver::solve_basis_first(Stopwatch& watch) {
   Report unused = built_;
   recent_.surface() = systems_->solve(basis, false, watch, unused);
   recent_.remember(systems_->positions_of(basis));
-  Array<double> upright;
-  systems_->find_folds_of_basis(recent_.surface().plate.data(), upright);
+  Array<double> repaired;
+  systems_->find_folds_of_basis(recent_.surface().plate.data(), repaired);
 }
 
-void FairSolver::solve_from_nothing(Stopwatch& watch, Report& report) {
+void FairSolver::solve_cold(Stopwatch& watch, Report& report) {
   recent_.forget();
   recent_.surface() = systems_->solve(control_, problem_->options.measure, watch, report);
   recent_.remember(systems_->positions_of(control_));
 }
 
 // False if the solve fails; then it restores the report.
-bool FairSolver::solve_from_last(Stopwatch& watch, Report& report) {
+bool FairSolver::solve_warm(Stopwatch& watch, Report& report) {
   if (systems_->solve_moved(control_, recent_, watch, report)) return true;
   report.levels.clear();
   report.curvature.clear();

@@ -80,8 +80,8 @@ class FairSolver {
   void rebase_mended(const PolygonMesh& input);
   void set_control(std::span<const double> coordinates);
   void solve_basis_first(Stopwatch& watch);
-  void solve_from_nothing(Stopwatch& watch, Report& report);
-  bool solve_from_last(Stopwatch& watch, Report& report);
+  void solve_cold(Stopwatch& watch, Report& report);
+  bool solve_warm(Stopwatch& watch, Report& report);
   void write(Stopwatch& watch, Report& report, double* out);
   void forget_surfaces();
   template <class Call>

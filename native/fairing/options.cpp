@@ -8,7 +8,7 @@
 #include <type_traits>
 
 #include "base/error.h"
-#include "base/rounding.h"
+#include "base/roundoff.h"
 #include "fairing/settings.h"
 #include "parallel/memory.h"
 
@@ -105,7 +105,7 @@ double FairOptions::step_tolerance_wanted() const {
   if (step_tolerance > 0) return step_tolerance;
   // in sizes of the mesh; smaller with the residual, down to single precision
   const double least = std::min(solve.relative_residual, SolveOptions().relative_residual);
-  return std::max(0.1 * least, single_rounding);
+  return std::max(0.1 * least, single_roundoff);
 }
 
 double FairOptions::tolerance_of(std::size_t v) const {
@@ -141,7 +141,7 @@ std::size_t FairOptions::bytes_allowed() const {
 // animals). With c = 10 equal steps of `tension` remove about equal shares.
 double membrane_strength(double tension) { return tautest * tension / (4 - 3 * tension); }
 
-double pull_to_limits(double limit) { return tightest * std::pow(limit, 4); }
+double limit_penalty(double limit) { return tightest * std::pow(limit, 4); }
 
 void check_options(const PolygonMesh& mesh, const FairOptions& o) {
   check_ranges(o);

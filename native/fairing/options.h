@@ -121,7 +121,7 @@ double membrane_strength(double tension);
 
 // The factor of the penalty on the distance from the subdivision surface, relative to the plate's
 // bending (grid/limit_surface.h), from FairOptions::limit.
-double pull_to_limits(double limit);
+double limit_penalty(double limit);
 
 // Throws FairingError(bad_option), naming the option and its range.
 void check_options(const PolygonMesh& mesh, const FairOptions& options);

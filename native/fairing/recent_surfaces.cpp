@@ -4,7 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
-#include "base/rounding.h"
+#include "base/roundoff.h"
 #include "parallel/reductions.h"
 
 namespace fairing {
@@ -52,7 +52,7 @@ RecentSurfaces::Coefficients RecentSurfaces::fit(std::span<const Vec3> positions
   Eigen::Matrix<double, 7, 1> inverse;
   // A flat mesh, for example, leaves directions undetermined.
   for (int k = 0; k < 7; ++k)
-    inverse[k] = solver.eigenvalues()[k] > rounding ? 1 / solver.eigenvalues()[k] : 0;
+    inverse[k] = solver.eigenvalues()[k] > roundoff ? 1 / solver.eigenvalues()[k] : 0;
   return unit.asDiagonal() *
          (solver.eigenvectors() * (inverse.asDiagonal() * (solver.eigenvectors().transpose() *
                                                            (unit.asDiagonal() * right))));

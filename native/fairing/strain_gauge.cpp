@@ -50,7 +50,7 @@ StrainGauge::StrainGauge(const FairingProblem& problem, ThinPlateSolver& solver,
     matrix_ = std::move(probed.g);
     solves_ = probed.solves;
   }
-  add_pulls();
+  add_curve_rows();
   normals_ = Columns::Zero(Eigen::Index(vertices_.size()), 3);
   for (std::size_t i = 0; i < on_pads_; ++i)
     normals_.row(Eigen::Index(i)) = control_normal(mesh, vertices_[i]).stableNormalized();
@@ -85,17 +85,17 @@ void StrainGauge::require_room(const FairingProblem& problem, int rings_apart,
 }
 
 // Adds the springs to the matrix of loads on pads.
-void StrainGauge::add_pulls() {
+void StrainGauge::add_curve_rows() {
   for (const Index v : curves_.middles())
     if (problem_.mesh.vertex_part(v) == RegionPart::inside) vertices_.push_back(v);
-  pulls_ = LoadMatrix(curves_.differences().transpose()) * curves_.differences();
+  curve_matrix_ = LoadMatrix(curves_.differences().transpose()) * curves_.differences();
   std::vector<Index> row(std::size_t(problem_.mesh.vertex_count()), -1);
   for (std::size_t i = on_pads_; i < vertices_.size(); ++i)
     row[std::size_t(vertices_[i])] = Index(i);
   std::vector<Eigen::Triplet<double, Index>> entries;
   const auto n = Eigen::Index(vertices_.size());
   for (Eigen::Index i = Eigen::Index(on_pads_); i < n; ++i)
-    for (LoadMatrix::InnerIterator entry(pulls_, vertices_[std::size_t(i)]); entry; ++entry)
+    for (LoadMatrix::InnerIterator entry(curve_matrix_, vertices_[std::size_t(i)]); entry; ++entry)
       if (const Index column = row[std::size_t(entry.col())]; column >= 0)
         entries.emplace_back(Index(i), column, entry.value());
   LoadMatrix own(n, n);
@@ -108,9 +108,9 @@ Columns StrainGauge::loads(const Loads& on_pads, const ControlPositions& control
   Columns out(Eigen::Index(vertices_.size()), 3);
   for (std::size_t i = 0; i < on_pads_; ++i)
     out.row(Eigen::Index(i)) = on_pads[std::size_t(vertices_[i])].transpose();
-  const Columns pulls = pulls_ * columns_of(control.working);
+  const Columns on_curves = curve_matrix_ * columns_of(control.working);
   for (std::size_t i = on_pads_; i < vertices_.size(); ++i)
-    out.row(Eigen::Index(i)) = pulls.row(vertices_[i]);
+    out.row(Eigen::Index(i)) = on_curves.row(vertices_[i]);
   return out;
 }
 
@@ -175,7 +175,7 @@ StrainGauge::Kinds StrainGauge::kinds(bool by_neighbours) const {
   return out;
 }
 
-std::vector<std::vector<Index>> StrainGauge::alike(const Kinds& kinds) const {
+std::vector<std::vector<Index>> StrainGauge::rows_of_same_kind(const Kinds& kinds) const {
   const std::vector<Index> row = row_of_vertices();
   std::vector<std::vector<Index>> out(vertices_.size());
   visit_around(problem_.mesh, vertices_, rings_around,
@@ -188,12 +188,14 @@ std::vector<std::vector<Index>> StrainGauge::alike(const Kinds& kinds) const {
   return out;
 }
 
-std::vector<std::vector<Index>> StrainGauge::of_same_star() const { return alike(kinds(true)); }
+std::vector<std::vector<Index>> StrainGauge::of_same_star() const {
+  return rows_of_same_kind(kinds(true));
+}
 
 // The floor of each row, from nearby rows of the same kind.
 std::vector<double> StrainGauge::floors_of(const std::vector<double>& lengths, double floor) const {
   std::vector<double> out(vertices_.size(), floor);
-  const std::vector<std::vector<Index>> rows = alike(kinds(false));
+  const std::vector<std::vector<Index>> rows = rows_of_same_kind(kinds(false));
   for (std::size_t i = 0; i < rows.size(); ++i) {
     std::vector<double> known;
     for (const Index r : rows[i])
@@ -215,7 +217,7 @@ Excess StrainGauge::excess(const Loads& on_pads, const ControlPositions& control
   // The error of solves is a floor too.
   const double floor = std::max(deviations_out * deviation_over_median * median(std::move(known)),
                                 problem_.options.solve.relative_residual * largest);
-  const Straining straining{matrix_, normals_, images_};
+  const StrainSystem straining{matrix_, normals_, images_};
   const std::vector<double> alone =
       lengths_of(ways_one_by_one(straining, all, std::vector<double>(vertices_.size(), floor)));
   // Only outliers are released: in an evenly strained shape each release strains the next vertex.

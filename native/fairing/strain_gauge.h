@@ -69,8 +69,8 @@ class StrainGauge {
  private:
   using Kinds = std::vector<std::size_t>;
   Kinds kinds(bool by_neighbours) const;
-  std::vector<std::vector<Index>> alike(const Kinds& kinds) const;
-  void add_pulls();
+  std::vector<std::vector<Index>> rows_of_same_kind(const Kinds& kinds) const;
+  void add_curve_rows();
   void find_images();
   std::vector<Index> row_of_vertices() const;
   Columns ways_of(Columns loads) const;
@@ -84,8 +84,8 @@ class StrainGauge {
   std::size_t on_pads_ = 0;
   std::optional<CountedBytes> counted_;
   LoadMatrix matrix_;
-  LoadMatrix pulls_;  // D'D of all control vertices
-  Columns normals_;   // of each row; zero on curves
+  LoadMatrix curve_matrix_;  // D'D of all control vertices
+  Columns normals_;          // of each row; zero on curves
   std::vector<std::vector<Index>> images_;
   int solves_ = 0;
 };

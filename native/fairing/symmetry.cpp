@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "base/rounding.h"
+#include "base/roundoff.h"
 
 namespace fairing {
 namespace {
@@ -12,7 +12,7 @@ namespace {
 // caller's computation at the mesh's size, and some units in the last place of world coordinates.
 double same_place(const Frame& frame) {
   const double place = std::numeric_limits<double>::epsilon() * frame.centre.norm() / frame.scale;
-  return rounding + 8 * place;
+  return roundoff + 8 * place;
 }
 
 // Corners and ends of chains need no test of their own, since they change the curves.

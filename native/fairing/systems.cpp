@@ -49,11 +49,11 @@ ThinPlateSolver& FairingSystems::plate() {
     own.normals = problem_.normals.fixed;
     own.starts_steps = options.energy != Energy::thin_plate;
     if (problem_.held.surface) {
-      auto pull = std::make_shared<Array<float>>(hold_of_thin_faces(
+      auto penalty = std::make_shared<Array<float>>(thin_face_penalty(
           GridLevel(problem_.mesh, options.levels), problem_.basis.working, *problem_.workers));
-      const double strength = std::pow(pull_to_limits(options.limit), 0.25);
-      for (float& p : *pull) p *= float(strength);
-      own.pull = {std::move(pull), problem_.exponent};
+      const double strength = std::pow(limit_penalty(options.limit), 0.25);
+      for (float& p : *penalty) p *= float(strength);
+      own.penalty = {std::move(penalty), problem_.exponent};
     }
     plate_ = std::make_unique<ThinPlateSolver>(problem_.mesh, *problem_.charts(), problem_.stencils,
                                                problem_.unknowns, problem_.start_weights, own,
@@ -62,15 +62,15 @@ ThinPlateSolver& FairingSystems::plate() {
   return *plate_;
 }
 
-Array<double> FairingSystems::goal_of(std::span<const Vec3> cage, std::span<const Vec3> held) {
+Array<double> FairingSystems::reference_of(std::span<const Vec3> cage, std::span<const Vec3> held) {
   return problem_.held.surface
              ? problem_.held.surface->at_points(finest(), flat(cage), held, *problem_.workers)
              : Array<double>();
 }
 
 PlateData FairingSystems::data_of(const ControlPositions& control) {
-  goal_ = goal_of(control.cage_in(problem_.frame), control.working);
-  return {control.working, control.working_curves, goal_.empty() ? nullptr : &goal_};
+  reference_ = reference_of(control.cage_in(problem_.frame), control.working);
+  return {control.working, control.working_curves, reference_.empty() ? nullptr : &reference_};
 }
 
 void FairingSystems::drop() {
@@ -177,8 +177,8 @@ bool FairingSystems::solve_moved(const ControlPositions& control, RecentSurfaces
                                   : options.solve.relative_residual;
   const std::span<const Vec3> before = recent.extrapolated();
   const std::span<const Vec3> held = before.first(control.working.size());
-  const Array<double> goal = goal_of(before.subspan(held.size()), held);
-  plate().solve_moved({held, control.working_curves, &goal}, data_of(control), tolerance,
+  const Array<double> reference = reference_of(before.subspan(held.size()), held);
+  plate().solve_moved({held, control.working_curves, &reference}, data_of(control), tolerance,
                       surface.state, surface.plate, report.levels,
                       on_prediction(options.measure, watch, report));
   recent.remember(positions);
@@ -207,19 +207,19 @@ SurfaceEnergies FairingSystems::energies(const double* x) {
   return e;
 }
 
-void FairingSystems::find_folds_of_basis(const double* x, Array<double>& upright) {
+void FairingSystems::find_folds_of_basis(const double* x, Array<double>& repaired) {
   repair_.emplace();
   if (problem_.options.energy != Energy::thin_plate ||
       find_folds(finest(), *problem_.workers, x, {}).count() == 0)
     return;
-  upright.resize(3 * finest().size());
-  std::copy_n(x, upright.size(), upright.begin());
-  *repair_ = unfold_plate(problem_, problem_.basis, finest(), upright);
+  repaired.resize(3 * finest().size());
+  std::copy_n(x, repaired.size(), repaired.begin());
+  *repair_ = repair_plate_folds(problem_, problem_.basis, finest(), repaired);
 }
 
-FairingSystems::Upright FairingSystems::unfolded(const ControlPositions& control, Report& report,
-                                                 const double* x) {
-  Upright out{x};
+FairingSystems::RepairedPlate FairingSystems::without_folds(const ControlPositions& control,
+                                                            Report& report, const double* x) {
+  RepairedPlate out{x};
   const bool basis = control.working == problem_.basis.working;
   if (basis) find_folds_of_basis(x, out.own);
   std::vector<Index> straight = control.world_curves.straightened;
@@ -227,7 +227,7 @@ FairingSystems::Upright FairingSystems::unfolded(const ControlPositions& control
     if (!basis) {
       out.own.resize(3 * finest().size());
       std::copy_n(x, out.own.size(), out.own.begin());
-      unfold_alike(problem_, control, finest(), *repair_, out.own);
+      apply_plate_repair(problem_, control, finest(), *repair_, out.own);
     }
     out.x = out.own.data();
   }
@@ -253,8 +253,8 @@ void FairingSystems::write(const ControlPositions& control, bool measured, Stopw
         problem_.options.solve.relative_residual, state, released);
     x = released.data();
   }
-  const Upright upright = unfolded(control, report, x);
-  x = upright.x;
+  const RepairedPlate repaired = without_folds(control, report, x);
+  x = repaired.x;
   warn_of_thickness(finest(), *problem_.workers, x, problem_.options, report);
   if (measured) {
     watch.enter(Phase::measure, 0.75);
@@ -266,7 +266,7 @@ void FairingSystems::write(const ControlPositions& control, bool measured, Stopw
     report.result = report.polyhedron = report.prediction = {NAN, NAN};
   }
   watch.enter(Phase::output, 0.875);
-  to_world(upright.control ? *upright.control : control, finest(), problem_.frame,
+  to_world(repaired.control ? *repaired.control : control, finest(), problem_.frame,
            *problem_.workers, x, world);
   require_finite(problem_.mesh, control, *problem_.workers, 3 * finest().size(), world);
   report.largest_deviation = largest_deviation(control.cage, world);

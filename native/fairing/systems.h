@@ -7,9 +7,9 @@
 #include <optional>
 
 #include "curvature/solver.h"
+#include "fairing/plate_folds.h"
 #include "fairing/problem.h"
 #include "fairing/recent_surfaces.h"
-#include "fairing/unfold_plate.h"
 #include "thin_plate/solver.h"
 
 namespace fairing {
@@ -51,24 +51,24 @@ class FairingSystems {
   bool knows_folds() const {
     return repair_.has_value() || problem_.options.energy != Energy::thin_plate;
   }
-  // From the basis' surface; `upright` becomes that surface without folds, if any can be filled.
-  void find_folds_of_basis(const double* x, Array<double>& upright);
+  // From the basis' surface; `repaired` becomes that surface without folds, if any can be filled.
+  void find_folds_of_basis(const double* x, Array<double>& repaired);
 
  private:
   // The thin plate's surface without folds, `x` itself if it has none; and `control` with straight
   // curves if some had to become straight.
-  struct Upright {
+  struct RepairedPlate {
     const double* x;
     Array<double> own{};
     std::optional<ControlPositions> control{};
   };
-  Upright unfolded(const ControlPositions& control, Report& report, const double* x);
+  RepairedPlate without_folds(const ControlPositions& control, Report& report, const double* x);
   // The right-hand side for the thin plate's surface of these positions. Valid until the next call,
   // and as long as `control` is.
   PlateData data_of(const ControlPositions& control);
   // The limit surface of a cage in working coordinates on the finest level, with control vertices
   // at their held positions; empty without a penalty.
-  Array<double> goal_of(std::span<const Vec3> cage, std::span<const Vec3> held);
+  Array<double> reference_of(std::span<const Vec3> cage, std::span<const Vec3> held);
   std::unique_ptr<GaussNewtonSolver> make_steps(const ControlPositions& control);
   void solve_levels(const ControlPositions& control, const ThinPlateSolver::OnPrediction& predicted,
                     Report& report, Surface& out);
@@ -88,7 +88,7 @@ class FairingSystems {
   // Found for the basis; other positions get the same linear map, so that mixtures of shapes have
   // the mixtures of their surfaces.
   std::optional<PlateRepair> repair_;
-  Array<double> goal_;
+  Array<double> reference_;
 };
 
 }  // namespace fairing

@@ -35,7 +35,7 @@ CurveFit::CurveFit(const FairingProblem& problem, const Scan& scan,
 }
 
 // Uses the feet on cells next to a curve.
-std::vector<CurveFit::Wish> CurveFit::wishes(const LevelFit& fit) const {
+std::vector<CurveFit::MoveEquations> CurveFit::equations(const LevelFit& fit) const {
   const Cells& cells = fit.cells();
   const GridLevel& grid = cells.grid();
   const ControlMesh& mesh = problem_.mesh;
@@ -43,11 +43,11 @@ std::vector<CurveFit::Wish> CurveFit::wishes(const LevelFit& fit) const {
   for (std::size_t e = 0; e < mesh.edges.size(); ++e)
     if (mesh.feature_edge[e])
       for_curve_points(grid, Index(e), [&](Index p, double) { on_curve[std::size_t(p)] = 1; });
-  std::vector<Wish> out(grid.size());
+  std::vector<MoveEquations> out(grid.size());
   for (std::size_t s = 0; s < fit.feet().size(); ++s) {
     stop_if_cancelled(s);
     const Foot& foot = fit.feet()[s];
-    const double share = foot.pulls() ? trust(double(foot.offset), fit.spread().rms) : 0;
+    const double share = foot.is_used() ? robust_weight(double(foot.offset), fit.spread().rms) : 0;
     if (!(share > 0)) continue;
     const auto& corner = cells.corners(foot.cell);
     for (std::size_t k = 0; k < 4; ++k) {
@@ -61,7 +61,7 @@ std::vector<CurveFit::Wish> CurveFit::wishes(const LevelFit& fit) const {
 }
 
 // Projects the scan's border points perpendicularly to the nearest border edges of the level.
-void CurveFit::add_borders(const LevelFit& fit, std::vector<Wish>& wishes) const {
+void CurveFit::add_borders(const LevelFit& fit, std::vector<MoveEquations>& equations) const {
   const GridLevel& grid = fit.cells().grid();
   const ControlMesh& mesh = problem_.mesh;
   struct Side {
@@ -95,28 +95,28 @@ void CurveFit::add_borders(const LevelFit& fit, std::vector<Wish>& wishes) const
     const Vec3 tangent = along.normalized();
     const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - tangent * tangent.transpose();
     const Vec3 offset = scan_.border[b] - from - share * along;
-    wishes[std::size_t(nearest->from)].add(across, offset, 1 - share);
-    wishes[std::size_t(nearest->to)].add(across, offset, share);
+    equations[std::size_t(nearest->from)].add(across, offset, 1 - share);
+    equations[std::size_t(nearest->to)].add(across, offset, share);
   }
 }
 
 void CurveFit::move(const LevelFit& fit, ControlPositions& control) const {
   const ControlMesh& mesh = problem_.mesh;
   const GridLevel& grid = fit.cells().grid();
-  std::vector<Wish> at = wishes(fit);
+  std::vector<MoveEquations> at = equations(fit);
   add_borders(fit, at);
-  std::vector<Wish> sum(std::size_t(mesh.input_vertices));
+  std::vector<MoveEquations> sum(std::size_t(mesh.input_vertices));
   for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
     if (!mesh.feature_edge[e]) continue;
     const auto& ends = mesh.edges[e].vertex;
     for_curve_points(grid, Index(e), [&](Index p, double t) {
       for (const int end : {0, 1}) {
         if (!moves_[std::size_t(ends[std::size_t(end)])]) continue;
-        const Wish& wish = at[std::size_t(p)];
+        const MoveEquations& equation = at[std::size_t(p)];
         const double share = end == 0 ? 1 - t : t;
-        Wish& own = sum[std::size_t(mesh.original_vertex(ends[std::size_t(end)]))];
-        own.square += share * wish.square;
-        own.rest += share * wish.rest;
+        MoveEquations& own = sum[std::size_t(mesh.original_vertex(ends[std::size_t(end)]))];
+        own.square += share * equation.square;
+        own.rest += share * equation.rest;
       }
     });
   }

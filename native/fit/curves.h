@@ -22,7 +22,7 @@ class CurveFit {
 
  private:
   // Normal equations of one move: the sum of |row . move - offset|^2.
-  struct Wish {
+  struct MoveEquations {
     Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
     Vec3 rest = Vec3::Zero();
     void add(const Eigen::Matrix3d& rows, const Vec3& offset, double weight) {
@@ -31,8 +31,8 @@ class CurveFit {
     }
   };
   // By the numbers of the curves' points.
-  std::vector<Wish> wishes(const LevelFit& fit) const;
-  void add_borders(const LevelFit& fit, std::vector<Wish>& wishes) const;
+  std::vector<MoveEquations> equations(const LevelFit& fit) const;
+  void add_borders(const LevelFit& fit, std::vector<MoveEquations>& equations) const;
 
   const FairingProblem& problem_;
   const Scan& scan_;

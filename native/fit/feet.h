@@ -16,7 +16,7 @@ struct Foot {
   // Beyond the surface's border; it is ignored.
   bool outside = false;
 
-  bool pulls() const { return cell >= 0 && !outside; }
+  bool is_used() const { return cell >= 0 && !outside; }
 };
 
 // The present surface of a level, with its normals, and feet on it.

@@ -167,16 +167,16 @@ class ScanFit {
   void require_match(const LevelFit& fit) const;
 
   // With curves it takes more iterations, since surface and curves move alternately.
-  void fit_curves(LevelFit& fit, double weight, int rounds, bool robust) {
-    if (!curves_.any()) return fit.rounds(weight, rounds, robust);
-    for (int k = 0; k < 3 * rounds; ++k) {
-      fit.rounds(weight, 1, robust);
+  void fit_curves(LevelFit& fit, double weight, int iterations, bool robust) {
+    if (!curves_.any()) return fit.iterate(weight, iterations, robust);
+    for (int k = 0; k < 3 * iterations; ++k) {
+      fit.iterate(weight, 1, robust);
       curves_.move(fit, control_);
       Array<double> x = fit.surface();
       levels_.put_fixed(fit.level(), data(), x.data());
       fit.set_surface(std::move(x), fit.feet());
     }
-    fit.rounds(weight, 1, robust);
+    fit.iterate(weight, 1, robust);
   }
 
   // The weight from the coarser level may miss the tolerance on the finest.
@@ -185,7 +185,7 @@ class ScanFit {
     while (covered_within(fit.feet()) * problem_.frame.scale > settings_.tolerance &&
            weight_ < fit.stiffest()) {
       weight_ *= std::sqrt(std::numbers::sqrt2);
-      fit.rounds(weight_, 2, true);
+      fit.iterate(weight_, 2, true);
     }
   }
 
@@ -196,7 +196,7 @@ class ScanFit {
     const Cells& cells = fit.cells();
     std::vector<Index> count(levels_.grid(0).mesh().faces.size());
     for (const Foot& foot : fit.feet())
-      if (foot.pulls()) ++count[std::size_t(cells.face(foot.cell))];
+      if (foot.is_used()) ++count[std::size_t(cells.face(foot.cell))];
     if (std::find(count.begin(), count.end(), 0) == count.end()) return {};
     Prior out;
     out.place.resize(3 * cells.grid().size());
@@ -234,8 +234,8 @@ class ScanFit {
 
 // Throws if most points are on the surface's other side, or hardly any has a foot.
 void ScanFit::require_match(const LevelFit& fit) const {
-  std::size_t pull = 0;
-  for (const Foot& foot : fit.feet()) pull += foot.pulls();
+  std::size_t used = 0;
+  for (const Foot& foot : fit.feet()) used += foot.is_used();
   std::size_t against = 0;
   if (!thin_.normal.empty()) {
     Array<Foot> any;
@@ -249,10 +249,10 @@ void ScanFit::require_match(const LevelFit& fit) const {
                        {"Most normals of the scan point against those of the control mesh.",
                         "Flip the normals of one of them: both have to point outwards."},
                        {}, ElementKind::mesh);
-  if (pull < fewest_points)
+  if (used < fewest_points)
     throw FairingError(
         ErrorCode::bad_shape,
-        {"Only " + std::to_string(pull) + " points of the scan lie over the control mesh.",
+        {"Only " + std::to_string(used) + " points of the scan lie over the control mesh.",
          "Move one onto the other, or draw the control mesh over the scan."});
 }
 
@@ -263,13 +263,13 @@ void require_room(const PolygonMesh& input, const FairingProblem& problem, std::
   RunSize size = predict_size(input.vertex_count(), input.corners, input.offsets, 0, options);
   constexpr std::int64_t vectors = 4 * sizeof(Vec3);  // surface, residual, target, forces
   // kept for all points, and again for the points that choose the weight, with the best feet
-  constexpr std::int64_t in_round = sizeof(Foot) + sizeof(float) + sizeof(Index),
+  constexpr std::int64_t in_iteration = sizeof(Foot) + sizeof(float) + sizeof(Index),
                          in_report = sizeof(Foot) + sizeof(double) + sizeof(std::int32_t),
-                         in_choice = Scan::bytes_a_point + in_round + sizeof(Foot);
+                         in_choice = Scan::bytes_a_point + in_iteration + sizeof(Foot);
   size.bytes = std::int64_t(report.predicted_bytes) +
-               (Scan::bytes_a_point + in_round + in_report) * std::int64_t(points) +
+               (Scan::bytes_a_point + in_iteration + in_report) * std::int64_t(points) +
                in_choice * std::int64_t(std::min(points, enough_points)) +
-               (Cells::bytes_a_point + PullSums::bytes_a_cell + vectors) * size.solved;
+               (Cells::bytes_a_point + PointForces::bytes_a_cell + vectors) * size.solved;
   require_fit(size, options);
   report.predicted_bytes = std::size_t(size.bytes);
   expect_memory(report);

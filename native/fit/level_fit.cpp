@@ -35,41 +35,43 @@ double LevelFit::stiffest() const {
   return std::max(1.0, std::pow(problem_.edge / shortest, 4));
 }
 
-void LevelFit::rounds(double weight, int count, bool robust) {
+void LevelFit::iterate(double weight, int count, bool robust) {
   for (int k = 0; k < count; ++k) {
     problem_.monitor.check_cancelled();
-    pull(weight, robust);
+    compute_forces(weight, robust);
     solve();
     finder_.set_surface(x_.data());
     finder_.follow(feet_);
   }
-  take_spread();
+  update_spread();
 }
 
-void LevelFit::take_spread() {
+void LevelFit::update_spread() {
   spread_ = spread_of(feet_, trained_);
   spread_.rms = std::max(spread_.rms, least_noise * problem_.edge);
 }
 
-// Computes weight_, and goal_ <- W x + forces, the right-hand side of the solve.
-void LevelFit::pull(double weight, bool robust) {
+// Computes weight_, and right_side_ <- W x + forces, the right-hand side of the solve.
+void LevelFit::compute_forces(double weight, bool robust) {
   Workers& workers = problem_.levels.workers();
-  take_spread();
-  trust_.resize(feet_.size());
+  update_spread();
+  robust_weight_.resize(feet_.size());
   for_each_index(workers, feet_.size(), [&](std::size_t s) {
     const bool counts = trained_.empty() || trained_[s];
-    trust_[s] = counts ? float(robust ? trust(double(feet_[s].offset), spread_.rms) : 1.0) : 0.0f;
+    robust_weight_[s] =
+        counts ? float(robust ? robust_weight(double(feet_[s].offset), spread_.rms) : 1.0) : 0.0f;
   });
-  sums_.sum(finder_, feet_, trust_, weight_, force_);
+  sums_.sum(finder_, feet_, robust_weight_, weight_, force_);
   const double scale =
       spread_.count ? weight * problem_.unit * problem_.area / double(spread_.count) : 0;
-  goal_.resize(x_.size());
+  right_side_.resize(x_.size());
   for_each_index(workers, unknown_.size(), [&](std::size_t p) {
     const double own = unknown_[p] ? scale * weight_[p] : 0,
                  held = unknown_[p] && !prior_.weight.empty() ? prior_.weight[p] : 0;
     for (std::size_t a = 0; a < 3; ++a)
-      goal_[3 * p + a] = (unknown_[p] ? scale * force_[p][Eigen::Index(a)] : 0) +
-                         own * x_[3 * p + a] + (held > 0 ? held * prior_.place[3 * p + a] : 0);
+      right_side_[3 * p + a] = (unknown_[p] ? scale * force_[p][Eigen::Index(a)] : 0) +
+                               own * x_[3 * p + a] +
+                               (held > 0 ? held * prior_.place[3 * p + a] : 0);
     weight_[p] = own + held;
   });
 }
@@ -86,7 +88,7 @@ void LevelFit::solve() {
   }
   const auto residual = [&](const double* x, double* r) {
     levels.op(level_).apply(x, r);
-    for_each_index(workers, x_.size(), [&](std::size_t i) { r[i] = goal_[i] - r[i]; });
+    for_each_index(workers, x_.size(), [&](std::size_t i) { r[i] = right_side_[i] - r[i]; });
   };
   r_.resize(x_.size());
   residual(x_.data(), r_.data());
@@ -98,7 +100,7 @@ void LevelFit::solve() {
   PcgLimits limits;
   limits.tolerance = difference_tolerance;
   limits.from_start = true;
-  limits.noise = rounding_of_terms * terms;
+  limits.noise = roundoff_of_terms * terms;
   limits.may_end_early = true;  // the next iteration continues
   limits.max_iterations = problem_.most_iterations;
   iterations_ +=

@@ -2,7 +2,7 @@
 // One level of a surface that is fitted to a scan: iterations of feet, forces and a solve.
 #pragma once
 
-#include "fit/pull.h"
+#include "fit/point_forces.h"
 #include "thin_plate/levels.h"
 
 namespace fairing {
@@ -48,27 +48,27 @@ class LevelFit {
   void stay_near(Prior prior) { prior_ = std::move(prior); }
 
   // `count` iterations of feet, forces and solve. `robust`: outliers have less weight.
-  void rounds(double weight, int count, bool robust);
+  void iterate(double weight, int count, bool robust);
 
   // The largest useful weight: for waves as long as the level's edges, or as points are apart.
   double stiffest() const;
 
  private:
-  void take_spread();
-  void pull(double weight, bool robust);
+  void update_spread();
+  void compute_forces(double weight, bool robust);
   void solve();
 
   const FitProblem& problem_;
   int level_;
   Cells cells_;
   FeetFinder finder_;
-  PullSums sums_;
+  PointForces sums_;
   std::vector<std::uint8_t> unknown_;
   std::vector<std::uint8_t> trained_;
   Prior prior_;
-  Array<double> x_, r_, goal_;  // goal_ is the right-hand side
+  Array<double> x_, r_, right_side_;  // right_side_ is the right-hand side
   Array<Foot> feet_;
-  Array<float> trust_;
+  Array<float> robust_weight_;
   Array<Vec3> force_;
   VertexWeights weight_;
   Spread spread_;

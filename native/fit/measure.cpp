@@ -44,7 +44,7 @@ CellSums sums_on(const Cells& coarse, const Cells& cells, const Array<Foot>& fee
                std::vector<double>(coarse.size())};
   for (std::size_t s = 0; s < feet.size(); ++s) {
     stop_if_cancelled(s);
-    if (!feet[s].pulls()) continue;
+    if (!feet[s].is_used()) continue;
     const FacePlace place = cells.place(feet[s].cell, feet[s].shares);
     const auto cell = std::size_t(coarse.cell_at(place, cells.grid().level()).cell);
     ++out.count[cell];
@@ -99,7 +99,7 @@ void find_too_coarse(const Cells& cells, const Array<Foot>& feet, Workers& worke
 double covered_within(const Array<Foot>& feet) {
   Array<float> far;
   for (const Foot& foot : feet)
-    if (foot.pulls()) far.push_back(std::abs(foot.offset));
+    if (foot.is_used()) far.push_back(std::abs(foot.offset));
   if (far.empty()) return 0;
   const auto at = far.begin() + std::ptrdiff_t(0.95 * double(far.size() - 1));
   std::nth_element(far.begin(), at, far.end());
@@ -135,9 +135,9 @@ void measure_fit(const LevelFit& fit, const FairingProblem& problem, FitReport& 
     report.faces[given] =
         foot.cell < 0 ? -1 : std::int32_t(mesh.faces[std::size_t(cells.face(foot.cell))].polygon);
     report.distances[given] = foot.cell < 0 ? NAN : fit.finder().distance(s, foot) * scale;
-    if (foot.cell < 0 || std::abs(double(foot.offset)) > stray * judged)
+    if (foot.cell < 0 || std::abs(double(foot.offset)) > outlier * judged)
       report.outliers.push_back(std::int64_t(given));
-    else if (foot.pulls())
+    else if (foot.is_used())
       report.largest = std::max(report.largest, std::abs(report.distances[given]));
   }
   std::sort(report.outliers.begin(), report.outliers.end());

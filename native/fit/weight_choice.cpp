@@ -27,7 +27,7 @@ bool is_held_out(std::uint64_t blob) {
 
 double WeightChoice::choose(Monitor& monitor) {
   if (settings_.weight > 0) {
-    fit_.rounds(settings_.weight, 2, true);
+    fit_.iterate(settings_.weight, 2, true);
     return settings_.weight;
   }
   if (settings_.tolerance > 0) {
@@ -65,7 +65,7 @@ void WeightChoice::hold_out() {
     const FacePlace place = fit_.cells().place(foot.cell, foot.shares);
     if (!is_held_out(std::uint64_t(blobs.cell_at(place, fit_.level()).cell))) continue;
     trained_[s] = 0;
-    if (foot.pulls()) held_.push_back({s, foot, fit_.finder().normal_at(foot)});
+    if (foot.is_used()) held_.push_back({s, foot, fit_.finder().normal_at(foot)});
   }
 }
 
@@ -80,7 +80,7 @@ double WeightChoice::held_out_error() {
   if (trials_.empty()) cut_ = 2 * deviation_over_median * median(std::vector(far));
   double sum = 0;
   for (const double d : far)
-    sum += d <= cut_ ? d * d : cut_ * (2 * std::min(d, stray / 2 * cut_) - cut_);
+    sum += d <= cut_ ? d * d : cut_ * (2 * std::min(d, outlier / 2 * cut_) - cut_);
   return std::sqrt(sum / double(far.size()));
 }
 
@@ -89,7 +89,7 @@ double WeightChoice::by_held_out(Monitor& monitor) {
   // that follows the noise has tilted normals, and distances along them are too large.
   Array<double> start = fit_.surface();
   Array<Foot> feet = fit_.feet();
-  fit_.rounds(1 / (ratio * ratio), 2, false);
+  fit_.iterate(1 / (ratio * ratio), 2, false);
   hold_out();
   fit_.set_surface(std::move(start), std::move(feet));
   fit_.train_on(trained_);
@@ -98,7 +98,7 @@ double WeightChoice::by_held_out(Monitor& monitor) {
   std::size_t best = 0;
   for (double weight = fit_.stiffest(); weight > softest; weight /= ratio) {
     monitor.report(Phase::solve, 0.125 + 0.5 * double(trials_.size()) / 16);
-    fit_.rounds(weight, trials_.empty() ? 4 : 2, true);
+    fit_.iterate(weight, trials_.empty() ? 4 : 2, true);
     trials_.push_back({weight, scale_ * held_out_error()});
     const double error = trials_.back()[1];
     if (trials_.size() == 1 || error < trials_[best][1]) {
@@ -124,7 +124,7 @@ double WeightChoice::by_held_out(Monitor& monitor) {
 double WeightChoice::by_tolerance(Monitor& monitor) {
   const auto is_within = [&](double weight) {
     monitor.report(Phase::solve, 0.25);
-    fit_.rounds(weight, 2, true);
+    fit_.iterate(weight, 2, true);
     return covered_within(fit_.feet()) * scale_ <= settings_.tolerance;
   };
   double high = fit_.stiffest(), low = high;
@@ -136,7 +136,7 @@ double WeightChoice::by_tolerance(Monitor& monitor) {
     const double middle = std::sqrt(low * high);
     (is_within(middle) ? high : low) = middle;
   }
-  fit_.rounds(high, 2, true);
+  fit_.iterate(high, 2, true);
   return high;
 }
 

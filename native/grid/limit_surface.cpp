@@ -149,8 +149,8 @@ Array<double> LimitSurface::at_points(const GridLevel& grid, std::span<const dou
   return x;
 }
 
-Array<float> hold_of_thin_faces(const GridLevel& grid, std::span<const Vec3> control,
-                                Workers& workers) {
+Array<float> thin_face_penalty(const GridLevel& grid, std::span<const Vec3> control,
+                               Workers& workers) {
   const ControlMesh& mesh = grid.mesh();
   const auto vertices = std::size_t(mesh.vertex_count());
   std::vector<double> shortest(vertices, INFINITY);

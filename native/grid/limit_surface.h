@@ -39,7 +39,7 @@ class LimitSurface {
 // the shortest control edge at the control vertices near the point: their geometric mean, smoothly
 // from vertex to vertex. One number a point, the fourth root of 1 / r^6. It fades to zero at the
 // rim of a region.
-Array<float> hold_of_thin_faces(const GridLevel& grid, std::span<const Vec3> control,
-                                Workers& workers);
+Array<float> thin_face_penalty(const GridLevel& grid, std::span<const Vec3> control,
+                               Workers& workers);
 
 }  // namespace fairing

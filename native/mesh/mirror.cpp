@@ -81,9 +81,9 @@ bool same(const std::vector<T>& values, const std::vector<Index>& image) {
   return true;
 }
 
-class Finder {
+class MirrorFinder {
  public:
-  Finder(const ControlMesh& mesh, double tolerance)
+  MirrorFinder(const ControlMesh& mesh, double tolerance)
       : mesh_(mesh),
         tolerance_(tolerance),
         search_(mesh),
@@ -116,8 +116,8 @@ class Finder {
       if (found == PointSearch::none) return false;
       if (found == PointSearch::several) unclear.push_back(v);
     }
-    if (!tell_copies_apart(image)) return false;
-    tell_apart(std::move(unclear), image);
+    if (!distinguish_copies(image)) return false;
+    distinguish(std::move(unclear), image);
     const auto is_centre = [&](Index v) { return v >= mesh_.first_centre(); };
     for (Index v = 0; v < mesh_.vertex_count(); ++v) {
       const Index other = image[std::size_t(v)];
@@ -128,7 +128,7 @@ class Finder {
   }
 
   // Where sheets meet, `image` still has input vertices: the face of the sheet determines the copy.
-  bool tell_copies_apart(std::vector<Index>& image) const {
+  bool distinguish_copies(std::vector<Index>& image) const {
     if (mesh_.copies.vertex.empty()) return true;
     const std::vector<Index> originals = image;
     for (Index v = 0; v < mesh_.vertex_count(); ++v) {
@@ -173,7 +173,7 @@ class Finder {
   }
 
   // Uses faces to distinguish vertices at one place.
-  void tell_apart(std::vector<Index> unclear, std::vector<Index>& image) const {
+  void distinguish(std::vector<Index> unclear, std::vector<Index>& image) const {
     while (!unclear.empty()) {
       const Index v = unclear.back();
       unclear.pop_back();
@@ -310,7 +310,7 @@ std::vector<Mirror> find_mirrors(const ControlMesh& mesh, double tolerance,
   std::vector<Mirror> found;
   const std::vector<Plane> planes = mirror_planes(mesh, tolerance);
   if (planes.empty()) return found;
-  Finder finder(mesh, tolerance);
+  MirrorFinder finder(mesh, tolerance);
   for (const Plane& plane : planes) {
     if (found.size() == 3 || finder.exhausted()) break;
     const auto is_right = [&](const Mirror& other) {

@@ -7,7 +7,7 @@
 #include <unsupported/Eigen/BVH>
 
 #include "base/points.h"
-#include "base/rounding.h"
+#include "base/roundoff.h"
 
 namespace fairing {
 namespace {
@@ -53,8 +53,8 @@ struct Ray {
     const double determinant = u.dot(across);
     const double first = offset.dot(across) / determinant, second = along.dot(turned) / determinant,
                  distance = v.dot(turned) / determinant;
-    const bool hits = std::min({first, second, 1 - first - second}) >= -rounding;
-    if (!hits || !(distance > rounding)) return none;
+    const bool hits = std::min({first, second, 1 - first - second}) >= -roundoff;
+    if (!hits || !(distance > roundoff)) return none;
     if (distance < next.distance) next = {triangle.face, distance};
     return distance;
   }

@@ -11,7 +11,7 @@
 
 #include "base/angle.h"
 #include "base/points.h"
-#include "base/rounding.h"
+#include "base/roundoff.h"
 #include "mesh/sharp_turn.h"
 #include "parallel/cancel.h"
 
@@ -222,7 +222,7 @@ double PolygonShape::badness(std::size_t i, std::size_t j, std::size_t k) const 
                          (corners_[j] - corners_[k]).squaredNorm() +
                          (corners_[k] - corners_[i]).squaredNorm();
   const double twice_area = cross(plane_[j] - plane_[i], plane_[k] - plane_[i]);
-  if (!(twice_area > rounding * squares)) return infinite;
+  if (!(twice_area > roundoff * squares)) return infinite;
   return squares / (2 * std::sqrt(3.0) * twice_area);
 }
 
@@ -235,7 +235,7 @@ std::vector<Piece> cut_polygon(const PolygonShape& shape,
     for (std::size_t i = 0; i + 2 < n; ++i)
       for (std::size_t j = i + 2; j < n && j - i < n - 1; ++j)
         // rounding must not decide between triangulations
-        if (costs.with({i, j}) <= costs.whole() * (1 + single_rounding)) best.push_back({i, j});
+        if (costs.with({i, j}) <= costs.whole() * (1 + single_roundoff)) best.push_back({i, j});
   return cut(n, undisputed(best));
 }
 

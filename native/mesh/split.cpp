@@ -53,7 +53,7 @@ std::vector<std::uint8_t> pinched_vertices(const PolygonMesh& mesh) {
 class Diagonals {
  public:
   void propose(std::int64_t a, std::int64_t b) { ++wanted_[key(a, b)]; }
-  void take(std::int64_t a, std::int64_t b) {
+  void mark_used(std::int64_t a, std::int64_t b) {
     if (const auto found = wanted_.find(key(a, b)); found != wanted_.end()) found->second = 2;
   }
   bool allowed(std::int64_t a, std::int64_t b) const { return wanted_.at(key(a, b)) == 1; }
@@ -130,7 +130,7 @@ class Splitter {
       stop_if_cancelled(std::size_t(f));
       const auto face = mesh_.face(f);
       for (std::size_t i = 0; i < face.size(); ++i)
-        diagonals_.take(original(face[i]), original(face[(i + 1) % face.size()]));
+        diagonals_.mark_used(original(face[i]), original(face[(i + 1) % face.size()]));
     }
   }
 

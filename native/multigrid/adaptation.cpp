@@ -61,7 +61,7 @@ bool Hierarchy::factors_cheaply(std::size_t index) const {
           coarse_->factor_numbers() <= most_numbers_of_narrow * unknowns_[index - 1]);
 }
 
-bool Hierarchy::goes_on(std::size_t index, const PcgResult& so_far, const PcgLimits& limits) {
+bool Hierarchy::continues(std::size_t index, const PcgResult& so_far, const PcgLimits& limits) {
   if (so_far.iterations % probe_interval == first_probe) raise_degree(index, so_far, limits);
   return !is_too_hard(index, limits);
 }

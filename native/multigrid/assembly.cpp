@@ -122,7 +122,7 @@ class RingColumns {
 }  // namespace
 
 SparseMatrix congruence(const SparseMatrix& rows, const SparseMatrix* middle,
-                        const TurnedEntry& take_turned) {
+                        const TurnedEntry& on_turned) {
   const SparseMatrix jacobian = rows.transpose();
   const MatrixBytes held(jacobian);
   SparseMatrix out(jacobian.cols(), jacobian.cols());
@@ -136,7 +136,7 @@ SparseMatrix congruence(const SparseMatrix& rows, const SparseMatrix* middle,
       turned.sort();
       for (const Index r : turned.rows()) {
         product.add(rows, r, turned[r]);
-        if (take_turned) take_turned(c, r, turned[r]);
+        if (on_turned) on_turned(c, r, turned[r]);
       }
     } else {
       for (SparseMatrix::InnerIterator entry(jacobian, c); entry; ++entry)
@@ -160,7 +160,7 @@ SparseMatrix congruence(const SparseMatrix& rows, const SparseMatrix* middle,
 //   d |J_a x|^2 + 2 J_a x . h x = |u x|^2 - |w x|^2,   u = (d J_a + h) / sqrt d,   w = h / sqrt d
 AssembledSystem assemble_square(const GridLevel& grid, const std::vector<Index>& number,
                                 const SparseMatrix* middle,
-                                const std::function<void(const TakeRows&)>& visit) {
+                                const std::function<void(const VisitRows&)>& visit) {
   AssembledSystem system;
   for (std::size_t p = 0; p < number.size(); ++p)
     if (number[p] >= 0) system.unknown_points.push_back(Index(p));
@@ -191,14 +191,14 @@ AssembledSystem assemble_square(const GridLevel& grid, const std::vector<Index>&
   });
   rows.finalize();
   const MatrixBytes held(rows);
-  const auto take_turned = [&](Index c, Index row, double entry) {
+  const auto on_turned = [&](Index c, Index row, double entry) {
     const Index k = place_of(row / 3);
     const double root = k < 0 ? 0 : root_of(row / 3);
     if (!(root > 0)) return;
     of_u.emplace_back(3 * k + row % 3, c, entry / root);
     of_w.emplace_back(3 * k + row % 3, c, entry / root);
   };
-  congruence(rows, middle, apart > 0 ? take_turned : TurnedEntry{}).swap(system.matrix);
+  congruence(rows, middle, apart > 0 ? on_turned : TurnedEntry{}).swap(system.matrix);
   if (apart == 0) return system;
   const MatrixBytes matrix_held(system.matrix);
   SparseMatrix u(apart, unknowns), w(middle ? apart : 0, unknowns);

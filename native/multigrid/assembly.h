@@ -26,17 +26,17 @@ using TurnedEntry = std::function<void(Index column, Index row, double entry)>;
 // J^T S J from `rows`, which is J^T, a column at a time, since S J has several times the numbers of
 // J. `middle`: S, or null for J^T J. Sums have the order of Eigen's products.
 SparseMatrix congruence(const SparseMatrix& rows, const SparseMatrix* middle,
-                        const TurnedEntry& take_turned);
+                        const TurnedEntry& on_turned);
 
 // Receives a point's rows: its ring, and three numbers for each member. Both empty: no rows.
-using TakeRows =
+using VisitRows =
     std::function<void(const std::vector<Index>& ring, const std::vector<double>& numbers)>;
 
 // K of the numbered points (number_unknowns()). `visit` passes the rows of all points in order;
 // `middle`: S, 3 rows and columns a point, or null.
 AssembledSystem assemble_square(const GridLevel& grid, const std::vector<Index>& number,
                                 const SparseMatrix* middle,
-                                const std::function<void(const TakeRows&)>& visit);
+                                const std::function<void(const VisitRows&)>& visit);
 
 // Adds entries that do not come from rows.
 void add_entries(const Triplets& entries, AssembledSystem& system);

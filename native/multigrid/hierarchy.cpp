@@ -22,14 +22,14 @@ constexpr std::size_t most_refactored = 4 * tiny_level;
 constexpr double settled_margin = 1.03;
 
 // Exchanges two numbers during its lifetime, since a cancelled run throws.
-class Exchanged {
+class ScopedExchange {
  public:
-  Exchanged(int& one, int& other, bool are) : one_(one), other_(are ? other : one) {
+  ScopedExchange(int& one, int& other, bool are) : one_(one), other_(are ? other : one) {
     std::swap(one_, other_);
   }
-  ~Exchanged() { std::swap(one_, other_); }
-  Exchanged(const Exchanged&) = delete;
-  Exchanged& operator=(const Exchanged&) = delete;
+  ~ScopedExchange() { std::swap(one_, other_); }
+  ScopedExchange(const ScopedExchange&) = delete;
+  ScopedExchange& operator=(const ScopedExchange&) = delete;
 
  private:
   int &one_, &other_;
@@ -131,13 +131,13 @@ LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits, const Li
 PcgResult Hierarchy::iterate(std::size_t index, const PcgLimits& limits, const LinearSystem& system,
                              const std::function<void(const PcgResult&)>& each, LevelSolve& out) {
   const bool adapt = limits.may_adapt && adapts(out.direct);
-  const Exchanged degrees(cycle_.degree, degree_of_two_, bool(system.between));
+  const ScopedExchange degrees(cycle_.degree, degree_of_two_, bool(system.between));
   for (std::size_t l = cycle_.base; l <= index; ++l) seek_lines(l);
   estimate_eigenvalues(index, system.r);
   PcgResult result = conjugate_gradients(cycle_, index, workers_, limits, system, pcg_,
                                          [&](const PcgResult& so_far) {
                                            each(so_far);
-                                           return !adapt || goes_on(index, so_far, limits);
+                                           return !adapt || continues(index, so_far, limits);
                                          });
   out.iterations += result.iterations;
   out.residuals = result.history;
@@ -189,7 +189,7 @@ void Hierarchy::solve_direct(CoarseSolver& solver, const PcgLimits& limits,
   refine();
   if (!out.converged && solver.lessen_trace()) refine();
   if (!out.converged)
-    out.converged = norm(workers_, size, r) <= rounding_of_terms * solver.norm_of_terms(x);
+    out.converged = norm(workers_, size, r) <= roundoff_of_terms * solver.norm_of_terms(x);
 }
 
 // Ratio of the largest eigenvalue to that of the level below; 0: unknown. Stencils hardly change

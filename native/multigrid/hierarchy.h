@@ -97,7 +97,7 @@ class Hierarchy {
   // adaptation.cpp
   bool adapts(bool direct) const { return adapts_ && options_.smoother_degree == 0 && !direct; }
   // After each iteration: whether to continue unchanged. Raises the degree.
-  bool goes_on(std::size_t index, const PcgResult& so_far, const PcgLimits& limits);
+  bool continues(std::size_t index, const PcgResult& so_far, const PcgLimits& limits);
   bool is_too_hard(std::size_t index, const PcgLimits& limits) const;
   void promote_to_coarsest(std::size_t index);
   bool knows_factor_below(std::size_t index) const;

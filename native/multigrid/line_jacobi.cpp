@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "base/rounding.h"
+#include "base/roundoff.h"
 #include "base/simd.h"
 
 namespace fairing {
@@ -143,7 +143,7 @@ void LineJacobi::factor_line(std::size_t line, Bundle& b, std::size_t lane) cons
     double before = pivot > 0 ? beside / pivot : 0.0;
     double now = d + number[0] - further * further * last_pivot - before * before * pivot;
     last_pivot = pivot;
-    if (!(now > single_rounding * d)) {
+    if (!(now > single_roundoff * d)) {
       now = d;
       before = further = last_pivot = 0;
     }

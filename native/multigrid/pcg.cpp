@@ -20,7 +20,7 @@ constexpr double largest_gain_ratio = 0.9, usual_gain_ratio = 0.5;
 
 // Estimates the remaining error in the energy norm from the latest steps' gains of its square
 // [Hestenes and Stiefel 1952]: from the last gain and the larger of the last two ratios of gains.
-class ErrorLeft {
+class EnergyError {
  public:
   void gained(double square) {
     before_ = last_ > 0 ? ratio_ : 0;
@@ -81,7 +81,7 @@ class Iteration {
       result_.converged = true;
       return result_;
     }
-    if constexpr (is_single) take_residual();
+    if constexpr (is_single) scale_residual();
     while (step() && !result_.converged && result_.iterations < limits_.max_iterations &&
            each(result_)) {
     }
@@ -193,7 +193,7 @@ class Iteration {
     drifted_ = true;
   }
 
-  void take_residual() {
+  void scale_residual() {
     unit_ = length_ > 0 ? length_ : 1;
     for_each_index(workers_, size_, [&](std::size_t i) {
       v_.r[i] = T(system_.r[i] / unit_);
@@ -208,7 +208,7 @@ class Iteration {
     system_.residual(system_.x, system_.r);
     length_ = norm(workers_, size_, system_.r);
     const double last = unit_;
-    take_residual();
+    scale_residual();
     const double change = last / unit_;
     for_each_index(workers_, size_, [&](std::size_t i) {
       v_.p[i] = T(change * v_.p[i]);
@@ -236,7 +236,7 @@ class Iteration {
 
   PcgResult result_;
   double length_ = 0, unit_ = 1, z_unit_ = 1;  // length: of the residual, in the caller's unit
-  ErrorLeft error_left_;
+  EnergyError error_left_;
   bool drifted_ = false;  // since the residual was computed from x
 };
 

@@ -11,7 +11,7 @@ namespace fairing {
 
 // Relative to the norm of a residual's terms: below this a residual is rounding, some 20 units in
 // the last place.
-constexpr double rounding_of_terms = 2e-15;
+constexpr double roundoff_of_terms = 2e-15;
 
 struct PcgLimits {
   // Of the residual, relative to `residual_scale`, and of the error in the energy norm, relative to

@@ -92,7 +92,7 @@ class VCycle {
   // levels[top].state.x <- M^-1 levels[top].state.residual; the residual is overwritten. Throws
   // where the run has been cancelled.
   void run(std::size_t top) { run(top, degree, degree); }
-  // With other degrees, at least one, before and after. Exchanged, they give the transpose.
+  // With other degrees, at least one, before and after. ScopedExchange, they give the transpose.
   void run(std::size_t top, int before, int after);
 
  private:

@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "base/rounding.h"
+#include "base/roundoff.h"
 
 namespace fairing {
 namespace {
@@ -79,7 +79,7 @@ Chart TangentCharts::edge(Index e) const {
       normal += m.along.cross(m.up).normalized();
     }
   Chart chart = ChartMaker::edge(e);
-  if (!(normal.norm() > single_rounding)) return chart;
+  if (!(normal.norm() > single_roundoff)) return chart;
   const Frame frame(normal);
   const Vec2 forward = frame.project(mesh().positions[std::size_t(edge.vertex[1])] -
                                      mesh().positions[std::size_t(edge.vertex[0])]);

@@ -2,13 +2,13 @@
 #include "paper/release.h"
 
 #include "base/points.h"
-#include "base/rounding.h"
+#include "base/roundoff.h"
 
 namespace fairing {
 namespace {
 
 // Number of steps of every vertex, each followed by a solve.
-constexpr int release_rounds = 3;
+constexpr int release_steps = 3;
 
 }  // namespace
 
@@ -34,10 +34,10 @@ int release_control_vertices(ThinPlateSolver& solver, const PlateData& data, dou
   // their steps are halved.
   const double damping = levels.grid(top).n() > 2 ? 1.0 : 0.5;
   // so that rounding does not exceed epsilon
-  const double within = (1 - single_rounding) * epsilon;
+  const double within = (1 - single_roundoff) * epsilon;
   std::vector<Vec3> targets(given.begin(), given.end());
   Array<double> gradient(x.size());
-  for (int round = 0; round < release_rounds; ++round) {
+  for (int step = 0; step < release_steps; ++step) {
     levels.apply_with(top, freed, x.data(), gradient.data());
     for (std::size_t v = 0; v < std::size_t(mesh.first_centre()); ++v) {
       if (!freed.vertex[v] || !(diagonal[v] > 0)) continue;
@@ -49,9 +49,9 @@ int release_control_vertices(ThinPlateSolver& solver, const PlateData& data, dou
       targets[v] = given[v] + offset;
       put_point(targets[v], x.data() + 3 * v);
     }
-    solver.solve_again({targets, data.curves, data.goal}, tolerance, state, x);
+    solver.solve_again({targets, data.curves, data.reference}, tolerance, state, x);
   }
-  return release_rounds;
+  return release_steps;
 }
 
 }  // namespace fairing

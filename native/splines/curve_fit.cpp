@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "base/points.h"
-#include "base/rounding.h"
+#include "base/roundoff.h"
 #include "splines/lattice.h"
 
 namespace fairing {
@@ -168,7 +168,7 @@ double foot_of(const SplineCurve& curve, const Vec3& p, double t) {
     const double next = std::clamp(t + c.tangent.dot(p - c.at) / square, 0.0, 1.0);
     const double change = std::abs(next - t);
     t = next;
-    if (change < single_rounding) break;
+    if (change < single_roundoff) break;
   }
   return t;
 }
@@ -275,7 +275,7 @@ FittedCurve fit_with(const CurveData& data, int spans, double tolerance) {
   const CurveSystem system(data, spans);
   FittedCurve even = fit_evenly(data, system);
   // the lattice's parameters, as for creases
-  if (data.own || even.error <= rounding * length_of(data.points)) return even;
+  if (data.own || even.error <= roundoff * length_of(data.points)) return even;
   std::vector<double> start = length_parameters(data);
   FittedCurve plain = fit_from(data, system, start);
   if (plain.error <= tolerance || (spans <= 2 && data.edges == 1)) return plain;

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "base/error.h"
-#include "base/rounding.h"
+#include "base/roundoff.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
@@ -102,7 +102,7 @@ Eigen::Matrix<double, 3, 2> tangents_of(const Vec3& n) {
 
 Slide slide_to(const Vec3& rest, const Vec3& u, const Vec3& v) {
   const double uu = u.squaredNorm(), uv = u.dot(v), vv = v.squaredNorm(), det = uu * vv - uv * uv;
-  if (!(det > rounding * uu * vv)) return {0, 0};
+  if (!(det > roundoff * uu * vv)) return {0, 0};
   const double ru = u.dot(rest), rv = v.dot(rest);
   return {(vv * ru - uv * rv) / det, (uu * rv - uv * ru) / det};
 }
@@ -124,7 +124,7 @@ Vec3 fitted_normal(const Vec3& centre, const std::vector<Vec3>& nearby, const Ve
       heights[Eigen::Index(k)] = arm.dot(normal);
     }
     Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
-    qr.setThreshold(single_rounding);
+    qr.setThreshold(single_roundoff);
     qr.compute(rows);
     const Eigen::VectorXd fit = qr.solve(heights);
     const Vec3 next = normal - frame * fit.head<2>();

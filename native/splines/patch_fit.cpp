@@ -7,7 +7,7 @@
 #include <span>
 
 #include "base/angle.h"
-#include "base/rounding.h"
+#include "base/roundoff.h"
 #include "splines/net_system.h"
 
 namespace fairing {
@@ -139,7 +139,7 @@ void move_to_foot(const SplinePatch& patch, PatchSample& sample) {
     const double change = std::max(std::abs(u - sample.u), std::abs(v - sample.v));
     sample.u = u;
     sample.v = v;
-    if (change < single_rounding) return;
+    if (change < single_roundoff) return;
   }
 }
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "stencil/round_fit.h"
 #include "stencil/staged_fit.h"
+#include "stencil/whitened_fit.h"
 
 namespace fairing {
 namespace {
@@ -28,14 +28,14 @@ bool determines(const Eigen::Matrix<double, 5, 5>& lower, const Coefficients& sc
 
 // Least squares after a linear map makes the ring round: quadratics are invariant under linear
 // maps, so the fit is the same, and well-conditioned for any skew. Empty if undetermined.
-bool round_fit(const std::vector<Vec2>& ring, FitRows& rows) {
+bool whitened_fit(const std::vector<Vec2>& ring, FitRows& rows) {
   Eigen::Matrix2d moment = Eigen::Matrix2d::Zero();
   for (const Vec2& p : ring) moment += p * p.transpose();
   moment /= double(ring.size());
   const Eigen::LLT<Eigen::Matrix2d> root(moment);
   if (root.info() != Eigen::Success) return false;
   const Eigen::Matrix2d l = root.matrixL();
-  if (!(l(0, 0) > 0) || !(l(1, 1) > rounding * l(0, 0))) return false;
+  if (!(l(0, 0) > 0) || !(l(1, 1) > roundoff * l(0, 0))) return false;
   const Eigen::Matrix2d w = l.inverse();
   FitRows a(5, Eigen::Index(ring.size()));
   for (std::size_t j = 0; j < ring.size(); ++j) a.col(Eigen::Index(j)) = basis(w * ring[j]);
@@ -64,10 +64,10 @@ bool round_fit(const std::vector<Vec2>& ring, FitRows& rows) {
   return true;
 }
 
-using Round = RoundFit<double>;
+using Whitened = WhitenedFit<double>;
 
 // False if the ring does not determine a quadratic. Without weights all are one.
-bool make(std::span<const Vec2> ring, std::span<const double> weight, Round& fit) {
+bool make(std::span<const Vec2> ring, std::span<const double> weight, Whitened& fit) {
   if (ring.size() < 5) return false;
   bool determined = true;
   const auto neighbour = [&](int j, double& u, double& v, double& w) {
@@ -79,7 +79,7 @@ bool make(std::span<const Vec2> ring, std::span<const double> weight, Round& fit
   return determined;
 }
 
-Vec3 hessian(const Round& fit, const Round::Term& sum) {
+Vec3 hessian(const Whitened& fit, const Whitened::Term& sum) {
   Vec3 out;
   fit.hessian(sum, out[0], out[1], out[2]);
   return out;
@@ -97,7 +97,7 @@ Coefficients basis(const Vec2& p) {
 FitRows fit(const Chart& chart) {
   const auto n = Eigen::Index(chart.ring.size());
   FitRows rows;
-  if (n >= 5 && round_fit(chart.ring, rows)) return rows;
+  if (n >= 5 && whitened_fit(chart.ring, rows)) return rows;
   double radius = 0;
   for (const Vec2& p : chart.ring) radius += p.norm() / double(n);
   Eigen::MatrixXd a(n, 5);
@@ -111,24 +111,24 @@ FitRows fit(const Chart& chart) {
 
 Vec3 fitted_hessian(std::span<const Vec2> ring, std::span<const double> difference,
                     std::span<const double> weight) {
-  Round round;
-  if (!make(ring, weight, round)) return StagedHessian(ring)(difference);
-  Round::Term sum;
+  Whitened whitened;
+  if (!make(ring, weight, whitened)) return StagedHessian(ring)(difference);
+  Whitened::Term sum;
   for (std::size_t j = 0; j < ring.size(); ++j)
-    round.add(ring[j].x(), ring[j].y(), weight.empty() ? difference[j] : weight[j] * difference[j],
-              sum);
-  return hessian(round, sum);
+    whitened.add(ring[j].x(), ring[j].y(),
+                 weight.empty() ? difference[j] : weight[j] * difference[j], sum);
+  return hessian(whitened, sum);
 }
 
 void hessian_rows(std::span<const Vec2> ring, std::span<const double> weight,
                   std::vector<Vec3>& rows) {
   rows.resize(ring.size());
-  Round round;
-  if (make(ring, weight, round)) {
+  Whitened whitened;
+  if (make(ring, weight, whitened)) {
     for (std::size_t j = 0; j < ring.size(); ++j) {
-      Round::Term sum;
-      round.add(ring[j].x(), ring[j].y(), weight.empty() ? 1.0 : weight[j], sum);
-      rows[j] = hessian(round, sum);
+      Whitened::Term sum;
+      whitened.add(ring[j].x(), ring[j].y(), weight.empty() ? 1.0 : weight[j], sum);
+      rows[j] = hessian(whitened, sum);
     }
     return;
   }

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "base/rounding.h"
+#include "base/roundoff.h"
 #include "stencil/chart.h"
 
 namespace fairing {
@@ -29,7 +29,7 @@ Coefficients basis(const Vec2& p);
 // because it would add only noise. The square is for normal equations.
 constexpr double undetermined = 3e-3, undetermined_square = 3e-3 * 3e-3;
 // A ring narrower than rounding is a line.
-constexpr double thinnest_ring_square = rounding * rounding;
+constexpr double thinnest_ring_square = roundoff * roundoff;
 
 // Rows that map the differences f_j - f_0 over the chart's ring to the coefficients.
 //

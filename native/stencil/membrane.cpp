@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "base/rounding.h"
+#include "base/roundoff.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
@@ -26,11 +26,11 @@ struct FaceWeights {
 };
 
 // Two equal triangles share each grid edge, each with half the cotangent of its angle. Sines below
-// `rounding` are replaced by it.
+// `roundoff` are replaced by it.
 FaceWeights triangle_weights(const FlatFace& flat) {
   const auto square = [&](std::size_t s) { return flat.length[s] * flat.length[s]; };
   const double longest = std::max({square(0), square(1), square(2)}),
-               area = std::max(flat.area, rounding * longest);
+               area = std::max(flat.area, roundoff * longest);
   // at corner c, between sides c and c + 2
   const auto cotangent = [&](std::size_t c) {
     return (square(c) + square((c + 2) % 3) - square((c + 1) % 3)) / (4 * area);
@@ -40,7 +40,7 @@ FaceWeights triangle_weights(const FlatFace& flat) {
 
 FaceWeights quad_weights(const FlatFace& flat) {
   const double a = flat.length[0], b = flat.length[1],
-               sine = std::max(std::sin(flat.angle[0]), rounding),
+               sine = std::max(std::sin(flat.angle[0]), roundoff),
                cotangent = std::cos(flat.angle[0]) / sine;
   return {{b / (a * sine), -0.5 * cotangent, a / (b * sine), 0.5 * cotangent}, true};
 }

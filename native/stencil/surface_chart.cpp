@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/rounding.h"
+#include "base/roundoff.h"
 #include "stencil/angle.h"
 
 namespace fairing {
@@ -31,7 +31,7 @@ bool chart_in_space(const SpaceRing& ring, double exponent, Chart& chart) {
     shortest = std::min(shortest, radius);
     chart.ring[j] = Vec2(radius, 0);
   }
-  if (!(shortest > single_rounding * longest) || !std::isfinite(longest)) return false;
+  if (!(shortest > single_roundoff * longest) || !std::isfinite(longest)) return false;
   for (std::size_t k = 0; k < steps; ++k) {
     const std::size_t i = at(k), j = at(k + 1);
     const double a = chart.ring[i].x(), b = chart.ring[j].x(),
@@ -42,7 +42,7 @@ bool chart_in_space(const SpaceRing& ring, double exponent, Chart& chart) {
     total += chart.ring[i].y();
     chart.area += 0.5 * a * b * sine / (ring.far[i] || ring.far[j] ? 4 : 3);
   }
-  if (!(total > single_rounding * full_turn) || !(chart.area > 0)) return false;
+  if (!(total > single_roundoff * full_turn) || !(chart.area > 0)) return false;
   const double scale = turn_scale(ring.closed, total);
   double angle = 0;
   for (std::size_t k = 0; k < size; ++k) {

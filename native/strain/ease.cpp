@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "base/rounding.h"
+#include "base/roundoff.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
@@ -36,7 +36,7 @@ constexpr double faint = 2, leeway = 1.15;
 // Relative to the largest bound: the difference between moves and their bounded copies, and their
 // change, at convergence.
 constexpr double bound_tolerance = 1e-3;
-constexpr int most_splittings = 200;  // of the alternating directions
+constexpr int most_iterations = 200;  // of the alternating directions
 
 // Random signs by Steele's splitmix64.
 VectorXd random_signs(Eigen::Index n, std::uint64_t seed) {
@@ -55,7 +55,7 @@ VectorXd random_signs(Eigen::Index n, std::uint64_t seed) {
 
 EaseSystem::EaseSystem(LoadMatrix g, Columns loads)
     : g_(std::move(g)), transposed_(g_.transpose()), loads_(std::move(loads)) {
-  pulls_ = transposed_ * loads_;
+  gradient_ = transposed_ * loads_;
   diagonal_ = VectorXd::Zero(unknowns());
   for (Eigen::Index j = 0; j < unknowns(); ++j) diagonal_[j] = transposed_.row(j).squaredNorm();
   if (unknowns() == 0) return;
@@ -72,13 +72,13 @@ void EaseSystem::find_eigenvalues() {
   const Eigen::SelfAdjointEigenSolver<MatrixXd> found(MatrixXd(dense.transpose() * dense));
   values_ = found.eigenvalues().cwiseMax(0.0);
   vectors_ = found.eigenvectors();
-  const Columns parts = vectors_.transpose() * pulls_;
+  const Columns parts = vectors_.transpose() * gradient_;
   for (Eigen::Index k = 0; k < unknowns(); ++k) {
-    of_pulls_.node.push_back(values_[k]);
-    of_pulls_.weight.push_back(parts.row(k).squaredNorm());
+    of_gradient_.node.push_back(values_[k]);
+    of_gradient_.weight.push_back(parts.row(k).squaredNorm());
     of_trace_.weight.push_back(1);
   }
-  of_trace_.node = of_pulls_.node;
+  of_trace_.node = of_gradient_.node;
 }
 
 void EaseSystem::probe_eigenvalues() {
@@ -88,9 +88,9 @@ void EaseSystem::probe_eigenvalues() {
   };
   // The trace is estimated by vectors of random signs (Hutchinson 1990). With one a coordinate and
   // over `most_dense` unknowns the error is within 5 per cent.
-  for (Eigen::Index a = 0; a < pulls_.cols(); ++a) {
-    add(lanczos(pulls_.col(a)), 1, of_pulls_);
-    add(lanczos(random_signs(unknowns(), std::uint64_t(a + 1))), 1.0 / double(pulls_.cols()),
+  for (Eigen::Index a = 0; a < gradient_.cols(); ++a) {
+    add(lanczos(gradient_.col(a)), 1, of_gradient_);
+    add(lanczos(random_signs(unknowns(), std::uint64_t(a + 1))), 1.0 / double(gradient_.cols()),
         of_trace_);
   }
 }
@@ -109,7 +109,7 @@ EaseSystem::Quadrature EaseSystem::lanczos(const VectorXd& from) const {
     diagonal.push_back(now.dot(next));
     next -= diagonal.back() * now;
     const double left = next.norm();
-    if (k + 1 == quadrature_nodes || !(left > rounding * diagonal.front())) break;
+    if (k + 1 == quadrature_nodes || !(left > roundoff * diagonal.front())) break;
     beside.push_back(left);
     before = std::exchange(now, next / left);
   }
@@ -127,9 +127,9 @@ EaseSystem::Quadrature EaseSystem::lanczos(const VectorXd& from) const {
 
 double EaseSystem::squared_moves(double s) const {
   double sum = 0;
-  for (std::size_t k = 0; k < of_pulls_.node.size(); ++k) {
-    const double filter = s * s / (1 + s * s * of_pulls_.node[k]);
-    sum += of_pulls_.weight[k] * filter * filter;
+  for (std::size_t k = 0; k < of_gradient_.node.size(); ++k) {
+    const double filter = s * s / (1 + s * s * of_gradient_.node[k]);
+    sum += of_gradient_.weight[k] * filter * filter;
   }
   return sum;
 }
@@ -172,7 +172,7 @@ bool EaseSystem::may_be_scatter(double s) const {
   for (Eigen::Index k = 0; k < values_.size(); ++k) {
     const double filter = s * s / (1 + s * s * values_[k]);
     const double kept = filter * values_[k],
-                 part = of_pulls_.weight[std::size_t(k)] * filter * filter;
+                 part = of_gradient_.weight[std::size_t(k)] * filter * filter;
     squares += kept * kept;
     fourths += kept * kept * kept * kept;
     moved += part;
@@ -199,7 +199,7 @@ Columns EaseSystem::solve(double s, double shift, const Columns& wanted,
   Columns d = start, left = wanted - multiply(d), ahead = inverse.asDiagonal() * left;
   Eigen::RowVector3d energy = left.cwiseProduct(ahead).colwise().sum();
   const double scale = wanted.cwiseProduct(inverse.asDiagonal() * wanted).sum();
-  const double least = single_rounding * single_rounding * scale;
+  const double least = single_roundoff * single_roundoff * scale;
   for (Eigen::Index k = 0; k < unknowns() && energy.sum() > least; ++k) {
     stop_if_cancelled();
     const Columns product = multiply(ahead);
@@ -223,15 +223,15 @@ Columns EaseSystem::solve(double s, double shift, const Columns& wanted,
 Columns EaseSystem::moves(double s) const {
   Columns none = Columns::Zero(unknowns(), 3);
   if (!(mean_ > 0) || !(s > 0)) return none;
-  return solve(s, 0, -s * s * pulls_, none);
+  return solve(s, 0, -s * s * gradient_, none);
 }
 
 // A weight between the extreme eigenvalues of (*) couples the moves and their bounded copies.
 Columns EaseSystem::moves_within(double s, const VectorXd& bounds) const {
   const double weight = 1 + s * mean_;
-  const Columns wanted = -s * s * pulls_;
+  const Columns wanted = -s * s * gradient_;
   Columns within = Columns::Zero(unknowns(), 3), apart = within, d = within;
-  for (int round = 0; round < most_splittings; ++round) {
+  for (int round = 0; round < most_iterations; ++round) {
     stop_if_cancelled();
     d = solve(s, weight, wanted + weight * (within - apart), d);
     apart += d;

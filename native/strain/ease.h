@@ -61,11 +61,11 @@ class EaseSystem {
   Columns solve(double s, double shift, const Columns& wanted, const Columns& start) const;
 
   LoadMatrix g_, transposed_;
-  Columns loads_, pulls_;     // G'g
+  Columns loads_, gradient_;  // G'g
   Eigen::VectorXd diagonal_;  // of G'G
   Eigen::MatrixXd vectors_;   // of G'G, if all are computed
   Eigen::VectorXd values_;
-  Quadrature of_pulls_, of_trace_;
+  Quadrature of_gradient_, of_trace_;
   double mean_ = 0;
 };
 

@@ -12,9 +12,9 @@ namespace {
 
 using Way = Eigen::RowVector3d;
 
-class LettingGo {
+class Releases {
  public:
-  LettingGo(const Straining& of, const Columns& loads, const std::vector<double>& floors)
+  Releases(const StrainSystem& of, const Columns& loads, const std::vector<double>& floors)
       : of_(of), columns_(of.matrix.transpose()), left_(loads), floors_(floors) {
     const Eigen::VectorXd own = of.matrix.diagonal();
     const Eigen::VectorXd inverse =
@@ -38,7 +38,7 @@ class LettingGo {
       const auto [length, first] = longest_.top();
       longest_.pop();
       if (!is_free(first) || length != length_of(first)) continue;
-      const Index j = culprit(first);
+      const Index j = row_to_release(first);
       for (const Index row : images_of(j)) {
         out.row(row) = way(row);
         gone_[std::size_t(row)] = 1;
@@ -81,7 +81,7 @@ class LettingGo {
 
   // A row between rows that are images of each other is strained by all of them, more than they
   // are. Returns the one, among it and such rows, whose release leaves the smallest sum.
-  Index culprit(Index longest) const {
+  Index row_to_release(Index longest) const {
     Index best = longest;
     double least = left_without(longest);
     for (LoadMatrix::InnerIterator entry(columns_, longest); entry; ++entry) {
@@ -103,7 +103,7 @@ class LettingGo {
     return left;
   }
 
-  const Straining& of_;
+  const StrainSystem& of_;
   LoadMatrix columns_;  // row j: the ways that a whole way of j removes from the others
   Columns left_;
   const std::vector<double>& floors_;
@@ -118,9 +118,9 @@ double way_length(const Way& way, const Way& normal) {
   return normal.isZero(0) ? way.norm() : std::abs(way.dot(normal));
 }
 
-Columns ways_one_by_one(const Straining& of, const Columns& loads,
+Columns ways_one_by_one(const StrainSystem& of, const Columns& loads,
                         const std::vector<double>& floors) {
-  return LettingGo(of, loads, floors).run();
+  return Releases(of, loads, floors).run();
 }
 
 }  // namespace fairing

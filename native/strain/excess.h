@@ -9,7 +9,7 @@
 
 namespace fairing {
 
-struct Straining {
+struct StrainSystem {
   const LoadMatrix& matrix;  // square
   const Columns& normals;    // one a row: direction of its error; zero: any direction
   const std::vector<std::vector<Index>>& images;  // of each row: the row and its mirror images
@@ -21,7 +21,7 @@ double way_length(const Eigen::RowVector3d& way, const Eigen::RowVector3d& norma
 // The ways -g_j / G_jj of these loads, as rows are released one after another with their images:
 // each time the row with the longest way, until none exceeds its number in `floors`. Also the
 // remaining ways of the other rows.
-Columns ways_one_by_one(const Straining& of, const Columns& loads,
+Columns ways_one_by_one(const StrainSystem& of, const Columns& loads,
                         const std::vector<double>& floors);
 
 }  // namespace fairing

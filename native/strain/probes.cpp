@@ -118,7 +118,7 @@ void probe_loads(ThinPlateSolver& solver, const FeatureCurves& curves,
       for (const Index v : sets[s])
         mesh.for_each_copy(v,
                            [&](Index u) { targets[std::size_t(u)][Eigen::Index(s - first)] = 1; });
-    PlateState state = solver.unheld();
+    PlateState state = solver.unloaded();
     state.loads.assign(targets.size(), Vec3::Zero());
     // the force at control vertices may be twice the tolerance
     solver.solve_again({targets, none}, difference_tolerance, state, x, 2 * difference_tolerance);

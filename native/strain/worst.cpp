@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "strain/worst.h"
 
-#include "base/rounding.h"
+#include "base/roundoff.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
@@ -28,7 +28,7 @@ class Picked {
     const VectorXd by_column = before * above, by_row = before.transpose() * beside;
     const double own = g_.coeff(row, row), pivot = own - beside.dot(by_column);
     // nothing of its own load remains beside the rows picked before
-    if (!(std::abs(pivot) > rounding * std::abs(own))) return false;
+    if (!(std::abs(pivot) > roundoff * std::abs(own))) return false;
     if (inverse_.rows() == k) inverse_.conservativeResize(2 * k + 1, 2 * k + 1);
     inverse_.topLeftCorner(k, k) = before + by_column * by_row.transpose() / pivot;
     inverse_.block(0, k, k, 1) = -by_column / pivot;

@@ -9,7 +9,7 @@ namespace fairing {
 namespace {
 
 // The rows of all points, in order.
-void visit_rows(const PlateDifferences& plate, const TakeRows& take) {
+void visit_rows(const PlateDifferences& plate, const VisitRows& visit) {
   std::vector<Index> ring_points;
   std::vector<double> numbers;
   for (std::size_t p = 0; p < plate.rings().points(); ++p) {
@@ -22,7 +22,7 @@ void visit_rows(const PlateDifferences& plate, const TakeRows& take) {
       ring_points.push_back(RingTable::id_of(plate.rings().members(ring)[s]));
       for (const double number : plate.column(Index(p), ring, s)) numbers.push_back(root * number);
     }
-    take(ring_points, numbers);
+    visit(ring_points, numbers);
   }
 }
 
@@ -33,8 +33,8 @@ AssembledSystem assemble_thin_plate(const GridLevel& grid, const Stencils& stenc
                                     Workers& workers, const SurfaceDifferences* surface) {
   const PlateDifferences plate(grid, stencils, unknowns, workers, surface);
   const std::vector<Index> number = number_unknowns(grid, unknowns);
-  AssembledSystem system = assemble_square(grid, number, nullptr,
-                                           [&](const TakeRows& take) { visit_rows(plate, take); });
+  AssembledSystem system = assemble_square(
+      grid, number, nullptr, [&](const VisitRows& visit) { visit_rows(plate, visit); });
   Triplets entries;
   for (Index i = 0; i < Index(system.unknown_points.size()); ++i) {
     const Index p = system.unknown_points[std::size_t(i)];
@@ -44,7 +44,7 @@ AssembledSystem assemble_thin_plate(const GridLevel& grid, const Stencils& stenc
       if (const RingTable::Member q = plate.rings().members(ring)[k + 1]; q >= 0)
         entries.emplace_back(i, number[std::size_t(q)], -membrane[k]);
     const double held = std::size_t(p) < weights.size() ? weights[std::size_t(p)] : 0.0;
-    if (const double own = membrane.total() + held + plate.pull(p); own != 0)
+    if (const double own = membrane.total() + held + plate.penalty(p); own != 0)
       entries.emplace_back(i, i, own);
   }
   if (!entries.empty()) add_entries(entries, system);

@@ -25,7 +25,7 @@ class PlateDifferences {
   const RingTable& rings() const { return rings_; }
   // Whether points have weights besides the stencils.
   bool is_weighted() const { return surface_ || !weight_.empty(); }
-  double pull(Index p) const { return surface_ ? surface_->pull(p) : 0.0; }
+  double penalty(Index p) const { return surface_ ? surface_->penalty(p) : 0.0; }
   MembraneWeights membrane(const RingTable::Ring& ring) const {
     return {mesh_, stencils_, ring.element};
   }

@@ -53,9 +53,9 @@ class ThinPlateLevel final : public LevelOperator {
     update();
   }
   bool is_measured() const { return surface_ != nullptr; }
-  // r += P goal, in the metric of a surface.
-  void add_pull(const double* goal, double* r) const {
-    surface_->add_pull(goal, shared_.workers, r);
+  // r += P reference, in the metric of a surface.
+  void add_penalty(const double* reference, double* r) const {
+    surface_->add_penalty(reference, shared_.workers, r);
   }
 
   void set_weights(VertexWeights weights) {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "base/rounding.h"
+#include "base/roundoff.h"
 #include "constraints/pads.h"
 #include "grid/injection.h"
 #include "grid/linear.h"
@@ -100,15 +100,15 @@ void ThinPlateLevels::put_fixed(int level, const PlateData& data, double* x) con
   refine_outside_linearly(lat, data.targets, x);
 }
 
-void ThinPlateLevels::residual(int level, std::span<const Vec3> targets, const Array<double>& goal,
-                               const double* x, double* r) {
+void ThinPlateLevels::residual(int level, std::span<const Vec3> targets,
+                               const Array<double>& reference, const double* x, double* r) {
   op(level).apply(x, r);
   for_each_index(workers(), 3 * grid(level).size(), [&](std::size_t i) { r[i] = -r[i]; });
   const VertexWeights& w = weights(level);
   for (std::size_t v = 0; v < w.size(); ++v)
     if (shared_.unknowns.vertex[v])
       for (int a = 0; a < 3; ++a) r[3 * v + std::size_t(a)] += w[v] * targets[v][a];
-  add_pull(level, goal, r);
+  add_penalty(level, reference, r);
 }
 
 void ThinPlateLevels::restrict_to_vertices(int level, const double* r, std::span<Vec3> sums) {
@@ -117,13 +117,14 @@ void ThinPlateLevels::restrict_to_vertices(int level, const double* r, std::span
       [&](int l) { return hierarchy_->room(index(l)); }, sums);
 }
 
-void ThinPlateLevels::measure(int level, const double* x, const ThinPlateOptions::Pull& pull) {
-  const Array<float> own = on_level<1>(grids_, level, *pull.of_points, workers());
-  operators_[index(level)]->measure({x, own.data(), pull.exponent});
+void ThinPlateLevels::measure(int level, const double* x,
+                              const ThinPlateOptions::Penalty& penalty) {
+  const Array<float> own = on_level<1>(grids_, level, *penalty.of_points, workers());
+  operators_[index(level)]->measure({x, own.data(), penalty.exponent});
 }
 
-Array<double> ThinPlateLevels::goal(int level, const PlateData& data) {
-  return data.goal ? on_level<3>(grids_, level, *data.goal, workers()) : Array<double>();
+Array<double> ThinPlateLevels::reference(int level, const PlateData& data) {
+  return data.reference ? on_level<3>(grids_, level, *data.reference, workers()) : Array<double>();
 }
 
 double ThinPlateLevels::bending(int level, const double* x) {
@@ -146,18 +147,19 @@ void ThinPlateLevels::start(int level, const PlateData& data, const Array<double
 }
 
 ThinPlateLevels::Scales ThinPlateLevels::scales(int level, const PlateData& data,
-                                                const Array<double>& goal, double* x, double* r) {
+                                                const Array<double>& reference, double* x,
+                                                double* r) {
   const std::size_t size = 3 * grid(level).size();
   refine_linearly(grid(level), data.targets, workers(), x);
   put_fixed(level, data, x);
-  residual(level, data.targets, goal, x, r);
+  residual(level, data.targets, reference, x, r);
   const Array<float>& inverse = op(level).inverse_diagonal();
   const double terms = std::sqrt(sum(workers(), size, [&](std::size_t i) {
     const double t = x[i] / double(inverse[i / 3]);
     return t * t;
   }));
   // If the polyhedron's residual is rounding, it is no scale: the polyhedron is the solution.
-  return {std::max(norm(workers(), size, r), single_rounding * terms), rounding_of_terms * terms};
+  return {std::max(norm(workers(), size, r), single_roundoff * terms), roundoff_of_terms * terms};
 }
 
 }  // namespace fairing

@@ -20,7 +20,7 @@ struct PlateData {
   std::span<const Vec3> targets;  // control vertices: fixed at them, or on springs to them
   const FeatureCurves& curves;    // on the finest level
   // The surface of the penalty, on the finest level, if the plate is in the metric of a surface.
-  const Array<double>* goal = nullptr;
+  const Array<double>* reference = nullptr;
 };
 
 // Vectors hold 3 numbers a point of their level. Every solve throws FairingError: cancelled;
@@ -58,8 +58,8 @@ class ThinPlateLevels {
   }
   const VertexWeights& weights(int level) const { return operators_[index(level)]->weights(); }
 
-  // r <- W c + P goal - (K + P + W) x on the level's unknowns, with c the targets.
-  void residual(int level, std::span<const Vec3> targets, const Array<double>& goal,
+  // r <- W c + P reference - (K + P + W) x on the level's unknowns, with c the targets.
+  void residual(int level, std::span<const Vec3> targets, const Array<double>& reference,
                 const double* x, double* r);
   // Solves from x, whose residual is system.r, to the given limits (Hierarchy::solve).
   LevelSolve solve(int level, const PcgLimits& limits, const LinearSystem& system,
@@ -75,12 +75,12 @@ class ThinPlateLevels {
   // Switches the level to the metric of the surface x. Once a level: later surfaces use the same
   // metric, so that they are linear in their data.
   bool is_measured(int level) const { return operators_[index(level)]->is_measured(); }
-  void measure(int level, const double* x, const ThinPlateOptions::Pull& pull);
-  // The goal on a level (thin_plate/surface_differences.h); empty in the control metric.
-  Array<double> goal(int level, const PlateData& data);
-  // r += P goal, if there is a goal.
-  void add_pull(int level, const Array<double>& goal, double* r) const {
-    if (!goal.empty()) operators_[index(level)]->add_pull(goal.data(), r);
+  void measure(int level, const double* x, const ThinPlateOptions::Penalty& penalty);
+  // The reference on a level (thin_plate/surface_differences.h); empty in the control metric.
+  Array<double> reference(int level, const PlateData& data);
+  // r += P reference, if there is a reference.
+  void add_penalty(int level, const Array<double>& reference, double* r) const {
+    if (!reference.empty()) operators_[index(level)]->add_penalty(reference.data(), r);
   }
 
   // The plate's energy with that of tension: what is minimized, without the penalty.
@@ -99,7 +99,8 @@ class ThinPlateLevels {
   struct Scales {
     double residual, noise;
   };
-  Scales scales(int level, const PlateData& data, const Array<double>& goal, double* x, double* r);
+  Scales scales(int level, const PlateData& data, const Array<double>& reference, double* x,
+                double* r);
 
  private:
   std::size_t index(int level) const { return std::size_t(level - base_); }  // in the hierarchy

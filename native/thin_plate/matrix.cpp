@@ -40,7 +40,7 @@ void sum_row(const PlateDifferences& plate, Index p, RowBuilder& row) {
   }
   visit_membrane_row(plate.membrane(own), rings.members(own),
                      [&](RingTable::Member m, double number) { row.add(m, number); });
-  if (const double pull = plate.pull(p); pull != 0) row.add(p, pull);
+  if (const double penalty = plate.penalty(p); penalty != 0) row.add(p, penalty);
 }
 
 // Rows of K one after another.

@@ -19,12 +19,12 @@ struct ThinPlateOptions {
   SolveOptions solve;
   double pad_size = 0;               // of the pads (constraints/pads.h); 0: point forces
   std::vector<FixedNormal> normals;  // fixed on all levels but the coarsest
-  // The penalty on the distance from a goal, in the metric of the surface from which a level
+  // The penalty on the distance from a reference, in the metric of the surface from which a level
   // starts; null: the control metric and no penalty.
-  struct Pull {
-    std::shared_ptr<const Array<float>> of_points;  // SurfaceMetric::pull, on the finest level
+  struct Penalty {
+    std::shared_ptr<const Array<float>> of_points;  // SurfaceMetric::penalty, on the finest level
     double exponent = 0;                            // of the metric
-  } pull;
+  } penalty;
   bool starts_steps = false;  // Gauss-Newton steps follow, which take most of the run
 };
 

@@ -14,7 +14,7 @@ struct ThinPlateSolver::Run {
   PlateState& state;
   Array<double>& x;                  // of the level
   Array<double> r{};                 // of x
-  Array<double> goal{};              // of the penalty; or empty
+  Array<double> reference{};         // of the penalty; or empty
   double rough_force = 0;            // force that may be left, as a share of the loads
   std::span<const double> forces{};  // per point of the finest level; or empty
 
@@ -24,7 +24,7 @@ struct ThinPlateSolver::Run {
   std::size_t size(int level) const { return 3 * levels().grid(level).size(); }
 
   // Allocates x and r. Then sets the level's metric if it is that of a surface: that of its start,
-  // or of the goal on the coarsest level.
+  // or of the reference on the coarsest level.
   void begin(int level, const PlateSurface& below);
   // State, forces and x <- the start of a level. `foretells`: whether `forces` predict the change
   // of the loads.

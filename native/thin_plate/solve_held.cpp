@@ -47,7 +47,7 @@ ThinPlateSolver::Run::Solved ThinPlateSolver::Run::solve(int level, const PcgLim
   const auto residual = [&](const double* y, double* out) {
     levels().apply_with(level, hats ? hats->rows() : unknowns, y, out);
     for_each_index(workers, size(level), [&](std::size_t i) { out[i] = -out[i]; });
-    levels().add_pull(level, goal, out);
+    levels().add_penalty(level, reference, out);
     for (std::size_t i = 0; i < forces.size(); ++i) out[i] += forces[i];
   };
   int iterations = 0;

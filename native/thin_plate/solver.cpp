@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "base/rounding.h"
+#include "base/roundoff.h"
 #include "parallel/reductions.h"
 #include "thin_plate/run.h"
 
@@ -29,16 +29,16 @@ ThinPlateSolver::ThinPlateSolver(const ControlMesh& mesh, const ChartMaker& char
 void ThinPlateSolver::Run::begin(int level, const PlateSurface& below) {
   x.resize(size(level));
   r.resize(size(level));
-  goal = levels().goal(level, data);
-  const ThinPlateOptions::Pull& pull = solver.options_.pull;
-  if (!pull.of_points || levels().is_measured(level)) return;
+  reference = levels().reference(level, data);
+  const ThinPlateOptions::Penalty& penalty = solver.options_.penalty;
+  if (!penalty.of_points || levels().is_measured(level)) return;
   if (level > base()) levels().start(level, data, below.x, x);
-  levels().measure(level, level > base() ? x.data() : goal.data(), pull);
+  levels().measure(level, level > base() ? x.data() : reference.data(), penalty);
 }
 
 void ThinPlateSolver::Run::start(int level, bool foretells, const PlateSurface& below,
                                  Loads& forces) {
-  state = level > base() ? below.state : solver.supports_.unheld();
+  state = level > base() ? below.state : solver.supports_.unloaded();
   forces = below.forces;
   solver.supports_.start(level, foretells, state, forces);
   levels().start(level, data, below.x, x);
@@ -46,7 +46,7 @@ void ThinPlateSolver::Run::start(int level, bool foretells, const PlateSurface& 
 
 // `room`: a surface's memory, for the control polyhedron.
 PcgLimits ThinPlateSolver::Run::limits(int level, double tolerance, double energy, double* room) {
-  const ThinPlateLevels::Scales scale = levels().scales(level, data, goal, room, r.data());
+  const ThinPlateLevels::Scales scale = levels().scales(level, data, reference, room, r.data());
   PcgLimits limits;
   limits.tolerance = tolerance;
   limits.residual_scale = scale.residual;
@@ -131,7 +131,7 @@ void ThinPlateSolver::solve_moved(const PlateData& before, const PlateData& data
   for (std::size_t v = 0; v < data.targets.size(); ++v)
     farthest = std::max(farthest, (data.targets[v] - before.targets[v]).lpNorm<Eigen::Infinity>());
   // The finest level removes errors of the size of single precision at no cost.
-  if (farthest > single_rounding && levels_.base() < levels_.top())
+  if (farthest > single_roundoff && levels_.base() < levels_.top())
     add_difference(before, data, state, x, reports);
   levels_.put_fixed(levels_.top(), data, x.data());
   if (on_prediction) on_prediction(x.data());
@@ -139,7 +139,7 @@ void ThinPlateSolver::solve_moved(const PlateData& before, const PlateData& data
   limits.tolerance = tolerance;
   Run run{*this, data, state, x};
   run.r.resize(x.size());
-  run.goal = levels_.goal(levels_.top(), data);
+  run.reference = levels_.reference(levels_.top(), data);
   reports.push_back(run.solve(levels_.top(), limits, nullptr).report);
 }
 
@@ -169,13 +169,14 @@ void ThinPlateSolver::add_difference(const PlateData& before, const PlateData& d
   std::vector<Vec3> moves(data.targets.size());
   for (std::size_t v = 0; v < moves.size(); ++v) moves[v] = data.targets[v] - before.targets[v];
   const FeatureCurves curves = moves_of_curves(data.curves, levels_.grid(levels_.top()), x);
-  Array<double> goal;
-  if (data.goal) {
-    goal.resize(x.size());
-    for_each_index(levels_.workers(), x.size(),
-                   [&](std::size_t i) { goal[i] = (*data.goal)[i] - (*before.goal)[i]; });
+  Array<double> reference;
+  if (data.reference) {
+    reference.resize(x.size());
+    for_each_index(levels_.workers(), x.size(), [&](std::size_t i) {
+      reference[i] = (*data.reference)[i] - (*before.reference)[i];
+    });
   }
-  const PlateData moving{moves, curves, data.goal ? &goal : nullptr};
+  const PlateData moving{moves, curves, data.reference ? &reference : nullptr};
   PcgLimits rough;
   rough.tolerance = difference_tolerance;
   rough.from_start = true;
@@ -203,7 +204,7 @@ LevelReport ThinPlateSolver::solve_again(const PlateData& data, double tolerance
   run.rough_force = rough_force;
   run.forces = forces;
   run.r.resize(x.size());
-  run.goal = levels_.goal(top, data);
+  run.reference = levels_.reference(top, data);
   PcgLimits limits;
   {
     Array<double> polyhedron(x.size());

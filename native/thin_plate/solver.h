@@ -42,7 +42,7 @@ class ThinPlateSolver {
   void keep_smoother() { levels_.hierarchy().keep_smoother(); }
 
   // The state of a surface without loads and couples.
-  PlateState unheld() const { return supports_.unheld(); }
+  PlateState unloaded() const { return supports_.unloaded(); }
 
   // The constraints of control vertices that move, with their first weights on all levels.
   BallConstraints begin(ControlConstraints held);

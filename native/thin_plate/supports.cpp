@@ -34,7 +34,7 @@ PlateSupports::PlateSupports(const ChartMaker& charts, const ThinPlateOptions& o
   stiffness_.assign(diagonal.begin(), diagonal.begin() + shared.mesh.vertex_count());
 }
 
-PlateState PlateSupports::unheld() const {
+PlateState PlateSupports::unloaded() const {
   PlateState out;
   if (couples_) out.moments.assign(couples_->size(), Vec2::Zero());
   return out;

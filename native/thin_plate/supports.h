@@ -28,7 +28,7 @@ class PlateSupports {
   const std::vector<double>& stiffness() const { return stiffness_; }
 
   // The state of a surface without loads and couples.
-  PlateState unheld() const;
+  PlateState unloaded() const;
   // state <- the start of a level, from that of the level below. `forces_below` are the forces of
   // the hats there relative to the level before; `foretells`: whether they predict the change of
   // the loads.

@@ -58,7 +58,7 @@ SurfaceDifferences::SurfaceDifferences(const GridLevel& grid, const Stencils& st
       places_(rings_) {
   const RingTable::Ring& last = rings_.about(Index(rings_.points() - 1));
   row_.resize(3 * (last.member + last.size));
-  pull_.resize(rings_.points());
+  penalty_.resize(rings_.points());
   write_rows(metric, workers);
 }
 
@@ -83,7 +83,7 @@ void SurfaceDifferences::write_rows(const SurfaceMetric& metric, Workers& worker
           const std::size_t p = run.first + i;
           float* const to = row_.data() + 3 * rings_.about(Index(p)).member;
           std::fill(to, to + 3 * (ring + 1), 0.0f);
-          pull_[p] = 0;
+          penalty_[p] = 0;
           if (usual.size() == 0) continue;
           for (std::size_t s = 0; s < ring; ++s)
             for (int a = 0; a < 3; ++a)
@@ -110,8 +110,8 @@ void SurfaceDifferences::write_rows(const SurfaceMetric& metric, Workers& worker
             return root * rows(Eigen::Index(c + 2), Eigen::Index(s));
           });
           if (is_unknown(Index(p)))
-            pull_[p] = float(bending_of(in_space, to) / (n * n) * std::pow(area_of(in_space), 2) *
-                             std::pow(metric.pull[p], 4));
+            penalty_[p] = float(bending_of(in_space, to) / (n * n) *
+                                std::pow(area_of(in_space), 2) * std::pow(metric.penalty[p], 4));
         }
       });
 }
@@ -126,7 +126,7 @@ Array<float>& SurfaceDifferences::moments<float>() {
 }
 
 template <class T>
-void SurfaceDifferences::take_moments(Workers& workers, const T* x) {
+void SurfaceDifferences::compute_moments(Workers& workers, const T* x) {
   Array<T>& moment = moments<T>();
   moment.resize(9 * rings_.points());
   for_each_point(workers, rings_.points(), [&](std::size_t p) {
@@ -150,7 +150,7 @@ void SurfaceDifferences::take_moments(Workers& workers, const T* x) {
 template <class T>
 void SurfaceDifferences::apply(const std::vector<std::uint8_t>& vertices,
                                const VertexWeights& weights, Workers& workers, const T* x, T* y) {
-  take_moments(workers, x);
+  compute_moments(workers, x);
   const T* const moment = moments<T>().data();
   for_each_point(workers, rings_.points(), [&](std::size_t p) {
     T sum[3] = {};
@@ -166,7 +166,7 @@ void SurfaceDifferences::apply(const std::vector<std::uint8_t>& vertices,
       for (std::size_t s = 0; s < tension.size(); ++s)
         for (std::size_t a = 0; a < 3; ++a)
           sum[a] += T(tension[s]) * (x[3 * p + a] - x[3 * std::size_t(members[s + 1]) + a]);
-      const T held = T(pull_[p]) + T(p < weights.size() ? weights[p] : 0.0);
+      const T held = T(penalty_[p]) + T(p < weights.size() ? weights[p] : 0.0);
       for (std::size_t a = 0; a < 3; ++a) sum[a] += held * x[3 * p + a];
     }
     std::copy_n(sum, 3, y + 3 * p);
@@ -183,7 +183,7 @@ Array<float> SurfaceDifferences::diagonal(const std::vector<std::uint8_t>& verti
                                           const VertexWeights& weights, Workers& workers) const {
   Array<float> out(rings_.points());
   for_each_point(workers, rings_.points(), [&](std::size_t p) {
-    double sum = pull(Index(p)) + (p < weights.size() ? weights[p] : 0.0);
+    double sum = penalty(Index(p)) + (p < weights.size() ? weights[p] : 0.0);
     for (const RingPlaces::Place& place : places_.of(Index(p)))
       for (const double number : column(place.centre, place.slot)) sum += number * number;
     sum += membrane(Index(p)).total();
@@ -192,15 +192,15 @@ Array<float> SurfaceDifferences::diagonal(const std::vector<std::uint8_t>& verti
   return out;
 }
 
-void SurfaceDifferences::add_pull(const double* goal, Workers& workers, double* r) const {
+void SurfaceDifferences::add_penalty(const double* reference, Workers& workers, double* r) const {
   for_each_point(workers, rings_.points(), [&](std::size_t p) {
     if (!is_unknown(Index(p))) return;
-    for (std::size_t a = 0; a < 3; ++a) r[3 * p + a] += pull(Index(p)) * goal[3 * p + a];
+    for (std::size_t a = 0; a < 3; ++a) r[3 * p + a] += penalty(Index(p)) * reference[3 * p + a];
   });
 }
 
 double SurfaceDifferences::energy(Workers& workers, const double* x) {
-  take_moments(workers, x);
+  compute_moments(workers, x);
   return sum(workers, moment_.size(), [&](std::size_t i) { return moment_[i] * moment_[i]; });
 }
 

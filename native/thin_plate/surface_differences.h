@@ -5,8 +5,8 @@
 // none, so the plate is close to its total curvature (docs/developers/notes/method.md).
 //
 // Such a plate oscillates between its fixed points, by more than the thickness of a thin wall. So
-// its squared distance from a surface that does not is penalized, the goal: P, a weight for each
-// point, is part of the matrix, and P goal of the right-hand side.
+// its squared distance from a surface that does not is penalized, the reference: P, a weight for
+// each point, is part of the matrix, and P reference of the right-hand side.
 #pragma once
 
 #include "sparse/ring_table.h"
@@ -15,12 +15,12 @@
 
 namespace fairing {
 
-// The metric of a surface and the penalty on the distance from the goal.
+// The metric of a surface and the penalty on the distance from the reference.
 struct SurfaceMetric {
   const double* surface;  // 3 numbers a point
-  // k, one per point: the squared distance from the goal has the weight k^4 S^2 times the surface's
-  // own bending at the point, with S the point's area at unit grid spacing.
-  const float* pull;
+  // k, one per point: the squared distance from the reference has the weight k^4 S^2 times the
+  // surface's own bending at the point, with S the point's area at unit grid spacing.
+  const float* penalty;
   double exponent;  // as in flatten()
 };
 
@@ -39,7 +39,7 @@ class SurfaceDifferences {
     return {row[0], row[1], row[2]};
   }
 
-  double pull(Index p) const { return double(pull_[std::size_t(p)]); }
+  double penalty(Index p) const { return double(penalty_[std::size_t(p)]); }
 
   // y <- (K + P + W) x on the unknowns, zero elsewhere; T: float or double. `vertices`: which
   // control vertices count as unknowns, in place of the level's own.
@@ -52,8 +52,8 @@ class SurfaceDifferences {
   Array<float> diagonal(const std::vector<std::uint8_t>& vertices, const VertexWeights& weights,
                         Workers& workers) const;
 
-  // r += P goal on the unknowns.
-  void add_pull(const double* goal, Workers& workers, double* r) const;
+  // r += P reference on the unknowns.
+  void add_penalty(const double* reference, Workers& workers, double* r) const;
 
   // As thin_plate_energy(), without P.
   double energy(Workers& workers, const double* x);
@@ -64,7 +64,7 @@ class SurfaceDifferences {
   Array<T>& moments();
   // moments <- rows x, 9 numbers a point.
   template <class T>
-  void take_moments(Workers& workers, const T* x);
+  void compute_moments(Workers& workers, const T* x);
   MembraneWeights membrane(Index p) const {
     return {grid_.mesh(), stencils_, rings_.about(p).element};
   }
@@ -76,8 +76,8 @@ class SurfaceDifferences {
   const std::vector<std::uint8_t> unknown_;  // one a point
   const RingTable rings_;                    // in which all points are
   const RingPlaces places_;
-  Array<float> row_;   // 3 a member of a ring
-  Array<float> pull_;  // P, one per point: zero if it is not an unknown
+  Array<float> row_;      // 3 a member of a ring
+  Array<float> penalty_;  // P, one per point: zero if it is not an unknown
   Array<double> moment_;
   Array<float> float_moment_;
 };

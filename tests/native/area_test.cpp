@@ -159,7 +159,7 @@ TEST(Area, JoinsTheSystemOfEitherEnergy) {
         const double whole = system.linearize(x.data(), {energy}, &surface);
         if (energy == CurvatureEnergy::minimum_variation) system.set_damping({}, 0.01);
         EXPECT_NEAR(whole - system.bending(), tau * area_of_cells(grid, x), 1e-9 * whole);
-        EXPECT_EQ(whole, system.fairness());
+        EXPECT_EQ(whole, system.objective());
 
         const AssembledSystem assembled = system.assemble();
         const std::vector<Index> number = number_unknowns(grid, shared.unknowns);

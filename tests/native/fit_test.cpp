@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "fit/feet.h"
-#include "fit/pull.h"
+#include "fit/point_forces.h"
 #include "grid/linear.h"
 #include "level_settings.h"
 #include "random.h"
@@ -148,20 +148,20 @@ TEST(Pulls, AreSumsOverThePointsForAnyNumberOfThreads) {
   finder.set_surface(near.x.data());
   Array<Foot> feet;
   finder.find(feet);
-  Array<float> trust;
-  for (std::size_t s = 0; s < feet.size(); ++s) trust.push_back(float(s % 3) / 2);
+  Array<float> robust_weight;
+  for (std::size_t s = 0; s < feet.size(); ++s) robust_weight.push_back(float(s % 3) / 2);
   VertexWeights weight, other;
   Array<Vec3> force, elsewhere;
-  PullSums(near.cells, near.workers).sum(finder, feet, trust, weight, force);
+  PointForces(near.cells, near.workers).sum(finder, feet, robust_weight, weight, force);
   Workers alone(1);
-  PullSums(near.cells, alone).sum(finder, feet, trust, other, elsewhere);
+  PointForces(near.cells, alone).sum(finder, feet, robust_weight, other, elsewhere);
   EXPECT_EQ(weight, other);
   std::vector<double> expected(near.grid.size(), 0.0);
   std::vector<Vec3> pulled(near.grid.size(), Vec3::Zero());
   for (std::size_t s = 0; s < feet.size(); ++s)
     for (std::size_t k = 0; k < 3; ++k) {
       const auto p = std::size_t(near.cells.corners(feet[s].cell)[k]);
-      const double share = double(trust[s]) * double(feet[s].shares[k]);
+      const double share = double(robust_weight[s]) * double(feet[s].shares[k]);
       expected[p] += share;
       pulled[p] += share * double(feet[s].offset) * finder.normal_at(feet[s]);
     }

@@ -2,9 +2,9 @@
 // Folds: found where they are and only there; refilled flat.
 #include <gtest/gtest.h>
 
+#include "curvature/fold_repair.h"
 #include "curvature/folds.h"
 #include "curvature/local_damping.h"
-#include "curvature/unfold.h"
 #include "grid/linear.h"
 #include "meshes.h"
 #include "random.h"

@@ -6,7 +6,7 @@
 #include <memory>
 #include <numbers>
 
-#include "curvature/left_to_move.h"
+#include "curvature/error_estimate.h"
 #include "curvature/start.h"
 #include "curvature/steps.h"
 #include "grid/linear.h"
@@ -16,8 +16,8 @@
 namespace fairing::test {
 namespace {
 
-TEST(LeftToMove, SumsTheStepsToCome) {
-  LeftToMove left(0.1);
+TEST(ErrorEstimate, SumsTheStepsToCome) {
+  ErrorEstimate left(0.1);
   EXPECT_EQ(left.after(1, 8, true), 8);         // one step alone: as much again
   EXPECT_EQ(left.after(0.01, 0.3, true), 0.3);  // the first ratio is not believed
   EXPECT_DOUBLE_EQ(left.after(0.002, 0.06, true), 0.06 * 0.25);
@@ -25,15 +25,15 @@ TEST(LeftToMove, SumsTheStepsToCome) {
   EXPECT_EQ(left.after(1.9e-6, 0.5, true), 0.5);         // nor above a half
 }
 
-TEST(LeftToMove, AStepThatIsNotSolvedLeavesItself) {
-  LeftToMove left(0.1);
+TEST(ErrorEstimate, AStepThatIsNotSolvedLeavesItself) {
+  ErrorEstimate left(0.1);
   left.after(1, 1, true);
   left.after(0.1, 0.1, true);
   EXPECT_EQ(left.after(0.01, 0.01, false), 0.01);
 }
 
-TEST(LeftToMove, BeginsAnewAfterARejectedStep) {
-  LeftToMove left(0.1);
+TEST(ErrorEstimate, BeginsAnewAfterARejectedStep) {
+  ErrorEstimate left(0.1);
   left.after(1, 1, true);
   left.forget();
   EXPECT_EQ(left.last_decrement(), 0);
@@ -80,7 +80,7 @@ TEST(Start, IsThePlateOnTheCoarsestLevel) {
   const Array<double> plate = levels.sphere(2);
   choose_start(iterate, 2, nullptr, plate, {}, {}, report);
   EXPECT_EQ(iterate.current.points, plate);
-  EXPECT_EQ(iterate.current.number, iterate.op().linearizations());
+  EXPECT_EQ(iterate.current.version, iterate.op().linearizations());
   EXPECT_EQ(report.start_energy, report.plate_energy);
   // M is exact there: the energy is twice the area, which is less than the sphere's
   EXPECT_LT(iterate.current.energy, 8 * std::numbers::pi);
@@ -110,7 +110,7 @@ TEST(Start, StaysThePlateWhereTheSolutionBelowIsWorse) {
   const Array<double> plate = levels.sphere(3);
   choose_start(iterate, 3, nullptr, plate, levels.sphere(2), {}, report);
   EXPECT_EQ(iterate.current.points, plate);
-  EXPECT_NE(iterate.current.number,
+  EXPECT_NE(iterate.current.version,
             iterate.op().linearizations());  // the other candidate's is later
 }
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "base/rounding.h"
+#include "base/roundoff.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
@@ -98,7 +98,7 @@ class Cells {
   bool lie_on_one_another(std::size_t a, std::size_t b) const {
     for (const auto& [t, other] : {std::pair(a, b), std::pair(b, a)}) {
       const Vec3 normal = (corner(t, 1) - corner(t, 0)).cross(corner(t, 2) - corner(t, 0));
-      const double size = normal.norm(), thin = rounding * size;
+      const double size = normal.norm(), thin = roundoff * size;
       if (size == 0) return false;
       for (std::size_t i = 0; i < 3; ++i) {
         const Vec3 way = corner(other, i) - corner(t, 0);
@@ -110,7 +110,7 @@ class Cells {
         bool beyond = true;
         for (std::size_t k = 0; k < 3 && beyond; ++k) {
           const Vec3 way = corner(other, k) - from;
-          beyond = inwards.dot(way) <= rounding * inwards.norm() * way.norm();
+          beyond = inwards.dot(way) <= roundoff * inwards.norm() * way.norm();
         }
         if (beyond) return false;
       }
@@ -125,12 +125,12 @@ class Cells {
                v = corner(t, 2) - corner(t, 0);
     const Vec3 across = direction.cross(v);
     const double determinant = u.dot(across);
-    if (std::abs(determinant) <= rounding * u.norm() * v.norm() * direction.norm()) return false;
+    if (std::abs(determinant) <= roundoff * u.norm() * v.norm() * direction.norm()) return false;
     const Vec3 offset = from - corner(t, 0), turned = offset.cross(u);
     const double first = offset.dot(across) / determinant,
                  second = direction.dot(turned) / determinant;
     const double along = v.dot(turned) / determinant;
-    return std::min({first, second, 1 - first - second, along, 1 - along}) > rounding;
+    return std::min({first, second, 1 - first - second, along, 1 - along}) > roundoff;
   }
 
   std::span<const Vec3> points_;

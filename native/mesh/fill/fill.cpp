@@ -8,7 +8,7 @@
 #include <set>
 
 #include "base/error.h"
-#include "base/rounding.h"
+#include "base/roundoff.h"
 #include "mesh/fill/rims.h"
 #include "mesh/fill/ruled.h"
 #include "parallel/cancel.h"
@@ -243,7 +243,7 @@ void require_areas(const Patch& patch, const OneHole& hole) {
       if (sides[i].squaredNorm() > sides[longest].squaredNorm()) longest = i;
     }
     const double area = sides[0].cross(sides[1]).norm();
-    if (area > 2 * rounding * sides[longest].squaredNorm()) continue;  // as in validate/
+    if (area > 2 * roundoff * sides[longest].squaredNorm()) continue;  // as in validate/
     std::vector<std::int64_t> ids;
     for (std::size_t i = 0; i < 3; ++i)
       if (const Index a = t[i], b = t[(i + 1) % 3];

@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "base/points.h"
-#include "base/rounding.h"
+#include "base/roundoff.h"
 #include "mesh/sharp_turn.h"
 #include "parallel/cancel.h"
 
@@ -213,7 +213,7 @@ class Refinement {
     if (on_rim(c) && on_rim(d) && joined_(c.idx(), d.idx())) return false;
     const double now = std::max(badness(a, b, c), badness(b, a, d));
     const double then = std::max(badness(c, d, b), badness(d, c, a));
-    if (then >= now - rounding) return false;
+    if (then >= now - roundoff) return false;
     // the sides b-c and a-d, c-a and d-b keep their neighbours
     const Half bc = mesh_.next_halfedge_handle(h), ca = mesh_.prev_halfedge_handle(h);
     const Half ad = mesh_.next_halfedge_handle(back), db = mesh_.prev_halfedge_handle(back);

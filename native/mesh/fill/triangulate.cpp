@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/rounding.h"
+#include "base/roundoff.h"
 #include "mesh/fill/ears.h"
 #include "parallel/cancel.h"
 
@@ -170,7 +170,7 @@ class Search {
   // triangle without area counts as the worst.
   static double turn(const Vec3& normal, const Vec3& other) {
     if (other.isZero()) return 1;
-    return normal.isZero() ? -1 : std::round(normal.dot(other) / single_rounding) * single_rounding;
+    return normal.isZero() ? -1 : std::round(normal.dot(other) / single_roundoff) * single_roundoff;
   }
 
   std::vector<Triangle> triangles() {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/points.h"
-#include "base/rounding.h"
+#include "base/roundoff.h"
 #include "mesh/mend/cut_sides.h"
 #include "mesh/mend/edge_faces.h"
 #include "mesh/mend/flat_stack.h"
@@ -119,7 +119,7 @@ class Dissolver {
     };
     const Vec3 begin = farthest_from(point(loop[0].vertex)), along = farthest_from(begin) - begin;
     return std::all_of(loop.begin(), loop.end(), [&](const MendCorner& corner) {
-      return along.cross(point(corner.vertex) - begin).norm() <= 2 * rounding * along.squaredNorm();
+      return along.cross(point(corner.vertex) - begin).norm() <= 2 * roundoff * along.squaredNorm();
     });
   }
 

@@ -47,9 +47,9 @@ class Mender {
       : mesh_(mesh), options_(options), merges_(std::size_t(mesh.vertex_count())) {}
 
   MendedMesh run() {
-    const bool welded = options_.weld >= 0 && weld(mesh_, options_.weld, merges_),
+    const bool merged_near = options_.weld >= 0 && merge_near(mesh_, options_.weld, merges_),
                merged = merge_within_faces(mesh_, merges_);
-    if (!welded && !merged && nothing_wrong()) return {};
+    if (!merged_near && !merged && nothing_wrong()) return {};
     set_faces();
     drop_duplicates();
     Dissolved dissolved = dissolve_flat_faces(mesh_.coordinates, loops_);

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "base/points.h"
-#include "base/rounding.h"
+#include "base/roundoff.h"
 #include "mesh/validate/checks.h"
 #include "parallel/cancel.h"
 
@@ -91,7 +91,7 @@ bool unite_short_sides(const PolygonMesh& mesh, const Ids& face, UnionFind& merg
   for (std::size_t i = 0; i < face.size(); ++i) longest = std::max(longest, side(i));
   bool any = false;
   for (std::size_t i = 0; i < face.size(); ++i) {
-    if (!(side(i) <= rounding * longest)) continue;
+    if (!(side(i) <= roundoff * longest)) continue;
     merges.unite(Index(face[i]), Index(face[(i + 1) % face.size()]));
     any = true;
   }
@@ -100,7 +100,7 @@ bool unite_short_sides(const PolygonMesh& mesh, const Ids& face, UnionFind& merg
 
 }  // namespace
 
-bool weld(const PolygonMesh& mesh, double distance, UnionFind& merges) {
+bool merge_near(const PolygonMesh& mesh, double distance, UnionFind& merges) {
   const std::vector<std::uint8_t> used = used_vertices(mesh);
   // Cubes as small as rounding errors would be too many to number.
   using Limits = std::numeric_limits<double>;

@@ -9,7 +9,7 @@ namespace fairing {
 
 // Unites vertices of faces no farther apart than `distance`: each, by its id, with the lowest kept
 // one that is near enough. So none moves farther than that. Returns whether there are any.
-bool weld(const PolygonMesh& mesh, double distance, UnionFind& merges);
+bool merge_near(const PolygonMesh& mesh, double distance, UnionFind& merges);
 
 // Unites vertices of a face at one point, and the ends of a tiny side in a face without area.
 // `mesh` has finite vertices in its faces. Returns whether there are any.

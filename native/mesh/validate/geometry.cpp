@@ -4,7 +4,7 @@
 #include <bit>
 
 #include "base/points.h"
-#include "base/rounding.h"
+#include "base/roundoff.h"
 #include "mesh/validate/checks.h"
 #include "parallel/cancel.h"
 
@@ -56,7 +56,7 @@ bool has_no_area(std::span<const double> coordinates, std::span<const std::int64
     longest = std::max(longest, (here - last).squaredNorm());
     last = here;
   }
-  return !(twice_area.norm() > 2 * rounding * longest);  // also true for NaN
+  return !(twice_area.norm() > 2 * roundoff * longest);  // also true for NaN
 }
 
 void check_coincident_vertices(const PolygonMesh& mesh, Defects& found) {

@@ -17,7 +17,7 @@ std::uint64_t scramble(std::uint64_t x) {  // splitmix64
   return x ^ (x >> 31);
 }
 
-struct Print {
+struct Fingerprint {
   std::uint64_t hash;  // of the set of vertices: a sum, which does not depend on their order
   std::int32_t face;
 };
@@ -30,10 +30,10 @@ Ids sorted_vertices(const PolygonMesh& mesh, std::int32_t f) {
 }
 
 // Compares the vertices of faces with the same hash.
-void collect_equal_sets(const PolygonMesh& mesh, std::span<const Print> same_hash,
+void collect_equal_sets(const PolygonMesh& mesh, std::span<const Fingerprint> same_hash,
                         std::vector<SameVertices>& found) {
   std::vector<std::pair<Ids, std::int32_t>> sets;
-  for (const Print& print : same_hash)
+  for (const Fingerprint& print : same_hash)
     sets.emplace_back(sorted_vertices(mesh, print.face), print.face);
   std::sort(sets.begin(), sets.end());
   std::int32_t first = 0;
@@ -57,17 +57,17 @@ std::vector<SameVertices> faces_with_same_vertices(const PolygonMesh& mesh) {
   // Sorting faces by their lowest vertices gives groups of two on average.
   const auto lowest = [&](std::size_t f) { return std::ranges::min(mesh.face(std::int64_t(f))); };
   const auto print_of = [&](std::size_t f) {
-    Print print{0, std::int32_t(f)};
+    Fingerprint print{0, std::int32_t(f)};
     for (std::int64_t v : mesh.face(print.face)) print.hash += scramble(std::uint64_t(v));
     return print;
   };
-  CountingSort<Print> prints(std::size_t(mesh.vertex_count()), std::size_t(mesh.face_count()),
-                             lowest, print_of);
+  CountingSort<Fingerprint> fingerprints(std::size_t(mesh.vertex_count()),
+                                         std::size_t(mesh.face_count()), lowest, print_of);
   std::vector<SameVertices> found;
-  prints.for_equal([](const Print& a, const Print& b) { return a.hash < b.hash; },
-                   [&](std::span<const Print> same_hash) {
-                     if (same_hash.size() > 1) collect_equal_sets(mesh, same_hash, found);
-                   });
+  fingerprints.for_equal([](const Fingerprint& a, const Fingerprint& b) { return a.hash < b.hash; },
+                         [&](std::span<const Fingerprint> same_hash) {
+                           if (same_hash.size() > 1) collect_equal_sets(mesh, same_hash, found);
+                         });
   std::sort(found.begin(), found.end(),
             [](const SameVertices& a, const SameVertices& b) { return a.face < b.face; });
   return found;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "curvature/unfold.h"
+#include "curvature/fold_repair.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/SparseLU>
@@ -14,7 +14,7 @@ namespace {
 
 // Most times that the places of all folds so far are filled again, each time with one more ring of
 // neighbours.
-constexpr int most_rounds = 3;
+constexpr int most_repairs = 3;
 constexpr int rings = 2;  // in the first round
 
 double point_energy(const Linearization& about, std::size_t i) {
@@ -142,23 +142,23 @@ void fill_harmonically(const GridLevel& grid, const Unknowns& unknowns, const Ar
       x[3 * std::size_t(filled[std::size_t(i)]) + std::size_t(a)] = targets(i, a);
 }
 
-Folds Unfolding::find() const {
+Folds FoldRepair::find() const {
   return find_folds(it_.grid(), it_.workers(), it_.current.points.data(), folded_faces_);
 }
 
-void Unfolding::dilate_marks(int by, Array<float>& marks) {
+void FoldRepair::dilate_marks(int by, Array<float>& marks) {
   for (int r = 0; r < by; ++r)
     dilate(it_.grid(), it_.workers(), it_.system.shared().float_slots, nullptr, marks);
 }
 
-void Unfolding::run(const StepStart& start, CurvatureLevelReport& report) {
+void FoldRepair::run(const StepStart& start, CurvatureLevelReport& report) {
   const std::size_t points = it_.grid().size();
   Folds folds = find();
   report.folds_before = report.folds = folds.count();
   if (report.folds == 0) return;
   LinearizedSurface best = it_.current;
   Array<float> folded(points, 0.0f), burst_before(points, 0.0f), marks;
-  for (int round = 0; round < most_rounds && report.folds > 0; ++round) {
+  for (int round = 0; round < most_repairs && report.folds > 0; ++round) {
     mark_folds(it_.grid(), it_.current.points.data(), folds, marks);
     for_each_index(it_.workers(), points, [&](std::size_t i) {
       folded[i] = std::max(folded[i], marks[i]) * (burst_before[i] > 0 ? 0.0f : 1.0f);
@@ -173,27 +173,27 @@ void Unfolding::run(const StepStart& start, CurvatureLevelReport& report) {
     again.folds = folds.count();
     // The energy mostly falls, since the folds had trapped the steps.
     const double most = again.folds < report.folds
-                            ? std::min(anothers_least * report.energy, report.plate_energy)
-                            : report.energy / anothers_least;
+                            ? std::min(other_minimum * report.energy, report.plate_energy)
+                            : report.energy / other_minimum;
     if (again.energy <= most) {
       report = again;
       best = it_.current;
-    } else if (!mark_bursts(best.linearization, report.energy, burst_before)) {
+    } else if (!mark_diverged(best.linearization, report.energy, burst_before)) {
       break;
     }
   }
   it_.current = std::move(best);
 }
 
-void Unfolding::solve_again(const StepStart& start, const Array<float>& marks,
-                            CurvatureLevelReport& report) {
+void FoldRepair::solve_again(const StepStart& start, const Array<float>& marks,
+                             CurvatureLevelReport& report) {
   StepStart filled = start;
   refill(marks, filled.points);
   steps_.run_damped(nullptr, filled, marks, report);
 }
 
 // Places the marked points between their neighbours as they lie on the control mesh.
-void Unfolding::refill(const Array<float>& marks, Array<double>& x) {
+void FoldRepair::refill(const Array<float>& marks, Array<double>& x) {
   const Unknowns& unknowns = it_.system.shared().unknowns;
   Array<double> linear(x.size());
   refine_linearly(it_.grid(), constraints_.targets(), it_.workers(), linear.data());
@@ -204,7 +204,7 @@ void Unfolding::refill(const Array<float>& marks, Array<double>& x) {
 
 // Marks the surroundings of points whose energy has grown so much that the total is no longer
 // comparable. Returns whether there are any.
-bool Unfolding::mark_bursts(const Linearization& before, double energy, Array<float>& marks) {
+bool FoldRepair::mark_diverged(const Linearization& before, double energy, Array<float>& marks) {
   Array<float> bursts(marks.size());
   for_each_index(it_.workers(), bursts.size(), [&](std::size_t i) {
     const double bound = point_energy(before, i) + (equal_energy - 1) * energy;

@@ -3,15 +3,15 @@
 // which lower an energy, and then a change to the pads that the surface allows.
 #pragma once
 
-#include "curvature/unfold.h"
+#include "curvature/fold_repair.h"
 
 namespace fairing {
 
-class RoughSteps {
+class FallbackSteps {
  public:
   // All references must outlive it.
-  RoughSteps(SurfaceIterate& iterate, Unfolding& unfolding, CurvatureSteps& steps)
-      : it_(iterate), unfolding_(unfolding), steps_(steps) {}
+  FallbackSteps(SurfaceIterate& iterate, FoldRepair& fold_repair, CurvatureSteps& steps)
+      : it_(iterate), fold_repair_(fold_repair), steps_(steps) {}
 
   // Steps from `start` to least total curvature on point forces; on the finest level then on to
   // those of `pads`, if any, that the surface allows, and deactivates the others. Deactivates all
@@ -21,15 +21,15 @@ class RoughSteps {
 
  private:
   void run_on_points(const StepStart& start, CurvatureLevelReport& report);
-  void go_onto(Pads& pads, const StepStart& start, CurvatureLevelReport& report);
-  void leave_turned(Pads& pads);
-  void leave_all(Pads& pads);
-  void leave(Pads& pads, std::size_t v);
+  void move_to_pads(Pads& pads, const StepStart& start, CurvatureLevelReport& report);
+  void deactivate_turned(Pads& pads);
+  void deactivate_all(Pads& pads);
+  void deactivate(Pads& pads, std::size_t v);
   // Plain steps to the end, undone if they make folds.
   void polish(CurvatureLevelReport& report);
 
   SurfaceIterate& it_;
-  Unfolding& unfolding_;
+  FoldRepair& fold_repair_;
   CurvatureSteps& steps_;
 };
 

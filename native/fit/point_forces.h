@@ -23,25 +23,25 @@ Spread spread_of(const Array<Foot>& feet, std::span<const std::uint8_t> counts);
 constexpr double least_noise = 1.0 / 256;
 
 // An offset of this many times the spread is an outlier and has no force.
-constexpr double stray = 8;
+constexpr double outlier = 8;
 
 // Weight of a point: 1 near the surface, falling from twice the spread on, 0 for outliers [Huber
 // 1964, cut off].
-inline double trust(double offset, double rms) {
+inline double robust_weight(double offset, double rms) {
   const double far = std::abs(offset);
   if (!(far > 2 * rms)) return 1;
-  return far > stray * rms ? 0 : 2 * rms / far;
+  return far > outlier * rms ? 0 : 2 * rms / far;
 }
 
 // Sums the forces of a scan's points on the points of a level. Sums go cell by cell, so they are
 // the same for any number of threads.
-class PullSums {
+class PointForces {
  public:
-  PullSums(const Cells& cells, Workers& workers) : cells_(cells), workers_(workers) {}
+  PointForces(const Cells& cells, Workers& workers) : cells_(cells), workers_(workers) {}
 
-  // `trust`: weight of each point of the scan, at least 0. weight <- the sum of the points' weights
-  // at each point of the level, force <- the same times offsets along normals.
-  void sum(const FeetFinder& finder, const Array<Foot>& feet, const Array<float>& trust,
+  // `robust_weight`: weight of each point of the scan, at least 0. weight <- the sum of the points'
+  // weights at each point of the level, force <- the same times offsets along normals.
+  void sum(const FeetFinder& finder, const Array<Foot>& feet, const Array<float>& robust_weight,
            VertexWeights& weight, Array<Vec3>& force);
 
   // Memory that is kept between sums.
@@ -49,7 +49,7 @@ class PullSums {
       sizeof(std::array<Eigen::Vector4d, 4>) + sizeof(Index);
 
  private:
-  void sort(const Array<Foot>& feet, const Array<float>& trust);
+  void sort(const Array<Foot>& feet, const Array<float>& robust_weight);
 
   const Cells& cells_;
   Workers& workers_;

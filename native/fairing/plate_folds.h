@@ -21,11 +21,11 @@ struct PlateRepair {
 // (fill_harmonically), then farther around those that remain. Without folds, and where some would
 // remain, the surface stays bit for bit. 3 numbers a point of the finest level, in working
 // coordinates. May throw FairingError(cancelled).
-PlateRepair unfold_plate(const FairingProblem& problem, const ControlPositions& control,
-                         const GridLevel& grid, Array<double>& surface);
+PlateRepair repair_plate_folds(const FairingProblem& problem, const ControlPositions& control,
+                               const GridLevel& grid, Array<double>& surface);
 
 // The same for another surface, with the places and weights of an earlier one.
-void unfold_alike(const FairingProblem& problem, const ControlPositions& control,
-                  const GridLevel& grid, const PlateRepair& repair, Array<double>& surface);
+void apply_plate_repair(const FairingProblem& problem, const ControlPositions& control,
+                        const GridLevel& grid, const PlateRepair& repair, Array<double>& surface);
 
 }  // namespace fairing

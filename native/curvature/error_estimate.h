@@ -7,12 +7,12 @@
 
 namespace fairing {
 
-class LeftToMove {
+class ErrorEstimate {
  public:
   // `least_ratio`: share of the error that the solve of a step leaves. Acceleration and inexact
   // solves make the measured ratio too small, so smaller ratios are replaced by this one (measured:
   // without it the steps of one sphere of a hundred end too early, with it none's).
-  explicit LeftToMove(double least_ratio) : least_ratio_(least_ratio) {}
+  explicit ErrorEstimate(double least_ratio) : least_ratio_(least_ratio) {}
 
   // Call it after a step with this decrement, whose full length would have moved points by at most
   // `movement`. If it is not `solved`, its ratio counts as one.

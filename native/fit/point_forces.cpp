@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fit/pull.h"
+#include "fit/point_forces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,28 +13,29 @@ Spread spread_of(const Array<Foot>& feet, std::span<const std::uint8_t> counts) 
   Array<float> far;
   far.reserve(feet.size());
   for (std::size_t s = 0; s < feet.size(); ++s)
-    if (feet[s].pulls() && (counts.empty() || counts[s])) far.push_back(std::abs(feet[s].offset));
+    if (feet[s].is_used() && (counts.empty() || counts[s])) far.push_back(std::abs(feet[s].offset));
   stop_if_cancelled();
   return {deviation_over_median * median(far), far.size()};
 }
 
-void PullSums::sort(const Array<Foot>& feet, const Array<float>& trust) {
-  const auto pulls = [&](std::size_t s) { return feet[s].pulls() && trust[s] > 0; };
+void PointForces::sort(const Array<Foot>& feet, const Array<float>& robust_weight) {
+  const auto is_used = [&](std::size_t s) { return feet[s].is_used() && robust_weight[s] > 0; };
   begin_.assign(cells_.size() + 1, 0);
   for (std::size_t s = 0; s < feet.size(); ++s)
-    if (pulls(s)) ++begin_[std::size_t(feet[s].cell) + 1];
+    if (is_used(s)) ++begin_[std::size_t(feet[s].cell) + 1];
   for (std::size_t c = 0; c < cells_.size(); ++c) begin_[c + 1] += begin_[c];
   sorted_.resize(std::size_t(begin_.back()));
   Array<Index> next(begin_.begin(), begin_.end() - 1);
   for (std::size_t s = 0; s < feet.size(); ++s) {
     stop_if_cancelled(s);
-    if (pulls(s)) sorted_[std::size_t(next[std::size_t(feet[s].cell)]++)] = Index(s);
+    if (is_used(s)) sorted_[std::size_t(next[std::size_t(feet[s].cell)]++)] = Index(s);
   }
 }
 
-void PullSums::sum(const FeetFinder& finder, const Array<Foot>& feet, const Array<float>& trust,
-                   VertexWeights& weight, Array<Vec3>& force) {
-  sort(feet, trust);
+void PointForces::sum(const FeetFinder& finder, const Array<Foot>& feet,
+                      const Array<float>& robust_weight, VertexWeights& weight,
+                      Array<Vec3>& force) {
+  sort(feet, robust_weight);
   slot_.resize(cells_.size());
   workers_.for_parts(cells_.size(), vertex_grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c) {
@@ -45,10 +46,10 @@ void PullSums::sum(const FeetFinder& finder, const Array<Foot>& feet, const Arra
       for (Index k = begin_[c]; k < begin_[c + 1]; ++k) {
         const auto s = std::size_t(sorted_[std::size_t(k)]);
         const Foot& foot = feet[s];
-        Eigen::Vector4d pull;
-        pull << double(foot.offset) * FeetFinder::normal_at(foot, normals), 1;
+        Eigen::Vector4d force_and_weight;
+        force_and_weight << double(foot.offset) * FeetFinder::normal_at(foot, normals), 1;
         for (std::size_t a = 0; a < 4; ++a)
-          slot[a] += double(trust[s]) * double(foot.shares[a]) * pull;
+          slot[a] += double(robust_weight[s]) * double(foot.shares[a]) * force_and_weight;
       }
     }
   });

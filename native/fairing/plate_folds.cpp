@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fairing/unfold_plate.h"
+#include "fairing/plate_folds.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "curvature/fold_repair.h"
 #include "curvature/local_damping.h"
-#include "curvature/unfold.h"
 #include "fairing/steepest.h"
 #include "grid/linear.h"
 #include "mesh/union_find.h"
@@ -49,10 +49,10 @@ class Patches {
   UnionFind sets_;
 };
 
-class PlateUnfolding {
+class PlateFoldRepair {
  public:
-  PlateUnfolding(const FairingProblem& problem, const ControlPositions& control,
-                 const GridLevel& grid)
+  PlateFoldRepair(const FairingProblem& problem, const ControlPositions& control,
+                  const GridLevel& grid)
       : mesh_(problem.mesh),
         workers_(*problem.workers),
         curves_(control.working_curves),
@@ -87,7 +87,7 @@ class PlateUnfolding {
       apply(repair, polyhedron_, surface);
       folds = find();
     }
-    while (folds.count() > 0 && leave_out_folded(surface, folds, repair)) {
+    while (folds.count() > 0 && drop_unrepaired(surface, folds, repair)) {
       surface = plate;
       apply(repair, polyhedron_, surface);
       folds = find();
@@ -128,7 +128,7 @@ class PlateUnfolding {
 
   // Restores a place that still has folds, since an unsuccessful repair only changes the surface.
   // Returns whether there are such places.
-  bool leave_out_folded(const Array<double>& surface, const Folds& folds, PlateRepair& repair) {
+  bool drop_unrepaired(const Array<double>& surface, const Folds& folds, PlateRepair& repair) {
     Patches patches(grid_, repair.filled);
     Array<float> marks;
     mark_folds(grid_, surface.data(), folds, marks);
@@ -198,16 +198,16 @@ class PlateUnfolding {
 
 }  // namespace
 
-PlateRepair unfold_plate(const FairingProblem& problem, const ControlPositions& control,
-                         const GridLevel& grid, Array<double>& surface) {
-  return PlateUnfolding(problem, control, grid).run(surface);
+PlateRepair repair_plate_folds(const FairingProblem& problem, const ControlPositions& control,
+                               const GridLevel& grid, Array<double>& surface) {
+  return PlateFoldRepair(problem, control, grid).run(surface);
 }
 
-void unfold_alike(const FairingProblem& problem, const ControlPositions& control,
-                  const GridLevel& grid, const PlateRepair& repair, Array<double>& surface) {
+void apply_plate_repair(const FairingProblem& problem, const ControlPositions& control,
+                        const GridLevel& grid, const PlateRepair& repair, Array<double>& surface) {
   Array<double> shape(surface.size());
   refine_linearly(grid, problem.basis.working, *problem.workers, shape.data());
-  PlateUnfolding(problem, control, grid).apply(repair, shape, surface);
+  PlateFoldRepair(problem, control, grid).apply(repair, shape, surface);
 }
 
 }  // namespace fairing

@@ -15,12 +15,12 @@ namespace fairing {
 void fill_harmonically(const GridLevel& grid, const Unknowns& unknowns, const Array<float>& marks,
                        const double* shape, double* x);
 
-class Unfolding {
+class FoldRepair {
  public:
   // `folded_faces`: control faces whose folds are excused (folded_control_faces). All references
   // must outlive it.
-  Unfolding(SurfaceIterate& iterate, const ControlConstraints& constraints,
-            const std::vector<std::uint8_t>& folded_faces, CurvatureSteps& steps)
+  FoldRepair(SurfaceIterate& iterate, const ControlConstraints& constraints,
+             const std::vector<std::uint8_t>& folded_faces, CurvatureSteps& steps)
       : it_(iterate), constraints_(constraints), folded_faces_(folded_faces), steps_(steps) {}
 
   // Folds of the present surface.
@@ -35,7 +35,7 @@ class Unfolding {
   void refill(const Array<float>& marks, Array<double>& x);
   void dilate_marks(int rings, Array<float>& marks);
   void solve_again(const StepStart& start, const Array<float>& marks, CurvatureLevelReport& report);
-  bool mark_bursts(const Linearization& before, double energy, Array<float>& marks);
+  bool mark_diverged(const Linearization& before, double energy, Array<float>& marks);
 
   SurfaceIterate& it_;
   const ControlConstraints& constraints_;

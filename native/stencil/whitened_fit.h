@@ -20,7 +20,7 @@ namespace fairing {
 //
 // N is double or a pack; S a single number of it.
 template <class N, class S = N>
-struct RoundFit {
+struct WhitenedFit {
   // A neighbour's x, y, a, b, c, or sums of these.
   struct Term {
     N x{}, y{}, a{}, b{}, c{};
