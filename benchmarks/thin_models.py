@@ -19,16 +19,6 @@ def ear() -> Model:
     return thickened(np.stack([x, y * wide, 0.03 * (y * wide) ** 2], axis=2), 3)
 
 
-def phone_case() -> Model:
-    """A tray with a wall of 1.6 mm, its corners cut."""
-    x, y = plane(8, 6, (150, 76))
-    outer = (np.abs(x) > 74) | (np.abs(y) > 37)
-    inner = np.where(outer, 0.98, 1.0)
-    corner = (np.abs(x) > 74) & (np.abs(y) > 37)
-    inner = np.where(corner, 0.95, inner)
-    return thickened(np.stack([x * inner, y * inner, np.where(outer, 10.0, 0.0)], axis=2), 1.6)
-
-
 def leaf() -> Model:
     """Broad in the middle, narrow at both ends, arched."""
     x, y = plane(9, 4, (100, 40))
@@ -79,7 +69,7 @@ def propeller() -> Model:
 
 MODELS = {
     "cup": thin_walls.cup,
-    "phone case": phone_case,
+    "phone case": thin_walls.phone_case,
     "sheet": thin_walls.sheet,
     "leaf": leaf,
     "ear": ear,

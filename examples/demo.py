@@ -21,7 +21,7 @@ import bpy
 ROOT = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT), str(ROOT / "examples")]
 
-import control_meshes  # noqa: E402
+import demo_meshes  # noqa: E402
 from demo_table import print_table, table_row  # noqa: E402
 from quiet import quiet  # noqa: E402
 from render_picture import compose, render_pair  # noqa: E402
@@ -91,7 +91,7 @@ def make(name):
     if name == "Suzanne":
         bpy.ops.mesh.primitive_monkey_add()
         return bpy.context.active_object
-    shape = control_meshes.SHAPES[name.lower()]()
+    shape = demo_meshes.SHAPES[name.lower()]()
     mesh = bpy.data.meshes.new(name)
     mesh.from_pydata(shape.vertices.tolist(), [], shape.faces)
     if shape.crease_edges:

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from math import radians
 
 import bpy
-import control_meshes
+import demo_meshes
 import numpy as np
-from control_meshes import ControlMesh
+from demo_meshes import ControlMesh
 
 
 class Absent(Exception):
@@ -125,7 +125,7 @@ SHAPES = {
     "torus": Shape(torus, 4, View(turn=10, elevation=38, stripes=6)),
     "suzanne": Shape(suzanne, 3, View(turn=24, stripes=3)),
     "hull": Shape(
-        tipped(lambda _folder: control_meshes.hull(), -30),
+        tipped(lambda _folder: demo_meshes.hull(), -30),
         4,
         View(turn=-65, stripes=12, contrast=1),
     ),

@@ -18,7 +18,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-import control_meshes  # noqa: E402
+import demo_meshes  # noqa: E402
 import curve_networks  # noqa: E402
 import modelling_meshes  # noqa: E402
 import settings_meshes  # noqa: E402
@@ -190,7 +190,7 @@ def shade_smooth(target):
 
 SUBDIVISION = {"Subdivision Surface": subdivided}
 FAIR_FOR = "object.fairing_for"
-hull, fender = modelled(control_meshes.hull), modelled(modelling_meshes.fender)
+hull, fender = modelled(demo_meshes.hull), modelled(modelling_meshes.fender)
 mug = modelled(modelling_meshes.mug)
 
 JOBS = {

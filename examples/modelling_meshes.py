@@ -2,7 +2,7 @@
 """What a modeller begins with: a fender and a mug as they are blocked out by hand, in plain NumPy."""
 
 import numpy as np
-from control_meshes import ControlMesh
+from demo_meshes import ControlMesh
 
 ARCH = 9  # columns of the fender, from the front to the rear of the wheel
 AROUND = 12  # sides of the mug

@@ -17,7 +17,7 @@ import bpy
 ROOT = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT), str(ROOT / "examples")]
 
-import control_meshes  # noqa: E402
+import demo_meshes  # noqa: E402
 import discrete_fairing as df  # noqa: E402
 import settings_meshes  # noqa: E402
 from patch_meshes import edges, tessellated  # noqa: E402
@@ -30,12 +30,12 @@ SMOOTH, CREASED = 0, 1  # kinds of edges
 
 SHAPES = {
     "hull": (
-        control_meshes.hull,
+        demo_meshes.hull,
         {},
         View(9.3, turn=-132, elevation=28, height=0.5, stripes=18),
     ),
     "branching": (
-        control_meshes.branching,
+        demo_meshes.branching,
         {"energy": "total_curvature"},
         View(4.7, turn=45, elevation=17, height=1.95, stripes=6),
     ),

@@ -14,7 +14,7 @@ import bpy
 ROOT = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT), str(ROOT / "examples")]
 
-import control_meshes  # noqa: E402
+import demo_meshes  # noqa: E402
 from jobs import modelled, subdivided  # noqa: E402
 from quiet import quiet  # noqa: E402
 from render_modelling import MODELS  # noqa: E402
@@ -23,7 +23,7 @@ import addon  # noqa: E402
 
 TURNING = {
     **{name: MODELS[name][0] for name in ("hull", "fender")},
-    "branching": modelled(control_meshes.branching),
+    "branching": modelled(demo_meshes.branching),
 }
 WAYS = {
     "Subdivision Surface": subdivided,

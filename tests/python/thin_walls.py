@@ -84,6 +84,16 @@ def wing() -> Model:
     return thickened(np.stack([x, y * chord + 0.3 * x, 0.0002 * x**2], axis=2), thickness)
 
 
+def phone_case() -> Model:
+    """A tray with a wall of 1.6 mm, its corners cut."""
+    x, y = plane(8, 6, (150, 76))
+    outer = (np.abs(x) > 74) | (np.abs(y) > 37)
+    inner = np.where(outer, 0.98, 1.0)
+    corner = (np.abs(x) > 74) & (np.abs(y) > 37)
+    inner = np.where(corner, 0.95, inner)
+    return thickened(np.stack([x * inner, y * inner, np.where(outer, 10.0, 0.0)], axis=2), 1.6)
+
+
 MODELS = {"cup": cup, "sheet": sheet, "wing": wing}
 
 

@@ -57,10 +57,10 @@ def fair(
     symmetry_plane : "x", "y", "z" or None
         The mesh is half of a symmetric one: at its border in the plane x = 0 (y, z) the surface crosses
         to its mirror image. The result is the half; the report is that of the whole.
-    neighbour : (vertices, faces)
-        Another mesh, refined or not, which the border meets as `joint` says: its border is the surface's,
-        and its tangent planes and curvatures there. Faces as `faces`, or (triangles, quads) as
-        Result.faces.
+    neighbour : tuple
+        Vertices and faces of another mesh, refined or not, which the border meets as `joint` says: its
+        border is the surface's, and its tangent planes and curvatures there. Faces as `faces`, or
+        (triangles, quads) as Result.faces.
     border : (k, 2) int
         Vertex pairs of the border edges that meet the neighbour. None: those whose ends lie on its border
         within a twentieth of their length.
