@@ -18,8 +18,8 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-import demo_meshes  # noqa: E402
 import curve_networks  # noqa: E402
+import demo_meshes  # noqa: E402
 import modelling_meshes  # noqa: E402
 import settings_meshes  # noqa: E402
 
