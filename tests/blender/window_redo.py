@@ -61,10 +61,11 @@ def test_search_takes_the_settings_of_the_panel():
 
 def test_redo_shows_a_small_surface_and_recompute_the_whole_one():
     yield from first_surface(2)
-    harness.module("prediction").note("THIN_PLATE", 1000, 1.0, None)  # a slow machine
-    harness.module("prediction")._of_mesh.clear()
+    prediction = harness.module("prediction")
     with stops() as gaps:
         for level in (3, 4):
+            prediction.note("THIN_PLATE", 1000, 1.0, None)  # a slow machine
+            prediction._of_mesh.clear()  # the small surface before has shown that it is fast
             yield from harness.raise_levels(surface)
             yield from harness.until(lambda level=level: surface().discrete_fairing.levels == level)
             yield 0.5
