@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from .arrays import face_arrays, vertex_array
 from .errors import fairing_error
+from .piecewise.cutting import ranges
 
 # (vertices, faces)
 Mesh = tuple[ArrayLike, Any]
@@ -159,14 +160,12 @@ class _Around:
 
 
 def _ranges(begin: np.ndarray, end: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """All numbers from each begin to before its end, and of which range each is."""
-    size = end - begin
-    owner = np.repeat(np.arange(len(size)), size)
-    return owner, np.arange(int(size.sum())) + (begin - np.cumsum(size) + size)[owner]
+    """Of which range each number is, and all numbers from each begin to before its end."""
+    return np.repeat(np.arange(len(begin)), end - begin), ranges(begin, end)
 
 
 def _fitted(near: np.ndarray, along: np.ndarray, up: np.ndarray) -> tuple[Any, Any, Any]:
-    """Normal, inward direction and second fundamental form of a cubic through the origin."""
+    """Normal, inward direction and second fundamental form of the polynomial through the origin."""
     size = np.linalg.norm(near, axis=1).max()
     bend = np.zeros((2, 2))
     for _ in range(3):
