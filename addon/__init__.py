@@ -8,119 +8,41 @@ window, `cad` makes spline patches of it.
 """
 
 import atexit
-from types import ModuleType
+from typing import Any
 
 import bpy
 
 
-def _modules() -> tuple[ModuleType, ...]:
-    """In the order of registration. Imported here, for the package's own names stay those of its parts:
-    `addon.in_place` is no operator's module.
+def _modules() -> tuple[Any, ...]:
+    """In the order of registration, which is that of the imports. They are made here, for the package's own
+    names stay those of its parts: `addon.in_place` is no operator's module.
     """
-    from . import cli, curve_cage, freshness, memory, preferences, properties
-    from .inspection import overlay, viewport_shading
-    from .inspection import settings as inspection_settings
-    from .live import handlers, kept, switch, undo
+    # isort: off
+    from . import properties, memory, curve_cage, preferences
+    from .inspection import settings as inspection_settings, overlay, viewport_shading
+    from .strain import settings as strain_settings, known, overlay as strain_overlay
     from .mesh import mesh_changes
+    from . import freshness
+    from .live import switch, handlers, kept, undo
     from .operators import (
-        boundary,
-        cancel,
-        check,
-        clean,
-        compare,
-        curves,
-        ease,
-        fair,
-        fill_holes,
-        fit,
-        fixed_normals,
-        flat_faces,
-        hull,
-        hydrostatics,
-        in_place,
-        inspect,
-        joints,
-        live,
-        offsets,
-        presets,
-        purposes,
-        sections,
-        step,
-    )
-    from .operators import strain as strain_operators
-    from .strain import known as known_strain
-    from .strain import overlay as strain_overlay
-    from .strain import settings as strain_settings
-    from .ui import check as check_panel
-    from .ui import compare as compare_panel
-    from .ui import curves as curves_panel
-    from .ui import hull as hull_panel
-    from .ui import inspect as inspect_panel
-    from .ui import main as main_panel
-    from .ui import menus, outliner, pictures
-    from .ui import strain as strain_panel
+        fair, fill_holes, cancel, in_place, curves, boundary, fixed_normals, flat_faces, compare, live, check, joints,
+        clean, fit, inspect, offsets, hull, hydrostatics, sections, strain, ease, presets, purposes, step,
+    )  # fmt: skip
+    from .ui import (
+        pictures, main, curves as curves_panel, inspect as inspect_panel, strain as strain_panel,
+        hull as hull_panel, check as check_panel, compare as compare_panel, menus, outliner,
+    )  # fmt: skip
+    from . import cli
+    # isort: on
 
-    return (
-        properties,
-        memory,
-        curve_cage,
-        preferences,
-        inspection_settings,
-        overlay,
-        viewport_shading,
-        strain_settings,
-        known_strain,
-        strain_overlay,
-        mesh_changes,
-        freshness,
-        switch,
-        handlers,
-        kept,
-        undo,
-        fair,
-        fill_holes,
-        cancel,
-        in_place,
-        curves,
-        boundary,
-        fixed_normals,
-        flat_faces,
-        compare,
-        live,
-        check,
-        joints,
-        clean,
-        fit,
-        inspect,
-        offsets,
-        hull,
-        hydrostatics,
-        sections,
-        strain_operators,
-        ease,
-        presets,
-        purposes,
-        pictures,
-        step,
-        main_panel,
-        curves_panel,
-        inspect_panel,
-        strain_panel,
-        hull_panel,
-        check_panel,
-        compare_panel,
-        menus,
-        outliner,
-        cli,
-    )
+    return tuple(locals().values())
 
 
 def register() -> None:
     for module in _modules():
         module.register()
-    if (
-        not bpy.app.binary_path
-    ):  # the module `bpy` ends by a signal, or never, where classes are left registered
+    # the module `bpy` ends by a signal, or never, where classes are left registered
+    if not bpy.app.binary_path:
         atexit.register(unregister)
 
 

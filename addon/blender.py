@@ -86,23 +86,42 @@ def scene_of(target: Object) -> Scene:
     return here if here in owners or not owners else owners[0]
 
 
-def attach(owner: type, name: str, group: type) -> None:
-    """Registers the property group `group` and gives all data-blocks of the type `owner` one by
-    that name.
-    """
-    make_property: Any = PointerProperty  # whose stub says None
-    bpy.utils.register_class(group)
-    setattr(owner, name, make_property(type=group))
+Registration: TypeAlias = tuple[Callable[[], None], Callable[[], None]]  # register, unregister
 
 
-def detach(owner: type, name: str, group: type) -> None:
-    """Takes back what `attach` did."""
-    delattr(owner, name)
-    bpy.utils.unregister_class(group)
-
-
-def registration(*classes: type) -> tuple[Callable[[], None], Callable[[], None]]:
-    """The functions `register` and `unregister` for `classes`."""
+def registration(*classes: type) -> Registration:
+    """Of `classes`."""
     factory: Any = bpy.utils.register_classes_factory  # whose stub says None
     register, unregister = factory(classes)
+    return register, unregister
+
+
+def attached(*groups: tuple[type, str, type]) -> Registration:
+    """Of property groups (owner, name, group): all data-blocks of the type `owner` get one by that name."""
+    make_property: Any = PointerProperty  # whose stub says None
+
+    def register() -> None:
+        for owner, name, group in groups:
+            bpy.utils.register_class(group)
+            setattr(owner, name, make_property(type=group))
+
+    def unregister() -> None:
+        for owner, name, group in reversed(groups):
+            delattr(owner, name)
+            bpy.utils.unregister_class(group)
+
+    return register, unregister
+
+
+def in_order(*parts: Registration) -> Registration:
+    """Of all of them, taken back from the last to the first."""
+
+    def register() -> None:
+        for begin, _ in parts:
+            begin()
+
+    def unregister() -> None:
+        for _, end in reversed(parts):
+            end()
+
     return register, unregister

@@ -15,7 +15,7 @@ from bpy.props import (
     StringProperty,
 )
 
-from .blender import Context, Mesh, Object, attach, current_context, detach
+from .blender import Context, Mesh, Object, attached, current_context, in_order, registration
 from .curves.cubics import Curve
 from .curves.settle import Covered, CoverOptions, covered
 from .errors import JobError
@@ -216,11 +216,7 @@ def keys(blocks: Sequence[Any]) -> set[int | str]:
     return {session_key(block) for block in blocks}
 
 
-def register() -> None:
-    bpy.utils.register_class(FAIRING_PG_curve)
-    attach(bpy.types.Object, "discrete_fairing_curves", FAIRING_PG_curves)
-
-
-def unregister() -> None:
-    detach(bpy.types.Object, "discrete_fairing_curves", FAIRING_PG_curves)
-    bpy.utils.unregister_class(FAIRING_PG_curve)
+register, unregister = in_order(
+    registration(FAIRING_PG_curve),
+    attached((bpy.types.Object, "discrete_fairing_curves", FAIRING_PG_curves)),
+)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What Blender tells of: one handler for each of its events, whoever of us listens.
+"""What Blender tells of: one handler for each of its events, whoever of us listens; and timers.
 
 They stay while the add-on is on, other files are opened included: taking a handler away from within
 another would make Blender skip one of somebody else's.
@@ -7,10 +7,13 @@ another would make Blender skip one of somebody else's.
 
 import traceback
 from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any, TypeAlias
 
 import bpy
 from bpy.app.handlers import persistent
+
+from .blender import Registration
 
 Listener: TypeAlias = Callable[..., None]
 
@@ -33,6 +36,23 @@ def ignore(wanted: Mapping[str, Listener]) -> None:
         _listeners[name].remove(listener)
         if not _listeners[name]:
             getattr(bpy.app.handlers, name).remove(_handlers.pop(name))
+
+
+def listening(wanted: Mapping[str, Listener]) -> Registration:
+    """Of a module that does nothing but listen."""
+    return partial(listen, wanted), partial(ignore, wanted)
+
+
+def start_timer(function: Callable[[], float | None], seconds: float) -> None:
+    """`function` is called in so many seconds, if it does not wait for a call already."""
+    if not bpy.app.timers.is_registered(function):
+        bpy.app.timers.register(function, first_interval=seconds)
+
+
+def stop_timer(function: Callable[[], float | None]) -> None:
+    """It waits no longer, if it did."""
+    if bpy.app.timers.is_registered(function):
+        bpy.app.timers.unregister(function)
 
 
 def _relay(name: str) -> Listener:

@@ -124,8 +124,8 @@ def why_stale(target: Object) -> str:
         _unread.add(key)
         if bpy.app.background:
             _look()
-        elif not bpy.app.timers.is_registered(_look):
-            bpy.app.timers.register(_look, first_interval=_SOON)
+        else:
+            events.start_timer(_look, _SOON)
     if _sums.get(key, made["source"]) != made["source"]:
         return SOURCE_CHANGED
     return SOURCE_MOVED if place.moved(target) else ""
@@ -233,7 +233,6 @@ def register() -> None:
 
 def unregister() -> None:
     events.ignore(_HANDLERS)
-    if bpy.app.timers.is_registered(_look):
-        bpy.app.timers.unregister(_look)
+    events.stop_timer(_look)
     for known in (_surfaces, _sums, _unread, _watched):
         known.clear()

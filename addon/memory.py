@@ -7,6 +7,7 @@ unset when the file is opened or objects are appended from it.
 
 import json
 from collections.abc import Iterable, Mapping, Sequence
+from functools import partial
 from typing import Any, cast
 
 import bpy
@@ -20,7 +21,7 @@ from bpy.props import (
 )
 
 from . import events, records
-from .blender import Context, Object, all_objects, all_scenes, attach, detach
+from .blender import Context, Object, all_objects, all_scenes, attached, in_order, registration
 from .properties import FitAmount, KeptSettings, bring_up_to_date, copy_settings
 from .settings import Settings
 
@@ -270,22 +271,19 @@ _HANDLERS = {
 }
 
 
-def register() -> None:
-    attach(bpy.types.Object, "discrete_fairing", FAIRING_PG_surface)
-    attach(bpy.types.Mesh, "discrete_fairing", FAIRING_PG_mesh)
-    bpy.utils.register_class(FAIRING_PG_scan)
-    attach(bpy.types.Object, "discrete_fairing_fit", FAIRING_PG_fit)
-    events.listen(_HANDLERS)
-    # the file that is open now, as in preferences.py
+def _look_now() -> None:
+    """At the file that is open, as in preferences.py."""
     if not bpy.app.background:
-        bpy.app.timers.register(unset_unsound_settings, first_interval=0.0)
+        events.start_timer(unset_unsound_settings, 0.0)
 
 
-def unregister() -> None:
-    if bpy.app.timers.is_registered(unset_unsound_settings):
-        bpy.app.timers.unregister(unset_unsound_settings)
-    events.ignore(_HANDLERS)
-    detach(bpy.types.Object, "discrete_fairing_fit", FAIRING_PG_fit)
-    bpy.utils.unregister_class(FAIRING_PG_scan)
-    detach(bpy.types.Mesh, "discrete_fairing", FAIRING_PG_mesh)
-    detach(bpy.types.Object, "discrete_fairing", FAIRING_PG_surface)
+register, unregister = in_order(
+    attached(
+        (bpy.types.Object, "discrete_fairing", FAIRING_PG_surface),
+        (bpy.types.Mesh, "discrete_fairing", FAIRING_PG_mesh),
+    ),
+    registration(FAIRING_PG_scan),
+    attached((bpy.types.Object, "discrete_fairing_fit", FAIRING_PG_fit)),
+    events.listening(_HANDLERS),
+    (_look_now, partial(events.stop_timer, unset_unsound_settings)),
+)

@@ -89,33 +89,27 @@ def give_scenes_default_levels(*_: Any) -> None:
         _give_default_levels(scene)
 
 
-def _give_default_levels(scene: Scene) -> None:
+def _give_default_levels(scene: Scene, _depsgraph: Any = None) -> None:
+    """Of a scene that was added meanwhile Blender tells by its first update."""
     settings, levels = scene.discrete_fairing, preferences().levels
     chosen = settings.is_property_set("levels") or settings.levels == levels
     if scene.library is None and not chosen:
         settings.levels = levels
 
 
-def _look_at_scene(scene: Scene, _depsgraph: Any = None) -> None:
-    """A scene that was added meanwhile: Blender tells of it by its first update."""
-    _give_default_levels(scene)
-
-
-_HANDLERS = {"load_post": give_scenes_default_levels, "depsgraph_update_post": _look_at_scene}
+_HANDLERS = {"load_post": give_scenes_default_levels, "depsgraph_update_post": _give_default_levels}
 
 
 def register() -> None:
     bpy.utils.register_class(DiscreteFairingPreferences)
     events.listen(_HANDLERS)
     # the file that is open now: bpy.data may not be touched while add-ons are being enabled.
-    # Without a window no timer
-    # ever runs, and one that waits would keep the bpy module from ending.
+    # Without a window no timer ever runs, and one that waits would keep the bpy module from ending.
     if not bpy.app.background:
-        bpy.app.timers.register(give_scenes_default_levels, first_interval=0.0)
+        events.start_timer(give_scenes_default_levels, 0.0)
 
 
 def unregister() -> None:
-    if bpy.app.timers.is_registered(give_scenes_default_levels):
-        bpy.app.timers.unregister(give_scenes_default_levels)
+    events.stop_timer(give_scenes_default_levels)
     events.ignore(_HANDLERS)
     bpy.utils.unregister_class(DiscreteFairingPreferences)

@@ -12,7 +12,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
 from . import vertex_values
-from .blender import Context, Object, attach, detach
+from .blender import Context, Object, attached
 from .choices import (
     BOUNDARIES,
     DEFAULT_ENERGY,
@@ -325,9 +325,4 @@ class FAIRING_PG_settings(KeptSettings, bpy.types.PropertyGroup):
     """What the panel shows; kept with the scene."""
 
 
-def register() -> None:
-    attach(bpy.types.Scene, "discrete_fairing", FAIRING_PG_settings)
-
-
-def unregister() -> None:
-    detach(bpy.types.Scene, "discrete_fairing", FAIRING_PG_settings)
+register, unregister = attached((bpy.types.Scene, "discrete_fairing", FAIRING_PG_settings))

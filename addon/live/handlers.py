@@ -32,8 +32,8 @@ _progress = Progress()
 
 def start_timer() -> None:
     """Starts the timer, for a session that was just added."""
-    if not bpy.app.background and not bpy.app.timers.is_registered(on_timer):
-        bpy.app.timers.register(on_timer, first_interval=INTERVAL)
+    if not bpy.app.background:
+        events.start_timer(on_timer, INTERVAL)
 
 
 def on_timer() -> float | None:
@@ -168,8 +168,7 @@ def _end_all(*_: Any) -> None:
     global _rendering
     _rendering = False
     registry.clear()
-    if bpy.app.timers.is_registered(on_timer):
-        bpy.app.timers.unregister(on_timer)
+    events.stop_timer(on_timer)
 
 
 _HANDLERS = {

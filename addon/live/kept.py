@@ -39,12 +39,4 @@ def _surfaces() -> list[Object]:
     ]
 
 
-_HANDLERS = {"save_pre": _note, "load_post": _restore}
-
-
-def register() -> None:
-    events.listen(_HANDLERS)
-
-
-def unregister() -> None:
-    events.ignore(_HANDLERS)
+register, unregister = events.listening({"save_pre": _note, "load_post": _restore})

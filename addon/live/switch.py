@@ -7,7 +7,7 @@ import bpy
 from bpy.props import BoolProperty, FloatProperty, IntProperty, StringProperty
 
 from .. import core
-from ..blender import Context, Object, all_objects, attach, current_context, detach
+from ..blender import Context, Object, all_objects, attached, current_context
 from ..memory import no_source_reason, source_of
 from ..mesh.object import session_key
 from ..size import count_text
@@ -223,9 +223,4 @@ class FAIRING_PG_live(bpy.types.PropertyGroup):
     )
 
 
-def register() -> None:
-    attach(bpy.types.Object, "discrete_fairing_live", FAIRING_PG_live)
-
-
-def unregister() -> None:
-    detach(bpy.types.Object, "discrete_fairing_live", FAIRING_PG_live)
+register, unregister = attached((bpy.types.Object, "discrete_fairing_live", FAIRING_PG_live))

@@ -6,8 +6,6 @@ A step of Blender's undo holds `was_on`, which follows the switch, but no sessio
 
 from typing import Any
 
-import bpy
-
 from .. import events
 from . import registry, switch
 
@@ -20,8 +18,8 @@ def _agree(*_: Any) -> None:
         session, was_on = registry.session_of(target), target.discrete_fairing_live.was_on
         if session is not None and not was_on and not session.ending:
             registry.remove(session, hand_back=False)
-        elif was_on and not switch.is_on(target) and not bpy.app.timers.is_registered(resume):
-            bpy.app.timers.register(resume, first_interval=_SOON)
+        elif was_on and not switch.is_on(target):
+            events.start_timer(resume, _SOON)
 
 
 def resume() -> None:
@@ -40,5 +38,4 @@ def register() -> None:
 
 def unregister() -> None:
     events.ignore(_HANDLERS)
-    if bpy.app.timers.is_registered(resume):
-        bpy.app.timers.unregister(resume)
+    events.stop_timer(resume)

@@ -64,8 +64,7 @@ def shown(mesh: Mesh, name: Hashable, measure: Callable[[Mesh], Any], nothing: A
     if name not in known:
         if len(mesh.edges) > MEASURED_WHILE_DRAWING:
             _unseen[key, name] = measure
-            if not bpy.app.timers.is_registered(measure_unseen):
-                bpy.app.timers.register(measure_unseen, first_interval=INTERVAL)
+            events.start_timer(measure_unseen, INTERVAL)
             return nothing
         known[name] = measure(mesh)
     return known[name]
@@ -149,6 +148,5 @@ def register() -> None:
 
 def unregister() -> None:
     events.ignore(_HANDLERS)
-    if bpy.app.timers.is_registered(measure_unseen):
-        bpy.app.timers.unregister(measure_unseen)
+    events.stop_timer(measure_unseen)
     _forget()

@@ -157,8 +157,8 @@ def _watch(source: Object) -> _Watch:
 
 
 def _start_timer() -> None:
-    if not bpy.app.background and not bpy.app.timers.is_registered(_on_timer):
-        bpy.app.timers.register(_on_timer, first_interval=0.0)
+    if not bpy.app.background:
+        events.start_timer(_on_timer, 0.0)
 
 
 def _on_timer() -> float | None:
@@ -237,6 +237,5 @@ def register() -> None:
 
 def unregister() -> None:
     events.ignore(_HANDLERS)
-    if bpy.app.timers.is_registered(_on_timer):
-        bpy.app.timers.unregister(_on_timer)
+    events.stop_timer(_on_timer)
     _forget()

@@ -253,8 +253,7 @@ def unregister() -> None:
     if bpy.app.background:
         return
     events.ignore(_HANDLERS)
-    if bpy.app.timers.is_registered(_start):
-        bpy.app.timers.unregister(_start)
+    events.stop_timer(_start)
     for handle in _handles:
         bpy.types.SpaceView3D.draw_handler_remove(handle, "WINDOW")
     _handles.clear()

@@ -6,7 +6,7 @@ from typing import Any
 import bpy
 from bpy.props import BoolProperty, FloatProperty, IntProperty
 
-from ..blender import Context, attach, detach
+from ..blender import Context, attached
 from ..inspection import overlay
 from . import known
 
@@ -53,11 +53,7 @@ class FAIRING_PG_strain_drawing(bpy.types.PropertyGroup):
     )
 
 
-def register() -> None:
-    attach(bpy.types.Object, "discrete_fairing_strain", FAIRING_PG_strain)
-    attach(bpy.types.Scene, "discrete_fairing_strain", FAIRING_PG_strain_drawing)
-
-
-def unregister() -> None:
-    detach(bpy.types.Scene, "discrete_fairing_strain", FAIRING_PG_strain_drawing)
-    detach(bpy.types.Object, "discrete_fairing_strain", FAIRING_PG_strain)
+register, unregister = attached(
+    (bpy.types.Object, "discrete_fairing_strain", FAIRING_PG_strain),
+    (bpy.types.Scene, "discrete_fairing_strain", FAIRING_PG_strain_drawing),
+)
