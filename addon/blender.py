@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
 import bpy
+import numpy as np
 from bpy.props import PointerProperty
 
 Answer: TypeAlias = set[Any]  # of an operator: {"FINISHED"} and the like
@@ -84,6 +85,13 @@ def scene_of(target: Object) -> Scene:
     """
     here, owners = current_context().scene, cast(Any, target).users_scene
     return here if here in owners or not owners else owners[0]
+
+
+def column(elements: Any, name: str, dtype: Any = np.float32, width: int = 1) -> np.ndarray:
+    """(k,) or (k, width): the property `name` of all `elements` of a mesh."""
+    values = np.empty(len(elements) * width, dtype)
+    elements.foreach_get(name, values)
+    return values.reshape(-1, width) if width > 1 else values
 
 
 Registration: TypeAlias = tuple[Callable[[], None], Callable[[], None]]  # register, unregister

@@ -15,11 +15,21 @@ from bpy.props import (
     StringProperty,
 )
 
-from .blender import Context, Mesh, Object, attached, current_context, in_order, registration
+from .blender import (
+    Context,
+    Mesh,
+    Object,
+    attached,
+    column,
+    current_context,
+    in_order,
+    registration,
+)
 from .curves.cubics import Curve
 from .curves.settle import Covered, CoverOptions, covered
 from .errors import JobError
-from .mesh.object import collections_for, session_key
+from .mesh.layers import fill_layer, make_layer
+from .mesh.object import linked_object, session_key
 from .mesh.read_curves import read_curves
 from .units import Text, Units
 
@@ -128,9 +138,7 @@ def new_cage(
     """
     curves = _read(sources)
     found = covered(curves, _options(settings), text=_text(curves))
-    cage = cast(Object, bpy.data.objects.new(name, bpy.data.meshes.new(name)))
-    for collection in collections_for(context):
-        collection.objects.link(cage)
+    cage = linked_object(context, bpy.data.meshes.new(name))
     group = cage.discrete_fairing_curves
     for setting in CageSettings.__annotations__:
         setattr(group, setting, getattr(settings, setting))
@@ -193,23 +201,18 @@ def _fill(cage: Object, found: Covered) -> None:
         group = groups.get(HOLD) or groups.new(name=HOLD)
         group.add(np.flatnonzero(made.held).tolist(), 1.0, "REPLACE")
     mesh.vertices.foreach_set("co", made.points.astype(np.float32).ravel())
-    ends = np.empty(2 * len(mesh.edges), np.int32)
-    mesh.edges.foreach_get("vertices", ends)
-    keys = np.sort(ends.reshape(-1, 2), axis=1) @ (len(made.points), 1)
+    ends = column(mesh.edges, "vertices", np.int32, 2)
+    keys = np.sort(ends, axis=1) @ (len(made.points), 1)
     creased = np.isin(keys, np.sort(made.sharp, axis=1) @ (len(made.points), 1))
     if creased.any() or "crease_edge" in mesh.attributes:
-        attributes = mesh.attributes
-        layer = attributes.get("crease_edge") or attributes.new("crease_edge", "FLOAT", "EDGE")
-        layer.data.foreach_set("value", creased.astype(np.float32))
+        fill_layer(make_layer(mesh, "crease_edge", "FLOAT", "EDGE"), creased)
     mesh.update()
 
 
 def _has_faces(mesh: Mesh, faces: np.ndarray) -> bool:
     if len(mesh.loops) != faces.size or len(mesh.polygons) != len(faces):
         return False
-    corners = np.empty(faces.size, np.int32)
-    mesh.loops.foreach_get("vertex_index", corners)
-    return np.array_equal(corners, faces.ravel())
+    return np.array_equal(column(mesh.loops, "vertex_index", np.int32), faces.ravel())
 
 
 def keys(blocks: Sequence[Any]) -> set[int | str]:

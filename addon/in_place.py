@@ -12,7 +12,7 @@ import numpy as np
 from mathutils import kdtree
 
 from . import core, errors, measured, size
-from .blender import Context, Object
+from .blender import Context, Object, column
 from .check.faults import Faults, find_faults_in_place
 from .errors import JobError
 from .job import run_warnings
@@ -263,8 +263,7 @@ def apply(source: Object, faired: Faired) -> None:
     """Moves, and with levels refines, the faces that were read."""
     mesh = source.data
     if source.mode != "EDIT" and not faired.levels:  # without a copy: scans are large
-        points = np.empty((len(mesh.vertices), 3), np.float32)
-        mesh.vertices.foreach_get("co", points.ravel())
+        points = column(mesh.vertices, "co", width=3)
         points[faired.part.vertices] = faired.points[: len(faired.part.vertices)]
         mesh.vertices.foreach_set("co", points.ravel())
         mesh.update()

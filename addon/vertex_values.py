@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from .blender import Mesh, Object
+from .blender import Mesh, Object, column
 from .errors import JobError
 
 # The weight that a strength of one half stands for: vertices then give way by about a twentieth of
@@ -65,9 +65,7 @@ def _read(source: Object, mesh: Mesh, name: str, field: str) -> np.ndarray:
         )
     if name in source.vertex_groups:
         return _group(mesh, source.vertex_groups[name].index)
-    values = np.empty(len(mesh.vertices), np.float32)
-    mesh.attributes[name].data.foreach_get("value", values)
-    return values.astype(np.float64)
+    return column(mesh.attributes[name].data, "value").astype(np.float64)
 
 
 def _is_float(attribute: object) -> bool:

@@ -12,8 +12,8 @@ import bpy
 import numpy as np
 
 from .. import core
-from ..blender import Mesh, Object, current_context
-from ..mesh.layers import fill_layer, make_layer
+from ..blender import Mesh, Object, column, current_context
+from ..mesh.layers import write_creases
 from .materials import free_stem
 from .places import FORMATS, file_format
 from .whole import why_incomplete
@@ -96,7 +96,11 @@ def _crease(found: list[Object], path: Path) -> None:
         return
     mesh, count = found[0].data, len(re.findall(r"^v[ \t]", text, re.MULTILINE))
     try:
-        sharpness = {frozenset((int(v), int(w))): float(s) for v, w, s in tags}
+        # Blender's crease c is sharp for 10 c² steps
+        weights = {
+            frozenset((int(v), int(w))): min(max(float(s), 0.0) / 10.0, 1.0) ** 0.5
+            for v, w, s in tags
+        }
     except ValueError:
         raise FileError(
             "UNREADABLE", f"{path} cannot be read: a crease is 't crease 2/1/0 v w sharpness'."
@@ -105,11 +109,7 @@ def _crease(found: list[Object], path: Path) -> None:
         raise FileError(
             "UNREADABLE", f"{path} cannot be read: creases need one object that has all vertices."
         )
-    steps = [sharpness.get(frozenset(edge.vertices), 0.0) for edge in mesh.edges]
-    weights = np.sqrt(
-        np.clip(steps, 0.0, 10.0) / 10.0
-    )  # Blender's crease c is sharp for 10 c² steps
-    fill_layer(make_layer(mesh, "crease_edge", "FLOAT", "EDGE"), np.asarray(weights, np.float32))
+    write_creases(mesh, weights)
 
 
 def write_file(path: Path) -> None:
@@ -199,12 +199,9 @@ def _merge(mesh: Mesh) -> None:
 
     (`remove_doubles` joins none within a distance of 0.)
     """
-    positions = np.empty(3 * len(mesh.vertices), np.float32)
-    mesh.vertices.foreach_get("co", positions)
+    positions = column(mesh.vertices, "co", width=3)
     # + 0: a negative zero is at the same place
-    _, first, group = np.unique(
-        positions.reshape(-1, 3) + 0, axis=0, return_index=True, return_inverse=True
-    )
+    _, first, group = np.unique(positions + 0, axis=0, return_index=True, return_inverse=True)
     target = first[group.reshape(-1)]
     doubles = np.flatnonzero(target != np.arange(len(target)))
     edited = bmesh.new()

@@ -7,7 +7,7 @@ import bmesh
 import numpy as np
 from mathutils import Vector, bvhtree, kdtree
 
-from ..blender import Context, Object
+from ..blender import Context, Object, column
 from ..core import ControlArrays
 from ..mesh.read import control_mesh, read_mesh
 from ..mesh.scans import Scan
@@ -59,10 +59,9 @@ def from_scan(target: Object, positions: np.ndarray, scan: Scan) -> np.ndarray:
         make: Any = bvhtree.BVHTree.FromPolygons
         tree = make(scan.points.tolist(), scan.triangles.tolist(), all_triangles=True)
         return signed_distances(tree, surface)
-    normals = np.empty(3 * len(positions), np.float32)
-    target.data.vertex_normals.foreach_get("vector", normals)
+    normals = column(target.data.vertex_normals, "vector", width=3)
     matrix = np.array(world_matrix(target), dtype=np.float64)[:3, :3]
-    turned = normals.reshape(-1, 3) @ np.linalg.inv(matrix) * np.sign(np.linalg.det(matrix))
+    turned = normals @ np.linalg.inv(matrix) * np.sign(np.linalg.det(matrix))
     nearest, away = _nearest(scan.points, surface)
     outside = ((surface - scan.points[nearest]) * turned).sum(axis=1) >= 0.0
     return np.where(outside, away, -away)

@@ -6,7 +6,7 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ..blender import Object
+from ..blender import Object, column
 from .drawn import Drawn, drawn
 from .sections import combs, sections, segments, teeth
 
@@ -25,27 +25,20 @@ def surface_of(target: Object, depsgraph: bpy.types.Depsgraph, smooth: bool = Fa
     mesh: Any = evaluated.to_mesh()
     try:
         mesh.calc_loop_triangles()
-        positions = np.empty(3 * len(mesh.vertices), np.float32)
-        mesh.vertices.foreach_get("co", positions)
-        corners = np.empty(len(mesh.loops), np.int32)
-        mesh.loops.foreach_get("vertex_index", corners)
+        positions = column(mesh.vertices, "co", width=3)
+        corners = column(mesh.loops, "vertex_index", np.int32)
         normals = _corner_normals(mesh, corners, smooth)
-        triangles = np.empty(3 * len(mesh.loop_triangles), np.int32)
-        mesh.loop_triangles.foreach_get("loops", triangles)
+        triangles = column(mesh.loop_triangles, "loops", np.int32, 3)
     finally:
         evaluated.to_mesh_clear()
-    return drawn(positions.reshape(-1, 3), corners, normals, triangles.reshape(-1, 3))
+    return drawn(positions, corners, normals, triangles)
 
 
 def _corner_normals(mesh: Any, corners: np.ndarray, smooth: bool) -> np.ndarray:
     """(c, 3) float32."""
-    rounded = np.empty(len(mesh.polygons), bool)
-    mesh.polygons.foreach_get("use_smooth", rounded)
-    by_vertex = smooth and not rounded.all()
-    normals = np.empty(3 * len(mesh.vertices if by_vertex else mesh.loops), np.float32)
-    (mesh.vertex_normals if by_vertex else mesh.corner_normals).foreach_get("vector", normals)
-    normals = normals.reshape(-1, 3)
-    return normals[corners] if by_vertex else normals
+    if smooth and not column(mesh.polygons, "use_smooth", bool).all():
+        return column(mesh.vertex_normals, "vector", width=3)[corners]
+    return column(mesh.corner_normals, "vector", width=3)
 
 
 def lines_of(surface: Drawn, settings: Any) -> list[tuple[np.ndarray, tuple[float, ...]]]:

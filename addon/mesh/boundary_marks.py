@@ -8,8 +8,9 @@ from collections.abc import Iterable
 import bmesh
 import numpy as np
 
-from ..blender import Mesh, Object
+from ..blender import Mesh, Object, column
 from ..choices import EDGE_BOUNDARIES
+from .layers import find_layer, layer_values
 from .mesh_changes import shown
 
 BOUNDARY = "fair_boundary"
@@ -80,10 +81,8 @@ def _border_marks(mesh: Mesh) -> np.ndarray:
         layer = edit.edges.layers.int.get(BOUNDARY)
         found = [] if layer is None else [e[layer] for e in edit.edges if e.is_boundary]
         return np.array(found, np.int32)
-    layer = mesh.attributes.get(BOUNDARY)
-    if layer is None or (layer.data_type, layer.domain) != ("INT", "EDGE"):
+    layer = find_layer(mesh, BOUNDARY, "INT", "EDGE")
+    if layer is None:
         return np.empty(0, np.int32)
-    marks, edges = np.empty(len(mesh.edges), np.int32), np.empty(len(mesh.loops), np.int32)
-    layer.data.foreach_get("value", marks)
-    mesh.loops.foreach_get("edge_index", edges)
-    return marks[np.bincount(edges, minlength=len(marks)) == 1]
+    uses = np.bincount(column(mesh.loops, "edge_index", np.int32), minlength=len(mesh.edges))
+    return layer_values(layer)[uses == 1]

@@ -10,7 +10,7 @@ import bmesh
 import numpy as np
 from mathutils import Vector
 
-from ..blender import Mesh, Object
+from ..blender import Mesh, Object, column
 from .layers import find_layer, layer_values
 from .mesh_changes import shown
 from .world_shape import world_matrix
@@ -86,20 +86,10 @@ def own_normals(mesh: Mesh) -> np.ndarray:
     corners, where somebody chose these.
     """
     if not mesh.has_custom_normals:
-        normals = np.empty(3 * len(mesh.vertices), np.float32)
-        mesh.vertex_normals.foreach_get("vector", normals)
-        return normals.reshape(-1, 3).astype(float)
-    of_corners = np.empty(3 * len(mesh.loops), np.float32)
-    corners = np.empty(len(mesh.loops), np.int32)
-    mesh.corner_normals.foreach_get("vector", of_corners)
-    mesh.loops.foreach_get("vertex_index", corners)
-    sums = np.stack(
-        [
-            np.bincount(corners, column, minlength=len(mesh.vertices))
-            for column in of_corners.reshape(-1, 3).T.astype(float)
-        ],
-        axis=1,
-    )
+        return column(mesh.vertex_normals, "vector", width=3).astype(float)
+    corners = column(mesh.loops, "vertex_index", np.int32)
+    sums = np.zeros((len(mesh.vertices), 3))
+    np.add.at(sums, corners, column(mesh.corner_normals, "vector", width=3).astype(float))
     length = np.linalg.norm(sums, axis=1, keepdims=True)
     return np.divide(sums, length, out=np.zeros_like(sums), where=length > 0)
 

@@ -7,7 +7,7 @@ from typing import Any
 import bmesh
 import numpy as np
 
-from ..blender import Mesh, Object
+from ..blender import Mesh, Object, column
 from .layers import fill_layer, find_layer, layer_values, make_layer
 from .mesh_changes import shown
 
@@ -16,8 +16,7 @@ FLAT = "fair_flat"
 
 def mark_selected(mesh: Mesh, flat: bool) -> int:
     """Marks the selected faces of `mesh`, which is in Object Mode, or unmarks them; returns how many there are."""
-    chosen = np.empty(len(mesh.polygons), bool)
-    mesh.polygons.foreach_get("select", chosen)
+    chosen = column(mesh.polygons, "select", bool)
     if flat:
         mark(mesh, chosen)
     elif (layer := find_layer(mesh, FLAT, "BOOLEAN", "FACE")) is not None:

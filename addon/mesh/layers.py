@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a mesh carries beside shape and topology: read as arrays, written to the refined mesh."""
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from ..blender import Mesh, Object
+from ..blender import Mesh, Object, column
 from ..transfer.attributes import AttributeTransfer
 from .groups import VertexGroup, read_groups, write_groups
 from .shape_keys import ShapeKeys, read_shape_keys
@@ -108,6 +108,12 @@ def fill_layer(layer: Any, values: np.ndarray) -> None:
         layer.data.foreach_set(storage.field, np.ascontiguousarray(values, storage.dtype).ravel())
 
 
+def write_creases(mesh: Mesh, weights: Mapping[frozenset[int], float]) -> None:
+    """Of edges by their two vertices; all others have none."""
+    values = [weights.get(frozenset(edge.vertices), 0.0) for edge in mesh.edges]
+    fill_layer(make_layer(mesh, "crease_edge", "FLOAT", "EDGE"), np.array(values))
+
+
 def read_attributes(mesh: Mesh) -> tuple[list[Attribute], list[str]]:
     """The attributes of `mesh` that are carried: (list of Attribute, list of names of unknown data
     types).
@@ -168,8 +174,7 @@ def read_marks(elements: Any, names: tuple[str, ...]) -> dict[str, np.ndarray]:
     for name in names:
         # Blender may be built without Freestyle
         if len(elements) and name in elements[0].bl_rna.properties:
-            values = np.empty(len(elements), bool)
-            elements.foreach_get(name, values)
+            values = column(elements, name, bool)
             if values.any():
                 found[name] = values
     return found
@@ -189,11 +194,7 @@ def _losses(
         notes.append("Skin sizes are dropped: they belong to the edges of the control mesh.")
     for name in unknown:
         notes.append(f"The attribute '{name}' is dropped: its type is not known.")
-    loose = np.ones(len(mesh.edges), bool)
-    edges = np.empty(len(mesh.loops), np.int32)
-    mesh.loops.foreach_get("edge_index", edges)
-    loose[edges] = False
-    if loose.any():
+    if len(np.unique(column(mesh.loops, "edge_index", np.int32))) < len(mesh.edges):
         notes.append("Edges without a face are left out: they carry no surface.")
     keys = source.data.shape_keys
     if keys is None or evaluated:
@@ -266,7 +267,10 @@ def write_data(
     harder to change.
     """
     mesh = target.data
-    origin = transfer.edge_origin(_corner_edges(mesh), len(mesh.edges))
+    # as an attribute, which is read as a block, and not listed where there is none
+    corners = len(mesh.loops)
+    edges = layer_values(mesh.attributes[".corner_edge"]) if corners else np.empty(0, np.int32)
+    origin = transfer.edge_origin(edges, len(mesh.edges))
     write_attributes(mesh, data.attributes, transfer, origin, leave_out)
     for name, values in data.edge_marks.items():
         mesh.edges.foreach_set(name, inherit(values, origin))
@@ -275,13 +279,6 @@ def write_data(
     write_groups(target, data.groups, data.active_group, transfer, operators)
     _choose_active(mesh, data)
     mesh.update()
-
-
-def _corner_edges(mesh: Mesh) -> np.ndarray:
-    edges = np.empty(len(mesh.loops), np.int32)
-    if len(edges):
-        mesh.attributes[".corner_edge"].data.foreach_get("value", edges)
-    return edges
 
 
 def _choose_active(mesh: Mesh, data: SurfaceData) -> None:

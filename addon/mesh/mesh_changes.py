@@ -12,7 +12,7 @@ import bpy
 import numpy as np
 
 from .. import events, size
-from ..blender import Context, Mesh, Scene, current_context
+from ..blender import Context, Mesh, Scene, column, current_context
 from ..redraw import INTERVAL, tag_sidebars
 from .object import session_key
 
@@ -127,11 +127,8 @@ def _look_again(*_: Any) -> None:
 
 
 def _checksum(mesh: Mesh) -> int:
-    flat = np.empty(3 * len(mesh.vertices), np.float32)
-    mesh.vertices.foreach_get("co", flat)
-    corners = np.empty(len(mesh.loops), np.int32)
-    mesh.loops.foreach_get("vertex_index", corners)
-    return zlib.crc32(corners.tobytes(), zlib.crc32(flat.tobytes()))
+    corners = column(mesh.loops, "vertex_index", np.int32)
+    return zlib.crc32(corners.tobytes(), zlib.crc32(column(mesh.vertices, "co", width=3).tobytes()))
 
 
 _HANDLERS = {

@@ -78,11 +78,17 @@ class Showing:
 
 def new_object(context: Context, source: Object, mesh: Mesh) -> Object:
     """Links a new object for `mesh` beside `source` and returns it. The source is only read."""
-    target = cast(Object, bpy.data.objects.new(mesh.name, mesh))
-    for collection in collections_for(context, source):
-        collection.objects.link(target)
+    target = linked_object(context, mesh, source)
     copy_place(context, source, target)
     _copy_object_materials(source, target)
+    return target
+
+
+def linked_object(context: Context, data: Any, source: Object | None = None) -> Object:
+    """A new object for `data`, by its name, in the collections of its `source` or the present one."""
+    target = cast(Object, bpy.data.objects.new(data.name, data))
+    for collection in collections_for(context, source):
+        collection.objects.link(target)
     return target
 
 

@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 
 from .. import vertex_values
-from ..blender import Context, Mesh, Object
+from ..blender import Context, Mesh, Object, column
 from ..core import ControlArrays
 from ..errors import JobError
 from ..settings import AnySettings, is_near
@@ -101,12 +101,7 @@ def _of_update(source: Object, depsgraph: bpy.types.Depsgraph) -> Object:
 
 def read_mesh(mesh: Mesh) -> ControlArrays:
     """`mesh` (bpy.types.Mesh, not in Edit Mode) as ControlArrays."""
-    vertices, edges, corners, faces = (
-        len(mesh.vertices),
-        len(mesh.edges),
-        len(mesh.loops),
-        len(mesh.polygons),
-    )
+    vertices, edges, corners = len(mesh.vertices), len(mesh.edges), len(mesh.loops)
     return ControlArrays(
         positions=_required(mesh, "position", "POINT", "FLOAT_VECTOR", vertices)
         .reshape(-1, 3)
@@ -114,7 +109,7 @@ def read_mesh(mesh: Mesh) -> ControlArrays:
         edges=_required(mesh, ".edge_verts", "EDGE", "INT32_2D", edges).reshape(-1, 2),
         corners=_required(mesh, ".corner_vert", "CORNER", "INT", corners),
         corner_edges=_required(mesh, ".corner_edge", "CORNER", "INT", corners),
-        offsets=_offsets(mesh, faces, corners),
+        offsets=np.append(column(mesh.polygons, "loop_start", np.int32), np.int32(corners)),
         edge_crease=_optional(mesh, "crease_edge", "EDGE", "FLOAT"),
         vertex_crease=_optional(mesh, "crease_vert", "POINT", "FLOAT"),
         sharp_edge=_optional(mesh, "sharp_edge", "EDGE", "BOOLEAN"),
@@ -139,19 +134,9 @@ def _required(mesh: Mesh, name: str, domain: str, data_type: str, size: int) -> 
     return np.empty(0, STORAGE[data_type].dtype) if values is None else values
 
 
-def _offsets(mesh: Mesh, faces: int, corners: int) -> np.ndarray:
-    offsets = np.empty(faces + 1, np.int32)
-    mesh.polygons.foreach_get("loop_start", offsets[:-1])
-    offsets[-1] = corners
-    return offsets
-
-
 def shown_selection(elements: Any) -> np.ndarray:
     """(k,) bool: those of the `elements`, vertices or faces of a mesh, that are selected and to be seen."""
-    flags = np.empty((2, len(elements)), bool)
-    for row, name in zip(flags, ("select", "hide"), strict=True):
-        elements.foreach_get(name, row)
-    return flags[0] & ~flags[1]
+    return column(elements, "select", bool) & ~column(elements, "hide", bool)
 
 
 def selected_faces(mesh: Mesh, source_name: str) -> np.ndarray:

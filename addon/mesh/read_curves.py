@@ -7,7 +7,7 @@ from typing import Any, cast
 
 import numpy as np
 
-from ..blender import Object
+from ..blender import Object, column
 from ..curves.cubics import Curve, from_bezier, from_nurbs, through
 from .read import read_mesh
 from .world_shape import transformed
@@ -26,9 +26,7 @@ def _has_wires(mesh: Any) -> bool:
     """Whether an edge has no face; of large meshes nobody asks while panels are drawn."""
     if not len(mesh.polygons) or len(mesh.loops) > _LOOKED_AT:
         return bool(len(mesh.edges)) and not len(mesh.polygons)
-    used = np.empty(len(mesh.loops), np.int32)
-    mesh.loops.foreach_get("edge_index", used)
-    return len(np.unique(used)) < len(mesh.edges)
+    return len(np.unique(column(mesh.loops, "edge_index", np.int32))) < len(mesh.edges)
 
 
 def read_curves(source: Object) -> list[Curve]:
@@ -52,27 +50,22 @@ def read_curves(source: Object) -> list[Curve]:
 def _splines(source: Object) -> Iterator[Curve]:
     data: Any = source.data
     for number, spline in enumerate(data.splines, 1):
-        closed, name = bool(spline.use_cyclic_u), f"spline {number}"
+        closed, title = bool(spline.use_cyclic_u), f"spline {number}"
         if spline.type == "BEZIER":
             points, left, right = (
-                _column(spline.bezier_points, n, 3) for n in ("co", "handle_left", "handle_right")
+                column(spline.bezier_points, name, width=3).astype(float)
+                for name in ("co", "handle_left", "handle_right")
             )
-            yield Curve(name, from_bezier(points, left, right, closed), closed)
+            yield Curve(title, from_bezier(points, left, right, closed), closed)
             continue
-        points = _column(spline.points, "co", 4)
+        points = column(spline.points, "co", width=4).astype(float)
         if spline.type == "NURBS":
             pieces = from_nurbs(
                 points, spline.order_u, closed, spline.use_endpoint_u, spline.use_bezier_u
             )
         else:
             pieces = through(points[:, :3], closed)
-        yield Curve(name, pieces, closed)
-
-
-def _column(rows: Any, name: str, width: int) -> np.ndarray:
-    values = np.empty(width * len(rows), np.float32)
-    rows.foreach_get(name, values)
-    return values.reshape(-1, width).astype(float)
+        yield Curve(title, pieces, closed)
 
 
 def _wires(source: Object) -> Iterator[Curve]:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ..blender import Context, Mesh, Object
+from ..blender import Context, Mesh, Object, column
 from ..triangles import normals
 from .read import control_mesh
 from .world_shape import transformed, world_matrix, world_shape
@@ -107,15 +107,11 @@ def _instances(context: Context, targets: Iterable[Object]) -> list[Scan]:
 
 def of_mesh(mesh: Mesh) -> Scan:
     """In its own coordinates."""
-    points = np.empty(3 * len(mesh.vertices), np.float32)
-    mesh.vertices.foreach_get("co", points)
+    points = column(mesh.vertices, "co", width=3).astype(np.float64)
     mesh.calc_loop_triangles()
-    triangles = np.empty(3 * len(mesh.loop_triangles), np.int32)
-    mesh.loop_triangles.foreach_get("vertices", triangles)
-    return Scan(points.reshape(-1, 3).astype(np.float64), triangles.reshape(-1, 3).astype(np.int64))
+    return Scan(points, column(mesh.loop_triangles, "vertices", np.int32, 3).astype(np.int64))
 
 
 def _of_cloud(cloud: Any) -> Scan:
-    points = np.empty(3 * len(cloud.points), np.float32)
-    cloud.points.foreach_get("co", points)
-    return Scan(points.reshape(-1, 3).astype(np.float64), np.empty((0, 3), np.int64))
+    points = column(cloud.points, "co", width=3).astype(np.float64)
+    return Scan(points, np.empty((0, 3), np.int64))

@@ -8,7 +8,7 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ..blender import Mesh, Object
+from ..blender import Mesh, Object, column
 from .object import copy_drivers, session_key
 
 SETTINGS = (
@@ -81,9 +81,7 @@ def _key(block: bpy.types.ShapeKey, place: dict[str, int]) -> ShapeKey:
 
 
 def _positions(block: bpy.types.ShapeKey) -> np.ndarray:
-    values = np.empty(3 * len(block.data), np.float32)
-    block.data.foreach_get("co", values)
-    return values.reshape(-1, 3).astype(np.float64)
+    return column(block.data, "co", width=3).astype(np.float64)
 
 
 def influences(

@@ -15,7 +15,7 @@ from ..transfer.lattice import fine_edges, mark_pairs
 from ..transfer.seams import seam_pairs
 from .boundary_marks import BOUNDARY
 from .fixed_normals import NORMAL
-from .layers import SurfaceData, fill_layer, make_layer, write_data
+from .layers import SurfaceData, fill_layer, layer_values, make_layer, write_data
 
 Edges: TypeAlias = tuple[np.ndarray, np.ndarray]  # (e, 2) vertices; the one that leaves each corner
 
@@ -148,7 +148,5 @@ def _write_edges(mesh: Mesh, edges: np.ndarray, corner_edges: np.ndarray) -> Non
 
 
 def _mark_sharp(mesh: Mesh, pairs: np.ndarray) -> None:
-    edges = np.empty(2 * len(mesh.edges), np.int32)
-    mesh.attributes[".edge_verts"].data.foreach_get("value", edges)
     sharp = make_layer(mesh, "sharp_edge", "BOOLEAN", "EDGE")
-    fill_layer(sharp, mark_pairs(edges.reshape(-1, 2), pairs))
+    fill_layer(sharp, mark_pairs(layer_values(mesh.attributes[".edge_verts"]), pairs))

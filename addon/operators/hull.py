@@ -9,7 +9,7 @@ import numpy as np
 
 from ..blender import Answer, Context, Mesh, Object, registration
 from ..memory import active_source, source_of
-from ..mesh.layers import make_layer
+from ..mesh.layers import write_creases
 from ..mesh.object import new_object, select_only
 from ..mesh.offset_names import read_names, write_names
 from ..mesh.read import control_mesh, read_mesh
@@ -99,10 +99,7 @@ def _crease(mesh: Mesh, made: Whole, weights: dict[frozenset[int], float]) -> No
         for edge in mesh.edges
     }
     wanted |= dict.fromkeys(_pairs(made.rim), 1.0)
-    values = [wanted[frozenset(edge.vertices)] for edge in mesh.edges]
-    make_layer(mesh, "crease_edge", "FLOAT", "EDGE").data.foreach_set(
-        "value", np.array(values, np.float32)
-    )
+    write_creases(mesh, wanted)
 
 
 def _solid_text(context: Context, found: Solid) -> str:

@@ -5,12 +5,12 @@ from pathlib import Path
 from typing import Any, cast
 
 import bpy
-import numpy as np
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
 from ..blender import Answer, Context, Mesh, Object, registration
-from ..mesh.object import collections_for, select_only
+from ..mesh.layers import write_creases
+from ..mesh.object import linked_object, select_only
 from ..mesh.offset_names import write_names
 from ..purposes import preset_file
 from ..yard.hull_mesh import HullMesh, hull_mesh
@@ -97,14 +97,8 @@ def _object(context: Context, name: str, made: HullMesh) -> Object:
     mesh.from_pydata(places.tolist(), [], made.faces)
     write_names(mesh, made.names)
     if made.creases:
-        wanted = {frozenset(pair) for pair in made.creases}
-        creases = [float(frozenset(edge.vertices) in wanted) for edge in mesh.edges]
-        layer = mesh.attributes.new("crease_edge", "FLOAT", "EDGE")
-        layer.data.foreach_set("value", np.array(creases, np.float32))
-    target = cast(Object, bpy.data.objects.new(name, mesh))
-    for collection in collections_for(context):
-        collection.objects.link(target)
-    return target
+        write_creases(mesh, dict.fromkeys(map(frozenset, made.creases), 1.0))
+    return linked_object(context, mesh)
 
 
 class IO_FH_fairing_offsets(bpy.types.FileHandler):

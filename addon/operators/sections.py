@@ -13,7 +13,7 @@ from ..blender import Answer, Context, Object, registration
 from ..inspection.drawn import Drawn
 from ..inspection.sections import cut
 from ..memory import active_source
-from ..mesh.object import collections_for, select_only
+from ..mesh.object import linked_object, select_only
 from ..mesh.offset_names import read_names, stations
 from ..mesh.scans import of_mesh, read_scans
 from ..mesh.world_shape import world_matrix
@@ -190,10 +190,7 @@ def _curve_object(context: Context, target: Object, one: Cut) -> Object:
             "co", np.c_[points, np.ones(len(points))].astype(np.float32).ravel()
         )
         spline.use_cyclic_u = closed
-    made = cast(Object, bpy.data.objects.new(curve.name, curve))
-    for collection in collections_for(context, target):
-        collection.objects.link(made)
-    return made
+    return linked_object(context, curve, target)
 
 
 class EXPORT_SCENE_OT_fairing_lines(_Spaced, ExplainedPoll, ExportHelper, bpy.types.Operator):
