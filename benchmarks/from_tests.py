@@ -27,6 +27,11 @@ def small_meshes() -> ModuleType:
     return module
 
 
+def solids() -> dict:
+    """tests/python/inscribed_solids.py: by name, makers of control meshes."""
+    return _beside_own_meshes("inscribed_solids", TESTS).SOLIDS
+
+
 def modelled() -> ModuleType:
     """examples/modelling_meshes.py, a fender and a mug, which imports control meshes of its own."""
     return _beside_own_meshes("modelling_meshes", EXAMPLES)

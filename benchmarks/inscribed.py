@@ -7,8 +7,6 @@ import numpy as np
 
 meshes = from_tests.small_meshes()
 
-GOLDEN = (1 + 5**0.5) / 2
-
 
 def on_sphere(points: np.ndarray) -> np.ndarray:
     """The same points, moved and scaled so that the sphere through them is the unit sphere."""
@@ -144,44 +142,13 @@ def johnson(number: int, cut: bool = False):
     return inscribed(JOHNSON[number](), cut)
 
 
-def pyramid():
-    """Johnson's first solid, half an octahedron, in numbers: the same on every machine to the last
-    bit, which least squares and hulls are not."""
-    points = np.array([[1.0, 0, 0], [0, 1, 0], [0, 0, 1], [-1, 0, 0], [0, -1, 0]])
-    return points, [[4, 2, 3], [4, 0, 2], [2, 1, 3], [2, 0, 1], [3, 1, 0, 4]]
-
-
 def dodecahedron():
     """Its pentagons cut into triangles."""
     points, pentagons = meshes.dodecahedron()
     return points, cut_large(pentagons)
 
 
-def cube(cut: int = 0):
-    """As quads (0), cut along diagonals that follow each other (1), or into a tetrahedron's six
-    edges (2)."""
-    points, quads = meshes.cube()
-    points = points / 3**0.5
-    if cut == 0:
-        return points, quads
-    if cut == 1:
-        return points, meshes.cut_quads((points, quads))[1]
-    even = (points > 0).sum(1) % 2 == 0
-    from_even = np.array([np.roll(q, -int(not even[q[0]])) for q in quads])
-    return points, meshes.cut_quads((points, from_even))[1]
-
-
-NAMED = {
-    "icosahedron": meshes.icosahedron,
-    "octahedron": meshes.octahedron,
-    "tetrahedron": meshes.tetrahedron,
-    "cube": cube,
-    "cube_cut": lambda: cube(1),
-    "cube_cut_evenly": lambda: cube(2),
-    "dodecahedron": meshes.dodecahedron,
-    "dodecahedron_cut": dodecahedron,
-    "J1": pyramid,
-}
+NAMED = from_tests.solids() | {"dodecahedron_cut": dodecahedron}
 NAMED |= {f"J{number}": lambda number=number: johnson(number) for number in JOHNSON}
 NAMED |= {
     f"J{number}_cut": lambda number=number: johnson(number, True)

@@ -95,18 +95,6 @@ def test_shapes_are_told_too():
     assert len(told(result)) == 2 and told(result)[1].startswith("Shape 0: ")
 
 
-def test_a_coarse_level_of_the_plate_is_its_own():
-    """It only starts the next one, and no warning is about it."""
-    result = df.fair(*meshes.creature(), 3)
-    assert result.report["converged"] == result.report["levels"][-1]["converged"]
-
-
-def test_the_thin_plate_may_end_early_where_steps_follow():
-    """Its surface only starts them."""
-    result = df.fair(*meshes.creature(), 2, energy="total_curvature", step_tolerance=1e-4)
-    assert result.report["converged"] and not told(result)
-
-
 def vertex_normal(points, faces, vertex):
     """Of the control mesh: the sum over the faces around."""
     normal = np.zeros(3)

@@ -57,14 +57,6 @@ def test_the_steps_start_from_the_plate_on_pads():
     assert steps["plate_energy"] / (8 * np.pi) == pytest.approx(energy(plate), rel=0.05)
 
 
-def test_corrections_of_the_loads_are_counted():
-    for size in (0, 0.5):
-        report = fair(meshes.creature(), levels=2, pad_size=size).report
-        assert (sum(s["pad_corrections"] for s in report["curvature"][-1]["steps"]) > 0) == (
-            size > 0
-        )
-
-
 def test_minimum_variation_starts_from_there_and_varies_less():
     mesh = meshes.creature()
     result = tight.fair(*mesh, levels=2, energy="minimum_variation", pad_size=0.5)

@@ -6,7 +6,7 @@ import random
 import discrete_fairing as df
 import numpy as np
 import pytest
-from discrete_fairing import filling, near_hole
+from discrete_fairing import filling
 from ragged_holes import cut, mapped, ragged, smallest_angle, sphere, uses
 from surface_measures import dihedrals
 
@@ -557,28 +557,3 @@ def test_nothing_to_fill():
     filled = df.fill_holes(vertices, faces)
     assert not filled.holes and not len(filled.new_faces)
     assert_kept(filled, vertices, faces)
-
-
-def test_a_fair_shape_is_remeshed_as_a_smooth_surface(monkeypatch):
-    """Between its vertices a faired filling is no polyhedron: split along chords, all its bend would sit
-    at old edges, with twice the energy, and the steps began anew.
-    """
-    n = 20
-    at = np.arange((n + 1) ** 2).reshape(n + 1, n + 1)
-    y, x = np.divmod(np.arange((n + 1) ** 2), n + 1)
-    bowl = np.stack([x, y, -n * ((x / n - 0.5) ** 2 + (y / n - 0.5) ** 2)], 1)
-    quads = np.stack([at[:-1, :-1], at[:-1, 1:], at[1:, 1:], at[1:, :-1]], -1).reshape(-1, 4)
-    steps = []
-    fair = near_hole.fair
-
-    def watched(*args, **options):
-        result = fair(*args, **options)
-        steps.append(result.report["curvature"][-1]["steps"])
-        return result
-
-    monkeypatch.setattr(near_hole, "fair", watched)
-    (hole,) = df.fill_holes(bowl, quads).holes
-    assert (hole.converged, hole.folds, hole.crossings) == (True, 0, 0)
-    energies = [step["energy"] for step in steps[-1]]
-    assert energies[0] < 1.1 * energies[-1]
-    assert len(energies) <= 6

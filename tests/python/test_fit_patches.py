@@ -155,13 +155,6 @@ def test_one_number_is_held_against_the_tolerance():
     assert patches.largest_off >= patches.refinement_error.max() > 1e-4 * patches.size
 
 
-def test_levels_that_give_a_patch_no_more_spans_are_not_tried(levels):
-    """No patch has normals as near as this; the surface itself settles at once."""
-    patches = df.fit_patches(*control_meshes.cube(), tolerance=1e-2, normal_tolerance=1e-5)
-    assert levels == [4, 5, 6] and (patches.patch_spans == 16).all()
-    assert len(patches.unmet_by_fit) == 6
-
-
 @pytest.mark.parametrize("levels", [4, 5])
 def test_what_a_given_level_is_off_by_is_measured_too(levels):
     by_level = df.fit_patches(*control_meshes.cube(), levels=levels, **CURVED)
@@ -445,15 +438,6 @@ def test_a_tip_between_two_creases_is_no_fold():
     assert not len(patches.unresolved)
     assert set(patches.unmet) >= {8, 9, 10, 11}  # round the tips off, and are named
     assert patches.largest_residual < 5e-4 * patches.size
-
-
-@pytest.mark.parametrize("levels", [3, None])
-def test_no_patch_is_fitted_to_a_surface_that_is_refused(monkeypatch, levels):
-    monkeypatch.setattr(fitting._Run, "fitted", lambda *_: pytest.fail("fitted all the same"))
-    with pytest.raises(df.FairingError) as caught:
-        df.fit_patches(*needle(), levels=levels)
-    assert caught.value.code == "UNRESOLVED"
-    assert caught.value.elements
 
 
 def test_a_surface_is_compared_with_a_coarser_one_face_by_face(monkeypatch):

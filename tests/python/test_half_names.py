@@ -4,8 +4,7 @@
 import discrete_fairing as df
 import numpy as np
 import pytest
-from discrete_fairing import fitting
-from half_hulls import hull, whole
+from half_hulls import hull
 
 
 def failure(points, faces, call=df.fair, **options):
@@ -94,33 +93,3 @@ def test_warnings_and_repairs_name_the_half_too():
     expected = df.fair(points, faces, 2, repair="mend").report
     for name in ("warnings", "repairs", "flipped_faces"):
         assert report[name] == expected[name], name
-
-
-def test_a_refusal_for_memory_says_what_it_counts():
-    points, faces = hull()
-    error = failure(points, faces, memory_limit=10_000)
-    assert error.code == "TOO_LARGE"
-    assert error.cause.startswith("Both halves together: ")
-    assert f"{2 * len(faces) * 2 * 4**2} triangles" in error.cause
-
-
-def test_the_predicted_memory_is_that_of_both_halves():
-    points, faces = hull()
-    predicted = df.predicted_size(len(points), faces, 4, halved=True)
-    found = df.fair(points, faces, 4, symmetry_plane="y")
-    both = whole(points, faces)
-    assert len(found.vertices) == predicted["vertices"]
-    assert len(found.triangles) == predicted["triangles"]
-    of_both = df.predicted_size(len(both[0]), both[1], 4)["bytes"]
-    assert found.report["peak_bytes"] <= of_both
-    assert predicted["bytes"] == pytest.approx(of_both, rel=0.1)
-
-
-def test_patches_begin_as_coarse_as_both_halves_ask_for(monkeypatch):
-    points, faces = hull()
-    one = df.predicted_size(len(points), faces, fitting.FIRST_LEVEL)["vertices"]
-    monkeypatch.setattr(fitting, "MOST_POINTS", int(1.5 * one))
-    monkeypatch.setattr(fitting, "fair", lambda *given, **_: 1 / (given[2] - finest))
-    finest = fitting.FIRST_LEVEL - 2  # to compare the first with
-    with pytest.raises(ZeroDivisionError):
-        df.fit_patches(points, faces, symmetry_plane="y")

@@ -6,10 +6,17 @@ import discrete_fairing as df
 import numpy as np
 import pytest
 import tight
-from surfaces import as_lists, assert_same_points, random_rotation, size_of
+from surfaces import (
+    as_lists,
+    assert_same_points,
+    assert_same_positions,
+    random_rotation,
+    size_of,
+)
 
-TOLERANCE = 1e-9
-CASES = [(name, exponent) for name in sorted(meshes.ALL) for exponent in (0.5, 1.0, 0.0)]
+# How near, as a share of the size: what is solved to its end, and what ends in steps.
+TOLERANCE, OF_STEPS = 1e-9, 1e-7
+EXPONENTS = [{"metric_exponent": exponent} for exponent in (0.5, 1.0, 0.0)]
 OPTIONS = [
     {"chart": "tangent"},
     {"chart_blend": 0.5},
@@ -17,12 +24,20 @@ OPTIONS = [
     {"boundary": "free"},
     {"crease_angle": 0.9},
     {"corner_angle": 0.7},
+    {"tension": 0.6},
+    *({"region": range(8), "joint": joint} for joint in ("position", "tangent", "curvature")),
 ]
+STEPS = {"energy": "total_curvature", "step_tolerance": 1e-9, "max_steps": 60}
+# Curved, closed or open: without the planes, whose energy is rounding alone.
+CURVED = sorted(meshes.ALL.keys() - {"grid", "single_triangle", "three_handles"})
+CASES = [(name, option) for name in sorted(meshes.ALL) for option in EXPONENTS]
+CASES += [(name, option) for name in ("creature", "wavy_patch", "roof") for option in OPTIONS]
+CASES += [(name, STEPS) for name in CURVED] + [("creature", STEPS | {"tension": 0.6})]
 
 
 def relabelled(vertices, faces, seed=0):
-    """Vertices and faces in another order, every face beginning elsewhere, and where each vertex
-    went."""
+    """Vertices and faces in another order, every face beginning elsewhere; where each vertex went, and
+    from where each face came."""
     random = np.random.default_rng(seed)
     place = random.permutation(len(vertices))
     moved = np.empty_like(vertices)
@@ -31,30 +46,39 @@ def relabelled(vertices, faces, seed=0):
     for face in as_lists(faces):
         start = random.integers(len(face))
         turned.append([int(place[v]) for v in face[start:] + face[:start]])
-    return moved, [turned[f] for f in random.permutation(len(turned))], place
+    order = random.permutation(len(turned))
+    return moved, [turned[f] for f in order], place, order
 
 
-def assert_same_surface(found, expected, size):
-    assert_same_points(found, expected, TOLERANCE * size)
-
-
-@pytest.mark.parametrize("name, exponent", CASES)
-def test_rigid_motion(name, exponent):
+@pytest.mark.parametrize("name, options", CASES, ids=str)
+def test_rigid_motion_scaling_relabelling_and_mirroring(name, options):
     vertices, faces = meshes.ALL[name]()
+    steps = "energy" in options
+    size = size_of(vertices)
+    near = (OF_STEPS if steps else TOLERANCE) * size
+
+    def fair(vertices, faces, **other):
+        return tight.fair(vertices, faces, 2, **options | other).vertices
+
+    plain = fair(vertices, faces)
     rotation, shift = random_rotation(1), np.array([0.3, -5.0, 2.0])
-    still = tight.fair(vertices, faces, 2, metric_exponent=exponent)
-    moved = tight.fair(vertices @ rotation.T + shift, faces, 2, metric_exponent=exponent)
-    difference = np.abs(moved.vertices - (still.vertices @ rotation.T + shift)).max()
-    assert difference <= TOLERANCE * size_of(vertices)
-
-
-@pytest.mark.parametrize("name, exponent", CASES)
-@pytest.mark.parametrize("scale", [1e-6, 0.37, 1e6])
-def test_scaling(name, exponent, scale):
-    vertices, faces = meshes.ALL[name]()
-    plain = tight.fair(vertices, faces, 2, metric_exponent=exponent)
-    scaled = tight.fair(scale * vertices, faces, 2, metric_exponent=exponent)
-    assert np.abs(scaled.vertices / scale - plain.vertices).max() <= TOLERANCE * size_of(vertices)
+    moved = fair(vertices @ rotation.T + shift, faces)
+    assert np.abs((moved - shift) @ rotation - plain).max() <= near
+    for scale in (1e-6, 0.37, 1e6):
+        assert np.abs(fair(scale * vertices, faces) / scale - plain).max() <= near
+    moved, turned, _, order = relabelled(vertices, faces)
+    region = {}
+    if "region" in options:
+        region = {"region": np.flatnonzero(np.isin(order, options["region"]))}
+    found = fair(moved, turned, **region)
+    if steps:
+        # Of the smoother's lines, those that close are cut somewhere. Where hangs on the numbering; then
+        # the steps' errors differ, and points come to lie elsewhere along the surface.
+        assert_same_positions(found, plain, 5e-6 * size if name == "creature" else near)
+    else:
+        assert_same_points(found, plain, near)
+        mirrored = fair(vertices * [-1, 1, 1], [f[::-1] for f in as_lists(faces)])
+        assert_same_points(mirrored * [-1, 1, 1], plain, near)
 
 
 @pytest.mark.parametrize("exponent", [0.0, 0.5, 1.0])
@@ -73,15 +97,6 @@ def test_energies_scale_as_documented(exponent):
         )
 
 
-@pytest.mark.parametrize("name, exponent", CASES)
-def test_relabelling(name, exponent):
-    vertices, faces = meshes.ALL[name]()
-    plain = tight.fair(vertices, faces, 2, metric_exponent=exponent)
-    moved, turned, _ = relabelled(vertices, faces)
-    other = tight.fair(moved, turned, 2, metric_exponent=exponent)
-    assert_same_surface(other.vertices, plain.vertices, size_of(vertices))
-
-
 @pytest.mark.parametrize("name", ["single_triangle", "grid"])
 def test_rounding_decides_nothing_on_flat_meshes(name):
     """Of two flat surfaces neither bends less: the start and the pads are not to hang on rounding."""
@@ -90,44 +105,18 @@ def test_rounding_decides_nothing_on_flat_meshes(name):
     plain = df.fair(vertices, faces, 2, energy="total_curvature")
     for seed in range(3):
         turn = random_rotation(seed)
-        moved, turned, _ = relabelled(vertices @ turn.T, faces, seed)
+        moved, turned, *_ = relabelled(vertices @ turn.T, faces, seed)
         other = df.fair(moved, turned, 2, energy="total_curvature")
         assert_same_points(other.vertices @ turn, plain.vertices, TOLERANCE * size_of(vertices))
-
-
-@pytest.mark.parametrize("name, exponent", CASES)
-def test_mirroring(name, exponent):
-    vertices, faces = meshes.ALL[name]()
-    plain = tight.fair(vertices, faces, 2, metric_exponent=exponent)
-    mirrored = tight.fair(
-        vertices * [-1, 1, 1], [f[::-1] for f in as_lists(faces)], 2, metric_exponent=exponent
-    )
-    assert_same_surface(mirrored.vertices * [-1, 1, 1], plain.vertices, size_of(vertices))
-
-
-@pytest.mark.parametrize("option", OPTIONS, ids=str)
-@pytest.mark.parametrize("name", ["creature", "wavy_patch", "roof"])
-def test_every_option_commutes_too(name, option):
-    vertices, faces = meshes.ALL[name]()
-    size = size_of(vertices)
-    plain = tight.fair(vertices, faces, 2, **option).vertices
-    rotation = random_rotation(4)
-    rotated = tight.fair(7.0 * vertices @ rotation.T, faces, 2, **option).vertices
-    assert np.abs(rotated / 7.0 @ rotation - plain).max() <= TOLERANCE * size
-    moved, turned, _ = relabelled(vertices, faces, 2)
-    assert_same_surface(tight.fair(moved, turned, 2, **option).vertices, plain, size)
-    reversed_faces = [f[::-1] for f in as_lists(faces)]
-    mirrored = tight.fair(vertices * [1, -1, 1], reversed_faces, 2, **option).vertices
-    assert_same_surface(mirrored * [1, -1, 1], plain, size)
 
 
 def test_creases_and_corners_are_relabelled_along():
     (vertices, faces), creases = meshes.box_with_creases()
     plain = tight.fair(vertices, faces, 2, crease_edges=creases, corner_vertices=[9, 20])
-    moved, turned, place = relabelled(vertices, faces)
+    moved, turned, place, _ = relabelled(vertices, faces)
     swapped = place[creases][::-1, ::-1]
     other = tight.fair(moved, turned, 2, crease_edges=swapped, corner_vertices=place[[20, 9]])
-    assert_same_surface(other.vertices, plain.vertices, size_of(vertices))
+    assert_same_points(other.vertices, plain.vertices, TOLERANCE * size_of(vertices))
 
 
 def test_weights_and_tolerance_commute_with_scaling():

@@ -7,12 +7,18 @@ import control_meshes as meshes
 import discrete_fairing as df
 import numpy as np
 import pytest
-import tight
+import sheet_meshes
+from half_hulls import hull
 from mesh_files import SUFFIXES, read_mesh
+from one_sided_meshes import strip
 from shared_data import shared_files
 from sliver_meshes import uneven_drum
 
 NEAR = {"interpolation": "approximate"}
+POINTS = {"pad_size": 0.0, "relative_residual": 1e-2}
+STEPS = {"energy": "total_curvature", "pad_size": 0.0}
+VARIATION = {"energy": "minimum_variation"}
+MEND = {"repair": "mend", "weld": 0.0}
 MOST_CELLS = 20000  # of real meshes, to be soon over
 
 
@@ -20,10 +26,8 @@ def test_levels_quadruple_memory():
     """A triangle costs no more on a finer level; what the coarse levels cost shows less and
     less."""
     peaks = [
-        tight.fair(*meshes.cube(), levels, measure=False, relative_residual=1e-2).report[
-            "peak_bytes"
-        ]
-        for levels in (6, 7, 8)
+        df.fair(*meshes.cube(), levels, measure=False, **POINTS).report["peak_bytes"]
+        for levels in (5, 6, 7)
     ]
     assert all(3.0 < fine / coarse < 4.2 for coarse, fine in zip(peaks, peaks[1:]))
 
@@ -32,66 +36,6 @@ def assert_bounded(report):
     """The prediction is a bound, and up to twice the peak."""
     few = 2**16  # bytes of what does not grow with the mesh
     assert report["peak_bytes"] <= report["predicted_bytes"] <= 2 * report["peak_bytes"] + few
-
-
-@pytest.mark.parametrize("levels", [1, 2, 3, 4, 5])
-@pytest.mark.parametrize(
-    "name", ["icosahedron", "random_hull", "torus_quads", "wavy_patch", "creature", "dodecahedron"]
-)
-def test_prediction_bounds_the_peak(name, levels):
-    assert_bounded(
-        tight.fair(*meshes.ALL[name](), levels, relative_residual=1e-2, threads=1).report
-    )
-
-
-@pytest.mark.parametrize(
-    "options",
-    [
-        NEAR | {"tolerance": 0.02},
-        NEAR | {"weights": [1.0] * 98},
-        {"tension": 0.5},
-        {"tension": 0.5, "energy": "total_curvature"},
-    ],
-    ids=str,
-)
-def test_prediction_bounds_the_peak_with(options):
-    assert_bounded(tight.fair(*meshes.creature(), 3, **options).report)
-
-
-@pytest.mark.parametrize("levels", [1, 2, 4])
-@pytest.mark.parametrize("name", ["icosahedron", "torus_quads", "wavy_patch", "dodecahedron"])
-def test_prediction_bounds_the_peak_of_limit(name, levels):
-    """With the subdivision surface, which the plate is drawn to; in later solves too."""
-    vertices, faces = meshes.ALL[name]()
-    solver = df.Solver(vertices, faces, levels, interpolation="limit", threads=1)
-    first = solver.solve(vertices).report
-    later = solver.solve(np.asarray(vertices) * [1, 1, 1.01]).report
-    assert_bounded(first)
-    assert later["peak_bytes"] <= later["predicted_bytes"]
-
-
-@pytest.mark.parametrize("name", sorted(meshes.OPEN))
-def test_predicted_size_counts_the_boundary(name):
-    vertices, faces = meshes.OPEN[name]()
-    result = tight.fair(vertices, faces, 2)
-    assert len(result.vertices) <= df.predicted_size(len(vertices), faces, 2)["vertices"]
-
-
-@pytest.mark.parametrize("energy", ["total_curvature", "minimum_variation"])
-@pytest.mark.parametrize("name", ["random_hull", "torus_quads", "wavy_patch"])
-def test_prediction_bounds_the_peak_of_steps(name, energy):
-    vertices, faces = meshes.ALL[name]()
-    report = tight.fair(vertices, faces, 3, energy, threads=1).report
-    assert_bounded(report)
-    alone = df.predicted_size(len(vertices), faces, 3, energy=energy)["bytes"]
-    assert alone == report["predicted_bytes"]
-
-
-@pytest.mark.parametrize(("levels", "tolerance"), [(1, 0.0), (2, 0.0), (1, 0.02)])
-def test_many_faces_on_few_levels(levels, tolerance):
-    """The rows of level 1 are the most there, and control vertices that move are factored."""
-    near = NEAR | {"tolerance": tolerance} if tolerance else {}
-    assert_bounded(df.fair(*meshes.torus(96, 48), levels, threads=1, **near).report)
 
 
 def poles():
@@ -107,31 +51,135 @@ def egg():
     return vertices * [1, 1, 1.5], faces
 
 
+def apart(mesh, count=None):
+    """So many faces of a mesh, none joined to another, as STL has them."""
+    points, faces = mesh
+    faces = faces[:count]
+    return points[faces.reshape(-1)], np.arange(faces.size).reshape(faces.shape)
+
+
+BALL = meshes.refine_triangles(*meshes.icosahedron())
+TORUS = meshes.torus(96, 48)
+ON_POINTS = ("icosahedron", "random_hull", "torus_quads", "wavy_patch", "creature", "dodecahedron")
+# name: mesh, levels, options
+CASES = {
+    **{f"{n} on points": (meshes.ALL[n](), (1, 2, 3, 4, 5), POINTS) for n in ON_POINTS},
+    "tolerance": (meshes.creature(), (3,), NEAR | {"tolerance": 0.02}),
+    "weights": (meshes.creature(), (3,), NEAR | {"weights": [1.0] * 98}),
+    "tension": (meshes.creature(), (3,), {"tension": 0.5}),
+    "steps under tension": (meshes.creature(), (3,), STEPS | {"tension": 0.5}),
+    **{
+        f"{n} by {energy}": (meshes.ALL[n](), (3,), STEPS | {"energy": energy})
+        for n in ("random_hull", "torus_quads", "wavy_patch")
+        for energy in ("total_curvature", "minimum_variation")
+    },
+    # the rows of level 1 are the most there, and control vertices that move are factored
+    "many faces": (TORUS, (1, 2), {}),
+    "many faces, tolerance": (TORUS, (1,), NEAR | {"tolerance": 0.02}),
+    # lines on thin faces, and minimum variation but on even ones
+    "thin faces": (poles(), (2,), {}),
+    "quads, variation": (meshes.torus(), (3, 4), VARIATION),
+    "creature, variation": (meshes.creature(), (3,), VARIATION),
+    "9,700 points, variation": (meshes.random_hull(40), (4,), VARIATION),
+    "even, variation": (egg(), (5,), VARIATION),
+    # whatever is fixed, merged away or apart
+    "ball": (BALL, (2, 3), {}),
+    "ball of STL": (apart(BALL), (2, 3), MEND),
+    "random hull": (meshes.random_hull(60), (2, 3), {}),
+    "torus": (meshes.torus(24, 16), (2, 3), {}),
+    "wavy patch": (meshes.wavy_patch(12, 12), (2, 3), {}),
+    "creature": (meshes.creature(), (2, 3), {}),
+    "dodecahedron": (meshes.dodecahedron(), (2, 3), {}),
+    "drum": (meshes.drum(16)[0], (2, 3), {"crease_edges": meshes.drum(16)[1]}),
+    "triangles apart": (apart(BALL, 60), (2, 3), {}),
+    "quads apart": (apart(meshes.torus(24, 16), 60), (2, 3), {}),
+    "pole": (meshes.closed_pole(180), (2, 3), {}),
+}
+
+
 @pytest.mark.parametrize(
-    "mesh, levels, energy",
-    [
-        (poles(), 2, "thin_plate"),
-        (meshes.torus(), 3, "minimum_variation"),
-        (meshes.torus(), 4, "minimum_variation"),
-        (meshes.creature(), 3, "minimum_variation"),
-        (meshes.random_hull(40), 4, "minimum_variation"),
-        (egg(), 5, "minimum_variation"),
-    ],
-    ids=["thin faces", "quads, 3", "quads, 4", "creature", "9,700 points", "even"],
+    "name, levels", [(name, levels) for name, case in CASES.items() for levels in case[1]]
 )
-def test_what_proves_hard_is_expected(mesh, levels, energy):
-    """Lines on thin faces, and minimum variation but on even ones."""
-    assert_bounded(df.fair(*mesh, levels, energy, threads=1).report)
+def test_the_prediction_bounds_the_peak_and_is_near_it(name, levels):
+    mesh, _, options = CASES[name]
+    assert_bounded(df.fair(*mesh, levels, threads=1, measure=True, **options).report)
+
+
+@pytest.mark.parametrize("path", shared_files("good", *SUFFIXES))
+def test_so_it_is_of_real_meshes(path):
+    vertices, faces = read_mesh(path)
+    for levels in (2, 3):
+        if len(faces) * 4**levels <= MOST_CELLS:
+            assert_bounded(df.fair(vertices, faces, levels, threads=1, repair="mend").report)
+
+
+@pytest.mark.parametrize("levels", [1, 2, 4])
+@pytest.mark.parametrize("name", ["icosahedron", "torus_quads", "wavy_patch", "dodecahedron"])
+def test_prediction_bounds_the_peak_of_limit(name, levels):
+    """With the subdivision surface, which the plate is drawn to; in later solves too."""
+    vertices, faces = meshes.ALL[name]()
+    solver = df.Solver(vertices, faces, levels, interpolation="limit", threads=1)
+    first = solver.solve(vertices).report
+    later = solver.solve(np.asarray(vertices) * [1, 1, 1.01]).report
+    assert_bounded(first)
+    assert later["peak_bytes"] <= later["predicted_bytes"]
+
+
+# name: mesh, levels, options, those of predicted_size()
+ALONE = {
+    **{name: (meshes.OPEN[name](), 2, {}, {}) for name in meshes.OPEN},
+    **{
+        energy: (meshes.torus(), 3, {"energy": energy}, {"energy": energy})
+        for energy in ("total_curvature", "minimum_variation")
+    },
+    "shapes": (BALL, 4, {"shapes": [k * BALL[0] for k in (2, 3, 4)]}, {"shapes": 3}),
+    "normals": (BALL, 3, {"normals": BALL[0]}, None),
+    "pages": (sheet_meshes.book(4)[:2], 3, {}, {}),
+    "pages of triangles": (sheet_meshes.book(3, triangles=True)[:2], 3, {}, {}),
+    "touching": (sheet_meshes.hourglass(), 3, {}, {}),
+    "wall": (sheet_meshes.bulkhead()[0], 3, {}, {}),
+    "half": (hull(), 4, {"symmetry_plane": "y"}, {"halved": True}),
+    # every face is solved twice, and written once
+    **{f"one-sided, {cut}": (strip(triangles=cut), 2, {}, {}) for cut in (False, True)},
+    "one-sided with a hexagon": (
+        (strip(9, 2)[0], [[0, 3, 4, 5, 2, 1], *strip(9, 2)[1][2:].tolist()]),
+        2,
+        {},
+        {},
+    ),
+}
+
+
+@pytest.mark.parametrize("name", ALONE)
+def test_sizes_are_predicted_from_faces_alone(name):
+    (vertices, faces), levels, options, told = ALONE[name]
+    result = df.fair(vertices, faces, levels, **options)
+    assert result.report["peak_bytes"] <= result.report["predicted_bytes"]
+    if told is None:
+        return
+    size = df.predicted_size(len(vertices), faces, levels, **told)
+    assert size["vertices"] == len(result.vertices)
+    assert size["triangles"] == len(result.triangles)
+    rel = 0.1 if "halved" in told else 0
+    assert size["bytes"] == pytest.approx(result.report["predicted_bytes"], rel=rel, abs=0)
+
+
+def test_what_is_over_the_limit_by_shapes_alone_is_refused():
+    size = df.predicted_size(len(BALL[0]), BALL[1], 4)["bytes"]
+    with pytest.raises(df.FairingError) as caught:
+        df.fair(*BALL, 4, shapes=[BALL[0]] * 4, memory_limit=size + 1)
+    assert caught.value.code == "TOO_LARGE"
 
 
 def test_the_mended_mesh_is_counted():
-    points, faces = meshes.torus(96, 48)
+    points, faces = TORUS
     clean = df.fair(points, faces, 1, threads=1).report
     mended = df.fair(points, np.concatenate([faces, faces[:1]]), 1, threads=1, repair="mend").report
     corners = 4 * len(faces)
     for key in ("predicted_bytes", "peak_bytes"):
         # an id and an origin a corner, a position and an origin a vertex
         assert 24 * corners <= mended[key] - clean[key] <= 60 * corners
+    assert 0 <= mended["seconds"]["mend"] < 10 and "mend" not in clean["seconds"]
 
 
 def hard():
@@ -149,10 +197,9 @@ def test_a_run_that_takes_more_says_so_before():
     # an error in its place ends the run
     with warnings.catch_warnings():
         warnings.simplefilter("error", df.MemoryWarning)
-        with pytest.raises(df.MemoryWarning):
-            df.fair(*hard(), threads=1)
-        with pytest.raises(df.MemoryWarning):
-            df.Solver(*hard(), threads=1).solve()
+        for call in (df.fair, lambda *mesh, **more: df.Solver(*mesh, **more).solve()):
+            with pytest.raises(df.MemoryWarning):
+                call(*hard(), threads=1)
 
 
 def test_a_factor_that_only_saves_time_keeps_to_twice_the_prediction():
@@ -165,67 +212,15 @@ def test_a_factor_that_only_saves_time_keeps_to_twice_the_prediction():
 def test_what_goes_as_predicted_says_nothing():
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        assert df.fair(*meshes.torus(96, 48), 2).report["warnings"] == []
-
-
-def test_mending_is_timed():
-    vertices, faces = meshes.cube()
-    seconds = df.fair(vertices, faces, 1, repair="mend").report["seconds"]
-    assert 0 <= seconds["mend"] < 10
-    assert "mend" not in df.fair(vertices, faces, 1).report["seconds"]
-
-
-def soup(mesh):
-    """Triangles each with its own corners, as STL has them."""
-    points, faces = mesh
-    return points[faces.reshape(-1)], np.arange(faces.size).reshape(-1, 3)
-
-
-def apart(mesh, count):
-    """So many faces of a mesh, none joined to another."""
-    points, faces = mesh
-    return points[faces[:count].reshape(-1)], np.arange(count * faces.shape[1]).reshape(count, -1)
-
-
-BALL = meshes.refine_triangles(*meshes.icosahedron())
-PLANNED = {
-    "ball": (BALL, {}),
-    "ball of STL": (soup(BALL), {"repair": "mend", "weld": 0.0}),
-    "random hull": (meshes.random_hull(60), {}),
-    "torus": (meshes.torus(24, 16), {}),
-    "wavy patch": (meshes.wavy_patch(12, 12), {}),
-    "creature": (meshes.creature(), {}),
-    "dodecahedron": (meshes.dodecahedron(), {}),
-    "drum": (meshes.drum(16)[0], {"crease_edges": meshes.drum(16)[1]}),
-    "triangles apart": (apart(BALL, 60), {}),
-    "quads apart": (apart(meshes.torus(24, 16), 60), {}),
-    "pole": (meshes.closed_pole(180), {}),
-}
-
-
-@pytest.mark.parametrize("levels", [2, 3])
-@pytest.mark.parametrize("name", PLANNED)
-def test_the_plan_is_near_the_peak(name, levels):
-    """Whatever is fixed, merged away or apart."""
-    mesh, options = PLANNED[name]
-    assert_bounded(df.fair(*mesh, levels, threads=1, **options).report)
+        assert df.fair(*TORUS, 2).report["warnings"] == []
 
 
 def test_vertices_merged_away_make_no_run_too_large():
     """Of an STL file there are six times as many as of the mesh."""
-    points, faces = soup(BALL)
-    options = {"repair": "mend", "weld": 0.0, "threads": 1}
+    points, faces = apart(BALL)
+    options = {**MEND, "threads": 1}
     peak = df.fair(points, faces, 2, **options).report["peak_bytes"]
     again = df.fair(points, faces, 2, memory_limit=2 * peak, **options)
     assert again.report["peak_bytes"] == peak
     clean = df.fair(*BALL, 2, threads=1).report["predicted_bytes"]
     assert df.predicted_size(len(points), BALL[1], 2)["bytes"] < 2 * clean
-
-
-@pytest.mark.parametrize("path", shared_files("good", *SUFFIXES))
-def test_the_plan_is_near_the_peak_of_real_meshes(path):
-    vertices, faces = read_mesh(path)
-    for levels in (2, 3):
-        if len(faces) * 4**levels <= MOST_CELLS:
-            report = df.fair(vertices, faces, levels, threads=1, repair="mend").report
-            assert_bounded(report)

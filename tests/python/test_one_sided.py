@@ -152,33 +152,6 @@ def test_a_closed_one_with_polygons():
     assert len(split.vertices) == df.predicted_size(len(vertices), faces, 2)["vertices"]
 
 
-def with_a_hexagon():
-    """Two quads of a strip as one polygon, which is split around its centre."""
-    vertices, quads = strip(AROUND, ACROSS)
-    a, b = quads[0], quads[1]
-    return vertices, [[*a[:3], *b[2:], a[3]], *np.delete(quads, [0, 1], 0).tolist()]
-
-
-MESHES = {
-    "quads": strip(AROUND, ACROSS),
-    "triangles": strip(AROUND, ACROSS, triangles=True),
-    "closed": klein_bottle(),
-    "polygons": with_a_hexagon(),
-}
-
-
-@pytest.mark.parametrize("name", MESHES)
-def test_the_cover_is_counted_from_faces_alone(name):
-    """Every face is solved twice, and written once."""
-    vertices, faces = MESHES[name]
-    size = df.predicted_size(len(vertices), faces, 2)
-    result = fair(vertices, faces, 2)
-    assert result.report["sheets"]["one_sided"] == 1
-    assert size["vertices"] == len(result.vertices)
-    assert size["triangles"] == len(result.triangles)
-    assert result.report["peak_bytes"] <= size["bytes"] == result.report["predicted_bytes"]
-
-
 def test_beside_other_sheets():
     """A strip with a fin along its middle, and a ball in the same mesh."""
     vertices, faces = strip(AROUND, ACROSS)

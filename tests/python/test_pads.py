@@ -146,11 +146,6 @@ def test_nothing_beyond_a_crease_changes_a_pad():
     assert np.abs(found[0][left] - found[1][left]).max() < 1e-5
 
 
-def test_without_pads_there_are_no_widths():
-    report = tight.fair(*meshes.cube(), levels=1).report
-    assert report["pads"] == {"gone": 0, "widths": []}
-
-
 def test_widths_depend_neither_on_threads_nor_on_the_side():
     vertices, faces, image = ball_and_its_images()
     rough, _ = meshes.rough_ball(roughness=1)
@@ -177,12 +172,6 @@ def test_widths_stay_while_vertices_move():
     assert again == tight.fair(round_ball, faces, levels=2, pad_size=0.5).report["pads"]
 
 
-@pytest.mark.parametrize("size", (-0.1, 1.5))
-def test_sizes_beyond_the_faces_are_refused(size):
-    with pytest.raises(df.FairingError, match="pad_size"):
-        tight.fair(*meshes.cube(), pad_size=size)
-
-
 @pytest.mark.parametrize("levels", (4, 5))
 @pytest.mark.parametrize("name", ("icosahedron", "rough_ball"))
 def test_as_little_is_left_at_the_vertices_on_every_level(name, levels):
@@ -193,33 +182,6 @@ def test_as_little_is_left_at_the_vertices_on_every_level(name, levels):
     exact = df.fair(*mesh, levels, relative_residual=1e-8)
     off = np.abs(pads.vertices - exact.vertices).max() / np.ptp(exact.vertices, axis=0).max()
     assert off <= 6e-5
-
-
-def test_a_drag_takes_hardly_any_iterations():
-    """The difference is solved for on coarse levels first, and a surface that has been foreseen is
-    not solved for again: measured, 0 to 4 a move."""
-    vertices, faces = meshes.torus(10, 8)
-    solver = df.Solver(vertices, faces, levels=4)
-    solver.solve(vertices)
-    moved, finest = vertices.copy(), []
-    for move in range(8):
-        moved[0] += [0.01, 0.02, 0.02]
-        levels = solver.solve(moved).report["levels"]
-        finest.append(levels[-1]["iterations"])
-        if move == 0:
-            assert sum(level["iterations"] for level in levels[:-1]) > 0
-    assert sorted(finest)[4] <= 2 and max(finest[1:]) <= 4
-    exact = df.Solver(vertices, faces, levels=4, relative_residual=1e-8)
-    off = np.abs(solver.solve(moved).vertices - exact.solve(moved).vertices).max()
-    assert off <= 5e-5 * np.ptp(vertices, axis=0).max()
-
-
-def rough_torus(columns=100, rows=70, share=0.12):
-    """Its vertices moved at random by shares of the mean edge."""
-    vertices, faces = meshes.torus(columns, rows)
-    edge = np.linalg.norm(vertices[faces[:, 0]] - vertices[faces[:, 1]], axis=1).mean()
-    noise = np.random.default_rng(1).uniform(-1, 1, vertices.shape)
-    return vertices + share * edge * noise, np.asarray(faces)
 
 
 def test_stiff_rows_at_a_free_border_do_not_mislead_loads():

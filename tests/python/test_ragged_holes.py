@@ -8,7 +8,6 @@ import random
 import discrete_fairing as df
 import numpy as np
 import pytest
-from discrete_fairing import crossings, near_hole
 from mesh_files import read_mesh
 from ragged_holes import cut, ragged, smallest_angle, torus, uses
 from shared_data import SHARED
@@ -86,30 +85,3 @@ def test_holes_in_rounds_of_their_own_share_no_edge():
     filled = df.fill_holes(vertices, kept)
     assert len(filled.holes) == 3 and (uses(filled.faces) == 2).all()
     assert not [d for d in df.check(filled.vertices, filled.faces) if d.severity == "error"]
-
-
-def test_noise_at_a_rim_costs_no_rounds_that_mend_nothing(monkeypatch):
-    """Where the noise of a scan makes a filling fold, each round and each way was tried, some twice, and
-    the whole mesh asked what is near each time: all came out as before.
-    """
-    fairings, searches = [], []
-
-    def counted(function, calls):
-        def call(*args, **options):
-            calls.append(function)
-            return function(*args, **options)
-
-        return call
-
-    monkeypatch.setattr(near_hole, "fair", counted(near_hole.fair, fairings))
-    monkeypatch.setattr(crossings, "_overlapping", counted(crossings._overlapping, searches))
-    rng = random.Random(0)
-    points, faces = torus(120, 60)
-    gone = np.any([ragged(faces, rng.choice([60, 150]), rng, 0.9) for _ in range(4)], axis=0)
-    vertices, kept = cut(points, faces, gone)
-    noise = 0.03 * np.random.default_rng(0).normal(size=vertices.shape)  # about a third of an edge
-    filled = df.fill_holes(vertices + noise, kept)
-    assert len(filled.holes) == 4 and (uses(filled.faces) == 2).all()
-    assert sum(hole.folds > 0 for hole in filled.holes) == 3
-    assert len(fairings) <= 5 * len(filled.holes)  # 36 before, then 25, 19 now
-    assert len(searches) == 1

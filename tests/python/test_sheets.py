@@ -251,16 +251,6 @@ def test_orientation_is_a_sheet_s_own_affair():
     assert repaired.report["flipped_faces"] == [size + 1]
 
 
-def test_sizes_are_predicted():
-    for vertices, faces in (book(4)[:2], book(3, triangles=True)[:2], hourglass(), bulkhead()[0]):
-        size = df.predicted_size(len(vertices), faces, 3)
-        result = df.fair(vertices, faces, 3)
-        assert size["vertices"] == len(result.vertices)
-        assert size["triangles"] == len(result.triangles)
-        assert result.report["peak_bytes"] <= result.report["predicted_bytes"]
-        assert size["bytes"] == result.report["predicted_bytes"]
-
-
 @pytest.mark.parametrize("path", shared_files("bad/nonmanifold", *SUFFIXES))
 def test_real_files(path):
     vertices, faces = read_mesh(path)
