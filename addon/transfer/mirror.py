@@ -2,9 +2,10 @@
 """Exact symmetry: which vertices are each other's mirror images, and surfaces made as symmetric as
 their control meshes.
 
-Nothing is matched by nearness: control vertices have to lie exactly opposite, and the rest follows
-from the faces through their lattices. Solvers round, and not alike on both sides: hence
-`symmetrize`.
+Nothing is matched by nearness. Each control vertex has a colour, a number of 64 bits that is mixed from its
+place and those of its neighbours [Weisfeiler and Lehman 1968], and another one of its image; a refined vertex
+has the same sums of them as of places. Partners are those of which one has the colour of the other's image.
+Solvers round, and not alike on both sides: hence `symmetrize`.
 """
 
 from collections.abc import Sequence
@@ -15,10 +16,10 @@ import numpy as np
 
 from ..core import ControlArrays
 from .attributes import AttributeTransfer, Patch
-from .lattice import Cells, pair_keys
+from .lattice import pair_keys
 
 AXES = "XYZ"
-NONE, SEVERAL = -1, -2  # for images of vertices that belong to no face, or that are not known yet
+NONE = -1  # the image of a vertex that belongs to no face
 
 _ROUNDING = 1e-4  # of the surface's size; more is no rounding: then something else is not symmetric
 
@@ -34,59 +35,79 @@ class Mirror:
     fine: np.ndarray  # (N,) int32: the same for the refined vertices
 
 
-def opposite(positions: np.ndarray, axis: int, used: np.ndarray) -> np.ndarray | None:
-    """(n,) int32: the vertex exactly opposite to each of `positions` (n, 3), NONE for those that
-    are not `used` (n,) bool.
+def _mixed(values: np.ndarray) -> np.ndarray:
+    """Of numbers of 64 bits, others that depend on all bits [Steele, Lea and Flood 2014]."""
+    values = (values ^ (values >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
+    values = (values ^ (values >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
+    return values ^ (values >> np.uint64(31))
 
-    SEVERAL for vertices that share their place with others. None if a vertex has no opposite at
-    all.
-    """
-    ids = np.flatnonzero(used)
-    points = positions[ids]
-    image = points.copy()
-    image[:, axis] *= -1.0
-    order, image_order = np.lexsort(points.T), np.lexsort(image.T)
-    in_order = points[order]
-    if not np.array_equal(in_order, image[image_order]):
-        return None
-    same = (in_order[1:] == in_order[:-1]).all(axis=1)
-    several = np.append(same, False) | np.append(False, same)[: len(ids)]
-    found = np.full(len(positions), NONE, np.int32)
-    found[ids[image_order]] = np.where(several, SEVERAL, ids[order])
+
+def _of_places(positions: np.ndarray) -> np.ndarray:
+    """(n,) colours, the same at the same place to the bit."""
+    colours = np.zeros(len(positions), np.uint64)
+    for column in (positions + 0.0).T:  # + 0: a negative zero is at the same place
+        colours = _mixed(colours + np.ascontiguousarray(column, np.float64).view(np.uint64))
+    return colours
+
+
+def _with_neighbours(colours: np.ndarray, patches: list[Patch]) -> np.ndarray:
+    """The colours after a round: those of the sides of all faces around are mixed in."""
+    total = np.zeros_like(colours)
+    for patch in patches:
+        own = colours[patch.faces.vertices]
+        faces = _mixed(own + np.roll(own, -1, axis=1)).sum(axis=1, dtype=np.uint64)
+        np.add.at(total, patch.faces.vertices, _mixed(faces)[:, None])
+    return _mixed(colours + total)
+
+
+def _refined(patches: list[Patch], colours: np.ndarray, count: int) -> np.ndarray:
+    """(count,) colours of the refined vertices: sums of those of the corners, by weights in whole numbers."""
+    found = np.zeros(count, np.uint64)
+    for patch in patches:
+        cells = patch.cells
+        weights = cells.weights * (cells.points.max() ** 2 / cells.total)
+        ids = patch.fine.reshape(len(patch.faces.polygon), -1)[:, cells.first_corner]
+        found[ids] = colours[patch.faces.vertices] @ weights.T.astype(np.uint64)
     return found
 
 
-def refined_mirror(
-    patches: list[Patch], opposites: np.ndarray, axis: int, vertex_count: int
-) -> Mirror | None:
-    """The Mirror of a control mesh whose vertices have the images `opposites` (n,); None if its
-    faces are not symmetric.
-
-    `patches`: the Patches that its faces were refined to; `vertex_count`: refined vertices.
+def _partners(own: np.ndarray, image: np.ndarray, used: np.ndarray) -> np.ndarray | None:
+    """(n,) int32: of each that is `used`, (n,) bool, the one whose own colour is that of its image; None
+    where these are not the same colours.
     """
-    opposites = _tell_apart(patches, opposites)
-    if (opposites == SEVERAL).any():
+    ids = np.flatnonzero(used)
+    order, image_order = (ids[np.argsort(values[ids], kind="stable")] for values in (own, image))
+    if not np.array_equal(own[order], image[image_order]):
         return None
-    control = np.full(vertex_count, NONE, np.int32)  # vertices and centres of fans
-    control[: len(opposites)] = opposites
-    fine = control.copy()
+    found = np.full(len(own), NONE, np.int32)
+    found[image_order] = order
+    return found
+
+
+def _mirror(
+    transfer: AttributeTransfer, own: np.ndarray, image: np.ndarray, axis: int
+) -> Mirror | None:
+    """That of a control mesh whose vertices and their images have these colours at their places; None if its
+    faces are not symmetric.
+    """
+    patches, count = transfer.patches, transfer.control_count
+    ids = max(count, *(int(patch.faces.vertices.max()) + 1 for patch in patches))  # centres too
+    own, image = (np.append(c, np.zeros(ids - count, np.uint64)) for c in (own, image))
+    known, distinct = -1, 0
+    while distinct > known:  # vertices at one place are told apart by their neighbours
+        own, image = _with_neighbours(own, patches), _with_neighbours(image, patches)
+        known, distinct = distinct, len(np.unique(own))
+    used = np.zeros(ids, bool)
+    reached = np.zeros(transfer.vertex_count, bool)
     for patch in patches:
-        vertices = patch.faces.vertices
-        found, face, turn = _image_faces(
-            vertices, opposites, side=0
-        )  # which never ends at a centre
-        image = np.full_like(vertices, SEVERAL)
-        image[found] = _corner_images(vertices, face, turn)
-        flat = _in_the_plane(patch, opposites)
-        image[flat] = vertices[flat]
-        centre = vertices[:, -1] >= len(opposites)
-        control[vertices[centre, -1]] = image[centre, -1]
-        if not np.array_equal(control[vertices], image):
-            return None
-        _spread(patch, found, face, turn, fine)
-        ids = patch.fine.reshape(len(vertices), -1)[flat].ravel()
-        fine[ids] = ids
-    return Mirror(axis, opposites, fine)
+        used[patch.faces.vertices] = True
+        reached[patch.fine] = True
+    control = _partners(own, image, used)
+    if control is None:
+        return None
+    refined = (_refined(patches, colours, transfer.vertex_count) for colours in (own, image))
+    fine = _partners(*refined, reached)
+    return None if fine is None else Mirror(axis, control[:count], fine)
 
 
 def maps_pairs(
@@ -122,106 +143,6 @@ def maps_positions(mirror: Mirror, positions: np.ndarray) -> bool:
     return np.array_equal(positions[used], image)
 
 
-def _tell_apart(patches: list[Patch], opposites: np.ndarray) -> np.ndarray:
-    """`opposites` with as many SEVERAL as possible replaced: faces next to a side whose image is
-    known give the others.
-    """
-    opposites = opposites.copy()
-    unknown = np.count_nonzero(opposites == SEVERAL)
-    while unknown:
-        for patch in patches:
-            vertices = patch.faces.vertices
-            for side in range(patch.faces.size):
-                found, face, turn = _image_faces(vertices, opposites, side)
-                corners, image = vertices[found], _corner_images(vertices, face, turn)
-                own = (corners < len(opposites)) & (image < len(opposites))
-                own[own] = opposites[corners[own]] == SEVERAL
-                opposites[corners[own]] = image[own]
-        left = np.count_nonzero(opposites == SEVERAL)
-        if left == unknown:
-            break
-        unknown = left
-    return opposites
-
-
-def _image_faces(
-    vertices: np.ndarray, opposites: np.ndarray, side: int
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The image of each face by its given side: (ids of faces that have one, image face, turn),
-    each (f,).
-
-    A mirrored face runs the other way round: its side a → b has its image in a side b' → a'. So
-    corner i of a face has its image at corner (turn - i) mod k of the image face. Where sheets meet,
-    several faces have such a side: there the corner beside it has to fit too.
-    """
-    size = vertices.shape[1]
-    known = np.append(
-        opposites, np.full(int(vertices.max()) + 1, NONE, np.int32)
-    )  # centres have none yet
-    keys = (vertices.astype(np.int64) << 32 | np.roll(vertices, -1, axis=1)).ravel()
-    start, end = known[vertices[:, (side + 1) % size]], known[vertices[:, side]]
-    wanted = np.where((start >= 0) & (end >= 0), start.astype(np.int64) << 32 | end, -1)
-    if len(np.unique(keys)) < len(keys):
-        beside = known[vertices[:, (side + 2) % size]]
-        keys, wanted = _with_third(keys, np.roll(vertices, 1, axis=1).ravel(), wanted, beside)
-    order = np.argsort(keys)
-    place = order[np.minimum(np.searchsorted(keys, wanted, sorter=order), len(keys) - 1)]
-    found = np.flatnonzero(keys[place] == wanted)
-    face, image_side = np.divmod(place[found], size)
-    return found, face, image_side + 1 + side
-
-
-def _with_third(
-    keys: np.ndarray, third: np.ndarray, wanted: np.ndarray, wanted_third: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """`keys` and `wanted` made one with a further vertex each; wanted ones without it become -1."""
-    distinct, rank = np.unique(keys, return_inverse=True)
-    place = np.minimum(np.searchsorted(distinct, wanted), len(distinct) - 1)
-    there = (distinct[place] == wanted) & (wanted_third >= 0)
-    return (
-        rank.ravel().astype(np.int64) << 32 | third,
-        np.where(there, place.astype(np.int64) << 32 | wanted_third, -1),
-    )
-
-
-def _corner_images(vertices: np.ndarray, face: np.ndarray, turn: np.ndarray) -> np.ndarray:
-    """(F, k) int32: the vertex that is the image of each corner."""
-    size = vertices.shape[1]
-    return vertices[face[:, None], (turn[:, None] - np.arange(size)) % size]
-
-
-def _in_the_plane(patch: Patch, opposites: np.ndarray) -> np.ndarray:
-    """(F,) bool: which faces are their own images, as a wall between two halves is: those of
-    polygons whose vertices all lie in the plane.
-    """
-    vertices = patch.faces.vertices
-    own = np.append(opposites, np.arange(len(opposites), vertices.max() + 1))[vertices] == vertices
-    _, polygon = np.unique(patch.faces.polygon, return_inverse=True)
-    outside = np.bincount(polygon.ravel(), ~own.all(axis=1))
-    return outside[polygon.ravel()] == 0
-
-
-def _spread(
-    patch: Patch, found: np.ndarray, face: np.ndarray, turn: np.ndarray, fine: np.ndarray
-) -> None:
-    """Writes the images of all lattice points of the faces `found` in `patch`."""
-    ids = patch.fine.reshape(len(patch.faces.vertices), -1)[:, patch.cells.first_corner]
-    size = patch.faces.size
-    for t in range(size):
-        chosen = turn % size == t
-        fine[ids[found[chosen]]] = ids[face[chosen]][:, _turned_points(patch.cells, t)]
-
-
-def _turned_points(cells: Cells, turn: int) -> np.ndarray:
-    """(P,) int32: where each point goes when corner i goes to corner (turn - i) mod k."""
-    size = cells.weights.shape[1]
-    weights = cells.weights[:, (turn - np.arange(size)) % size]
-    order, turned_order = np.lexsort(cells.weights.T), np.lexsort(weights.T)
-    found = np.empty(len(weights), np.int32)
-    found[turned_order] = order
-    return found
-
-
 def find_mirrors(
     transfer: AttributeTransfer,
     arrays: ControlArrays,
@@ -236,13 +157,15 @@ def find_mirrors(
     (c,): control vertices; `soft_creases`: pairs of them (k, 2) and weights (k,).
     """
     found, notes = [], []
-    used = transfer.used_vertices()
+    used, own = transfer.used_vertices(), _of_places(arrays.positions)
     for axis in range(3):
-        opposites = opposite(arrays.positions, axis, used)
+        image = arrays.positions.copy()
+        image[:, axis] *= -1.0
+        opposite = _of_places(image)
         flat = not arrays.positions[used, axis].any()
-        if opposites is None or flat:
+        if flat or _partners(own, opposite, used) is None:
             continue
-        mirror = refined_mirror(transfer.patches, opposites, axis, transfer.vertex_count)
+        mirror = _mirror(transfer, own, opposite, axis)
         if mirror is None or not maps_positions(mirror, arrays.positions):
             notes.append(
                 f"The vertices are symmetric in {AXES[axis]} but the faces are not: no exact symmetry."
