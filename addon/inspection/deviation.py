@@ -5,14 +5,12 @@ from typing import Any
 
 import bmesh
 import numpy as np
-from mathutils import Vector, bvhtree, kdtree
+from mathutils import Matrix, Vector, bvhtree, kdtree
 
-from ..blender import Context, Object, column
-from ..core import ControlArrays
-from ..mesh.read import control_mesh, read_mesh
+from ..blender import Context, Mesh, Object, column
+from ..mesh.read import control_mesh
 from ..mesh.scans import Scan
 from ..mesh.world_shape import transformed, world_matrix, world_shape
-from ..transfer.cut_out import cut_out
 
 _ROUNDING = 1e-4  # share of a distance: Blender's trees are in single precision
 
@@ -24,10 +22,9 @@ def from_vertices(target: Object, positions: np.ndarray, control: np.ndarray) ->
     """
     shape = world_shape(target)
     control, surface = shape.of(control), shape.of(positions)
-    nearest, away = _nearest(control, surface)
+    nearest, _ = _nearest(control, surface)
     used = np.unique(nearest)
-    arrays = read_mesh(target.data)
-    tree = _tree(surface, arrays, _faces_near(surface, arrays, nearest, away))
+    tree = _tree(target.data, Matrix(np.linalg.inv(shape.way_back).tolist()))
     missed = np.zeros(len(control))
     missed[used] = -signed_distances(tree, control[used])
     return missed[nearest]
@@ -40,13 +37,7 @@ def from_object(
     seen, in scene units; positive on the outer side of its faces.
     """
     with control_mesh(context, other, evaluated=True) as mesh:
-        there = bmesh.new(use_operators=False)
-        there.from_mesh(mesh, face_normals=False, vertex_normals=False)
-    there.transform(world_matrix(other))
-    there.normal_update()
-    make: Any = bvhtree.BVHTree.FromBMesh
-    tree = make(there)
-    there.free()
+        tree = _tree(mesh, world_matrix(other))
     return signed_distances(tree, _in_world(target, positions))
 
 
@@ -98,37 +89,16 @@ def _nearest(control: np.ndarray, surface: np.ndarray) -> tuple[np.ndarray, np.n
     return nearest, np.linalg.norm(surface - control[nearest], axis=1)
 
 
-def _faces_near(
-    surface: np.ndarray, arrays: ControlArrays, nearest: np.ndarray, away: np.ndarray
-) -> np.ndarray:
-    """(m,) bool: faces that may be those nearest to some control vertex. It is no farther from the
-    surface than from one of its points, so nobody else need be looked at; most faces lie between
-    the vertices.
-    """
-    if not len(arrays.corners):
-        return np.zeros(0, bool)
-    closest = np.full(int(nearest.max()) + 1, np.inf)
-    np.minimum.at(closest, nearest, away)
-    farthest = closest[np.isfinite(closest)].max()
-    ends = surface[arrays.edges]
-    length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
-    first = arrays.offsets[:-1]
-    across = 0.5 * np.add.reduceat(length[arrays.corner_edges], first)  # no face is wider
-    near: np.ndarray = np.maximum.reduceat(away[arrays.corners], first)
-    return near <= (1.0 + _ROUNDING) * (farthest + across)
-
-
-def _tree(positions: np.ndarray, arrays: ControlArrays, chosen: np.ndarray) -> Any:
-    """Of the faces `chosen` (m,) bool of `arrays`, at other `positions`."""
-    part = cut_out(arrays, chosen)
-    corners, starts, sizes = part.arrays.corners, part.arrays.offsets[:-1], part.arrays.face_sizes
-    faces = [
-        face
-        for size in np.unique(sizes).tolist()
-        for face in corners[starts[sizes == size, None] + np.arange(size)].tolist()
-    ]
-    make: Any = bvhtree.BVHTree.FromPolygons
-    return make(positions[part.vertices].tolist(), faces)
+def _tree(mesh: Mesh, matrix: Any) -> Any:
+    """Of all faces of `mesh`, moved by a (4, 4) matrix."""
+    there = bmesh.new(use_operators=False)
+    there.from_mesh(mesh, face_normals=False, vertex_normals=False)
+    there.transform(matrix)
+    there.normal_update()
+    make: Any = bvhtree.BVHTree.FromBMesh
+    tree = make(there)
+    there.free()
+    return tree
 
 
 def _in_world(target: Object, positions: np.ndarray) -> np.ndarray:
