@@ -31,6 +31,7 @@ from .errors import JobError
 from .mesh.layers import fill_layer, make_layer
 from .mesh.object import linked_object, session_key
 from .mesh.read_curves import read_curves
+from .settings import values_of
 from .units import Text, Units
 
 HOLD = "On Curves"  # a vertex group: strength 1, which holds, on curves, nothing between them
@@ -174,7 +175,7 @@ def _read(sources: Sequence[Object]) -> list[Curve]:
 
 
 def _options(settings: Any) -> CoverOptions:
-    return CoverOptions(settings.snap, settings.per_side, settings.closed)
+    return values_of(CoverOptions, settings)
 
 
 def remarks_of(cage: Object) -> list[str]:

@@ -1,51 +1,74 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Operators that say why they are grey."""
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterable, Sequence
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+# of a context: why an operator cannot run there, in one sentence; empty where it can
+Reason: TypeAlias = Callable[[Any], str]
 
 LINKED = (
     "Make it local first (Object > Relations > Make Local): this mesh is linked from another file"
 )
+LINKED_SURFACE = (
+    "Make it local first (Object > Relations > Make Local): a linked object cannot be changed"
+)
 
 
 class ExplainedPoll:
-    """Mixin of operators with `poll_reason(context)`: why they cannot run, in one sentence; empty
-    when they can.
+    """Mixin of operators that can run where none of their `reasons` says anything; the first that does
+    becomes the tooltip.
     """
 
-    if TYPE_CHECKING:  # what the operator and Blender have
+    reasons: tuple[Reason, ...]
 
-        @staticmethod
-        def poll_reason(context: Any) -> str: ...
+    if TYPE_CHECKING:  # what Blender has
 
         @classmethod
         def poll_message_set(cls, message: str) -> None: ...
 
     @classmethod
     def poll(cls, context: Any) -> bool:
-        reason = cls.poll_reason(context)
+        reason = first_reason(context, cls.reasons)
         if reason:
             cls.poll_message_set(reason)
         return not reason
 
 
-def mesh_poll_reason(targets: Sequence[Any]) -> str:
+def first_reason(context: Any, reasons: Iterable[Reason]) -> str:
+    """The sentence of the first that has one; empty where none has."""
+    return next(filter(None, (reason(context) for reason in reasons)), "")
+
+
+def needs(found: Callable[[Any], object], sentence: str) -> Reason:
+    """`sentence` where `found(context)` is nothing."""
+    return lambda context: "" if found(context) else sentence
+
+
+def in_mode(sentence: str, *modes: str) -> Reason:
+    """`sentence` in other `modes` than these."""
+    return lambda context: "" if context.mode in modes else sentence
+
+
+def of_meshes(targets: Callable[[Any], Sequence[Any]]) -> Reason:
+    """Why the mesh objects `targets(context)` cannot be worked on."""
+    return lambda context: mesh_reason(targets(context))
+
+
+def mesh_reason(targets: Sequence[Any]) -> str:
     """Why mesh objects cannot be worked on, in one sentence; empty when they can."""
     if not targets:
         return "Select a mesh object first"
     return LINKED if any(t.library or t.data.library for t in targets) else ""
 
 
-def object_mode_reason(context: Any, targets: Sequence[Any]) -> str:
-    """The same of `targets` in Object Mode."""
-    if context.mode != "OBJECT":
-        return "Press Tab first: this works in Object Mode"
-    return mesh_poll_reason(targets)
+IN_OBJECT_MODE = in_mode("Press Tab first: this works in Object Mode", "OBJECT")
+IN_EITHER_MODE = in_mode("Go to Object Mode or Edit Mode first", "OBJECT", "EDIT_MESH")
 
 
-def edit_mode_reason(context: Any, chosen: str) -> str:
-    """The same of the meshes in Edit Mode; `chosen`: what is selected there, in the plural."""
-    if context.mode != "EDIT_MESH":
-        return f"Press Tab first: {chosen} are chosen in Edit Mode"
-    return mesh_poll_reason(context.objects_in_mode_unique_data)
+def in_edit_mode(chosen: str) -> tuple[Reason, ...]:
+    """Of meshes in Edit Mode; `chosen`: what is selected there, in the plural."""
+    return (
+        in_mode(f"Press Tab first: {chosen} are chosen in Edit Mode", "EDIT_MESH"),
+        of_meshes(lambda context: context.objects_in_mode_unique_data),
+    )

@@ -8,11 +8,20 @@ What each setting means stands in properties.py.
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 if TYPE_CHECKING:
     from .blender import Object
     from .properties import FairingSettings
+
+
+_Values = TypeVar("_Values")
+
+
+def values_of(kind: type[_Values], properties: Any, **others: Any) -> _Values:
+    """The dataclass `kind`, each field from the property by its name, but for the `others`."""
+    names = [field.name for field in fields(kind) if field.name not in others]  # type: ignore[arg-type]
+    return kind(**{name: getattr(properties, name) for name in names}, **others)
 
 
 @dataclass(frozen=True)
@@ -54,7 +63,7 @@ class Settings:
     @classmethod
     def of(cls, properties: FairingSettings) -> Settings:
         """Those of an operator or a property group, as they are now."""
-        return cls(*(getattr(properties, name) for name in NAMES))
+        return values_of(cls, properties)
 
     def for_source(self, source: Object) -> Settings:
         """The same with what AUTO comes to for `source`; a Subdivision Surface modifier that is in the

@@ -10,6 +10,7 @@ from .. import core
 from ..blender import Context, Object, all_objects, attached, current_context
 from ..memory import no_source_reason, source_of
 from ..mesh.object import session_key
+from ..poll import LINKED_SURFACE
 from ..size import count_text
 from . import cage, handlers, registry
 from .registry import is_in_a_scene
@@ -18,7 +19,7 @@ from .session import Session
 DEFAULT_LEVELS = 3
 
 
-def poll_reason(target: Object) -> str:
+def why_not(target: Object) -> str:
     """Why this object cannot be live, in one sentence; empty if it can."""
     if core.why_missing():
         return core.why_missing()
@@ -26,7 +27,7 @@ def poll_reason(target: Object) -> str:
     if source is None:
         return no_source_reason(target)
     if any(block.library or block.override_library for block in (target, target.data)):
-        return "Make it local first (Object > Relations > Make Local): a linked object cannot be changed"
+        return LINKED_SURFACE
     if any(block.library for block in (source, source.data)):
         return "Make the source local first (Object > Relations > Make Local): it is linked from another file"
     return ""
@@ -49,7 +50,7 @@ def switch_on(target: Object) -> None:
         session.ending = False
         registry.note(target, True)
         return
-    if poll_reason(target):
+    if why_not(target):
         return
     session = Session(target)
     registry.add(session)
@@ -100,7 +101,7 @@ def surfaces_of(source: Object) -> list[Object]:
     """What is made of `source` and can be made again, the newest last."""
     made = [o for o in all_objects() if o.type == "MESH" and o.discrete_fairing.source == source]
     return sorted(
-        (o for o in made if not poll_reason(o) and is_in_a_scene(o)),
+        (o for o in made if not why_not(o) and is_in_a_scene(o)),
         key=lambda o: _age(session_key(o)),
     )
 

@@ -33,6 +33,12 @@ def source_objects(context: Context) -> list[Object]:
     return sorted(selected, key=lambda o: o == active)
 
 
+def active_mesh(context: Context) -> list[Object]:
+    """It alone; none where the active object is none."""
+    active = context.active_object
+    return [active] if active is not None and active.type == "MESH" else []
+
+
 @contextmanager
 def control_mesh(
     context: Context,

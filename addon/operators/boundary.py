@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Single border edges that are smooth, straight or free, whatever the surface's setting."""
 
-from functools import partial
 from typing import TYPE_CHECKING
 
 import bpy
@@ -10,7 +9,7 @@ from bpy.props import EnumProperty
 from ..blender import Answer, Context, registration
 from ..choices import EDGE_BOUNDARIES
 from ..mesh.boundary_marks import mark_selected, select_marked
-from ..poll import ExplainedPoll, edit_mode_reason
+from ..poll import ExplainedPoll, in_edit_mode
 
 _NAMES = {key: name for key, name, *_ in EDGE_BOUNDARIES}
 
@@ -19,7 +18,7 @@ class _OfEdges(ExplainedPoll):
     if TYPE_CHECKING:
         boundary: str
 
-    poll_reason = staticmethod(partial(edit_mode_reason, chosen="border edges"))
+    reasons = in_edit_mode("border edges")
 
 
 class OBJECT_OT_fairing_boundary(_OfEdges, bpy.types.Operator):

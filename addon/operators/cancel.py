@@ -4,7 +4,7 @@
 import bpy
 
 from ..blender import Answer, Context, registration
-from ..poll import ExplainedPoll
+from ..poll import ExplainedPoll, needs
 from ..queue import running
 
 
@@ -15,13 +15,10 @@ class OBJECT_OT_fairing_cancel(ExplainedPoll, bpy.types.Operator):
     bl_label = "Cancel"
     bl_options = {"INTERNAL"}
 
-    @staticmethod
-    def poll_reason(_context: Context) -> str:
-        return "" if running() is not None else "Nothing to cancel: no surface is being faired"
+    reasons = (needs(lambda _: running(), "Nothing to cancel: no surface is being faired"),)
 
     def execute(self, _context: Context) -> Answer:
-        queue = running()
-        if queue is not None:
+        if (queue := running()) is not None:
             queue.cancel()
         return {"FINISHED"}
 

@@ -21,22 +21,13 @@ from ..check.defects import (
 from ..check.faults import faulty_vertices
 from ..check.holes import edges_of
 from ..holes import count_text
-from ..mesh.read import source_objects
+from ..mesh.read import active_mesh, source_objects
 from ..mesh.write import FAULTS
-from ..poll import ExplainedPoll, mesh_poll_reason
-
-
-def poll_reason(context: Context) -> str:
-    """Why nothing can be checked here, in one sentence; empty when it can."""
-    if core.why_missing():
-        return core.why_missing()
-    if context.mode not in {"OBJECT", "EDIT_MESH"}:
-        return "Go to Object Mode or Edit Mode first"
-    return mesh_poll_reason(source_objects(context))
+from ..poll import IN_EITHER_MODE, ExplainedPoll, needs, of_meshes
 
 
 class _Checking(ExplainedPoll):
-    poll_reason = staticmethod(poll_reason)
+    reasons = (lambda _: core.why_missing(), IN_EITHER_MODE, of_meshes(source_objects))
 
 
 class OBJECT_OT_fairing_check(_Checking, bpy.types.Operator):
@@ -161,14 +152,19 @@ class OBJECT_OT_fairing_select_faults(ExplainedPoll, bpy.types.Operator):
     bl_label = "Select Places"
     bl_options = {"REGISTER", "UNDO"}
 
-    @staticmethod
-    def poll_reason(context: Context) -> str:
-        active = context.active_object
-        if context.mode != "OBJECT" or active is None or active.type != "MESH":
-            return "Select a faired surface in Object Mode first"
-        if not any(name in active.data.attributes for name in FAULTS.values()):
-            return "Nothing to do: nothing was found wrong with this surface"
-        return mesh_poll_reason([active])
+    reasons = (
+        needs(
+            lambda context: context.mode == "OBJECT" and active_mesh(context),
+            "Select a faired surface in Object Mode first",
+        ),
+        needs(
+            lambda context: any(
+                name in context.active_object.data.attributes for name in FAULTS.values()
+            ),
+            "Nothing to do: nothing was found wrong with this surface",
+        ),
+        of_meshes(active_mesh),
+    )
 
     def execute(self, context: Context) -> Answer:
         target = cast(Object, context.active_object)

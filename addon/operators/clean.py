@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Clean Scan: from a scan as it comes to a closed surface, with a list of what was done."""
 
-from collections.abc import Sequence
-from typing import cast
+from collections.abc import Iterator, Sequence
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
@@ -10,12 +9,13 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 from ..blender import Answer, Context, registration
 from ..cleaning import STEPS, CleanJob, CleanOptions
 from ..mesh.read import source_objects
-from ..poll import mesh_poll_reason
-from .fair import WholeFairing, poll_reason
+from ..poll import of_meshes
+from .fair import WholeFairing, can_fair
 from .fill_holes import LargestHole
+from .shown import Shown
 
 
-class OBJECT_OT_fairing_clean(LargestHole, WholeFairing, bpy.types.Operator):
+class OBJECT_OT_fairing_clean(Shown, LargestHole, WholeFairing, bpy.types.Operator):
     """Make a closed surface of a scan: remove loose parts, mend defects, fill holes, and list what was done"""
 
     bl_idname = "object.fairing_clean"
@@ -67,22 +67,18 @@ class OBJECT_OT_fairing_clean(LargestHole, WholeFairing, bpy.types.Operator):
         soft_max=30,
     )
 
-    @staticmethod
-    def poll_reason(context: Context) -> str:
-        return poll_reason(context) or mesh_poll_reason(source_objects(context))
+    reasons = (can_fair, of_meshes(source_objects))
 
-    def draw(self, _context: Context) -> None:
-        layout = cast(bpy.types.UILayout, self.layout)
-        layout.use_property_split = True
+    def shown(self, _context: Context) -> Iterator[str]:
         for name, *_ in STEPS:
-            layout.prop(self, name)
+            yield name
             if name == "join":
-                layout.prop(self, "islands")
+                yield "islands"
         if self.fill:
-            layout.prop(self, "largest")
-        layout.prop(self, "noise")
+            yield "largest"
+        yield "noise"
         if self.noise == "PASSES":
-            layout.prop(self, "passes")
+            yield "passes"
 
     def make_jobs(self, context: Context) -> list[CleanJob]:
         steps = {name: bool(getattr(self, name)) for name, *_ in STEPS}

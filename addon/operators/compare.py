@@ -13,9 +13,10 @@ from ..choices import ENERGIES
 from ..inspection import readout
 from ..job import Job
 from ..memory import active_source
+from ..poll import needs
 from ..settings import Settings
 from ..ui.main import active_settings
-from .fair import Fairing, poll_reason
+from .fair import Fairing, can_fair
 
 MEASURED = 250_000  # triangles: larger surfaces wait for Measure
 _GAP = 1.15  # from one to the next, in widths of the source
@@ -28,11 +29,7 @@ class OBJECT_OT_fairing_compare(Fairing, bpy.types.Operator):
     bl_label = "Compare Fairness"
     bl_options = {"REGISTER", "UNDO"}
 
-    @staticmethod
-    def poll_reason(context: Context) -> str:
-        return poll_reason(context) or (
-            "" if active_source(context) else "Select a mesh object first"
-        )
+    reasons = (can_fair, needs(active_source, "Select a mesh object first"))
 
     def make_jobs(self, context: Context) -> list[Job]:
         source = cast(Object, active_source(context))

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Fair Surface from Curves: the fairest surface over a network of curves, which it follows from then on."""
 
+from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any, cast
 
@@ -14,8 +15,10 @@ from ..curve_cage import CageSettings
 from ..job import Job
 from ..mesh.object import Reference
 from ..mesh.read_curves import has_curves
+from ..poll import in_mode, needs
 from ..settings import Settings
-from .fair import Fairing, poll_reason
+from .fair import Fairing, can_fair
+from .shown import Shown
 
 # The surface runs through the curves, is free between them, and ends as they do.
 _OURS: dict[str, Any] = {
@@ -41,7 +44,7 @@ def curve_objects(context: Context) -> list[Object]:
     return sorted((o for o in context.selected_objects if has_curves(o)), key=lambda o: o.name)
 
 
-class OBJECT_OT_fairing_curves(CageSettings, Fairing, bpy.types.Operator):
+class OBJECT_OT_fairing_curves(Shown, CageSettings, Fairing, bpy.types.Operator):
     """Make the fairest surface through the selected curves that cross; wire edges of meshes are curves too"""
 
     bl_idname = "object.fairing_curves"
@@ -63,19 +66,14 @@ class OBJECT_OT_fairing_curves(CageSettings, Fairing, bpy.types.Operator):
         default="MINIMUM_VARIATION",
     )
 
-    @staticmethod
-    def poll_reason(context: Context) -> str:
-        if context.mode != "OBJECT":
-            return "Press Tab first: surfaces from curves are made in Object Mode"
-        if poll_reason(context):
-            return poll_reason(context)
-        return "" if curve_objects(context) else "Select curves that cross each other first"
+    reasons = (
+        in_mode("Press Tab first: surfaces from curves are made in Object Mode", "OBJECT"),
+        can_fair,
+        needs(curve_objects, "Select curves that cross each other first"),
+    )
 
-    def draw(self, _context: Context) -> None:
-        layout = cast(bpy.types.UILayout, self.layout)
-        layout.use_property_split = True
-        for name in ("levels", "energy", *CageSettings.__annotations__):
-            layout.prop(self, name)
+    def shown(self, _context: Context) -> Iterable[str]:
+        return ("levels", "energy", *CageSettings.__annotations__)
 
     def invoke(self, context: Context, event: bpy.types.Event) -> Answer:
         self._cage: Reference | None = None

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Ease Control Mesh and Ease Selected: vertices that spoil the surface are put right."""
 
-from collections.abc import Sequence
-from typing import Any, cast
+from collections.abc import Iterable, Sequence
+from typing import Any
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
@@ -10,12 +10,14 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 from ..blender import Answer, Context, registration
 from ..mesh.object import select_only
 from ..mesh.read import source_objects
-from ..poll import edit_mode_reason, mesh_poll_reason
+from ..poll import in_edit_mode, in_mode, of_meshes
+from ..settings import values_of
 from ..strain.ease import EaseJob, EaseOptions, EaseSelectedJob
 from ..ui.main import fairing_operator
 from ..units import Units
 from . import redo
-from .fair import WholeFairing, poll_reason
+from .fair import WholeFairing, can_fair
+from .shown import Shown
 from .strain import active_sources
 
 
@@ -39,7 +41,7 @@ class _Easing(WholeFairing):
         raise NotImplementedError
 
 
-class OBJECT_OT_fairing_ease(_Easing, bpy.types.Operator):
+class OBJECT_OT_fairing_ease(Shown, _Easing, bpy.types.Operator):
     """Move vertices a little, as the shape key Eased: removes scatter and corrects wrong offsets"""
 
     bl_idname = "object.fairing_ease"
@@ -120,37 +122,21 @@ class OBJECT_OT_fairing_ease(_Easing, bpy.types.Operator):
         options={"HIDDEN", "SKIP_SAVE"},
     )
 
-    @staticmethod
-    def poll_reason(context: Context) -> str:
-        if poll_reason(context):
-            return poll_reason(context)
-        if context.mode != "OBJECT":
-            return "Press Tab first, or use Ease Selected: the whole control mesh is eased in Object Mode"
-        return mesh_poll_reason(active_sources(context))
+    reasons = (
+        can_fair,
+        in_mode(
+            "Press Tab first, or use Ease Selected: the whole control mesh is eased in Object Mode",
+            "OBJECT",
+        ),
+        of_meshes(active_sources),
+    )
 
-    def draw(self, _context: Context) -> None:
-        layout = cast(bpy.types.UILayout, self.layout)
-        layout.use_property_split = True
-        layout.prop(self, "amount")
-        if self.amount == "TOLERANCE":
-            layout.prop(self, "tolerance")
-        elif self.amount == "STIFFNESS":
-            layout.prop(self, "stiffness")
-        elif self.amount == "WORST":
-            layout.prop(self, "count")
-        layout.prop(self, "use_selection")
-        layout.prop(self, "go_on")
-        layout.prop(self, "result")
+    def shown(self, _context: Context) -> Iterable[str]:
+        own = {"TOLERANCE": ["tolerance"], "STIFFNESS": ["stiffness"], "WORST": ["count"]}
+        return ("amount", *own.get(self.amount, ()), "use_selection", "go_on", "result")
 
     def make_jobs(self, context: Context) -> list[Any]:
-        options = EaseOptions(
-            self.amount,
-            self.tolerance,
-            self.count,
-            self.use_selection,
-            self.go_on,
-            self.stiffness,
-        )
+        options = values_of(EaseOptions, self)
         return [EaseJob(context, source, options) for source in active_sources(context)]
 
     def write(self, context: Context, jobs: list[Any]) -> None:
@@ -179,9 +165,7 @@ class OBJECT_OT_fairing_ease_selected(_Easing, bpy.types.Operator):
         subtype="FACTOR",
     )
 
-    @staticmethod
-    def poll_reason(context: Context) -> str:
-        return poll_reason(context) or edit_mode_reason(context, "vertices")
+    reasons = (can_fair, *in_edit_mode("vertices"))
 
     def make_jobs(self, context: Context) -> list[Any]:
         return [EaseSelectedJob(context, source, self.factor) for source in source_objects(context)]

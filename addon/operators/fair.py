@@ -19,7 +19,7 @@ from ..live.pace import Deadline
 from ..memory import no_source_reason, source_of
 from ..mesh.object import is_in_view_layer, nothing_left_behind, select_only, why_not_here
 from ..mesh.read import source_objects
-from ..poll import ExplainedPoll
+from ..poll import IN_EITHER_MODE, LINKED_SURFACE, ExplainedPoll, in_mode, needs
 from ..properties import KeptSettings, bring_up_to_date, copy_settings, fill_in, take_near
 from ..queue import ConsoleProgress, MeshJob, running
 from ..scan_fit import job_of
@@ -29,15 +29,13 @@ from . import redo
 from .modal import ModalRun
 
 
-def poll_reason(context: Context) -> str:
+def can_fair(context: Context) -> str:
     """Why nothing can be faired here, in one sentence; empty when it can."""
     if core.why_missing():
         return core.why_missing()
     if running() is not None:
         return "Wait, or press ESC: a surface is being faired at this moment"
-    if context.mode not in {"OBJECT", "EDIT_MESH"}:
-        return "Go to Object Mode or Edit Mode first"
-    return ""
+    return IN_EITHER_MODE(context)
 
 
 class Fairing(ExplainedPoll, ModalRun):
@@ -167,11 +165,7 @@ class FairSurface(Fairing, KeptSettings):
     bl_idname: str
     bl_label = "Fair Surface"
 
-    @staticmethod
-    def poll_reason(context: Context) -> str:
-        return poll_reason(context) or (
-            "" if source_objects(context) else "Select a mesh object first"
-        )
+    reasons = (can_fair, needs(source_objects, "Select a mesh object first"))
 
     def draw(self, _context: Context) -> None:
         draw_settings(cast(bpy.types.UILayout, self.layout), self, self.bl_idname)
@@ -249,16 +243,11 @@ class OBJECT_OT_fairing_recompute(Fairing, bpy.types.Operator):
     bl_label = "Recompute"
     bl_options = {"REGISTER", "UNDO"}
 
-    @staticmethod
-    def poll_reason(context: Context) -> str:
-        if poll_reason(context):
-            return poll_reason(context)
-        targets = faired_objects(context)
-        if not targets:
-            return no_source_reason(context.active_object)
-        if not all(map(is_own, targets)):
-            return "Make it local first (Object > Relations > Make Local): a linked object cannot be changed"
-        return ""
+    reasons = (
+        can_fair,
+        lambda c: "" if faired_objects(c) else no_source_reason(c.active_object),
+        needs(lambda context: all(map(is_own, faired_objects(context))), LINKED_SURFACE),
+    )
 
     def make_jobs(self, context: Context) -> list[Job]:
         return [_again(context, target) for target in faired_objects(context)]
@@ -271,10 +260,10 @@ class OBJECT_OT_fairing_recompute_stale(Fairing, bpy.types.Operator):
     bl_label = "Recompute All Out of Date"
     bl_options = {"REGISTER", "UNDO"}
 
-    @staticmethod
-    def poll_reason(context: Context) -> str:
-        stale = next(stale_surfaces(), None)
-        return poll_reason(context) or ("" if stale else "Nothing to do: no surface is out of date")
+    reasons = (
+        can_fair,
+        needs(lambda _: any(stale_surfaces()), "Nothing to do: no surface is out of date"),
+    )
 
     def make_jobs(self, context: Context) -> list[Job]:
         return [_again(context, target) for target in stale_surfaces()]
@@ -288,18 +277,16 @@ class OBJECT_OT_fairing_show_source(ExplainedPoll, bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     @staticmethod
-    def poll_reason(context: Context) -> str:
+    def _source_reason(context: Context) -> str:
         active = context.active_object
-        if context.mode != "OBJECT":
-            return "Go to Object Mode first"
         source = source_of(active) if active is not None else None
-        if source is None:
-            return no_source_reason(active)
-        return why_not_here(context, [source])
+        return no_source_reason(active) if source is None else why_not_here(context, [source])
+
+    reasons = (in_mode("Go to Object Mode first", "OBJECT"), _source_reason)
 
     def execute(self, context: Context) -> Answer:
         source = source_of(cast(Object, context.active_object))
-        assert source is not None  # as poll_reason has seen
+        assert source is not None  # as poll has seen
         source.hide_set(False)
         select_only(context, [source])
         return {"FINISHED"}

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Fill Hole Fair: holes of the mesh itself, closed so that nobody sees where they were."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import cast
 
 import bpy
@@ -12,8 +12,10 @@ from ..choices import ENERGIES, JOINTS
 from ..errors import JobError
 from ..holes import Filling, FillOptions, HoleJob, count_text, fill_warnings
 from ..mesh.read import source_objects
-from ..poll import mesh_poll_reason
-from .fair import WholeFairing, poll_reason
+from ..poll import of_meshes
+from ..settings import values_of
+from .fair import WholeFairing, can_fair
+from .shown import Shown
 
 
 class LargestHole:
@@ -28,7 +30,7 @@ class LargestHole:
     )
 
 
-class OBJECT_OT_fairing_fill(LargestHole, WholeFairing, bpy.types.Operator):
+class OBJECT_OT_fairing_fill(Shown, LargestHole, WholeFairing, bpy.types.Operator):
     """Fill holes with a fair continuation of the faces around: all small ones, or in Edit Mode the selected ones"""
 
     bl_idname = "object.fairing_fill"
@@ -82,23 +84,17 @@ class OBJECT_OT_fairing_fill(LargestHole, WholeFairing, bpy.types.Operator):
         options={"HIDDEN", "SKIP_SAVE"},
     )
 
-    @staticmethod
-    def poll_reason(context: Context) -> str:
-        return poll_reason(context) or mesh_poll_reason(source_objects(context))
+    reasons = (can_fair, of_meshes(source_objects))
 
-    def draw(self, context: Context) -> None:
-        layout = cast(bpy.types.UILayout, self.layout)
-        layout.use_property_split = True
-        layout.prop(self, "joint")
+    def shown(self, context: Context) -> Iterator[str]:
+        yield "joint"
         if self.joint == "FLAT":
             return
         if self.joint != "POSITION":
-            layout.prop(self, "energy")
-            layout.prop(self, "noisy")
-        layout.prop(self, "quads")
-        layout.prop(self, "density")
+            yield from ("energy", "noisy")
+        yield from ("quads", "density")
         if context.mode == "OBJECT" and min(self.edge) < 0:
-            layout.prop(self, "largest")
+            yield "largest"
 
     def invoke(self, context: Context, event: bpy.types.Event) -> Answer:
         """From a button: caps and transoms are flat until another Joint is chosen."""
@@ -111,16 +107,7 @@ class OBJECT_OT_fairing_fill(LargestHole, WholeFairing, bpy.types.Operator):
         targets = (
             source_objects(context) if named is None else [cast(Object, context.active_object)]
         )
-        options = FillOptions(
-            self.joint,
-            self.energy,
-            self.density,
-            self.largest,
-            replaces,
-            self.noisy,
-            self.quads,
-            named,
-        )
+        options = values_of(FillOptions, self, replaces=replaces, edge=named)
         jobs: list[HoleJob] = []
         self._reasons: list[str] = []
         for target in targets:

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Fair Surface on Scan: the fairest surface of a cage near a scan."""
 
+from collections.abc import Iterable
 from dataclasses import replace
-from typing import cast
 
 import bpy
 from bpy.props import IntProperty
@@ -10,11 +10,13 @@ from bpy.props import IntProperty
 from ..blender import Context, Object, registration
 from ..job import Job
 from ..mesh.scans import is_scan, read_scans
+from ..poll import in_mode, needs
 from ..properties import FitAmount
 from ..scan_fit import Fit, FitJob, make_cage
 from ..settings import Settings
-from ..ui.layout import draw_amount
-from .fair import WholeFairing, poll_reason
+from ..ui.layout import amount_names
+from .fair import WholeFairing, can_fair
+from .shown import Shown
 
 
 def _chosen(context: Context) -> tuple[Object | None, list[Object]]:
@@ -28,7 +30,7 @@ def _chosen(context: Context) -> tuple[Object | None, list[Object]]:
     return active, [o for o in selected if o != active]
 
 
-class OBJECT_OT_fairing_fit(WholeFairing, FitAmount, bpy.types.Operator):
+class OBJECT_OT_fairing_fit(Shown, WholeFairing, FitAmount, bpy.types.Operator):
     """Make the fairest surface near the selected scans, from the active mesh as cage or from a cage made for a lone scan"""
 
     bl_idname = "object.fairing_fit"
@@ -52,25 +54,18 @@ class OBJECT_OT_fairing_fit(WholeFairing, FitAmount, bpy.types.Operator):
         soft_max=2000,
     )
 
-    @staticmethod
-    def poll_reason(context: Context) -> str:
-        if poll_reason(context):
-            return poll_reason(context)
-        if context.mode != "OBJECT":
-            return "Go to Object Mode first"
-        cage, scans = _chosen(context)
-        if not scans:
-            return "Select the scan, or the scan first and the cage last"
-        if cage is None and scans[0].type != "MESH":
-            return "Select the cage last: one can be made for a mesh, not for a point cloud"
-        return ""
+    reasons = (
+        can_fair,
+        in_mode("Go to Object Mode first", "OBJECT"),
+        needs(lambda c: _chosen(c)[1], "Select the scan, or the scan first and the cage last"),
+        needs(
+            lambda c: _chosen(c)[0] or _chosen(c)[1][0].type == "MESH",
+            "Select the cage last: one can be made for a mesh, not for a point cloud",
+        ),
+    )
 
-    def draw(self, context: Context) -> None:
-        layout = cast(bpy.types.UILayout, self.layout)
-        layout.use_property_split = True
-        layout.prop(self, "levels")
-        draw_amount(layout, self)
-        layout.prop(self, "cage_faces")
+    def shown(self, _context: Context) -> Iterable[str]:
+        return ("levels", *amount_names(self), "cage_faces")
 
     def make_jobs(self, context: Context) -> list[Job]:
         cage, scans = _chosen(context)

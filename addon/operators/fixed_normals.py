@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Vertices at which the surface gets a normal that somebody chooses, and at which it finds its own."""
 
-from functools import partial
 from typing import TYPE_CHECKING
 
 import bpy
@@ -12,7 +11,7 @@ from ..blender import Answer, Context, Object, registration
 from ..mesh import fixed_normals
 from ..mesh.read import control_mesh
 from ..mesh.world_shape import world_matrix
-from ..poll import ExplainedPoll, edit_mode_reason
+from ..poll import ExplainedPoll, in_edit_mode
 
 _FROM = (
     ("MESH", "The Mesh", "The normal that the mesh has at the vertex, custom normals included"),
@@ -24,7 +23,7 @@ class _OfVertices(ExplainedPoll):
     if TYPE_CHECKING:
         origin: str
 
-    poll_reason = staticmethod(partial(edit_mode_reason, chosen="vertices"))
+    reasons = in_edit_mode("vertices")
 
 
 class OBJECT_OT_fairing_fix_normal(_OfVertices, bpy.types.Operator):

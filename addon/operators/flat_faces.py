@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Faces that stay flat: selected in Edit Mode, found by their shape in Object Mode."""
 
+from collections.abc import Iterable
 from math import degrees, radians
-from typing import Any
 
 import bpy
 from bpy.props import BoolProperty, FloatProperty
@@ -13,10 +13,11 @@ from ..memory import source_of
 from ..mesh import flat_marks
 from ..mesh.read import read_mesh, source_objects
 from ..mesh.world_shape import world_shape
-from ..poll import ExplainedPoll, mesh_poll_reason
+from ..poll import IN_EITHER_MODE, ExplainedPoll, of_meshes
+from .shown import Shown
 
 
-class OBJECT_OT_fairing_flat_faces(ExplainedPoll, bpy.types.Operator):
+class OBJECT_OT_fairing_flat_faces(Shown, ExplainedPoll, bpy.types.Operator):
     """Keep faces flat, by Bending: in Edit Mode the selected ones, in Object Mode large flat ones between tight rims"""
 
     bl_idname = "object.fairing_flat_faces"
@@ -36,18 +37,10 @@ class OBJECT_OT_fairing_flat_faces(ExplainedPoll, bpy.types.Operator):
         subtype="ANGLE",
     )
 
-    @staticmethod
-    def poll_reason(context: Context) -> str:
-        if context.mode not in ("OBJECT", "EDIT_MESH"):
-            return "Switch to Object Mode or Edit Mode first"
-        return mesh_poll_reason(_targets(context))
+    reasons = (IN_EITHER_MODE, of_meshes(lambda context: _targets(context)))
 
-    def draw(self, context: Context) -> None:
-        layout: Any = self.layout
-        layout.use_property_split = True
-        layout.prop(self, "clear")
-        if context.mode == "OBJECT" and not self.clear:
-            layout.prop(self, "angle")
+    def shown(self, context: Context) -> Iterable[str]:
+        return ("clear", "angle") if context.mode == "OBJECT" and not self.clear else ("clear",)
 
     def execute(self, context: Context) -> Answer:
         targets = _targets(context)

@@ -12,19 +12,15 @@ from ..memory import active_source, source_of
 from ..mesh.layers import write_creases
 from ..mesh.object import new_object, select_only
 from ..mesh.offset_names import read_names, write_names
-from ..mesh.read import control_mesh, read_mesh
+from ..mesh.read import active_mesh, control_mesh, read_mesh
 from ..mesh.scans import in_metres, of_mesh
-from ..poll import ExplainedPoll, object_mode_reason
+from ..poll import IN_OBJECT_MODE, ExplainedPoll, of_meshes
 from ..settings import Settings
 from ..strain.measure import mixed_positions
 from ..yard.closing import NotHalf, Whole, whole
 from ..yard.hydrostatics import NotClosed, Solid, solid
 
-
-def poll_reason(context: Context) -> str:
-    active = context.active_object
-    is_mesh = active is not None and active.type == "MESH"
-    return object_mode_reason(context, [active] if is_mesh else [])
+ACTIVE_MESH = (IN_OBJECT_MODE, of_meshes(active_mesh))
 
 
 class OBJECT_OT_fairing_close(ExplainedPoll, bpy.types.Operator):
@@ -34,7 +30,7 @@ class OBJECT_OT_fairing_close(ExplainedPoll, bpy.types.Operator):
     bl_label = "Close Hull"
     bl_options = {"REGISTER", "UNDO"}
 
-    poll_reason = staticmethod(poll_reason)
+    reasons = ACTIVE_MESH
 
     def execute(self, context: Context) -> Answer:
         """Of the control mesh; where its surface is active, the closed one is faired as that was."""

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Hydrostatics of a hull that takes in no water at its draught: said, and as a table."""
 
+from collections.abc import Iterable
 from math import degrees, radians
 from typing import TYPE_CHECKING, Any, cast
 
@@ -12,7 +13,8 @@ from ..blender import Answer, Context, Object, registration
 from ..mesh.scans import in_metres
 from ..poll import ExplainedPoll
 from ..yard.hydrostatics import Hydrostatics, NotClosed, hydrostatics
-from .hull import poll_reason
+from .hull import ACTIVE_MESH
+from .shown import Shown
 from .written_files import write_text_file
 
 _COLUMNS = (
@@ -24,7 +26,7 @@ _COLUMNS = (
 class _Afloat(ExplainedPoll):
     """What both share. x is along the hull, z up; the draught is measured from the lowest point at no trim."""
 
-    poll_reason = staticmethod(poll_reason)
+    reasons = ACTIVE_MESH
 
     draught: FloatProperty(
         name="Draught",
@@ -65,7 +67,7 @@ class _Afloat(ExplainedPoll):
             return None
 
 
-class OBJECT_OT_fairing_hydrostatics(_Afloat, bpy.types.Operator):
+class OBJECT_OT_fairing_hydrostatics(Shown, _Afloat, bpy.types.Operator):
     """Measure displacement, centres, wetted surface and waterplane of a hull at a draught and trim"""
 
     bl_idname = "object.fairing_hydrostatics"
@@ -84,12 +86,12 @@ class OBJECT_OT_fairing_hydrostatics(_Afloat, bpy.types.Operator):
         self.report({"INFO"}, ", ".join(lines))
         return {"FINISHED"}
 
-    def draw(self, _context: Context) -> None:
-        layout = cast(bpy.types.UILayout, self.layout)
-        layout.use_property_split = True
-        for name in ("draught", "trim", "density"):
-            layout.prop(self, name)
-        column = layout.box().column(align=True)
+    def shown(self, _context: Context) -> Iterable[str]:
+        return _Afloat.__annotations__
+
+    def draw(self, context: Context) -> None:
+        super().draw(context)
+        column = cast(bpy.types.UILayout, self.layout).box().column(align=True)
         for line in self.said.split("\n"):
             column.label(text=line)
 

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Fair Selected Faces in Place, and Fair Scan in Place: meshes themselves, by request and with undo."""
 
-from collections.abc import Sequence
-from typing import cast
+from collections.abc import Iterator, Sequence
 
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
@@ -12,9 +11,10 @@ from ..blender import Answer, Context, Object, registration
 from ..choices import DEFAULT_ENERGY, ENERGIES, ENERGY_MEANING, JOINTS
 from ..errors import JobError
 from ..mesh.read import source_objects
-from ..poll import mesh_poll_reason
-from ..settings import Settings
-from .fair import WholeFairing, poll_reason
+from ..poll import in_mode, of_meshes
+from ..settings import Settings, values_of
+from .fair import WholeFairing, can_fair
+from .shown import Shown
 
 
 def _joints() -> tuple[tuple[str, str, str], ...]:
@@ -40,7 +40,7 @@ VERTICES = (
 )
 
 
-class InPlace(WholeFairing):
+class InPlace(Shown, WholeFairing):
     """What faces of the meshes themselves are faired with."""
 
     levels: IntProperty(
@@ -99,36 +99,23 @@ class InPlace(WholeFairing):
         subtype="FACTOR",
     )
 
-    def draw(self, _context: Context) -> None:
-        layout = cast(bpy.types.UILayout, self.layout)
-        layout.use_property_split = True
-        layout.prop(self, "levels")
-        layout.prop(self, "joint")
-        layout.prop(self, "vertices")
+    def shown(self, _context: Context) -> Iterator[str]:
         measured = self.vertices == "MEASURED"
+        yield from ("levels", "joint", "vertices")
         if measured:
-            layout.prop(self, "noise")
+            yield "noise"
         elif self.levels:
-            layout.prop(self, "release")
+            yield "release"
         if measured or self.release or not self.levels:
-            layout.prop(self, "factor")
+            yield "factor"
         if measured and not self.levels:
             return
-        layout.prop(self, "energy")
+        yield "energy"
         if self.energy != "MINIMUM_VARIATION":
-            layout.prop(self, "tension")
+            yield "tension"
 
     def make_jobs(self, context: Context) -> list[in_place.InPlaceJob]:
-        options = in_place.InPlaceOptions(
-            self.levels,
-            self.joint,
-            self.energy,
-            self.tension,
-            self.release,
-            self.factor,
-            self.vertices == "MEASURED",
-            self.noise,
-        )
+        options = values_of(in_place.InPlaceOptions, self, measured=self.vertices == "MEASURED")
         settings = Settings.of(context.scene.discrete_fairing)
         return [
             in_place.InPlaceJob(context, target, settings, options)
@@ -159,13 +146,13 @@ class OBJECT_OT_fairing_in_place(InPlace, bpy.types.Operator):
     bl_label = "Fair Selected Faces in Place"
     bl_options = {"REGISTER", "UNDO"}
 
-    @staticmethod
-    def poll_reason(context: Context) -> str:
-        if poll_reason(context):
-            return poll_reason(context)
-        if context.mode != "EDIT_MESH":
-            return "Press Tab first, and select faces: those of the mesh in Edit Mode are faired"
-        return ""
+    reasons = (
+        can_fair,
+        in_mode(
+            "Press Tab first, and select faces: those of the mesh in Edit Mode are faired",
+            "EDIT_MESH",
+        ),
+    )
 
     def targets(self, context: Context) -> list[Object]:
         objects = [o for o in context.objects_in_mode_unique_data if _has_selection(o)]
@@ -188,13 +175,11 @@ class OBJECT_OT_fairing_scan(InPlace, bpy.types.Operator):
         default="MEASURED",
     )
 
-    @staticmethod
-    def poll_reason(context: Context) -> str:
-        if poll_reason(context):
-            return poll_reason(context)
-        if context.mode != "OBJECT":
-            return "Press Tab first: whole meshes are faired in Object Mode"
-        return mesh_poll_reason(source_objects(context))
+    reasons = (
+        can_fair,
+        in_mode("Press Tab first: whole meshes are faired in Object Mode", "OBJECT"),
+        of_meshes(source_objects),
+    )
 
     def targets(self, context: Context) -> list[Object]:
         objects = list({o.data: o for o in source_objects(context)}.values())

@@ -11,7 +11,7 @@ from ..inspection import display, readout, viewport_shading
 from ..inspection.display import VALUES
 from ..inspection.settings import MODES
 from ..memory import source_of
-from ..poll import ExplainedPoll, mesh_poll_reason, object_mode_reason
+from ..poll import IN_EITHER_MODE, IN_OBJECT_MODE, ExplainedPoll, Reason, needs, of_meshes
 
 
 def meshes(context: Context) -> list[Object]:
@@ -21,15 +21,10 @@ def meshes(context: Context) -> list[Object]:
     return chosen or ([active] if active is not None and active.type == "MESH" else [])
 
 
-def poll_reason(context: Context) -> str:
-    """Why nothing can be shown or measured here, in one sentence; empty when it can."""
-    return object_mode_reason(context, meshes(context))
-
-
 class _Inspecting(ExplainedPoll):
     bl_options = {"REGISTER", "UNDO"}
 
-    poll_reason = staticmethod(poll_reason)
+    reasons: tuple[Reason, ...] = (IN_OBJECT_MODE, of_meshes(meshes))
 
 
 class OBJECT_OT_fairing_inspect(_Inspecting, bpy.types.Operator):
@@ -44,11 +39,7 @@ class OBJECT_OT_fairing_inspect(_Inspecting, bpy.types.Operator):
     def description(cls, _context: Context, properties: Any) -> str:
         return next(text for key, _, text, *_ in MODES if key == properties.mode)
 
-    @staticmethod
-    def poll_reason(context: Context) -> str:
-        if context.mode not in {"OBJECT", "EDIT_MESH"}:
-            return "Go to Object Mode or Edit Mode first"
-        return mesh_poll_reason(meshes(context))
+    reasons = (IN_EITHER_MODE, of_meshes(meshes))
 
     def invoke(self, context: Context, _event: bpy.types.Event) -> Answer:
         """From a button: in the viewport beside it, what was asked for is to be seen."""
@@ -105,12 +96,12 @@ class OBJECT_OT_fairing_viewport(ExplainedPoll, bpy.types.Operator):
     bl_idname = "object.fairing_viewport"
     bl_label = "Show in This Viewport"
 
-    @staticmethod
-    def poll_reason(context: Context) -> str:
-        space = context.space_data
-        return (
-            "" if space is not None and space.type == "VIEW_3D" else "Point at a 3D viewport first"
-        )
+    reasons = (
+        needs(
+            lambda c: c.space_data is not None and c.space_data.type == "VIEW_3D",
+            "Point at a 3D viewport first",
+        ),
+    )
 
     def execute(self, context: Context) -> Answer:
         viewport_shading.show(context.space_data, "ZEBRA")

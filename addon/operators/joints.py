@@ -14,9 +14,9 @@ from ..choices import JOINTS
 from ..freshness import is_own
 from ..job import Job
 from ..memory import no_source_reason, source_of
-from ..poll import ExplainedPoll
+from ..poll import LINKED_SURFACE, ExplainedPoll, in_mode, needs
 from ..settings import Settings
-from .fair import Fairing, poll_reason
+from .fair import Fairing, can_fair
 
 
 def _other(context: Context) -> Object | None:
@@ -40,17 +40,17 @@ class OBJECT_OT_fairing_match_border(Fairing, bpy.types.Operator):
     )
 
     @staticmethod
-    def poll_reason(context: Context) -> str:
+    def _active_reason(context: Context) -> str:
         active = context.active_object
-        if poll_reason(context):
-            return poll_reason(context)
         if active is None or source_of(active) is None:
             return no_source_reason(active)
-        if not is_own(active):
-            return "Make it local first (Object > Relations > Make Local): a linked object cannot be changed"
-        if _other(context) is None:
-            return "Select the other object first, and the surface that is to change last"
-        return ""
+        return "" if is_own(active) else LINKED_SURFACE
+
+    reasons = (
+        can_fair,
+        _active_reason,
+        needs(_other, "Select the other object first, and the surface that is to change last"),
+    )
 
     def make_jobs(self, context: Context) -> list[Job]:
         target, other = cast(Object, context.active_object), cast(Object, _other(context))
@@ -67,11 +67,10 @@ class OBJECT_OT_fairing_joints(ExplainedPoll, bpy.types.Operator):
     bl_label = "Check Joints"
     bl_options = {"REGISTER"}
 
-    @staticmethod
-    def poll_reason(context: Context) -> str:
-        if context.mode != "OBJECT":
-            return "Go to Object Mode first"
-        return "" if len(joints.chosen(context)) > 1 else "Select two mesh objects or more first"
+    reasons = (
+        in_mode("Go to Object Mode first", "OBJECT"),
+        needs(lambda c: len(joints.chosen(c)) > 1, "Select two mesh objects or more first"),
+    )
 
     def execute(self, context: Context) -> Answer:
         with errors.explained("Check Joints"):
@@ -97,9 +96,7 @@ class OBJECT_OT_fairing_select_joint(ExplainedPoll, bpy.types.Operator):
         name="Joint", description="Which line of the table", min=0, options={"HIDDEN"}
     )
 
-    @staticmethod
-    def poll_reason(_context: Context) -> str:
-        return "" if joints.rows() else "Press Check Joints first"
+    reasons = (needs(lambda _: joints.rows(), "Press Check Joints first"),)
 
     def execute(self, context: Context) -> Answer:
         rows = joints.rows()

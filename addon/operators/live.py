@@ -10,7 +10,7 @@ from ..blender import Answer, Context, Mesh, Object, registration
 from ..live import switch
 from ..mesh.modifiers import copy_modifiers
 from ..mesh.object import is_in_view_layer, new_object, nothing_left_behind
-from ..poll import ExplainedPoll
+from ..poll import ExplainedPoll, in_mode
 from ..settings import Settings, is_limit, wants_modifiers
 
 _MODES = {"OBJECT", "EDIT_MESH", "SCULPT"}
@@ -34,15 +34,17 @@ class OBJECT_OT_fairing_live(ExplainedPoll, bpy.types.Operator):
     )
 
     @staticmethod
-    def poll_reason(context: Context) -> str:
-        if core.why_missing():
-            return core.why_missing()
-        if context.mode not in _MODES:
-            return "Go to Object Mode, Edit Mode or Sculpt Mode first"
+    def _active_reason(context: Context) -> str:
         active = context.active_object
         if active is None or active.type != "MESH":
             return "Select a mesh object first"
-        return switch.poll_reason(active) if active.discrete_fairing.source is not None else ""
+        return switch.why_not(active) if active.discrete_fairing.source is not None else ""
+
+    reasons = (
+        lambda _: core.why_missing(),
+        in_mode("Go to Object Mode, Edit Mode or Sculpt Mode first", *_MODES),
+        _active_reason,
+    )
 
     def execute(self, context: Context) -> Answer:
         targets = switch.active_surfaces(context)

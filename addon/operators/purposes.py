@@ -9,11 +9,11 @@ from bpy.props import EnumProperty
 
 from ..blender import Answer, Context, registration
 from ..mesh.read import source_objects
-from ..poll import ExplainedPoll
+from ..poll import ExplainedPoll, needs
 from ..purposes import EASED_FIRST, OPERATORS, PURPOSES, preset_file
 from ..settings import Settings
 from ..ui.main import active_settings, fairing_operator, remembered
-from .fair import poll_reason
+from .fair import can_fair
 
 # an operator that another one calls leaves no step of undo by itself; from a script's call none does
 _UNDO = True
@@ -32,11 +32,7 @@ class OBJECT_OT_fairing_for(ExplainedPoll, bpy.types.Operator):
     def description(cls, _context: Context, properties: Any) -> str:
         return next(text for key, _, text, _ in PURPOSES if key == properties.purpose)
 
-    @staticmethod
-    def poll_reason(context: Context) -> str:
-        return poll_reason(context) or (
-            "" if source_objects(context) else "Select a mesh object first"
-        )
+    reasons = (can_fair, needs(source_objects, "Select a mesh object first"))
 
     def invoke(self, context: Context, _event: bpy.types.Event) -> Answer:
         return self._run_or_say(context, "INVOKE_DEFAULT")

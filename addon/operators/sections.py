@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Section Curves, and File > Export > Lines Plan (.dxf)."""
 
+from collections.abc import Iterator
 from math import cos, radians, sin
 from typing import TYPE_CHECKING, Any, cast
 
@@ -20,7 +21,8 @@ from ..mesh.world_shape import world_matrix
 from ..poll import ExplainedPoll
 from ..yard.dxf import text
 from ..yard.plan import Cut, Plane, in_space, opened, places, scaled, sheet
-from .hull import poll_reason
+from .hull import ACTIVE_MESH
+from .shown import Shown
 from .written_files import write_text_file
 
 _AXES = {"STATIONS": 0, "BUTTOCKS": 1, "WATERLINES": 2}
@@ -92,7 +94,7 @@ class _Spaced:
     )
 
 
-class OBJECT_OT_fairing_section_curves(_Spaced, ExplainedPoll, bpy.types.Operator):
+class OBJECT_OT_fairing_section_curves(Shown, _Spaced, ExplainedPoll, bpy.types.Operator):
     """Make curves where planes cut the active mesh: stations, buttocks, waterlines, diagonals, or your own plane"""
 
     bl_idname = "object.fairing_section_curves"
@@ -127,18 +129,14 @@ class OBJECT_OT_fairing_section_curves(_Spaced, ExplainedPoll, bpy.types.Operato
         subtype="ANGLE",
     )
 
-    poll_reason = staticmethod(poll_reason)
+    reasons = ACTIVE_MESH
 
-    def draw(self, _context: Context) -> None:
-        layout = cast(bpy.types.UILayout, self.layout)
-        layout.use_property_split = True
-        layout.prop(self, "kind")
-        if self.kind == "OBJECT":
-            return
-        for name in ("places", "spacing", "start"):
-            layout.prop(self, name)
+    def shown(self, _context: Context) -> Iterator[str]:
+        yield "kind"
+        if self.kind != "OBJECT":
+            yield from ("places", "spacing", "start")
         if self.kind == "DIAGONALS":
-            layout.prop(self, "angle")
+            yield "angle"
 
     def execute(self, context: Context) -> Answer:
         target = cast(Object, context.active_object)
@@ -226,7 +224,7 @@ class EXPORT_SCENE_OT_fairing_lines(_Spaced, ExplainedPoll, ExportHelper, bpy.ty
         description="Writes the sections where they are on the hull, in place of a flat sheet",
     )
 
-    poll_reason = staticmethod(poll_reason)
+    reasons = ACTIVE_MESH
 
     def execute(self, context: Context) -> Answer:
         target = cast(Object, context.active_object)

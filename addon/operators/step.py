@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """To CAD: File > Export > Fair Surface (.step), and Show Patches."""
 
+from collections.abc import Iterable
 from dataclasses import replace
-from typing import Any, cast
+from typing import Any
 
 import bpy
 from bpy.props import StringProperty
@@ -14,8 +15,10 @@ from ..cad.settings import PatchSettings, StepSettings, scale_to
 from ..cad.step import summary, write_jobs
 from ..memory import source_of
 from ..mesh.read import source_objects
+from ..poll import needs
 from ..settings import PatchOptions
 from . import fair, redo
+from .shown import Shown
 from .written_files import ByFileBrowser
 
 
@@ -29,11 +32,7 @@ def _to_fit(context: Context) -> list[Object]:
 class _Fitting(fair.Fairing, PatchSettings):
     """What both share: patches are fitted to the surfaces of all selected objects."""
 
-    @staticmethod
-    def poll_reason(context: Context) -> str:
-        return fair.poll_reason(context) or (
-            "" if source_objects(context) else "Select a mesh or a faired surface first"
-        )
+    reasons = (fair.can_fair, needs(source_objects, "Select a mesh or a faired surface first"))
 
     def patch_options(self) -> PatchOptions:
         """Of the patches."""
@@ -48,7 +47,9 @@ class _Fitting(fair.Fairing, PatchSettings):
         return {"CANCELLED"} if jobs is None else self._block(context, jobs)
 
 
-class EXPORT_SCENE_OT_fairing_step(ByFileBrowser, StepSettings, _Fitting, bpy.types.Operator):
+class EXPORT_SCENE_OT_fairing_step(
+    Shown, ByFileBrowser, StepSettings, _Fitting, bpy.types.Operator
+):
     """Export the selected objects as spline patches: surfaces with their own settings, meshes with the scene's"""
 
     bl_idname = "export_scene.fairing_step"
@@ -66,12 +67,8 @@ class EXPORT_SCENE_OT_fairing_step(ByFileBrowser, StepSettings, _Fitting, bpy.ty
         jobs = self._prepare(context)
         return {"CANCELLED"} if jobs is None else self.start(context, jobs)
 
-    def draw(self, _context: Context) -> None:
-        layout = cast(bpy.types.UILayout, self.layout)
-        layout.use_property_split = True
-        layout.use_property_decorate = False
-        for name in StepSettings.__annotations__ | PatchSettings.__annotations__:
-            layout.prop(self, name)
+    def shown(self, _context: Context) -> Iterable[str]:
+        return StepSettings.__annotations__ | PatchSettings.__annotations__
 
     def finish(self, context: Context, jobs: list[Any]) -> Answer:
         faulty = refused(jobs)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Strain: shown, selected, jumped to, and written as a table."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any, cast
 
 import bpy
@@ -16,12 +16,13 @@ from ..mesh.edited import edited
 from ..mesh.object import why_not_here
 from ..mesh.shape_keys import EASED, key_positions
 from ..mesh.world_shape import transformed, world_matrix
-from ..poll import ExplainedPoll, mesh_poll_reason
+from ..poll import ExplainedPoll, Reason, of_meshes
 from ..strain import known, table, words
 from ..strain.measure import StrainJob
 from ..strain.strained import Strained, above
 from ..units import Units
-from .fair import WholeFairing, poll_reason
+from .fair import WholeFairing, can_fair
+from .shown import Shown
 from .written_files import ByFileBrowser, write_text_file
 
 
@@ -38,9 +39,7 @@ class _Straining(WholeFairing):
 
     cancelled_text = "Measuring was cancelled: nothing has changed"
 
-    @staticmethod
-    def poll_reason(context: Context) -> str:
-        return poll_reason(context) or mesh_poll_reason(active_sources(context))
+    reasons: tuple[Reason, ...] = (can_fair, of_meshes(active_sources))
 
     def make_jobs(self, context: Context) -> list[Any]:
         return [known.job_for(context, source) for source in active_sources(context)]
@@ -65,7 +64,7 @@ class OBJECT_OT_fairing_strain(ExplainedPoll, bpy.types.Operator):
     bl_label = "Inspect: Strain"
     bl_options = {"REGISTER", "UNDO"}
 
-    poll_reason = staticmethod(_Straining.poll_reason)
+    reasons = _Straining.reasons
 
     def execute(self, context: Context) -> Answer:
         sources = active_sources(context)
@@ -75,20 +74,17 @@ class OBJECT_OT_fairing_strain(ExplainedPoll, bpy.types.Operator):
         return {"FINISHED"}
 
 
-def _reason_to_select(context: Context) -> str:
-    return _Straining.poll_reason(context) or why_not_here(context, active_sources(context))
+_TO_SELECT = (*_Straining.reasons, lambda c: why_not_here(c, active_sources(c)))
 
 
-class OBJECT_OT_fairing_select_strained(_Straining, bpy.types.Operator):
+class OBJECT_OT_fairing_select_strained(Shown, _Straining, bpy.types.Operator):
     """Select in Edit Mode the vertices with the largest strain"""
 
     bl_idname = "object.fairing_select_strained"
     bl_label = "Select Strained"
     bl_options = {"REGISTER", "UNDO"}
 
-    @staticmethod
-    def poll_reason(context: Context) -> str:
-        return _reason_to_select(context)
+    reasons = _TO_SELECT
 
     by: EnumProperty(
         name="Which",
@@ -116,12 +112,8 @@ class OBJECT_OT_fairing_select_strained(_Straining, bpy.types.Operator):
         subtype="DISTANCE",
     )
 
-    def draw(self, _context: Context) -> None:
-        layout = cast(bpy.types.UILayout, self.layout)
-        layout.use_property_split = True
-        layout.prop(self, "by")
-        if self.by != "FLOOR":
-            layout.prop(self, self.by.lower())
+    def shown(self, _context: Context) -> Iterable[str]:
+        return ("by",) if self.by == "FLOOR" else ("by", self.by.lower())
 
     def use(self, context: Context, jobs: list[StrainJob]) -> Answer:
         wanted: list[Any] = []
@@ -190,7 +182,7 @@ class OBJECT_OT_fairing_go_to_strained(ExplainedPoll, bpy.types.Operator):
 
     vertex: IntProperty(name="Vertex", description="Which vertex of the control mesh", min=0)
 
-    poll_reason = staticmethod(_reason_to_select)
+    reasons = _TO_SELECT
 
     def execute(self, context: Context) -> Answer:
         source = cast(Object, active_source(context))

@@ -8,7 +8,7 @@ import bpy
 
 from ..choices import ENERGY_MEANINGS, ENERGY_NAMES, SHORT_INTERPOLATIONS
 from ..curve_cage import HOLD
-from ..properties import FairingSettings
+from ..properties import FairingSettings, FitAmount
 from ..purposes import name_of_purpose
 from ..settings import is_evaluated, is_limit, is_near
 from .pictures import draw_choices, draw_ends, icon, name_of
@@ -73,11 +73,9 @@ def draw_job(
         _draw_tolerance(layout, settings, known)
 
 
-def draw_amount(layout: bpy.types.UILayout, near: Any) -> None:
-    """How closely a surface follows a scan; `near`: an operator or property group with FitAmount."""
-    layout.prop(near, "amount")
-    if near.amount == "TOLERANCE":
-        layout.prop(near, "tolerance")
+def amount_names(near: FitAmount) -> tuple[str, ...]:
+    """What is shown of how closely a surface follows a scan."""
+    return ("amount", "tolerance") if near.amount == "TOLERANCE" else ("amount",)
 
 
 def draw_fairness(

@@ -23,7 +23,7 @@ from ..purposes import PRESET_FOLDER, is_shipped, job_of
 from ..queue import Queue, running, status_text
 from ..settings import Settings, halves, is_evaluated, is_limit, is_near, subdivision
 from ..units import length_text
-from .layout import Known, Sidebar, draw_amount, draw_fairness, draw_folded, draw_job, draw_shape
+from .layout import Known, Sidebar, amount_names, draw_fairness, draw_folded, draw_job, draw_shape
 from .live import draw_live, draw_stale, draw_stale_surfaces
 from .notice import draw_notice
 from .pictures import PRESETS, draw_pictures, draw_purposes
@@ -93,7 +93,8 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
         job = "SCAN_SURFACE" if near is not None else job_of(settings)
         draw_job(layout, settings, known, job)
         if near is not None:
-            draw_amount(layout, near)
+            for name in amount_names(near):
+                layout.prop(near, name)
             draw_notice(layout, near.said, icon="INFO")
         if triangles >= size.LARGE:
             draw_notice(

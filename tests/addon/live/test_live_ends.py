@@ -248,7 +248,7 @@ def test_linked_surfaces_are_refused(tmp_path):
     activate(target)
     assert not bpy.ops.object.fairing_live.poll()
     target.discrete_fairing_live.on = True
-    assert not target.discrete_fairing_live.on and "linked" in switch.poll_reason(target)
+    assert not target.discrete_fairing_live.on and "linked" in switch.why_not(target)
 
 
 def test_grey_without_a_mesh_and_without_the_core(monkeypatch):
