@@ -10,10 +10,8 @@ from . import core, errors
 from .blender import Context, Object
 from .check.defects import as_dicts, store_defects
 from .check.holes import listed
-from .mesh.begun import Begun, TimedRun
-from .mesh.object import Reference
 from .mesh.read import control_mesh, read_mesh
-from .mesh.world_shape import world_shape
+from .mesh.timed_run import TimedRun
 from .mesh.write_cleaned import Cleaned, write_cleaned
 from .units import Units
 
@@ -60,21 +58,19 @@ class CleanOptions:
 class CleanJob(TimedRun):
     """One object: read, cleaned on any thread, then written."""
 
-    kind = "CLEAN"
+    kind, again = "CLEAN", "Run Clean Scan"
 
     def __init__(self, context: Context, target: Object, options: CleanOptions) -> None:
-        self.name, self.reference, self._options = target.name, Reference(target), options
-        self._shape, self._units = world_shape(target), Units.of(context.scene)
-        with control_mesh(context, target) as mesh:
-            self._arrays = read_mesh(mesh)
-        self._begun = Begun.of("Run Clean Scan", target, self._arrays)
-        self.triangles = int((self._arrays.face_sizes - 2).sum())
+        self._options, self._units = options, Units.of(context.scene)
+        with self._reading(context, target):
+            pass
+        self.triangles = int((self.arrays.face_sizes - 2).sum())
 
     def _compute(self, watchers: dict[str, Any]) -> None:
-        arrays = self._arrays
+        arrays = self.arrays
         with errors.explained(self.name, errors.WITHOUT_MENDING):
             self.result = core.module().clean(
-                self._shape.of(arrays.positions),
+                self.shape.of(arrays.positions),
                 (arrays.corners.astype(np.int64), arrays.offsets.astype(np.int64)),
                 islands=self._options.islands,
                 largest=self._options.largest,
@@ -88,12 +84,12 @@ class CleanJob(TimedRun):
         """Writes the mesh; what was done, a sentence each, the last of which says how it ended."""
         target, found = cast(Object, self.reference.find()), self.result
         origin = found.vertex_origin[found.vertex_origin >= 0]
-        sent = self._shape.of(self._arrays.positions)[origin]
+        sent = self.shape.of(self.arrays.positions)[origin]
         flat = isinstance(found.faces, tuple)
         corners = found.faces[0] if flat else found.faces.ravel()
         offsets = found.faces[1] if flat else np.arange(len(found.faces) + 1) * 3
         made = Cleaned(
-            self._shape.back(found.vertices, sent, self._arrays.positions[origin]),
+            self.shape.back(found.vertices, sent, self.arrays.positions[origin]),
             found.vertices,
             corners,
             offsets,
@@ -104,10 +100,10 @@ class CleanJob(TimedRun):
         said = [act.text[:1].upper() + act.text[1:] for act in found.done] or ["Nothing to do"]
         said.append(self._end())
         if found.done:
-            write_cleaned(target, self._arrays, made)
+            write_cleaned(target, self.arrays, made)
         with control_mesh(context, target) as mesh:
             arrays = read_mesh(mesh)
-        store_defects(context, target, self._left(arrays, made), listed(arrays, self._shape), said)
+        store_defects(context, target, self._left(arrays, made), listed(arrays, self.shape), said)
         self.note()
         return said
 

@@ -16,7 +16,6 @@ import numpy as np
 
 from .choices import EDGE_BOUNDARIES
 from .settings import AnySettings, PatchOptions, Settings, is_limit, is_near
-from .triangles import border
 
 MISSING = "The native module 'discrete_fairing' could not be loaded: reinstall the extension for this Blender version"
 
@@ -50,6 +49,11 @@ def module() -> Any:
     if found is None:
         raise ImportError(reason)
     return found
+
+
+def lattice(n: int, quad: bool) -> Any:
+    """The points and cells of a control face whose edges are split into `n`."""
+    return module().piecewise.lattice.Lattice(n, quad)
 
 
 def why_missing() -> str:
@@ -259,45 +263,32 @@ def patches_on_scan(arguments: Mapping[str, Any], scan: Mapping[str, Any]) -> di
     return of_fits(arguments) | {name: arguments[name] for name in kept} | {"scan": scan}
 
 
-class MatchSolver:
-    """As discrete_fairing.Solver, for a surface whose border meets a neighbour: each is made from the start."""
+class SolverFromStart:
+    """As discrete_fairing.Solver, for surfaces that are each made from the start, by `make`."""
 
     vertex_origin = None
 
-    def __init__(self, arguments: Mapping[str, Any]) -> None:
-        self._arguments = dict(arguments)
+    def __init__(self, make: Callable[..., Any], arguments: Mapping[str, Any]) -> None:
+        self._make, self._arguments = make, dict(arguments)
 
     def solve(self, vertices: np.ndarray | None = None, **watchers: Any) -> Any:
         moved = {} if vertices is None else {"vertices": vertices}
-        result = module().fair(**(self._arguments | moved), **watchers)
-        result.report["warm"] = False
-        return result
-
-
-class ScanSolver:
-    """As discrete_fairing.Solver, for the surface near a scan: each is fitted from the start, with a
-    weight that is known.
-    """
-
-    vertex_origin = None
-
-    def __init__(self, scan: Mapping[str, Any], arguments: Mapping[str, Any]) -> None:
-        self._arguments = {**of_fits(arguments), **scan}
-
-    def solve(self, vertices: np.ndarray | None = None, **watchers: Any) -> Any:
-        moved = {} if vertices is None else {"vertices": vertices}
-        result = module().fit(**(self._arguments | moved), **watchers)
+        result = self._make(**(self._arguments | moved), **watchers)
         result.report["warm"] = False
         return result
 
 
 def solver(arguments: Mapping[str, Any]) -> Any:
-    """What makes surfaces again and again while vertices move; with a `scan` among the arguments, near it."""
+    """What makes surfaces again and again while vertices move; with a `scan` among the arguments, near it,
+    with a weight that is known; with a `neighbour`, meeting it.
+    """
     own = dict(arguments)
     if "neighbour" in own:
-        return MatchSolver(own)
+        return SolverFromStart(module().fair, own)
     scan = own.pop("scan", None)
-    return module().Solver(**own) if scan is None else ScanSolver(scan, own)
+    if scan is not None:
+        return SolverFromStart(module().fit, {**of_fits(own), **scan})
+    return module().Solver(**own)
 
 
 def plate_arguments(fairing: Mapping[str, Any]) -> dict[str, Any]:
@@ -432,7 +423,7 @@ def border_corners(arrays: ControlArrays, plane: int | None = None) -> np.ndarra
     single = np.bincount(corners, minlength=count)[corners] == 1
     angles = np.where(single, np.abs(angles), angles % (2 * np.pi))
     angle = np.bincount(corners, angles, minlength=count)
-    ends = border(corners, arrays.offsets).ravel()
+    ends = module().borders.border_edges(corners, arrays.offsets)[0].ravel()
     # at 120° themselves rounding would decide
     turns = (angle < np.arccos(-_COSINE_OF_CORNER) - 1e-9) & np.isin(np.arange(count), ends)
     if arrays.boundary_edge is not None:

@@ -7,6 +7,7 @@ from typing import Any
 
 from . import core
 from .settings import AnySettings
+from .words import counted, listed
 
 VERTEX_ON_EDGE = (
     "VERTEX_ON_EDGE"  # the core says DEGENERATE_FACE, of a hole whose rim has no width there
@@ -228,9 +229,7 @@ _CURES = {
 
 def _thickness_text(warning: Mapping[str, Any]) -> tuple[str, str]:
     """What to do, and what is so: for the core's warning of another thickness."""
-    words = _listed(
-        [words for setting, words in _CURES.items() if setting in warning["cure"]], "or"
-    )
+    words = listed([words for setting, words in _CURES.items() if setting in warning["cure"]], "or")
     return words[0].upper() + words[1:], warning["cause"]
 
 
@@ -269,13 +268,13 @@ def faults_text(object_name: str, counts: Mapping[str, int], settings: AnySettin
 
 def faults_in_place_text(object_name: str, counts: Mapping[str, int], settings: AnySettings) -> str:
     """The same for faces faired in their own mesh, which has no panel of theirs."""
-    listed = _listed([f"{_FAULTS[kind]} ({count:,} points)" for kind, count in counts.items()])
-    return f"{object_name}: {faults_remedy(settings)} Ctrl Z undoes it. What was faired {listed}."
+    reasons = listed([f"{_FAULTS[kind]} ({count:,} points)" for kind, count in counts.items()])
+    return f"{object_name}: {faults_remedy(settings)} Ctrl Z undoes it. What was faired {reasons}."
 
 
 def faults_summary(counts: Mapping[str, int]) -> str:
     """`the surface crosses itself and is folded`, by kinds of faults."""
-    return f"the surface {_listed([_FAULTS[kind] for kind in counts])}"
+    return f"the surface {listed([_FAULTS[kind] for kind in counts])}"
 
 
 def faults_remedy(settings: AnySettings) -> str:
@@ -288,13 +287,8 @@ def faults_remedy(settings: AnySettings) -> str:
     if settings.interpolation == "EXACT":
         help_by.append("set Vertices to Near")
     help_by.append("add vertices there")
-    words = _listed(help_by, "or")
+    words = listed(help_by, "or")
     return _sentence(words[0].upper() + words[1:])
-
-
-def _listed(parts: list[str], last: str = "and") -> str:
-    """`a, b and c`."""
-    return f" {last} ".join([", ".join(parts[:-1]), parts[-1]] if len(parts) > 1 else parts)
 
 
 def pads_text(pads: Mapping[str, Any]) -> str:
@@ -302,8 +296,7 @@ def pads_text(pads: Mapping[str, Any]) -> str:
     gone = pads.get("gone", 0)
     if not gone:
         return ""
-    one_or_more = "1 vertex" if gone == 1 else f"{gone:,} vertices"
-    return f"Not held softly at {one_or_more}, where faces turn sharply."
+    return f"Not held softly at {counted(gone, 'vertex', 'vertices')}, where faces turn sharply."
 
 
 # of repairs: of one element, of several
@@ -331,10 +324,7 @@ REPAIR_CODES = frozenset(_DONE)
 
 def repairs_text(repairs: Iterable[Mapping[str, Any]]) -> str:
     """What was mended, in one sentence, from the report's `repairs`; empty if nothing was."""
-    done = []
-    for act in repairs:
-        count = len(act["elements"])
-        done.append(f"{count:,} {_DONE[act['code']][count > 1]}")
+    done = [counted(len(act["elements"]), *_DONE[act["code"]]) for act in repairs]
     return f"{', '.join(done)}; Check Mesh shows them." if done else ""
 
 

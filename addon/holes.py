@@ -13,11 +13,9 @@ from .blender import Context, Object
 from .check.defects import check_object, store_defects
 from .errors import JobCancelled, JobError
 from .inspection.curvature import face_normals
-from .mesh.begun import Begun, TimedRun
 from .mesh.edited import edited, select_nothing
-from .mesh.object import Reference
-from .mesh.read import control_mesh, read_mesh
-from .mesh.world_shape import WorldShape, world_shape
+from .mesh.timed_run import TimedRun
+from .mesh.world_shape import WorldShape
 from .mesh.write_filling import cut_sides, write_hole
 from .transfer.filling import Patch
 from .transfer.hole_loops import (
@@ -28,6 +26,7 @@ from .transfer.hole_loops import (
     where_faces_were,
 )
 from .units import Units
+from .words import counted
 
 # codes of a JobError: there is nothing to fill; or only what Largest Hole leaves open
 NO_HOLE, LARGER_HOLES = "NO_HOLE", "LARGER_HOLES"
@@ -108,15 +107,14 @@ class HoleJob(TimedRun):
     filled becomes `error`, so that other objects need not suffer.
     """
 
+    again = "Fill"
+
     def __init__(self, context: Context, target: Object, options: FillOptions) -> None:
         """Reads; JobError says why that cannot be."""
-        self.name, self.reference, self._options = target.name, Reference(target), options
-        self.kind = options.energy
-        self._mode, self._shape = target.mode, world_shape(target)
+        self._options, self.kind = options, options.energy
         self.error: JobError | None = None  # why nothing can be filled
-        with control_mesh(context, target) as mesh:
-            self._arrays = arrays = read_mesh(mesh)
-            self._begun = Begun.of("Fill", target, arrays)
+        with self._reading(context, target) as mesh:
+            arrays = self.arrays
             gone = np.zeros(len(arrays.face_sizes), bool)
             edges = np.zeros(len(arrays.edges), bool)
             if self._editing and options.edge is None:
@@ -125,7 +123,7 @@ class HoleJob(TimedRun):
             if not options.replaces:
                 gone[:] = False
         self._gone = gone
-        self._points = self._shape.of(arrays.positions)
+        self._points = self.shape.of(arrays.positions)
         self._faces = flat_faces(arrays, ~gone if gone.any() else None)
         with errors.explained(self.name, errors.OF_HOLES):
             holes = holes_in(self._points, self._faces)
@@ -162,7 +160,7 @@ class HoleJob(TimedRun):
             return False
         least = 0 if self._editing else _BY_CHANCE
         return all(
-            sum(map(len, hole)) > least and _is_cap(self._points, self._arrays, hole)
+            sum(map(len, hole)) > least and _is_cap(self._points, self.arrays, hole)
             for hole in self._holes
         )
 
@@ -201,7 +199,7 @@ class HoleJob(TimedRun):
             quads=self._options.quads,
             **watchers,
         )
-        return Filled.of(found, self._points, self._shape)
+        return Filled.of(found, self._points, self.shape)
 
     def apply(self) -> Filling:
         """Makes the faces."""
@@ -238,7 +236,7 @@ class HoleJob(TimedRun):
         if not self.skipped:
             return ""
         why = _listed(self.result.reasons).rstrip(".")
-        return f"{count_text(len(self.skipped))} left, listed in the panel Check: {why}"
+        return f"{counted(len(self.skipped), 'hole')} left, listed in the panel Check: {why}"
 
     def check_again(self, context: Context) -> None:
         """Keeps the list of holes true, where one of them was filled from it, and lists what could not be
@@ -310,9 +308,9 @@ def _why_none(
 
 
 def _unclear_text(count: int) -> str:
-    begin = "1 border edge is" if count == 1 else f"{count:,} border edges are"
+    edges = counted(count, "border edge is", "border edges are")
     return (
-        f"Run Check Mesh, which shows where: {begin} around no hole, because more than two faces meet "
+        f"Run Check Mesh, which shows where: {edges} around no hole, because more than two faces meet "
         "there at an edge, or faces point different ways"
     )
 
@@ -342,10 +340,6 @@ def _write(
                 edge.smooth = edge.smooth and all(other in new for other in edge.link_faces)
 
 
-def count_text(count: int) -> str:
-    return "1 hole" if count == 1 else f"{count:,} holes"
-
-
 def fill_warnings(done: list[Filling]) -> list[str]:
     """What their user should know of fillings, a sentence each."""
     plates, folded = sum(f.plates for f in done), sum(f.folded for f in done)
@@ -353,25 +347,25 @@ def fill_warnings(done: list[Filling]) -> list[str]:
     said = [_unclear_text(unclear)] if unclear else []
     if plates:
         said.append(
-            f"{count_text(plates)} filled with Bending: the chosen Fairness found no surface there"
+            f"{counted(plates, 'hole')} filled with Bending: the chosen Fairness found no surface there"
         )
     plain = sum(f.plain for f in done)
     if plain:
         said.append(
-            f"{count_text(plain)} filled with flat triangles: every fairer surface folds at this rim"
+            f"{counted(plain, 'hole')} filled with flat triangles: every fairer surface folds at this rim"
         )
     if folded:
         said.append(
-            f"The filling of {count_text(folded)} folds: erase more faces around it, and fill again"
+            f"The filling of {counted(folded, 'hole')} folds: erase more faces around it, and fill again"
         )
     crossing = sum(f.crossing for f in done)
     if crossing:
         said.append(
-            f"The filling of {count_text(crossing)} passes through other faces: erase those in its way, or fill by hand"
+            f"The filling of {counted(crossing, 'hole')} passes through other faces: erase those in its way, or fill by hand"
         )
     reasons = [reason for f in done for reason in f.triangles]
     if reasons:
-        said.append(f"{count_text(len(reasons))} filled with triangles: {_listed(reasons)}")
+        said.append(f"{counted(len(reasons), 'hole')} filled with triangles: {_listed(reasons)}")
     return said
 
 

@@ -16,12 +16,10 @@ from .blender import Context, Object, column
 from .check.faults import Faults, find_faults_in_place
 from .errors import JobError
 from .job import run_warnings
-from .mesh.begun import Begun, TimedRun
 from .mesh.edited import edited
-from .mesh.object import Reference
-from .mesh.read import control_mesh, read_mesh, selected_faces
+from .mesh.read import selected_faces
 from .mesh.shape_keys import dependent_keys
-from .mesh.world_shape import world_shape
+from .mesh.timed_run import TimedRun
 from .preferences import of_runs
 from .settings import Settings
 from .transfer.attributes import AttributeTransfer
@@ -71,31 +69,33 @@ class Faired:
 class InPlaceJob(TimedRun):
     """The selected faces of one object in Edit Mode: read, computed on any thread, then applied."""
 
+    again = "Fair"
+
     def __init__(
         self, context: Context, source: Object, settings: Settings, options: InPlaceOptions
     ) -> None:
         """Reads; JobError says why that cannot be. In Object Mode all faces are meant. `settings`: what counts as a crease, and the rest
         that `options` does not say.
         """
-        self.name, self.reference, self._options = source.name, Reference(source), options
-        self.kind = options.energy
+        self._options, self.kind = options, options.energy
         self._units = Units.of(context.scene)
         self._preferences = of_runs()  # arguments are also made on the thread that computes
-        self._arrays, chosen = self._read(context, source)
-        self._shape = world_shape(source)
-        self._begun = Begun.of("Fair", source, self._arrays)
-        near = grown(self._arrays, chosen, self._rings)
-        free = inside(self._arrays, chosen)
-        _refuse(source.name, self._arrays, chosen, free, options)
+        with self._reading(context, source) as mesh:
+            chosen = np.full(len(self.arrays.face_sizes), source.mode != "EDIT")
+            if source.mode == "EDIT":
+                chosen[selected_faces(mesh, source.name)] = True
+        near = grown(self.arrays, chosen, self._rings)
+        free = inside(self.arrays, chosen)
+        _refuse(source.name, self.arrays, chosen, free, options)
         self._chosen = chosen
-        self._part = part = cut_out(self._arrays, near)
+        self._part = part = cut_out(self.arrays, near)
         refined = options.levels > 0
         region = np.flatnonzero(chosen[part.faces]).astype(np.int32) if refined else None
         self._asked = asked = _settings(settings, options)
         self.triangles = size.triangle_count(part.arrays.face_sizes, asked.levels)
         self._arguments = self._arguments_of(part.arrays, region)
         if settings.boundary == "CORNERS":  # those of the mesh: the selection's own are none
-            whole = core.border_corners(self._shape.of_arrays(self._arrays))
+            whole = core.border_corners(self.shape.of_arrays(self.arrays))
             corners = np.isin(part.vertices, whole)
             given = self._arguments["corner_vertices"]
             self._arguments["corner_vertices"] = np.union1d(given, np.flatnonzero(corners))
@@ -105,7 +105,7 @@ class InPlaceJob(TimedRun):
             self._arguments["weights"] = np.where(free[part.vertices], 0.0, np.inf)
 
     def _arguments_of(self, arrays: Any, region: np.ndarray | None = None) -> dict[str, Any]:
-        world = self._shape.of_arrays(arrays)
+        world = self.shape.of_arrays(arrays)
         return core.fair_arguments(world, self._asked, self._preferences, region)
 
     @property
@@ -131,15 +131,6 @@ class InPlaceJob(TimedRun):
         made = measured.smoothed(part, self._arguments_of, self._free, found.weight, runs)
         return made, found.noise
 
-    @staticmethod
-    def _read(context: Context, source: Object) -> tuple[core.ControlArrays, np.ndarray]:
-        with control_mesh(context, source) as mesh:
-            arrays = read_mesh(mesh)
-            chosen = np.full(len(arrays.face_sizes), source.mode != "EDIT")
-            if source.mode == "EDIT":
-                chosen[selected_faces(mesh, source.name)] = True
-        return arrays, chosen
-
     def _compute(self, watchers: dict[str, Any]) -> None:
         arguments, part = self._arguments, self._part
         noise, moved = 0.0, {}
@@ -152,10 +143,10 @@ class InPlaceJob(TimedRun):
         self._report = result.report
         if not (moved and self._options.levels):
             result.vertices = self._part_of_the_way(result.vertices, arguments["vertices"])
-        points = self._shape.back(result.vertices, arguments["vertices"], part.arrays.positions)
+        points = self.shape.back(result.vertices, arguments["vertices"], part.arrays.positions)
         unseen = 0 if self._options.measured else _UNSEEN_LEVELS
         transfer = AttributeTransfer(result, part.arrays, self._options.levels or unseen)
-        world = self._shape.of_arrays(part.arrays)
+        world = self.shape.of_arrays(part.arrays)
         levels = self._options.levels
         labels = np.random.default_rng(0).random((len(part.vertices) if levels else 0, 3))
         splits = _split_faces(transfer, part) if levels else {}
@@ -182,7 +173,7 @@ class InPlaceJob(TimedRun):
 
     def warnings(self) -> list[str]:
         """What the user should know of a finished job, a sentence each."""
-        world = self._shape.of_arrays(self._part.arrays)
+        world = self.shape.of_arrays(self._part.arrays)
         sentences = run_warnings(
             self.name, self._report, self._options.energy, world, self._part.faces
         )

@@ -17,21 +17,18 @@ from .check.faults import find_faults
 from .choices import energy_name
 from .errors import JobError
 from .inspection import display, measures
-from .mesh.begun import TimedRun
 from .mesh.layers import read_data, write_data
 from .mesh.modifiers import copy_modifiers, without_inspection
 from .mesh.object import Reference, new_object
 from .mesh.own import OwnData, carried_names, read_own, write_own
 from .mesh.read import (
-    control_mesh,
-    read_mesh,
     selected_faces,
     shown_selection,
     tolerance_factors,
     vertex_pulls,
 )
 from .mesh.shape_keys import write_shape_keys
-from .mesh.world_shape import world_shape
+from .mesh.timed_run import TimedRun
 from .mesh.write import attributes_left_out, refill_mesh, write_mesh, write_pad_sizes
 from .preferences import preferences
 from .settings import Settings, halves, is_evaluated, is_limit, wants_modifiers
@@ -65,17 +62,14 @@ class Job(TimedRun):
         `neighbour`: which the border meets, None: that of the target, if it has one; it does so where
         `surface` stands, None: the target.
         """
-        self.reference = Reference(source)
         self._target = None if target is None else Reference(target)
-        self.name = source.name
         self.settings = settings.for_source(source)
         self.kind = self.settings.energy
         evaluated = is_evaluated(self.settings)
         with (
             without_inspection(context, source) if evaluated else nullcontext(),
-            control_mesh(context, source, evaluated) as mesh,
+            self._reading(context, source, evaluated) as mesh,
         ):
-            self.arrays = read_mesh(mesh)
             self.data = read_data(source, mesh, evaluated)
             factors = tolerance_factors(source, mesh, self.settings)
             pulls = vertex_pulls(source, mesh, self.settings)
@@ -87,7 +81,6 @@ class Job(TimedRun):
         self.keys = self.data.shape_keys if self.settings.use_shape_keys else None
         own = freshness.OwnMesh(self.arrays, selection, (factors, pulls), self.keys)
         self._made = freshness.made_of(context, source, self.settings, None if evaluated else own)
-        self.shape = world_shape(source)
         world = self.shape.of_arrays(self.arrays)
         self.edge_length = core.mean_edge_length(world)
         self.triangles = size.triangle_count(self.arrays.face_sizes, self.settings.levels)

@@ -19,6 +19,7 @@ from .mesh.object import Reference, new_object, select_only
 from .mesh.scans import Scan, read_scans
 from .settings import Settings
 from .units import Units
+from .words import counted
 
 TOO_COARSE, NO_POINTS, OUTLIERS = "FIT_TOO_COARSE", "FIT_NO_POINTS", "FIT_OUTLIERS"
 
@@ -128,11 +129,11 @@ class FitJob(Job):
         coarse, strays = len(found.too_coarse), len(found.outliers)
         bare = int(np.count_nonzero(found.coverage == 0))
         if coarse:
-            text += f" {coarse} {'face is' if coarse == 1 else 'faces are'} too coarse."
+            text += f" {counted(coarse, 'face is', 'faces are')} too coarse."
         if bare:
-            text += f" {bare} {'face has' if bare == 1 else 'faces have'} no points."
+            text += f" {counted(bare, 'face has', 'faces have')} no points."
         if strays:
-            text += f" {strays} {'point is a stray' if strays == 1 else 'points are strays'}."
+            text += f" {counted(strays, 'point is a stray', 'points are strays')}."
         return text
 
     def _note_places(self, context: Context, scans: Sequence[Object]) -> None:

@@ -22,15 +22,3 @@ def normals(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
     across = np.repeat(np.cross(b - a, c - a), 3, axis=0)
     at = triangles.ravel()
     return np.stack([np.bincount(at, across[:, k], len(points)) for k in range(3)], axis=1)
-
-
-def border(corners: np.ndarray, offsets: np.ndarray) -> np.ndarray:
-    """(b, 2) sides that one face alone has, as it runs along them; of faces by their `corners` (c,), each from
-    `offsets` (m + 1,) on.
-    """
-    after = np.arange(1, len(corners) + 1)
-    after[offsets[1:] - 1] = offsets[:-1]
-    sides = np.stack([corners, corners[after]], axis=1)
-    keys = np.sort(sides, axis=1)
-    _, place, uses = np.unique(keys, axis=0, return_inverse=True, return_counts=True)
-    return sides[uses[place.ravel()] == 1]

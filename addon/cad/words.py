@@ -4,6 +4,8 @@
 from collections.abc import Iterable, Sequence
 from math import degrees
 
+from ..words import counted, listed
+
 _LISTED = 8  # faces
 
 
@@ -11,8 +13,7 @@ def summary(patches: int, off: float, unit: str, angle: float, apart: float | No
     """`96 patches, 0.008 mm off, 0.02° at edges, 0.2 mm from the mesh shown`; `off` and `apart`, which
     may be unknown, in `unit`, `angle` in radians.
     """
-    noun = "patch" if patches == 1 else "patches"
-    text = f"{patches:,} {noun}, {short(off)} {unit} off, {short(degrees(angle))}° at edges"
+    text = f"{counted(patches, 'patch', 'patches')}, {short(off)} {unit} off, {short(degrees(angle))}° at edges"
     return text if apart is None else f"{text}, {short(apart)} {unit} from the mesh shown"
 
 
@@ -27,9 +28,7 @@ def faces_text(faces: Sequence[int]) -> str:
     """`Faces 4, 7 and 9`, of many the first few and `…`."""
     shown = [str(face) for face in faces[:_LISTED]]
     noun = "Face" if len(faces) == 1 else "Faces"
-    if len(faces) > _LISTED:
-        return f"{noun} {', '.join(shown)}, …"
-    return f"{noun} {' and '.join(filter(None, (', '.join(shown[:-1]), shown[-1])))}"
+    return f"{noun} {', '.join(shown)}, …" if len(faces) > _LISTED else f"{noun} {listed(shown)}"
 
 
 def together(sentences: Iterable[str]) -> str:

@@ -10,6 +10,7 @@ import numpy as np
 
 from .. import core
 from ..errors import JobError
+from ..words import counted
 from .cells import Cells, border_arcs, find_cells
 from .control_mesh import ControlMesh, control_mesh
 from .cubics import Curve
@@ -39,9 +40,9 @@ class Covered:
         found = self.cells
         return ", ".join(
             [
-                _count(len(found.network.curves), "curve"),
-                _count(found.network.crossings, "crossing"),
-                f"{_count(len(found.cells), 'cell')} filled",
+                counted(len(found.network.curves), "curve"),
+                counted(found.network.crossings, "crossing"),
+                f"{counted(len(found.cells), 'cell')} filled",
             ]
         )
 
@@ -112,7 +113,3 @@ def _in_caps(mesh: ControlMesh, found: Cells) -> np.ndarray:
     inside = np.zeros(len(mesh.points), bool)
     inside[mesh.faces[np.isin(mesh.cell_of_face, caps)]] = True
     return inside
-
-
-def _count(number: int, what: str) -> str:
-    return f"{number} {what}" if number == 1 else f"{number} {what}s"

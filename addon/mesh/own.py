@@ -12,6 +12,7 @@ import bpy
 import numpy as np
 
 from ..blender import Mesh, Object
+from ..words import listed
 from .groups import VertexGroup, read_groups, write_group
 from .layers import (
     EDGE_MARKS,
@@ -178,6 +179,5 @@ def _name(item: bpy.types.bpy_struct | None) -> str:
 
 def _listed(names: list[str]) -> str:
     """`'A' and 'B' are`."""
-    quoted = [f"'{name}'" for name in names]
-    first = ", ".join(quoted[:-1])
-    return f"{first} and {quoted[-1]} are" if first else f"{quoted[0]} is"
+    quoted = listed([f"'{name}'" for name in names])
+    return f"{quoted} are" if len(names) > 1 else f"{quoted} is"

@@ -10,6 +10,7 @@ from ..blender import Answer, Context, registration
 from ..choices import EDGE_BOUNDARIES
 from ..mesh.boundary_marks import mark_selected, select_marked
 from ..poll import ExplainedPoll, in_edit_mode
+from ..words import counted
 
 _NAMES = {key: name for key, name, *_ in EDGE_BOUNDARIES}
 
@@ -40,8 +41,7 @@ class OBJECT_OT_fairing_boundary(_OfEdges, bpy.types.Operator):
                 {"ERROR"}, "Select edges at an open border: no edge with a single face is selected"
             )
             return {"CANCELLED"}
-        edges = "1 border edge" if count == 1 else f"{count} border edges"
-        self.report({"INFO"}, f"{edges}: {_NAMES[self.boundary]}")
+        self.report({"INFO"}, f"{counted(count, 'border edge')}: {_NAMES[self.boundary]}")
         return {"FINISHED"}
 
 

@@ -20,10 +20,10 @@ from ..check.defects import (
 )
 from ..check.faults import faulty_vertices
 from ..check.holes import edges_of
-from ..holes import count_text
 from ..mesh.read import active_mesh, source_objects
 from ..mesh.write import FAULTS
 from ..poll import IN_EITHER_MODE, ExplainedPoll, needs, of_meshes
+from ..words import counted
 
 
 class _Checking(ExplainedPoll):
@@ -44,7 +44,7 @@ class OBJECT_OT_fairing_check(_Checking, bpy.types.Operator):
             self.report({"WARNING"}, f"{target.name}: {errors.what(defects[0])}")
         if not bad:
             count = sum(len(recall_holes(target)) for target, _ in found)
-            listed = "" if not count else f"; {count_text(count)} listed in the panel Check"
+            listed = "" if not count else f"; {counted(count, 'hole')} listed in the panel Check"
             self.report({"INFO"}, f"Nothing is wrong{listed}")
             return {"FINISHED"}
         try:

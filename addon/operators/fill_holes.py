@@ -10,10 +10,11 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntVectorProper
 from ..blender import Answer, Context, Object, registration
 from ..choices import ENERGIES, JOINTS
 from ..errors import JobError
-from ..holes import Filling, FillOptions, HoleJob, count_text, fill_warnings
+from ..holes import Filling, FillOptions, HoleJob, fill_warnings
 from ..mesh.read import source_objects
 from ..poll import of_meshes
 from ..settings import values_of
+from ..words import counted
 from .fair import WholeFairing, can_fair
 from .shown import Shown
 
@@ -148,11 +149,9 @@ class OBJECT_OT_fairing_fill(Shown, LargestHole, WholeFairing, bpy.types.Operato
 
 def _said(done: list[Filling]) -> str:
     holes, faces, cut = (sum(counts) for counts in zip(*((f.holes, f.faces, f.cut) for f in done)))
-    said = [f"{count_text(holes)} filled with {faces:,} faces"] * bool(holes or not cut)
+    said = [f"{counted(holes, 'hole')} filled with {faces:,} faces"] * bool(holes or not cut)
     if cut:
-        said.append(
-            "1 edge cut at a vertex on it" if cut == 1 else f"{cut:,} edges cut at vertices on them"
-        )
+        said.append(counted(cut, "edge cut at a vertex on it", "edges cut at vertices on them"))
     return ", ".join(said)
 
 

@@ -12,6 +12,7 @@ from ..mesh import fixed_normals
 from ..mesh.read import control_mesh
 from ..mesh.world_shape import world_matrix
 from ..poll import ExplainedPoll, in_edit_mode
+from ..words import counted
 
 _FROM = (
     ("MESH", "The Mesh", "The normal that the mesh has at the vertex, custom normals included"),
@@ -52,7 +53,7 @@ class OBJECT_OT_fairing_fix_normal(_OfVertices, bpy.types.Operator):
         if not count:
             self.report({"ERROR"}, "Select a vertex with faces first")
             return {"CANCELLED"}
-        self.report({"INFO"}, "1 normal fixed" if count == 1 else f"{count} normals fixed")
+        self.report({"INFO"}, f"{counted(count, 'normal')} fixed")
         return {"FINISHED"}
 
 

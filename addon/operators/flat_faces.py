@@ -14,6 +14,7 @@ from ..mesh import flat_marks
 from ..mesh.read import read_mesh, source_objects
 from ..mesh.world_shape import world_shape
 from ..poll import IN_EITHER_MODE, ExplainedPoll, of_meshes
+from ..words import counted
 from .shown import Shown
 
 
@@ -62,8 +63,8 @@ class OBJECT_OT_fairing_flat_faces(Shown, ExplainedPoll, bpy.types.Operator):
                     {"INFO"}, "No flat faces found: select faces in Edit Mode to keep them flat"
                 )
                 return {"FINISHED"}
-        faces = "1 face" if count == 1 else f"{count:,} faces"
-        self.report({"INFO"}, f"{faces} " + ("may curve" if self.clear else "stay flat"))
+        stay = "may curve" if self.clear else "stay flat"
+        self.report({"INFO"}, f"{counted(count, 'face')} {stay}")
         return {"FINISHED"}
 
 

@@ -12,12 +12,10 @@ from ..blender import Context, Object
 from ..errors import JobError
 from ..in_place import floats
 from ..live.switch import look_again
-from ..mesh.begun import Begun, TimedRun
-from ..mesh.object import Reference
 from ..mesh.offset_names import read_names
-from ..mesh.read import control_mesh, read_mesh, shown_selection
+from ..mesh.read import shown_selection
 from ..mesh.shape_keys import EASED, key_positions, put_key
-from ..mesh.world_shape import world_shape
+from ..mesh.timed_run import TimedRun
 from ..preferences import preferences
 from ..settings import Settings, halves
 from . import words
@@ -39,7 +37,7 @@ class EaseOptions:
 class _Moving(TimedRun):
     """New places of the vertices of one source: read, computed on any thread, then written."""
 
-    kind = "EASE"  # of runs, for predictions
+    kind, again = "EASE", "Ease"
 
     def __init__(
         self,
@@ -51,18 +49,14 @@ class _Moving(TimedRun):
         """Reads; JobError says why that cannot be. `go_on`: from what was eased before, if anything
         was. `settings`: in the place of those of the source's surface.
         """
-        self.name, self.reference = source.name, Reference(source)
         settings = plate_settings(settings or settings_for(context, source))
-        with control_mesh(context, source) as mesh:
-            self.arrays = read_mesh(mesh)
+        with self._reading(context, source) as mesh:
             self.names = read_names(mesh)
             self.selected = shown_selection(mesh.vertices)
-        self._begun = Begun.of("Ease", source, self.arrays)
         count = len(self.arrays.positions)
         eased = key_positions(source, EASED, count) if go_on else None
         self._start = self.arrays.positions if eased is None else eased
-        self._shape = world_shape(source)
-        self._world = self._shape.of_arrays(replace(self.arrays, positions=self._start))
+        self._world = self.shape.of_arrays(replace(self.arrays, positions=self._start))
         self.arguments = core.fair_arguments(self._world, settings, preferences())
         coarse = size.coarse_triangles(self.arrays.face_sizes) * halves(settings)
         self.triangles = coarse * 4**_LEVELS
@@ -73,7 +67,7 @@ class _Moving(TimedRun):
         sent = self._world.positions
         places = self._places()
         self.moves = np.linalg.norm(places - sent, axis=1)  # (n,) in scene units
-        self.positions = self._shape.back(places, sent, self._start)
+        self.positions = self.shape.back(places, sent, self._start)
 
     def _run(self, watchers: dict[str, Any]) -> Any:
         raise NotImplementedError

@@ -9,12 +9,9 @@ import numpy as np
 from .. import core, errors, size, vertex_values
 from ..blender import Context, Mesh, Object, scene_of
 from ..live.switch import live_surfaces_of, surfaces_of
-from ..mesh.begun import TimedRun
-from ..mesh.object import Reference
 from ..mesh.offset_names import read_names
-from ..mesh.read import control_mesh, read_mesh
 from ..mesh.shape_keys import mixed, read_shape_keys
-from ..mesh.world_shape import world_shape
+from ..mesh.timed_run import TimedRun
 from ..preferences import preferences
 from ..settings import Settings, halves
 from .knuckle import knuckle
@@ -54,16 +51,13 @@ class StrainJob(TimedRun):
         nothing has changed since. `as_mixed`: as the shape keys of the source mix, not the mesh.
         `settings`: in the place of those of its surface.
         """
-        self.name, self.reference = source.name, Reference(source)
         settings = plate_settings(settings or settings_for(context, source))
-        with control_mesh(context, source) as mesh:
-            self._arrays = arrays = read_mesh(mesh)
-            self.names = read_names(mesh)
+        with self._reading(context, source) as mesh:
+            arrays, self.names = self.arrays, read_names(mesh)
             self.positions = arrays.positions
             if as_mixed:
                 self.positions = mixed_positions(source, mesh, arrays.positions)
-        self._shape = world_shape(source)
-        world = self._shape.of_arrays(replace(arrays, positions=self.positions))
+        world = self.shape.of_arrays(replace(arrays, positions=self.positions))
         self._edge_length = core.mean_edge_length(world)
         self.arguments = core.plate_arguments(core.fair_arguments(world, settings, preferences()))
         coarse = size.coarse_triangles(arrays.face_sizes) * halves(settings)
@@ -74,7 +68,7 @@ class StrainJob(TimedRun):
 
     def is_that_of(self, other: "StrainJob") -> bool:
         """Whether both ask the same."""
-        return self._shape == other._shape and core.are_equal(self.arguments, other.arguments)
+        return self.shape == other.shape and core.are_equal(self.arguments, other.arguments)
 
     @property
     def predicted_seconds(self) -> float:
@@ -89,7 +83,7 @@ class StrainJob(TimedRun):
     def _compute(self, watchers: dict[str, Any]) -> None:
         with errors.explained(self.name):
             found = core.module().strain(**self.arguments, **watchers)
-        back = self._shape.way_back[:3, :3]
+        back = self.shape.way_back[:3, :3]
         self.result = Strained(
             self.positions,
             found.excess_ways @ back,
@@ -98,7 +92,7 @@ class StrainJob(TimedRun):
             self._edge_length,
             found.wrong,
             self.names,
-            knuckle_of(found.excess, self._arrays, self.positions),
+            knuckle_of(found.excess, self.arrays, self.positions),
         )
 
     def note(self) -> None:

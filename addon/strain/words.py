@@ -6,13 +6,14 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..units import Text
+from ..words import counted, listed
 
 _NAMED = 5  # vertices that a sentence names
 
 
 def count(number: int) -> str:
     """`1 vertex`, `63 vertices`."""
-    return "1 vertex" if number == 1 else f"{number:,} vertices"
+    return counted(number, "vertex", "vertices")
 
 
 def name(index: int, names: Sequence[str]) -> str:
@@ -20,26 +21,23 @@ def name(index: int, names: Sequence[str]) -> str:
     return (names[index] if names else "") or f"vertex {index}"
 
 
-def listed(
+def offs(
     ids: Sequence[int] | np.ndarray, lengths: np.ndarray, text: Text, names: Sequence[str] = ()
 ) -> str:
     """`31 by 4.2 mm, 7 by 3 mm and 4 more`; `lengths`: (n,) by vertex. With `names` (n,):
     `station 4, WL 300: 4.2 mm; station 5, WL 600: 3 mm`.
     """
+    named = {i: text(abs(float(lengths[i]))) for i in list(ids)[:_NAMED]}
+    more = [f"{len(ids) - _NAMED:,} more"] * (len(ids) > _NAMED)
     if names:
-        named = [f"{name(i, names)}: {text(abs(float(lengths[i])))}" for i in list(ids)[:_NAMED]]
-        more = [f"{len(ids) - _NAMED:,} more"] * (len(ids) > _NAMED)
-        return "; ".join(named + more)
-    named = [f"{i} by {text(abs(float(lengths[i])))}" for i in list(ids)[:_NAMED]]
-    if len(ids) > _NAMED:
-        return f"{', '.join(named)} and {len(ids) - _NAMED:,} more"
-    return named[0] if len(named) == 1 else f"{', '.join(named[:-1])} and {named[-1]}"
+        return "; ".join([f"{name(i, names)}: {off}" for i, off in named.items()] + more)
+    return listed([f"{i} by {off}" for i, off in named.items()] + more)
 
 
 def found(chosen: np.ndarray, lengths: np.ndarray, text: Text, names: Sequence[str] = ()) -> str:
     """Of a selection by strain; `lengths`: (n,), NaN where the surface holds no vertex."""
     held = int((~np.isnan(lengths)).sum())
-    return f"{len(chosen):,} of {count(held)} selected: {listed(chosen, lengths, text, names)}"
+    return f"{len(chosen):,} of {count(held)} selected: {offs(chosen, lengths, text, names)}"
 
 
 def looks_like_knuckle(chain: Sequence[int], names: Sequence[str]) -> str:
@@ -60,7 +58,7 @@ def moved(moves: np.ndarray, text: Text, names: Sequence[str] = ()) -> str:
     order = order[moves[order] > 0]
     if not len(order):
         return "No vertex moved: the surface already passes through them"
-    return f"{count(len(order))} moved: {listed(order, moves, text, names)}"
+    return f"{count(len(order))} moved: {offs(order, moves, text, names)}"
 
 
 def eased(
@@ -82,7 +80,7 @@ def eased(
         held = count(int((~np.isnan(strain)).sum()))
         are = "is" if len(wrong) == 1 else "are"
         said.append(
-            f"{len(wrong):,} of {held} {are} off by more: {listed(wrong, strain, text, names)}."
+            f"{len(wrong):,} of {held} {are} off by more: {offs(wrong, strain, text, names)}."
         )
     else:
         said.append(f"No vertex is off by more than scatter explains, {text(floor)}.")

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..triangles import border
+from ..core import module
 
 _NEAR = 1e-6  # of the hull's size: as far from the middle plane as a vertex in it may be
 
@@ -36,7 +36,7 @@ def whole(positions: np.ndarray, corners: np.ndarray, offsets: np.ndarray, axis:
     half[middle, axis] = 0.0
     if (half[:, axis] < 0.0).any() and (half[:, axis] > 0.0).any():
         raise NotHalf(f"it crosses the plane {'XYZ'[axis]} = 0: only one half may be there")
-    open_sides = border(corners, offsets)
+    open_sides = module().borders.border_edges(corners, offsets)[0]
     in_middle = middle[open_sides].all(axis=1)
     if not in_middle.any():
         raise NotHalf(

@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A run on the mesh of one object: how long it takes, and whether what was computed still fits, once it is over."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+from .. import core, prediction
+from ..blender import Context, Mesh, Object
+from .object import Reference
+from .read import control_mesh, read_mesh
+from .world_shape import WorldShape, world_shape
+
+
+class TimedRun:
+    """What all runs share; they read when they are made."""
+
+    kind: str  # for predictions: an energy, or what is done
+    again: (
+        str  # what to do once more, as "Fill", where somebody else has changed the mesh meanwhile
+    )
+    name: str  # what sentences call it
+    reference: Reference
+    shape: WorldShape
+    arrays: core.ControlArrays
+    triangles: int
+    result: Any = None
+    _taken = 0.0
+
+    @contextmanager
+    def _reading(self, context: Context, target: Object, evaluated: bool = False) -> Iterator[Mesh]:
+        """Notes what the run is of. Inside the `with` its mesh is there, as `control_mesh` has it."""
+        self.name, self.reference = target.name, Reference(target)
+        self.shape, self._mode = world_shape(target), target.mode
+        with control_mesh(context, target, evaluated) as mesh:
+            self.arrays = read_mesh(mesh)
+            yield mesh
+
+    @property
+    def _key(self) -> tuple[str, Any]:
+        """For predictions: each kind of run knows a mesh by itself."""
+        return type(self).__name__, self.reference.key
+
+    @property
+    def predicted_seconds(self) -> float:
+        """How long `compute` will take."""
+        return prediction.seconds(self.kind, self._work(), self._key)
+
+    def _work(self) -> int:
+        """Triangles of all that is computed."""
+        return self.triangles
+
+    def compute(self, **watchers: Any) -> None:
+        """Runs the core, on any thread; `watchers` are its `monitor` and `progress`. Raises JobError."""
+        begun = perf_counter()
+        self._compute(watchers)
+        self._taken = perf_counter() - begun
+
+    def _compute(self, watchers: dict[str, Any]) -> None:
+        raise NotImplementedError
+
+    def why_outdated(self, context: Context) -> str:
+        """Why what was computed does not fit any more, in one sentence; empty if it does. A long run leaves
+        time for edits, undo and other modes.
+        """
+        happened = self._what_happened(context)
+        if not happened:
+            return ""
+        return f"{self.again} once more: {self.name} {happened} during the run, and nothing else has changed."
+
+    def _what_happened(self, context: Context) -> str:
+        target = self.reference.find()
+        if target is None:
+            return "was deleted or undone"
+        if target.mode != self._mode:
+            return "changed its mode"
+        with control_mesh(context, target) as mesh:
+            now = read_mesh(mesh)
+        same = core.same_faces(now, self.arrays) and self.shape == world_shape(target)
+        same = same and np.array_equal(now.positions, self.arrays.positions)
+        return "" if same else "was edited"
+
+    def note(self) -> None:
+        """For predictions, on the main thread."""
+        prediction.note(self.kind, self._work(), self._taken, self._key)
