@@ -29,26 +29,36 @@ class Surroundings:
         self.whole = whole
         self._low = self._high = np.full(3, np.nan)
 
-    def near(self, low: np.ndarray, high: np.ndarray) -> np.ndarray:
-        """(t, 3) triangles of all faces that may come into a box."""
+    def near(self, boxes: np.ndarray) -> np.ndarray:
+        """(t, 3) triangles of all faces that may come into one of the boxes (k, 2, 3)."""
+        low, high = boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)
         if not ((self._low <= low).all() and (high <= self._high).all()):
             margin = np.linalg.norm(high - low) / 2.0
             self._low, self._high = low - margin, high + margin
             self._sort(_overlapping(self.whole, self._low, self._high))
-        begin = np.searchsorted(self._lows[:, 0], low[0] - self._widest, "left")
-        slab = slice(begin, np.searchsorted(self._lows[:, 0], high[0], "right"))
-        inside = (self._lows[slab] <= high).all(axis=1) & (self._highs[slab] >= low).all(axis=1)
-        return self.whole.corner_fans(np.sort(self._faces[slab][inside]))
+        found = np.concatenate([self._inside(*box) for box in boxes])
+        return self._triangles[np.unique(self._order[found])]
 
     def _sort(self, faces: np.ndarray) -> None:
         """By where they begin along x: a box asks those of one slab."""
-        corners = self.whole.points[self.whole.corners_at(faces)]
-        sizes = self.whole.offsets[faces + 1] - self.whole.offsets[faces]
-        starts = np.cumsum(sizes) - sizes
-        lows, highs = (of.reduceat(corners, starts) for of in (np.minimum, np.maximum))
-        order = np.argsort(lows[:, 0], kind="stable")
-        self._faces, self._lows, self._highs = faces[order], lows[order], highs[order]
-        self._widest = float((highs[:, 0] - lows[:, 0]).max(initial=0.0))
+        self._triangles = self.whole.corner_fans(faces)
+        a, b, c = np.ascontiguousarray(self._triangles.T)
+        begins, ends = [], []
+        for along in np.ascontiguousarray(self.whole.points.T):
+            for of, found in ((np.minimum, begins), (np.maximum, ends)):
+                found.append(of(of(along[a], along[b]), along[c]))
+        self._order = np.argsort(begins[0], kind="stable")
+        self._begins, self._ends = ([of[self._order] for of in both] for both in (begins, ends))
+        self._widest = float((self._ends[0] - self._begins[0]).max(initial=0.0))
+
+    def _inside(self, low: np.ndarray, high: np.ndarray) -> np.ndarray:
+        """Places in the order of triangles that may come into a box."""
+        first = np.searchsorted(self._begins[0], low[0] - self._widest, "left")
+        found = np.arange(first, np.searchsorted(self._begins[0], high[0], "right"))
+        for axis in range(3):
+            found = found[self._ends[axis][found] >= low[axis]]
+            found = found[self._begins[axis][found] <= high[axis]]
+        return found
 
 
 def _overlapping(mesh: MeshPart, low: np.ndarray, high: np.ndarray) -> np.ndarray:
@@ -60,24 +70,22 @@ def _overlapping(mesh: MeshPart, low: np.ndarray, high: np.ndarray) -> np.ndarra
 
 
 def crossing_faces(
-    around: Surroundings, fillings: Sequence[Filling], watched: SeveralRuns, asked: int
+    around: Surroundings, fillings: Sequence[Filling], boxes: np.ndarray, watched: SeveralRuns
 ) -> list[np.ndarray]:
-    """Which faces of each of the first `asked` fillings, with ids as in_whole() has them, pass through a
-    face of the mesh or of a filling. Faces that share a vertex do not.
+    """Which faces of each of the fillings in the `boxes` (k, 2, 3), the first ones, with ids as in_whole()
+    has them, pass through a face of the mesh or of a filling. Faces that share a vertex do not.
     """
-    points = np.concatenate([around.whole.points, *(f.own for f in fillings)])
+    asked, count = len(boxes), len(around.whole.points)
     split = [_split(f.faces) for f in fillings]
     new = np.concatenate(split[:asked])
-    places = points[np.unique(new)]
-    near = around.near(places.min(axis=0), places.max(axis=0))
-    faces = np.concatenate([near, *split[asked:], new])
-    used = np.zeros(len(points), bool)
-    used[faces] = True
-    number = np.cumsum(used, dtype=np.int32) - 1
+    faces = np.concatenate([around.near(boxes), *split[asked:], new])
+    old = np.unique(faces[faces < count])
+    number = np.where(faces < count, np.searchsorted(old, faces), faces - count + len(old))
+    points = np.concatenate([around.whole.points[old], *(f.own for f in fillings)])
     first = len(faces) - len(new)
     quiet = watched.run(1.0, 1.0)
     found = _native._crossings(
-        points[used], number[faces], first, quiet["monitor"], quiet["progress"]
+        points, number.astype(np.int32), first, quiet["monitor"], quiet["progress"]
     )
     ends = np.cumsum([first, *map(len, split[:asked])])
     return [
@@ -107,7 +115,7 @@ class _Chosen:
         """How many faces of each cross."""
         if not self.fillings:
             return []
-        return list(map(len, self._crossing(self.fillings, len(self.fillings))))
+        return list(map(len, self._crossing(self.fillings, self._boxes)))
 
     def put(self, row: int, filling: Filling) -> None:
         self.fillings[row] = filling
@@ -118,12 +126,12 @@ class _Chosen:
         low, high = self._boxes[row]
         beside = (self._boxes[:, 0] <= high) & (self._boxes[:, 1] >= low)
         others = np.setdiff1d(np.flatnonzero(beside.all(axis=1)), row)
-        (found,) = self._crossing([self.fillings[k] for k in (row, *others)], 1)
+        (found,) = self._crossing([self.fillings[k] for k in (row, *others)], self._boxes[[row]])
         return found
 
-    def _crossing(self, fillings: Sequence[Filling], asked: int) -> list[np.ndarray]:
+    def _crossing(self, fillings: Sequence[Filling], boxes: np.ndarray) -> list[np.ndarray]:
         numbered = in_whole(self._whole, self._part, fillings)
-        return crossing_faces(self._around, numbered, self._watched, asked)
+        return crossing_faces(self._around, numbered, boxes, self._watched)
 
     def _box(self, filling: Filling) -> tuple[np.ndarray, np.ndarray]:
         rim = self._part.points[filling.faces[filling.faces < len(self._part.points)]]

@@ -20,6 +20,8 @@ def cuts_for(
     these sides. Other loops are passed over.
     """
     found = [ids for loop in loops for ids in _on_sides(points, np.asarray(loop))]
+    if not found:
+        return {}
     both = [*found, *(ids[::-1] for ids in found)]
     after = np.roll(corners, -1)
     after[offsets[1:] - 1] = corners[offsets[:-1]]

@@ -32,6 +32,7 @@ class Made:
     joint: str
     converged: bool
     folds: int
+    folds_inside: int  # of these between its own faces
     ignored: tuple[int, ...] = ()  # faces around, of the whole mesh
 
     @property
@@ -119,7 +120,7 @@ class NearHole:
 
     def as_triangulated(self, stands_in: bool = False) -> Made:
         """Not faired; `stands_in`: for a surface that was asked for."""
-        return Made("none", "position", not stands_in, self._folds(self.own))
+        return Made("none", "position", not stands_in, *self._folds(self.own))
 
     def _solved(
         self, energy: str, joint: str, noisy: bool, watchers: dict[str, Any]
@@ -152,7 +153,7 @@ class NearHole:
                 self._ignored = np.union1d(self._ignored, refused)
                 continue
             ignored = tuple(self._mesh.face_ids[self._ignored].tolist())
-            return moved, Made(energy, joint, converged, self._folds(moved), ignored)
+            return moved, Made(energy, joint, converged, *self._folds(moved), ignored)
 
     def _around(self, rings: int) -> tuple[list[np.ndarray], np.ndarray]:
         """Vertices of the rim, and of it and each ring of faces around; and the faces."""
@@ -223,8 +224,8 @@ class NearHole:
         """Of its faces."""
         return float(np.linalg.norm(self._normals(own), axis=1).sum())
 
-    def _folds(self, own: np.ndarray) -> int:
-        """Edges of its faces, the rim's included, that turn by more than a right angle."""
+    def _folds(self, own: np.ndarray) -> tuple[int, int]:
+        """Edges of its faces that turn by more than a right angle: with those of the rim, and without."""
         return self._beside.folds(self._normals(own))
 
 
@@ -264,11 +265,13 @@ class _SidesBehind:
         at_rim = (normals[self._at_rim] * self._behind).sum(axis=1) < 0.0
         return np.union1d(self._pairs[:, inside], self._at_rim[at_rim])
 
-    def folds(self, normals: np.ndarray) -> int:
-        """How many edges turn by more than a right angle, of faces with these `normals` (t, 3)."""
-        inside = (normals[self._pairs[0]] * normals[self._pairs[1]]).sum(axis=1)
-        at_rim = (normals[self._at_rim] * self._behind).sum(axis=1)
-        return int((inside < 0.0).sum() + (at_rim < 0.0).sum())
+    def folds(self, normals: np.ndarray) -> tuple[int, int]:
+        """How many edges turn by more than a right angle, of faces with these `normals` (t, 3): all, and
+        those between two of the faces.
+        """
+        inside = int(((normals[self._pairs[0]] * normals[self._pairs[1]]).sum(axis=1) < 0.0).sum())
+        at_rim = int(((normals[self._at_rim] * self._behind).sum(axis=1) < 0.0).sum())
+        return inside + at_rim, inside
 
 
 def _ways(energy: str, joint: str) -> Iterator[tuple[str, str]]:
