@@ -119,35 +119,47 @@ class CleanJob(TimedRun):
     def _left(self, arrays: core.ControlArrays, made: Cleaned) -> list[dict[str, Any]]:
         """What is left, its elements as the mesh numbers them now."""
         found = as_dicts(self.result.left)
-        vertex, face = _numbers(arrays, made)
-        for defect in found:
+        corners: list[list[Any]] = [
+            [_corners(made, f) for f in defect["elements"]]
+            if defect["kind"] == "face"
+            else defect["elements"]
+            for defect in found
+        ]
+        vertex, face = _numbers(arrays, made, corners)
+        for defect, its in zip(found, corners, strict=True):
             if defect["kind"] == "face":
-                ids = [face.get(frozenset(made.corners[made.offsets[f] : made.offsets[f + 1]].tolist())) for f in defect["elements"]]  # fmt: skip
+                ids = [face.get(frozenset(each)) for each in its]
                 defect["elements"] = [i for i in ids if i is not None]
             elif defect["kind"] == "vertex":
-                defect["elements"] = vertex[defect["elements"]].tolist()
+                defect["elements"] = [vertex[v] for v in its]
             elif defect["kind"] == "edge":
-                defect["elements"] = vertex[np.array(defect["elements"])].tolist()
+                defect["elements"] = [[vertex[v] for v in each] for each in its]
         return found
 
 
+def _corners(made: Cleaned, face: int) -> list[int]:
+    return cast(list[int], made.corners[made.offsets[face] : made.offsets[face + 1]].tolist())
+
+
 def _numbers(
-    arrays: core.ControlArrays, made: Cleaned
-) -> tuple[np.ndarray, dict[frozenset[int], int]]:
-    """(N,) the vertex of the mesh now that each is; and by its vertices as they were made the face that
-    it is. Places tell: BMesh numbers what it makes on its own.
+    arrays: core.ControlArrays, made: Cleaned, elements: list[Any]
+) -> tuple[dict[int, int], dict[frozenset[int], int]]:
+    """The vertex of the mesh now that each one of the `elements` is, lists of vertices as they were made; and by
+    its vertices the face that it is. Places tell: BMesh numbers what it makes on its own.
     """
-    order = {tuple(p): i for i, p in enumerate(arrays.positions.astype(np.float32).tolist())}
-    places = made.positions.astype(np.float32).tolist()
-    vertex = np.array([order.get(tuple(p), 0) for p in places], np.int64)
-    back = np.full(len(arrays.positions), -1)
-    back[vertex] = np.arange(len(vertex))
-    named = back[arrays.corners].tolist()
-    ends = arrays.offsets.tolist()
-    faces = {
-        frozenset(named[a:b]): f for f, (a, b) in enumerate(zip(ends[:-1], ends[1:], strict=True))
-    }
-    return vertex, faces
+    wanted = np.unique([v for its in elements for each in its for v in np.ravel(each)]).astype(int)
+    places = made.positions[wanted].astype(np.float32)
+    now = arrays.positions.astype(np.float32)
+    near = np.flatnonzero(np.isin(now[:, 0], places[:, 0]))
+    order = {tuple(p): i for i, p in zip(near.tolist(), now[near].tolist(), strict=True)}
+    ids = [order.get(tuple(p), 0) for p in places.tolist()]
+    back = np.full(len(now), -1)
+    back[ids] = wanted
+    named = back[arrays.corners]
+    ends = arrays.offsets
+    faces = np.flatnonzero(np.minimum.reduceat(named, ends[:-1]) >= 0).tolist()
+    by_vertices = {frozenset(named[ends[f] : ends[f + 1]].tolist()): f for f in faces}
+    return dict(zip(wanted.tolist(), ids, strict=True)), by_vertices
 
 
 def _marked(arrays: core.ControlArrays) -> np.ndarray:

@@ -45,7 +45,6 @@ def _change(bm: Any, arrays: ControlArrays, made: Cleaned) -> None:
     for elements in (bm.verts, bm.edges, bm.faces):
         elements.ensure_lookup_table()
     old_verts, old_faces = list(bm.verts), list(bm.faces)
-    with_faces = [bm.edges[e] for e in np.flatnonzero(arrays.edge_uses).tolist()]
     verts = _vertices(bm, arrays, made, old_verts)
     state = _states(arrays, made)
     for row in np.flatnonzero(state == _TURNED).tolist():
@@ -54,19 +53,34 @@ def _change(bm: Any, arrays: ControlArrays, made: Cleaned) -> None:
     kept[made.face_origin[(state == _SAME) | (state == _TURNED)]] = True
     other = np.flatnonzero(state == _OTHER).tolist()
     dropped = np.flatnonzero(~np.isin(np.arange(len(old_faces)), made.face_origin)).tolist()
+    again = np.flatnonzero(~kept & np.isin(np.arange(len(old_faces)), made.face_origin)).tolist()
+    edges, loose = _left_alone(arrays, [*dropped, *again])
+    old_edges = [bm.edges[e] for e in edges]
     bmesh.ops.delete(bm, geom=[old_faces[f] for f in dropped], context="FACES_ONLY")
     for row in other:
         _make_again(bm, arrays, made, row, verts, old_verts, old_faces)
-    again = np.flatnonzero(~kept & np.isin(np.arange(len(old_faces)), made.face_origin)).tolist()
     bmesh.ops.delete(bm, geom=[old_faces[f] for f in again], context="FACES_ONLY")
     _fill(bm, made, verts)
-    for edge in with_faces:
+    for edge in old_edges:
         if edge.is_valid and not edge.link_faces:
             bm.edges.remove(edge)
-    for vertex in old_verts:
+    for vertex in (old_verts[v] for v in loose):
         if vertex.is_valid and not vertex.link_edges:
             bm.verts.remove(vertex)
     bm.normal_update()
+
+
+def _left_alone(arrays: ControlArrays, faces: list[int]) -> tuple[list[int], list[int]]:
+    """Ids of the edges that may have no face once these `faces` are gone, and of the vertices that may have no
+    edge.
+    """
+    gone = np.zeros(len(arrays.face_sizes), bool)
+    gone[faces] = True
+    beside = np.zeros(len(arrays.positions), bool)
+    beside[arrays.corners[np.repeat(gone, arrays.face_sizes)]] = True
+    edges = beside[arrays.edges].all(axis=1) & (arrays.edge_uses > 0)
+    beside |= np.bincount(arrays.edges.ravel(), minlength=len(beside)) == 0
+    return np.flatnonzero(edges).tolist(), np.flatnonzero(beside).tolist()
 
 
 def _vertices(bm: Any, arrays: ControlArrays, made: Cleaned, old: Sequence[Any]) -> list[Any]:
@@ -169,15 +183,21 @@ def _fill(bm: Any, made: Cleaned, verts: Sequence[Any]) -> None:
 def _fillings(made: Cleaned) -> list[np.ndarray]:
     """(t, 3) ids of the new faces that hang together by edges, of each filling."""
     rows = np.flatnonzero(made.face_origin < 0)
-    faces = [made.corners[made.offsets[r] : made.offsets[r + 1]].tolist() for r in rows.tolist()]
-    beside: dict[frozenset[int], int] = {}
-    pairs = [
-        (beside.setdefault(frozenset(side), number), number)
-        for number, face in enumerate(faces)
-        for side in _around(face)
-    ]
-    part = module().patches.connected_parts(len(faces), np.array(pairs, np.int64)).tolist()
-    groups: dict[tuple[int, int], list[list[int]]] = {}
-    for number, face in zip(part, faces, strict=True):
-        groups.setdefault((number, len(face)), []).append(face)
-    return [np.array(found) for found in groups.values()]
+    if not len(rows):
+        return []
+    sizes = np.diff(made.offsets)[rows]
+    ends = np.cumsum(sizes)
+    owner = np.repeat(np.arange(len(rows)), sizes)
+    corners = made.corners[np.arange(len(owner)) + (made.offsets[rows] - ends + sizes)[owner]]
+    after = np.roll(corners, -1)
+    after[ends - 1] = corners[ends - sizes]
+    sides = np.sort(np.stack([corners, after], axis=1), axis=1)
+    order = np.lexsort(sides.T)
+    same = np.flatnonzero((sides[order[1:]] == sides[order[:-1]]).all(axis=1))
+    pairs = np.stack([owner[order[same]], owner[order[same + 1]]], axis=1)
+    part = module().patches.connected_parts(len(rows), pairs)
+    groups, group = np.unique(np.stack([part, sizes], axis=1), axis=0, return_inverse=True)
+    of_corners = group.reshape(-1)[owner]
+    by_group = corners[np.argsort(of_corners, kind="stable")]
+    found = np.split(by_group, np.cumsum(np.bincount(of_corners, minlength=len(groups)))[:-1])
+    return [its.reshape(-1, size) for its, size in zip(found, groups[:, 1], strict=True)]

@@ -43,7 +43,8 @@ class Surroundings:
         """By where they begin along x: a box asks those of one slab."""
         self._triangles = self.whole.corner_fans(faces)
         a, b, c = np.ascontiguousarray(self._triangles.T)
-        begins, ends = [], []
+        begins: list[np.ndarray] = []
+        ends: list[np.ndarray] = []
         for along in np.ascontiguousarray(self.whole.points.T):
             for of, found in ((np.minimum, begins), (np.maximum, ends)):
                 found.append(of(of(along[a], along[b]), along[c]))
