@@ -477,6 +477,14 @@ def test_curves_fitted_more_sharply_make_no_patch_fold():
     assert not run.still_folded(result, 6, [82, 89, 90], watched)
 
 
+def test_a_mesh_whose_faces_all_fold_is_not_fitted_twice(monkeypatch):
+    """A slat of 2 x 0.1 x 0.02 was fitted as its own neighbourhood, and then again as the whole: 16 s each."""
+    monkeypatch.setattr(fitting._Run, "_fit", lambda *_, **__: pytest.fail("fitted"))
+    run = fitting._Run(1e-4, 8e-4, False)
+    result = df.fair(*control_meshes.cube(), 3)
+    assert not run.still_folded(result, 3, range(6), {})
+
+
 def test_rows_of_quads_are_one_patch_whose_curvature_does_not_jump():
     points, faces = control_meshes.grid()
     points[:, 2] = 0.2 * np.sin(points[:, 0]) * np.cos(points[:, 1])

@@ -328,6 +328,8 @@ class _Run:
         polygons = control_polygons(result, level)
         chosen = np.isin(polygons, faces)
         part = around(result, level, chosen)
+        if len(part.control_faces) == len(polygons):
+            return False  # as far as is known; the whole fit itself will tell
         chosen_of_part = chosen[part.control_faces]
         groups = self._groups_of(polygons[part.control_faces])
         _, bad = self._fit(*part.arrays, groups, level, **watched)
