@@ -2,7 +2,9 @@
 #include "fit/curves.h"
 
 #include <Eigen/Dense>
-#include <limits>
+#include <Eigen/SparseCholesky>
+#include <cmath>
+#include <numbers>
 
 #include "base/points.h"
 #include "parallel/cancel.h"
@@ -30,6 +32,24 @@ CurveFit::CurveFit(const FairingProblem& problem, const Scan& scan,
           (!fixed.empty() && fixed[std::size_t(own)]))
         continue;
       moves_[std::size_t(v)] = any_ = true;
+    }
+  }
+  if (any_) find_bends();
+}
+
+void CurveFit::find_bends() {
+  const std::vector<Vec3>& place = problem_.basis.working;
+  for (const Chain& chain : problem_.mesh.chains) {
+    if (chain.straight) continue;
+    const std::size_t n = chain.vertices.size();
+    const auto at = [&](std::size_t k) { return chain.vertices[k % n]; };
+    for (std::size_t k = 0; k + (chain.closed ? 0 : 2) < n; ++k) {
+      const std::array<Index, 3> of{at(k), at(k + 1), at(k + 2)};
+      const auto length = [&](std::size_t a) {
+        return (place[std::size_t(of[a + 1])] - place[std::size_t(of[a])]).norm();
+      };
+      const double before = length(0), after = length(1), sum = before + after;
+      bends_.push_back({of, {2 * after / sum, -2, 2 * before / sum}});
     }
   }
 }
@@ -100,11 +120,9 @@ void CurveFit::add_borders(const LevelFit& fit, std::vector<MoveEquations>& equa
   }
 }
 
-void CurveFit::move(const LevelFit& fit, ControlPositions& control) const {
+std::vector<CurveFit::MoveEquations> CurveFit::control_equations(
+    const std::vector<MoveEquations>& points, const GridLevel& grid) const {
   const ControlMesh& mesh = problem_.mesh;
-  const GridLevel& grid = fit.cells().grid();
-  std::vector<MoveEquations> at = equations(fit);
-  add_borders(fit, at);
   std::vector<MoveEquations> sum(std::size_t(mesh.input_vertices));
   for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
     if (!mesh.feature_edge[e]) continue;
@@ -112,7 +130,7 @@ void CurveFit::move(const LevelFit& fit, ControlPositions& control) const {
     for_curve_points(grid, Index(e), [&](Index p, double t) {
       for (const int end : {0, 1}) {
         if (!moves_[std::size_t(ends[std::size_t(end)])]) continue;
-        const MoveEquations& equation = at[std::size_t(p)];
+        const MoveEquations& equation = points[std::size_t(p)];
         const double share = end == 0 ? 1 - t : t;
         MoveEquations& own = sum[std::size_t(mesh.original_vertex(ends[std::size_t(end)]))];
         own.square += share * equation.square;
@@ -120,17 +138,66 @@ void CurveFit::move(const LevelFit& fit, ControlPositions& control) const {
       }
     });
   }
-  std::vector<double> world(3 * std::size_t(mesh.input_vertices));
-  for (std::size_t v = 0; v < sum.size(); ++v) {
-    Vec3 place = control.world[v];
-    // directions without enough points stay
-    const double trace = sum[v].square.trace();
-    if (trace > 0) {
-      const Eigen::Matrix3d square = sum[v].square + trace / 64 * Eigen::Matrix3d::Identity();
-      place += problem_.frame.scale * Vec3(square.ldlt().solve(sum[v].rest));
+  return sum;
+}
+
+// In the frame's unit, one a control vertex; directions without enough points stay.
+std::vector<Vec3> CurveFit::moves(const std::vector<MoveEquations>& equations, double weight,
+                                  std::span<const Vec3> place) const {
+  std::vector<int> unknown(equations.size(), -1);
+  int count = 0;
+  for (std::size_t v = 0; v < equations.size(); ++v)
+    if (equations[v].square.trace() > 0) unknown[v] = count++;
+  std::vector<Eigen::Triplet<double>> terms;
+  Eigen::VectorXd rest(3 * count);
+  for (std::size_t v = 0; v < equations.size(); ++v) {
+    if (unknown[v] < 0) continue;
+    const Eigen::Matrix3d& square = equations[v].square;
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j)
+        terms.emplace_back(3 * unknown[v] + i, 3 * unknown[v] + j,
+                           square(i, j) + (i == j ? square.trace() / 64 : 0));
+      rest[3 * unknown[v] + i] = equations[v].rest[i];
     }
-    put_point(place, world.data() + 3 * v);
   }
+  // a plate of this weight follows waves of 2 pi / (weight^(1/4)) control edges (ScanFit::unit_)
+  const double stiffness = 1 / (weight * std::pow(2 * std::numbers::pi, 4));
+  for (const Bend& bend : bends_) {
+    const double points = equations[std::size_t(bend.at[1])].square.trace();
+    Vec3 bent = Vec3::Zero();
+    for (std::size_t k = 0; k < 3; ++k) bent += bend.row[k] * place[std::size_t(bend.at[k])];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int row = unknown[std::size_t(bend.at[k])];
+      if (row < 0) continue;
+      const double factor = points * stiffness * bend.row[k];
+      for (int i = 0; i < 3; ++i) rest[3 * row + i] -= factor * bent[i];
+      for (std::size_t m = 0; m < 3; ++m)
+        if (const int column = unknown[std::size_t(bend.at[m])]; column >= 0)
+          for (int i = 0; i < 3; ++i)
+            terms.emplace_back(3 * row + i, 3 * column + i, factor * bend.row[m]);
+    }
+  }
+  Eigen::SparseMatrix<double> matrix(3 * count, 3 * count);
+  matrix.setFromTriplets(terms.begin(), terms.end());
+  const Eigen::VectorXd found =
+      Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(matrix).solve(rest);
+  std::vector<Vec3> out(equations.size(), Vec3::Zero());
+  for (std::size_t v = 0; v < out.size(); ++v)
+    if (unknown[v] >= 0) out[v] = found.segment<3>(3 * unknown[v]);
+  return out;
+}
+
+void CurveFit::move(const LevelFit& fit, double weight, ControlPositions& control) const {
+  std::vector<MoveEquations> points = equations(fit);
+  add_borders(fit, points);
+  const double scale = problem_.frame.scale;
+  std::vector<Vec3> place(std::size_t(problem_.mesh.input_vertices));
+  for (std::size_t v = 0; v < place.size(); ++v) place[v] = control.world[v] / scale;
+  const std::vector<Vec3> move =
+      moves(control_equations(points, fit.cells().grid()), weight, place);
+  std::vector<double> world(3 * place.size());
+  for (std::size_t v = 0; v < place.size(); ++v)
+    put_point(control.world[v] + scale * move[v], world.data() + 3 * v);
   control = problem_.control_positions(world);
 }
 

@@ -15,10 +15,11 @@ class CurveFit {
 
   // Whether any control vertex of a curve may move.
   bool any() const { return any_; }
-  // Moves curves nearer to the scan: each control vertex moves by a least-squares fit to the points
-  // next to its two curve edges [progressive iteration, Deng and Lin 2014]. At a border points give
-  // the distance along the normal; at a crease those of both sides do.
-  void move(const LevelFit& fit, ControlPositions& control) const;
+  // Moves curves nearer to the scan: their control vertices move by a least-squares fit to the
+  // points next to them [progressive iteration, Deng and Lin 2014]. At a border points give the
+  // distance along the normal; at a crease those of both sides do. The curves bend as little as the
+  // surface of this `weight`: both cut off the same wavelength.
+  void move(const LevelFit& fit, double weight, ControlPositions& control) const;
 
  private:
   // Normal equations of one move: the sum of |row . move - offset|^2.
@@ -30,6 +31,18 @@ class CurveFit {
       rest += weight * rows * offset;
     }
   };
+  // The second divided difference of a chain at its vertex at[1], by the lengths of the given
+  // control edges: it also keeps the spacing of the vertices, of which the points know nothing.
+  struct Bend {
+    std::array<Index, 3> at;
+    std::array<double, 3> row;
+  };
+  void find_bends();
+  // One a control vertex of the input.
+  std::vector<MoveEquations> control_equations(const std::vector<MoveEquations>& points,
+                                               const GridLevel& grid) const;
+  std::vector<Vec3> moves(const std::vector<MoveEquations>& equations, double weight,
+                          std::span<const Vec3> place) const;
   // By the numbers of the curves' points.
   std::vector<MoveEquations> equations(const LevelFit& fit) const;
   void add_borders(const LevelFit& fit, std::vector<MoveEquations>& equations) const;
@@ -37,6 +50,7 @@ class CurveFit {
   const FairingProblem& problem_;
   const Scan& scan_;
   std::vector<std::uint8_t> moves_;  // one a control vertex
+  std::vector<Bend> bends_;
   bool any_ = false;
 };
 

@@ -171,7 +171,7 @@ class ScanFit {
     if (!curves_.any()) return fit.iterate(weight, iterations, robust);
     for (int k = 0; k < 3 * iterations; ++k) {
       fit.iterate(weight, 1, robust);
-      curves_.move(fit, control_);
+      curves_.move(fit, weight, control_);
       Array<double> x = fit.surface();
       levels_.put_fixed(fit.level(), data(), x.data());
       fit.set_surface(std::move(x), fit.feet());

@@ -84,6 +84,25 @@ double WeightChoice::held_out_error() {
   return std::sqrt(sum / double(far.size()));
 }
 
+// The middle, by logarithms, of all weights that are as good as the `best` trial's: the error of n
+// points is known within 1 / sqrt(2 n) of itself, so a least one among them says nothing. In trials
+// after the best.
+double WeightChoice::middle_of_good(std::size_t best) const {
+  const double good = trials_[best][1] * (1 + 1 / std::sqrt(2 * double(held_.size())));
+  const auto reach = [&](int way) {
+    auto k = std::ptrdiff_t(best);
+    const auto count = std::ptrdiff_t(trials_.size());
+    while (k + way >= 0 && k + way < count && trials_[std::size_t(k + way)][1] <= good) k += way;
+    double end = double(k) - double(best);
+    if (k + way >= 0 && k + way < count) {
+      const double here = trials_[std::size_t(k)][1], beyond = trials_[std::size_t(k + way)][1];
+      end += way * (good - here) / (beyond - here);
+    }
+    return end;
+  };
+  return (reach(-1) + reach(1)) / 2;
+}
+
 double WeightChoice::by_held_out(Monitor& monitor) {
   // Feet and normals are those of a surface with waves of two control edges and more. A surface
   // that follows the noise has tilted normals, and distances along them are too large.
@@ -108,14 +127,7 @@ double WeightChoice::by_held_out(Monitor& monitor) {
     }
     if (error > 1.25 * trials_[best][1]) break;
   }
-  // the minimum of the parabola through three logarithms
-  double weight = trials_[best][0];
-  if (best > 0 && best + 1 < trials_.size()) {
-    const double up = std::log(trials_[best - 1][1]), here = std::log(trials_[best][1]),
-                 down = std::log(trials_[best + 1][1]);
-    const double bend = up + down - 2 * here;
-    if (bend > 0) weight *= std::pow(ratio, std::clamp(0.5 * (down - up) / bend, -0.5, 0.5));
-  }
+  const double weight = trials_[best][0] * std::pow(ratio, -middle_of_good(best));
   fit_.train_on({});
   fit_.set_surface(std::move(best_surface), std::move(best_feet));
   return weight;

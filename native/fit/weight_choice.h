@@ -28,6 +28,7 @@ class WeightChoice {
 
  private:
   double by_held_out(Monitor& monitor);
+  double middle_of_good(std::size_t best) const;
   double by_tolerance(Monitor& monitor);
   void hold_out();
   double held_out_error();
