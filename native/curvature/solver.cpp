@@ -37,11 +37,12 @@ GaussNewtonSolver::GaussNewtonSolver(const ControlMesh& mesh, const GridLevels& 
       iterate_{system_},
       next_level_(base),
       folded_faces_(folded_control_faces(mesh, constraints_.targets(), workers)),
-      thickness_(mesh, constraints_.targets(), workers),
       steps_(iterate_, options_),
       fold_repair_(iterate_, constraints_, folded_faces_, steps_),
       fallback_(iterate_, fold_repair_, steps_),
-      variation_(iterate_, steps_) {}
+      variation_(iterate_, steps_) {
+  if (base < system_.finest()) thickness_.emplace(mesh, constraints_.targets(), workers);
+}
 
 CurvatureLevelReport GaussNewtonSolver::solve_next_level(const Array<double>& plate,
                                                          Array<double>& finest) {
@@ -55,10 +56,11 @@ CurvatureLevelReport GaussNewtonSolver::solve_next_level(const Array<double>& pl
   choose_start(iterate_, level, pads_.now(), plate, below_.plate, given, report);
   const StepStart start{iterate_.current.points, iterate_.current.held, report};
   const bool is_plain = solve_total_curvature(start, plate, report);
-  below_ = {plate, is_plain,
-            report.swollen ||
-                (!is_finest() &&
-                 thickness_.of(iterate_.grid(), iterate_.workers(), surface().data()).is_bubble())};
+  below_ = {
+      plate, is_plain,
+      report.swollen ||
+          (!is_finest() &&
+           thickness_->of(iterate_.grid(), iterate_.workers(), surface().data()).is_bubble())};
   if (is_finest()) {
     report.folds = fold_repair_.find().count();
     solved_ = {report.converged && is_plain, report.energy, report.folds};

@@ -107,7 +107,7 @@ class GaussNewtonSolver {
   SurfaceIterate iterate_;
   int next_level_;
   std::vector<std::uint8_t> folded_faces_;  // of the control mesh
-  Thickness thickness_;
+  std::optional<Thickness> thickness_;      // only below the finest level
   CurvatureSteps steps_;
   FoldRepair fold_repair_;
   FallbackSteps fallback_;

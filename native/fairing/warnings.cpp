@@ -145,6 +145,7 @@ void warn_straightened(const ControlMesh& mesh, const std::vector<Index>& edges,
 
 void warn_of_thickness(const GridLevel& grid, Workers& workers, const double* x,
                        const FairOptions& options, Report& report) {
+  if (grid.n() == 1) return;  // that of the control mesh
   const ControlMesh& mesh = grid.mesh();
   std::vector<Vec3> control;
   for (Index v = 0; v < mesh.vertex_count(); ++v) control.push_back(point_at(x, v));

@@ -25,8 +25,8 @@ class Cells {
       whole_.extend(box);
       extent += box.sizes().maxCoeff() / count;
     }
-    // at most as many cells as triangles; smaller ones would make a large triangle fill too many
-    size_ = std::max(2 * extent, whole_.sizes().maxCoeff() / std::cbrt(count));
+    // a large triangle among small ones must not fill too many cells
+    for (size_ = 2 * extent; size_ > 0 && filled_cells() > 8 * count;) size_ *= 2;
     if (size_ > 0)
       for (std::size_t t = first; t < triangles.size(); ++t)
         each_cell(box_of(t), [&](std::int64_t cell) { inside_[cell].push_back(t); });
@@ -69,6 +69,12 @@ class Cells {
   }
 
   double cells_in(const Box& box) const { return (box.sizes().array() / size_ + 1).prod(); }
+
+  double filled_cells() const {
+    double sum = 0;
+    for (std::size_t t = first_; t < triangles_.size(); ++t) sum += cells_in(box_of(t));
+    return sum;
+  }
 
   template <class Use>
   void each_cell(const Box& box, const Use& use) const {

@@ -5,6 +5,7 @@
 #include <OpenMesh/Core/Mesh/TriConnectivity.hh>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/error.h"
 #include "base/points.h"
@@ -207,13 +208,13 @@ class Refinement {
   }
 
   bool should_flip(EdgeHandle e) {
-    if (is_gone(e) || mesh_.is_boundary(e) || !mesh_.is_flip_ok(e)) return false;
+    if (is_gone(e) || mesh_.is_boundary(e)) return false;
     const Half h = mesh_.halfedge_handle(e, 0), back = mesh_.halfedge_handle(e, 1);
     const VertexHandle a = from(h), b = to(h), c = opposite(h), d = opposite(back);
     if (on_rim(c) && on_rim(d) && joined_(c.idx(), d.idx())) return false;
     const double now = std::max(badness(a, b, c), badness(b, a, d));
-    const double then = std::max(badness(c, d, b), badness(d, c, a));
-    if (then >= now - roundoff) return false;
+    if (badness(c, d, b) >= now - roundoff || badness(d, c, a) >= now - roundoff) return false;
+    if (!mesh_.is_flip_ok(e)) return false;
     // the sides b-c and a-d, c-a and d-b keep their neighbours
     const Half bc = mesh_.next_halfedge_handle(h), ca = mesh_.prev_halfedge_handle(h);
     const Half ad = mesh_.next_halfedge_handle(back), db = mesh_.prev_halfedge_handle(back);
@@ -233,17 +234,21 @@ class Refinement {
   // already, their sum must not grow.
   static double sharpness(double cosine) { return std::max(0.0, sharp_turn - cosine); }
 
+  // The normal of the neighbour across side h, or of the face behind the rim there, if known.
+  std::optional<Vec3> normal_beyond(Half h) const {
+    const Half back = mesh_.opposite_halfedge_handle(h);
+    if (!mesh_.is_boundary(back)) return unit_or_zero(area(from(back), to(back), opposite(back)));
+    if (patch_.rim_normals.empty()) return {};
+    const Vec3& behind = patch_.rim_normals[std::size_t(from(h).idx())];
+    return behind.isZero() ? std::optional<Vec3>() : behind;
+  }
+
   // The cosine between a triangle's normal and that of the neighbour across side h; 1 without a
   // neighbour.
-  double turn(Half h, const Vec3& normal) const {
-    const Half back = mesh_.opposite_halfedge_handle(h);
-    if (mesh_.is_boundary(back)) {
-      if (patch_.rim_normals.empty()) return 1;
-      const Vec3& behind = patch_.rim_normals[std::size_t(from(h).idx())];
-      return behind.isZero() ? 1 : behind.dot(normal);
-    }
-    return unit_or_zero(area(from(back), to(back), opposite(back))).dot(normal);
+  static double turn(const std::optional<Vec3>& beyond, const Vec3& normal) {
+    return beyond ? beyond->dot(normal) : 1;
   }
+  double turn(Half h, const Vec3& normal) const { return turn(normal_beyond(h), normal); }
 
   void relax() {
     for (int v = patch_.rim; v < int(mesh_.n_vertices()); ++v) {
@@ -267,13 +272,15 @@ class Refinement {
     }
   }
 
-  // The neighbours of an inner vertex, in the direction of its triangles.
+  // The neighbours of an inner vertex, in the direction of its triangles, and what is beyond these.
   void find_ring(VertexHandle vertex) {
     ring_.clear();
+    beyond_.clear();
     const Half first = mesh_.halfedge_handle(vertex);
     Half h = first;
     do {
       ring_.push_back(h);
+      beyond_.push_back(normal_beyond(mesh_.next_halfedge_handle(h)));
       h = mesh_.opposite_halfedge_handle(mesh_.prev_halfedge_handle(h));
     } while (h != first);
   }
@@ -297,8 +304,8 @@ class Refinement {
     double total = 0;
     for (std::size_t i = 0; i < ring_.size(); ++i) {
       const Vec3 normal = unit_or_zero(areas_[i]);
-      total += sharpness(normal.isZero() ? -1 : normal.dot(sum)) +
-               sharpness(turn(mesh_.next_halfedge_handle(ring_[i]), normal));
+      total +=
+          sharpness(normal.isZero() ? -1 : normal.dot(sum)) + sharpness(turn(beyond_[i], normal));
     }
     return total;
   }
@@ -342,6 +349,7 @@ class Refinement {
   Relaxation relaxation_;
   Mesh mesh_;
   std::vector<Half> ring_;
+  std::vector<std::optional<Vec3>> beyond_;
   std::vector<Vec3> areas_;
 };
 
