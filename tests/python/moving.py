@@ -19,24 +19,11 @@ def moved(points, size=0.05, seed=1):
 
 def icosphere(subdivisions):
     """A sphere's triangles, so that its surface of least total curvature is known."""
-    vertices, faces = sample("icosahedron")
-    points, triangles = [p / np.linalg.norm(p) for p in vertices], faces
+    points, faces = meshes.icosahedron()
     for _ in range(subdivisions):
-        middle, finer = {}, []
-
-        def between(a, b, middle=middle):
-            key = (min(a, b), max(a, b))
-            if key not in middle:
-                p = points[a] + points[b]
-                middle[key] = len(points)
-                points.append(p / np.linalg.norm(p))
-            return middle[key]
-
-        for a, b, c in triangles:
-            x, y, z = between(a, b), between(b, c), between(c, a)
-            finer += [[a, x, z], [b, y, x], [c, z, y], [x, y, z]]
-        triangles = finer
-    return np.array(points), np.array(triangles)
+        points, faces = meshes.refine_triangles(points, faces)
+        points = points / np.linalg.norm(points, axis=1)[:, None]
+    return points, faces
 
 
 def slid(points, size, seed):

@@ -57,7 +57,7 @@ def cut(vertices, faces, gone):
     """The mesh without the faces `gone` (m,) bool, and without loose vertices."""
     kept = faces[~gone]
     used, kept = np.unique(kept, return_inverse=True)
-    return vertices[used], kept.reshape(-1, 3)
+    return vertices[used], kept.reshape(-1, faces.shape[1])
 
 
 def lattice(n, m, closed=(False, False)):
@@ -77,9 +77,9 @@ def mapped(surface, n, m, closed=(False, False)):
     return np.stack(surface(a.ravel(), b.ravel()), 1), lattice(n, m, closed)
 
 
-def torus(n, m, tube=0.8):
+def torus(n, m, tube=0.8, ring=2.0):
     def surface(a, b):
-        distance = 2 + tube * np.cos(2 * np.pi * b)
+        distance = ring + tube * np.cos(2 * np.pi * b)
         x, y = distance * np.cos(2 * np.pi * a), distance * np.sin(2 * np.pi * a)
         return x, y, tube * np.sin(2 * np.pi * b)
 
@@ -95,6 +95,22 @@ def sphere(levels=3):
         vertices = result.vertices / np.linalg.norm(result.vertices, axis=1)[:, None]
         faces = result.triangles.astype(np.int64)
     return vertices, np.asarray(faces)
+
+
+def sheet_with_hanging_vertices(bend, triangles):
+    """Eight by eight cells, of which the middle four by four are refined once."""
+    ids, faces = {}, []
+    for x, y in np.ndindex(8, 8):
+        step = 0.5 if 2 <= min(x, y) <= max(x, y) < 6 else 1.0
+        for a, b in np.ndindex(int(1 / step), int(1 / step)):
+            low = x + a * step, y + b * step
+            ring = [
+                (low[0] + i * step, low[1] + j * step) for i, j in [(0, 0), (1, 0), (1, 1), (0, 1)]
+            ]
+            quad = [ids.setdefault(place, len(ids)) for place in ring]
+            faces += [[*quad[:3]], [quad[0], *quad[2:]]] if triangles else [quad]
+    flat = np.array(list(ids))
+    return np.c_[flat, bend * ((flat - 4.0) ** 2).sum(axis=1)], faces
 
 
 def uses(faces):

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """STEP files read back by Open CASCADE (cadquery-ocp-novtk), where that is installed."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -32,15 +33,15 @@ class ReadFile:
 
     @property
     def solids(self) -> int:
-        return _count(self.shape, OCP.TopAbs_ShapeEnum.TopAbs_SOLID)
+        return self._count("SOLID")
 
     @property
     def shells(self) -> int:
-        return _count(self.shape, OCP.TopAbs_ShapeEnum.TopAbs_SHELL)
+        return self._count("SHELL")
 
     @property
     def faces(self) -> int:
-        return _count(self.shape, OCP.TopAbs_ShapeEnum.TopAbs_FACE)
+        return self._count("FACE")
 
     @property
     def free_edges(self) -> int:
@@ -75,15 +76,13 @@ class ReadFile:
     def _faces_of_edges(self) -> list[int]:
         """The number of faces at each edge."""
         from OCP.collections import IndexedMap_TopoDS_Shape_TopTools_ShapeMapHasher as ShapeMap
-        from OCP.TopExp import TopExp, TopExp_Explorer
+        from OCP.TopExp import TopExp
 
         edges, kind = ShapeMap(), OCP.TopAbs_ShapeEnum.TopAbs_EDGE
         TopExp.MapShapes_s(self.shape, kind, edges)
         uses = [0] * edges.Extent()
-        explorer = TopExp_Explorer(self.shape, kind)
-        while explorer.More():
-            uses[edges.FindIndex(explorer.Current()) - 1] += 1
-            explorer.Next()
+        for edge in parts(self.shape, kind):
+            uses[edges.FindIndex(edge) - 1] += 1
         return uses
 
     @cached_property
@@ -94,6 +93,9 @@ class ReadFile:
         box = Bnd_Box()
         BRepBndLib.AddOptimal_s(self.shape, box)
         return box
+
+    def _count(self, kind: str) -> int:
+        return len(list(parts(self.shape, getattr(OCP.TopAbs_ShapeEnum, f"TopAbs_{kind}"))))
 
     def _mass(self, properties: str) -> Any:
         from OCP.BRepGProp import BRepGProp
@@ -117,14 +119,14 @@ def read(path: Path | str) -> ReadFile:
     return ReadFile(reader.OneShape())
 
 
-def _count(shape: Any, kind: Any) -> int:
+def parts(shape: Any, kind: Any) -> Iterator[Any]:
+    """What of that kind a shape has."""
     from OCP.TopExp import TopExp_Explorer
 
-    explorer, count = TopExp_Explorer(shape, kind), 0
+    explorer = TopExp_Explorer(shape, kind)
     while explorer.More():
-        count += 1
+        yield explorer.Current()
         explorer.Next()
-    return count
 
 
 def _coordinates(point: Any) -> tuple[float, float, float]:

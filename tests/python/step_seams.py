@@ -18,14 +18,14 @@ def gap_and_borders(path: Path) -> tuple[float, np.ndarray]:
     from OCP.TopExp import TopExp
     from OCP.TopoDS import TopoDS
 
-    shape = _shape(path)
+    shape = step_files.read(path).shape
     kinds = step_files.OCP.TopAbs_ShapeEnum
     edges = ShapeMap()
     TopExp.MapShapes_s(shape, kinds.TopAbs_EDGE, edges)
     curves, uses, gap = {}, np.zeros(edges.Extent() + 1, int), 0.0
-    for face in _parts(shape, kinds.TopAbs_FACE):
+    for face in step_files.parts(shape, kinds.TopAbs_FACE):
         surface = BRepAdaptor_Surface(TopoDS.Face(face), False)
-        for edge in _parts(face, kinds.TopAbs_EDGE):
+        for edge in step_files.parts(face, kinds.TopAbs_EDGE):
             number = edges.FindIndex(edge)
             if number not in curves:
                 curves[number] = _along(BRepAdaptor_Curve(TopoDS.Edge(edge)))
@@ -56,21 +56,11 @@ def names_and_colours(path: Path) -> list[tuple[str, list[tuple[float, ...]]]]:
         items = [
             item
             for kind in (kinds.TopAbs_SOLID, kinds.TopAbs_SHELL, kinds.TopAbs_FACE)
-            for item in _parts(shape, kind)
+            for item in step_files.parts(shape, kind)
         ]
         shades = [_colour(colours, item) for item in items]
         found.append((name.Get().ToExtString(), [shade for shade in shades if shade]))
     return found
-
-
-def _shape(path: Path):
-    from OCP.IFSelect import IFSelect_ReturnStatus
-    from OCP.STEPControl import STEPControl_Reader
-
-    reader = STEPControl_Reader()
-    assert reader.ReadFile(str(path)) == IFSelect_ReturnStatus.IFSelect_RetDone
-    reader.TransferRoots()
-    return reader.OneShape()
 
 
 def _document(path: Path):
@@ -86,15 +76,6 @@ def _document(path: Path):
     assert reader.ReadFile(str(path)) == IFSelect_ReturnStatus.IFSelect_RetDone
     assert reader.Transfer(document)
     return document
-
-
-def _parts(shape, kind):
-    from OCP.TopExp import TopExp_Explorer
-
-    explorer = TopExp_Explorer(shape, kind)
-    while explorer.More():
-        yield explorer.Current()
-        explorer.Next()
 
 
 def _along(curve) -> np.ndarray:

@@ -196,27 +196,18 @@ def test_levels_that_are_no_whole_number(levels):
         {"measure": np.zeros(3)},
         {"epsilon": 10**400},
         {"pad_size": np.array([1.0, 0.0])},
+        {"pad_size": -0.1},
+        {"pad_size": 1.5},
+        {"tension": -0.1},
+        {"tension": 1.1},
+        {"tension": NAN},
+        {"tension": 0.5, "energy": "minimum_variation"},
+        {"region": [0], "joint": "smooth"},
     ],
     ids=str,
 )
 def test_strange_options(option):
     assert_refused("BAD_OPTION", [], POINTS, FACES, 1, **option)
-
-
-@pytest.mark.parametrize("value", [NAN, -1.0, -INF])
-def test_bad_weights(value):
-    weights = with_row(np.ones(12), [2, 7], value)
-    assert_refused(
-        "BAD_OPTION", [2, 7], POINTS, FACES, interpolation="approximate", weights=weights
-    )
-
-
-@pytest.mark.parametrize(
-    "weights", [np.ones(11), np.ones(0), np.ones((12, 2)), ["a"] * 12, np.ones(12) * 1j, 5.0]
-)
-def test_weights_of_wrong_shape(weights):
-    error = refusal(POINTS, FACES, interpolation="approximate", weights=weights)
-    assert error.code in ("BAD_OPTION", "BAD_SHAPE")
 
 
 def test_creases_that_are_no_edges():

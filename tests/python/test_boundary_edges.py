@@ -152,21 +152,6 @@ def test_mended_meshes():
     assert found.vertices.tobytes() == clean.vertices.tobytes()
 
 
-def test_a_solver_follows():
-    edges = {"linear": BOTTOM, "free": TOP}
-    moved = POINTS + [0, 0, 0.2] * (POINTS[:, :1] > 2)
-    solver = df.Solver(POINTS, FACES, 3, boundary_edges=edges, relative_residual=1e-9)
-    first = solver.solve().vertices
-    assert (
-        first.tobytes()
-        == df.fair(
-            POINTS, FACES, 3, boundary_edges=edges, relative_residual=1e-9
-        ).vertices.tobytes()
-    )
-    solver.solve(moved)
-    assert np.abs(solver.solve(POINTS).vertices - first).max() < 1e-5 * size_of(POINTS)
-
-
 @pytest.mark.parametrize("kind", ["linear", "free"])
 def test_edges_on_one_side_break_the_symmetry(kind):
     """Steps keep the symmetry that the mesh has with its edges, no other."""
@@ -185,26 +170,6 @@ def test_edges_on_one_side_break_the_symmetry(kind):
 
     assert unlike(side + [(partner[a], partner[b]) for a, b in side]) < 1e-12
     assert unlike(side) > 1e-3
-
-
-@pytest.mark.parametrize(
-    "edges, code",
-    [
-        ([(0, 1)], "BAD_OPTION"),
-        ("free", "BAD_OPTION"),
-        ({"smooth": [(0, 1)]}, "BAD_OPTION"),
-        ({"free": [(0, 1, 2)]}, "BAD_SHAPE"),
-        ({"free": [(0.0, 1.0)]}, "BAD_SHAPE"),
-        ({"free": [(0, 12)]}, "BAD_FEATURE_EDGE"),
-        ({"linear": [(0, 25)]}, "INDEX_OUT_OF_RANGE"),
-    ],
-    ids=str,
-)
-def test_refusals(edges, code):
-    for plane in (None, "y"):
-        with pytest.raises(df.FairingError) as caught:
-            df.fair(POINTS, FACES, 1, boundary_edges=edges, symmetry_plane=plane)
-        assert caught.value.code == code
 
 
 def test_nothing_named_is_nothing():

@@ -5,7 +5,7 @@ import discrete_fairing as df
 import numpy as np
 import pytest
 from control_meshes import cube
-from ragged_holes import lattice, mapped, sphere
+from ragged_holes import lattice, mapped, sheet_with_hanging_vertices, sphere
 from surfaces import assert_oriented_manifold
 
 BALL = sphere()
@@ -43,22 +43,6 @@ def test_loose_triangles_are_joined():
     found = df.clean(points[faces].reshape(-1, 3), np.arange(faces.size).reshape(-1, 3))
     assert len(found.vertices) == len(points)
     closed(found)
-
-
-def sheet_with_hanging_vertices(bend, triangles):
-    """Eight by eight cells, of which the middle four by four are refined once."""
-    ids, faces = {}, []
-    for x, y in np.ndindex(8, 8):
-        step = 0.5 if 2 <= min(x, y) <= max(x, y) < 6 else 1.0
-        for a, b in np.ndindex(int(1 / step), int(1 / step)):
-            low = x + a * step, y + b * step
-            ring = [
-                (low[0] + i * step, low[1] + j * step) for i, j in [(0, 0), (1, 0), (1, 1), (0, 1)]
-            ]
-            quad = [ids.setdefault(place, len(ids)) for place in ring]
-            faces += [[*quad[:3]], [quad[0], *quad[2:]]] if triangles else [quad]
-    flat = np.array(list(ids))
-    return np.c_[flat, bend * ((flat - 4.0) ** 2).sum(axis=1)], faces
 
 
 @pytest.mark.parametrize("bend", [0.0, -0.05])
@@ -323,24 +307,6 @@ def test_each_step_can_be_turned_off():
     for step in ("fins", "normals", "inner", "pinched", "spikes", "folds", "fill", "join"):
         assert not told(df.clean(points, faces, **{step: False}), step)
     assert not told(df.clean(points, faces, islands=0.0), "islands")
-
-
-@pytest.mark.parametrize(
-    ("settings", "code"),
-    [
-        ({"islands": 2.0}, "BAD_OPTION"),
-        ({"largest": -1.0}, "BAD_OPTION"),
-        ({"noise": 1001}, "BAD_OPTION"),
-        ({"noise": 1.5}, "BAD_OPTION"),
-        ({"noise": "much"}, "BAD_OPTION"),
-        ({"fixed": [True]}, "BAD_SHAPE"),
-        ({"progress": 1}, "BAD_OPTION"),
-    ],
-)
-def test_options_are_checked(settings, code):
-    with pytest.raises(df.FairingError) as error:
-        df.clean(*BALL, **settings)
-    assert error.value.code == code
 
 
 def test_a_sheet_of_quads_stays_one():

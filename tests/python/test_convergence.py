@@ -166,6 +166,18 @@ def test_the_papers_icosahedron():
     )
 
 
+@pytest.mark.parametrize("cut", [False, True])
+def test_total_curvature_of_a_torus_is_its_own(cut):
+    """Clifford's, eight pi squared, to second order."""
+    errors = []
+    for k in (1, 2, 4):
+        mesh = meshes.torus(14 * k, 10 * k)
+        report = tight.fair(*(meshes.cut_quads(mesh) if cut else mesh), 0).report
+        errors.append(abs(report["energy"]["result"]["total_curvature"] / (8 * np.pi**2) - 1))
+    assert errors[-1] < 5e-3
+    assert np.log2(errors[-2] / errors[-1]) > 1.9
+
+
 @pytest.mark.parametrize("name", ["icosahedron", "random_hull"])
 def test_total_curvature_of_a_sphere_is_its_own(name):
     """Eight pi, to ever more digits on finer meshes with all vertices on it."""
@@ -179,6 +191,13 @@ def test_total_curvature_of_a_sphere_is_its_own(name):
     assert (
         all(fine < 0.4 * coarse for coarse, fine in zip(errors, errors[1:])) and errors[-1] < 0.01
     )
+
+
+def test_so_does_its_own_method_under_tension():
+    options = {"levels": 2, "tension": 0.5}
+    swept = tight.fair(*meshes.cube(), method="back_leg", sweeps=2000, **options).vertices
+    solved = tight.fair(*meshes.cube(), relative_residual=1e-11, **options).vertices
+    assert np.abs(swept - solved).max() < 1e-8
 
 
 @pytest.mark.parametrize("name", ["random_hull", "torus_triangles", "wavy_patch", "cube"])

@@ -167,24 +167,6 @@ def test_many_vertices_are_eased_without_all_eigenvalues():
     eased = df.ease(measured, faces, levels=1)
     assert error(eased.vertices, truth) < 0.5 * error(measured, truth)
     assert abs(eased.noise / NOISE - 1) < 0.1
-    assert eased.iterations <= 31
-
-
-@pytest.mark.parametrize(
-    "settings, words",
-    [
-        ({"tolerance": -1.0}, "length"),
-        ({"tolerance": [1.0, 2.0]}, "length"),
-        ({"most": 0}, "1 or more"),
-        ({"most": 1, "tolerance": 1.0}, "exclude"),
-        ({"fixed": [True]}, "bools"),
-        ({"energy": "minimum_variation"}, "no pads"),
-    ],
-)
-def test_bad_input_says_what_to_do(settings, words):
-    with pytest.raises(df.FairingError, match=words) as caught:
-        df.ease(*control_meshes.cube(), **settings)
-    assert caught.value.code == "BAD_OPTION"
 
 
 def curved_sheet():

@@ -229,16 +229,6 @@ def test_a_rebase_to_limits_without_shape_is_refused():
     np.testing.assert_allclose(solver.solve(vertices).vertices, before, atol=1e-12)
 
 
-def test_the_first_surface_of_a_solver_is_in_the_metric_of_its_mesh():
-    """As all later ones: what is solved first makes no difference."""
-    vertices, faces = HOUSE
-    other = vertices * [1, 1, 1.5]
-    given = {"interpolation": "limit", "pad_size": 0.0, "relative_residual": 1e-10}
-    shape = df.fair(vertices, faces, 2, shapes=[other], **given).shapes[0]
-    found = df.Solver(vertices, faces, 2, **given).solve(other).vertices
-    np.testing.assert_allclose(found, shape, atol=1e-8)
-
-
 def test_shapes_mix_linearly():
     vertices, faces = HOUSE
     other = vertices + 0.2 * RANDOM.standard_normal(vertices.shape)
@@ -253,23 +243,6 @@ def test_shapes_mix_linearly():
     mean = 0.5 * (result.vertices + result.shapes[0])
     np.testing.assert_allclose(result.shapes[1], mean, atol=1e-12)
     np.testing.assert_allclose(result.shapes[0][:10], limits(other, faces), atol=1e-15)
-
-
-def test_a_solver_follows():
-    vertices, faces = HOUSE
-    # on needles: loads on pads are found to a tolerance of their own
-    given = {"interpolation": "limit", "relative_residual": 1e-11, "pad_size": 0.0}
-    solver = df.Solver(vertices, faces, 2, **given)
-    np.testing.assert_array_equal(
-        solver.solve(vertices).vertices, df.fair(vertices, faces, 2, **given).vertices
-    )
-    other = vertices + 0.1 * RANDOM.standard_normal(vertices.shape)
-    moved = solver.solve(other)
-    np.testing.assert_allclose(moved.vertices[:10], limits(other, faces), atol=1e-15)
-    shape = df.fair(vertices, faces, 2, shapes=[other], **given).shapes[0]
-    np.testing.assert_allclose(moved.vertices, shape, atol=1e-9)
-    deviation = np.linalg.norm(moved.vertices[:10] - other, axis=1).max()
-    assert moved.report["largest_deviation"] == pytest.approx(deviation, rel=1e-12)
 
 
 def test_outside_a_region_and_on_its_rim_nothing_moves():
@@ -300,23 +273,6 @@ def test_half_a_mesh_is_the_half_of_the_whole():
     half = df.fair(whole[used], row[right], 1, interpolation="limit", symmetry_plane="x")
     full = df.fair(whole, faces, 1, interpolation="limit")
     np.testing.assert_allclose(half.vertices[: len(used)], full.vertices[used], atol=1e-12)
-
-
-@pytest.mark.parametrize(
-    "given, words",
-    [
-        ({"limit": 1.5}, "limit is 1.5"),
-        ({"weights": np.ones(10)}, "weights"),
-        ({"edge_sharpness": ([[4, 5]], [-1.0])}, "edge_sharpness must be zero or positive"),
-        ({"edge_sharpness": ([[4, 99]], 1.0)}, "99"),
-        ({"edge_sharpness": ([[4, 5]], [1.0, 2.0])}, "edge_sharpness"),
-        ({"edge_sharpness": 3}, "edge_sharpness"),
-        ({"vertex_sharpness": [1.0, 2.0]}, "vertex_sharpness"),
-    ],
-)
-def test_what_is_refused(given, words):
-    with pytest.raises(df.FairingError, match=words):
-        df.fair(*HOUSE, 1, interpolation="limit", **given)
 
 
 def test_sheets_that_meet_and_one_sided_ones():

@@ -134,22 +134,6 @@ def test_a_cap_goes_and_its_vertex_comes_into_the_neighbour():
     assert set(result.triangle_polygon.tolist()) == {0, 2, 3}
 
 
-def test_caps_on_both_sides_of_an_edge_and_a_fan_of_them():
-    """All points of one side of a square in the wrong order: a fan of faces without area."""
-    points = [[0, 0, 0], [5, 0, 0], [5, 5, 1], [0, 5, 0], *([x, 0, 0] for x in (1, 2, 3, 4))]
-    faces = [[0, 1, 2, 3], [0, 4, 5], [0, 5, 6], [0, 6, 7], [0, 7, 1]]
-    below = [[0, -2, 0], [5, -2, 0]]
-    points += below
-    faces += [[4, 0, 8], [5, 4, 8], [6, 5, 8], [7, 6, 8], [1, 7, 8], [1, 8, 9]]
-    result, acts = mend(np.array(points, float), faces, 0)
-    assert acts == [("DEGENERATE_FACE", [1, 2, 3, 4])]
-    assert mended_faces(result)[0] == [0, 4, 5, 6, 7, 1, 2, 3]
-    shares = result.mended.corner_share[1:5]
-    assert np.allclose(shares, [0.2, 0.4, 0.6, 0.8], rtol=0, atol=1e-15)
-    assert result.mended.corner_origin[1:5].tolist() == [[0, 1]] * 4
-    assert len(open_edges(mended_faces(result))) == 6
-
-
 def stack(shares, corners):
     """Flat faces on the edge 0-1, each with points of its own in it, and sound ones beyond all their
     sides: (points, faces, how many are flat)."""
@@ -257,13 +241,6 @@ def test_welding_within_a_distance():
     assert len(np.unique(origin)) == 20
 
 
-def test_weld_goes_with_mend():
-    for options in ({"weld": 0}, {"weld": -1, "repair": "mend"}, {"weld": "far", "repair": "mend"}):
-        with pytest.raises(df.FairingError) as caught:
-            df.fair(POINTS, FACES, 1, **options)
-        assert caught.value.code == "BAD_OPTION" and "weld" in str(caught.value)
-
-
 def test_what_no_program_can_mend_is_refused_in_the_input_s_ids():
     lost = POINTS.copy()
     lost[5] = np.nan
@@ -310,10 +287,6 @@ def test_faces_that_name_absent_vertices_are_dropped(absent):
     kept = np.delete(FACES, [3, 7], axis=0)
     assert np.array_equal(result.vertices, tight.fair(POINTS, kept, 1).vertices)
     assert set(result.triangle_polygon) == set(range(len(FACES))) - {3, 7}
-    (act,) = result.report["repairs"]
-    assert act["message"] == (
-        "2 faces (3, 7) named vertices that the mesh does not have and were dropped."
-    )
 
 
 def test_a_mesh_of_nothing_but_absent_vertices_is_refused():

@@ -3,7 +3,6 @@
 
 import control_meshes as meshes
 import discrete_fairing as df
-import example_meshes
 import numpy as np
 import pytest
 import tight
@@ -74,19 +73,6 @@ def test_fine_levels_are_not_factored():
     codes = [warning["code"] for warning in result.report["warnings"]]
     told = any(code.startswith("NOT_CONVERGED") for code in codes)
     assert told != finest(result)["converged"]
-
-
-@pytest.mark.parametrize(
-    "mesh, levels",
-    [(meshes.creature(), 3), (meshes.random_hull(40), 4), (example_meshes.fender(), 4)],
-    ids=["thin faces", "hull", "border"],
-)
-def test_two_cycles_of_total_curvature_solve_its_steps(mesh, levels):
-    """Its own cycles ended at the most, 24 iterations, on thin faces, and then levels were factored."""
-    level = finest(df.fair(*mesh, levels, "minimum_variation", threads=1))
-    steps = [step for step in level["steps"] if step["functional"] == "minimum_variation"]
-    assert steps and level["converged"]
-    assert all(not step["direct"] and step["iterations"] < 24 for step in steps)
 
 
 def plate_with_hole(count):

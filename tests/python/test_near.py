@@ -253,7 +253,9 @@ def test_what_cannot_move_is_interpolated(name):
 
 
 @pytest.mark.parametrize("name", ["tolerance", "weights"])
-@pytest.mark.parametrize("each", [np.ones(11), [1.0], np.ones((12, 1)), [[1], [1, 2]], ["a"] * 12])
+@pytest.mark.parametrize(
+    "each", [np.ones(11), [1.0], np.ones((12, 1)), [[1], [1, 2]], ["a"] * 12, np.ones(12) * 1j]
+)
 def test_values_of_another_shape_are_refused(name, each):
     with pytest.raises(df.FairingError, match=name) as caught:
         near(meshes.icosahedron(), **{name: each})

@@ -6,6 +6,7 @@ import discrete_fairing as df
 import numpy as np
 import pytest
 from half_hulls import hull, whole
+from moving import icosphere, slid
 from surfaces import boundary_vertices, output_faces, size_of
 
 LARGEST = 0.05  # degrees that are left by default
@@ -41,12 +42,8 @@ def vertex_normal(result, vertex) -> np.ndarray:
 
 def ball(subdivisions=1, noise=0.0, seed=2):
     """Points of the unit sphere, moved along it, which are their own normals."""
-    points, faces = meshes.icosahedron()
-    for _ in range(subdivisions):
-        points, faces = meshes.refine_triangles(points, faces)
-        points = points / np.linalg.norm(points, axis=1)[:, None]
-    points = points + noise * np.random.default_rng(seed).normal(size=points.shape)
-    return points / np.linalg.norm(points, axis=1)[:, None], faces
+    points, faces = icosphere(subdivisions)
+    return slid(points, noise, seed), faces
 
 
 @pytest.fixture(scope="module")
@@ -249,39 +246,6 @@ def test_normals_against_the_surface_are_refused(plate):
         assert (caught.value.code, caught.value.elements) == ("BAD_OPTION", [MIDDLE])
     steep = df.fair(points, faces, 2, normals=tilted(points, MIDDLE, [4, 0, 1]))
     assert np.isfinite(steep.vertices).all() and steep.report["normals"]["largest_angle"] <= LARGEST
-
-
-@pytest.mark.parametrize(
-    "options,says",
-    [
-        ({"energy": "total_curvature"}, "thin plate"),
-        ({"energy": "minimum_variation"}, "thin plate"),
-        ({"method": "back_leg"}, "multigrid"),
-    ],
-    ids=str,
-)
-def test_what_has_no_couples_says_so(plate, options, says):
-    points, faces = plate
-    with pytest.raises(df.FairingError, match=says) as caught:
-        df.fair(points, faces, 2, normals=tilted(points, MIDDLE, [1, 0, 1]), **options)
-    assert caught.value.code == "BAD_OPTION"
-
-
-@pytest.mark.parametrize(
-    "normals,code",
-    [
-        (np.zeros((3, 3)), "BAD_OPTION"),
-        (np.zeros(147), "BAD_SHAPE"),
-        (np.zeros((49, 2)), "BAD_SHAPE"),
-        (np.full((49, 3), np.inf), "BAD_OPTION"),
-        ("up", "BAD_SHAPE"),
-    ],
-    ids=["few", "flat", "pairs", "infinite", "text"],
-)
-def test_what_are_no_normals_is_refused(plate, normals, code):
-    with pytest.raises(df.FairingError) as caught:
-        df.fair(*plate, 2, normals=normals)
-    assert caught.value.code == code
 
 
 def test_shapes_have_the_same_normals():

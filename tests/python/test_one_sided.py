@@ -8,7 +8,7 @@ import pytest
 from one_sided_meshes import core, klein_bottle, strip
 from surfaces import euler_characteristic, output_faces
 from test_sheets import assert_welded, corners_of
-from tight import Solver, fair
+from tight import fair
 
 AROUND, ACROSS = 9, 2
 HALF = AROUND * (ACROSS + 1)
@@ -171,18 +171,6 @@ def test_beside_other_sheets():
     own = np.arange(len(faces) + len(at), len(all_faces))
     alone = fair(ball + [9, 0, 0], quads, 2)
     assert np.abs(corners_of(result, own) - corners_of(alone, np.arange(len(quads)))).max() <= 1e-9
-
-
-def test_shapes_and_a_solver():
-    vertices, faces = strip(AROUND, ACROSS)
-    moved = vertices + 0.1 * np.sin(3 * vertices[:, [1, 2, 0]])
-    result = fair(vertices, faces, 2, shapes=[moved])
-    solver = Solver(vertices, faces, 2)
-    assert np.array_equal(solver.solve().vertices, result.vertices)
-    assert np.abs(solver.solve(moved).vertices - result.shapes[0]).max() <= 1e-6
-    solver.rebase(moved)
-    again = fair(moved, faces, 2)
-    assert np.abs(solver.solve().vertices - again.vertices).max() <= 1e-6
 
 
 def test_as_smooth_where_it_closes_as_anywhere():

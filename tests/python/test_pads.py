@@ -24,11 +24,11 @@ def energy(result):
     return result.report["energy"]["result"]["total_curvature"] / (8 * np.pi)
 
 
-@pytest.mark.parametrize("size", (0.5, 1.0))
+@pytest.mark.parametrize("size, tension", ((0.5, 0.0), (1.0, 0.0), (0.5, 0.8)))
 @pytest.mark.parametrize("name", MESHES)
-def test_the_surface_passes_through_every_vertex(name, size):
+def test_the_surface_passes_through_every_vertex(name, size, tension):
     vertices, faces = getattr(meshes, name)()
-    result = tight.fair(vertices, faces, levels=2, pad_size=size)
+    result = tight.fair(vertices, faces, levels=2, pad_size=size, tension=tension)
     assert np.array_equal(result.vertices[: len(vertices)], vertices)
     assert result.report["converged"]
     finest = result.report["levels"][-1]

@@ -205,34 +205,13 @@ def test_normals_are_cut_out_with_pieces():
     assert not np.allclose(whole.vertices, df.fair(points, faces, 2).vertices, atol=1e-3)
 
 
-@pytest.mark.parametrize(
-    ("settings", "name"),
-    [
-        ({"symmetry_plane": "x"}, "symmetry_plane"),
-        ({"measure": True}, "measure"),
-        ({"threads": 2}, "threads"),
-        ({"memory_limit": 10**9}, "memory_limit"),
-        ({"progress": print}, "progress"),
-        ({"monitor": df.Monitor()}, "monitor"),
-    ],
-)
-def test_settings_that_exclude_pieces_are_named(settings, name):
-    with pytest.raises(df.FairingError, match=f"^{name} ") as caught:
-        cut(*torus(), **settings)
-    assert caught.value.code == "BAD_OPTION"
-
-
 def test_whatever_fair_refuses_is_refused_before_any_piece():
     points, faces = torus()
     with pytest.raises(df.FairingError) as caught:
         cut(points, np.concatenate([faces, faces[5:6]]))
     assert caught.value.code == "DUPLICATE_FACE" and sorted(caught.value.elements) == [5, 288]
-    with pytest.raises(df.FairingError, match="count is 0"):
-        cut(points, faces, count=0)
     with pytest.raises(TypeError, match="no_such"):
         cut(points, faces, no_such=1)
-    with pytest.raises(df.FairingError, match="no edge"):
-        cut(points, faces, crease_edges=[(0, 200)])
 
 
 def test_parts_that_do_not_belong_together_are_refused(tmp_path):

@@ -58,12 +58,17 @@ def test_real_meshes(name, seed, size):
     assert_sound(*cut(points, triangles, ragged(triangles, size, random.Random(seed), 0.5)))
 
 
-def test_a_first_triangulation_that_folds_is_unfolded():
-    """The ragged end of a tube: triangles between its teeth alone fold back from their tips."""
+def ragged_end():
+    """A torus without a part that begins at teeth: (points, faces, gone, i and j of the faces)."""
     points, faces = torus(96, 24)
     tooth = np.array([0, 5, 1, 7, 3, 8, 0, 6, 2, 7, 1, 4])
     i, j = np.divmod(faces[:, 0], 24)
-    gone = (i >= 40 + tooth[j % 12]) & (i < 70)
+    return points, faces, (i >= 40 + tooth[j % 12]) & (i < 70), i, j
+
+
+def test_a_first_triangulation_that_folds_is_unfolded():
+    """Triangles between the teeth alone fold back from their tips."""
+    points, faces, gone, *_ = ragged_end()
     vertices, kept = cut(points, faces, gone)
     bare = df.fill_holes(vertices, kept, joint="position", density=0)
     assert any(hole.folds for hole in bare.holes)
@@ -77,12 +82,8 @@ def test_a_first_triangulation_that_folds_is_unfolded():
 
 def test_holes_in_rounds_of_their_own_share_no_edge():
     """One hole is done after the first round, the other, around the same vertices, is not."""
-    points, faces = torus(96, 24)
-    i, j = np.divmod(faces[:, 0], 24)
-    tooth = np.array([0, 5, 1, 7, 3, 8, 0, 6, 2, 7, 1, 4])
-    gone = (i >= 40 + tooth[j % 12]) & (i < 70)
-    gone |= (i >= 36) & (i < 38) & (j < 9)
-    vertices, kept = cut(points, faces, gone)
+    points, faces, gone, i, j = ragged_end()
+    vertices, kept = cut(points, faces, gone | ((i >= 36) & (i < 38) & (j < 9)))
     filled = df.fill_holes(vertices, kept)
     assert len(filled.holes) == 3 and (uses(filled.faces) == 2).all()
     assert not [d for d in df.check(filled.vertices, filled.faces) if d.severity == "error"]

@@ -3,7 +3,6 @@
 one linear map."""
 
 import control_meshes as meshes
-import discrete_fairing as df
 import numpy as np
 import pytest
 import tight
@@ -37,9 +36,23 @@ def test_control_rows_are_exact_and_the_basis_is_the_first_surface(name):
         assert entry["converged"] and entry["residual"] <= 1e-8 and entry["largest_deviation"] == 0
 
 
-@pytest.mark.parametrize("boundary", ["curve", "linear", "free"])
-@pytest.mark.parametrize("name", SAMPLES)
-def test_mixes_are_linear(name, boundary):
+TAUT = {"tension": 0.7, "relative_residual": 1e-12}
+WEIGHTS = np.random.default_rng(3).uniform(0.5, 20, 98)
+
+
+@pytest.mark.parametrize(
+    "name, options",
+    [(name, {"boundary": kind}) for name in SAMPLES for kind in ("curve", "linear", "free")]
+    + [
+        ("icosahedron", {"method": "back_leg"}),
+        ("creature", TAUT),
+        ("creature", TAUT | {"pad_size": 0.5}),
+        ("creature", {"pad_size": 0.5, "relative_residual": 1e-12}),
+        ("creature", {"interpolation": "approximate", "weights": WEIGHTS}),
+    ],
+    ids=str,
+)
+def test_mixes_are_linear(name, options):
     vertices, faces = sample(name)
     a, b = shaken(vertices, 1), shaken(vertices, 2, 0.5) * [1, -2, 1] + [3, 0, 0]
     result = tight.fair(
@@ -47,7 +60,7 @@ def test_mixes_are_linear(name, boundary):
         faces,
         3,
         shapes=[a, b, 0.3 * a + 0.7 * b, 2 * a - b, vertices + (a - b)],
-        boundary=boundary,
+        **options,
     )
     of_a, of_b, mix, beyond, offset = result.shapes
     tolerance = 1e-6 * size_of(b)
@@ -107,18 +120,6 @@ def test_with_a_region(joint):
     assert np.abs((mix - (of_a + of_b - result.vertices))[ids]).max() < 1e-13
 
 
-def test_weights_are_linear_too():
-    vertices, faces = sample("creature")
-    a, b = shaken(vertices, 1), shaken(vertices, 2)
-    weights = np.random.default_rng(3).uniform(0.5, 20, len(vertices))
-    result = tight.fair(
-        vertices, faces, 2, interpolation="approximate", weights=weights, shapes=[a, b, (a + b) / 2]
-    )
-    of_a, of_b, mix = result.shapes
-    assert np.abs(mix - (of_a + of_b) / 2).max() < 1e-6
-    assert result.report["shapes"][0]["largest_deviation"] > 1e-3
-
-
 def test_every_shape_keeps_the_tolerance_about_its_own_places():
     vertices, faces = sample("creature")
     shapes = [shaken(vertices, k, 0.1) for k in range(3)]
@@ -149,24 +150,3 @@ def test_no_shapes():
     for none in (None, [], np.empty((0, 12, 3))):
         result = tight.fair(vertices, faces, 1, shapes=none)
         assert result.shapes == [] and result.report["shapes"] == []
-
-
-@pytest.mark.parametrize(
-    "shapes",
-    [np.zeros((12, 3)), np.zeros((1, 11, 3)), [np.zeros((12, 3)), np.zeros((5, 3))], 7, "ab"],
-)
-def test_wrong_shapes(shapes):
-    with pytest.raises(df.FairingError) as caught:
-        tight.fair(*meshes.icosahedron(), 1, shapes=shapes)
-    assert caught.value.code == "BAD_SHAPE"
-
-
-def test_shapes_that_are_not_finite():
-    vertices, faces = meshes.icosahedron()
-    bad = vertices.copy()
-    bad[[3, 7], 1] = np.nan, np.inf
-    with pytest.raises(df.FairingError) as caught:
-        tight.fair(vertices, faces, 1, shapes=[vertices, bad])
-    error = caught.value
-    assert (error.code, error.elements, error.kind) == ("NON_FINITE", [3, 7], "vertex")
-    assert "shape 1" in str(error)

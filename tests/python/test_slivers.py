@@ -66,11 +66,3 @@ def test_lines_serve_total_curvature():
     assert level["work"]["iterations"] <= 55
     radii = np.linalg.norm(result.vertices, axis=1)
     assert np.abs(radii / np.linalg.norm(hull[0][0]) - 1).max() < 1e-5
-
-
-def test_minimum_variation_goes_on_where_total_curvature_began():
-    hull = random_hull(20)
-    result = fair(*hull, 5, energy="minimum_variation", measure=False)
-    assert result.report["curvature"][-1]["converged"]
-    radii = np.linalg.norm(result.vertices, axis=1)
-    assert np.abs(radii / np.linalg.norm(hull[0][0]) - 1).max() < 1e-6

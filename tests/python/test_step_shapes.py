@@ -130,14 +130,16 @@ def test_the_volume_within_a_lattice_is_that_of_its_sphere():
 
 def test_names_and_colours(tmp_path):
     patches = fitted(CLOSED[0].values[0])
+    names = ["a')b", "a',b", "a''b", "'", "');", "\\X2\\0041\\X0\\", "a\nb", "Größe 'a' \\ 面 🙂"]
     shades = np.linspace(0, 1, 18).reshape(6, 3)
     df.write_step(
         tmp_path / "a.step",
-        [patches, patches],
-        names=["Größe 'a' \\ 面 🙂", "two"],
-        colours=[(1, 0.5, 0.25), shades],
+        [patches] * len(names),
+        names=names,
+        colours=[(1, 0.5, 0.25), *[shades] * (len(names) - 1)],
     )
-    first, second = step_seams.names_and_colours(tmp_path / "a.step")
-    assert first[0] == "Größe 'a' \\ 面 🙂" and second[0] == "two"
-    assert np.allclose(first[1], [(1, 0.5, 0.25)], atol=1e-3)
-    assert np.allclose(second[1], shades, atol=1e-3)
+    read = step_seams.names_and_colours(tmp_path / "a.step")
+    assert [name for name, _ in read] == names
+    assert np.allclose(read[0][1], [(1, 0.5, 0.25)], atol=1e-3)
+    for _, found in read[1:]:
+        assert np.allclose(found, shades, atol=1e-3)

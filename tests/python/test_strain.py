@@ -215,21 +215,6 @@ def test_half_a_torus_has_the_strain_of_the_whole():
     )
 
 
-@pytest.mark.parametrize(
-    "settings, words",
-    [
-        ({"energy": "minimum_variation"}, "no pads"),
-        ({"energy": "total_curvature"}, "thin plate"),
-        ({"interpolation": "approximate", "tolerance": 0.1}, "exact"),
-        ({"pad_size": 0.0}, "pads"),
-    ],
-)
-def test_what_has_no_loads_says_why(settings, words):
-    with pytest.raises(df.FairingError, match=words) as caught:
-        df.strain(*control_meshes.cube(), **settings)
-    assert caught.value.code == "BAD_OPTION"
-
-
 @pytest.mark.parametrize("call", [df.strain, df.ease])
 def test_a_matrix_beyond_the_memory_limit_is_refused(call):
     points, faces = control_meshes.torus(80, 60)
