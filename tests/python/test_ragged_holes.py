@@ -103,3 +103,15 @@ def test_noise_that_folds_a_rim_costs_no_second_round(monkeypatch):
     assert (uses(filled.faces) == 2).all()
     assert [hole.folds for hole in filled.holes] == [1, 1, 0, 0]
     assert len(runs) == 8  # 10 with second rounds
+
+
+def test_noise_at_a_rim_leaves_no_more_folds_than_any_triangles():
+    """A third of an edge: fillings fold, and bare triangles take the place of those that would not."""
+    rng = random.Random(0)
+    points, faces = torus(120, 60)
+    gone = np.any([ragged(faces, rng.choice([60, 150]), rng, 0.9) for _ in range(4)], axis=0)
+    vertices, kept = cut(points, faces, gone)
+    noise = 0.03 * np.random.default_rng(0).normal(size=vertices.shape)
+    filled = df.fill_holes(vertices + noise, kept)
+    assert len(filled.holes) == 4 and (uses(filled.faces) == 2).all()
+    assert sum(hole.folds > 0 for hole in filled.holes) == 3

@@ -50,6 +50,7 @@ def test_properties_and_bytes():
         3,
         "thin_plate",
     )
+    assert "162 control vertices" in repr(solver)
     built = solver.bytes
     solver.solve()
     for k in range(2):
