@@ -36,34 +36,6 @@ TEST(Workers, visit_every_index_once) {
   }
 }
 
-TEST(Workers, hand_out_small_parts_of_long_ranges) {
-  for (const int threads : {1, 3}) {
-    Workers workers(threads);
-    std::atomic<std::size_t> largest{0};
-    workers.for_parts(std::size_t(1) << 30, 1024, [&](std::size_t begin, std::size_t end) {
-      std::size_t so_far = largest.load();
-      while (end - begin > so_far && !largest.compare_exchange_weak(so_far, end - begin)) {
-      }
-    });
-    EXPECT_LE(largest.load(), std::size_t(1) << 15);
-  }
-}
-
-TEST(Workers, begin_no_part_of_a_cancelled_run) {
-  for (const int threads : {1, 3}) {
-    Workers workers(threads);
-    Monitor monitor;
-    const CancelScope scope(&monitor);
-    monitor.cancel();
-    std::atomic<int> begun{0};
-    EXPECT_EQ(thrown([&] {
-                workers.for_parts(size, 1, [&](std::size_t, std::size_t) { ++begun; });
-              }).code,
-              ErrorCode::cancelled);
-    EXPECT_EQ(begun.load(), 0);
-  }
-}
-
 // Each thread may have begun one part before it could know.
 TEST(Workers, stop_between_parts) {
   for (const int threads : {1, 3}) {
@@ -118,15 +90,6 @@ TEST(Workers, rethrow_the_first_failure_and_leave_out_the_rest) {
     EXPECT_LE(begun.load(), threads);
     EXPECT_EQ(visits(workers, size, 1), std::vector<int>(size, 1));
   }
-}
-
-TEST(Cancel, counts_questions) {
-  Monitor monitor;
-  monitor.cancel_at_question(3);
-  EXPECT_NO_THROW(monitor.check_cancelled());
-  EXPECT_NO_THROW(monitor.check_cancelled());
-  for (int again = 0; again < 2; ++again)
-    EXPECT_EQ(thrown([&] { monitor.check_cancelled(); }).code, ErrorCode::cancelled);
 }
 
 struct Job {

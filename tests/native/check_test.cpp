@@ -22,15 +22,6 @@ void expect_refused(const OwnedPolygonMesh& mesh, ErrorCode code, const Ids& ele
   EXPECT_GT(std::string(error.what()).size(), 20u);
 }
 
-TEST(Check, EveryCodeHasItsOwnName) {
-  std::vector<std::string> names;
-  for (int code = 0; code <= int(ErrorCode::cancelled); ++code)
-    names.push_back(name(ErrorCode(code)));
-  std::sort(names.begin(), names.end());
-  EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end());
-  EXPECT_EQ(std::count(names.begin(), names.end(), "UNKNOWN"), 0);
-}
-
 TEST(Check, Shapes) {
   OwnedPolygonMesh mesh = two_triangles();
   mesh.coordinates.pop_back();
@@ -44,29 +35,6 @@ TEST(Check, Shapes) {
   mesh = two_triangles();
   mesh.offsets = {0, 3, 3, 4, 6};
   expect_refused(mesh, ErrorCode::bad_shape, {1, 2, 3});
-}
-
-void expect_warned(const OwnedPolygonMesh& mesh, const char* code, const Ids& elements) {
-  const CheckResult result = check(mesh.view());
-  ASSERT_EQ(result.warnings.size(), 1u);
-  EXPECT_EQ(result.warnings[0].code, code);
-  EXPECT_EQ(result.warnings[0].elements, elements);
-}
-
-TEST(Check, SheetsMayTouchAtVertices) {
-  expect_warned(two_fans(), "NONMANIFOLD_VERTEX", {0});
-  expect_warned(hourglass(), "NONMANIFOLD_VERTEX", {0});
-  OwnedPolygonMesh mixed = hourglass();  // a closed and an open fan
-  mixed.corners.resize(21);
-  mixed.offsets.resize(8);
-  mixed.corners.resize(18);
-  mixed.offsets.resize(7);
-  expect_warned(mixed, "NONMANIFOLD_VERTEX", {0});
-  // Fans are counted whichever way the faces run.
-  OwnedPolygonMesh turned = fan(6);
-  std::swap(turned.corners[1], turned.corners[2]);
-  std::swap(turned.corners[7], turned.corners[8]);
-  EXPECT_EQ(check(turned.view(), {.repair = true}).flipped_faces, (Ids{0, 2}));
 }
 
 TEST(Check, Orientation) {

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "curvature/level.h"
-#include "fairing/fair.h"
 #include "grid/linear.h"
 #include "meshes.h"
 #include "random.h"
@@ -180,27 +179,6 @@ TEST(PointNormal, FollowsASphereToFourthOrder) {
     }
     before = worst;
   }
-}
-
-TEST(TotalCurvatureSurface, IsASphereWhereTheControlMeshIsInscribed) {
-  for (const Energy energy : {Energy::total_curvature, Energy::minimum_variation})
-    for (const auto& [name, control] : meshes_of_all_kinds()) {
-      if (name == "dodecahedron") continue;  // its pentagons are split in their planes
-      SCOPED_TRACE(name);
-      OwnedPolygonMesh mesh = control;
-      for (std::size_t i = 0; i < mesh.coordinates.size(); i += 3)
-        Eigen::Map<Vec3>(mesh.coordinates.data() + i).normalize();
-      FairOptions options;
-      options.energy = energy;
-      options.levels = 3;
-      Monitor monitor;
-      const FairResult result = fair(mesh.view(), options, monitor);
-      double most = 0;
-      for (std::size_t i = 0; i < result.vertices.size(); i += 3)
-        most =
-            std::max(most, std::abs(Eigen::Map<const Vec3>(result.vertices.data() + i).norm() - 1));
-      EXPECT_LT(most, 1e-5);
-    }
 }
 
 }  // namespace

@@ -7,11 +7,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "curves/feature_curves.h"
-#include "mesh/validate/check.h"
-#include "meshes.h"
 #include "random.h"
 
 namespace fairing::test {
@@ -95,32 +91,6 @@ TEST(Curve, MinimizesTheSquaredSecondDividedDifferences) {
         }
 }
 
-TEST(Curve, ReproducesStraightLines) {
-  const Points chain{{0, 0, 0}, {1, 2, 3}, {3, 6, 9}, {3.5, 7, 10.5}};
-  const Points points = refine_chain(chain, false, 4, 1.0);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const std::size_t s = i / 3;
-    EXPECT_LT((points[i] - (chain[s] + (double(i % 3 + 1) / 4) * (chain[s + 1] - chain[s]))).norm(),
-              1e-14);
-  }
-}
-
-// Fourth order, as a periodic cubic spline.
-TEST(Curve, ApproximatesTheCircle) {
-  double last = 1;
-  for (const int count : {8, 16, 32}) {
-    Points circle;
-    for (int i = 0; i < count; ++i)
-      circle.emplace_back(std::cos(2 * std::numbers::pi * i / count),
-                          std::sin(2 * std::numbers::pi * i / count), 0);
-    double error = 0;
-    for (const Vec3& p : refine_chain(circle, true, 64, 0.5))
-      error = std::max(error, std::abs(p.norm() - 1));
-    EXPECT_LT(error, last / 14);
-    last = error;
-  }
-}
-
 Points reversed_result(Points points) {
   std::reverse(points.begin(), points.end());
   return points;
@@ -167,32 +137,6 @@ TEST(Curve, StrandsAtTheSamePlaceAgree) {
   for (std::size_t i = 4; i > 0; --i) slit.push_back(slit[i]);
   const Points points = refine_chain(slit, true, 4, 0.5);
   EXPECT_EQ(points, reversed_result(points));
-}
-
-ControlMesh build(const OwnedPolygonMesh& mesh, const FeatureOptions& features) {
-  check(mesh.view());
-  return make_control_mesh(mesh.view(), features);
-}
-
-TEST(FeatureCurves, RunsFollowTheirEdges) {
-  OwnedPolygonMesh cylinder = open_cylinder(6);
-  for (std::size_t i = 2; i < cylinder.coordinates.size(); i += 3)
-    cylinder.coordinates[i] += 0.3 * std::sin(double(i));
-  const ControlMesh mesh = build(cylinder, {.crease_edges = {{0, 1}}});
-  const FeatureCurves curves = refine_feature_edges(mesh, 8, 0.5);
-  std::size_t runs = 0;
-  for (Index e = 0; e < Index(mesh.edges.size()); ++e) {
-    EXPECT_EQ(curves.run[std::size_t(e)] >= 0, mesh.feature_edge[std::size_t(e)] != 0);
-    if (curves.run[std::size_t(e)] < 0) continue;
-    ++runs;
-    const auto run = curves.of(e);
-    const Vec3& a = mesh.positions[std::size_t(mesh.edges[std::size_t(e)].vertex[0])];
-    const Vec3& b = mesh.positions[std::size_t(mesh.edges[std::size_t(e)].vertex[1])];
-    ASSERT_EQ(run.size(), 7u);
-    EXPECT_LT((run.front() - a).norm(), (run.back() - a).norm());
-    EXPECT_LT((run.back() - b).norm(), (run.front() - b).norm());
-  }
-  EXPECT_EQ(curves.points.size(), 7 * runs);
 }
 
 }  // namespace

@@ -12,22 +12,6 @@
 namespace fairing::test {
 namespace {
 
-std::vector<HoleLoop> holes_of(const OwnedPolygonMesh& mesh) {
-  const HalfEdges half_edges(mesh.view());
-  return find_holes(mesh.view(), half_edges).loops;
-}
-
-TEST(Fill, LoopsOfHoles) {
-  EXPECT_TRUE(holes_of(cube()).empty());
-  EXPECT_TRUE(holes_of(single_quad()).empty());
-  EXPECT_EQ(holes_of(open_cylinder(7)).size(), 2u);
-  const std::vector<HoleLoop> border = holes_of(grid(2, 1));
-  ASSERT_EQ(border.size(), 1u);
-  EXPECT_EQ(border[0].size(), 6u);
-  EXPECT_EQ(border[0][0], 0);
-  EXPECT_TRUE(holes_of(three_on_an_edge()).empty());
-}
-
 SpacePolygon circle(std::size_t corners) {
   SpacePolygon polygon;
   for (std::size_t i = 0; i < corners; ++i) {
@@ -79,24 +63,6 @@ TEST(Fill, ChordsThatMayNotBe) {
   for (const Triangle& t : found) EXPECT_TRUE(t[0] == 1 || t[1] == 1 || t[2] == 1);
   polygon.may_join = [](std::size_t, std::size_t) { return false; };
   EXPECT_TRUE(triangulate(polygon).empty());
-}
-
-TEST(Fill, RefinedTrianglesAreNearlyEquilateral) {
-  const SpacePolygon polygon = circle(60);
-  Patch patch{polygon.points, std::vector<double>(60, 0.1), 60, triangulate(polygon), {}};
-  refine(patch, [](Index, Index) { return false; }, Relaxation::taut);
-  for (std::size_t i = 0; i < 60; ++i) EXPECT_EQ(patch.points[i], polygon.points[i]);
-  double sum = 0;
-  for (const Triangle& t : patch.triangles) {
-    Vec3 p[3];
-    for (std::size_t i = 0; i < 3; ++i) p[i] = patch.points[std::size_t(t[i])];
-    sum += (p[1] - p[0]).cross(p[2] - p[0]).z() / 2;
-    for (int i = 0; i < 3; ++i) {
-      const Vec3 u = (p[(i + 1) % 3] - p[i]).normalized(), v = (p[(i + 2) % 3] - p[i]).normalized();
-      EXPECT_LT(u.dot(v), std::cos(0.45));  // 26 degrees
-    }
-  }
-  EXPECT_NEAR(sum, 30 * std::sin(2 * std::acos(-1.0) / 60), 1e-9);
 }
 
 // A comb of long teeth on a saddle: the mean of a point's neighbours often lies beyond the rim.

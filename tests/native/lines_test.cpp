@@ -212,19 +212,5 @@ TEST(Lines, StayDefiniteWhereTheyTurnBack) {
   EXPECT_LT(eigen.eigenvalues()(11), 1 + 1e-4);  // B is no less than K
 }
 
-TEST(Lines, AreNoneOnEvenFaces) {
-  const ControlMesh mesh = control(octahedron());
-  const GridLevel grid(mesh, 4);
-  Workers workers(1);
-  const auto charts = charts_of()(mesh);
-  const Stencils stencils = make_stencils(mesh, *charts, workers);
-  const Unknowns unknowns = some_points(mesh, 0);
-  const Array<float> inverse = inverse_of(
-      over_points(assemble_thin_plate(grid, stencils, unknowns, {}, workers), grid.size()));
-  LineBand band(grid.size());
-  write_plate_lines(grid, stencils, unknowns, inverse, workers, band);
-  EXPECT_EQ(band.lines(), 0u);
-}
-
 }  // namespace
 }  // namespace fairing::test

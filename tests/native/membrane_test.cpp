@@ -122,14 +122,6 @@ TEST(Membrane, BlendsTheChartsWeights) {
   });
 }
 
-TEST(Membrane, IsPositive) {
-  on_all_stretched(1, 1, {}, [](const Stretched& s, Workers&) {
-    const Dense l = reference(s.grid, 1);
-    const Eigen::SelfAdjointEigenSolver<Dense> eigen(l);
-    EXPECT_GT(eigen.eigenvalues().minCoeff(), -1e-12 * l.norm());
-  });
-}
-
 TEST(Membrane, IsAppliedByPassesAsItIsAssembled) {
   on_all_stretched(3, centripetal, {}, [](const Stretched& s, Workers& workers) {
     const Dense all = assembled(s, s.tense, all_points(s.mesh));
@@ -194,21 +186,6 @@ TEST(Membrane, HasItsDiagonalRowsAndEnergy) {
     EXPECT_EQ(thin_plate_energy(s.grid, s.tense, workers, free.data()),
               thin_plate_energy(s.grid, s.plain, workers, free.data()));
   });
-}
-
-// Of a map that is linear on each control face the integral is the same on all levels.
-TEST(Membrane, HasOneEnergyOnAllLevels) {
-  Workers workers(1);
-  const ControlMesh mesh = control(shaken(icosahedron()));
-  const Stencils stencils = make_stencils(mesh, ChartMaker(mesh), workers, tau);
-  std::vector<double> energies;
-  for (int level = 0; level <= 4; ++level) {
-    const GridLevel grid(mesh, level);
-    Array<double> x(3 * grid.size());
-    refine_linearly(grid, mesh.positions, workers, x.data());
-    energies.push_back(membrane_energy(grid, stencils, workers, x.data()));
-    EXPECT_NEAR(energies.back(), energies.front(), 1e-12 * energies.front()) << level;
-  }
 }
 
 // Only the faces that are faired stretch a membrane, and their edges give its unit.

@@ -5,16 +5,11 @@
 
 #include <algorithm>
 
-#include "mesh/validate/check.h"
 #include "meshes.h"
 #include "parallel/cancel.h"
-#include "parallel/memory.h"
 
 namespace fairing::test {
 namespace {
-
-using Ids = std::vector<std::int64_t>;
-using Indices = std::vector<Index>;
 
 std::vector<Polygon> faces_of(const MendedMesh& mended) {
   std::vector<Polygon> faces;
@@ -28,30 +23,6 @@ std::vector<Polygon> faces_of(const MendedMesh& mended) {
 OwnedPolygonMesh cap() {
   return make_mesh({{0, 0, 0}, {4, 0, 0}, {2, 3, 1}, {2, -3, 1}, {1, 0, 0}},
                    {{0, 1, 2}, {0, 4, 1}, {4, 0, 3}, {1, 4, 3}});
-}
-
-TEST(Mend, CountsWhatItTakesInPassing) {
-  OwnedPolygonMesh mesh = torus(60, 40);
-  const std::vector<std::int64_t> first(mesh.corners.begin(), mesh.corners.begin() + 4);
-  mesh.corners.insert(mesh.corners.end(), first.begin(), first.end());
-  mesh.offsets.push_back(std::int64_t(mesh.corners.size()));
-  const MemoryLedger ledger;
-  const std::size_t result = mend(mesh.view()).bytes(), corners = mesh.corners.size();
-  // The faces' loops: of each corner a vertex and where it comes from.
-  EXPECT_GE(ledger.peak(), result + 20 * corners);
-  EXPECT_LE(ledger.peak(), result + 60 * corners);
-  EXPECT_EQ(ledger.current(), 0u);
-}
-
-TEST(Mend, LeavesAloneWhatIsSoundOrNotItsBusiness) {
-  for (const OwnedPolygonMesh& mesh :
-       {tetrahedron(), cube(), dodecahedron(), torus(6, 5), fan(360), grid(4, 3), open_cone(7),
-        u_shape(), quad_doublet(), mobius(5), two_fans(), hourglass(), three_on_an_edge(),
-        flipped_cube_face()}) {
-    const MendedMesh mended = mend(mesh.view());
-    EXPECT_FALSE(mended.changed());
-    EXPECT_TRUE(mended.mesh.corners.empty());
-  }
 }
 
 TEST(Mend, AllFacesAcrossASideGetItsVertex) {
@@ -110,18 +81,6 @@ TEST(Mend, AStackOfFlatFacesOnOneEdgeTakesLinearTime) {
   ASSERT_EQ(faces[0].size(), std::size_t(count + 2));
   for (std::size_t i = 0; i <= count; ++i)
     EXPECT_EQ(mesh.coordinates[3 * std::size_t(faces[0][i])], double(i)) << "in order";
-}
-
-TEST(Mend, WeldingJoinsEachVertexWithTheLowestInReach) {
-  const OwnedPolygonMesh mesh =
-      make_mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 1e-3}, {0, 1, 0}, {1, 1, 0}},
-                {{0, 1, 2}, {3, 5, 4}});
-  EXPECT_FALSE(mend(mesh.view()).changed());
-  EXPECT_EQ(mend(mesh.view(), {.weld = 0}).vertex_origin, (Indices{0, 1, 2, 3, 2, 5}));
-  const MendedMesh welded = mend(mesh.view(), {.weld = 2e-3});
-  EXPECT_EQ(welded.vertex_origin, (Indices{0, 1, 2, 1, 2, 5}));
-  EXPECT_EQ(welded.mesh.coordinates[11], 0) << "the merged vertex goes where the other is";
-  EXPECT_EQ(faces_of(welded), (std::vector<Polygon>{{0, 1, 2}, {1, 5, 2}}));
 }
 
 TEST(Mend, CanBeCancelledAtEveryQuestion) {

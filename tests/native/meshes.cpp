@@ -263,17 +263,6 @@ OwnedPolygonMesh mobius(int quads) {
   return make_mesh(points, faces);
 }
 
-OwnedPolygonMesh two_fans() {
-  return make_mesh({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}},
-                   {{0, 1, 2}, {0, 3, 4}});
-}
-
-OwnedPolygonMesh hourglass() {
-  return make_mesh(
-      {{0, 0, 0}, {1, 0, 1}, {-1, 1, 1}, {-1, -1, 1}, {1, 0, -1}, {-1, 1, -1}, {-1, -1, -1}},
-      {{0, 1, 3}, {0, 2, 1}, {0, 3, 2}, {1, 2, 3}, {0, 6, 4}, {0, 4, 5}, {0, 5, 6}, {4, 6, 5}});
-}
-
 OwnedPolygonMesh three_on_an_edge() {
   return make_mesh({{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {-1, 1, 0}, {-1, -1, 0}},
                    {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}});

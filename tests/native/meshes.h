@@ -53,8 +53,6 @@ OwnedPolygonMesh warped_quad(double height);  // a unit square with two opposite
 OwnedPolygonMesh quad_doublet();              // two quads around the interior vertex 1 of valence 2
 
 // Several sheets.
-OwnedPolygonMesh two_fans();          // two triangles that touch in vertex 0
-OwnedPolygonMesh hourglass();         // two tetrahedra that touch in vertex 0
 OwnedPolygonMesh three_on_an_edge();  // three triangles on the edge 0-1
 OwnedPolygonMesh two_cubes();         // with the edge 2-6 in common
 OwnedPolygonMesh plate_with_fins();   // two fins that cross on a grid of 4 by 4, in vertex 12

@@ -87,15 +87,6 @@ TEST(Mirror, OfSymmetricMeshes) {
     }
 }
 
-TEST(Mirror, CoordinatePlanesAreExact) {
-  for (const Mirror& mirror : mirrors(working(control(torus(8, 6))))) {
-    EXPECT_EQ(mirror.plane.offset, 0);
-    EXPECT_EQ(mirror.plane.normal.cwiseAbs().sum(), 1);
-    const Vec3 p(0.1, 0.7, -0.3);
-    EXPECT_EQ(mirror.plane.image(p).cwiseAbs(), p.cwiseAbs());
-  }
-}
-
 TEST(Mirror, NoneWhereAVertexIsOff) {
   ControlMesh mesh = working(control(cube()));
   mesh.positions[6] *= 1 - 1e-9;

@@ -88,14 +88,5 @@ TEST(NormalMatrix, DoesWhatThePassesDo) {
   });
 }
 
-TEST(NormalMatrix, IsNotForLargeRingsNorLargeFaces) {
-  const ControlMesh mesh = make_control_mesh(octahedron().view(), {});
-  const GridLevel fine(mesh, 5);
-  EXPECT_FALSE(NormalMatrix::suits(RingJacobian(fine)));
-  const ControlMesh spokes = make_control_mesh(fan(400).view(), {});
-  const GridLevel coarse(spokes, 1);
-  EXPECT_FALSE(NormalMatrix::suits(RingJacobian(coarse)));
-}
-
 }  // namespace
 }  // namespace fairing::test

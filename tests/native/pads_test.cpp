@@ -3,14 +3,12 @@
 // them.
 #include "constraints/pads.h"
 #include "constraints/diverged.h"
-#include "constraints/pad_reach.h"
 
 #include <gtest/gtest.h>
 
 #include "constraints/multipliers.h"
 #include "curvature/total_curvature.h"
 #include "fairing/systems.h"
-#include "fairing/warnings.h"
 #include "grid/linear.h"
 #include "meshes.h"
 #include "parallel/reductions.h"
@@ -181,14 +179,6 @@ TEST(Pads, StepsSolveWhatPlainCorrectionsDoNot) {
   EXPECT_LT(std::sqrt(left), 1e-6);
 }
 
-TEST(Pads, AGapThatStaysOpenIsTold) {
-  Report report;
-  report.levels.emplace_back().constraint_gap = 2 * gap_wanted;
-  warn_unconverged(report, {}, "", report);
-  ASSERT_EQ(report.warnings.size(), 1u);
-  EXPECT_NE(report.warnings[0].message.cause.find("tolerance is kept"), std::string::npos);
-}
-
 TEST(Pads, GoAlone) {
   const ControlMesh mesh = make_control_mesh(torus(6, 5).view(), {});
   Workers workers(1);
@@ -216,39 +206,6 @@ TEST(Pads, GoAlone) {
   EXPECT_FALSE(pads.rows().any_vertex);
 }
 
-TEST(Pads, ReachALengthAlongAllEdges) {
-  const ControlMesh mesh = make_control_mesh(grid(5, 4).view(), {});
-  ControlMesh stretched = mesh;
-  for (Vec3& p : stretched.positions) p[0] *= 10;
-  const std::vector<std::array<double, 2>> even = pad_reaches(mesh),
-                                           uneven = pad_reaches(stretched);
-  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
-    const auto [a, b] = mesh.edges[e].vertex;
-    const bool is_long =
-        stretched.positions[std::size_t(a)][0] != stretched.positions[std::size_t(b)][0];
-    for (std::size_t h = 0; h < 2; ++h) {
-      EXPECT_NEAR(even[e][h], 1, 1e-12);
-      EXPECT_NEAR(uneven[e][h], is_long ? 0.15 : 1, 1e-12);
-    }
-  }
-}
-
-// As an arc does along a cube's edges; a corner beside a flat place is no arc.
-TEST(Pads, ReachAlongArcs) {
-  for (const auto& [ahead, back] : pad_reaches(make_control_mesh(cube().view(), {}))) {
-    EXPECT_NEAR(ahead, 1, 1e-12);
-    EXPECT_NEAR(back, 1, 1e-12);
-  }
-  OwnedPolygonMesh bent = grid(5, 4);
-  for (std::size_t v = 0; v < bent.coordinates.size() / 3; ++v)
-    bent.coordinates[3 * v + 2] = 2 * std::max(0.0, bent.coordinates[3 * v] - 2);
-  double least = 1;
-  for (const auto& [ahead, back] : pad_reaches(make_control_mesh(bent.view(), {})))
-    least = std::min({least, ahead, back});
-  EXPECT_LT(least, 0.8);
-  EXPECT_GT(least, 0);
-}
-
 TEST(Pads, ThrownStarsAreFound) {
   const ControlMesh mesh = make_control_mesh(torus(8, 6).view(), {});
   Workers workers(2);
@@ -263,20 +220,6 @@ TEST(Pads, ThrownStarsAreFound) {
     std::sort(corners.begin(), corners.end());
     EXPECT_EQ(diverged_stars(grid, workers, mesh.positions, x.data()), corners);
   }
-}
-
-TEST(Pads, StandOffCurvesOnly) {
-  FeatureOptions features;
-  const ControlMesh plain = make_control_mesh(cube().view(), {});
-  for (const std::size_t e : {0, 1})
-    features.crease_edges.push_back({plain.edges[e].vertex[0], plain.edges[e].vertex[1]});
-  const ControlMesh mesh = make_control_mesh(cube().view(), features);
-  Workers workers(1);
-  const Pads pads(mesh, ChartMaker(mesh), all_but_vertices(mesh), 0.5, workers);
-  for (std::size_t v = 0; v < 8; ++v) EXPECT_EQ(pads.under(v), mesh.feature_vertex[v] == 0);
-  EXPECT_TRUE(pads.any());
-  const ControlMesh open = make_control_mesh(single_quad().view(), {});
-  EXPECT_FALSE(Pads(open, ChartMaker(open), all_but_vertices(open), 0.5, workers).any());
 }
 
 // K x = Omega phi f on all points off curves, control vertices included.

@@ -9,7 +9,6 @@
 #include "random.h"
 #include "stencil/weights.h"
 #include "thin_plate/matrix.h"
-#include "thrown.h"
 
 namespace fairing::test {
 namespace {
@@ -60,34 +59,6 @@ std::vector<ControlMesh> all_samples() {
        {RegionContinuity::position, RegionContinuity::tangent, RegionContinuity::curvature})
     for (ControlMesh& mesh : samples(joint)) all.push_back(std::move(mesh));
   return all;
-}
-
-TEST(Region, Places) {
-  const ControlMesh mesh = control(grid(3, 3), {3, 4}, RegionContinuity::curvature);
-  EXPECT_EQ(std::count(mesh.region.face.begin(), mesh.region.face.end(), RegionPart::inside), 2);
-  EXPECT_EQ(std::count(mesh.region.edge.begin(), mesh.region.edge.end(), RegionPart::joint), 5);
-  EXPECT_EQ(std::count(mesh.region.edge.begin(), mesh.region.edge.end(), RegionPart::inside), 2);
-  EXPECT_EQ(std::count(mesh.region.vertex.begin(), mesh.region.vertex.end(), RegionPart::joint), 6);
-  EXPECT_EQ(std::count(mesh.region.vertex.begin(), mesh.region.vertex.end(), RegionPart::inside),
-            0);
-  for (std::size_t e = 0; e < mesh.edges.size(); ++e)
-    EXPECT_EQ(mesh.region.clamped_edge[e] != 0, mesh.region.edge[e] == RegionPart::joint);
-  // the one edge on the boundary is a curve of its own, and ends at the joint
-  std::size_t curves = 0;
-  for (const Chain& chain : mesh.chains) curves += chain.edges.size();
-  EXPECT_EQ(curves, 1u);
-}
-
-TEST(Region, AllFacesAreNone) {
-  EXPECT_TRUE(control(cube(), {5, 4, 3, 2, 1, 0, 0}, RegionContinuity::tangent).region.whole());
-}
-
-TEST(Region, Refusals) {
-  EXPECT_EQ(thrown([] { control(cube(), {}, RegionContinuity::tangent); }).code,
-            ErrorCode::bad_option);
-  const FairingError error = thrown([] { control(cube(), {6, 2, -1}, RegionContinuity::tangent); });
-  EXPECT_EQ(error.code, ErrorCode::index_out_of_range);
-  EXPECT_EQ(error.elements, (std::vector<std::int64_t>{6, -1}));
 }
 
 // One edge has one factor at a point, whichever of its faces is asked.

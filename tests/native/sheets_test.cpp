@@ -7,16 +7,12 @@
 #include <set>
 
 #include "control_mesh_invariants.h"
-#include "curves/feature_curves.h"
-#include "fairing/joined_sheets.h"
 #include "fairing/output.h"
 #include "mesh/validate/check.h"
 #include "meshes.h"
 
 namespace fairing::test {
 namespace {
-
-using Ids = std::vector<Index>;
 
 ControlMesh build(const OwnedPolygonMesh& mesh, const FeatureOptions& features = {}) {
   check(mesh.view());
@@ -33,48 +29,6 @@ std::multiset<std::size_t> lengths_of_meetings(const ControlMesh& mesh) {
   return lengths;
 }
 
-TEST(Sheets, ThreePagesAtASpine) {
-  const ControlMesh mesh = build(three_on_an_edge());
-  EXPECT_EQ(mesh.copies.vertex, (Ids{0, 0, 1, 1}));
-  EXPECT_EQ(mesh.copies.edge.size(), 2u);
-  EXPECT_EQ(mesh.edges.size(), 9u);
-  EXPECT_EQ(number_sheets(mesh).count, 3);
-  EXPECT_EQ(lengths_of_meetings(mesh), (std::multiset<std::size_t>{1}));
-  EXPECT_EQ(mesh.chains.size(), 4u);  // each page's boundary ends at the spine
-  const JoinedVertices joined(mesh);
-  for (const Index v : {0, 5, 6}) EXPECT_EQ(joined.first(v), 0);
-  for (const Index v : {1, 7, 8}) EXPECT_EQ(joined.first(v), 1);
-}
-
-TEST(Sheets, CubesThatShareAnEdge) {
-  const ControlMesh mesh = build(two_cubes());
-  EXPECT_EQ(mesh.copies.vertex, (Ids{2, 6}));
-  // Each cube closes again along the edge, which is a crease of both.
-  ASSERT_EQ(mesh.copies.edge.size(), 1u);
-  EXPECT_FALSE(mesh.edges.back().boundary());
-  EXPECT_EQ(number_sheets(mesh).count, 2);
-  EXPECT_EQ(lengths_of_meetings(mesh), (std::multiset<std::size_t>{1}));
-  EXPECT_EQ(crease_edges(mesh).size(), 2u);
-}
-
-TEST(Sheets, AMobiusStripIsThereTwice) {
-  const ControlMesh mesh = build(mobius(5));
-  EXPECT_EQ(mesh.copies.vertex.size(), 10u);
-  EXPECT_EQ(mesh.copies.second, std::vector<std::uint8_t>(10, 1));
-  EXPECT_EQ(mesh.copies.face, (Ids{0, 1, 2, 3, 4}));
-  EXPECT_EQ(mesh.copies.edge.size(), 15u);
-  EXPECT_EQ(number_sheets(mesh).count, 1);
-  ASSERT_EQ(mesh.chains.size(), 1u);  // one boundary
-  EXPECT_TRUE(mesh.chains[0].closed);
-  EXPECT_EQ(mesh.chains[0].edges.size(), 10u);
-  for (Index e = 0; e < Index(mesh.edges.size()); ++e) EXPECT_FALSE(mesh.nonmanifold(e));
-  EXPECT_TRUE(crease_edges(mesh).empty());
-  for (int level = 0; level < 4; ++level) {
-    const GridLevel grid(mesh, level);
-    EXPECT_EQ(JoinedSheets(grid).size(), std::size_t(grid_size(10, 15, 0, 5, level)));
-  }
-}
-
 TEST(Sheets, BothHalvesOfACoverHaveTheSameBoundary) {
   const ControlMesh whole = build(mobius(5));
   const Edge& some = whole.edges[std::size_t(whole.chains.at(0).edges[3])];
@@ -86,23 +40,6 @@ TEST(Sheets, BothHalvesOfACoverHaveTheSameBoundary) {
   EXPECT_EQ(mesh.chains[0].edges.size(), 9u);
   EXPECT_EQ(std::count(whole.feature_edge.begin(), whole.feature_edge.end(), 1) - 2,
             std::count(mesh.feature_edge.begin(), mesh.feature_edge.end(), 1));
-}
-
-TEST(Sheets, ConesThatTouchInAPoint) {
-  const ControlMesh mesh = build(hourglass());
-  EXPECT_EQ(mesh.copies.vertex, (Ids{0}));
-  EXPECT_TRUE(mesh.copies.edge.empty() && mesh.chains.empty());
-  EXPECT_TRUE(mesh.shared(0) && mesh.shared(mesh.input_vertices) && !mesh.shared(1));
-  EXPECT_TRUE(mesh.interior(0) && mesh.interior(mesh.input_vertices));
-  EXPECT_TRUE(mesh.vertex_fit(0));
-  const JoinedVertices joined(mesh);
-  EXPECT_NE(joined.first(0), joined.first(mesh.input_vertices));
-}
-
-// Sheets that only touch leave each other's boundaries alone.
-TEST(Sheets, BoundariesRunThroughAPointTheyTouchIn) {
-  EXPECT_EQ(build(two_fans()).chains.size(), 2u);
-  for (const Chain& chain : build(two_fans()).chains) EXPECT_TRUE(chain.closed);
 }
 
 TEST(Sheets, CurvesEndWhereTheyBranchAndInAPlate) {
@@ -130,15 +67,6 @@ TEST(Sheets, CreasesMayBeNamedOnAnySheet) {
   }
 }
 
-TEST(Sheets, CopiesTakeTheirCurveFromTheOriginal) {
-  const ControlMesh mesh = build(plate_with_fins());
-  const FeatureCurves curves = refine_feature_edges(mesh, 8, 0.5);
-  for (Index e = mesh.first_copied_edge(); e < Index(mesh.edges.size()); ++e) {
-    ASSERT_GE(curves.run[std::size_t(e)], 0);
-    EXPECT_EQ(curves.of(e).data(), curves.of(mesh.original_edge(e)).data());
-  }
-}
-
 TEST(Sheets, PartsOfARegionAreTheSameOnAllThatMeet) {
   FeatureOptions features;
   features.region = {true, {0, 1}, RegionContinuity::tangent};  // two pages of three
@@ -146,28 +74,6 @@ TEST(Sheets, PartsOfARegionAreTheSameOnAllThatMeet) {
   for (Index e = 0; e < Index(mesh.edges.size()); ++e)
     EXPECT_TRUE(!mesh.nonmanifold(e) || mesh.edge_part(e) == RegionPart::joint);
   for (const Index v : {0, 1, 5, 6, 7, 8}) EXPECT_EQ(mesh.vertex_part(v), RegionPart::joint);
-}
-
-TEST(Sheets, WeldedPointsAreAllThereOnce) {
-  for (const OwnedPolygonMesh& input :
-       {three_on_an_edge(), two_cubes(), hourglass(), plate_with_fins(), grid(2, 2)}) {
-    const ControlMesh mesh = build(input);
-    const GridLevel grid(mesh, 2);
-    const JoinedSheets joined(grid);
-    EXPECT_EQ(joined.needed(), !mesh.copies.vertex.empty());
-    std::vector<double> points(3 * grid.size()), welded(3 * joined.size());
-    std::set<Index> ids;
-    for (Index p = 0; p < Index(grid.size()); ++p) {
-      ids.insert(joined(p));
-      for (std::size_t a = 0; a < 3; ++a) points[3 * std::size_t(p) + a] = joined(p);
-    }
-    EXPECT_EQ(ids.size(), joined.size());
-    EXPECT_EQ(std::size_t(*ids.rbegin()) + 1, joined.size());
-    joined.join(points.data(), welded.data());
-    for (std::size_t i = 0; i < welded.size(); ++i) EXPECT_EQ(welded[i], double(i / 3));
-    joined.join(points.data(), points.data());
-    EXPECT_TRUE(std::equal(welded.begin(), welded.end(), points.begin()));
-  }
 }
 
 }  // namespace

@@ -23,13 +23,6 @@ SplineSurface fitted(const Refined& surface, const SplineOptions& options = {1e-
   return fit_splines(surface.view(), options, monitor);
 }
 
-double largest(const std::vector<double>& values) {
-  double out = 0;
-  for (const double x : values)
-    if (x > out) out = x;
-  return out;
-}
-
 TEST(Splines, BasisSumsToOneAndItsSlopesAreDerivatives) {
   for (const int spans : {1, 2, 4, 8})
     for (int k = 1; k < 100; ++k) {
@@ -67,22 +60,6 @@ TEST(Splines, CurvesAreRefinedAndCutExactly) {
   }
 }
 
-TEST(Splines, APlaneIsOnePatch) {
-  const SplineSurface surface =
-      fitted(strip(2, 3, [](double u, double v) { return Vec3(u, v, u - 2 * v); }));
-  ASSERT_EQ(surface.patches.size(), 1u);
-  for (const SplinePatch& patch : surface.patches) {
-    EXPECT_EQ(patch.spans_u * patch.spans_v, 2);
-    for (int k = 0; k <= 10; ++k) {
-      const Vec3 at = patch.at(k / 10.0, 0.3).at;
-      EXPECT_NEAR(at.z(), at.x() - 2 * at.y(), 1e-12);
-    }
-  }
-  EXPECT_EQ(surface.edges.size(), 4u);
-  EXPECT_EQ(surface.vertices.size(), 4u);
-  EXPECT_LT(largest(surface.angles), 1e-7);
-}
-
 // Of points over the middle of each cell: what lies on the sphere is not off, what is lifted from it
 // is by as much.
 TEST(Splines, HeightsAreKnownBetweenTheLatticesPoints) {
@@ -104,14 +81,6 @@ TEST(Splines, HeightsAreKnownBetweenTheLatticesPoints) {
         EXPECT_EQ(face.height(1.01 * on, -1, u, v, much).by, 0);
       }
   }
-}
-
-TEST(Splines, ASharpLatticeSaysSo) {
-  const Refined smooth = strip(1, 4, [](double u, double v) { return Vec3(u, v, 0); });
-  Refined sharp = smooth;
-  sharp.vertices[3 * (8 * 17 + 8) + 2] = 0.2;
-  EXPECT_LT(largest(fitted(smooth).lattice_turn), 1e-7);
-  EXPECT_GT(largest(fitted(sharp).lattice_turn), 0.35);
 }
 
 TEST(Splines, RefusesWhatIsNoRefinedSurface) {

@@ -12,7 +12,6 @@
 
 #include "control_mesh_invariants.h"
 #include "mesh/control_mesh.h"
-#include "mesh/polygon_shape.h"
 #include "mesh/validate/check.h"
 #include "meshes.h"
 #include "random.h"
@@ -186,26 +185,6 @@ OwnedPolygonMesh random_polygon(std::mt19937& random, int corners) {
   return make_mesh(points, {polygon});
 }
 
-TEST(Split, DoesNotDependOnTheFirstCornerNorOnMirroring) {
-  std::mt19937 random(1);
-  for (int trial = 0; trial < 200; ++trial) {
-    const int n = 4 + trial % 12;
-    const OwnedPolygonMesh mesh = random_polygon(random, n);
-    const Sets expected = vertex_sets(split_polygons(mesh.view()));
-
-    OwnedPolygonMesh turned = mesh;
-    std::rotate(turned.corners.begin(), turned.corners.begin() + n / 2, turned.corners.end());
-    EXPECT_EQ(vertex_sets(split_polygons(turned.view())), expected);
-
-    OwnedPolygonMesh mirrored = mesh;
-    std::reverse(mirrored.corners.begin(), mirrored.corners.end());
-    for (std::size_t i = 0; i < mirrored.coordinates.size(); i += 3) mirrored.coordinates[i] *= -1;
-    EXPECT_EQ(vertex_sets(split_polygons(mirrored.view())), expected);
-
-    expect_consistent(make_control_mesh(mesh.view(), {}));
-  }
-}
-
 // Each face by the places of its vertices, to the bit, from its least one on.
 std::multiset<std::vector<std::array<double, 3>>> faces_in_space(const OwnedPolygonMesh& input,
                                                                  const SplitMesh& mesh,
@@ -259,23 +238,6 @@ TEST(Split, HasTheSameBitsHoweverItIsNumbered) {
     std::reverse(mirrored.corners.begin(), mirrored.corners.end());
     for (double& x : mirrored.coordinates) x = -x;
     EXPECT_EQ(faces_in_space(mirrored, split_polygons(mirrored.view()), -1), expected) << trial;
-  }
-}
-
-TEST(Split, CentresTurnWithTheMesh) {
-  std::mt19937 random(3);
-  UniformReal<> vary(-0.3, 0.3);
-  for (int trial = 0; trial < 50; ++trial) {
-    // Not plane.
-    std::vector<Vec3> corners, turned;
-    const Eigen::Quaterniond turn = Eigen::Quaterniond(1, vary(random), trial, 2).normalized();
-    for (int i = 0; i < 5 + trial % 4; ++i) {
-      const double angle = 2 * 3.14159265358979 * i / (5 + trial % 4);
-      corners.push_back({2 * std::cos(angle), std::sin(angle), vary(random)});
-      turned.push_back(turn * corners.back());
-    }
-    EXPECT_LT((turn * PolygonShape(corners).centroid() - PolygonShape(turned).centroid()).norm(),
-              1e-14);
   }
 }
 

@@ -153,58 +153,6 @@ TEST(Transfer, KeepsConstants) {
   });
 }
 
-double quadratic(double u, double v) {
-  return 0.3 + u - 2 * v + 0.7 * u * u - 1.3 * u * v + 0.4 * v * v;
-}
-
-TEST(Transfer, KeepsQuadraticsInThePlane) {
-  // Sheared squares (quads), and the same cut along their diagonals: charts of exponent 1 are the
-  // plane itself.
-  Workers workers(1);
-  for (const bool cut : {false, true}) {
-    OwnedPolygonMesh mesh = grid(4, 4);
-    for (std::size_t i = 0; i < mesh.coordinates.size(); i += 3)
-      mesh.coordinates[i] += 0.4 * mesh.coordinates[i + 1];
-    if (cut) mesh = triangulated(mesh);
-    const ControlMesh plane = control(mesh);
-    const Stencils stencils = make_stencils(plane, ChartMaker(plane, 1), workers);
-    const auto values = [&](const GridLevel& grid) {
-      Points x(Eigen::Index(grid.size()), 3);
-      refine_linearly(grid, plane.positions, x.data());
-      for (Eigen::Index p = 0; p < x.rows(); ++p) x(p, 2) = quadratic(x(p, 0), x(p, 1));
-      return x;
-    };
-    for (int level = 0; level < 4; ++level) {
-      const GridLevel coarse(plane, level), fine(plane, level + 1);
-      const Points x = values(coarse), expected = values(fine);
-      Points y(expected.rows(), 3);
-      ElementSlots<double> slots;
-      prolong<double>(coarse, fine, stencils, nullptr, workers, slots, x.data(), y.data());
-      int checked = 0;
-      for (Eigen::Index p = 0; p < y.rows(); ++p) {
-        // Only points whose parents carry fits: a cell away from the boundary.
-        const double v = expected(p, 1), u = expected(p, 0) - 0.4 * v,
-                     cell = 1.0 / coarse.n() - 1e-9;
-        if (std::min(u, v) < cell || std::max(u, v) > 4 - cell) continue;
-        EXPECT_NEAR(y(p, 2), expected(p, 2), 3e-6) << "level " << level << " point " << p;
-        ++checked;
-      }
-      EXPECT_GT(checked, 8);
-      const ThinPlateRows<double> rows(plane, stencils);
-      Points residual(x.rows(), 3);
-      const Unknowns unknowns = some_points(plane, 2);
-      ElementSlots<double> passes;
-      apply_thin_plate(coarse, rows, unknowns, {}, workers, passes, x.data(), residual.data());
-      for (Eigen::Index p = 0; p < x.rows(); ++p) {
-        // K annihilates polynomials of degree two (their Hessian is constant) two rings inside.
-        const double v = x(p, 1), u = x(p, 0) - 0.4 * v, cell = 2.0 / coarse.n() - 1e-9;
-        if (std::min(u, v) < cell || std::max(u, v) > 4 - cell) continue;
-        EXPECT_NEAR(residual(p, 2), 0, 1e-9) << "level " << level << " point " << p;
-      }
-    }
-  }
-}
-
 // Through transfers whose own unknowns are fewer.
 TEST(Transfer, RestrictsToControlVerticesThroughAllLevels) {
   on_all(3, [](const Setting& s, Workers& workers) {
