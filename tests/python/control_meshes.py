@@ -316,6 +316,15 @@ def three_handles():
     return points, np.array(quads)
 
 
+# quads, triangles and a pentagon, with a border: a house without its floor
+HOUSE = (
+    np.array(
+        [[0, 0, 0], [2, 0, 0], [2, 3, 0], [0, 3, 0], [0, 0, 2], [2, 0, 2], [2, 3, 2], [0, 3, 2], [1, 0, 3], [1, 3, 3]],
+        float,
+    ),
+    [[0, 1, 5, 8, 4], [2, 3, 7, 9, 6], [1, 2, 6, 5], [3, 0, 4, 7], [5, 6, 9, 8], [4, 8, 9], [4, 9, 7]],
+)  # fmt: skip
+
 CLOSED = {
     "icosahedron": icosahedron,
     "octahedron": octahedron,

@@ -113,6 +113,18 @@ def sheet_with_hanging_vertices(bend, triangles):
     return np.c_[flat, bend * ((flat - 4.0) ** 2).sum(axis=1)], faces
 
 
+def saddle(a, b):
+    return 2 * a - 1, 2 * b - 1, ((2 * a - 1) ** 2 - (2 * b - 1) ** 2) / 2
+
+
+def quads_with_a_hole(turn=1):
+    whole, all_faces = mapped(saddle, 13, 13)
+    quads = all_faces.reshape(2, -1, 3)
+    quads = np.concatenate([quads[0], quads[1][:, 2:]], axis=1)
+    gone = np.linalg.norm(whole[quads].mean(1)[:, :2], axis=1) < 0.4
+    return whole, quads[~gone][:, ::turn]
+
+
 def uses(faces):
     """How many faces each edge has."""
     sides = np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)

@@ -10,7 +10,9 @@ from discrete_fairing import filling
 from ragged_holes import (
     cut,
     mapped,
+    quads_with_a_hole,
     ragged,
+    saddle,
     sheet_with_hanging_vertices,
     smallest_angle,
     sphere,
@@ -58,10 +60,6 @@ def cylinder(a, b):
 
 def paraboloid(a, b):
     return 2 * a - 1, 2 * b - 1, ((2 * a - 1) ** 2 + (2 * b - 1) ** 2) / 2
-
-
-def saddle(a, b):
-    return 2 * a - 1, 2 * b - 1, ((2 * a - 1) ** 2 - (2 * b - 1) ** 2) / 2
 
 
 def in_tube(c):
@@ -314,14 +312,6 @@ def test_a_hole_that_winds_by_more_than_half_a_turn():
     assert filled.holes[0].folds == 0
     radii = np.hypot(*filled.vertices[len(vertices) :, :2].T)
     assert abs(radii - 1).max() < 0.05
-
-
-def quads_with_a_hole(turn=1):
-    whole, all_faces = mapped(saddle, 13, 13)
-    quads = all_faces.reshape(2, -1, 3)
-    quads = np.concatenate([quads[0], quads[1][:, 2:]], axis=1)
-    gone = np.linalg.norm(whole[quads].mean(1)[:, :2], axis=1) < 0.4
-    return whole, quads[~gone][:, ::turn]
 
 
 def test_faces_of_any_size_and_loops_in_either_direction():

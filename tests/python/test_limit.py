@@ -6,19 +6,11 @@ import numpy as np
 import pytest
 import thin_walls
 from catmull_clark import subdivide
-from control_meshes import cube, grid, octahedron
+from control_meshes import HOUSE, cube, grid, octahedron
 from discrete_fairing import _native
 
 RANDOM = np.random.default_rng(7)
 CUBE = cube()
-# quads, triangles and a pentagon, with a border: a house without its floor
-HOUSE = (
-    np.array(
-        [[0, 0, 0], [2, 0, 0], [2, 3, 0], [0, 3, 0], [0, 0, 2], [2, 0, 2], [2, 3, 2], [0, 3, 2], [1, 0, 3], [1, 3, 3]],
-        float,
-    ),
-    [[0, 1, 5, 8, 4], [2, 3, 7, 9, 6], [1, 2, 6, 5], [3, 0, 4, 7], [5, 6, 9, 8], [4, 8, 9], [4, 9, 7]],
-)  # fmt: skip
 
 
 def limits(vertices, faces, sharp_edges=(), sharp_vertices=(), **more):

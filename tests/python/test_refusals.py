@@ -8,9 +8,8 @@ import discrete_fairing as df
 import numpy as np
 import pytest
 from piece_meshes import torus
+from ragged_holes import quads_with_a_hole
 from scans import blob_cage, blob_scan
-from test_fill_holes import quads_with_a_hole
-from test_limit import HOUSE
 from test_neighbour import bonnet_and_fender
 from test_soft_creases import roof
 
@@ -90,7 +89,7 @@ REFUSED = {
         ],
     ),
     "limit": (
-        partial(df.fair, *HOUSE, 1, interpolation="limit"),
+        partial(df.fair, *meshes.HOUSE, 1, interpolation="limit"),
         [
             ({"limit": 1.5}, OPTION, "limit is 1.5"),
             ({"weights": np.ones(10)}, OPTION, "weights"),

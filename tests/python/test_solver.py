@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Solver: which surface comes out, the first time and after the vertices have moved."""
 
+import control_meshes as meshes
 import numpy as np
 import pytest
 import tight
@@ -8,7 +9,6 @@ from moving import icosphere, moved, sample, slid
 from one_sided_meshes import strip
 from sheet_meshes import book
 from surfaces import size_of
-from test_limit import HOUSE
 
 SAMPLES = ["icosahedron", "cube", "dodecahedron", "house", "creature", "wavy_patch"]
 CURVED = ["total_curvature", "minimum_variation"]
@@ -52,7 +52,7 @@ CASES = {
     for name in SAMPLES
 } | {
     "weights": (sample("creature"), WEIGHTS, 1e-6),
-    "limit": (HOUSE, {"interpolation": "limit"}, 1e-6),
+    "limit": (meshes.HOUSE, {"interpolation": "limit"}, 1e-6),
     "border edges": (sample("wavy_patch"), {"boundary_edges": BORDER}, 1e-6),
     "soft creases": (sample("wavy_patch"), {"soft_creases": SOFT}, 1e-6),
     "sheets": (book(3)[:2], {}, 1e-6),

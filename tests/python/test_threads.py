@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from every_call import CALLS as EACH
 from sheet_meshes import bulkhead
-from test_limit import HOUSE
 
 CASES = {
     "closed": (meshes.creature, 4, {}),
@@ -37,7 +36,7 @@ MORE = {
     "near_on_pads": (meshes.creature, 3, TIGHT | NEAR | {"pad_size": 0.5}),
     "tension": (meshes.creature, 3, TIGHT | {"tension": 0.5}),
     "region": (meshes.creature, 3, TIGHT | {"region": range(30), "joint": "curvature"}),
-    "limit": (lambda: HOUSE, 4, {"interpolation": "limit", "tension": 0.3}),
+    "limit": (lambda: meshes.HOUSE, 4, {"interpolation": "limit", "tension": 0.3}),
     "sheets": (lambda: bulkhead()[0], 3, {}),
     "folds": (folding.rounded_box, 2, {}),
     "steps_on_sheets": (lambda: bulkhead()[0], 3, {"energy": "total_curvature"}),
