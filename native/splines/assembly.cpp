@@ -129,9 +129,11 @@ double angle_at(const Fits& fits, const EdgePart& part, double t) {
                        Beside(fits, part.uses[1], t).normal());
 }
 
-void measure_edges(const Fits& fits, const EdgeParts& edges, SplineSurface& out) {
+// Returns the angles without those in the tips of slight kinks, which are the surface's own.
+std::vector<double> measure_edges(const Fits& fits, const EdgeParts& edges, SplineSurface& out) {
   out.angles.assign(edges.parts.size() * angles_an_edge, std::numeric_limits<double>::quiet_NaN());
   out.jumps = out.angles;
+  std::vector<double> of_patches = out.angles;
   along_edges(fits, edges, Kink::sharp, [&](std::size_t e, double share, double t) {
     const EdgePart& part = edges.parts[e];
     const auto keep = [&](std::vector<double>& in, double value) {
@@ -141,13 +143,17 @@ void measure_edges(const Fits& fits, const EdgeParts& edges, SplineSurface& out)
     };
     const Beside a(fits, part.uses[0], t), b(fits, part.uses[1], t);
     const Vec3 way = fits.curves[part.curve].curve.at(t).tangent;
-    keep(out.angles, angle_between(a.normal(), b.normal()));
+    const double angle = angle_between(a.normal(), b.normal());
+    keep(out.angles, angle);
+    if (!at_kink(fits, part.curve, t, Kink::slight)) keep(of_patches, angle);
     keep(out.jumps, std::abs(a.curvature_across(way) - b.curvature_across(way)));
   });
+  return of_patches;
 }
 
-// For each control face.
-void measure_faces(const Fits& fits, const EdgeParts& edges, SplineSurface& out) {
+// For each control face. `angles`: of patches, along edges.
+void measure_faces(const Fits& fits, const EdgeParts& edges, const std::vector<double>& angles,
+                   SplineSurface& out) {
   out.face_off.assign(std::size_t(fits.lattice.faces()), 0.0);
   out.face_angle = out.face_off;
   const Topology& topology = fits.topology;
@@ -172,7 +178,7 @@ void measure_faces(const Fits& fits, const EdgeParts& edges, SplineSurface& out)
   }
   for (std::size_t e = 0; e < edges.parts.size(); ++e)
     for (std::size_t k = 0; k < angles_an_edge; ++k) {
-      const double angle = out.angles[e * angles_an_edge + k];
+      const double angle = angles[e * angles_an_edge + k];
       const EdgePart& part = edges.parts[e];
       const double at = part.on_curve(double(k) / (angles_an_edge - 1)) * part.all / 2;
       if (!(angle >= 0)) continue;
@@ -239,8 +245,7 @@ void add_edges(const Fits& fits, const EdgeParts& edges, SplineSurface& out) {
 
 void assemble(const Fits& fits, SplineSurface& out) {
   const EdgeParts edges(fits);
-  measure_edges(fits, edges, out);
-  measure_faces(fits, edges, out);
+  measure_faces(fits, edges, measure_edges(fits, edges, out), out);
   add_edges(fits, edges, out);
   for (std::size_t p = 0; p < fits.patches.size(); ++p) {
     stop_if_cancelled(p);

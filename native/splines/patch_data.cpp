@@ -104,19 +104,25 @@ std::vector<double> line_of(const std::vector<double>& shares, const Sheet& shee
   return out;
 }
 
+// Steps between points on a line of the lattice with so many steps a face's patch: with more points
+// than all its spans need nothing is found that is not found between these.
+int stride_of(int steps) { return std::max(1, steps / (steps_a_span * most_spans)); }
+
 // The inner points of quads, at even parameters.
 template <class Visit>
 void for_quad_points(const Sheet& sheet, Visit&& visit) {
-  for (int j = 1; j < sheet.height(); ++j)
-    for (int i = 1; i < sheet.width(); ++i)
+  const int stride = stride_of(sheet.lattice().n());
+  for (int j = stride; j < sheet.height(); j += stride)
+    for (int i = stride; i < sheet.width(); i += stride)
       visit(GridPoint{i, j}, double(i) / sheet.width(), double(j) / sheet.height(), i, j);
 }
 
 // The part of a triangle next to a corner, with the parameters of the bilinear map.
 template <class Visit>
 void for_third_points(int n, int corner, Visit&& visit) {
-  for (int r = 1; r < n; ++r)
-    for (int k = 1; k < n - r; ++k) {
+  const int stride = stride_of(n / 2);
+  for (int r = stride; r < n; r += stride)
+    for (int k = stride; k < n - r; k += stride) {
       const int own = n - k - r;
       if (own <= k || own <= r) continue;
       const double a = double(k) / n, b = double(r) / n, rest = 3 - 2 * (a - b);

@@ -334,7 +334,7 @@ def test_slight_kinks_are_met_and_their_angles_told(height):
     assert patches.largest_residual <= 1e-4 * patches.size
     assert patches.largest_angle == pytest.approx(2 * height, rel=0.02)
     assert np.nanmax(patches.edge_angles[:, 3:-3]) < 2 * patches.normal_tolerance
-    assert patches.unmet.tolist() == [0, 1, 2, 3, 12, 13, 14, 15]  # those at the two borders
+    assert not len(patches.unmet)  # the kinks are the surface's own
 
 
 def test_creases_may_have_corners_all_along():

@@ -60,7 +60,7 @@ class SplinePatches:
     edge_jumps: (E, 17) float64, 1 over mesh units: how much the curvature across each edge differs
     between both sides, in the same way.
     face_off: (F,) float64, how far the patch of a control face, or a curve beside it, is off there;
-    face_angle: (F,) float64, the sharpest angle at its sides.
+    face_angle: (F,) float64, the sharpest angle at its sides, without those of slight kinks.
     refinement_error: (P,) float64, how far the refined surface itself is about from the limit of finer
     ones, by what has changed in the patch's control face from the level below.
     unresolved: (u,) int64, input faces where the refined surface folds, or turns too sharply.
