@@ -2,7 +2,6 @@
 """Balls with holes."""
 
 import bmesh
-import bpy
 import numpy as np
 from scenes import activate, add, positions
 
@@ -39,19 +38,6 @@ def is_closed(mesh):
     closed = all(e.is_contiguous for e in bm.edges)
     bm.free()
     return closed
-
-
-def edit(target, mode, chosen=()):
-    """Edit Mode with the faces or edges selected that these numbers name."""
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_mode(type=mode)
-    bpy.ops.mesh.select_all(action="DESELECT")
-    bm = bmesh.from_edit_mesh(target.data)
-    parts = bm.faces if mode == "FACE" else bm.edges
-    for part in parts:
-        part.select_set(part.index in chosen)
-    bm.select_flush_mode()
-    bmesh.update_edit_mesh(target.data)
 
 
 def borders(target, chosen=lambda z: True):

@@ -4,7 +4,8 @@
 from time import monotonic, sleep
 
 import bpy
-from scenes import CUBE, activate, add, fair
+import numpy as np
+from scenes import CUBE, activate, add, fair, positions
 
 from addon.live import handlers, registry
 
@@ -36,6 +37,23 @@ def session(target):
 def move(source, index=0, by=0.5):
     source.data.vertices[index].co.z += by
     source.data.update()
+
+
+def pull(source, index=0, by=0.5):
+    """Moves a vertex, and lets Blender see it."""
+    move(source, index, by)
+    follow()
+
+
+def through(target, source):
+    """Whether a surface passes its control vertices, to the bit."""
+    count = len(source.data.vertices)
+    return np.array_equal(positions(target.data)[:count], positions(source.data))
+
+
+def whole(target):
+    """Plays the timer until the full level is there."""
+    tick_until(lambda: not session(target).is_waiting)
 
 
 def tick_until(done):

@@ -1,9 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Small scenes and what tests ask of them."""
 
+from pathlib import Path
+
+import bmesh
 import bpy
 import numpy as np
+import pytest
 
+from addon.settings import Settings
+
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 CUBE = (
     [(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)],
     [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)],
@@ -85,3 +92,99 @@ def set_edge_attribute(mesh, name, data_type, pairs, value, domain="EDGE"):
     for edge in mesh.edges:
         if tuple(sorted(edge.vertices)) in wanted:
             attribute.data[edge.index].value = value
+
+
+def again(source, **settings):
+    """A further surface of a source that the last one has hidden."""
+    source.hide_set(False)
+    activate(source)
+    return fair(**settings)
+
+
+def recompute(target=None):
+    if target is not None:
+        activate(target)
+    assert bpy.ops.object.fairing_recompute() == {"FINISHED"}
+
+
+def reopen(tmp_path):
+    """Saves the file and opens it again."""
+    path = str(tmp_path / "saved.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.open_mainfile(filepath=path)
+    return path
+
+
+def settings(**changes):
+    """Those of the scene, some changed there."""
+    scene = bpy.context.scene.discrete_fairing
+    for name, value in changes.items():
+        setattr(scene, name, value)
+    return Settings.of(scene)
+
+
+def computed(job):
+    job.compute()
+    return job
+
+
+def shown(target):
+    """What modifiers and shape keys make of an object: its vertices."""
+    return positions(target.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh())
+
+
+def weights(target, name):
+    """(N,) weight of each vertex in a group, NaN outside of it."""
+    group = target.vertex_groups[name].index
+    found = np.full(len(target.data.vertices), np.nan)
+    for vertex in target.data.vertices:
+        for element in vertex.groups:
+            if element.group == group:
+                found[vertex.index] = element.weight
+    return found
+
+
+def faces_at_edges(mesh):
+    """How many faces each edge has."""
+    bm = bmesh.new()
+    bm.from_mesh(mesh)
+    counts = [len(edge.link_faces) for edge in bm.edges]
+    bm.free()
+    return counts
+
+
+def edit(target, kind, chosen=()):
+    """Edit Mode, with those of its vertices, edges or faces selected that these numbers name."""
+    activate(target)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_mode(type=kind)
+    bpy.ops.mesh.select_all(action="DESELECT")
+    to_object_mode()
+    mesh = target.data
+    parts = {"VERT": mesh.vertices, "EDGE": mesh.edges, "FACE": mesh.polygons}[kind]
+    for index in chosen:
+        parts[int(index)].select = True
+    bpy.ops.object.mode_set(mode="EDIT")
+
+
+def to_object_mode():
+    bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def moved(source, result):
+    """How far each control vertex was missed."""
+    count = len(source.data.vertices)
+    return np.linalg.norm(positions(result.data)[:count] - positions(source.data), axis=1)
+
+
+def add_group(source, weights, name="Loose"):
+    """A vertex group of {vertex: weight}."""
+    group = source.vertex_groups.new(name=name)
+    for vertex, weight in weights.items():
+        group.add([vertex], weight, "REPLACE")
+
+
+def refused(match, operator, *how, **options):
+    """The operator ends with an error whose text matches."""
+    with pytest.raises(RuntimeError, match=match):
+        operator(*how, **options)

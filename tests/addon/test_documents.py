@@ -7,16 +7,18 @@ from functools import cache
 from pathlib import Path
 
 import bpy
-import discrete_fairing
+import discrete_fairing as df
+import numpy as np
+import one_sided_meshes
 import pytest
-from discrete_fairing.options import SETTINGS
+from discrete_fairing.options import OPTIONAL, SETTINGS
+from scenes import CUBE
 
 from addon.preferences import DiscreteFairingPreferences
 from addon.properties import FairingSettings
 
 ROOT = Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"
-NOTES = "developers/notes"
 DOCUMENTS = [
     *(ROOT / f"{name}.md" for name in ("README", "CONTRIBUTING", "CHANGELOG")),
     *sorted(path for path in DOCS.rglob("*.md") if path.parent.name != "site"),
@@ -36,16 +38,10 @@ PYTHON = {
     "../README.md": [],
 }
 
-NOT_FOR_USERS = ("developers", "site", "explanation/mathematics.md")
-MOST_WORDS = 12_500  # 12,000 in November 2026; what comes in takes the place of something
-TABLE = re.compile(r"<!-- table: .*?<!-- /table -->", re.DOTALL)
 LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 OPERATOR = re.compile(r"\b(?:bpy\.ops\.)?(object|mesh|view3d)\.(fair(?:ing)?_\w+)")
 ANY_OPERATOR = re.compile(r"\bbpy\.ops\.(\w+)\.(\w+)")
-# A source file as documents name it: from the top, or from the folder that they are about.
-SOURCE = re.compile(r"`((?!out/)[\w./-]+/[\w.-]+\.(?:cpp|h|py|sh|toml|json))`")
-PLACES = ("", "native/", "addon/", "tests/")
 
 
 def named(path):
@@ -88,36 +84,6 @@ def broken_links(text, folder, own):
     return found
 
 
-def operators(text):
-    """(module, name) of all operators that `text` names, ours and Blender's."""
-    return {*OPERATOR.findall(text), *ANY_OPERATOR.findall(text)}
-
-
-def missing_sources(text):
-    """Files that `text` names and that are not there."""
-    return [
-        name
-        for name in SOURCE.findall(text)
-        if not any((ROOT / place / name).exists() for place in PLACES)
-    ]
-
-
-def exists(module, name):
-    return name in dir(getattr(bpy.ops, module))
-
-
-def setting_names():
-    """Property and name in the interface of every setting and preference."""
-    for owner in (FairingSettings, DiscreteFairingPreferences):
-        for name, declared in owner.__annotations__.items():
-            yield name, declared.keywords["name"]
-
-
-def is_said(words, text):
-    """Whether `words` stand in `text` as whole words."""
-    return re.search(rf"(?<![\w-]){re.escape(words)}(?![\w-])", text) is not None
-
-
 def wrong(judge):
     """What `judge` finds in each document, of its text and its path; only where it finds something."""
     found = {named(path): judge(path.read_text("utf-8"), path) for path in DOCUMENTS}
@@ -129,56 +95,72 @@ def test_links_lead_somewhere():
 
 
 def test_operators_exist():
-    assert wrong(lambda text, _: [pair for pair in operators(text) if not exists(*pair)]) == {}
+    def unknown(text, _):
+        named = {*OPERATOR.findall(text), *ANY_OPERATOR.findall(text)}
+        return [
+            (module, name) for module, name in named if name not in dir(getattr(bpy.ops, module))
+        ]
+
+    assert wrong(unknown) == {}
 
 
-def test_sources_are_there():
-    assert wrong(lambda text, _: missing_sources(text)) == {}
+def settings_page():
+    return (DOCS / "reference" / "settings.md").read_text("utf-8")
 
 
-@pytest.mark.parametrize(
-    "folder", ["trades", "how-to", "python", "reference", "explanation", NOTES]
-)
-def test_every_page_is_listed(folder):
-    contents = (DOCS / (f"{NOTES}/README.md" if folder == NOTES else "README.md")).read_text(
-        "utf-8"
-    )
-    pages = {path.name for path in (DOCS / folder).glob("*.md")} - {"README.md"}
-    prefix = "" if folder == NOTES else f"{folder}/"
-    assert {name for name in pages if f"({prefix}{name}" not in contents} == set()
+def is_said(words):
+    """Whether they stand in the page of the settings as whole words."""
+    return re.search(rf"(?<![\w-]){re.escape(words)}(?![\w-])", settings_page()) is not None
 
 
-def test_every_setting_is_explained():
-    text = (DOCS / "reference" / "settings.md").read_text("utf-8")
-    for name, label in setting_names():
-        assert f"`{name}`" in text, f"{name}: its property"
-        assert is_said(label, text), f"{name}: its name in Blender"
+def test_settings_are_explained_with_their_defaults():
+    found = re.findall(r"`(\w+)`(?: \([\w ]+\))?, (on|off|[\d.]+)(?=°|,|;|$| |\n)", settings_page())
+    stated, checked = dict(found), 0
+    for name, property in FairingSettings.__annotations__.items():
+        words = property.keywords
+        assert f"`{name}`" in settings_page() and is_said(words["name"]), name
+        for key, label, *_ in words.get("items", ()):
+            assert is_said(label) and is_said(key), f"{name}: {label}"
+        if name in stated:
+            default = words["default"]
+            if isinstance(default, bool):
+                assert default == (stated[name] == "on"), name
+            else:
+                scale = 180 / np.pi if words.get("subtype") == "ANGLE" else 1
+                assert scale * default == pytest.approx(float(stated[name])), name
+            checked += 1
+    for name, property in DiscreteFairingPreferences.__annotations__.items():
+        cells = (property.keywords["name"], f"`{name}`", property.keywords["default"])
+        assert "| {} | {} | {} |".format(*cells) in settings_page().replace("`{}`", "{}"), name
+    assert checked > 15
 
 
-def test_every_choice_is_explained():
-    text = (DOCS / "reference" / "settings.md").read_text("utf-8")
-    for name, declared in FairingSettings.__annotations__.items():
-        for key, label, *_ in declared.keywords.get("items", ()):
-            assert is_said(label, text) and f"`{key}`" in text, f"{name}: {label}"
+def default_argument(name):
+    """Of an argument of fair(); None where it has none."""
+    if name in SETTINGS:
+        core = getattr(df._native.Options(), name)
+        plain = core[0] if isinstance(core, list) and core else core
+        return None if name in OPTIONAL else getattr(plain, "name", plain)
+    default = inspect.signature(df.fair).parameters[name].default
+    return None if default is inspect.Parameter.empty else default
 
 
-def test_every_argument_of_the_core_is_explained_once():
+def test_arguments_of_the_core_are_explained_with_their_defaults():
     tables = (DOCS / "python" / "fair.md").read_text("utf-8").partition("\n### Energy")[0]
-    by_place = set(inspect.signature(discrete_fairing.fair).parameters) - {"settings"}
-    for name in by_place | set(SETTINGS):
+    told = dict(re.findall(r"^\| `(\w+)`[^|]*\| `?([^|`]*)`? \|", tables, re.MULTILINE))
+    for name in {*inspect.signature(df.fair).parameters, *SETTINGS} - {"settings"}:
         assert len(re.findall(rf"^\| [^|]*`{name}`", tables, re.MULTILINE)) == 1, name
-
-
-def test_users_pages_are_short():
-    """In all, without code, tables of figures and the mathematics."""
-    pages = [
-        page
-        for page in DOCS.rglob("*.md")
-        if not page.relative_to(DOCS).as_posix().startswith(NOT_FOR_USERS)
-    ]
-    text = "".join(TABLE.sub("", prose(p.read_text("utf-8"))) for p in pages)
-    words = re.findall(r"[A-Za-z][A-Za-z'’-]*", re.sub(r"\]\([^)]*\)", "", text))
-    assert len(words) <= MOST_WORDS
+        if name in told:
+            default, said = default_argument(name), told[name].strip().strip('"')
+            if said in ("", "none"):
+                assert default is None, name
+            elif isinstance(default, bool | str) or default is None:
+                assert str(default) == said, name
+            else:
+                assert float(default) == float(said), name
+    assert len(told) > 30
+    pages = "".join(page.read_text("utf-8") for page in (DOCS / "python").glob("*.md"))
+    assert [n for n in df.__all__ if not re.search(rf"\b{n}\b", pages)] == []
 
 
 @pytest.mark.parametrize(("name", "left"), PYTHON.items())
@@ -191,3 +173,45 @@ def test_examples_run(name, left, tmp_path, monkeypatch):
     for number, block in enumerate(blocks, 1):
         exec(compile(block, f"{name}, example {number}", "exec"), namespace)
     assert [path.name for path in tmp_path.iterdir()] == left
+
+
+def table_rows(text, first):
+    """Cells of the rows of the first table whose head begins with `first`."""
+    lines = text[text.index(f"| {first}") :].split("\n\n")[0].splitlines()
+    return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines[2:]]
+
+
+# Each row of the table of energies: how fair is asked for it.
+ENERGIES = ("thin_plate", "total_curvature", "minimum_variation")
+
+
+NORMALS = np.full((8, 3), np.nan)
+NORMALS[7] = 1.0
+ASKED = {
+    "One-sided sheets": (one_sided_meshes.strip(), {}),
+    "Fixed normals (`normals`)": (CUBE, {"normals": NORMALS}),
+    "Tension (`tension`)": (CUBE, {"tension": 0.5}),
+    "`epsilon`": (CUBE, {"epsilon": 0.1}),
+    '`method="back_leg"`': (CUBE, {"method": "back_leg"}),
+    "Tolerance and weights": (CUBE, {"interpolation": "approximate", "tolerance": 0.1}),
+    '`interpolation="limit"`': (CUBE, {"interpolation": "limit"}),
+}
+
+
+def takes(mesh, options, energy):
+    try:
+        df.fair(*mesh, levels=1, energy=energy, **options)
+    except df.FairingError:
+        return False
+    return True
+
+
+def test_the_table_of_energies_is_what_the_core_takes():
+    rows = table_rows((DOCS / "python" / "fair.md").read_text("utf-8"), "| Thin plate")
+    said = {what: [cell == "yes" for cell in cells] for what, *cells in rows}
+    assert said.keys() == ASKED.keys()
+    found = {
+        what: [takes(mesh, options, energy) for energy in ENERGIES]
+        for what, (mesh, options) in ASKED.items()
+    }
+    assert said == found

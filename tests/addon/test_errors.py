@@ -31,10 +31,10 @@ def expect_refusal(match, **settings):
 def test_what_is_no_surface(points, edges, faces, match):
     add("Bad", points, faces, edges)
     expect_refusal(match)
-
-
-def test_other_modes():
-    add("Box", *CUBE)
+    bpy.ops.object.mode_set(mode="EDIT")
+    expect_refusal(match)
+    assert bpy.context.mode == "EDIT_MESH", "as it was"
+    bpy.ops.object.mode_set(mode="OBJECT")
     bpy.ops.object.mode_set(mode="SCULPT")
     expect_refusal("Object Mode")
 
@@ -65,22 +65,6 @@ def test_every_code_of_the_core_has_a_remedy():
         assert codes - OF_SCRIPTS - OWN_CURE - remedies.keys() == set()
 
 
-def test_what_to_do_stands_before_what_is_wrong():
-    loose = fairing_error("UNDERDETERMINED", "Nothing holds vertex 3.", cure="Give it a weight.")
-    text = errors.error_text("Box", loose)
-    assert text == "Box: Set Vertices to Through, or a smaller tolerance. Nothing holds vertex 3."
-    away = fairing_error("BAD_OPTION", "1 vertex (3) is to look away.", cure="Free its normal.")
-    text = errors.error_text("Box", away)
-    assert text == "Box: Free its normal. 1 vertex (3) is to look away."
-
-
-def test_an_unfinished_surface_is_told_from_other_warnings():
-    other = {"code": "ISOLATED_VERTICES", "message": "1 vertex (3) belongs to no face."}
-    assert errors.is_unfinished({"code": "NOT_CONVERGED", "message": ""})
-    assert not errors.is_unfinished(other)
-    assert errors.warning_text("Box", other) == "Box: 1 vertex (3) belongs to no face."
-
-
 def test_every_code_has_a_remedy_or_speaks_for_itself():
     assert errors.error_text("Wire", fairing_error("NO_FACES", "the mesh has no faces")) == (
         "Wire: Fill the edges with faces (F in Edit Mode). The mesh has no faces."
@@ -90,6 +74,13 @@ def test_every_code_has_a_remedy_or_speaks_for_itself():
     assert mend in errors.error_text("Wire", turned)
     assert mend not in errors.error_text("Wire", turned, errors.WITHOUT_MENDING)
     assert errors.error_text("Wire", fairing_error("SOMETHING_NEW", "no")) == "Wire: no."
+    # what to do comes before what is wrong, of the add-on or the core
+    loose = fairing_error("UNDERDETERMINED", "Nothing holds vertex 3.", cure="Give it a weight.")
+    text = errors.error_text("Box", loose)
+    assert text.startswith("Box: Set Vertices to Through") and "weight" not in text
+    away = fairing_error("BAD_OPTION", "1 vertex (3) is to look away.", cure="Free its normal.")
+    text = errors.error_text("Box", away)
+    assert text == "Box: Free its normal. 1 vertex (3) is to look away."
 
 
 def test_no_remedy_is_given_twice():
@@ -99,13 +90,6 @@ def test_no_remedy_is_given_twice():
     said = str(refusal.value)
     assert said.count("elete") == 1 and "Delete one of each pair." in said
     assert "same vertices" in said, "and what is wrong"
-
-
-def test_an_error_leaves_edit_mode_as_it_was():
-    add("Wire", [(0, 0, 0), (1, 0, 0)], [], [(0, 1)])
-    bpy.ops.object.mode_set(mode="EDIT")
-    expect_refusal("Wire: ")
-    assert bpy.context.mode == "EDIT_MESH"
 
 
 @pytest.mark.parametrize(

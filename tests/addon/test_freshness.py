@@ -5,15 +5,26 @@ import bpy
 import numpy as np
 import pytest
 from fake_layout import Layout, draw
-from live_scenes import follow, live, move
-from scenes import CUBE, activate, add, fair, positions
+from live_scenes import follow, live, move, pull
+from scenes import (
+    CUBE,
+    activate,
+    add,
+    again,
+    edit,
+    fair,
+    positions,
+    recompute,
+    reopen,
+    settings,
+    to_object_mode,
+)
 
 from addon import events, freshness, job, memory
 from addon.freshness import SETTINGS_CHANGED, SOURCE_CHANGED, stale_surfaces, why_stale
 from addon.mesh import read as mesh_read
 from addon.mesh.boundary_marks import BOUNDARY
 from addon.mesh.fixed_normals import NORMAL
-from addon.settings import Settings
 from addon.ui import main, outliner
 
 
@@ -21,23 +32,16 @@ def badges():
     return [line for line in draw(main.VIEW3D_PT_fairing) if "out of date" in line.lower()]
 
 
-def change(source):
-    move(source)
-    follow()
-
-
-def test_a_source_that_has_changed():
-    source = add("Box", *CUBE)
+def test_a_source_that_has_changed(source):
     target = fair(levels=1)
     assert why_stale(target) == "" and not badges()
-    change(source)
+    pull(source)
     assert why_stale(target) == SOURCE_CHANGED
     assert badges() == ["Out of date: source changed"]
-    move(source, by=-0.5)
-    follow()
+    pull(source, by=-0.5)
     assert why_stale(target) == "", "changed back"
-    change(source)
-    assert bpy.ops.object.fairing_recompute() == {"FINISHED"}
+    pull(source)
+    recompute()
     assert why_stale(target) == "" and not badges()
 
 
@@ -65,16 +69,14 @@ def scale(source):
     source.scale.x = 2.0
 
 
-def edit(source):
+def edit_mode(source):
     bpy.ops.object.fairing_show_source()
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="SELECT")
+    edit(source, "FACE", range(6))
     bpy.ops.mesh.subdivide()
 
 
-@pytest.mark.parametrize("way", [crease, add_key, mark_edge, fix_normal, scale, edit])
-def test_what_else_counts(way):
-    source = add("Box", *CUBE)
+@pytest.mark.parametrize("way", [crease, add_key, mark_edge, fix_normal, scale, edit_mode])
+def test_what_else_counts(source, way):
     target = fair(levels=1)
     way(source)
     source.update_tag()
@@ -82,26 +84,21 @@ def test_what_else_counts(way):
     assert why_stale(target) == SOURCE_CHANGED
 
 
-def test_what_does_not_count():
-    source = add("Box", *CUBE)
+def test_what_does_not_count(source):
     target = fair(levels=1)
     source.data.materials.append(bpy.data.materials.new("Paint"))
     target.discrete_fairing.hide_source = False
     bpy.ops.object.fairing_show_source()
     bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.object.mode_set(mode="OBJECT")
+    to_object_mode()
     follow()
     assert why_stale(target) == ""
 
 
-def test_modifiers_count_where_they_are_faired():
-    source = add("Box", *CUBE)
+def test_modifiers_count_where_they_are_faired(source):
     modifier = source.modifiers.new("Subdivision", "SUBSURF")
     modifier.levels = 1
-    plain, whole = fair(levels=1), None
-    source.hide_set(False)
-    activate(source)
-    whole = fair(levels=1, mesh_source="EVALUATED")
+    plain, whole = fair(levels=1), again(source, levels=1, mesh_source="EVALUATED")
     modifier.levels = 2
     source.update_tag()
     follow()
@@ -125,8 +122,7 @@ def test_all_of_a_file_are_recomputed(tmp_path):
         targets.append(fair(levels=1))
     for source in sources[:2]:
         move(source)
-    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "stale.blend"))
-    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "stale.blend"))
+    reopen(tmp_path)
     assert sorted(t.name for t in stale_surfaces()) == ["Box Fair", "Crate Fair"], "after loading"
     header = Layout()
     outliner.draw_count(type("Header", (), {"layout": header}), bpy.context)
@@ -140,19 +136,17 @@ def test_all_of_a_file_are_recomputed(tmp_path):
         assert np.array_equal(positions(mesh)[:8], positions(bpy.data.objects[name].data))
 
 
-def test_a_live_surface_has_no_badge():
-    source = add("Box", *CUBE)
+def test_a_live_surface_has_no_badge(source):
     target = fair(levels=1)
     live(target)
-    change(source)
+    pull(source)
     activate(target)
     assert not badges()
     target.discrete_fairing_live.on = False
     assert why_stale(target) == ""
 
 
-def test_pulls_count_where_vertices_are_met_nearly():
-    source = add("Box", *CUBE)
+def test_pulls_count_where_vertices_are_met_nearly(source):
     group = source.vertex_groups.new(name="Pull")
     group.add(range(8), 0.5, "REPLACE")
     target = fair(levels=1, interpolation="APPROXIMATE", pull_group="Pull")
@@ -167,9 +161,8 @@ def test_a_setting_that_is_newer_than_the_surface_has_not_changed():
     add("Box", *CUBE)
     target = fair(levels=1)
     made = dict(memory.recall(target, "made"))
-    made["settings"] = {
-        name: value for name, value in made["settings"].items() if name != "pad_size"
-    } | {"of_an_older_version": 3}
+    made["settings"] = made["settings"] | {"of_an_older_version": 3}
+    del made["settings"]["pad_size"]
     memory.keep(target, "made", made)
     assert why_stale(target) == ""
     target.discrete_fairing.pad_size = 0.5
@@ -188,7 +181,7 @@ def test_a_run_reads_its_mesh_once(monkeypatch):
     add_key(source)
     for module in (job, freshness):
         monkeypatch.setattr(module, "read_mesh", counted)
-    made = job.Job(bpy.context, source, Settings.of(bpy.context.scene.discrete_fairing))
+    made = job.Job(bpy.context, source, settings())
     assert reads == ["Box"]
     made.compute()
     target = made.write(bpy.context)

@@ -6,7 +6,7 @@ import json
 import bpy
 import pytest
 from fake_layout import draw
-from scenes import CUBE, activate, add, fair
+from scenes import CUBE, activate, add, fair, to_object_mode
 
 from addon import freshness, records
 from addon.inspection import display
@@ -14,12 +14,7 @@ from addon.live import handlers
 from addon.memory import keep, recall, unset_unsound_settings
 from addon.ui import check, compare, inspect, main
 
-PANELS = (
-    *main.CLASSES,
-    *check.CLASSES,
-    *inspect.CLASSES,
-    compare.VIEW3D_PT_fairing_compare,
-)
+PANELS = (*main.CLASSES, *check.CLASSES, *inspect.CLASSES, compare.VIEW3D_PT_fairing_compare)
 DEEP = "[" * 100_000 + "]" * 100_000
 VALUES = (None, True, -1, 10**400, 1e999, float("nan"), "x", [], {}, [[]], [{}], {"x": "x"})
 RECORDS = ("report", "readout", "carried", "made", "defects")
@@ -32,7 +27,7 @@ def surface():
     activate(target)
     bpy.ops.object.fairing_measure()
     bpy.ops.object.fairing_check()
-    bpy.ops.object.mode_set(mode="OBJECT")
+    to_object_mode()
     return target
 
 
@@ -58,6 +53,16 @@ def spoilt(record):
             yield from (record for _ in spoilt(value))
 
 
+def test_nothing_is_in_the_panel_custom_properties():
+    target = surface()
+    bpy.ops.object.fairing_inspect(mode="MEAN")
+    for owner in (target, target.data):
+        assert not set(owner.keys()) - set(owner.bl_rna.properties.keys())
+    assert all(recall(target, name) is not None for name in ("report", "readout", "defects"))
+    target.discrete_fairing.report = "no JSON"
+    assert recall(target, "report") is None
+
+
 @pytest.mark.parametrize("name", RECORDS)
 def test_records_that_nobody_can_have_written(name):
     target = surface()
@@ -65,34 +70,20 @@ def test_records_that_nobody_can_have_written(name):
         keep(target, name, {"defects": DEFECTS, "counts": [1, 2, 3]})
     record = json.loads(getattr(target.discrete_fairing, name))
     assert recall(target, name) == record
-    for text in (
-        DEEP,
-        '{"after":' * 5000,
-        "5",
-        "[]",
-        "{}",
-        "NaN",
-        "\\",
-        '{"source": 1' + "0" * 5000,
-    ):
+    texts = ("", "no JSON", "[1]", "5", "[]", "{}", "NaN", "\\")
+    for text in (*texts, DEEP, '{"after":' * 5000, '{"source": 1' + "0" * 5000):
         setattr(target.discrete_fairing, name, text)
         redraw()
     for each in spoilt(record):
         setattr(target.discrete_fairing, name, json.dumps(each))
-        redraw()
+        if recall(target, name) is not None:  # else all is as without a record
+            redraw()
     bpy.ops.object.fairing_recompute()
     bpy.ops.object.fairing_measure()
 
 
-DEFECTS = [
-    {
-        "code": "NONMANIFOLD_EDGE",
-        "message": "Text",
-        "kind": "edge",
-        "elements": [[0, 1]],
-        "severity": "error",
-    }
-]
+DEFECTS = [{"code": "NONMANIFOLD_EDGE", "message": "Text", "kind": "edge", "elements": [[0, 1]]}]
+DEFECTS[0]["severity"] = "error"
 
 
 @pytest.mark.parametrize(

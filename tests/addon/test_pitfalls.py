@@ -4,6 +4,10 @@
 import ast
 from pathlib import Path
 
+import pytest
+
+pytestmark = pytest.mark.plain
+
 ADDON = Path(__file__).resolve().parents[2] / "addon"
 
 

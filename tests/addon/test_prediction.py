@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 import pytest
 from fake_layout import draw
-from scenes import CUBE, activate, add, fair, positions
+from scenes import CUBE, activate, add, fair, positions, refused, settings
 
 from addon import prediction
 from addon.errors import JobCancelled
@@ -14,7 +14,6 @@ from addon.job import Job
 from addon.live.pace import Deadline
 from addon.operators import fair as fairing
 from addon.operators import redo as redoing
-from addon.settings import Settings
 from addon.ui import main
 
 ENERGY = "TOTAL_CURVATURE"
@@ -45,8 +44,7 @@ def test_what_cannot_be_read_is_nothing(text, monkeypatch):
     assert prediction.seconds("THIN_PLATE", 10**6) > 1.0
 
 
-def test_a_run_is_noted_and_the_panel_says_seconds(monkeypatch):
-    source = add("Box", *CUBE)
+def test_a_run_is_noted_and_the_panel_says_seconds(source, monkeypatch):
     monkeypatch.setattr(prediction, "_BRIEF", 0.0)
     fair(levels=1)
     assert len(prediction._of_mesh) == 1
@@ -54,7 +52,7 @@ def test_a_run_is_noted_and_the_panel_says_seconds(monkeypatch):
     source.hide_set(False)
     activate(source)
     assert "768 triangles" in draw(main.VIEW3D_PT_fairing)
-    job = Job(bpy.context, source, Settings.of(bpy.context.scene.discrete_fairing))
+    job = Job(bpy.context, source, settings())
     prediction.note("THIN_PLATE", 768, 12.0, job.reference.key)
     assert "768 triangles, about 12 s" in draw(main.VIEW3D_PT_fairing)
     assert job.predicted_seconds == pytest.approx(12.0)
@@ -93,14 +91,12 @@ def test_where_even_a_small_surface_takes_too_long(redo, monkeypatch):
 
     monkeypatch.setattr(Job, "compute", compute)
     add("Box", *CUBE)
-    with pytest.raises(RuntimeError, match="set it in the panel, and press Recompute"):
-        bpy.ops.object.fairing_surface(levels=4)
+    refused("set it in the panel, and press Recompute", bpy.ops.object.fairing_surface, levels=4)
     assert [o.name for o in bpy.data.objects] == ["Box"]
 
 
-def test_redo_shows_a_small_surface_and_recompute_the_whole_one(redo, monkeypatch):
-    source = add("Box", *CUBE)
-    key = Job(bpy.context, source, Settings.of(bpy.context.scene.discrete_fairing)).reference.key
+def test_redo_shows_a_small_surface_and_recompute_the_whole_one(source, redo, monkeypatch):
+    key = Job(bpy.context, source, settings()).reference.key
     prediction.note("THIN_PLATE", 12 * 4**4, 1.0, key)  # a second at level 4
     target = fair(levels=5)
     assert len(target.data.polygons) == 6 * 4**3, "a quarter of a second"
@@ -111,9 +107,8 @@ def test_redo_shows_a_small_surface_and_recompute_the_whole_one(redo, monkeypatc
     assert np.array_equal(positions(target.data)[:8], positions(source.data))
 
 
-def test_a_slow_energy_is_stood_in_for(redo, monkeypatch):
-    source = add("Box", *CUBE)
-    key = Job(bpy.context, source, Settings.of(bpy.context.scene.discrete_fairing)).reference.key
+def test_a_slow_energy_is_stood_in_for(source, redo, monkeypatch):
+    key = Job(bpy.context, source, settings()).reference.key
     prediction.note(ENERGY, 12 * 4, 10.0, key)
     target = fair(levels=3, energy=ENERGY)
     assert target.discrete_fairing.energy == ENERGY and len(target.data.polygons) == 6 * 4**3

@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the user prefers reaches scenes and the core."""
 
-from dataclasses import replace
 from threading import current_thread, main_thread
 from types import SimpleNamespace
 
 import bpy
-from scenes import CUBE, add
+from scenes import CUBE, add, settings
 
 from addon import core, preferences
 from addon.core import fair_arguments
@@ -14,7 +13,6 @@ from addon.in_place import InPlaceJob, InPlaceOptions
 from addon.job import Job
 from addon.mesh.read import read_mesh
 from addon.queue import Queue
-from addon.settings import Settings
 from addon.strain.ease import EaseJob, EaseOptions
 from addon.strain.measure import StrainJob
 
@@ -25,22 +23,15 @@ def prefer(monkeypatch, **values):
     return chosen
 
 
-def test_new_files_begin_with_the_default_levels(monkeypatch):
+def test_new_files_and_scenes_begin_with_the_default_levels(monkeypatch):
+    assert preferences.preferences() is preferences.Defaults, "where it is not installed"
     prefer(monkeypatch, levels=5)
     bpy.ops.wm.read_factory_settings(use_empty=True)
     assert bpy.context.scene.discrete_fairing.levels == 5
-
-
-def test_new_scenes_too(monkeypatch):
-    prefer(monkeypatch, levels=5)
     bpy.ops.scene.new(type="EMPTY")
     add("Box", *CUBE)
     bpy.context.view_layer.update()
     assert bpy.context.scene.discrete_fairing.levels == 5
-
-
-def test_chosen_levels_are_left_alone(monkeypatch):
-    prefer(monkeypatch, levels=5)
     bpy.context.scene.discrete_fairing.levels = 3
     preferences.give_scenes_default_levels()
     assert bpy.context.scene.discrete_fairing.levels == 3
@@ -48,18 +39,11 @@ def test_chosen_levels_are_left_alone(monkeypatch):
 
 def test_memory_and_threads_reach_the_core(monkeypatch):
     chosen = prefer(monkeypatch, memory_limit=7, threads=1)
-    arrays, settings = (
-        read_mesh(add("Box", *CUBE).data),
-        Settings.of(bpy.context.scene.discrete_fairing),
-    )
-    given = fair_arguments(arrays, settings, chosen)
+    arrays = read_mesh(add("Box", *CUBE).data)
+    given = fair_arguments(arrays, settings(), chosen)
     assert given["memory_limit"] == 7 * 2**20 and given["threads"] == 1
-    settings = replace(settings, memory_limit=9)
-    assert fair_arguments(arrays, settings, chosen)["memory_limit"] == 9 * 2**20
-
-
-def test_not_installed_means_defaults():
-    assert preferences.preferences() is preferences.Defaults
+    given = fair_arguments(arrays, settings(memory_limit=9), chosen)
+    assert given["memory_limit"] == 9 * 2**20
 
 
 def test_blender_is_asked_on_its_own_thread_alone(monkeypatch):
@@ -73,14 +57,13 @@ def test_blender_is_asked_on_its_own_thread_alone(monkeypatch):
 
     monkeypatch.setattr(preferences, "current_context", context)
     bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=3)
-    source, scene = bpy.context.object, bpy.context.scene
-    settings = Settings.of(scene.discrete_fairing)
+    source = bpy.context.object
     options = InPlaceOptions(0, "TANGENT", "THIN_PLATE", 0.0, release=False, measured=True)
     jobs = [
-        Job(bpy.context, source, settings),
+        Job(bpy.context, source, settings()),
         StrainJob(bpy.context, source),
         EaseJob(bpy.context, source, EaseOptions("AUTOMATIC", 0.0, 3, False, False)),
-        InPlaceJob(bpy.context, source, settings, options),
+        InPlaceJob(bpy.context, source, settings(), options),
     ]
     queue = Queue(jobs, core.module().Monitor)
     queue.start()

@@ -14,6 +14,8 @@ from addon.errors import JobCancelled, JobError
 from addon.operators.modal import status_text
 from addon.queue import ConsoleProgress, Queue
 
+pytestmark = pytest.mark.plain
+
 
 class Monitor:
     """The core's, as far as a queue knows it."""

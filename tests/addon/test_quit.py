@@ -9,6 +9,8 @@ from pathlib import Path
 import discrete_fairing
 import pytest
 
+pytestmark = pytest.mark.plain
+
 HERE = Path(__file__).resolve().parent
 BEGIN = """
 import sys, time
@@ -47,11 +49,6 @@ def test_quitting_in_mid_run(end):
         print("mid-run", flush=True)
         {end}
     """)
-
-
-def test_a_script_that_only_registers_ends_well():
-    """A process that leaves classes registered in the module `bpy` ends by a signal, or never."""
-    run("work.cancel(); print('over')")
 
 
 def test_the_add_on_goes_in_mid_run():

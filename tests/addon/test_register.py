@@ -4,22 +4,11 @@ import bpy
 import addon
 from addon import core
 
-CLASSES = (
-    "OBJECT_OT_fairing_surface",
-    "OBJECT_OT_fairing_recompute",
-    "OBJECT_OT_fairing_preset_add",
-    "VIEW3D_PT_fairing",
-    "OBJECT_OT_fairing_show_source",
-    "VIEW3D_PT_fairing_inspect",
-    "VIEW3D_PT_fairing_check",
-    "VIEW3D_MT_fairing_for",
-)
-
 
 def registered():
-    return [hasattr(bpy.types, name) for name in CLASSES] + [
-        hasattr(bpy.types.Scene, "discrete_fairing")
-    ]
+    kinds = ("OBJECT_OT_fairing", "VIEW3D_PT_fairing", "VIEW3D_MT_fairing")
+    found = {kind: any(name.startswith(kind) for name in dir(bpy.types)) for kind in kinds}
+    return [*found.values(), hasattr(bpy.types.Scene, "discrete_fairing")]
 
 
 def test_register_and_unregister_twice():

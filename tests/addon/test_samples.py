@@ -1,15 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The release's sample files: each opens as its page says, and its surface is computed again."""
 
-import sys
-from pathlib import Path
-
 import bpy
 import pytest
-
-sys.path.append(str(Path(__file__).resolve().parents[2] / "examples"))
-
-import sample_files  # noqa: E402
+import sample_files
 
 LARGEST = 1_500_000  # bytes
 NOT_FAIRED = {"scan"}  # whose hole is still open

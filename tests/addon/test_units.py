@@ -40,21 +40,11 @@ def test_a_list_has_one_unit():
     assert [text(x) for x in (2.5, 0.0421, 0.0)] == ["2.5 m", "0.0421 m", "0 m"]
     finer = Units.of(scene("ADAPTIVE")).lengths(-0.0421)
     assert [finer(x) for x in (-0.0421, 0.000153)] == ["-4.21 cm", "0.0153 cm"]
-
-
-def test_volumes():
     assert Units.of(scene()).volume(4.18879) == "4.19 m³"
     assert Units.of(scene("MILLIMETERS", scale=0.001)).volume(5000.0) == "5000 mm³"
     assert Units.of(scene(system="NONE")).volume(4.18879) == "4.19"
-
-
-def test_digits():
-    assert [digits_of(x) for x in (0.000153, 1.0, -12.3456, 99.96)] == [
-        "0.000153",
-        "1",
-        "-12.3",
-        "100",
-    ]
+    digits = [digits_of(x) for x in (0.000153, 1.0, -12.3456, 99.96)]
+    assert digits == ["0.000153", "1", "-12.3", "100"]
 
 
 def test_every_unit_of_blender_is_known():

@@ -4,7 +4,7 @@
 import bpy
 import numpy as np
 import pytest
-from scenes import CUBE, activate, add
+from scenes import CUBE, activate, add, computed, fair, shown
 
 from addon.cad.fit import PatchJob
 from addon.errors import JobError
@@ -14,12 +14,10 @@ WANTED = PatchOptions(fit_tolerance=1e-4, fit_angle=1e-3, fit_levels=4)
 
 
 def patches_of(target):
-    job = PatchJob(bpy.context, target, WANTED)
-    job.compute()
-    return job.patches
+    return computed(PatchJob(bpy.context, target, WANTED))
 
 
-def shown(target):
+def nurbs_of(target):
     """The new object beside `target`."""
     activate(target)
     assert bpy.ops.object.fairing_show_patches(fit_angle=1e-3, fit_levels=4) == {"FINISHED"}
@@ -44,8 +42,10 @@ def house():
 
 def test_every_control_point_is_that_of_its_patch():
     target = house()
-    patches = patches_of(target)
-    surface = shown(target)
+    patches, before = patches_of(target).patches, set(bpy.data.objects)
+    surface = nurbs_of(target)
+    assert set(bpy.data.objects) - before == {surface} and len(bpy.data.curves) == 1
+    assert bpy.context.mode == "OBJECT"
     assert surface.type == "SURFACE" and surface.name == "House Patches"
     assert len(surface.data.splines) == len(patches) == 5 + 12
     for p, spline in enumerate(surface.data.splines):
@@ -57,9 +57,7 @@ def test_every_control_point_is_that_of_its_patch():
 def test_the_surface_that_blender_draws_is_the_one_of_cad():
     box = add("Box", *CUBE)
     bpy.context.scene.discrete_fairing.energy = "TOTAL_CURVATURE"
-    surface = shown(box)
-    mesh = surface.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
-    radius = [vertex.co.length for vertex in mesh.vertices]
+    radius = np.linalg.norm(shown(nurbs_of(box)), axis=1)
     assert len(radius) > 100 and np.allclose(radius, np.sqrt(3), rtol=3e-3)
 
 
@@ -69,7 +67,7 @@ def test_it_stands_where_its_source_is_and_has_its_materials():
     for name in ("Red", "Green"):
         box.data.materials.append(bpy.data.materials.new(name))
     box.data.polygons[4].material_index = 1
-    surface = shown(box)
+    surface = nurbs_of(box)
     assert tuple(surface.location) == (3, 0, 0) and tuple(surface.scale) == (1, 2, 1)
     assert [material.name for material in surface.data.materials] == ["Red", "Green"]
     assert [spline.material_index for spline in surface.data.splines].count(1) == 1
@@ -79,71 +77,43 @@ def test_it_stands_where_its_source_is_and_has_its_materials():
     assert np.allclose(np.abs(corners), 1, atol=1e-6)
 
 
-def test_nothing_else_is_left():
-    box = add("Box", *CUBE)
-    before = set(bpy.data.objects)
-    surface = shown(box)
-    assert set(bpy.data.objects) - before == {surface}
-    assert bpy.context.mode == "OBJECT" and len(bpy.data.curves) == 1
-
-
 def with_keys():
     """A box with two keys, one relative to the other and with a vertex group, and its surface."""
     box = add("Box", *CUBE)
     group = box.vertex_groups.new(name="Upper")
     group.add([v for v in range(8) if CUBE[0][v][2] > 0], 0.5, "REPLACE")
-    for name in ("Basis", "Tall", "Wide"):
+    for name, scale in (("Basis", (1, 1, 1)), ("Tall", (1, 1, 1.5)), ("Wide", (2, 1, 1.5))):
         key = box.shape_key_add(name=name, from_mix=False)
-        for vertex, point in enumerate(key.data):
-            x, y, z = CUBE[0][vertex]
-            point.co = {"Basis": (x, y, z), "Tall": (x, y, 1.5 * z), "Wide": (2 * x, y, 1.5 * z)}[
-                name
-            ]
+        key.data.foreach_set("co", np.float32(np.array(CUBE[0]) * scale).ravel())
     keys = box.data.shape_keys.key_blocks
     keys["Tall"].vertex_group = "Upper"
     keys["Wide"].relative_key = keys["Tall"]
     keys["Tall"].value, keys["Wide"].value = 0.8, 0.6
-    assert bpy.ops.object.fairing_surface(energy="TOTAL_CURVATURE", levels=3) == {"FINISHED"}
-    return box, bpy.context.active_object
+    return box, fair(energy="TOTAL_CURVATURE", levels=3)
 
 
-@pytest.mark.parametrize("of_source", [False, True])
-def test_patches_pass_where_shape_keys_have_the_surface(of_source):
+@pytest.mark.parametrize("what", ["surface", "source", "absolute"])
+def test_patches_pass_where_shape_keys_have_the_surface(what):
     box, surface = with_keys()
-    shown = surface.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
-    wanted = np.array([vertex.co[:] for vertex in shown.vertices[:8]])
-    corners = np.array(CUBE[0], float)
-    assert np.abs(wanted - corners).max() > 0.3
+    if what == "absolute":
+        keys = surface.data.shape_keys
+        keys.use_relative, keys.eval_time = False, 15.0  # keys are 10 apart, from 0 on
+        bpy.context.view_layer.update()
+    wanted = shown(surface)[:8]
+    assert np.abs(wanted - CUBE[0]).max() > 0.3
+    if what == "absolute":
+        assert np.allclose(np.abs(wanted), [1.5, 1.0, 1.5], atol=1e-6)  # between Tall and Wide
     bpy.context.scene.discrete_fairing.energy = "TOTAL_CURVATURE"
-    job = PatchJob(bpy.context, box if of_source else surface, WANTED)
-    job.compute()
+    job = patches_of(box if what == "source" else surface)
     found = job.patches.vertices
     apart = np.linalg.norm(found[:, None] - wanted, axis=2).min(axis=1)
     assert len(found) == 8 and apart.max() < 1e-3
-    if of_source:
-        assert job.apart is None
-    else:
-        assert job.apart < 0.02
-
-
-def test_absolute_keys_are_mixed_by_their_time():
-    _, surface = with_keys()
-    keys = surface.data.shape_keys
-    keys.use_relative, keys.eval_time = False, 15.0  # keys are 10 apart, from 0 on
-    bpy.context.view_layer.update()
-    shown = surface.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
-    wanted = np.array([vertex.co[:] for vertex in shown.vertices[:8]])
-    assert np.allclose(np.abs(wanted), [1.5, 1.0, 1.5], atol=1e-6)  # between Tall and Wide
-    job = PatchJob(bpy.context, surface, WANTED)
-    job.compute()
-    apart = np.linalg.norm(job.patches.vertices[:, None] - wanted, axis=2).min(axis=1)
-    assert apart.max() < 1e-3 and job.apart < 0.02
+    assert job.apart is None if what == "source" else job.apart < 0.02
 
 
 def test_keys_of_the_surface_alone_are_refused_with_a_cure():
     box = add("Box", *CUBE)
-    assert bpy.ops.object.fairing_surface(levels=2) == {"FINISHED"}
-    surface = bpy.context.active_object
+    surface = fair(levels=2)
     surface.shape_key_add(name="Basis")
     key = surface.shape_key_add(name="Dent")
     key.data[20].co *= 0.8
@@ -151,9 +121,8 @@ def test_keys_of_the_surface_alone_are_refused_with_a_cure():
     with pytest.raises(JobError, match="Set the key Dent to 0"):
         PatchJob(bpy.context, surface, WANTED)
     key.value = 0.0
-    job = PatchJob(bpy.context, surface, WANTED)
-    job.compute()  # as far as the mesh of two levels is from the fair surface
-    assert job.apart < 0.1
+    # as far as the mesh of two levels is from the fair surface
+    assert patches_of(surface).apart < 0.1
     box.shape_key_add(name="Basis")  # of a mesh itself they are in what is faired
     box.shape_key_add(name="Up").value = 1.0
     PatchJob(bpy.context, box, WANTED)
@@ -161,18 +130,12 @@ def test_keys_of_the_surface_alone_are_refused_with_a_cure():
 
 def test_the_largest_distance_from_the_mesh_shown_is_told(capfd):
     box = add("Box", *CUBE)
-    assert bpy.ops.object.fairing_surface(energy="TOTAL_CURVATURE", levels=2) == {"FINISHED"}
-    surface = bpy.context.active_object
+    surface = fair(energy="TOTAL_CURVATURE", levels=2)
     surface.scale = (3, 3, 3)
     surface.data.vertices[20].co *= 1.1  # no control vertex
-    shown(surface)
+    nurbs_of(surface)
     told = capfd.readouterr().out
-    job = PatchJob(bpy.context, surface, WANTED)
-    job.compute()
-    assert job.apart == pytest.approx(3 * 0.1 * np.sqrt(3), rel=0.02)
-    assert "5e+02" not in told and "520 mm from the mesh shown" in told
+    assert patches_of(surface).apart == pytest.approx(3 * 0.1 * np.sqrt(3), rel=0.02)
     assert "520 mm from the mesh shown, as Box Fair has 2 levels: " in told
     box.data.vertices[0].co *= 2  # the surface is that of the mesh before
-    job = PatchJob(bpy.context, surface, WANTED)
-    job.compute()
-    assert job.apart > 1
+    assert patches_of(surface).apart > 1

@@ -8,7 +8,7 @@ import pytest
 from fake_layout import draw
 from hole_scenes import ball, borders, is_closed, without
 from polygons import grid
-from scenes import add
+from scenes import add, refused, to_object_mode
 
 from addon.check.defects import recall_defects, recall_holes
 from addon.ui import check as check_panel
@@ -62,7 +62,7 @@ def test_one_is_filled_and_the_list_goes_on(mode):
     assert recall_defects(target) == ([], False)
     assert recall_holes(target) == [large]
     assert bpy.ops.object.fairing_fill(edge=large["at"]) == {"FINISHED"}
-    bpy.ops.object.mode_set(mode="OBJECT")
+    to_object_mode()
     assert is_closed(target.data) and recall_holes(target) == []
 
 
@@ -70,8 +70,7 @@ def test_a_hole_that_is_gone_is_said():
     target = two_holes()
     hole = checked(target)[0]
     assert bpy.ops.object.fairing_fill() == {"FINISHED"}
-    with pytest.raises(RuntimeError, match="no longer there"):
-        bpy.ops.object.fairing_fill(edge=hole["at"])
+    refused("no longer there", bpy.ops.object.fairing_fill, edge=hole["at"])
     assert bpy.ops.object.fairing_select_hole(edge=hole["at"]) == {"FINISHED"}
     assert target.mode == "OBJECT"
 

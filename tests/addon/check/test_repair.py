@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 from cli_files import box
 from cli_runs import entries, imported, run
-from live_scenes import follow, live, move
-from scenes import CUBE, activate, add, fair, positions, snapshot
+from live_scenes import live, pull, through
+from refined import corner_vertices, values
+from scenes import CUBE, add, again, fair, positions, recompute, snapshot
 
 from addon.memory import recall
 
@@ -41,18 +42,6 @@ def add_defective():
     return source
 
 
-def corner_values(mesh, name, field="value", width=1, dtype=np.int32):
-    found = np.empty(width * len(mesh.loops), dtype)
-    mesh.attributes[name].data.foreach_get(field, found)
-    return found.reshape(-1, width)
-
-
-def corner_vertices(mesh):
-    found = np.empty(len(mesh.loops), np.int32)
-    mesh.loops.foreach_get("vertex_index", found)
-    return found
-
-
 def test_mending_is_the_default_and_leaves_the_source_alone(capfd):
     source = add_defective()
     before = snapshot(source)
@@ -76,23 +65,16 @@ def test_weld_joins_what_lies_close(capfd):
     before = snapshot(source)
     apart = fair(levels=1)
     assert len(apart.data.vertices) == 2 * 9 and "merged" not in capfd.readouterr().out
-    activate(source)
-    source.hide_set(False)
-    welded = fair(levels=1, weld=0.02)
+    welded = again(source, levels=1, weld=0.02)
     assert snapshot(source) == before
-    loose = [
-        v
-        for v in welded.data.vertices
-        if not any(v.index in p.vertices for p in welded.data.polygons)
-    ]
-    assert len(welded.data.polygons) == 8 and len(welded.data.vertices) - len(loose) == 9 + 6
+    used = {v for p in welded.data.polygons for v in p.vertices}
+    assert len(welded.data.polygons) == 8 and len(used) == 9 + 6
     assert "2 vertices" in capfd.readouterr().out
     acts = recall(welded, "report")["repairs"]
     assert [(a["code"], a["elements"]) for a in acts] == [("COINCIDENT_VERTICES", [4, 7])]
-    activate(welded)
     assert welded.discrete_fairing.weld == np.float32(0.02)
     welded.discrete_fairing.repair = "REFUSE"  # which does not weld
-    assert bpy.ops.object.fairing_recompute() == {"FINISHED"}
+    recompute()
     assert len(welded.data.vertices) == 2 * 9
 
 
@@ -101,23 +83,15 @@ def test_uvs_and_attributes_follow():
     mesh = fair(levels=1).data
     vertices = corner_vertices(mesh)
     own = vertices < len(VERTICES)
-    uv = corner_values(mesh, "Map", "vector", 2, np.float32)
+    uv = values(mesh, "Map", "vector", 2)
     assert np.allclose(uv[own], np.array(VERTICES)[vertices[own], :2], rtol=0, atol=1e-6)
     assert 4 in vertices[own]
-    number = np.empty(len(mesh.polygons), np.int32)
-    mesh.attributes["number"].data.foreach_get("value", number)
+    number = values(mesh, "number", dtype=np.int32)
     assert set(number.tolist()) == {10, 12, 13}
     # each refined corner has the number of a corner of its own face
     face = np.repeat(number - 10, [len(p.vertices) for p in mesh.polygons])
-    corner = corner_values(mesh, "corner").ravel()
+    corner = values(mesh, "corner", dtype=np.int32)
     assert np.array_equal(corner // 3, face)
-
-
-def test_refuse_says_why():
-    source = add_defective()
-    with pytest.raises(RuntimeError, match="same vertices as another face"):
-        bpy.ops.object.fairing_surface(levels=1, repair="REFUSE")
-    assert list(bpy.data.objects) == [source]
 
 
 def test_shape_keys_follow():
@@ -137,8 +111,7 @@ def test_recompute_mends_what_is_there_now():
     faces = len(result.data.polygons)
     source.data.clear_geometry()
     source.data.from_pydata(VERTICES, [], FACES[:4])
-    activate(result)
-    bpy.ops.object.fairing_recompute()
+    recompute(result)
     assert [a["code"] for a in recall(result, "report")["repairs"]] == ["DEGENERATE_FACE"]
     assert len(result.data.polygons) == faces
     result.discrete_fairing.repair = "REFUSE"
@@ -152,18 +125,10 @@ def test_a_live_surface_of_a_source_with_defects():
     result = fair(levels=2)
     result.discrete_fairing_live.levels = 1
     live(result)
-    move(source, index=2)
-    follow()
-    assert np.array_equal(positions(result.data)[:5], positions(source.data))
-    uv = corner_values(result.data, "Map", "vector", 2, np.float32)
+    pull(source, index=2)
+    assert through(result, source)
+    uv = values(result.data, "Map", "vector", 2)
     assert np.isfinite(uv).all() and uv.any()
-
-
-def test_turned_faces_are_told():
-    faces = [CUBE[1][0][::-1], *CUBE[1][1:]]
-    add("Box", CUBE[0], faces)
-    acts = recall(fair(levels=1), "report")["repairs"]
-    assert [(a["code"], a["elements"]) for a in acts] == [("INCONSISTENT_ORIENTATION", [0])]
 
 
 def test_symmetry_is_kept_where_a_vertex_was_merged():

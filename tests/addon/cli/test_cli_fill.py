@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The command line closes holes."""
 
+from collections import Counter
 from pathlib import Path
 
 import numpy as np
-import pytest
-from cli_files import read_obj, write_obj
-from cli_runs import entries, imported, run
+from cli_files import read_obj
+from cli_runs import entries, imported
+
+from addon.cli import main as command
 
 
 def write_ball(name, open_above=0.7, sides=24, rings=12, spoiled=""):
@@ -32,10 +34,6 @@ def write_ball(name, open_above=0.7, sides=24, rings=12, spoiled=""):
 
 
 def open_edges(path):
-    from collections import Counter
-
-    from addon.cli import main as command
-
     uses = Counter(
         tuple(sorted(edge))
         for item in command.read_file(Path(path))
@@ -118,35 +116,3 @@ def test_what_passes_through_the_mesh_is_warned_of():
     (hole,) = entry["objects"][0]["report"]["holes"]
     assert hole["crossings"] > 0
     assert any("1 hole passes through other faces" in w for w in entry["warnings"])
-
-
-@pytest.mark.parametrize(
-    "words, said",
-    [
-        (("--largest-hole", 9), "--largest-hole needs --fill or --clean"),
-        (("--fill-noisy",), "--fill-noisy needs --fill"),
-        (("--fill", "--clean"), "give one of --fill and --clean"),
-        (("--fill", "--clean-noise", 3), "--clean-noise needs --clean"),
-        (("--clean", "--fill-noisy"), "--fill-noisy needs --fill"),
-        (("--clean", "--energy", "thin_plate"), "--energy is for fairing, and --clean does not"),
-        (("--clean", "--ease"), "--ease is for fairing, and --clean does not"),
-        (("--clean", "--clean-without", "junk"), "invalid choice: 'junk'"),
-        (("--clean", "--clean-islands", 2), "from 0 to 1"),
-        (("--clean", "--clean-noise", 1001), "from 0 to 1000"),
-        (("--fill", "--levels", 2), "--levels is for fairing"),
-        (("--fill", "--pieces", 2), "--pieces is for fairing"),
-        (("--fill", "--largest-hole", -2), "is not a length"),
-        (("--fill", "--fill-density", -1), "from 0 to 100"),
-    ],
-)
-def test_wrong_usage_is_said(words, said, capsys):
-    write_obj("in.obj")
-    assert run("in.obj", "out.obj", *words) == 2
-    assert said in capsys.readouterr().err
-    assert not Path("out.obj").exists()
-
-
-def test_fillings_are_no_step_files(capsys):
-    write_obj("in.obj")
-    assert run("in.obj", "out.step", "--fill") == 2
-    assert "STEP" in capsys.readouterr().err

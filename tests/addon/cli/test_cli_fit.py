@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import step_files
 from cli_files import read_obj
-from cli_runs import entries, run
+from cli_runs import entries
 from scans import blob_cage, blob_scan, cube_sphere, distance_to_blob, rms
 
 NOISE = 0.004
@@ -70,22 +70,6 @@ def test_a_scan_alone_gets_a_cage(capsys):
     assert np.abs(np.linalg.norm(read_obj("out.obj"), axis=1) - 1).max() < 0.02
     head = next(line for line in capsys.readouterr().err.splitlines() if "within" in line)
     assert head.split()[-2:] == ["within", "noise"]
-
-
-@pytest.mark.parametrize(
-    ("words", "sentence"),
-    [
-        (("scan.ply", "out.obj", "--cage", "cage.obj"), "--cage needs --fit"),
-        (("--fit", "scan.ply", "out.obj", "--cage", "cage.dwg"), "no cage"),
-        (("--fit", "scan.ply", "out.obj", "--energy", "total_curvature"), "--energy is not for"),
-        (("--fit", "scan.ply", "out.obj", "--ease"), "--ease is not for --fit"),
-        (("--fit", "scan.ply", "out.obj", "--cage", "cage.obj", "--cage-faces", 9), "give one of"),
-        (("--fit", "scan.ply", "out.obj", "--tolerance", 0), "must be over 0"),
-    ],
-)
-def test_what_contradicts_is_said(blob, capsys, words, sentence):
-    assert run(*words) == 2
-    assert sentence in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

@@ -6,9 +6,8 @@ from pathlib import Path
 import bpy
 import pytest
 from cli_runs import imported, run
-from scenes import CUBE, add, set_edge_attribute
+from scenes import CUBE, EXAMPLES, add, set_edge_attribute
 
-EXAMPLES = Path(__file__).resolve().parents[3] / "examples"
 # on the way to glTF and USD and back the axes are turned twice
 WRITERS = {
     "cube.blend": lambda path: bpy.ops.wm.save_as_mainfile(filepath=path),

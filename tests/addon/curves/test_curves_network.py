@@ -9,9 +9,11 @@ import pytest
 
 from addon.curves.cells import find_cells
 from addon.curves.crossings import meetings
-from addon.curves.cubics import Curve, from_bezier, from_nurbs, points_at, through
+from addon.curves.cubics import Curve, points_at, through
 from addon.curves.network import network
 from addon.curves.words import none_text, remarks
+
+pytestmark = pytest.mark.plain
 
 
 def sizes(found):
@@ -39,22 +41,6 @@ def test_points_on_one_place_count_once():
     twice = np.array([(0, 0, 0), (0, 0, 0), (1, 0, 0), (2, 0, 0), (2, 0, 0)], float)
     assert len(through(twice, False)) == 2
     assert len(through(twice[:2], False)) == 0
-
-
-def test_a_bezier_is_taken_as_it_is():
-    points = np.array([(0, 0, 0), (1, 0, 0)], float)
-    pieces = from_bezier(points, points + (-0.3, 0, 1), points + (0.3, 0, 1), False)
-    assert np.allclose(points_at(pieces, np.array([0.0, 0.5, 1.0]))[1], (0.5, 0, 0.75))
-    assert len(from_bezier(points, points, points, True)) == 2
-
-
-def test_a_rational_circle_is_round():
-    w = np.sqrt(0.5)
-    around = [(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1), (1, 0)]
-    points = np.array([(x, y, 0, w if abs(x) == abs(y) else 1) for x, y in around], float)
-    pieces = from_nurbs(points, 3, False, True, True)
-    radii = np.linalg.norm(even(Curve("Circle", pieces)), axis=1)
-    assert np.abs(radii - 1).max() < 2e-5
 
 
 def test_crossings_are_exact():

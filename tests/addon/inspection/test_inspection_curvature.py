@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 from polygons import polygons
 from scans import cube_sphere
+from scenes import CUBE, add
 
-from addon.core import ControlArrays
 from addon.inspection import curvature, measures
+from addon.mesh.read import read_mesh
 
 
 def grid(shape, n, m, close_u, close_v, diagonals=True):
@@ -91,30 +92,18 @@ def test_cylinder_and_its_open_ends():
 
     mesh = grid(shape, 64, 9, True, False)
     bent = curvature.curvature(mesh)
-    assert (
-        np.abs(bent.mean - 1.0).max() < 1e-3
-    )  # 1 / 2r, on the rims too: taken from their neighbours
+    # 1 / 2r, on the rims too: taken from their neighbours
+    assert np.abs(bent.mean - 1.0).max() < 1e-3
     assert np.abs(bent.gauss).max() < 1e-9
     assert np.abs(bent.largest - 2.0).max() < 1e-2
     assert (~bent.inner).sum() == 2 * 64
 
 
 def test_curvature_stops_at_sharp_edges():
-    positions = [
-        (0, 0, 0),
-        (1, 0, 0),
-        (2, 0, 0),
-        (0, 1, 0),
-        (1, 1, 0),
-        (2, 1, 1),
-        (0, 2, 0),
-        (1, 2, 0),
-        (2, 2, 1),
-    ]
+    positions = [(x, y, x == 2 and y > 0) for y in range(3) for x in range(3)]
     faces = [(0, 1, 4, 3), (1, 2, 5, 4), (3, 4, 7, 6), (4, 5, 8, 7)]
-    assert curvature.curvature(polygons(positions, faces)).inner.tolist() == [
-        i == 4 for i in range(9)
-    ]
+    inner = curvature.curvature(polygons(positions, faces)).inner
+    assert np.flatnonzero(inner).tolist() == [4]
     bent = curvature.curvature(polygons(positions, faces, [(1, 4), (4, 7)]))
     assert not bent.inner.any() and not bent.mean.any()
 
@@ -123,14 +112,12 @@ def test_total_curvature_of_a_sphere_does_not_depend_on_its_size():
     for radius in (1.0, 10.0):
         ball = sphere(4)
         ball = replace(ball, positions=ball.positions * radius)
-        assert measures.total_curvature(curvature.curvature(ball)) == pytest.approx(
-            8 * np.pi, rel=0.01
-        )
+        total = measures.total_curvature(curvature.curvature(ball))
+        assert total == pytest.approx(8 * np.pi, rel=0.01)
 
 
 def test_folds_of_a_box_are_right_angles():
-    box = [(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
-    faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    box, faces = CUBE
     angles, inside = measures.fold_angles(polygons(box, faces))
     assert inside.all() and np.allclose(angles, 90)
     turned = [faces[0][::-1], *faces[1:]]
@@ -147,27 +134,30 @@ def test_a_tiny_fold_keeps_its_digits():
     assert angles[inside] == pytest.approx(np.degrees(h), rel=1e-6)
 
 
-def test_a_long_quad_is_halved_along_its_shorter_diagonal():
-    kite = np.array([(0, 0, 0), (3, -1, 0), (6, 0, 0), (3, 1, 0)], float)
-    triangles, weights = curvature.triangulate(kite, np.arange(4), np.array([0, 4]))
-    assert len(triangles) == 2 and all({1, 3} <= set(t) for t in triangles.tolist())
+DART = np.array([(0, 0), (2, -1), (0.5, 0), (2, 1)])
+ONCE = {"long": ([(0, 0), (3, -1), (6, 0), (3, 1)], {1, 3})}  # and its shorter diagonal
+ONCE |= {f"dent at {t}": (np.roll(DART, t, axis=0), {t % 4, (t + 2) % 4}) for t in range(4)}
+
+
+@pytest.mark.parametrize("quad", ONCE)
+def test_quads_are_halved_along_a_diagonal_inside(quad):
+    points, diagonal = ONCE[quad]
+    triangles, weights = curvature.triangulate(
+        np.c_[points, np.zeros(4)], np.arange(4), np.array([0, 4])
+    )
+    assert len(triangles) == 2 and all(diagonal <= set(t) for t in triangles.tolist())
     assert weights.tolist() == [1.0, 1.0]
 
 
-def test_a_square_is_halved_both_ways_one_half_each():
+def test_a_square_is_halved_both_ways_larger_polygons_become_fans_and_lines_nothing():
     square = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], float)
     triangles, weights = curvature.triangulate(square, np.arange(4), np.array([0, 4]))
     assert sorted(map(sorted, triangles.tolist())) == [[0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3]]
     assert weights.tolist() == [0.5] * 4
-
-
-@pytest.mark.parametrize("turn", range(4))
-def test_a_quad_with_a_dent_is_halved_inside(turn):
-    dart = np.roll(np.array([(0, 0, 0), (2, -1, 0), (0.5, 0, 0), (2, 1, 0)], float), turn, axis=0)
-    triangles, weights = curvature.triangulate(dart, np.arange(4), np.array([0, 4]))
-    tip, dent = turn % 4, (turn + 2) % 4
-    assert len(triangles) == 2 and all({tip, dent} <= set(t) for t in triangles.tolist())
-    assert weights.tolist() == [1.0, 1.0]
+    corners, offsets = np.array([0, 1, 2, 3, 4, 5, 0, 1, 3, 4, 5]), np.array([0, 6, 8, 11])
+    triangles, weights = curvature.triangulate(np.zeros((6, 3)), corners, offsets)
+    fan = [[0, k, k + 1] for k in (1, 2, 3, 4)]
+    assert sorted(triangles.tolist()) == [*fan, [3, 4, 5]] and weights.tolist() == [1.0] * 5
 
 
 def test_curvature_keeps_the_symmetry_of_a_quad_mesh():
@@ -175,19 +165,6 @@ def test_curvature_keeps_the_symmetry_of_a_quad_mesh():
     around = bent.mean.reshape(24, 12)
     assert np.ptp(around, axis=0).max() < 1e-12
     assert np.allclose(around[0, 1:], around[0, 1:][::-1], atol=1e-12)
-
-
-def test_larger_polygons_become_fans_and_lines_nothing():
-    corners, offsets = np.array([0, 1, 2, 3, 4, 5, 0, 1, 3, 4, 5]), np.array([0, 6, 8, 11])
-    triangles, weights = curvature.triangulate(np.zeros((6, 3)), corners, offsets)
-    assert sorted(map(tuple, triangles.tolist())) == [
-        (0, 1, 2),
-        (0, 2, 3),
-        (0, 3, 4),
-        (0, 4, 5),
-        (3, 4, 5),
-    ]
-    assert weights.tolist() == [1.0] * 5
 
 
 def test_degenerate_faces_give_finite_numbers():
@@ -199,24 +176,8 @@ def test_degenerate_faces_give_finite_numbers():
 
 
 def test_nothing_to_measure():
-    empty = ControlArrays(
-        positions=np.empty((0, 3)),
-        edges=np.empty((0, 2), np.int32),
-        corners=np.empty(0, np.int32),
-        corner_edges=np.empty(0, np.int32),
-        offsets=np.zeros(1, np.int32),
-        edge_crease=None,
-        vertex_crease=None,
-        sharp_edge=None,
-    )
+    empty = read_mesh(add("Nothing", [], []).data)
     assert measures.measure(empty)["largest_curvature"] == 0.0
-
-
-def test_deviation_is_that_of_the_control_vertices_alone():
-    control = np.zeros((2, 3))
-    result = np.array([(0, 0, 0.5), (0, 0, 0), (9, 9, 9)])
-    assert measures.largest_deviation(control, result) == 0.5
-    assert measures.largest_deviation(result, control) is None
 
 
 def test_largest_curvature_finds_the_tight_tube():

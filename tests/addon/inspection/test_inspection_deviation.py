@@ -4,8 +4,8 @@
 import bpy
 import numpy as np
 import pytest
-from live_scenes import box, follow, move, session
-from mathutils import bvhtree
+from live_scenes import box, pull, session
+from mathutils import bvhtree, kdtree
 from scenes import activate, add_suzanne, positions
 
 from addon.inspection import deviation, display
@@ -34,8 +34,12 @@ def test_from_vertices():
     source, surface = near_surface()
     arrays, control = read_mesh(surface.data), positions(source.data).astype(float)
     found = deviation.from_vertices(surface, arrays.positions, control)
-    apart = np.linalg.norm(arrays.positions[:, None] - control[None], axis=2)
-    expected = -brute_force(surface.data, control)[apart.argmin(axis=1)]
+    tree = kdtree.KDTree(len(control))
+    for k, place in enumerate(control):
+        tree.insert(place, k)
+    tree.balance()
+    nearest = [tree.find(place)[1] for place in arrays.positions]
+    expected = -brute_force(surface.data, control)[nearest]
     assert np.abs(expected).max() > 1e-3 and np.allclose(np.abs(found), np.abs(expected), atol=1e-6)
     # at two vertices the nearest place is a sharp corner, whose faces look either way
     assert np.isclose(found, expected, atol=1e-6).mean() > 0.99
@@ -73,8 +77,7 @@ def test_a_drag_waits_for_no_measurement(monkeypatch, no_pause, quick):
     measured, measure = [], deviation.from_vertices
     monkeypatch.setattr(deviation, "from_vertices", lambda *a: measured.append(1) or measure(*a))
     measured.clear()
-    move(source)
-    follow()
+    pull(source)
     assert bool(measured) == quick
     assert len(target.data.vertices) == len(target.data.attributes["fair_deviation"].data)
     assert display.COLOUR in target.data.color_attributes

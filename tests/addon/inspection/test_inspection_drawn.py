@@ -6,7 +6,9 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
-from scenes import CUBE, activate, add
+from polygons import grid
+from refined import values
+from scenes import CUBE, activate, add, edit
 
 from addon.inspection import overlay_arrays, sections
 from addon.inspection.drawn import drawn
@@ -41,22 +43,17 @@ def test_corners_share_points_where_the_surface_is_smooth():
 
 
 def test_loose_vertices_and_no_faces_draw_nothing():
-    found = drawn(
-        np.zeros((3, 3)), np.empty(0, np.int32), np.empty((0, 3)), np.empty((0, 3), np.int32)
-    )
+    no_faces = np.empty(0, np.int32), np.empty((0, 3)), np.empty((0, 3), np.int32)
+    found = drawn(np.zeros((3, 3)), *no_faces)
     assert len(found.triangles) == 0 and not found.normals.any()
     assert sections.sections(found, 0, 5) == []
 
 
 def test_the_edits_of_edit_mode_are_drawn():
     box = add("Box", *CUBE)
-    activate(box)
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="SELECT")
+    edit(box, "VERT", range(8))
     bpy.ops.transform.resize(value=(3, 1, 1))
-    assert np.abs(surface(box).points[:, 0]).max() == pytest.approx(
-        3 * np.abs(np.array(CUBE[0])[:, 0]).max()
-    )
+    assert np.abs(surface(box).points[:, 0]).max() == pytest.approx(3)
 
 
 @pytest.mark.parametrize("perspective", [True, False])
@@ -99,9 +96,8 @@ def test_a_hollow_bends_the_other_way():
     for section in sections.sections(surface(target), 2, 3):
         assert section.curvature.max() < 0.0
         ends = sections.combs([section], 4.0)[0]
-        assert np.all(
-            np.linalg.norm(ends[:, :2], axis=1) > np.linalg.norm(section.points[:, :2], axis=1)
-        ), "against normals that look inwards"
+        out, at = (np.linalg.norm(p[:, :2], axis=1) for p in (ends, section.points))
+        assert np.all(out > at), "against normals that look inwards"
 
 
 def test_sections_end_at_borders_and_break_at_sharp_edges():
@@ -116,17 +112,14 @@ def test_sections_end_at_borders_and_break_at_sharp_edges():
 
 def pointed(length=6.0, rows=60, around=48):
     """A body like a hull's under water and above: round amidships, its ends drawn out to a stem."""
-    x = length * np.sin(np.linspace(-1.57, 1.57, rows + 1))
+    x = length * np.sin(np.linspace(-1.57, 1.57, rows + 1))[:, None]
     angle = np.linspace(0.0, 2.0 * np.pi, around, endpoint=False)
-    breadth = (1.0 - (x / length) ** 2) ** 2
-    across = np.stack([breadth[:, None] * np.cos(angle), np.tile(np.sin(angle), (rows + 1, 1))], 2)
-    points = np.concatenate([np.repeat(x, around)[:, None], across.reshape(-1, 2)], axis=1)
-    faces = [
-        (i * around + j, i * around + k, (i + 1) * around + k, (i + 1) * around + j)
-        for i in range(rows)
-        for j, k in zip(range(around), [*range(1, around), 0])
-    ]
-    target = add("Hull", points.tolist(), faces)
+    breadth = (1.0 - (x / length) ** 2) ** 2 * np.cos(angle)
+    points = np.stack(np.broadcast_arrays(x, breadth, np.sin(angle)), axis=-1).reshape(-1, 3)
+    at = np.arange(len(points)).reshape(rows + 1, around)
+    after = np.roll(at, -1, axis=1)
+    faces = np.stack([at[:-1], after[:-1], after[1:], at[1:]], axis=-1).reshape(-1, 4)
+    target = add("Hull", points.tolist(), faces.tolist())
     bpy.ops.object.shade_smooth()
     return target
 
@@ -143,44 +136,35 @@ def test_a_bow_does_not_flatten_the_combs_amidships():
     assert np.percentile(amidships, 90.0) > 0.05 * 12.0
 
 
+def asked(axes, count):
+    return SimpleNamespace(section_axes=axes, section_count=count, show_combs=True, comb_scale=1.0)
+
+
 def test_lines_come_in_pairs_for_what_is_asked():
-    target = surface(ball())
-    asked = SimpleNamespace(
-        section_axes={"X", "Z"}, section_count=3, show_combs=True, comb_scale=1.0
-    )
-    (curves, _), *over = overlay_arrays.lines_of(target, asked)
+    target, wanted = surface(ball()), asked({"X", "Z"}, 3)
+    (curves, _), *over = overlay_arrays.lines_of(target, wanted)
     assert np.abs(np.linalg.norm(curves, axis=1) - 2.0).max() < 0.01
     assert len(over) == 4 and len({colour[:3] for _, colour in over}) == 2, "a colour for an axis"
     assert all(len(points) % 2 == 0 for points in (curves, *(points for points, _ in over)))
     assert all(np.linalg.norm(over[k][0], axis=1).min() > 2.1 for k in (1, 3))
-    asked.show_combs = False
-    assert len(overlay_arrays.lines_of(target, asked)) == 1
+    wanted.show_combs = False
+    assert len(overlay_arrays.lines_of(target, wanted)) == 1
 
 
 def test_combs_of_the_axis_that_bends_less_are_as_long():
     """A half cylinder of 1 by 20: sections along it are straight but for a bend of a hundredth."""
     x, angle = np.meshgrid(np.linspace(-10, 10, 41), np.linspace(0, np.pi, 17), indexing="ij")
     points = np.stack([x, np.cos(angle), np.sin(angle) - 0.001 * x**2], axis=-1).reshape(-1, 3)
-    grid = np.arange(points.shape[0]).reshape(x.shape)
-    quads = np.stack([grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]], -1).reshape(
-        -1, 4
-    )
-    target = add("Half Tube", points.tolist(), quads.tolist())
-    for polygon in target.data.polygons:
-        polygon.use_smooth = True
-    surface = overlay_arrays.surface_of(target, bpy.context.evaluated_depsgraph_get())
-    asked = SimpleNamespace(
-        section_axes={"X", "Y"}, section_count=4, show_combs=True, comb_scale=1.0
-    )
-    _, across, _, along, _ = (points for points, _ in overlay_arrays.lines_of(surface, asked))
+    target = add("Half Tube", points.tolist(), grid(*x.shape).tolist())
+    bpy.ops.object.shade_smooth()
+    lines = overlay_arrays.lines_of(surface(target), asked({"X", "Y"}, 4))
+    _, across, _, along, _ = (points for points, _ in lines)
     longest = [np.linalg.norm(teeth[1::2] - teeth[::2], axis=1).max() for teeth in (across, along)]
     assert 0.3 < longest[1] / longest[0] < 3.0
 
 
 def deviation(target):
-    values = np.empty(len(target.data.vertices), np.float32)
-    target.data.attributes["fair_deviation"].data.foreach_get("value", values)
-    return values
+    return values(target.data, "fair_deviation")
 
 
 def show_deviation(target):
@@ -204,8 +188,7 @@ def test_deviation_from_another_object_has_signs_and_follows_the_choice():
     assert np.abs(show_deviation(small)).max() < 1e-2, "as they are in the world"
 
 
-def test_deviation_from_control_vertices():
-    source = add("Box", *CUBE)
+def test_deviation_from_control_vertices(source):
     assert np.array_equal(show_deviation(source), np.zeros(8)), "no control vertices"
     bpy.ops.object.fairing_surface(levels=2, interpolation="EXACT")
     through = bpy.context.object

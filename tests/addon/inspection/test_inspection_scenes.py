@@ -54,10 +54,14 @@ def test_off_leaves_nothing_of_any_scene():
     assert not bpy.data.materials and not bpy.data.node_groups
 
 
+def viewports():
+    areas = [area for screen in bpy.data.screens for area in screen.areas]
+    return [area.spaces.active for area in areas if area.type == "VIEW_3D"]
+
+
 def viewport(shading="SOLID", colour="MATERIAL"):
     """That of a screen: none is drawn without a window."""
-    areas = [area for screen in bpy.data.screens for area in screen.areas]
-    space = next(area.spaces.active for area in areas if area.type == "VIEW_3D")
+    space = viewports()[0]
     space.shading.type, space.shading.color_type = shading, colour
     return space
 
@@ -90,8 +94,7 @@ def test_the_way_back_goes_with_the_viewport_and_its_file(tmp_path):
     viewport_shading.show(space, "NONE")
     assert now(space)[0] == "RENDERED"
     bpy.ops.wm.open_mainfile(filepath=path)
-    areas = [area for screen in bpy.data.screens for area in screen.areas]
-    shown = [a.spaces.active for a in areas if a.type == "VIEW_3D"]
+    shown = viewports()
     for space in shown:
         viewport_shading.show(space, "NONE")
     assert "WIREFRAME" in [space.shading.type for space in shown]
@@ -110,3 +113,6 @@ def test_zebra_in_edit_mode():
     assert bpy.ops.object.fairing_inspect(mode="ZEBRA") == {"FINISHED"}
     modifier = inspection_modifier(one)
     assert modifier.show_viewport and modifier.show_in_editmode
+    assert not bpy.ops.object.fairing_measure.poll()
+    bpy.ops.object.mode_set(mode="SCULPT")
+    assert not bpy.ops.object.fairing_inspect.poll()

@@ -7,8 +7,18 @@ import bpy
 import numpy as np
 import pytest
 from fake_layout import draw
-from live_scenes import box, follow, live, move, session, surface_of, tick_until
-from scenes import CUBE, activate, add, fair, positions
+from live_scenes import (
+    box,
+    live,
+    move,
+    pull,
+    session,
+    surface_of,
+    through,
+    tick_until,
+    whole,
+)
+from scenes import CUBE, activate, add, fair, positions, recompute, reopen
 
 import addon
 from addon import core
@@ -31,8 +41,7 @@ def test_undo_and_redo():
     bpy.context.preferences.edit.use_global_undo = True
     source, target = box()
     bpy.ops.ed.undo_push(message="before")
-    move(source)
-    follow()
+    pull(source)
     bpy.ops.ed.undo_push(message="after")
     for step, height in ((bpy.ops.ed.undo, -1.0), (bpy.ops.ed.redo, -0.5)):
         step()
@@ -40,7 +49,7 @@ def test_undo_and_redo():
         source, target = bpy.data.objects["Box"], bpy.data.objects["Box Fair"]
         assert source.data.vertices[0].co.z == height
         assert target.discrete_fairing_live.on
-        assert np.array_equal(positions(target.data)[:8], positions(source.data))
+        assert through(target, source)
 
 
 def box_that_undo_switches():
@@ -73,9 +82,8 @@ def test_undo_takes_live_along():
     assert undo.resume() is None
     source, target, again = box_as_it_is()
     assert again == on and target.discrete_fairing_live.on
-    move(source)
-    follow()
-    assert np.array_equal(positions(target.data)[:8], positions(source.data))
+    pull(source)
+    assert through(target, source)
     target.discrete_fairing_live.on = False
     assert box_as_it_is()[2] == (False, "TEXTURED", 6 * 4**2)
 
@@ -100,8 +108,7 @@ def test_undo_wakes_no_copy_and_no_surface_of_another_file(tmp_path):
     bpy.ops.ed.undo()
     undo.resume()
     assert len(registry.sessions()) == 1
-    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "live.blend"))
-    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "live.blend"))
+    reopen(tmp_path)
     bpy.ops.ed.undo_push(message="opened")
     bpy.ops.ed.undo_push(message="more")
     bpy.ops.ed.undo()
@@ -123,43 +130,38 @@ def test_undo_of_the_surface_itself():
 def test_undo_while_the_full_level_is_computed(no_pause):
     source, target = box(levels=6)
     bpy.ops.ed.undo_push(message="before")
-    move(source)
-    follow()
+    pull(source)
     bpy.ops.ed.undo_push(message="after")
     handlers.on_timer()
     assert session(target).full_text
     bpy.ops.ed.undo()
     source, target = bpy.data.objects["Box"], bpy.data.objects["Box Fair"]
-    tick_until(lambda: not session(target).is_waiting)
+    whole(target)
     assert len(target.data.polygons) == 6 * 4**6
-    assert np.array_equal(positions(target.data)[:8], positions(source.data))
+    assert through(target, source)
 
 
 def test_another_file_ends_it(tmp_path):
     box()
-    path = str(tmp_path / "live.blend")
-    bpy.ops.wm.save_as_mainfile(filepath=path)
     assert registry.sessions()
-    bpy.ops.wm.open_mainfile(filepath=path)
+    reopen(tmp_path)
     assert registry.sessions() == []
     target = bpy.data.objects["Box Fair"]
     assert not target.discrete_fairing_live.on and target.discrete_fairing_live.levels == 1
-    move(bpy.data.objects["Box"])
-    follow()
+    pull(bpy.data.objects["Box"])
     assert bpy.ops.object.fairing_live(state="ON") == {"FINISHED"}
 
 
 @pytest.mark.parametrize("which, reason", [("source", "source"), ("target", "surface")])
-@pytest.mark.parametrize("way", ["remove", "operator"])
+@pytest.mark.parametrize(
+    "way", [lambda gone: bpy.data.objects.remove(gone), lambda _: bpy.ops.object.delete()]
+)
 def test_deleted(which, reason, way):
     source, target = box()
     identity = session(target).key
     gone = source if which == "source" else target
-    if way == "remove":
-        bpy.data.objects.remove(gone)
-    else:
-        activate(gone)
-        bpy.ops.object.delete()
+    activate(gone)
+    way(gone)
     handlers.on_timer()
     assert registry.sessions() == []
     assert reason in registry._endings[identity].lower()
@@ -180,25 +182,20 @@ def test_renamed():
     source, target = box()
     target.name, source.name = "Skin", "Cage"
     other = add("Box Fair", *CUBE)
-    move(source)
-    follow()
-    assert (
-        np.array_equal(positions(target.data)[:8], positions(source.data))
-        and len(other.data.vertices) == 8
-    )
+    pull(source)
+    assert through(target, source) and len(other.data.vertices) == 8
 
 
 def test_nothing_is_written_while_rendering(no_pause):
     source, target = box()
     before = positions(target.data)
     registered()["render_init"][0](None)
-    move(source)
-    follow()
+    pull(source)
     handlers.on_timer()
     assert np.array_equal(positions(target.data), before)
     registered()["render_complete"][0](None)
-    tick_until(lambda: not session(target).is_waiting)
-    assert np.array_equal(positions(target.data)[:8], positions(source.data))
+    whole(target)
+    assert through(target, source)
 
 
 def test_disabling_leaves_nothing():
@@ -210,14 +207,11 @@ def test_disabling_leaves_nothing():
         addon.unregister()
         assert not any(registered().values()) and registry.sessions() == []
         assert not bpy.app.timers.is_registered(handlers.on_timer)
-        move(source)
-        follow()
+        pull(source)
         assert np.array_equal(positions(target.data), before)
     finally:
         addon.register()
-    assert {name: len(found) for name, found in registered().items()} == dict.fromkeys(
-        everything, 1
-    )
+    assert [len(found) for found in registered().values()] == [1] * len(everything)
     assert not target.discrete_fairing_live.on
 
 
@@ -259,8 +253,7 @@ def test_grey_without_a_mesh_and_without_the_core(monkeypatch):
     assert not bpy.ops.object.fairing_live.poll()
 
 
-def test_the_panel_says_how_it_goes():
-    source = add("Box", *CUBE)
+def test_the_panel_says_how_it_goes(source):
     assert "object.fairing_live" in draw(main.VIEW3D_PT_fairing)
     target = live(source)
     for active in (source, target):
@@ -290,7 +283,7 @@ def test_undo_of_a_later_step_says_that_the_surface_is_not_whole(no_pause):
     source, target, now = box_as_it_is()
     assert now[2] == 6 * 4 and why_stale(target) == UNFINISHED
     assert badges(target) == ["Out of date: shown with fewer levels"]
-    assert bpy.ops.object.fairing_recompute() == {"FINISHED"}
+    recompute()
     assert len(target.data.polygons) == 6 * 4**2 and why_stale(target) == "" and not badges(target)
 
 
@@ -301,15 +294,8 @@ def badges(target):
 
 def test_undo_while_live_leaves_the_surface_to_it():
     source, target, _ = box_that_undo_switches()
-    move(source)
-    follow()
+    pull(source)
     assert target.discrete_fairing.unfinished and not badges(target)
-
-
-def in_a_window(monkeypatch):
-    monkeypatch.setattr(
-        handlers, "bpy", SimpleNamespace(app=SimpleNamespace(background=False), data=bpy.data)
-    )
 
 
 @pytest.mark.parametrize("locked", [True, False])
@@ -322,11 +308,11 @@ def test_renders_write_only_while_no_window_draws(monkeypatch, locked):
     scene.render.use_lock_interface = locked
     shown = draw(main.VIEW3D_PT_fairing)
     assert ("use_lock_interface" in shown) != locked
-    in_a_window(monkeypatch)
+    window = SimpleNamespace(app=SimpleNamespace(background=False), data=bpy.data)
+    monkeypatch.setattr(handlers, "bpy", window)
     before = positions(target.data)
     handlers._render_begins(scene)
-    move(source)
-    follow()
+    pull(source)
     assert np.array_equal(positions(target.data), before) != locked
     handlers._render_ends()
 

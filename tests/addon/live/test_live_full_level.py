@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The full level of a live surface: when it comes, what ends it, what the next edit begins with."""
 
+from types import SimpleNamespace
+
 import bpy
 import numpy as np
 import pytest
-from live_scenes import box, follow, live, move, session, tick_until
-from scenes import CUBE, activate, add, fair, positions
+from live_scenes import box, follow, live, pull, session, through, tick_until, whole
+from scenes import activate, fair, positions, recompute, to_object_mode
 
 from addon.live import full_level, handlers, registry
 
@@ -13,13 +15,11 @@ from addon.live import full_level, handlers, registry
 def test_the_full_level_comes_when_the_edit_pauses(no_pause):
     source, target = box()
     assert len(target.data.polygons) == 6 * 4
-    move(source)
-    follow()
-    tick_until(lambda: not session(target).is_waiting)
+    pull(source)
+    whole(target)
     shown = positions(target.data)
     assert len(target.data.polygons) == 6 * 4**2 and target.discrete_fairing_live.on
-    activate(target)
-    bpy.ops.object.fairing_recompute()
+    recompute(target)
     assert np.array_equal(positions(target.data), shown), "the very surface of Recompute"
 
 
@@ -28,73 +28,41 @@ def test_the_next_edit_starts_from_the_shape_that_is_there(no_pause):
     from.
     """
     source, target = box()
-    move(source)
-    follow()
+    pull(source)
     before = session(target).solver
-    tick_until(lambda: not session(target).is_waiting)
+    whole(target)
     fresh = session(target).solver
     assert fresh is not before and fresh.solve().report["warm"]
-    move(source)
-    follow()
+    pull(source)
     assert session(target).solver is fresh, "one for the whole edit"
 
 
-def test_not_before_the_pause():
+def test_not_before_the_pause_and_not_while_the_mouse_drags(monkeypatch):
     _, target = box()
     handlers.on_timer()
     assert session(target).is_waiting and not session(target).full_text
-
-
-def test_not_while_the_mouse_drags(no_pause, monkeypatch):
-    _, target = box()
+    monkeypatch.setattr(full_level, "PAUSE", 0.0)
     monkeypatch.setattr(full_level, "is_editing", lambda context: True)
     handlers.on_timer()
     assert session(target).is_waiting and not session(target).full_text
 
 
-@pytest.mark.parametrize(
-    "name, edits",
-    [("TRANSFORM_OT_translate", True), ("MESH_OT_bevel", True), ("WM_OT_watch", False)],
-)
-def test_which_modal_operators_are_edits(name, edits):
-    class Manager:
-        class window:
-            class screen:
-                is_animation_playing = False
-
-            class operator:
-                bl_idname = name
-
-            modal_operators = (operator,)
-
-        windows = (window,)
-
-    class Context:
-        window_manager = Manager
-
-    assert full_level.is_editing(Context) == edits
-
-
 def test_an_edit_cancels_the_full_level_and_it_comes_after_all(no_pause):
     source, target = box(levels=6)
-    move(source)
-    follow()
+    pull(source)
     handlers.on_timer()
     assert session(target).full_text
-    move(source)
-    follow()
+    pull(source)
     assert not session(target).full_text and len(target.data.polygons) == 6 * 4
-    tick_until(lambda: not session(target).is_waiting)
+    whole(target)
     assert len(target.data.polygons) == 6 * 4**6
-    assert np.array_equal(positions(target.data)[:8], positions(source.data))
-    move(source)
-    follow()
+    assert through(target, source)
+    pull(source)
     assert len(target.data.polygons) == 6 * 4, "back to the live level"
 
 
-def test_the_full_level_in_edit_mode(no_pause):
+def test_the_full_level_in_edit_mode(source, no_pause):
     """With weights, which only an operator of Blender's writes."""
-    source = add("Box", *CUBE)
     source.vertex_groups.new(name="Group").add([0, 1], 0.5, "REPLACE")
     target = fair(levels=2)
     live(target)
@@ -102,46 +70,38 @@ def test_the_full_level_in_edit_mode(no_pause):
     bpy.ops.object.mode_set(mode="EDIT")
     bpy.ops.transform.translate(value=(0, 0, 1))
     follow()
-    tick_until(lambda: not session(target).is_waiting)
+    whole(target)
     assert source.mode == "EDIT" and len(target.data.polygons) == 6 * 4**2
     assert not session(target).trouble and target.vertex_groups["Group"].weight(0) == 0.5
 
 
 def test_the_same_level_only_moves_the_mesh_of_the_full_one(no_pause):
     source, target = box(levels=2, live_levels=2)
-    tick_until(lambda: not session(target).is_waiting)
+    whole(target)
     target.data["mine"] = 1
-    move(source)
-    follow()
-    assert (
-        target.data["mine"] == 1
-        and target.data.attributes
-        and len(target.data.polygons) == 6 * 4**2
-    )
-    assert np.array_equal(positions(target.data)[:8], positions(source.data))
+    pull(source)
+    assert target.data["mine"] == 1 and len(target.data.polygons) == 6 * 4**2
+    assert through(target, source)
 
 
 def test_an_edit_of_the_surface_itself_waits(no_pause):
     source, target = box()
     activate(target)
     bpy.ops.object.mode_set(mode="EDIT")
-    move(source)
-    follow()
+    pull(source)
     handlers.on_timer()
     assert "waits" in target.discrete_fairing_live.status and target.mode == "EDIT"
-    bpy.ops.object.mode_set(mode="OBJECT")
-    tick_until(lambda: not session(target).is_waiting)
-    assert np.array_equal(positions(target.data)[:8], positions(source.data))
+    to_object_mode()
+    whole(target)
+    assert through(target, source)
 
 
 def test_switched_off_with_the_full_level():
     source, target = box()
-    move(source)
-    follow()
+    pull(source)
     target.discrete_fairing_live.on = False
     assert len(target.data.polygons) == 6 * 4**2 and registry.sessions() == []
-    move(source)
-    follow()
+    pull(source)
     assert positions(target.data)[0][2] != source.data.vertices[0].co.z
 
 
@@ -152,3 +112,14 @@ def test_switched_off_in_a_window(no_pause, monkeypatch):
     tick_until(lambda: not registry.sessions())
     assert len(target.data.polygons) == 6 * 4**2
     assert handlers.on_timer() is None, "the timer ends"
+
+
+@pytest.mark.parametrize(
+    "name, edits",
+    [("TRANSFORM_OT_translate", True), ("MESH_OT_bevel", True), ("WM_OT_watch", False)],
+)
+def test_which_modal_operators_are_edits(name, edits):
+    screen = SimpleNamespace(is_animation_playing=False)
+    window = SimpleNamespace(screen=screen, modal_operators=[SimpleNamespace(bl_idname=name)])
+    context = SimpleNamespace(window_manager=SimpleNamespace(windows=[window]))
+    assert full_level.is_editing(context) == edits

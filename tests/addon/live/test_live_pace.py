@@ -1,8 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What decides on level and energy: plain values."""
 
+import pytest
+
 from addon.live import pace
 from addon.live.pace import Pace
+
+pytestmark = pytest.mark.plain
 
 
 def test_a_large_result_is_lowered_from_the_start():

@@ -4,8 +4,8 @@
 import bpy
 import numpy as np
 import pytest
-from live_scenes import box, live, session
-from scenes import CUBE, activate, add, positions
+from live_scenes import box, live, pull, session, through
+from scenes import CUBE, activate, add, again, positions, reopen
 
 from addon.live import handlers, kept, registry
 
@@ -83,8 +83,7 @@ def test_renders_are_left_alone_unless_asked():
 def test_files_keep_it_where_asked(tmp_path, monkeypatch, keep, window):
     source, target = box()
     target.discrete_fairing_live.keep_on = keep
-    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "live.blend"))
-    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "live.blend"))
+    reopen(tmp_path)
     target = bpy.data.objects["Box Fair"]
     assert not registry.sessions(), "nothing follows where there is no window"
     target.discrete_fairing.source.display_type = "WIRE"
@@ -97,18 +96,15 @@ def test_files_keep_it_where_asked(tmp_path, monkeypatch, keep, window):
     assert (target.discrete_fairing.source.display_type == "WIRE") == on
     if on:
         source = bpy.data.objects["Box"]
-        source.data.vertices[0].co.z += 0.5
-        source.data.update()
-        bpy.context.view_layer.update()
-        assert positions(target.data)[0, 2] == source.data.vertices[0].co.z
+        pull(source)
+        assert through(target, source)
 
 
 def test_what_was_off_stays_off(tmp_path):
     _, target = box()
     target.discrete_fairing_live.keep_on = target.discrete_fairing_live.in_renders = True
     target.discrete_fairing_live.on = False
-    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "off.blend"))
-    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "off.blend"))
+    reopen(tmp_path)
     assert not registry.sessions()
 
 
@@ -120,21 +116,15 @@ def test_the_cage_is_wire_while_it_is_live():
     target.discrete_fairing_live.cage_as_wire = True
     target.discrete_fairing_live.on = False
     assert source.display_type == "TEXTURED" and session(target) is None
-
-
-def test_who_has_changed_it_meanwhile_is_right():
-    source, target = box()
+    target.discrete_fairing_live.on = True
     source.display_type = "BOUNDS"
     target.discrete_fairing_live.on = False
-    assert source.display_type == "BOUNDS"
+    assert source.display_type == "BOUNDS", "who has changed it meanwhile is right"
 
 
 def test_the_last_of_several_surfaces_gives_the_cage_back():
     source, first = box()
-    source.hide_set(False)
-    activate(source)
-    bpy.ops.object.fairing_surface(levels=1)
-    second = live(bpy.context.active_object)
+    second = live(again(source, levels=1))
     first.discrete_fairing_live.on = False
     assert source.display_type == "WIRE"
     second.discrete_fairing_live.on = False

@@ -7,7 +7,7 @@ import pytest
 from fake_layout import draw
 from live_scenes import live, session
 from polygons import grid
-from scenes import activate, add, add_attribute, fair, positions
+from scenes import add, add_attribute, edit, faces_at_edges, fair, positions, to_object_mode
 
 from addon.core import boundary_edges
 from addon.mesh.boundary_marks import BOUNDARY, summary
@@ -25,23 +25,16 @@ def sheet(name="Sheet"):
     return add(name, points.tolist(), grid(4, 4).tolist())
 
 
-def edit(target, *pairs):
-    """Edit Mode, with the edges selected that join these vertices."""
-    activate(target)
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_mode(type="EDGE")
-    bpy.ops.mesh.select_all(action="DESELECT")
-    bpy.ops.object.mode_set(mode="OBJECT")
-    wanted = {tuple(sorted(pair)) for pair in pairs}
-    for edge in target.data.edges:
-        edge.select = tuple(sorted(edge.vertices)) in wanted
-    bpy.ops.object.mode_set(mode="EDIT")
+def edges(target, *pairs):
+    """Numbers of the edges that join these vertices."""
+    wanted = {frozenset(pair) for pair in pairs}
+    return [e.index for e in target.data.edges if frozenset(e.vertices) in wanted]
 
 
 def mark(target, boundary, *pairs):
-    edit(target, *pairs)
+    edit(target, "EDGE", edges(target, *pairs))
     answer = bpy.ops.object.fairing_boundary(boundary=boundary)
-    bpy.ops.object.mode_set(mode="OBJECT")
+    to_object_mode()
     return answer
 
 
@@ -58,8 +51,8 @@ def straight(target, source, a, b):
     """How many points of the surface's border lie on the straight line between two vertices."""
     start, end = positions(source.data)[[a, b]].astype(float)
     way = end - start
-    border = np.bincount([loop.edge_index for loop in target.data.loops])
-    ids = {v for e in target.data.edges if border[e.index] == 1 for v in e.vertices}
+    faces = faces_at_edges(target.data)
+    ids = {v for e in target.data.edges if faces[e.index] == 1 for v in e.vertices}
     points = positions(target.data)[sorted(ids)].astype(float) - start
     share = points @ way / (way @ way)
     off = np.linalg.norm(points - share[:, None] * way, axis=1)
@@ -81,7 +74,7 @@ def test_without_a_border_edge_nothing_is_marked():
     with pytest.raises(RuntimeError, match="Select edges at an open border"):
         mark(source, "FREE", (5, 6))
     assert bpy.ops.object.fairing_boundary.poll()
-    bpy.ops.object.mode_set(mode="OBJECT")
+    to_object_mode()
     assert BOUNDARY not in source.data.attributes
     assert not bpy.ops.object.fairing_boundary.poll()
 
@@ -90,11 +83,10 @@ def test_marked_edges_are_selected_again():
     source = sheet()
     mark(source, "LINEAR", *BOTTOM[:2])
     mark(source, "FREE", (12, 13))
-    edit(source)
+    edit(source, "EDGE")
     assert bpy.ops.object.fairing_select_boundary(boundary="LINEAR") == {"FINISHED"}
-    bpy.ops.object.mode_set(mode="OBJECT")
-    chosen = {tuple(sorted(e.vertices)) for e in source.data.edges if e.select}
-    assert chosen == {(0, 1), (1, 2)}
+    to_object_mode()
+    assert [e.index for e in source.data.edges if e.select] == edges(source, *BOTTOM[:2])
 
 
 def test_the_surface_has_straight_edges_where_they_are_marked():
@@ -136,7 +128,7 @@ def test_the_panel_counts_them():
     mark(source, "LINEAR", *BOTTOM[:2])
     mark(source, "FREE", (12, 13))
     assert "Edges: 2 Straight, 1 Free" in draw(main.VIEW3D_PT_fairing)
-    edit(source, *BOTTOM)
+    edit(source, "EDGE", edges(source, *BOTTOM))
     assert "Edges: 2 Straight, 1 Free" in draw(main.VIEW3D_PT_fairing), "in Edit Mode too"
 
 

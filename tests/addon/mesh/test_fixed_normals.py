@@ -7,7 +7,7 @@ import pytest
 from fake_layout import draw
 from live_scenes import live, session
 from mathutils import Euler, Vector
-from scenes import activate, fair, positions
+from scenes import computed, edit, fair, positions, settings, to_object_mode
 from test_boundary_marks import sheet
 
 from addon.job import Job
@@ -15,7 +15,6 @@ from addon.mesh import fixed_normals
 from addon.mesh.fixed_normals import NORMAL, read_normals
 from addon.mesh.read import control_mesh, read_mesh
 from addon.mesh.world_shape import world_shape
-from addon.settings import Settings
 from addon.transfer.cut_out import cut_out
 from addon.ui import main
 
@@ -23,22 +22,10 @@ INSIDE = 5  # vertex (1, 1) of the sheet
 TILTED = (0.6, 0.0, 0.8)
 
 
-def edit(target, *vertices):
-    """Edit Mode, with these vertices selected."""
-    activate(target)
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_mode(type="VERT")
-    bpy.ops.mesh.select_all(action="DESELECT")
-    bpy.ops.object.mode_set(mode="OBJECT")
-    for vertex in vertices:
-        target.data.vertices[vertex].select = True
-    bpy.ops.object.mode_set(mode="EDIT")
-
-
 def fix(target, *vertices, origin="MESH"):
-    edit(target, *vertices)
+    edit(target, "VERT", vertices)
     answer = bpy.ops.object.fairing_fix_normal(origin=origin)
-    bpy.ops.object.mode_set(mode="OBJECT")
+    to_object_mode()
     return answer
 
 
@@ -66,13 +53,8 @@ def empty(rotation):
 def slope(surface, source, vertex, axis=0):
     """Of the surface in z along x at a vertex, from the points next to it on both sides."""
     points, at = positions(surface.data).astype(float), positions(source.data)[vertex]
-    around = {
-        other
-        for e in surface.data.edges
-        for here, other in (tuple(e.vertices), tuple(e.vertices)[::-1])
-        if here == vertex
-    }
-    along = points[sorted(around)] - at
+    ends = [set(e.vertices) for e in surface.data.edges if vertex in e.vertices]
+    along = points[sorted(set.union(*ends) - {vertex})] - at
     before, after = along[along[:, axis].argmin()], along[along[:, axis].argmax()]
     return (after[2] - before[2]) / (after[axis] - before[axis])
 
@@ -101,33 +83,25 @@ def test_an_empty_says_where_the_normal_looks(turned_over):
     source.rotation_euler = (0.3, 0.2, 0.1)
     source.scale = (1, 2, 1)
     made = empty(Euler((0.5 + np.pi * turned_over, 0.2, 0)))
-    made.select_set(True)
     axis = np.array(made.matrix_world)[:3, 2] * (-1 if turned_over else 1)
-    activate(source)
+    edit(source, "VERT", range(16))
     made.select_set(True)
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="SELECT")
     assert bpy.ops.object.fairing_fix_normal(origin="EMPTY") == {"FINISHED"}
-    bpy.ops.object.mode_set(mode="OBJECT")
+    to_object_mode()
     linear = np.array(source.matrix_world)[:3, :3]
     in_the_world = np.linalg.inv(linear).T @ marks(source)[INSIDE]
     assert np.allclose(in_the_world / np.linalg.norm(in_the_world), axis, atol=1e-5)
-
-
-def test_without_one_empty_nothing_is_fixed():
-    source = sheet()
-    with pytest.raises(RuntimeError, match="Select one empty"):
-        fix(source, INSIDE, origin="EMPTY")
-    bpy.ops.object.mode_set(mode="OBJECT")
-    assert NORMAL not in source.data.attributes
 
 
 def test_without_a_vertex_nothing_is_fixed():
     source = sheet()
     with pytest.raises(RuntimeError, match="Select a vertex with faces"):
         fix(source)
+    with pytest.raises(RuntimeError, match="Select one empty"):
+        fix(source, INSIDE, origin="EMPTY")
     assert bpy.ops.object.fairing_fix_normal.poll()
-    bpy.ops.object.mode_set(mode="OBJECT")
+    to_object_mode()
+    assert NORMAL not in source.data.attributes
     assert not bpy.ops.object.fairing_fix_normal.poll()
     assert not bpy.ops.object.fairing_free_normal.poll()
 
@@ -135,9 +109,9 @@ def test_without_a_vertex_nothing_is_fixed():
 def test_normals_are_freed_again():
     source = sheet()
     fix(source, INSIDE, 6, 9)
-    edit(source, 6, 10)
+    edit(source, "VERT", (6, 10))
     assert bpy.ops.object.fairing_free_normal() == {"FINISHED"}
-    bpy.ops.object.mode_set(mode="OBJECT")
+    to_object_mode()
     assert set(marks(source)) == {INSIDE, 9}
 
 
@@ -165,16 +139,15 @@ def test_a_scaled_object_has_it_in_the_world():
 
 def test_the_other_energies_leave_them_out_and_say_so():
     source = sheet()
-    set_normals(source, {INSIDE: TILTED})
-    settings = bpy.context.scene.discrete_fairing
-    settings.energy = "TOTAL_CURVATURE"
-    job = Job(bpy.context, source, Settings.of(settings))
+    set_normals(source, {0: TILTED, INSIDE: TILTED})
+    job = Job(bpy.context, source, settings(energy="TOTAL_CURVATURE"))
     assert "normals" not in job.arguments
     assert any("only Bending" in note for note in job.notes)
-    settings.energy = "THIN_PLATE"
-    job = Job(bpy.context, source, Settings.of(settings))
-    assert job.arguments["normals"].any(axis=1).sum() == 1
+    job = computed(Job(bpy.context, source, settings(energy="THIN_PLATE")))
+    assert job.arguments["normals"].any(axis=1).sum() == 2
     assert not any("Bending" in note for note in job.notes)
+    # those on the border
+    assert any("not fixed" in warning and "(0)" in warning for warning in job.warnings())
 
 
 def test_what_is_shorter_or_of_another_kind_fixes_nothing():
@@ -189,9 +162,9 @@ def test_what_is_shorter_or_of_another_kind_fixes_nothing():
 def test_a_new_vertex_between_fixed_and_free_is_free():
     source = sheet()
     fix(source, INSIDE)
-    edit(source, INSIDE, 6)
+    edit(source, "VERT", (INSIDE, 6))
     bpy.ops.mesh.subdivide()
-    bpy.ops.object.mode_set(mode="OBJECT")
+    to_object_mode()
     assert set(marks(source)) == {INSIDE}
 
 
@@ -217,9 +190,9 @@ def test_the_panel_counts_them():
     assert told() == []
     fix(source, INSIDE, 6)
     assert told() == ["Normals: 2 fixed"]
-    edit(source, INSIDE)
+    edit(source, "VERT", (INSIDE,))
     assert told() == ["Normals: 2 fixed"], "in Edit Mode too"
-    bpy.ops.object.mode_set(mode="OBJECT")
+    to_object_mode()
     bpy.context.scene.discrete_fairing.energy = "TOTAL_CURVATURE"
     assert told() == ["Normals: 2 fixed, by Bending only"]
 
@@ -231,11 +204,3 @@ def test_a_cut_takes_them_along():
         arrays = read_mesh(mesh)
     part = cut_out(arrays, np.arange(9) < 5)
     assert np.array_equal(part.arrays.normals, arrays.normals[part.vertices])
-
-
-def test_normals_on_the_border_are_named():
-    source = sheet()
-    fix(source, 0, INSIDE)
-    job = Job(bpy.context, source, Settings.of(bpy.context.scene.discrete_fairing))
-    job.compute()
-    assert any("not fixed" in warning and "(0)" in warning for warning in job.warnings())

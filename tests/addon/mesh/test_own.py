@@ -4,27 +4,16 @@
 import bpy
 import numpy as np
 import pytest
-from live_scenes import follow, live, move, session
-from scenes import CUBE, activate, add, fair, positions
+from live_scenes import live, pull, session
+from refined import values
+from scenes import CUBE, add, fair, positions, recompute
 
 from addon.live import handlers
-
-
-def recompute(target=None):
-    if target is not None:
-        activate(target)
-    assert bpy.ops.object.fairing_recompute() == {"FINISHED"}
 
 
 def raise_vertex(source, by=0.5):
     source.data.vertices[0].co.z += by
     source.data.update()
-
-
-def values(mesh, name, key="value", width=1):
-    flat = np.empty(width * len(mesh.attributes[name].data), np.float32)
-    mesh.attributes[name].data.foreach_get(key, flat)
-    return flat.reshape(-1, width)
 
 
 def adorn(target):
@@ -47,8 +36,7 @@ def adorn(target):
 
 
 @pytest.mark.parametrize("again", [1, 2])
-def test_it_stays_to_the_bit_on_the_same_faces(again):
-    source = add("Box", *CUBE)
+def test_it_stays_to_the_bit_on_the_same_faces(source, again):
     mesh = adorn(target := fair(levels=2))
     heights, uv = values(mesh, "height"), values(mesh, "Unwrapped", "vector", 2)
     for _ in range(again):
@@ -73,9 +61,8 @@ def test_other_faces_take_it_over_from_the_nearest(levels, capfd):
     recompute()
     mesh = target.data
     assert len(mesh.polygons) == 6 * 4**levels
-    assert np.abs(values(mesh, "height").ravel() - positions(mesh)[:, 2]).max() < 0.15, (
-        "a surface of another level is a little off"
-    )
+    # a surface of another level is a little off
+    assert np.abs(values(mesh, "height") - positions(mesh)[:, 2]).max() < 0.15
     corners = np.array([positions(mesh)[loop.vertex_index][:2] for loop in mesh.loops])
     assert np.abs(values(mesh, "Unwrapped", "vector", 2) - corners).max() < 0.2
     wrong = [
@@ -89,8 +76,7 @@ def test_other_faces_take_it_over_from_the_nearest(levels, capfd):
     assert "'height', " in said and "nearest" in said and "'seam' is" in said
 
 
-def test_what_comes_from_the_source_is_renewed_or_goes():
-    source = add("Box", *CUBE)
+def test_what_comes_from_the_source_is_renewed_or_goes(source):
     source.vertex_groups.new(name="Theirs").add([0, 1], 0.5, "REPLACE")
     source.data.attributes.new("old", "FLOAT", "POINT")
     target = fair(levels=1)
@@ -102,8 +88,7 @@ def test_what_comes_from_the_source_is_renewed_or_goes():
     assert "old" not in target.data.attributes
 
 
-def test_shape_keys_of_its_own_and_their_animation():
-    source = add("Box", *CUBE)
+def test_shape_keys_of_its_own_and_their_animation(source):
     source.shape_key_add(name="Basis")
     source.shape_key_add(name="Up").data[0].co.z += 0.5
     target = fair(levels=1)
@@ -129,8 +114,7 @@ def test_shape_keys_of_its_own_and_their_animation():
     assert len(bpy.data.meshes) == meshes
 
 
-def test_marks_of_the_creases_are_no_data_of_its_own():
-    source = add("Box", *CUBE)
+def test_marks_of_the_creases_are_no_data_of_its_own(source):
     crease = source.data.attributes.new("crease_edge", "FLOAT", "EDGE")
     crease.data.foreach_set("value", [1.0] * 12)
     target = fair(levels=1)
@@ -140,21 +124,17 @@ def test_marks_of_the_creases_are_no_data_of_its_own():
     assert "crease_edge" not in target.data.attributes
 
 
-def test_live_and_its_full_level_keep_it():
-    source = add("Box", *CUBE)
+def test_live_and_its_full_level_keep_it(source):
     mesh = adorn(target := fair(levels=3))
     heights = values(mesh, "height")
     target.discrete_fairing_live.levels = 1
     live(target)
-    move(source)
-    follow()
+    pull(source)
     assert len(target.data.polygons) == 6 * 4 and "Mine" in target.vertex_groups
     assert target.data["note"] == "by hand"
     bpy.ops.object.fairing_live(state="OFF")
     assert len(target.data.polygons) == 6 * 4**3
-    assert np.array_equal(values(target.data, "height"), heights), (
-        "and not by way of the live level"
-    )
+    assert np.array_equal(values(target.data, "height"), heights), "not by way of the live level"
 
 
 def animated_key(target):
@@ -178,8 +158,7 @@ def drag():
     target.discrete_fairing_live.levels = 1
     meshes = len(bpy.data.meshes)
     live(target)
-    move(source)
-    follow()
+    pull(source)
     assert not names_of_keys(target), "handlers write none"
     return source, target, meshes
 
@@ -197,15 +176,13 @@ def test_a_file_saved_in_mid_edit_has_the_keys(tmp_path):
     source, target, meshes = drag()
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "mid.blend"), copy=True)
     assert names_of_keys(target) == ["Basis", "Bump"]
-    move(source)
-    follow()
+    pull(source)
     assert not names_of_keys(target)
     bpy.ops.object.fairing_live(state="OFF")
     key = target.data.shape_keys.key_blocks["Bump"]
     moved = np.linalg.norm([k.co - v.co for k, v in zip(key.data, target.data.vertices)], axis=1)
-    assert moved[9] == pytest.approx(0.25, abs=1e-5) and (moved > 1e-5).sum() == 1, (
-        "as on the full level"
-    )
+    # as on the full level
+    assert moved[9] == pytest.approx(0.25, abs=1e-5) and (moved > 1e-5).sum() == 1
     assert len(bpy.data.meshes) == meshes
     with bpy.data.libraries.load(str(tmp_path / "mid.blend")) as (there, wanted):
         wanted.meshes = [name for name in there.meshes if name == "Box Fair"]

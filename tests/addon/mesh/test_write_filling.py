@@ -4,7 +4,8 @@
 import bpy
 import numpy as np
 import pytest
-from hole_scenes import ball, borders, edit, is_closed, without
+from hole_scenes import ball, borders, is_closed, without
+from scenes import edit, to_object_mode
 
 from addon.mesh.layers import fill_layer, layer_values, read_attributes
 
@@ -118,5 +119,5 @@ def test_in_edit_mode_only_what_is_new_is_selected():
     edit(target, "EDGE", borders(target, lambda z: z > 0)[:1])
     faces = len(target.data.polygons)
     assert bpy.ops.object.fairing_fill() == {"FINISHED"}
-    bpy.ops.object.mode_set(mode="OBJECT")
+    to_object_mode()
     assert selected(target.data)[2] == set(range(faces, len(target.data.polygons)))

@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 import pytest
 from fake_layout import draw
-from scenes import CUBE, activate, add, fair, positions
+from scenes import CUBE, activate, add, again, fair, positions
 
 from addon.operators import compare as operator
 from addon.ui import compare
@@ -20,8 +20,7 @@ def compared(**settings):
     return [bpy.data.objects[name] for name in NAMES]
 
 
-def test_the_energies_stand_in_a_row():
-    source = add("Box", *CUBE)
+def test_the_energies_stand_in_a_row(source):
     source.location = (1, 2, 3)
     made = compared()
     assert {o.name for o in bpy.context.selected_objects} == set(NAMES)
@@ -30,14 +29,8 @@ def test_the_energies_stand_in_a_row():
     assert source.visible_get() and all(o.show_name for o in made)
     for target, energy in zip(made, ("THIN_PLATE", "TOTAL_CURVATURE", "MINIMUM_VARIATION")):
         assert target.discrete_fairing.energy == energy and target.discrete_fairing.levels == 2
-        alone = fair_again(source, energy=energy, levels=2)
+        alone = again(source, energy=energy, levels=2)
         assert np.array_equal(positions(target.data), positions(alone.data))
-
-
-def fair_again(source, **settings):
-    source.hide_set(False)
-    activate(source)
-    return fair(**settings)
 
 
 @pytest.mark.parametrize("active", ["Box", *NAMES])

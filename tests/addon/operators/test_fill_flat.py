@@ -6,7 +6,8 @@ from dataclasses import replace
 import bpy
 import numpy as np
 import pytest
-from hole_scenes import ball, borders, edit, without
+from hole_scenes import ball, borders, without
+from scenes import edit, to_object_mode
 
 from addon.holes import FillOptions, HoleJob
 from addon.operators.hull import in_metres
@@ -24,7 +25,7 @@ def test_a_cap_is_flat_and_its_rim_sharp():
     edit(target, "EDGE", borders(target))
     before = len(target.data.vertices)
     assert bpy.ops.object.fairing_fill(joint="FLAT") == {"FINISHED"}
-    bpy.ops.object.mode_set(mode="OBJECT")
+    to_object_mode()
     mesh = target.data
     assert len(mesh.vertices) == before and len(mesh.polygons) == 48 + 2 * 46
     found = solid(*in_metres(bpy.context, target))
@@ -42,11 +43,11 @@ def test_caps_are_offered_flat_and_repairs_are_not():
     assert HoleJob(bpy.context, target, replace(options, largest=9.0)).closes_caps
     edit(target, "EDGE", borders(target, lambda z: z > 0))
     assert HoleJob(bpy.context, target, options).closes_caps
-    bpy.ops.object.mode_set(mode="OBJECT")
+    to_object_mode()
     target.data.vertices[1].co.z += 0.05  # no longer in a plane
     edit(target, "EDGE", borders(target, lambda z: z > 0))
     assert not HoleJob(bpy.context, target, options).closes_caps
-    bpy.ops.object.mode_set(mode="OBJECT")
+    to_object_mode()
     target = without(ball(), lambda centre: centre.z > 0.9)
     for vertex in target.data.vertices:
         vertex.co.z = min(vertex.co.z, 0.88)  # the rim of a repair may be planar, too

@@ -4,8 +4,8 @@
 import bpy
 import numpy as np
 import pytest
-from hole_scenes import borders, edit, is_closed
-from scenes import activate, add, positions
+from hole_scenes import borders, is_closed
+from scenes import activate, add, edit, positions, to_object_mode
 
 
 def tube(chosen):
@@ -44,7 +44,7 @@ def test_a_rectangle_of_quads_comes_back(way):
     count = len(target.data.polygons)
     assert bpy.ops.object.fairing_fill(quads=True) == {"FINISHED"}
     if way == "edit":
-        bpy.ops.object.mode_set(mode="OBJECT")
+        to_object_mode()
     assert {len(face.vertices) for face in target.data.polygons} == {4}
     assert len(target.data.polygons) == count + 24
     assert is_closed(target.data) and not target.data.validate()

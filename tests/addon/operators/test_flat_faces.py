@@ -5,13 +5,12 @@ import bpy
 import numpy as np
 import pytest
 from fake_layout import draw
-from scenes import activate, add, add_suzanne, fair, positions
+from scenes import add, add_suzanne, edit, fair, positions, refused, settings, to_object_mode
 from shapes import lathe
 
 from addon.job import Job
 from addon.mesh import flat_marks
 from addon.mesh.flat_marks import FLAT, count
-from addon.settings import Settings
 from addon.ui import main
 
 RIM = 2.0
@@ -22,10 +21,9 @@ def box(size=(40.0, 30.0, 20.0), segments=2):
     bpy.ops.mesh.primitive_cube_add(size=1.0)
     made = bpy.context.object
     made.data.transform(np.diag([*size, 1.0]).tolist())
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="SELECT")
+    edit(made, "FACE", range(6))
     bpy.ops.mesh.bevel(offset=RIM, segments=segments, profile=0.5)
-    bpy.ops.object.mode_set(mode="OBJECT")
+    to_object_mode()
     return made
 
 
@@ -43,10 +41,9 @@ def shape(name):
 
 
 def triangulate(source):
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="SELECT")
+    edit(source, "FACE", range(len(source.data.polygons)))
     bpy.ops.mesh.quads_convert_to_tris()
-    bpy.ops.object.mode_set(mode="OBJECT")
+    to_object_mode()
 
 
 def marked(source):
@@ -100,14 +97,10 @@ def test_round_shapes_have_none(name, triangles):
 
 def test_the_angle_joins_faces_that_are_not_quite_in_a_plane():
     source = box()
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="DESELECT")
-    bpy.ops.object.mode_set(mode="OBJECT")
-    top = source.data.polygons[max(range(54), key=lambda f: source.data.polygons[f].center.z)]
-    top.select = True
-    bpy.ops.object.mode_set(mode="EDIT")
+    top = max(range(54), key=lambda f: source.data.polygons[f].center.z)
+    edit(source, "FACE", [top])
     bpy.ops.mesh.poke()
-    bpy.ops.object.mode_set(mode="OBJECT")
+    to_object_mode()
     source.data.vertices[-1].co.z += 0.02  # 1e-3 of half the diagonal
     bpy.ops.object.fairing_flat_faces(angle=np.radians(0.01))
     assert len(marked(source)) == 5
@@ -121,25 +114,18 @@ def test_selected_faces_are_marked_and_cleared(old, monkeypatch):
     if old:
         monkeypatch.setattr(flat_marks, "_flags", lambda edit: None)
     source = box()
-    activate(source)
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_mode(type="FACE")
-    bpy.ops.mesh.select_all(action="DESELECT")
-    with pytest.raises(RuntimeError, match="Select faces first"):
-        bpy.ops.object.fairing_flat_faces()
+    edit(source, "FACE")
+    refused("Select faces first", bpy.ops.object.fairing_flat_faces)
     assert count([source]) == 0
-    bpy.ops.object.mode_set(mode="OBJECT")
-    for face in (3, 7):
-        source.data.polygons[face].select = True
-    bpy.ops.object.mode_set(mode="EDIT")
+    to_object_mode()
+    edit(source, "FACE", (3, 7))
     bpy.ops.object.fairing_flat_faces()
     assert bpy.context.mode == "EDIT_MESH" and count([source]) == (0 if old else 2)
-    bpy.ops.object.mode_set(mode="OBJECT")
+    to_object_mode()
     assert marked(source) == [3, 7]
-    source.data.polygons[3].select = False
-    bpy.ops.object.mode_set(mode="EDIT")
+    edit(source, "FACE", [7])
     bpy.ops.object.fairing_flat_faces(clear=True)
-    bpy.ops.object.mode_set(mode="OBJECT")
+    to_object_mode()
     assert marked(source) == [3]
 
 
@@ -166,18 +152,15 @@ def test_the_surface_keeps_them_flat_until_they_are_cleared():
 
 def test_other_energies_say_that_bending_keeps_them():
     source = box()
-    settings = bpy.context.scene.discrete_fairing
 
-    def told():
-        job = Job(bpy.context, source, Settings.of(settings))
+    def told(energy):
+        job = Job(bpy.context, source, settings(energy=energy))
         lines = [s for s in draw(main.VIEW3D_PT_fairing) if str(s).startswith("Flat faces:")]
         return "flat_faces" in job.arguments, [n for n in job.notes if "lat faces" in n], lines
 
-    settings.energy = "TOTAL_CURVATURE"
-    assert told() == (False, [], [])
+    assert told("TOTAL_CURVATURE") == (False, [], [])
     bpy.ops.object.fairing_flat_faces()
-    kept, notes, lines = told()
+    kept, notes, lines = told("TOTAL_CURVATURE")
     assert not kept and len(notes) == 1 and "Choose Bending" in notes[0]
     assert lines == ["Flat faces: 6, choose Bending"]
-    settings.energy = "THIN_PLATE"
-    assert told() == (True, [], ["Flat faces: 6"])
+    assert told("THIN_PLATE") == (True, [], ["Flat faces: 6"])

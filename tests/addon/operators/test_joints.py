@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 from fake_layout import draw
 from polygons import grid
-from scenes import activate, add, positions
+from scenes import activate, add, fair, positions, recompute, refused, to_object_mode
 
 from addon import core
 from addon.check import joints
 from addon.freshness import why_stale
 from addon.live import registry
+from addon.mesh.object import select_only
 from addon.ui import check as check_panel
 from addon.ui import main
 
@@ -23,23 +24,16 @@ def strip(name, first, last, height):
     return add(name, np.stack([x, y, z], axis=-1).reshape(-1, 3).tolist(), grid(5, 4).tolist())
 
 
-def fair(source, **options):
-    activate(source)
-    assert bpy.ops.object.fairing_surface(levels=3, **options) == {"FINISHED"}
-    return bpy.context.active_object
-
-
 @pytest.fixture
 def panels():
-    bonnet = fair(strip("Bonnet", 0, 1.2, lambda y: 0.3 - 0.2 * y * y))
-    fender = fair(strip("Fender", 1.2, 2, lambda y: 0.012 - 0.9 * (y - 1.2)))
-    return bonnet, fender
+    strip("Bonnet", 0, 1.2, lambda y: 0.3 - 0.2 * y * y)
+    bonnet = fair(levels=3)
+    strip("Fender", 1.2, 2, lambda y: 0.012 - 0.9 * (y - 1.2))
+    return bonnet, fair(levels=3)
 
 
 def select(*objects):
-    activate(objects[-1])
-    for each in objects:
-        each.select_set(True)
+    select_only(bpy.context, objects)
     bpy.context.view_layer.update()
 
 
@@ -70,12 +64,11 @@ def test_curvature_too_and_again_by_recompute(panels):
     meshes = [joints._in_world(bpy.context, panel) for panel in (fender, bonnet)]
     assert np.median(core.module().joint(*meshes).jump) < 0.02
     made = positions(fender.data)
-    activate(fender)
-    assert bpy.ops.object.fairing_recompute() == {"FINISHED"}
+    recompute(fender)
     assert np.array_equal(positions(fender.data), made)
     fender.discrete_fairing.neighbour = None
     assert why_stale(fender) == "Settings changed"
-    assert bpy.ops.object.fairing_recompute() == {"FINISHED"}
+    recompute()
     assert np.degrees(check(*panels).kink) > 3
 
 
@@ -102,21 +95,15 @@ def test_the_worst_place_is_shown(panels):
     assert bpy.ops.object.fairing_select_joint(index=0) == {"FINISHED"}
     target = row.first.find()
     assert target.mode == "EDIT"
-    bpy.ops.object.mode_set(mode="OBJECT")
+    to_object_mode()
     assert [v.index for v in target.data.vertices if v.select] == [row.worst]
 
 
-def test_the_panel_has_the_neighbour(panels):
+def test_what_is_to_be_selected_is_said(panels):
     bonnet, fender = panels
     activate(fender)
+    refused("Select the other object first", bpy.ops.object.fairing_match_border)
+    refused("Select two mesh objects", bpy.ops.object.fairing_joints)
     assert "object.fairing_match_border" in draw(main.VIEW3D_PT_fairing)
     fender.discrete_fairing.neighbour = bonnet
     assert "neighbour" in draw(main.VIEW3D_PT_fairing)
-
-
-def test_what_is_to_be_selected_is_said(panels):
-    activate(panels[1])
-    with pytest.raises(RuntimeError, match="Select the other object first"):
-        bpy.ops.object.fairing_match_border()
-    with pytest.raises(RuntimeError, match="Select two mesh objects"):
-        bpy.ops.object.fairing_joints()

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from fake_layout import draw
 from polygons import grid
-from scenes import CUBE, activate, add, add_suzanne, positions
+from scenes import CUBE, TRIANGLE, activate, add, add_suzanne, fair, positions, refused, shown
 
 from addon.purposes import EASED_FIRST, PURPOSES, job_of, name_of_purpose, preset_file
 from addon.ui.main import VIEW3D_PT_fairing
@@ -23,14 +23,8 @@ def test_each_makes_its_surface(purpose):
     assert made.source == source
     assert made.energy == ("MINIMUM_VARIATION" if purpose == "HULL" else "THIN_PLATE")
     assert (made.interpolation == "LIMIT") == (purpose in {"CHARACTER", "PANEL"})
-
-
-@pytest.mark.parametrize("purpose", ["HULL", "MECHANICAL"])
-def test_without_a_tolerance_vertices_are_held(purpose):
-    source = add("Box", *CUBE)
-    bpy.ops.object.fairing_for(purpose=purpose)
-    surface = bpy.context.active_object
-    np.testing.assert_array_equal(positions(surface.data)[:8], positions(source.data))
+    if purpose in {"HULL", "MECHANICAL"}:  # without a tolerance vertices are held
+        np.testing.assert_array_equal(positions(surface.data)[:8], positions(source.data))
 
 
 def test_a_surface_that_is_there_gets_the_settings_and_is_made_again():
@@ -56,12 +50,11 @@ def test_measured_points_lose_their_scatter(seed):
     source = add("Dome", points.tolist(), grid(9, 9).tolist())
 
     def off(surface):
-        shown = surface.evaluated_get(bpy.context.evaluated_depsgraph_get())
-        places = positions(shown.data)
+        places = shown(surface)
         return np.sqrt(((places[:, 2] - dome(*places[:, :2].T)) ** 2).mean())
 
-    bpy.ops.object.fairing_surface(interpolation="APPROXIMATE", tolerance=0.1)
-    near = off(bpy.context.active_object)
+    near = off(fair(interpolation="APPROXIMATE", tolerance=0.1))
+    assert any(str(line).endswith("vertices at the limit") for line in draw(VIEW3D_PT_fairing))
     source.hide_set(False)
     activate(source)
     assert bpy.ops.object.fairing_for(purpose="POINTS") == {"FINISHED"}
@@ -98,78 +91,41 @@ def test_a_whole_scan_loses_its_noise_in_place():
     assert off(scan) < 0.25 * before
 
 
-def test_the_panel_shows_one_slider_by_what_holds():
-    source = add("Box", *CUBE)
-    settings = bpy.context.scene.discrete_fairing
-    bpy.ops.object.fairing_for(purpose="CHARACTER")
-    source.hide_set(False)
-    activate(source)
-    shown = draw(VIEW3D_PT_fairing)
-    assert "limit" in shown and "object.fairing_for" in shown
-    settings.interpolation = "EXACT"
-    assert "limit" not in draw(VIEW3D_PT_fairing)
-
-
-def test_how_many_vertices_are_at_the_limit_is_said():
-    add_suzanne()
-    bpy.ops.object.fairing_surface(levels=1, interpolation="APPROXIMATE", tolerance=0.05)
-    assert any(str(line).endswith("vertices at the limit") for line in draw(VIEW3D_PT_fairing))
-
-
-def test_nothing_selected_is_said():
-    with pytest.raises(RuntimeError, match="Select a mesh object first"):
-        bpy.ops.object.fairing_for(purpose="HULL")
-
-
 def test_a_refusal_is_a_sentence_and_leaves_the_mode():
-    add("Triangle", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
-    with pytest.raises(RuntimeError) as refused:
-        bpy.ops.object.fairing_for(purpose="SCAN_PATCH")
-    assert str(refused.value).startswith("Error: Triangle: Select more faces")
-    assert "Traceback" not in str(refused.value)
+    refused("Select a mesh object first", bpy.ops.object.fairing_for, purpose="HULL")
+    add("Triangle", *TRIANGLE)
+    refused("^Error: Triangle: Select more faces", bpy.ops.object.fairing_for, purpose="SCAN_PATCH")
     assert bpy.context.mode == "OBJECT"
 
 
 @pytest.mark.parametrize("purpose", sorted(set(SURFACES) - EASED_FIRST))
 def test_after_a_job_the_panel_shows_its_slider_and_the_rest_under_more(purpose):
     add("Box", *CUBE)
+    surface = fair()  # by defaults it is of no job
+    assert job_of(surface.discrete_fairing) == ""
+    seen = draw(VIEW3D_PT_fairing)
+    assert {"Fairness", "Vertices"} <= set(seen[: seen.index("object.fairing_recompute")])
     bpy.ops.object.fairing_for(purpose=purpose)
     made = bpy.context.active_object.discrete_fairing
     assert job_of(made) == purpose
     made.levels, made.tolerance, made.limit = 2, 0.02, 0.5
     assert job_of(made) == purpose, "what the panel offers leaves it the job"
-    shown = draw(VIEW3D_PT_fairing)
+    seen = draw(VIEW3D_PT_fairing)
     slider = {"CHARACTER": "limit", "PANEL": "limit"}.get(purpose, "tolerance")
-    above = shown[: shown.index("object.fairing_recompute")]
+    above = seen[: seen.index("object.fairing_recompute")]
     assert name_of_purpose(purpose) in above and "levels" in above
     assert [name for name in ("tolerance", "limit") if name in above] == [slider]
     assert not {"Fairness", "Vertices"} & set(above)
-    assert {"Fairness", "Vertices"} <= set(shown[shown.index("More") :])
-
-
-def test_a_surface_by_defaults_is_of_no_job():
-    add("Box", *CUBE)
-    bpy.ops.object.fairing_surface()
-    assert job_of(bpy.context.active_object.discrete_fairing) == ""
-    shown = draw(VIEW3D_PT_fairing)
-    assert {"Fairness", "Vertices"} <= set(shown[: shown.index("object.fairing_recompute")])
-
-
-def test_settings_of_ones_own_are_no_job():
-    settings = bpy.context.scene.discrete_fairing
-    assert job_of(settings) == ""
-    bpy.ops.object.fairing_preset_apply(filepath=str(preset_file("HULL")))
-    assert job_of(settings) == "HULL"
-    settings.energy = "THIN_PLATE"
-    assert job_of(settings) == ""
+    assert {"Fairness", "Vertices"} <= set(seen[seen.index("More") :])
+    made.metric_exponent = 0.125
+    assert job_of(made) == "", "settings of one's own are no job"
 
 
 def test_a_scan_with_shape_keys_is_refused_in_object_mode():
     scan = noisy_sphere(subdivisions=3)
     scan.shape_key_add(name="Basis")
     before = positions(scan.data)
-    with pytest.raises(RuntimeError, match="Press Tab, select all"):
-        bpy.ops.object.fairing_scan()
+    refused("Press Tab, select all", bpy.ops.object.fairing_scan)
     np.testing.assert_array_equal(positions(scan.data), before)
 
 
@@ -189,8 +145,14 @@ def test_a_job_takes_selected_meshes_beside_another_active_object():
     assert bpy.context.active_object.discrete_fairing.source == box
 
 
-@pytest.mark.parametrize("purpose", [purpose for purpose, *_ in PURPOSES])
-@pytest.mark.parametrize("how", ["INVOKE_DEFAULT", "EXEC_DEFAULT"])
+@pytest.mark.parametrize(
+    "purpose, how",
+    [
+        *((purpose, "INVOKE_DEFAULT") for purpose, *_ in PURPOSES),
+        ("HULL", "EXEC_DEFAULT"),
+        ("SCAN_PATCH", "EXEC_DEFAULT"),
+    ],
+)
 def test_undo_takes_the_surface_and_nothing_before_it(purpose, how):
     """As a button calls it: with a step of undo of its own."""
     bpy.context.preferences.edit.use_global_undo = True

@@ -1,24 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Strained vertices in a row are a knuckle that wants a crease, not wrong offsets."""
 
-import sys
-from pathlib import Path
-
 import bpy
+import hulls
 import numpy as np
 import pytest
 from fake_layout import draw
-from scenes import positions
+from scenes import EXAMPLES, computed, positions, refused, to_object_mode
 
 from addon.mesh.offset_names import read_names
 from addon.strain import known
 from addon.strain.measure import StrainJob
 from addon.ui import strain as strain_panel
-
-EXAMPLES = Path(__file__).resolve().parents[3] / "examples"
-sys.path.append(str(EXAMPLES))  # last: other folders have files of the same names
-
-import hulls  # noqa: E402
 
 
 def chine(without, truth=False):
@@ -28,9 +21,8 @@ def chine(without, truth=False):
     names, layer = read_names(hull.data), hull.data.attributes["crease_edge"].data
     ends = {f"station {k}, Chine" for k in without}
     for edge in hull.data.edges:
-        if all("Chine" in names[v] for v in edge.vertices) and ends & {
-            names[v] for v in edge.vertices
-        }:
+        both = {names[v] for v in edge.vertices}
+        if all("Chine" in name for name in both) and ends & both:
             layer[edge.index].value = 0.0
     if truth:
         places = np.array(list(hulls.chine().points.values())) / 1000.0
@@ -39,8 +31,7 @@ def chine(without, truth=False):
 
 
 def found(hull):
-    job = StrainJob(bpy.context, hull)
-    job.compute()
+    job = computed(StrainJob(bpy.context, hull))
     return [job.result.name(v) for v in job.result.knuckle]
 
 
@@ -73,11 +64,10 @@ def test_one_click_creases_it(mode):
     hull = chine([7, 8])
     bpy.ops.object.mode_set(mode=mode)
     assert bpy.ops.object.fairing_crease_knuckle() == {"FINISHED"}
-    bpy.ops.object.mode_set(mode="OBJECT")
+    to_object_mode()
     values = [item.value for item in hull.data.attributes["crease_edge"].data]
     assert values.count(1.0) == 20 and found(hull) == []
-    with pytest.raises(RuntimeError, match="no strained vertices form a chain"):
-        bpy.ops.object.fairing_crease_knuckle()
+    refused("no strained vertices form a chain", bpy.ops.object.fairing_crease_knuckle)
 
 
 def test_worst_vertices_leave_it_alone():
@@ -91,9 +81,7 @@ def test_worst_vertices_leave_it_alone():
 
 def test_the_panel_asks():
     hull = chine([7, 8])
-    job = StrainJob(bpy.context, hull)
-    job.compute()
-    known.keep(job)
+    known.keep(computed(StrainJob(bpy.context, hull)))
     log = draw(strain_panel.VIEW3D_PT_fairing_strain)
     assert "object.fairing_crease_knuckle" in log
     said = " ".join(log)

@@ -1,19 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The example table of offsets: what is in it, the mesh that is made of it, and who is found wrong."""
 
-import sys
-from pathlib import Path
-
 import bpy
 import numpy as np
+import offsets as example
 import pytest
+from scenes import computed
 
-EXAMPLES = Path(__file__).resolve().parents[3] / "examples"
-sys.path.append(str(EXAMPLES))  # last: other folders have files of the same names
-
-import offsets as example  # noqa: E402
-
-from addon.strain.measure import StrainJob  # noqa: E402
+from addon.strain.measure import StrainJob
 
 WRONG = [station * len(example.LINES) + line for station, line, _ in example.WRONG]
 
@@ -42,8 +36,7 @@ def test_it_can_be_written_anew(tmp_path):
 
 
 def test_the_three_wrong_ones_are_found_and_no_other():
-    job = StrainJob(bpy.context, hull())
-    job.compute()
+    job = computed(StrainJob(bpy.context, hull()))
     assert sorted(job.result.wrong.tolist()) == sorted(WRONG)
     assert job.result.floor == pytest.approx(0.0125, rel=0.05)
     for vertex, (_, _, off) in zip(WRONG, example.WRONG, strict=True):

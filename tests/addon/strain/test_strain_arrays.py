@@ -7,6 +7,8 @@ import pytest
 from addon.strain import drawn
 from addon.strain.strained import Strained, above
 
+pytestmark = pytest.mark.plain
+
 NAN = float("nan")
 
 
@@ -18,21 +20,13 @@ def strained(lengths=(0.01, -0.04, NAN, 0.02), edge=1.0):
     return Strained(positions, ways, lengths, 0.025, edge)
 
 
-def text(length):
-    return f"{length:g}"
-
-
 def test_the_worst_come_first_and_vertices_on_curves_never():
     it = strained()
     assert it.worst(10).tolist() == [1, 3, 0] and it.worst(2).tolist() == [1, 3]
     assert above(it.lengths, 0.015).tolist() == [1, 3] and above(it.lengths, 0.04).tolist() == []
-    assert it.largest == 0.04
+    assert it.largest == 0.04 and it.wrong.tolist() == [1], "above the floor"
     none = strained((NAN, NAN))
     assert none.worst(3).tolist() == [] and none.largest == 0.0
-
-
-def test_what_is_above_the_floor_is_wrong():
-    assert strained().wrong.tolist() == [1]
 
 
 @pytest.mark.parametrize(
@@ -74,7 +68,7 @@ def test_dots_are_two_triangles_each_and_the_worst_lies_on_top():
 
 
 def test_labels_stand_at_the_tips_of_the_worst():
-    (first, said, wrong), (_, second, fair) = drawn.labels(strained(), 2, 10.0, text)
+    (first, said, wrong), (_, second, fair) = drawn.labels(strained(), 2, 10.0, "{:g}".format)
     assert (said, second) == ("1: 0.04", "3: 0.02")
     assert wrong and not fair, "0.02 is below the floor"
     assert first == pytest.approx([3.0, 4.0, 5.0 - 0.4])

@@ -2,8 +2,11 @@
 """Values spread over a filling: constants stay, none is beyond those of the rim, each is a mean."""
 
 import numpy as np
+import pytest
 
 from addon.transfer.harmonic import spread
+
+pytestmark = pytest.mark.plain
 
 
 def fan(rim=12, rings=4):

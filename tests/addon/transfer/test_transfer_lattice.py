@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from addon.mesh.write import write_mesh
-from addon.transfer.lattice import edge_table, fine_edges, make_cells, mark_pairs
+from addon.transfer.lattice import edge_table, fine_edges, make_cells
 
 # two levels of a triangle: rows of 4, 3, 2, 1 upward cells, vertices numbered row by row
 TRIANGLE_ROWS = ((0, 1, 2, 3, 4), (5, 6, 7, 8), (9, 10, 11), (12, 13), (14,))
@@ -32,39 +32,22 @@ NO_TRIANGLES, NO_QUADS = np.empty((0, 3), np.int32), np.empty((0, 4), np.int32)
 
 
 @pytest.mark.parametrize(
-    "pair, run",
-    [((0, 4), [0, 1, 2, 3, 4]), ((4, 14), [4, 8, 11, 13, 14]), ((14, 0), [14, 12, 9, 5, 0])],
-)
-def test_triangle_sides(pair, run):
-    expected = list(zip(run, run[1:], strict=False))
-    for given in (pair, pair[::-1]):
-        assert [tuple(e) for e in fine_edges((triangle_cells(), NO_QUADS), [given], 2)] == expected
-
-
-@pytest.mark.parametrize(
-    "pair, run",
+    "faces, run",
     [
-        ((0, 4), range(5)),
-        ((4, 24), range(4, 25, 5)),
-        ((24, 20), range(24, 19, -1)),
-        ((20, 0), range(20, -1, -5)),
+        ((triangle_cells(), NO_QUADS), [0, 1, 2, 3, 4]),
+        ((triangle_cells(), NO_QUADS), [4, 8, 11, 13, 14]),
+        ((triangle_cells(), NO_QUADS), [14, 12, 9, 5, 0]),
+        ((NO_TRIANGLES, quad_cells()), [0, 1, 2, 3, 4]),
+        ((NO_TRIANGLES, quad_cells()), [4, 9, 14, 19, 24]),
+        ((NO_TRIANGLES, quad_cells()), [24, 23, 22, 21, 20]),
+        ((NO_TRIANGLES, quad_cells()), [20, 15, 10, 5, 0]),
     ],
 )
-def test_quad_sides(pair, run):
+def test_sides(faces, run):
     expected = list(zip(run, run[1:], strict=False))
-    assert [tuple(e) for e in fine_edges((NO_TRIANGLES, quad_cells()), [pair], 2)] == expected
-
-
-def test_no_edge_asked_for():
-    assert fine_edges((triangle_cells(), quad_cells()), np.empty((0, 2), np.int32), 2).shape == (
-        0,
-        2,
-    )
-
-
-def test_mark_pairs():
-    edges = np.array([(0, 1), (1, 2), (2, 0)], np.int32)
-    assert mark_pairs(edges, np.array([(1, 0), (0, 2)])).tolist() == [True, False, True]
+    for given in ((run[0], run[-1]), (run[-1], run[0])):
+        assert [tuple(e) for e in fine_edges(faces, [given], 2)] == expected
+    assert fine_edges(faces, np.empty((0, 2), np.int32), 2).shape == (0, 2)
 
 
 TRIANGLE_POINTS = [(i, j) for j, row in enumerate(TRIANGLE_ROWS) for i in range(len(row))]
@@ -89,16 +72,10 @@ def test_weights_give_the_points_back(corners, places):
     made = make_cells(corners, 2)
     assert np.array_equal(made.weights @ np.array(places) / made.total, made.points)
     assert (made.weights.sum(axis=1) == made.total).all()
-
-
-@pytest.mark.parametrize("corners", [3, 4])
-def test_no_level(corners):
+    if corners == 3:
+        assert tuple(made.points[made.apex]) == (0, 4)
     made = make_cells(corners, 0)
     assert np.array_equal(made.weights[made.corner_point], np.eye(corners))
-
-
-def test_apex():
-    assert tuple(make_cells(3, 2).points[make_cells(3, 2).apex]) == (0, 4)
 
 
 @pytest.mark.parametrize("levels", [0, 2])
@@ -112,10 +89,8 @@ def test_the_edges_of_a_surface_are_those_that_blender_finds(levels):
     pairs = [{frozenset(edge.vertices) for edge in mesh.edges} for mesh in (ours, theirs)]
     assert pairs[0] == pairs[1] and len(ours.edges) == len(theirs.edges)
     for loop, following in ((a, b) for p in ours.polygons for a, b in cycle(p, ours)):
-        assert set(ours.edges[loop.edge_index].vertices) == {
-            loop.vertex_index,
-            following.vertex_index,
-        }
+        ends = set(ours.edges[loop.edge_index].vertices)
+        assert ends == {loop.vertex_index, following.vertex_index}
 
 
 def cycle(polygon, mesh):

@@ -1,16 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The boat builder's day of the examples, on the table that is done soonest."""
 
-import sys
-from pathlib import Path
-
+import boat_day
+import hulls
 import pytest
-
-EXAMPLES = Path(__file__).resolve().parents[3] / "examples"
-sys.path.append(str(EXAMPLES))  # last: other folders have files of the same names
-
-import boat_day  # noqa: E402
-import hulls  # noqa: E402
 
 
 @pytest.mark.long

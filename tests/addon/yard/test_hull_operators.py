@@ -2,18 +2,16 @@
 """Close Hull, Hydrostatics, Section Curves and the lines plan, on the example tables."""
 
 import csv
-from pathlib import Path
 
 import bpy
 import numpy as np
 import pytest
-from scenes import CUBE, add, fair, positions
+from scenes import CUBE, EXAMPLES, activate, add, edit, fair, positions, refused, to_object_mode
 
 from addon.mesh.offset_names import read_names
 from addon.operators.hull import in_metres
 from addon.yard.hydrostatics import hydrostatics, solid
 
-EXAMPLES = Path(__file__).resolve().parents[3] / "examples"
 FILES = ("offsets_bulb.csv", "offsets_chine.csv", "offsets_yacht.tsv")
 
 
@@ -69,28 +67,28 @@ def test_of_a_surface_the_closed_one_is_faired_alike():
 
 def test_what_is_no_half_hull_is_refused():
     add("Cube", *CUBE)
-    with pytest.raises(RuntimeError, match="Cube is no half hull: it crosses the plane Y = 0"):
-        bpy.ops.object.fairing_close()
+    refused("Cube is no half hull: it crosses the plane Y = 0", bpy.ops.object.fairing_close)
     add("Sheet", [(0, 1, 0), (1, 1, 0), (1, 2, 0), (0, 2, 0)], [(0, 1, 2, 3)])
-    with pytest.raises(RuntimeError, match="no edge lies in the plane Y = 0"):
-        bpy.ops.object.fairing_close()
+    with pytest.raises(RuntimeError, match="Sheet has 4 open edges below the waterplane"):
+        bpy.ops.object.fairing_hydrostatics(draught=0.1)
+    refused("no edge lies in the plane Y = 0", bpy.ops.object.fairing_close)
     half = imported("offsets_yacht.tsv")
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="DESELECT")
-    bpy.ops.object.mode_set(mode="OBJECT")
-    half.data.polygons[33].select = True
-    bpy.ops.object.mode_set(mode="EDIT")
+    edit(half, "FACE", [33])
     bpy.ops.mesh.delete(type="FACE")
-    bpy.ops.object.mode_set(mode="OBJECT")
+    to_object_mode()
     before = len(bpy.data.meshes)
-    with pytest.raises(RuntimeError, match="4 open edges are at holes in its side"):
-        bpy.ops.object.fairing_close()
+    refused("4 open edges are at holes in its side", bpy.ops.object.fairing_close)
     assert len(bpy.data.meshes) == before
 
 
 def test_hydrostatics_of_half_whole_and_closed_agree(tmp_path):
     half = imported("offsets_yacht.tsv")
     points, triangles = in_metres(bpy.context, half)
+    bpy.context.scene.unit_settings.scale_length = 0.001
+    small = in_metres(bpy.context, imported("offsets_yacht.tsv"))[0]
+    assert np.ptp(small[:, 0]) == pytest.approx(10.0), "whatever the scene's unit"
+    bpy.context.scene.unit_settings.scale_length = 1.0
+    activate(half)
     low = points[:, 2].min()
     alone = hydrostatics(points, triangles, low + 0.4)
     bpy.ops.object.fairing_close()
@@ -99,24 +97,11 @@ def test_hydrostatics_of_half_whole_and_closed_agree(tmp_path):
     assert whole.waterplane == pytest.approx(alone.waterplane, rel=1e-6)
     assert bpy.ops.object.fairing_hydrostatics(draught=0.4) == {"FINISHED"}
     path = tmp_path / "h.csv"
-    assert bpy.ops.object.fairing_hydrostatics_table(filepath=str(path), draught=0.4, count=4) == {
-        "FINISHED"
-    }
+    options = {"filepath": str(path), "draught": 0.4, "count": 4}
+    assert bpy.ops.object.fairing_hydrostatics_table(**options) == {"FINISHED"}
     rows = list(csv.DictReader(path.open(newline="")))
     assert len(rows) == 4 and float(rows[-1]["volume_m3"]) == pytest.approx(whole.volume, rel=1e-6)
     assert float(rows[-1]["displacement_kg"]) == pytest.approx(1025 * whole.volume, rel=1e-6)
-
-
-def test_hydrostatics_are_in_metres_whatever_the_scene():
-    bpy.context.scene.unit_settings.scale_length = 0.001
-    points, triangles = in_metres(bpy.context, imported("offsets_yacht.tsv"))
-    assert np.ptp(points[:, 0]) == pytest.approx(10.0)
-
-
-def test_a_leaking_hull_is_refused():
-    add("Sheet", [(0, 1, 0), (1, 1, 0), (1, 2, 0), (0, 2, 0)], [(0, 1, 2, 3)])
-    with pytest.raises(RuntimeError, match="Sheet has 4 open edges below the waterplane"):
-        bpy.ops.object.fairing_hydrostatics(draught=0.1)
 
 
 def test_sections_are_at_the_stations_of_the_table():
@@ -126,7 +111,11 @@ def test_sections_are_at_the_stations_of_the_table():
     made = {o.name: o for o in bpy.context.selected_objects}
     # the first station is a line in the middle plane: nothing is cut there
     assert set(made) >= {f"{surface.name} station {k}" for k in range(1, 9)}
+    assert bpy.ops.object.fairing_section_curves(kind="BUTTOCKS") == {"FINISHED"}
+    (profile,) = (o for o in bpy.context.selected_objects if o.name.endswith("profile"))
     points = positions(half.data)
+    lowest = min(point.co[2] for spline in profile.data.splines for point in spline.points)
+    assert lowest == pytest.approx(points[:, 2].min(), abs=1e-3)
     for k in (2, 5):
         curve = made[f"{surface.name} station {k}"].data.splines[0]
         there = np.array([p.co[:3] for p in curve.points])
@@ -157,8 +146,7 @@ def test_sections_are_where_they_are_asked_for(options, count):
 
 def test_a_list_that_is_none_is_refused():
     imported("offsets_yacht.tsv")
-    with pytest.raises(RuntimeError, match="Write Places as numbers"):
-        bpy.ops.object.fairing_section_curves(places="one, two")
+    refused("Write Places as numbers", bpy.ops.object.fairing_section_curves, places="one, two")
     with pytest.raises(RuntimeError, match="none cuts the mesh"):
         bpy.ops.object.fairing_section_curves(kind="WATERLINES", places="99")
 
@@ -191,32 +179,18 @@ def test_the_lines_plan_has_a_body_plan_with_both_halves(tmp_path):
     texts = [value for (code, value) in found if code == 1][1:]
     assert "station 5" in texts and texts.count("5") == 2, "below profile and half-breadths"
     assert "offsets_yacht Closed Fair   1 : 10   mm" in texts
-    places = {
-        layer: np.array(
-            [
-                [float(found[k + 2][1]), float(found[k + 3][1])]
-                for k, pair in enumerate(found)
-                if pair == (0, "VERTEX") and found[k + 1][1] == layer
-            ]
-        )
-        for layer in ("FRAME", "GRID", "STATIONS", "WATERLINES", "BUTTOCKS")
-    }
-    frame = places.pop("FRAME")
-    for layer, there in places.items():
+
+    def places(layer):
+        at = [k for k, pair in enumerate(found) if pair == (0, "VERTEX")]
+        own = [k for k in at if found[k + 1][1] == layer]
+        return np.array([[float(found[k + 2][1]), float(found[k + 3][1])] for k in own])
+
+    frame = places("FRAME")
+    for layer in ("GRID", "STATIONS", "WATERLINES", "BUTTOCKS"):
+        there = places(layer)
         assert (there > frame.min(axis=0)).all() and (there < frame.max(axis=0)).all(), layer
-    station = [
-        k for k, pair in enumerate(found) if pair == (0, "VERTEX") and found[k + 1][1] == "STATIONS"
-    ]
-    x = np.array([float(found[k + 2][1]) for k in station])
+    x = places("STATIONS")[:, 0]
     centre = 0.5 * (x.min() + x.max())
     # of 1.7 m to each side, ten times smaller, in millimetres
     assert x.max() - centre == pytest.approx(centre - x.min(), rel=0.2) and 200 < np.ptp(x) < 350
     assert bpy.ops.export_scene.fairing_lines(filepath=str(path), in_space=True) == {"FINISHED"}
-
-
-def test_the_profile_of_a_half_hull_is_one_of_its_buttocks():
-    half = imported("offsets_yacht.tsv")
-    assert bpy.ops.object.fairing_section_curves(kind="BUTTOCKS") == {"FINISHED"}
-    (profile,) = (o for o in bpy.context.selected_objects if o.name.endswith("profile"))
-    lowest = min(point.co[2] for spline in profile.data.splines for point in spline.points)
-    assert lowest == pytest.approx(positions(half.data)[:, 2].min(), abs=1e-3)

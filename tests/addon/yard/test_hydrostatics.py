@@ -6,6 +6,8 @@ import pytest
 
 from addon.yard.hydrostatics import NotClosed, hydrostatics, open_edges, solid
 
+pytestmark = pytest.mark.plain
+
 LENGTH, BEAM, DRAUGHT = 10.0, 1.0, 0.625  # of Wigley's hull
 
 

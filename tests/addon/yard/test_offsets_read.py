@@ -1,21 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tables of offsets: layouts, units, blanks, numbers; errors that name row and column; the mesh."""
 
-import sys
 from collections import Counter
-from pathlib import Path
 
+import hulls
 import numpy as np
 import pytest
+from scenes import EXAMPLES
 
 from addon.yard.hull_mesh import hull_mesh
 from addon.yard.offsets import read
 from addon.yard.sheet import OffsetsError
 
-EXAMPLES = Path(__file__).resolve().parents[3] / "examples"
-sys.path.append(str(EXAMPLES))  # last: other folders have files of the same names
-
-import hulls  # noqa: E402
+pytestmark = pytest.mark.plain
 
 # one hull of two stations, three waterlines and a sheer, in every layout
 LAYOUTS = {
@@ -83,18 +80,8 @@ def test_buttocks_and_waterlines_stand_along_the_section():
         read("station (m),Keel,B 0.5,B 1,WL 0.5,WL 1\n0,0,.1,.2,1.4,1.5\n1,0,.6,1.2,.4,.9\n")
     )
     order = [name.split(", ")[1] for name in made.names]
-    assert order == [
-        "Keel",
-        "B 0.5",
-        "B 1",
-        "WL 0.5",
-        "WL 1",
-        "Keel",
-        "WL 0.5",
-        "B 0.5",
-        "WL 1",
-        "B 1",
-    ]
+    assert order[:5] == ["Keel", "B 0.5", "B 1", "WL 0.5", "WL 1"]
+    assert order[5:] == ["Keel", "WL 0.5", "B 0.5", "WL 1", "B 1"]
     assert all(len(face) in (3, 4) for face in made.faces)
 
 
@@ -149,23 +136,11 @@ def test_where_a_line_ends_there_is_a_triangle():
         ("station (mm),Keel,300\n0,1,2\n1,1,2\n", "Row 1, column 3: '300' is no name of a line"),
         ("station (mm),Keel,WL\n0,1,2\n1,1,2\n", "Row 1, column 3: WL has no number"),
         ("station (mm),Keel,Sheer\n0,1,2\n1,1,2\n", "Row 1, column 3: 'Sheer' does not say"),
-        (
-            "station (mm),Keel,A y,A z\n0,1,2,3\n1,1,2,\n",
-            "Row 3, column 3: A has no height at station 1",
-        ),
+        ("station (mm),Keel,A y,A z\n0,1,2,3\n1,1,2,\n", "Row 3, column 3: A has no height at"),
         ("station (mm),Keel,WL 0\nbow,1,2\n1,2,3\n", "Row 2, column 1: 'bow' is not a number"),
-        (
-            "# mm\n\nstation (mm),Keel,WL 0\n0,1,2\n,2,3\n",
-            "Row 5, column 1: this station has no name",
-        ),
-        (
-            "station,line,x (mm),y,z\n0,A,0,1,\n1,A,0,1,2\n",
-            "Row 2, column 5: the point has no number",
-        ),
-        (
-            "station,line,x (mm),y,z\n0,A,0,1,2\n0,A,0,1,2\n",
-            "Row 3, column 2: station 0 has a second",
-        ),
+        ("# mm\n\nstation (mm),Keel,WL 0\n0,1,2\n,2,3\n", "Row 5, column 1: this station has no"),
+        ("station,line,x (mm),y,z\n0,A,0,1,\n1,A,0,1,2\n", "Row 2, column 5: the point has no"),
+        ("station,line,x (mm),y,z\n0,A,0,1,2\n0,A,0,1,2\n", "Row 3, column 2: station 0 has a"),
     ],
 )
 def test_errors_name_row_and_column(text, said):
@@ -188,8 +163,6 @@ def test_the_examples_are_the_hulls_as_measured(make):
     assert len(made.names) == len(made.positions) and set(map(len, made.faces)) <= {3, 4}
     middle = made.positions[np.array(made.creases), 1].max(axis=1) == 0.0
     # stem, sternpost and the keel before it; stem and keel; stem and the keel behind it
-    assert (
-        middle.sum()
-        == {"offsets_bulb.csv": 14, "offsets_chine.csv": 12, "offsets_yacht.tsv": 8}[hull.file]
-    )
+    sharp = {"offsets_bulb.csv": 14, "offsets_chine.csv": 12, "offsets_yacht.tsv": 8}
+    assert middle.sum() == sharp[hull.file]
     assert (~middle).sum() == (8 if hull.file == "offsets_chine.csv" else 0), "the chine"

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from fake_layout import draw
 from hole_scenes import ball, is_closed, radii
-from scenes import activate, positions
+from scenes import activate, add, positions, to_object_mode
 
 from addon.check.defects import recall_cleaned, recall_defects
 from addon.cleaning import CleanJob, CleanOptions
@@ -60,6 +60,15 @@ def test_a_clean_mesh_stays_as_it_is():
     assert recall_cleaned(target)[0] == "Nothing to do"
 
 
+def seams_at(mesh):
+    """Where the creased ones are."""
+    creases = mesh.attributes["crease_edge"].data
+    seams = [e for e in mesh.edges if e.use_seam and creases[e.index].value == 0.75]
+    return {
+        tuple(sorted(tuple(np.round(mesh.vertices[v].co, 5)) for v in e.vertices)) for e in seams
+    }
+
+
 def test_what_lies_on_the_mesh_stays():
     target = spoiled()
     mesh = target.data
@@ -74,21 +83,14 @@ def test_what_lies_on_the_mesh_stays():
         uv.data[loop.index].uv = mesh.vertices[loop.vertex_index].co[:2]
     seams = mesh.attributes.new("crease_edge", "FLOAT", "EDGE")
     for edge in mesh.edges:
-        if edge.index % 7 == 0 and all(
-            abs(mesh.vertices[v].co[2]) < 0.6 and mesh.vertices[v].co.length < 1.01
-            for v in edge.vertices
-        ):
-            edge.use_seam = True
-            seams.data[edge.index].value = 0.75
+        ends = [mesh.vertices[v].co for v in edge.vertices]
+        if edge.index % 7 == 0 and all(abs(co[2]) < 0.6 and co.length < 1.01 for co in ends):
+            edge.use_seam, seams.data[edge.index].value = True, 0.75
     target.shape_key_add(name="Basis")
     key = target.shape_key_add(name="Wide")
     for point in key.data:
         point.co.x += 0.25
-    creased = {
-        tuple(sorted(tuple(np.round(mesh.vertices[v].co, 5)) for v in e.vertices))
-        for e in mesh.edges
-        if e.use_seam
-    }
+    creased = seams_at(mesh)
     assert bpy.ops.object.fairing_clean() == {"FINISHED"}
     assert is_closed(mesh)
     basis = positions(mesh)
@@ -107,12 +109,7 @@ def test_what_lies_on_the_mesh_stays():
     for vertex in mesh.vertices:
         if -0.9 < vertex.co[2] < 0.85:
             assert bool(vertex.groups) == (vertex.co[0] < 0.0)
-    now = {
-        tuple(sorted(tuple(np.round(mesh.vertices[v].co, 5)) for v in e.vertices))
-        for e in mesh.edges
-        if e.use_seam and mesh.attributes["crease_edge"].data[e.index].value == 0.75
-    }
-    assert now == creased and len(creased) > 50
+    assert seams_at(mesh) == creased and len(creased) > 50
 
 
 @pytest.mark.parametrize("step", ["fill", "spikes", "fins", "normals"])
@@ -148,7 +145,7 @@ def test_faces_that_cross_are_listed_with_a_button_that_selects_them():
     assert len(chosen) == len(defect["elements"]) > 10
     # the circle in which two unit balls meet, 1.5 apart
     assert all(abs(f.calc_center_median().x - 0.75) < 0.2 for f in chosen)
-    bpy.ops.object.mode_set(mode="OBJECT")
+    to_object_mode()
 
 
 def test_a_run_whose_mesh_is_gone_says_so():
@@ -170,12 +167,9 @@ def test_parts_that_share_an_edge_are_separated_with_their_marks():
         vertex.co += type(vertex.co)((1.0, 1.0, 0.0))
     bmesh.ops.remove_doubles(bm, verts=bm.verts, dist=1e-6)
     next(e for e in bm.edges if len(e.link_faces) == 4).seam = True
-    mesh = bpy.data.meshes.new("Two")
+    mesh = add("Two", [], []).data
     bm.to_mesh(mesh)
     bm.free()
-    target = bpy.data.objects.new("Two", mesh)
-    bpy.context.collection.objects.link(target)
-    activate(target)
     assert bpy.ops.object.fairing_clean() == {"FINISHED"}
     assert is_closed(mesh)
     assert len(mesh.vertices) == 16 and sum(e.use_seam for e in mesh.edges) == 2
@@ -185,7 +179,7 @@ def test_in_edit_mode():
     target = spoiled()
     bpy.ops.object.mode_set(mode="EDIT")
     assert bpy.ops.object.fairing_clean() == {"FINISHED"}
-    bpy.ops.object.mode_set(mode="OBJECT")
+    to_object_mode()
     assert is_closed(target.data)
 
 
@@ -209,18 +203,13 @@ def test_noise_is_taken_off_in_all_shape_keys():
 def test_edges_are_cut_at_vertices_on_them():
     """Three quads, two of which have a corner on the first one's side."""
     flat = [(0, 0), (1, 0), (1, 2), (0, 2), (1, 1), (2, 0), (2, 1), (2, 2)]
-    mesh = bpy.data.meshes.new("Hanging")
-    mesh.from_pydata([(*p, 0) for p in flat], [], [(0, 1, 2, 3), (1, 5, 6, 4), (4, 6, 7, 2)])
+    points = [(*p, 0) for p in flat]
+    target = add("Hanging", points, [(0, 1, 2, 3), (1, 5, 6, 4), (4, 6, 7, 2)])
+    mesh = target.data
     mesh.attributes.new("mark", "INT", "FACE").data.foreach_set("value", [5, 6, 7])
-    target = bpy.data.objects.new("Hanging", mesh)
-    bpy.context.collection.objects.link(target)
-    activate(target)
     assert bpy.ops.object.fairing_clean(largest=0.0) == {"FINISHED"}
     assert "1 edge cut at a vertex on it" in recall_cleaned(target)[0]
     marks = mesh.attributes["mark"].data
-    assert sorted((len(f.vertices), marks[f.index].value) for f in mesh.polygons) == [
-        (4, 6),
-        (4, 7),
-        (5, 5),
-    ]
+    found = sorted((len(f.vertices), marks[f.index].value) for f in mesh.polygons)
+    assert found == [(4, 6), (4, 7), (5, 5)]
     assert len(mesh.vertices) == 8 and not mesh.validate()

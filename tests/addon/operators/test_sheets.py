@@ -1,12 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Sheets that meet: one mesh comes out, and what lies on the control mesh comes with it."""
 
-import bmesh
-import bpy
 import numpy as np
-from live_scenes import follow, live, move
+from live_scenes import live, move, pull, through
 from refined import control_arrays, core_run
-from scenes import activate, add, fair, positions
+from scenes import add, faces_at_edges, fair, positions, recompute, weights
 
 from addon.transfer.mirror import find_mirrors
 
@@ -26,69 +24,51 @@ def book():
     return add("Book", POINTS, FACES)
 
 
-def most_faces_at_an_edge(mesh):
-    bm = bmesh.new()
-    bm.from_mesh(mesh)
-    counts = [len(edge.link_faces) for edge in bm.edges]
-    bm.free()
-    return counts
-
-
 def test_one_mesh_whose_pages_share_the_spine():
     source = book()
     target = fair(levels=2)
-    counts = most_faces_at_an_edge(target.data)
+    counts = faces_at_edges(target.data)
     assert counts.count(3) == 2 * 4 and max(counts) == 3 and min(counts) == 1
     assert not target.data.validate()
-    assert np.array_equal(positions(target.data)[:12], positions(source.data))
+    assert through(target, source)
     spine = [e for e in target.data.edges if e.use_edge_sharp]
     assert len(spine) == 2 * 4, "a curve, and sharp like all"
 
 
-def test_uv_maps_and_groups_come_along():
+def test_uv_maps_groups_and_shape_keys_come_along():
     source = book()
     uv = source.data.uv_layers.new(name="Pages").uv
     for k, loop in enumerate(source.data.loops):  # each page has a column of its own
         page, along = k // 8, source.data.vertices[loop.vertex_index].co.z
         uv[k].vector = (page + 0.5 * (loop.vertex_index < 3), along)
-    group = source.vertex_groups.new(name="Spine")
-    group.add([0, 1, 2], 1.0, "REPLACE")
+    source.vertex_groups.new(name="Spine").add([0, 1, 2], 1.0, "REPLACE")
+    source.shape_key_add(name="Basis")
+    source.shape_key_add(name="Bent").data[4].co.x += 0.5
     target = fair(levels=2)
+    bent, own = (o.data.shape_keys.key_blocks["Bent"].data for o in (target, source))
+    assert len(bent) == len(target.data.vertices) and np.isclose(bent[4].co.x, own[4].co.x)
     made = target.data.uv_layers["Pages"].uv
     for polygon in target.data.polygons:
         page = polygon.index // (2 * 16)
         columns = [made[k].vector.x for k in polygon.loop_indices]
         assert page <= min(columns) and max(columns) <= page + 0.5
-    weights = {v.index: g.weight for v in target.data.vertices for g in v.groups if g.group == 0}
-    edges = [e for e in target.data.edges if e.use_edge_sharp]
-    assert {weights[v] for e in edges for v in e.vertices} == {1.0}
-    assert 0 in {weights.get(v, 0) for v in range(3, 12)}
+    spine = weights(target, "Spine")
+    assert {spine[v] for e in target.data.edges if e.use_edge_sharp for v in e.vertices} == {1.0}
+    assert np.isnan(spine[3:12]).any()
 
 
 def test_recompute_and_live_follow():
     source = book()
     target = fair(levels=2)
     move(source, 1, 0.25)
-    activate(target)
-    assert bpy.ops.object.fairing_recompute() == {"FINISHED"}
-    assert np.array_equal(positions(target.data)[:12], positions(source.data))
+    recompute(target)
+    assert through(target, source)
     live(target)
     before = positions(target.data)
-    move(source, 1, 0.1)
-    follow()
+    pull(source, 1, 0.1)
     after = positions(target.data)
     assert after.shape == before.shape and not np.array_equal(after, before)
     assert np.array_equal(after[:12], positions(source.data))
-
-
-def test_shape_keys_are_welded_too():
-    source = book()
-    source.shape_key_add(name="Basis")
-    source.shape_key_add(name="Bent").data[4].co.x += 0.5
-    target = fair(levels=2)
-    bent = target.data.shape_keys.key_blocks["Bent"]
-    assert len(bent.data) == len(target.data.vertices)
-    assert np.isclose(bent.data[4].co.x, source.data.shape_keys.key_blocks["Bent"].data[4].co.x)
 
 
 def test_a_region_of_one_page():

@@ -7,8 +7,19 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
-from live_scenes import follow, live, move, session, tick_until
-from scenes import CUBE, activate, add, add_attribute, fair, positions
+from live_scenes import follow, live, pull, session, through, whole
+from scenes import (
+    CUBE,
+    activate,
+    add,
+    add_attribute,
+    add_group,
+    again,
+    fair,
+    moved,
+    positions,
+    reopen,
+)
 
 from addon import vertex_values
 from addon.errors import JobError
@@ -18,19 +29,6 @@ from addon.memory import keep, recall
 from addon.mesh.read import control_mesh, tolerance_factors
 from addon.properties import FairingSettings, _vertex_values
 from addon.settings import Settings
-
-
-def moved(source, result):
-    """How far each vertex was missed."""
-    count = len(source.data.vertices)
-    return np.linalg.norm(positions(result.data)[:count] - positions(source.data), axis=1)
-
-
-def add_group(source, weights, name="Loose"):
-    """A vertex group of {vertex: weight}."""
-    group = source.vertex_groups.new(name=name)
-    for vertex, weight in weights.items():
-        group.add([vertex], weight, "REPLACE")
 
 
 def test_a_setting_changes_no_other():
@@ -51,8 +49,7 @@ def test_files_from_before_keep_their_tolerance(tmp_path, unit, counts):
     for settings in (target.discrete_fairing, bpy.context.scene.discrete_fairing):
         for name, value in (near | old).items():
             setattr(settings, name, value)
-    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "old.blend"))
-    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "old.blend"))
+    reopen(tmp_path)
     target = bpy.data.objects["Box Fair"]
     for settings in (target.discrete_fairing, bpy.context.scene.discrete_fairing):
         assert (settings.tolerance, settings.tolerance_unit) == (counts, unit)
@@ -74,44 +71,42 @@ def test_near_keeps_the_tolerance_that_was_given(given, most):
     assert 0.9 * most < moved(source, result).max() <= most * (1 + 1e-5)
 
 
-def test_a_relative_tolerance_goes_with_the_size():
-    source = add("Box", *CUBE)
+def test_a_relative_tolerance_goes_with_the_size(source):
     result = fair(levels=1, interpolation="APPROXIMATE", tolerance=0.05)
     small = positions(result.data)
+    source.modifiers.new("Finer", "SUBSURF").subdivision_type = "SIMPLE"
+    finer = again(
+        source, levels=1, interpolation="APPROXIMATE", tolerance=0.05, mesh_source="EVALUATED"
+    )
+    # a share of edges that are half as long
+    assert 0.045 < recall(finer, "report")["largest_deviation"] <= 0.05 * (1 + 1e-5)
+    source.modifiers.clear()
+    activate(result)
     source.data.vertices.foreach_set("co", 100 * positions(source.data).ravel())
     bpy.ops.object.fairing_recompute()
     assert np.allclose(positions(result.data), 100 * small, atol=1e-3)
 
 
-def test_it_is_a_share_of_the_edges_that_are_faired():
-    source = add("Box", *CUBE)
-    source.modifiers.new("Finer", "SUBSURF").subdivision_type = "SIMPLE"
-    result = fair(levels=1, interpolation="APPROXIMATE", tolerance=0.05, mesh_source="EVALUATED")
-    most = 0.05  # of edges that are half as long
-    assert 0.9 * most < recall(result, "report")["largest_deviation"] <= most * (1 + 1e-5)
-
-
-def test_a_drag_does_not_change_what_the_tolerance_is_a_share_of(no_pause):
+def test_a_drag_does_not_change_what_the_tolerance_is_a_share_of(source, no_pause):
     """Else each update would build a solver."""
-    source = add("Box", *CUBE)
     target = fair(levels=2, interpolation="APPROXIMATE")
     target.discrete_fairing_live.levels = 1
     live(target)
-    move(source)
-    follow()
+    pull(source)
     solver = session(target).solver
-    move(source)
-    follow()
+    pull(source)
     assert session(target).solver is solver
-    tick_until(lambda: not session(target).is_waiting)
+    whole(target)
     fresh = session(target).solver
     assert fresh is not solver
-    move(source)
-    follow()
+    pull(source)
     assert session(target).solver is fresh
 
 
 # --- a group
+
+
+LOOSE = {"levels": 1, "interpolation": "APPROXIMATE", "tolerance_group": "Loose"}
 
 
 def loose_by_group(source):
@@ -124,25 +119,16 @@ def loose_by_attribute(source):
 
 @pytest.mark.parametrize("make", [loose_by_group, loose_by_attribute])
 @pytest.mark.parametrize("settings", [{}, {"mesh_source": "EVALUATED"}])
-def test_a_group_says_where_the_surface_may_miss(make, settings):
-    source = add("Box", *CUBE)
+def test_a_group_says_where_the_surface_may_miss(source, make, settings):
     make(source)
-    result = fair(
-        levels=1,
-        interpolation="APPROXIMATE",
-        tolerance=0.05,
-        tolerance_group="Loose",
-        keep_symmetry=False,
-        **settings,
-    )
+    result = fair(tolerance=0.05, keep_symmetry=False, **LOOSE, **settings)
     distance = moved(source, result)
     assert 0.05 < distance[0] <= 0.1 * (1 + 1e-5) and 0 < distance[1] <= 0.05 * (1 + 1e-5)
     assert np.array_equal(positions(result.data)[2:8], positions(source.data)[2:])
 
 
 @pytest.mark.parametrize("make", [loose_by_group, loose_by_attribute])
-def test_a_group_is_read_in_edit_mode(make):
-    source = add("Box", *CUBE)
+def test_a_group_is_read_in_edit_mode(source, make):
     make(source)
     bpy.ops.object.mode_set(mode="EDIT")
     settings = SimpleNamespace(interpolation="APPROXIMATE", tolerance_group="Loose")
@@ -150,30 +136,27 @@ def test_a_group_is_read_in_edit_mode(make):
         assert tolerance_factors(source, mesh, settings).tolist() == [1.0, 0.5, *[0.0] * 6]
 
 
-def test_recompute_reads_the_group_again():
-    source = add("Box", *CUBE)
+def test_recompute_reads_the_group_again(source):
     loose_by_group(source)
-    result = fair(levels=1, interpolation="APPROXIMATE", tolerance=0.1, tolerance_group="Loose")
+    result = fair(tolerance=0.1, **LOOSE)
     source.vertex_groups["Loose"].add([0, 1], 0.0, "REPLACE")
     source.vertex_groups["Loose"].add([7], 1.0, "REPLACE")
     bpy.ops.object.fairing_recompute()
     assert set(np.flatnonzero(moved(source, result))) == {7}
 
 
-def test_shape_keys_are_held_by_the_group_too():
-    source = add("Box", *CUBE)
+def test_shape_keys_are_held_by_the_group_too(source):
     loose_by_group(source)
     source.shape_key_add(name="Basis")
     source.shape_key_add(name="Up").data[7].co.z += 1.0
-    result = fair(levels=1, interpolation="APPROXIMATE", tolerance=0.1, tolerance_group="Loose")
+    result = fair(tolerance=0.1, **LOOSE)
     control, up = (o.data.shape_keys.key_blocks["Up"].data for o in (source, result))
     assert up[7].co == control[7].co and up[0].co != control[0].co
 
 
-def test_live_follows_the_group():
-    source = add("Box", *CUBE)
+def test_live_follows_the_group(source):
     loose_by_group(source)
-    target = fair(levels=1, interpolation="APPROXIMATE", tolerance=0.1, tolerance_group="Loose")
+    target = fair(tolerance=0.1, **LOOSE)
     live(target)
     source.vertex_groups["Loose"].add([7], 1.0, "REPLACE")
     source.data.update()
@@ -181,8 +164,7 @@ def test_live_follows_the_group():
     assert moved(source, target)[7] > 0 and not session(target).trouble
 
 
-def test_live_waits_for_a_group_that_is_gone():
-    source = add("Box", *CUBE)
+def test_live_waits_for_a_group_that_is_gone(source):
     target = fair(levels=1, interpolation="APPROXIMATE")
     live(target)
     target.discrete_fairing.tolerance_group = "Loose"
@@ -203,14 +185,12 @@ def test_a_name_that_is_nothing_is_refused():
     assert len(bpy.data.objects) == 1
 
 
-def test_a_group_means_nothing_where_all_vertices_are_held():
-    source = add("Box", *CUBE)
+def test_a_group_means_nothing_where_all_vertices_are_held(source):
     result = fair(levels=1, interpolation="EXACT", tolerance_group="Loose")
-    assert np.array_equal(positions(result.data)[:8], positions(source.data))
+    assert through(result, source)
 
 
-def test_values_are_from_nothing_to_all():
-    source = add("Box", *CUBE)
+def test_values_are_from_nothing_to_all(source):
     add_attribute(source, [-1.0, 0.25, 2.0, *[0.5] * 5])
     found = vertex_values.factors(source, source.data, "Loose")
     assert found.tolist() == [0.0, 0.25, 1.0, *[0.5] * 5]
@@ -222,16 +202,14 @@ def test_values_are_from_nothing_to_all():
 @pytest.mark.parametrize(
     "data_type, domain", [("INT", "POINT"), ("FLOAT", "FACE"), ("FLOAT_VECTOR", "POINT")]
 )
-def test_other_attributes_are_none(data_type, domain):
-    source = add("Box", *CUBE)
+def test_other_attributes_are_none(source, data_type, domain):
     source.data.attributes.new("Loose", data_type, domain)
     with pytest.raises(JobError, match="Loose"):
         vertex_values.factors(source, source.data, "Loose")
     assert "Loose" not in dict(vertex_values.names(source))
 
 
-def test_the_field_offers_groups_and_attributes():
-    source = add("Box", *CUBE)
+def test_the_field_offers_groups_and_attributes(source):
     add_group(source, {}, "Ears")
     add_attribute(source, [0.0] * 8, "Age")
     add_attribute(source, [0.0] * 8, ".hidden")
@@ -242,12 +220,8 @@ def test_the_field_offers_groups_and_attributes():
     assert _vertex_values(result.discrete_fairing, bpy.context, "") == offered
     redo = SimpleNamespace(**dict.fromkeys(FairingSettings.__annotations__))
     assert _vertex_values(redo, bpy.context, "") == offered, "of the source, not of the result"
-
-
-def test_the_field_offers_nothing_without_a_mesh():
-    activate(add("Box", *CUBE))
     bpy.data.objects.remove(bpy.context.object)
-    assert _vertex_values(bpy.context.scene.discrete_fairing, bpy.context, "") == []
+    assert _vertex_values(scene, bpy.context, "") == [], "without a mesh"
 
 
 @pytest.mark.parametrize("how", ["EXEC_DEFAULT", "INVOKE_DEFAULT"])
@@ -270,33 +244,26 @@ def test_a_tolerance_that_is_given_means_near(how, given, vertices):
     assert (off > 0.01) == (vertices != "EXACT")
     if "tolerance" in given and vertices == "APPROXIMATE":
         assert off <= 0.1 + 1e-6
+        add("Crate", *CUBE)
+        bpy.ops.object.fairing_surface(how, levels=1)
+        again = bpy.context.active_object.discrete_fairing
+        assert again.interpolation == "EXACT", "the last tolerance is not given again"
 
 
-def test_the_last_tolerance_is_not_given_again():
-    for given in ({"tolerance": 0.05}, {}):
-        add("Box", *CUBE)
-        assert bpy.ops.object.fairing_surface("INVOKE_DEFAULT", levels=1, **given) == {"FINISHED"}
-    assert bpy.context.active_object.discrete_fairing.interpolation == "EXACT"
-
-
-def test_live_reads_no_group_while_a_mouse_drags(monkeypatch):
-    source = add("Box", *CUBE)
-    group = source.vertex_groups.new(name="Loose")
-    group.add(range(8), 0.5, "REPLACE")
-    target = fair(levels=1, tolerance=0.1, tolerance_group="Loose")
+def test_live_reads_no_group_while_a_mouse_drags(source, monkeypatch):
+    add_group(source, dict.fromkeys(range(8), 0.5))
+    target = fair(tolerance=0.1, **LOOSE)
     live(target)
     read, asked = vertex_values.factors, []
     monkeypatch.setattr(vertex_values, "factors", lambda *of: asked.append(of) or read(*of))
     monkeypatch.setattr(live_session, "is_dragging", lambda _: True)
     for _ in range(3):
-        move(source, by=0.1)
-        follow()
+        pull(source, by=0.1)
     assert session(target).updates > 3 and asked == []
     dragged = positions(target.data)
     monkeypatch.setattr(live_session, "is_dragging", lambda _: False)
-    group.add([0], 0.0, "REPLACE")
-    move(source, by=0.1)
-    follow()
+    source.vertex_groups["Loose"].add([0], 0.0, "REPLACE")
+    pull(source, by=0.1)
     assert len(asked) == 1
     assert positions(target.data)[0].tolist() == list(source.data.vertices[0].co)
     assert not np.array_equal(dragged, positions(target.data))

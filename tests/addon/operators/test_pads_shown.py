@@ -3,8 +3,9 @@
 
 import bpy
 import numpy as np
-from live_scenes import follow, live, move
-from scenes import CUBE, activate, add, add_attribute, fair, positions
+from live_scenes import live, pull, through
+from refined import values
+from scenes import add_attribute, again, fair, positions
 
 from addon.errors import pads_text
 from addon.memory import recall
@@ -25,22 +26,14 @@ def add_crumpled():
     return ball
 
 
-def values(mesh, name):
-    found = np.empty(len(mesh.vertices), np.float32)
-    mesh.attributes[name].data.foreach_get("value", found)
-    return found
-
-
-def test_pads_change_the_surface_and_hold_the_vertices():
-    source = add("Box", *CUBE)
+def test_pads_change_the_surface_and_hold_the_vertices(source):
     needles = fair(levels=2, pad_size=0.0)
-    source.hide_set(False)
-    activate(source)
-    pads = fair(levels=2)
+    pads = again(source, levels=2)
     assert pads.discrete_fairing.pad_size == 1.0
     assert not np.array_equal(positions(pads.data), positions(needles.data))
     for surface in (pads, needles):
-        assert np.array_equal(positions(surface.data)[:8], positions(source.data))
+        assert "fair_pad_size" not in surface.data.attributes, "none gave way"
+        assert through(surface, source)
 
 
 def test_where_pads_gave_way_is_said_and_kept(capfd):
@@ -56,8 +49,10 @@ def test_where_pads_gave_way_is_said_and_kept(capfd):
 
 def test_recompute_replaces_where_pads_gave_way():
     source = add_crumpled()
-    result = fair(**CRUMPLED)
-    assert "fair_pad_size" in result.data.attributes
+    source.shape_key_add(name="Basis")
+    source.shape_key_add(name="Up").data[0].co.z += 1.0
+    result = fair(**CRUMPLED | {"levels": 1})
+    assert "fair_pad_size" in result.data.attributes and len(result.data.shape_keys.key_blocks) == 2
     result.discrete_fairing.pad_size = 0.0
     bpy.ops.object.fairing_recompute()
     assert "fair_pad_size" not in result.data.attributes
@@ -71,21 +66,6 @@ def test_a_live_surface_says_where_pads_gave_way():
     result = fair(**CRUMPLED)
     result.discrete_fairing_live.levels = 1
     live(result)
-    move(source, by=0.01)
-    follow()
+    pull(source, by=0.01)
     assert len(result.data.polygons) == 4 * len(source.data.polygons)
     assert "fair_pad_size" in result.data.attributes
-
-
-def test_shape_keys_and_pads_that_gave_way():
-    source = add_crumpled()
-    source.shape_key_add(name="Basis")
-    source.shape_key_add(name="Up").data[0].co.z += 1.0
-    result = fair(**CRUMPLED | {"levels": 1})
-    assert "fair_pad_size" in result.data.attributes and len(result.data.shape_keys.key_blocks) == 2
-
-
-def test_smooth_meshes_have_no_attribute(capfd):
-    add("Box", *CUBE)
-    assert "fair_pad_size" not in fair(levels=1).data.attributes
-    assert "Pads" not in capfd.readouterr().out

@@ -4,7 +4,7 @@
 import bpy
 import pytest
 from live_scenes import follow, move
-from scenes import CUBE, TRIANGLE, activate, add, fair
+from scenes import CUBE, TRIANGLE, activate, add, computed, fair, refused, settings
 
 from addon.freshness import stale_surfaces
 from addon.job import Job
@@ -50,8 +50,7 @@ def test_vertices_of_a_source_that_is_excluded_cannot_be_selected():
     exclude(box)
     for name in ("fairing_select_strained", "fairing_go_to_strained", "fairing_show_source"):
         assert not getattr(bpy.ops.object, name).poll(), name
-    with pytest.raises(RuntimeError, match="Link 'Box' to this scene first"):
-        bpy.ops.object.fairing_select_strained()
+    refused("Link 'Box' to this scene first", bpy.ops.object.fairing_select_strained)
 
 
 def overridden(tmp_path):
@@ -98,8 +97,7 @@ def test_an_error_leaves_nothing_behind(monkeypatch):
 
     monkeypatch.setattr(Job, "write", fail)
     before = counts()
-    with pytest.raises(RuntimeError, match="on purpose"):
-        bpy.ops.object.fairing_surface(levels=1)
+    refused("on purpose", bpy.ops.object.fairing_surface, levels=1)
     assert counts() == before
 
 
@@ -113,16 +111,13 @@ class Run(Fairing):
         pass
 
 
-def finish(*jobs):
-    for job in jobs:
-        job.compute()
-    assert Run().finish(bpy.context, list(jobs)) == {"FINISHED"}
+def finish(job):
+    assert Run().finish(bpy.context, [computed(job)]) == {"FINISHED"}
 
 
 @pytest.mark.parametrize("mode", ["SCULPT", "EDIT", "VERTEX_PAINT"])
-def test_a_run_that_ends_leaves_whoever_has_begun_something_else_alone(mode):
-    source = add("Box", *CUBE)
-    job = Job(bpy.context, source, Settings.of(bpy.context.scene.discrete_fairing))
+def test_a_run_that_ends_leaves_whoever_has_begun_something_else_alone(source, mode):
+    job = Job(bpy.context, source, settings())
     other = add("Other", *TRIANGLE)
     bpy.ops.object.mode_set(mode=mode)
     finish(job)
@@ -131,8 +126,7 @@ def test_a_run_that_ends_leaves_whoever_has_begun_something_else_alone(mode):
     assert bpy.data.objects["Box Fair"].data.polygons
 
 
-def test_a_surface_that_is_being_sculpted_is_made_again_in_object_mode():
-    source = add("Box", *CUBE)
+def test_a_surface_that_is_being_sculpted_is_made_again_in_object_mode(source):
     target = fair(levels=1)
     move(source)
     job = Job(bpy.context, source, Settings.of(target.discrete_fairing), target)

@@ -4,20 +4,27 @@
 import bpy
 import numpy as np
 import pytest
-from scenes import CUBE, activate, add, add_suzanne, fair, positions
+from live_scenes import follow, live
+from scenes import (
+    CUBE,
+    add,
+    add_suzanne,
+    again,
+    edit,
+    fair,
+    positions,
+    shown,
+    to_object_mode,
+)
 
 from addon.mesh.shape_keys import read_shape_keys
 
 
-def subdivided(source, level=6, quality=10, **settings):
+def subdivided(source):
     """(n, 3): where the modifier puts the vertices of `source`."""
-    modifier = source.modifiers.new("Subdivision", "SUBSURF")
-    modifier.levels, modifier.quality = level, quality
-    for name, value in settings.items():
-        setattr(modifier, name, value)
-    depsgraph = bpy.context.evaluated_depsgraph_get()
-    found = positions(source.evaluated_get(depsgraph).to_mesh())[: len(source.data.vertices)]
-    source.modifiers.remove(modifier)
+    with_modifier(source, levels=6, quality=10)
+    found = shown(source)[: len(source.data.vertices)]
+    source.modifiers.remove(source.modifiers["Subdivision"])
     return found
 
 
@@ -26,18 +33,15 @@ def crease(source, name, domain, values):
 
 
 def limits(source, **settings):
-    activate(source)
-    settings = {"levels": 0, "interpolation": "LIMIT", "boundary": "CURVE"} | settings
-    result = fair(**settings)
-    found = positions(result.data)[: len(source.data.vertices)]
-    source.hide_set(False)
-    return found
+    result = again(
+        source, **{"levels": 0, "interpolation": "LIMIT", "boundary": "CURVE"} | settings
+    )
+    return positions(result.data)[: len(source.data.vertices)]
 
 
 def shaken(source, amount=0.1):
-    moved = positions(source.data) + amount * np.random.default_rng(1).standard_normal(
-        (len(source.data.vertices), 3)
-    )
+    noise = np.random.default_rng(1).standard_normal((len(source.data.vertices), 3))
+    moved = positions(source.data) + amount * noise
     source.data.vertices.foreach_set("co", moved.astype(np.float32).ravel())
     source.data.update()
     return source
@@ -46,11 +50,10 @@ def shaken(source, amount=0.1):
 def soccer_ball():
     """Pentagons and triangles: the corners of an icosahedron cut off halfway."""
     bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=1)
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="SELECT")
+    edit(bpy.context.object, "VERT", range(12))
     bpy.ops.mesh.bevel(affect="VERTICES", offset_type="PERCENT", offset_pct=50)
     bpy.ops.mesh.remove_doubles(threshold=1e-3)
-    bpy.ops.object.mode_set(mode="OBJECT")
+    to_object_mode()
     return bpy.context.object
 
 
@@ -83,11 +86,11 @@ def test_semi_sharp_edges_and_vertices_too(model):
     chosen = random.random(vertices) < 0.1
     crease(source, "crease_vert", "POINT", np.where(chosen, random.uniform(0.1, 0.62, vertices), 0))
     smooth = limits(source, use_crease_attribute=False)
-    found = limits(source, crease_threshold=1.0)
+    found, wanted = limits(source, crease_threshold=1.0), subdivided(source)
     assert np.abs(found - smooth).max() > 0.01
-    assert np.abs(found - subdivided(source)).max() < 1e-4
+    assert np.abs(found - wanted).max() < 1e-4
     # what is sharp enough to be a crease of the surface is as sharp as it was on the way there
-    assert np.abs(limits(source, crease_threshold=0.3) - subdivided(source)).max() < 1e-4
+    assert np.abs(limits(source, crease_threshold=0.3) - wanted).max() < 1e-4
 
 
 def test_full_creases():
@@ -129,17 +132,14 @@ def test_the_modifier_is_not_applied_twice():
     source.modifiers.new("Other", "TRIANGULATE")
     result = fair(levels=1, copy_modifiers=True)
     assert [m.type for m in result.modifiers] == ["TRIANGULATE"]
-    activate(source)
-    source.hide_set(False)
-    through = fair(levels=1, copy_modifiers=True, interpolation="EXACT")
+    through = again(source, levels=1, copy_modifiers=True, interpolation="EXACT")
     assert [m.type for m in through.modifiers] == ["SUBSURF", "TRIANGULATE"]
 
 
 @pytest.mark.parametrize("interpolation", ["AUTO", "LIMIT"])
 def test_a_mesh_that_is_subdivided_already_is_faired_through_its_vertices(interpolation):
     source = with_modifier(add_suzanne())
-    depsgraph = bpy.context.evaluated_depsgraph_get()
-    given = positions(source.evaluated_get(depsgraph).to_mesh())
+    given = shown(source)
     result = fair(levels=1, mesh_source="EVALUATED", interpolation=interpolation)
     np.testing.assert_allclose(positions(result.data)[: len(given)], given, atol=1e-6)
 
@@ -149,11 +149,8 @@ def test_follow_leaves_the_limits_and_moves_what_is_between():
     count = len(source.data.vertices)
     free, follows = limits(source, levels=1, limit=0.0), limits(source, levels=1)
     np.testing.assert_array_equal(free, follows)
-    activate(source)
-    surfaces = []
-    for limit in (0.0, 1.0):
-        surfaces.append(positions(fair(levels=1, interpolation="LIMIT", limit=limit).data))
-        activate(source)
+    way = {"levels": 1, "interpolation": "LIMIT"}
+    surfaces = [positions(again(source, **way, limit=limit).data) for limit in (0.0, 1.0)]
     assert np.abs(surfaces[0] - surfaces[1])[count:].max() > 1e-3
 
 
@@ -164,8 +161,7 @@ def test_shape_keys_go_to_their_own_limits():
     for point in key.data:
         point.co.x *= 1.5
     expected = limits(source, use_shape_keys=False)
-    activate(source)
-    result = fair(levels=1, interpolation="LIMIT")
+    result = again(source, levels=1, interpolation="LIMIT")
     keys = read_shape_keys(result, len(result.data.vertices))
     count = len(expected)
     np.testing.assert_allclose(keys.positions[0][:count], expected, atol=1e-6)
@@ -174,13 +170,12 @@ def test_shape_keys_go_to_their_own_limits():
 
 def test_a_live_surface_follows_through_its_limits():
     source = with_modifier(add_suzanne())
-    assert bpy.ops.object.fairing_live() == {"FINISHED"}
-    surface = next(o for o in bpy.data.objects if o.discrete_fairing.source == source)
+    surface = live(source)
     assert surface.discrete_fairing.interpolation == "LIMIT"
     for vertex in source.data.vertices:
         vertex.co.z *= 1.25
     source.data.update()
-    bpy.context.view_layer.update()
+    follow()
     count = len(source.data.vertices)
     found = positions(surface.data)[:count]
     bpy.ops.object.fairing_live()

@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 from fake_layout import draw
 from polygons import grid
-from scenes import activate, add, positions
+from scenes import add, again, faces_at_edges, positions, recompute, settings
 
 from addon import prediction
 from addon.job import Job
 from addon.live import pace, registry
-from addon.settings import Settings
 from addon.ui import main
 
 
@@ -20,22 +19,10 @@ def half_bowl():
     angles, heights = np.meshgrid(
         np.linspace(-np.pi / 2, np.pi / 2, 7), np.linspace(-1.2, 0.3, 4), indexing="ij"
     )
-    points = np.stack(
-        [
-            np.cos(heights) * np.cos(angles),
-            2 * np.cos(heights) * np.sin(angles),
-            np.sin(heights),
-        ],
-        axis=-1,
-    ).reshape(-1, 3)
+    x, y = np.cos(heights) * np.cos(angles), 2 * np.cos(heights) * np.sin(angles)
+    points = np.stack([x, y, np.sin(heights)], axis=-1).reshape(-1, 3)
     points[:4, 0] = points[-4:, 0] = 0.0
     return add("Bowl", points.tolist(), grid(7, 4).tolist())
-
-
-def fair(source, **options):
-    activate(source)
-    assert bpy.ops.object.fairing_surface(**{"levels": 3, **options}) == {"FINISHED"}
-    return bpy.context.object
 
 
 @pytest.mark.parametrize("scale", [(1, 1, 1), (2, 0.5, 1)])
@@ -43,12 +30,11 @@ def test_the_half_fits_the_whole(scale):
     source = half_bowl()
     source.scale = scale
     bpy.context.view_layer.update()
-    half = fair(source, symmetry_plane="X")
+    half = again(source, levels=3, symmetry_plane="X")
     assert half.discrete_fairing.symmetry_plane == "X"
-    source.hide_set(False)
     mirror = source.modifiers.new("Mirror", "MIRROR")
     mirror.use_axis = (True, False, False)
-    whole = fair(source, mesh_source="EVALUATED")
+    whole = again(source, levels=3, mesh_source="EVALUATED")
     there = positions(whole.data)
     kept = there[there[:, 0] > -1e-7]
     own = positions(half.data)
@@ -60,10 +46,12 @@ def test_the_half_fits_the_whole(scale):
 
 def test_live_and_recompute_keep_the_half():
     source = half_bowl()
-    half = fair(source, symmetry_plane="X", levels=2)
+    source.data.uv_layers.new(name="UV")
+    source.vertex_groups.new(name="Keel").add([0, 1, 2, 3], 0.75, "REPLACE")
+    half = again(source, symmetry_plane="X", levels=2)
+    assert half.data.uv_layers["UV"] and half.vertex_groups["Keel"].weight(0) == 0.75
     before = positions(half.data)
-    activate(half)
-    assert bpy.ops.object.fairing_recompute() == {"FINISHED"}
+    recompute(half)
     assert np.array_equal(positions(half.data), before)
     half.discrete_fairing_live.on = True
     source.data.vertices[9].co.z -= 0.2
@@ -74,26 +62,10 @@ def test_live_and_recompute_keep_the_half():
     half.discrete_fairing_live.on = False
 
 
-def test_uv_and_groups_come_along():
+def test_errors_name_the_plane_and_the_faces_that_are_there():
     source = half_bowl()
-    source.data.uv_layers.new(name="UV")
-    group = source.vertex_groups.new(name="Keel")
-    group.add([0, 1, 2, 3], 0.75, "REPLACE")
-    half = fair(source, symmetry_plane="X", levels=2)
-    assert half.data.uv_layers["UV"] and half.vertex_groups["Keel"]
-    assert half.vertex_groups["Keel"].weight(0) == pytest.approx(0.75)
-
-
-def test_without_a_border_in_the_plane_it_says_so():
-    source = half_bowl()
-    activate(source)
     with pytest.raises(RuntimeError, match="no border edge lies in the plane y = 0"):
         bpy.ops.object.fairing_surface(levels=1, symmetry_plane="Y")
-
-
-def test_an_error_names_the_faces_that_are_there():
-    source = half_bowl()
-    activate(source)
     source.data.polygons[7].flip()
     with pytest.raises(RuntimeError, match=r"1 face \(7\) points against the neighbours"):
         bpy.ops.object.fairing_surface(levels=1, symmetry_plane="X", repair="REFUSE")
@@ -102,14 +74,11 @@ def test_an_error_names_the_faces_that_are_there():
 @pytest.mark.parametrize("energy", ["THIN_PLATE", "TOTAL_CURVATURE"])
 def test_seconds_count_both_halves_and_triangles_those_that_come(energy):
     source = half_bowl()
-    settings = bpy.context.scene.discrete_fairing
-    settings.levels, settings.energy = 6, energy
-    alone = Job(bpy.context, source, Settings.of(settings))
+    alone = Job(bpy.context, source, settings(levels=6, energy=energy))
     said = draw(main.VIEW3D_PT_fairing)
-    settings.symmetry_plane = "X"
-    half = Job(bpy.context, source, Settings.of(settings))
-    seconds = half.predict(energy, settings.levels)
-    assert seconds == 2 * alone.predict(energy, settings.levels)
+    half = Job(bpy.context, source, settings(symmetry_plane="X"))
+    seconds = half.predict(energy, 6)
+    assert seconds == 2 * alone.predict(energy, 6)
     assert half.triangles == alone.triangles
     expected = f"{alone.triangles:,} triangles, {prediction.text(seconds)}"
     assert expected in draw(main.VIEW3D_PT_fairing) and expected not in said
@@ -117,7 +86,7 @@ def test_seconds_count_both_halves_and_triangles_those_that_come(energy):
 
 def test_live_counts_both_halves(monkeypatch):
     source = half_bowl()
-    half = fair(source, symmetry_plane="X", levels=3)
+    half = again(source, symmetry_plane="X", levels=3)
     monkeypatch.setattr(pace, "MAX_TRIANGLES", 2 * len(half.data.polygons))
     half.discrete_fairing_live.on = True
     session = registry.session_of(half)
@@ -139,18 +108,17 @@ def half_boat():
 
 def seam(target, axis):
     """Sharp and all edges of the border that lie in the plane of that axis."""
-    mesh = target.data
-    uses = np.bincount([loop.edge_index for loop in mesh.loops], minlength=len(mesh.edges))
-    flat = np.abs(positions(target.data)[:, axis]) < 1e-6
-    edges = [e for e in mesh.edges if uses[e.index] == 1 and flat[list(e.vertices)].all()]
-    others = [e for e in mesh.edges if e not in edges]
-    assert not any(e.use_edge_sharp for e in others)
-    return sum(e.use_edge_sharp for e in edges), len(edges)
+    mesh, faces = target.data, faces_at_edges(target.data)
+    flat = np.abs(positions(mesh)[:, axis]) < 1e-6
+    own = {e.index for e in mesh.edges if faces[e.index] == 1 and flat[list(e.vertices)].all()}
+    sharp = {e.index for e in mesh.edges if e.use_edge_sharp}
+    assert sharp <= own
+    return len(sharp), len(own)
 
 
 def test_stem_and_keel_of_half_a_hull_are_sharp():
     source = half_boat()
-    half = fair(source, levels=3)
+    half = again(source, levels=3)
     assert seam(half, 1) == (72, 72)
     half.discrete_fairing_live.on = True
     source.data.vertices[9].co.y += 0.1
@@ -166,11 +134,11 @@ def test_a_creased_seam_that_was_faired_across_is_sharp():
     for edge in source.data.edges:
         if all(abs(source.data.vertices[v].co.y) < 1e-6 for v in edge.vertices):
             crease.data[edge.index].value = 1.0
-    assert seam(fair(source, symmetry_plane="Y"), 1) == (72, 72)
+    assert seam(again(source, levels=3, symmetry_plane="Y"), 1) == (72, 72)
 
 
 def test_a_seam_that_was_faired_across_is_not_sharp_and_none_that_is_tangent():
-    assert seam(fair(half_bowl(), symmetry_plane="X"), 0) == (0, 48)
+    assert seam(again(half_bowl(), levels=3, symmetry_plane="X"), 0) == (0, 48)
     x, y = np.meshgrid(np.linspace(0, 1, 5), np.linspace(-1, 1, 5), indexing="ij")
     points = np.stack([x, y, 0.3 * (x**2 + y**2)], axis=-1).reshape(-1, 3)
-    assert seam(fair(add("Dish", points.tolist(), grid(5, 5).tolist())), 0) == (0, 32)
+    assert seam(again(add("Dish", points.tolist(), grid(5, 5).tolist()), levels=3), 0) == (0, 32)

@@ -1,34 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One-sided surfaces: Bending fairs a Möbius strip, and what lies on it comes with it."""
 
-import bmesh
 import bpy
 import numpy as np
+import one_sided_meshes
 import pytest
-from live_scenes import follow, live, move
-from scenes import activate, add, fair, positions
+from live_scenes import live, pull
+from scenes import add, faces_at_edges, fair, positions, recompute
 
 AROUND = 8
 
 
 def strip():
-    angle = 2 * np.pi * np.arange(AROUND) / AROUND
-    centre = np.stack([np.cos(angle), np.sin(angle), 0 * angle], -1)
-    out = np.cos(angle / 2)[:, None] * centre + np.sin(angle / 2)[:, None] * [0, 0, 1]
-    points = np.stack([2 * centre - out, 2 * centre, 2 * centre + out], 1).reshape(-1, 3)
-    id = np.arange(3 * AROUND).reshape(AROUND, 3)
-    after = np.roll(id, -1, 0)
-    after[-1] = after[-1, ::-1].copy()
-    faces = np.stack([id[:, :-1], after[:, :-1], after[:, 1:], id[:, 1:]], -1).reshape(-1, 4)
+    points, faces = one_sided_meshes.strip(AROUND, 2)
     return add("Strip", points.tolist(), faces.tolist())
-
-
-def edge_counts(mesh):
-    bm = bmesh.new()
-    bm.from_mesh(mesh)
-    counts = [len(edge.link_faces) for edge in bm.edges]
-    bm.free()
-    return counts
 
 
 @pytest.mark.parametrize("repair", ["MEND", "REFUSE"])
@@ -43,7 +28,7 @@ def test_one_sheet_with_its_uv_map(repair):
                 (across + (k in (2, 3))) / 2,
             )
     target = fair(levels=2, repair=repair)
-    counts = edge_counts(target.data)
+    counts = faces_at_edges(target.data)
     assert set(counts) == {1, 2} and counts.count(1) == 4 * 2 * AROUND
     assert not target.data.validate()
     assert len(target.data.vertices) == 4 * AROUND * 9
@@ -66,17 +51,14 @@ def test_live_and_shape_keys_follow():
     bent = target.data.shape_keys.key_blocks["Bent"]
     assert np.isclose(bent.data[4].co.z, source.data.shape_keys.key_blocks["Bent"].data[4].co.z)
     source.shape_key_clear()
-    activate(target)
-    assert bpy.ops.object.fairing_recompute() == {"FINISHED"}
+    recompute(target)
     live(target)
-    move(source, 1, 0.1)
-    follow()
+    pull(source, 1, 0.1)
     assert np.array_equal(positions(target.data)[: 3 * AROUND], positions(source.data))
 
 
 def test_other_energies_say_what_to_do():
     strip()
-    with pytest.raises(
-        RuntimeError, match="Set Fairness to Bending, or cut it open.*only one side"
-    ):
+    refused = "Set Fairness to Bending, or cut it open.*only one side"
+    with pytest.raises(RuntimeError, match=refused):
         bpy.ops.object.fairing_surface(levels=2, energy="TOTAL_CURVATURE")
