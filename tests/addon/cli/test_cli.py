@@ -5,11 +5,13 @@ import json
 import signal
 from pathlib import Path
 
+import bpy
 import numpy as np
 import pytest
 from cli_files import BOX_QUADS, read_obj, write_obj, write_ply, write_stl
 from cli_runs import contains, entries, imported, process, run
 
+from addon import cli as registration
 from addon import core
 from addon.cli import main as command
 
@@ -282,3 +284,15 @@ def test_half_a_mesh_is_not_cut_into_pieces(capsys):
     write_obj("in.obj")
     assert run("in.obj", "out.obj", "--pieces", 2, "--symmetry-plane", "x") == 1
     assert "symmetry_plane excludes pieces" in capsys.readouterr().err
+
+
+def test_blender_is_told_of_the_command(monkeypatch):
+    told = []
+    monkeypatch.setattr(registration, "_handles", [])
+    monkeypatch.setattr(
+        bpy.utils, "register_cli_command", lambda name, call: told.append(name) or "handle"
+    )
+    monkeypatch.setattr(bpy.utils, "unregister_cli_command", told.append, raising=False)
+    registration.register()
+    registration.unregister()
+    assert told == ["discrete_fairing", "handle"] and not registration._handles

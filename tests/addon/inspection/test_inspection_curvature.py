@@ -183,4 +183,5 @@ def test_nothing_to_measure():
 def test_largest_curvature_finds_the_tight_tube():
     found = measures.measure(torus(48))
     assert found["largest_curvature"] == pytest.approx(1.0, rel=0.02)
+    assert measures.largest_deviation(np.zeros((2, 3)), np.zeros((1, 3))) is None
     assert found["worst_fold"] == pytest.approx(360 / 48, rel=0.05)

@@ -111,11 +111,7 @@ def test_sections_are_at_the_stations_of_the_table():
     made = {o.name: o for o in bpy.context.selected_objects}
     # the first station is a line in the middle plane: nothing is cut there
     assert set(made) >= {f"{surface.name} station {k}" for k in range(1, 9)}
-    assert bpy.ops.object.fairing_section_curves(kind="BUTTOCKS") == {"FINISHED"}
-    (profile,) = (o for o in bpy.context.selected_objects if o.name.endswith("profile"))
     points = positions(half.data)
-    lowest = min(point.co[2] for spline in profile.data.splines for point in spline.points)
-    assert lowest == pytest.approx(points[:, 2].min(), abs=1e-3)
     for k in (2, 5):
         curve = made[f"{surface.name} station {k}"].data.splines[0]
         there = np.array([p.co[:3] for p in curve.points])
@@ -194,3 +190,11 @@ def test_the_lines_plan_has_a_body_plan_with_both_halves(tmp_path):
     # of 1.7 m to each side, ten times smaller, in millimetres
     assert x.max() - centre == pytest.approx(centre - x.min(), rel=0.2) and 200 < np.ptp(x) < 350
     assert bpy.ops.export_scene.fairing_lines(filepath=str(path), in_space=True) == {"FINISHED"}
+
+
+def test_the_profile_of_a_half_hull_is_one_of_its_buttocks():
+    half = imported("offsets_yacht.tsv")
+    assert bpy.ops.object.fairing_section_curves(kind="BUTTOCKS") == {"FINISHED"}
+    (profile,) = (o for o in bpy.context.selected_objects if o.name.endswith("profile"))
+    lowest = min(point.co[2] for spline in profile.data.splines for point in spline.points)
+    assert lowest == pytest.approx(positions(half.data)[:, 2].min(), abs=1e-3)
