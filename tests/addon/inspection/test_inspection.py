@@ -64,21 +64,32 @@ def test_all_faces_show_it_and_off_leaves_no_trace(mode):
     assert display.legend(box.data) is None
 
 
-def test_switching_through_all_modes_keeps_one_modifier_and_the_users_active_colours():
+def test_switching_through_all_modes_keeps_one_modifier():
+    box = add("Box", *CUBE)
+    for mode in (*SHOWN, *reversed(SHOWN)):
+        show(box, mode)
+        assert len(box.modifiers) == 1 and len(shown_materials(box)) == 1
+    show(box, "NONE")
+    assert shown_materials(box) == set()
+
+
+def test_every_selected_object_is_switched():
     boxes = [add(name, *CUBE) for name in "AB"]
-    colours = boxes[0].data.color_attributes
-    colours.new("Mine", "BYTE_COLOR", "CORNER")
-    colours.active_color = colours["Mine"]
     for box in boxes:
         box.select_set(True)
-    for mode in (*SHOWN, *reversed(SHOWN)):
-        assert bpy.ops.object.fairing_inspect(mode=mode) == {"FINISHED"}
-        for box in boxes:
-            assert box.discrete_fairing_inspection.mode == mode
-            assert len(box.modifiers) == len(shown_materials(box)) == 1
-        assert colours.active_color.name == "Mine" and len(bpy.data.materials) == 1
-    bpy.ops.object.fairing_inspect(mode="NONE")
-    assert shown_materials(boxes[0]) == set() and len(colours) == 1
+    bpy.ops.object.fairing_inspect(mode="ZEBRA")
+    assert [b.discrete_fairing_inspection.mode for b in boxes] == ["ZEBRA", "ZEBRA"]
+    assert len(bpy.data.materials) == 1
+
+
+def test_the_users_active_colours_stay():
+    box = add("Box", *CUBE)
+    box.data.color_attributes.new("Mine", "BYTE_COLOR", "CORNER")
+    box.data.color_attributes.active_color = box.data.color_attributes["Mine"]
+    for mode in ("TOTAL", "MEAN", "NONE"):
+        show(box, mode)
+        assert box.data.color_attributes.active_color.name == "Mine"
+    assert len(box.data.color_attributes) == 1
 
 
 def test_stays_switchable_after_saving(tmp_path):
