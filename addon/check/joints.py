@@ -10,8 +10,7 @@ import numpy as np
 from .. import core
 from ..blender import Context, Object
 from ..mesh.object import Reference
-from ..mesh.read import control_mesh, read_mesh
-from ..mesh.world_shape import transformed, world_matrix
+from ..neighbours import shown_in_world
 
 
 @dataclass(frozen=True)
@@ -47,7 +46,7 @@ def chosen(context: Context) -> list[Object]:
 def measure(context: Context) -> list[Row]:
     """Every pair of the selected objects whose borders meet, as the window shows them."""
     objects = chosen(context)
-    meshes = [_in_world(context, target) for target in objects]
+    meshes = [shown_in_world(context, target) for target in objects]
     found: dict[tuple[int, int], Row] = {}
     for a, b in permutations(range(len(objects)), 2):
         joint = core.module().joint(meshes[a], meshes[b])
@@ -65,11 +64,3 @@ def measure(context: Context) -> list[Row]:
         )
     _rows[:] = sorted(found.values(), key=lambda row: -row.kink)
     return rows()
-
-
-def _in_world(context: Context, target: Object) -> tuple[np.ndarray, tuple[np.ndarray, np.ndarray]]:
-    with control_mesh(context, target, evaluated=True) as mesh:
-        arrays = read_mesh(mesh)
-    matrix = np.array(world_matrix(target), np.float64)
-    points = transformed(arrays.positions.astype(np.float64), matrix)
-    return points, (arrays.corners.astype(np.int64), arrays.offsets.astype(np.int64))

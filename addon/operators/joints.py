@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Match Border, and the table of joints between objects."""
 
+from dataclasses import replace
 from typing import cast
 
 import bpy
@@ -55,8 +56,7 @@ class OBJECT_OT_fairing_match_border(Fairing, bpy.types.Operator):
     def make_jobs(self, context: Context) -> list[Job]:
         target, other = cast(Object, context.active_object), cast(Object, _other(context))
         source = cast(Object, source_of(target))
-        kept = Settings.of(target.discrete_fairing)
-        settings = Settings(**{**kept.__dict__, "joint": self.joint})
+        settings = replace(Settings.of(target.discrete_fairing), joint=self.joint)
         return [Job(context, source, settings, target, neighbour=other)]
 
 

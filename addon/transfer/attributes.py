@@ -82,7 +82,7 @@ class Patch:
     def _mixed(self, known: np.ndarray, ids: np.ndarray) -> Iterator[tuple[slice, np.ndarray]]:
         """Chunks of faces, and their values (w, faces, P) float32 at all points."""
         width, size = known.shape[1], self.faces.size
-        spread = self.cells.weights.T / self.cells.total
+        spread = np.ascontiguousarray(self.cells.weights.T)
         for part in self._chunks(width):
             corners = np.moveaxis(known[ids[part]].astype(np.float64, copy=False), 2, 0)
             mixed = np.ascontiguousarray(corners).reshape(-1, size) @ spread
@@ -111,7 +111,8 @@ def _nearest(cells: Cells) -> np.ndarray:
     rest = cells.weights[:, :-1]
     fan = np.zeros_like(plain)
     fan[:, :-1] = rest == rest.max(axis=1, keepdims=True)
-    fan[cells.apex] = plain[cells.apex]
+    apex = cells.lattice.corners[-1]
+    fan[apex] = plain[apex]
     return np.stack([plain, fan])
 
 

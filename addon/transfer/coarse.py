@@ -29,10 +29,7 @@ def _coarse_faces(patch: Patch, levels: int) -> np.ndarray:
     """(F, 4^levels, k) refined vertices."""
     size = patch.faces.size
     cells, coarse = patch.cells, make_cells(size, levels)
-    n = int(cells.points.max())
-    place = np.zeros((n + 1, n + 1), np.int32)  # of a point (i, j) among those of the lattice
-    place[cells.points[:, 1], cells.points[:, 0]] = np.arange(len(cells.points))
-    i, j = (coarse.points * (n >> levels)).T
-    corner = cells.first_corner[place[j, i]][coarse.corner_point]
+    i, j = (coarse.points * (cells.lattice.n >> levels)).T
+    corner = cells.first_corner[cells.lattice.at(i, j)][coarse.corner_point]
     fine = patch.fine.reshape(len(patch.faces.polygon), -1)
     return fine[:, corner].reshape(len(fine), -1, size)

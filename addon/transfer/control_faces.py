@@ -38,7 +38,7 @@ def find_control_faces(
 
     `arrays`: the input mesh (positions, corners, offsets).
     """
-    own = cells.first_corner[np.argmax(cells.weights, axis=0)]
+    own = cells.first_corner[cells.lattice.corners]
     vertices = fine.reshape(-1, len(cells.corner_point))[:, own]
     polygon = fine_polygon[:: len(cells.corner_point) // fine.shape[1]]
     return ControlFaces(vertices, _corners(vertices, polygon, arrays), polygon)

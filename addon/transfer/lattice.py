@@ -8,9 +8,11 @@ alternate. A point (i, j) lies i steps along the face's first side and j steps a
 """
 
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
+
+from .. import core
 
 # the cells along a side of a face, and which two of their corners lie on it
 Side: TypeAlias = tuple[np.ndarray, int, int]
@@ -92,48 +94,18 @@ def _quad_sides(n: int) -> tuple[Side, ...]:
 class Cells:
     """The P points and n² cells of a control face with k corners."""
 
+    lattice: Any  # the core's Lattice
     points: np.ndarray  # (P, 2) int32: i, j
     corner_point: np.ndarray  # (n² k,) int32: the point at each corner of each cell
     first_corner: np.ndarray  # (P,) int32: a corner that lies at each point
-    weights: np.ndarray  # (P, k) float64, whole numbers: how much each corner of the face counts
-    total: float  # what the weights of a point add up to, a power of two
-
-    @property
-    def apex(self) -> int:
-        """The point at the last corner."""
-        return int(np.argmax(self.weights[:, -1]))
+    weights: np.ndarray  # (P, k) float64: how much each corner of the face counts
 
 
 def make_cells(corners: int, levels: int) -> Cells:
     """Cells of a triangle (`corners` 3) or quad (4) that is refined `levels` times."""
-    n = 2**levels
-    points, corner_point = _triangle(n) if corners == 3 else _quad(n)
-    i, j = points.T.astype(np.float64)
-    if corners == 3:
-        weights, total = [n - i - j, i, j], n
-    else:
-        weights, total = [(n - i) * (n - j), i * (n - j), i * j, (n - i) * j], n * n
+    lattice = core.lattice(2**levels, corners == 4)
+    points = np.stack([lattice.i, lattice.j], axis=1).astype(np.int32)
+    corner_point = lattice.cells.ravel().astype(np.int32)
     first_corner = np.empty(len(points), np.int32)
     first_corner[corner_point[::-1]] = np.arange(len(corner_point), dtype=np.int32)[::-1]
-    return Cells(points, corner_point, first_corner, np.stack(weights, axis=1), float(total))
-
-
-def _quad(n: int) -> tuple[np.ndarray, np.ndarray]:
-    at = np.arange((n + 1) ** 2, dtype=np.int32).reshape(n + 1, n + 1)  # by row j and step i
-    j, i = np.divmod(np.arange((n + 1) ** 2, dtype=np.int32), n + 1)
-    corners = np.stack([at[:-1, :-1], at[:-1, 1:], at[1:, 1:], at[1:, :-1]], axis=2)
-    return np.stack([i, j], axis=1), corners.ravel()
-
-
-def _triangle(n: int) -> tuple[np.ndarray, np.ndarray]:
-    at = np.full((n + 1, n + 1), -1, np.int32)
-    j, i = np.nonzero(np.add.outer(np.arange(n + 1), np.arange(n + 1)) <= n)
-    at[j, i] = np.arange(len(i))
-    rows = []
-    for low, high in zip(at[:-1], at[1:]):
-        width = int((high >= 0).sum())
-        cells = np.full((2 * width, 3), -1, np.int32)
-        cells[0::2] = np.stack([low[:width], low[1 : width + 1], high[:width]], axis=1)
-        cells[1:-1:2] = np.stack([low[1:width], high[1:width], high[: width - 1]], axis=1)
-        rows.append(cells[:-1])
-    return np.stack([i, j], axis=1).astype(np.int32), np.concatenate(rows).ravel()
+    return Cells(lattice, points, corner_point, first_corner, lattice.weights())

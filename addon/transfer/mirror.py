@@ -64,9 +64,8 @@ def _refined(patches: list[Patch], colours: np.ndarray, count: int) -> np.ndarra
     """(count,) colours of the refined vertices: sums of those of the corners, by weights in whole numbers."""
     found = np.zeros(count, np.uint64)
     for patch in patches:
-        cells = patch.cells
-        weights = cells.weights * (cells.points.max() ** 2 / cells.total)
-        ids = patch.fine.reshape(len(patch.faces.polygon), -1)[:, cells.first_corner]
+        weights = patch.cells.weights * patch.cells.lattice.n**2
+        ids = patch.fine.reshape(len(patch.faces.polygon), -1)[:, patch.cells.first_corner]
         found[ids] = colours[patch.faces.vertices] @ weights.T.astype(np.uint64)
     return found
 
@@ -105,8 +104,8 @@ def _mirror(
     control = _partners(own, image, used)
     if control is None:
         return None
-    refined = (_refined(patches, colours, transfer.vertex_count) for colours in (own, image))
-    fine = _partners(*refined, reached)
+    own, image = (_refined(patches, colours, transfer.vertex_count) for colours in (own, image))
+    fine = _partners(own, image, reached)
     return None if fine is None else Mirror(axis, control[:count], fine)
 
 

@@ -70,10 +70,8 @@ def test_points_and_cells(corners, cells, points):
 )
 def test_weights_give_the_points_back(corners, places):
     made = make_cells(corners, 2)
-    assert np.array_equal(made.weights @ np.array(places) / made.total, made.points)
-    assert (made.weights.sum(axis=1) == made.total).all()
-    if corners == 3:
-        assert tuple(made.points[made.apex]) == (0, 4)
+    assert np.array_equal(made.weights @ np.array(places), made.points)
+    assert (made.weights.sum(axis=1) == 1).all()
     made = make_cells(corners, 0)
     assert np.array_equal(made.weights[made.corner_point], np.eye(corners))
 
