@@ -97,6 +97,13 @@ def polygon_list(faces: Sequence[Sequence[int]]) -> tuple[np.ndarray, np.ndarray
     return np.concatenate(parts) if parts else np.empty(0, np.int64), offsets
 
 
+def following(offsets: np.ndarray) -> np.ndarray:
+    """(c,) of each corner the next one around its face; faces have corners."""
+    after = np.arange(1, int(offsets[-1]) + 1)
+    after[offsets[1:] - 1] = offsets[:-1]
+    return after
+
+
 def index_array(values: ArrayLike, name: str) -> np.ndarray:
     """int64, C-contiguous. Raises FairingError BAD_SHAPE for anything but integers.
 

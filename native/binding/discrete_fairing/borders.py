@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .arrays import face_arrays, vertex_array
+from .arrays import face_arrays, following, vertex_array
 from .errors import fairing_error
 from .piecewise.cutting import ranges
 
@@ -80,9 +80,7 @@ class Foot:
 def border_edges(corners: np.ndarray, offsets: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """(b, 2) edges with one face, which is on their left, and (b,) that face."""
     sizes = np.diff(offsets)
-    following = np.arange(1, len(corners) + 1)
-    following[offsets[1:] - 1] = offsets[:-1]
-    edge = np.stack([corners, corners[following]], axis=1)
+    edge = np.stack([corners, corners[following(offsets)]], axis=1)
     key = np.sort(edge, axis=1) @ [int(corners.max(initial=0)) + 1, 1]
     _, place, count = np.unique(key, return_inverse=True, return_counts=True)
     single = np.flatnonzero(count[place.ravel()] == 1)
@@ -147,12 +145,10 @@ class _Around:
         of_vertex, place = _ranges(self.begin[vertex], self.begin[vertex + 1])
         face = self.face[place]
         of_face, corner = _ranges(self.offsets[face], self.offsets[face + 1])
-        following = corner + 1
-        last = self.offsets[face + 1][of_face] - 1
-        following[corner == last] = self.offsets[face][of_face][corner == last]
+        after = following(self.offsets)
         origin = points[vertex][of_vertex[of_face]]  # far from zero rounding would count
         cross = np.cross(
-            points[self.corners[corner]] - origin, points[self.corners[following]] - origin
+            points[self.corners[corner]] - origin, points[self.corners[after[corner]]] - origin
         )
         total = np.zeros((len(vertex), 3))
         np.add.at(total, of_vertex[of_face], cross)

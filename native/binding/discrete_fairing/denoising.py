@@ -16,7 +16,7 @@ import numpy as np
 from numpy.polynomial.chebyshev import chebinterpolate
 from numpy.typing import ArrayLike
 
-from .arrays import face_arrays, fixed_flags, vertex_array
+from .arrays import face_arrays, fixed_flags, following, vertex_array
 from .errors import fairing_error
 from .options import whole
 from .stars import Stars
@@ -242,9 +242,7 @@ def _spline(x: np.ndarray, amount: float) -> np.ndarray:
 
 def _normals(points: np.ndarray, corners: np.ndarray, offsets: np.ndarray) -> np.ndarray:
     """(n, 3) unit normals of the vertices, each face by its area."""
-    following = np.arange(1, len(corners) + 1)
-    following[offsets[1:] - 1] = offsets[:-1]
-    here, there = points[corners], points[corners[following]]
+    here, there = points[corners], points[corners[following(offsets)]]
     areas = np.add.reduceat(np.cross(here, there), offsets[:-1], axis=0)
     total = np.zeros_like(points)
     each = np.repeat(areas, np.diff(offsets), axis=0)

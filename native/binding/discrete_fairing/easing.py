@@ -4,17 +4,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from contextlib import nullcontext
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
-from .arrays import face_arrays, fixed_flags, vertex_array
+from .arrays import fixed_flags, vertex_array
 from .errors import fairing_error
-from .halves import Half
-from .options import native_options
+from .halves import Control
 from .watching import Progress, check_watchers
 
 
@@ -101,35 +99,23 @@ def ease(
         not hold the matrix of loads, some 3 kB a vertex.
     """
     check_watchers(progress, monitor)
-    points = vertex_array(vertices)
-    corners, offsets = face_arrays(faces)
-    count = len(points)
-    bounds, stays = _bounds(tolerance, count), fixed_flags(fixed, count)
+    start = vertex_array(vertices)
+    bounds, stays = _bounds(tolerance, len(start)), fixed_flags(fixed, len(start))
     chosen = _most(most, tolerance)
-    start, half, axis = points, None, 0
-    given: dict[str, Any] = dict(settings)
-    if symmetry_plane is not None:
-        half = Half(points, corners, offsets, symmetry_plane, native_options(given).repair)
-        axis = half.axis
-        points, given = half.points(points), half.settings(given)
-        corners, offsets = half.faces(corners, offsets)
-        bounds, stays = half.values(bounds), half.values(stays)
-    options = native_options(given)
-    with half.named() if half else nullcontext():
+    control = Control(start, faces, dict(settings), symmetry_plane)
+    with control.named():
         found = _native.ease(
-            points,
-            corners,
-            offsets,
-            bounds,
+            *control.arrays,
+            control.values(bounds),
             _amount(amount, most),
             chosen,
-            stays,
-            options,
+            control.values(stays),
+            control.options,
             monitor or _native.Monitor(),
             progress,
         )
-    if half:
-        found["moves"][half.in_plane, axis] = 0.0
+    if control.half:
+        found["moves"][control.half.in_plane, control.half.axis] = 0.0
     return Eased(start, found)
 
 

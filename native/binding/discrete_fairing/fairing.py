@@ -4,18 +4,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from contextlib import nullcontext
 from typing import Any, Unpack
 
 from numpy.typing import ArrayLike
 
 from . import _native
-from .arrays import face_arrays, shape_array, vertex_array
+from .arrays import shape_array
 from .borders import mesh_arrays
 from .errors import written_report
-from .halves import Half
+from .halves import Control
 from .matching import match_border, require_matchable
-from .options import Settings, native_options
+from .options import Settings
 from .result import Result
 from .strain import require_strain, strain_of
 from .watching import Progress, check_watchers
@@ -91,16 +90,11 @@ def fair(
     """
     given: dict[str, Any] = {**settings, "levels": levels, "energy": energy}
     check_watchers(progress, monitor)
-    points = vertex_array(vertices)
-    corners, offsets = face_arrays(faces)
-    others = shape_array(shapes, len(points))
-    half = None
-    if symmetry_plane is not None:
-        repair = native_options(given).repair  # refuses settings as the caller has given them
-        half = Half(points, corners, offsets, symmetry_plane, repair)
-        points, others, given = half.points(points), half.shapes(others), half.settings(given)
-        corners, offsets = half.faces(corners, offsets)
-    options = native_options(given)
+    control = Control(vertices, faces, given, symmetry_plane)
+    others = shape_array(shapes, control.count)
+    half = control.half
+    if half:
+        others = half.shapes(others)
     watch = monitor or _native.Monitor()
     beside = None
     if neighbour is not None:
@@ -110,14 +104,14 @@ def fair(
             beside = half.beside(*beside)
             border = None if border is None else half.with_images("border", "vertex", border)
     if strain:
-        require_strain(given)
-    with half.named() if half else nullcontext():
-        found = _native.fair(points, corners, offsets, others, options, watch, progress)
+        require_strain(control.settings)
+    with control.named():
+        found = _native.fair(*control.arrays, others, control.options, watch, progress)
         if beside is not None:
-            match_border(found, corners, offsets, given, beside, border, len(points))
-    result = Result(written_report(half.cut(found) if half else found))
+            match_border(found, control, beside, border)
+    result = Result(written_report(control.cut(found)))
     if strain:
-        strained = strain_of(points, corners, offsets, given, half, watch)
+        strained = strain_of(control, watch)
         result.strain = strained.lengths
         result.report["strain"] = strained.report()
     return result

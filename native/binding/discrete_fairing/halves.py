@@ -8,15 +8,17 @@ as one.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import _native
 from ._native import FairingError
+from .arrays import face_arrays, vertex_array
 from .errors import about, fairing_error
-from .options import edges_with_values
+from .options import edges_with_values, native_options
 
 PLANES = {"x": 0, "y": 1, "z": 2}
 SNAP = 1e-6  # share of the mesh's size: border vertices nearer to the plane lie in it
@@ -28,6 +30,44 @@ _IDS = {
     "region": "face",
     "flat_faces": "face",
 }
+
+
+class Control:
+    """A control mesh as the core takes it: the caller's or, with a `symmetry_plane`, the double of it."""
+
+    def __init__(
+        self,
+        vertices: ArrayLike,
+        faces: ArrayLike | Sequence[Sequence[int]],
+        settings: dict[str, Any],
+        symmetry_plane: str | None,
+    ):
+        self.points, self.settings = vertex_array(vertices), settings
+        self.corners, self.offsets = face_arrays(faces)
+        self.count = len(self.points)  # of the caller's vertices
+        self.half: Half | None = None
+        self.options = native_options(settings)  # refuses settings as the caller has given them
+        if symmetry_plane is not None:
+            half = self.half = Half(*self.arrays, symmetry_plane, self.options.repair)
+            self.points, self.settings = half.points(self.points), half.settings(settings)
+            self.corners, self.offsets = half.faces(self.corners, self.offsets)
+            self.options = native_options(self.settings)
+
+    @property
+    def arrays(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        return self.points, self.corners, self.offsets
+
+    def values(self, values: np.ndarray) -> np.ndarray:
+        """(n,) of the caller's vertices, or empty → of the core's, or empty."""
+        return self.half.values(values) if self.half else values
+
+    def named(self) -> AbstractContextManager[None]:
+        """Inside the `with` errors of the core name the caller's elements."""
+        return self.half.named() if self.half else nullcontext()
+
+    def cut(self, found: dict[str, Any]) -> dict[str, Any]:
+        """What the core found → of the caller's mesh."""
+        return self.half.cut(found) if self.half else found
 
 
 class Half:

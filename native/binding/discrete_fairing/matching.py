@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 
 from .borders import Border, Foot, border_edges, border_of, mesh_arrays
 from .errors import fairing_error
+from .halves import Control
 from .options import vertex_pairs
 from .piecewise.lattice import Lattice
 
@@ -39,22 +40,19 @@ def require_matchable(settings: dict[str, Any], shapes: int) -> None:
 
 def match_border(
     found: dict[str, Any],
-    corners: np.ndarray,
-    offsets: np.ndarray,
-    settings: dict[str, Any],
+    control: Control,
     neighbour: tuple[np.ndarray, np.ndarray, np.ndarray],
     border: ArrayLike | None,
-    count: int,
 ) -> None:
-    """Changes the points of what the core has `found` for a mesh of `count` vertices. `neighbour`: of
+    """Changes the points of what the core has `found` for a mesh. `neighbour`: of
     mesh_arrays(). `border`: (k, 2) vertex pairs, None: the edges whose ends lie on the neighbour's.
     """
     other = border_of(*neighbour)
     points = found["vertices"]
-    edge, _ = border_edges(corners, offsets)
-    edge = edge[_chosen(points[:count], edge, other, border)]
-    faces = _closed_faces(found, 1 << int(settings["levels"]))
-    joint = settings.get("joint", "tangent")
+    edge, _ = border_edges(control.corners, control.offsets)
+    edge = edge[_chosen(points[: len(control.points)], edge, other, border)]
+    faces = _closed_faces(found, 1 << control.options.levels)
+    joint = control.settings.get("joint", "tangent")
     for _ in range(PASSES):
         points = points + _change(points, found, faces, edge, other, joint)
     found["vertices"] = points

@@ -4,17 +4,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from contextlib import nullcontext
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
-from .arrays import face_arrays, fixed_flags, index_array, numbers, plain, vertex_array
+from .arrays import fixed_flags, index_array, numbers, plain
 from .errors import fairing_error, written_report
-from .halves import Half
-from .options import native_options, real
+from .halves import Control, Half
+from .options import real
 from .result import Result
 from .watching import Progress, check_watchers
 
@@ -109,35 +108,27 @@ def fit(
         INCONSISTENT_ORIENTATION where most normals are against those of the control mesh.
     """
     check_watchers(progress, monitor)
-    base = vertex_array(vertices)
-    corners, offsets = face_arrays(faces)
     scan, outward, sides = _points(points), _normals(normals), _triangles(triangles)
-    stays = fixed_flags(fixed, len(base))
     bound = _positive("tolerance", tolerance)
     strength = _positive("weight", weight)
     if bound and strength:
         raise fairing_error(
             "BAD_OPTION", "tolerance and weight exclude each other.", cure="Give one."
         )
-    given: dict[str, Any] = {**options, "levels": levels}
-    half = None
-    if symmetry_plane is not None:
-        half = Half(base, corners, offsets, symmetry_plane, native_options(given).repair)
-        base, given, stays = half.points(base), half.settings(given), half.values(stays)
-        corners, offsets = half.faces(corners, offsets)
+    control = Control(vertices, faces, {**options, "levels": levels}, symmetry_plane)
+    stays, half = fixed_flags(fixed, control.count), control.half
+    if half:
         scan, outward, sides = _with_images(scan, outward, sides, half.axis)
-    with half.named() if half else nullcontext():
+    with control.named():
         found = _native.fit(
-            base,
-            corners,
-            offsets,
+            *control.arrays,
             scan,
             outward,
             sides,
             bound,
             strength,
-            stays,
-            native_options(given),
+            control.values(stays),
+            control.options,
             monitor or _native.Monitor(),
             progress,
         )

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from contextlib import AbstractContextManager, contextmanager, nullcontext
+from contextlib import contextmanager
 from threading import Lock
 from typing import Any, Unpack
 
@@ -12,10 +12,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
-from .arrays import face_arrays, vertex_array
+from .arrays import vertex_array
 from .errors import fairing_error, written_report
-from .halves import Half
-from .options import Settings, native_options
+from .halves import Control
+from .options import Settings
 from .result import Result
 from .watching import Progress, check_watchers
 
@@ -53,30 +53,21 @@ class Solver:
         **settings: Unpack[Settings],
     ):
         given: dict[str, Any] = {**settings, "levels": levels, "energy": energy}
-        options = native_options(given)
-        points = vertex_array(vertices)
-        corners, offsets = face_arrays(faces)
-        self._control_vertices = len(points)
-        self._half: Half | None = None
-        if symmetry_plane is not None:
-            half = self._half = Half(points, corners, offsets, symmetry_plane, options.repair)
-            options = native_options(half.settings(given))
-            points, (corners, offsets) = half.points(points), half.faces(corners, offsets)
-        with self._named():
-            self._native = _native.Solver(points, corners, offsets, options)
+        control = self._control = Control(vertices, faces, given, symmetry_plane)
+        with control.named():
+            self._native = _native.Solver(*control.arrays, control.options)
         self._constants = self._native.constants()
         self._busy = Lock()
-        self._levels = options.levels
         self._energy = energy
 
     @property
     def control_vertices(self) -> int:
         """The number n of control vertices."""
-        return self._control_vertices
+        return self._control.count
 
     @property
     def levels(self) -> int:
-        return self._levels
+        return self._control.options.levels
 
     @property
     def energy(self) -> str:
@@ -93,7 +84,7 @@ class Solver:
         merged.
         """
         mended = self._constants["mended"]
-        return mended["vertex_origin"][: self._control_vertices] if mended else None
+        return mended["vertex_origin"][: self.control_vertices] if mended else None
 
     def solve(
         self,
@@ -115,10 +106,10 @@ class Solver:
         """
         check_watchers(progress, monitor)
         points = np.empty((0, 3)) if vertices is None else self._positions(vertices)
-        with self._alone(), self._named():
+        with self._alone(), self._control.named():
             solved = self._native.solve(points, monitor, progress)
             found = {**self._constants, "shapes": [], **solved}
-            return Result(written_report(self._half.cut(found) if self._half else found))
+            return Result(written_report(self._control.cut(found)))
 
     def rebase(self, vertices: ArrayLike) -> None:
         """Take charts, stencils and curves from these positions (n, 3) from now on.
@@ -127,21 +118,18 @@ class Solver:
         Raises FairingError as fair() does for bad geometry, and then changes nothing.
         """
         points = self._positions(vertices)
-        with self._alone(), self._named():
+        with self._alone(), self._control.named():
             self._native.rebase(points)
 
     def _positions(self, vertices: ArrayLike) -> np.ndarray:
         points = vertex_array(vertices)
-        if len(points) != self._control_vertices:
+        if len(points) != self.control_vertices:
             raise fairing_error(
                 "BAD_SHAPE",
-                f"vertices has shape {points.shape}; it must be ({self._control_vertices}, 3), "
+                f"vertices has shape {points.shape}; it must be ({self.control_vertices}, 3), "
                 "as at the start.",
             )
-        return self._half.points(points) if self._half else points
-
-    def _named(self) -> AbstractContextManager[None]:
-        return self._half.named() if self._half else nullcontext()
+        return self._control.half.points(points) if self._control.half else points
 
     @contextmanager
     def _alone(self) -> Iterator[None]:
@@ -159,6 +147,6 @@ class Solver:
 
     def __repr__(self) -> str:
         return (
-            f"Solver({self._control_vertices} control vertices, levels={self._levels}, "
+            f"Solver({self.control_vertices} control vertices, levels={self.levels}, "
             f"energy={self._energy!r})"
         )

@@ -5,6 +5,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from .arrays import following
+
 _CORNER = 2 * np.sin(np.pi / 8)  # two sides that turn by 45° are so far apart, over their length
 
 
@@ -16,9 +18,7 @@ class Stars:
     """
 
     def __init__(self, count: int, corners: np.ndarray, offsets: np.ndarray) -> None:
-        following = np.arange(1, len(corners) + 1)
-        following[offsets[1:] - 1] = offsets[:-1]
-        sides = np.sort(np.stack([corners, corners[following]], axis=1), axis=1)
+        sides = np.sort(np.stack([corners, corners[following(offsets)]], axis=1), axis=1)
         keys = np.sort(sides[:, 0] * np.int64(count) + sides[:, 1])
         first = np.flatnonzero(np.diff(keys, prepend=-1))
         uses = np.diff(first, append=len(keys))

@@ -4,15 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from contextlib import nullcontext
 from typing import Any, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
-from .arrays import face_arrays, vertex_array
-from .halves import Half
+from .halves import Control
 from .options import AllSettings, native_options
 from .watching import Progress, check_watchers
 
@@ -111,28 +109,13 @@ def strain(
         As fair(); BAD_OPTION for other energies, control vertices that move, and point forces.
     """
     check_watchers(progress, monitor)
-    points = vertex_array(vertices)
-    corners, offsets = face_arrays(faces)
-    half = None
-    given: dict[str, Any] = dict(settings)
-    if symmetry_plane is not None:
-        half = Half(points, corners, offsets, symmetry_plane, native_options(given).repair)
-        points, given = half.points(points), half.settings(given)
-        corners, offsets = half.faces(corners, offsets)
-    return _measured(points, corners, offsets, given, half, monitor, progress)
+    control = Control(vertices, faces, dict(settings), symmetry_plane)
+    return _measured(control, control.options, monitor, progress)
 
 
-def strain_of(
-    points: np.ndarray,
-    corners: np.ndarray,
-    offsets: np.ndarray,
-    settings: dict[str, Any],
-    half: Half | None,
-    monitor: _native.Monitor,
-) -> Strain:
-    """The same for fair(), of the plate that total curvature starts from, too. Arrays and settings
-    are those of the double where there is a `half`."""
-    return _measured(points, corners, offsets, _of_plate(settings), half, monitor, None)
+def strain_of(control: Control, monitor: _native.Monitor) -> Strain:
+    """The same for fair(), of the plate that total curvature starts from, too."""
+    return _measured(control, native_options(_of_plate(control.settings)), monitor, None)
 
 
 def require_strain(settings: dict[str, Any]) -> None:
@@ -147,18 +130,11 @@ def _of_plate(settings: dict[str, Any]) -> dict[str, Any]:
 
 
 def _measured(
-    points: np.ndarray,
-    corners: np.ndarray,
-    offsets: np.ndarray,
-    settings: dict[str, Any],
-    half: Half | None,
+    control: Control,
+    options: _native.Options,
     monitor: _native.Monitor | None,
     progress: Progress | None,
 ) -> Strain:
-    options = native_options(settings)
-    with half.named() if half else nullcontext():
-        found = _native.strain(
-            points, corners, offsets, options, monitor or _native.Monitor(), progress
-        )
-    count = half.vertex_count if half else len(points)
-    return Strain(found, count)
+    with control.named():
+        found = _native.strain(*control.arrays, options, monitor or _native.Monitor(), progress)
+    return Strain(found, control.count)

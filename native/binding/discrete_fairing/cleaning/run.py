@@ -13,11 +13,11 @@ from numpy.typing import ArrayLike
 from .. import _native
 from ..arrays import face_arrays, vertex_array
 from ..checking import Defect, check
+from ..denoising import denoised
 from ..errors import about, fairing_error
 from ..options import switch, whole
 from ..watching import Progress, SeveralRuns, check_watchers
 from . import holes, shape, topology
-from .noise import without_noise
 from .state import State, all_pairs, diagonals, numbered_parts
 
 
@@ -222,8 +222,8 @@ def clean(
     if normals:
         run.step("normals", 0.94, topology.turned_out, *TURNED)
     if passes is not None:
-        smoother = lambda s: without_noise(s, run.held(held), passes)  # noqa: E731
-        run.step("noise", 0.95, smoother, "vertex smoothed", "vertices smoothed")
+        smoothed = lambda s: _without_noise(s, run.held(held), passes)  # noqa: E731
+        run.step("noise", 0.95, smoothed, "vertex smoothed", "vertices smoothed")
     found = run.cleaned(skipped)
     watched.finish()
     return found
@@ -288,6 +288,11 @@ def _fixed(fixed: ArrayLike | None, count: int) -> np.ndarray:
             "BAD_SHAPE", f"fixed has shape {array.shape}; it must be ({count},), True or False."
         )
     return array
+
+
+def _without_noise(state: State, fixed: np.ndarray, passes: int) -> tuple[State, int]:
+    found = denoised(state.points, state.corners, state.offsets, fixed, None, passes)
+    return state.replaced(points=found.vertices), int(np.count_nonzero(found.moves))
 
 
 def _without_islands(state: State, share: float) -> tuple[State, int]:
