@@ -8,7 +8,7 @@ from fake_layout import draw
 from polygons import grid
 from scenes import activate, add, fair, positions, recompute, refused, to_object_mode
 
-from addon import core
+from addon import core, neighbours
 from addon.check import joints
 from addon.freshness import why_stale
 from addon.live import registry
@@ -61,7 +61,7 @@ def test_curvature_too_and_again_by_recompute(panels):
     select(*panels)
     assert bpy.ops.object.fairing_match_border(joint="CURVATURE") == {"FINISHED"}
     assert np.degrees(check(*panels).kink) < 0.05
-    meshes = [joints._in_world(bpy.context, panel) for panel in (fender, bonnet)]
+    meshes = [neighbours.shown_in_world(bpy.context, panel) for panel in (fender, bonnet)]
     assert np.median(core.module().joint(*meshes).jump) < 0.02
     made = positions(fender.data)
     recompute(fender)
