@@ -9,8 +9,6 @@
 #include "fairing/symmetry.h"
 #include "mesh/normal.h"
 #include "strain/excess.h"
-#include "strain/load_matrix.h"
-#include "strain/probes.h"
 
 namespace fairing {
 namespace {
