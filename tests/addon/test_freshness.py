@@ -23,6 +23,7 @@ from scenes import (
 from addon import events, freshness, job, memory
 from addon.freshness import SETTINGS_CHANGED, SOURCE_CHANGED, stale_surfaces, why_stale
 from addon.mesh import read as mesh_read
+from addon.mesh import timed_run
 from addon.mesh.boundary_marks import BOUNDARY
 from addon.mesh.fixed_normals import NORMAL
 from addon.ui import main, outliner
@@ -179,7 +180,7 @@ def test_a_run_reads_its_mesh_once(monkeypatch):
 
     source = add("Box", *CUBE)
     add_key(source)
-    for module in (job, freshness):
+    for module in (timed_run, freshness):
         monkeypatch.setattr(module, "read_mesh", counted)
     made = job.Job(bpy.context, source, settings())
     assert reads == ["Box"]

@@ -10,7 +10,7 @@ from fake_layout import draw
 from live_scenes import follow, live, pull
 from scenes import CUBE, activate, add, fair, weights
 
-from addon import size
+from addon import events, size
 from addon.mesh import groups, mesh_changes
 from addon.ui import main
 
@@ -78,7 +78,8 @@ def test_panels_measure_a_mesh_once_for_each_change(monkeypatch):
     waiting = []
     timers.register = lambda timer, **_: waiting.append(timer)
     window = SimpleNamespace(background=False, timers=timers)
-    monkeypatch.setattr(mesh_changes, "bpy", SimpleNamespace(app=window, data=bpy.data))
+    for module in (mesh_changes, events):
+        monkeypatch.setattr(module, "bpy", SimpleNamespace(app=window, data=bpy.data))
     read = main.read_mesh
     monkeypatch.setattr(main, "read_mesh", lambda mesh: drawn.append(mesh) or read(mesh))
     settings = bpy.context.scene.discrete_fairing
