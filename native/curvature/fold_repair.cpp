@@ -189,7 +189,7 @@ void FoldRepair::solve_again(const StepStart& start, const Array<float>& marks,
                              CurvatureLevelReport& report) {
   StepStart filled = start;
   refill(marks, filled.points);
-  steps_.run_damped(filled, marks, report);
+  steps_.run_damped(nullptr, filled, marks, report);
 }
 
 // Places the marked points between their neighbours as they lie on the control mesh.

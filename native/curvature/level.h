@@ -39,7 +39,7 @@ struct CurvatureShared {
 struct Functional {
   CurvatureEnergy energy = CurvatureEnergy::total_curvature;
   // Pads of control vertices, for which the force is computed too; null: for the unknowns only.
-  const Pads* pads = nullptr;
+  Pads* pads = nullptr;
   bool with_axes = false;  // whether to compute the charts' axes
 
   bool operator==(const Functional&) const = default;

@@ -31,7 +31,7 @@ GaussNewtonSolver::GaussNewtonSolver(const ControlMesh& mesh, const GridLevels& 
                                      Mirrors mirrors, Workers& workers, Monitor& monitor)
     : options_(options),
       constraints_(std::move(constraints)),
-      pads_(pads),
+      pads_{pads},
       system_(mesh, grids, base, stencils, unknowns, options,
               constraints_.any() ? &constraints_ : nullptr, std::move(mirrors), workers, monitor),
       iterate_{system_},
@@ -39,6 +39,7 @@ GaussNewtonSolver::GaussNewtonSolver(const ControlMesh& mesh, const GridLevels& 
       folded_faces_(folded_control_faces(mesh, constraints_.targets(), workers)),
       steps_(iterate_, options_),
       fold_repair_(iterate_, constraints_, folded_faces_, steps_),
+      fallback_(iterate_, fold_repair_, steps_),
       variation_(iterate_, steps_) {
   if (base < system_.finest()) thickness_.emplace(mesh, constraints_.targets(), workers);
 }
@@ -49,13 +50,10 @@ CurvatureLevelReport GaussNewtonSolver::solve_next_level(const Array<double>& pl
   CurvatureLevelReport report;
   report.level = level;
   const StepWork before = system_.work(level);
-  if (pads_ && places_ != pads_->places()) {
-    places_ = pads_->places();
-    iterate_.current.held.loads.clear();
-  }
+  if (pads_.update()) iterate_.current.held.loads.clear();
   const std::span<const Vec3> given =
       is_finest() ? constraints_.targets() : std::span<const Vec3>{};
-  choose_start(iterate_, level, pads(), plate, below_.plate, given, report);
+  choose_start(iterate_, level, pads_.now(), plate, below_.plate, given, report);
   const StepStart start{iterate_.current.points, iterate_.current.held, report};
   const bool is_plain = solve_total_curvature(start, plate, report);
   below_ = {
@@ -101,33 +99,40 @@ void GaussNewtonSolver::vary(bool is_plain, CurvatureLevelReport& report) {
 // finer levels too, and the fallback runs. If they converge with folds, the fallback's surface
 // replaces theirs only if it is as near to its solution and has fewer folds.
 bool GaussNewtonSolver::step(const StepStart& start, CurvatureLevelReport& report) {
-  if (below_.is_plain) steps_.run_plain(pads(), end(), long_patience, report);
+  if (below_.is_plain) steps_.run_plain(pads_.now(), end(), long_patience, report);
   const bool is_plain = below_.is_plain && is_settled(report);
   if (is_plain && is_finest()) report.folds_before = report.folds = fold_repair_.find().count();
   if (is_lost(is_plain)) return false;
   if (is_plain && report.folds == 0) return true;
-  LinearizedSurface plain = iterate_.current;
-  CurvatureLevelReport of_plain = report;
-  fall_back(start, report);
-  if (!is_plain || (report.folds < of_plain.folds && report.converged >= of_plain.converged))
+  const Snapshot plain = snapshot(report);
+  fallback_.run(pads_.now(), start, report);
+  if (!is_plain ||
+      (report.folds < plain.report.folds && report.converged >= plain.report.converged))
     return false;
-  iterate_.current = std::move(plain);
-  report = std::move(of_plain);
-  on_points_ = false;
+  restore(plain, report);
   return true;
 }
 
-void GaussNewtonSolver::fall_back(const StepStart& start, CurvatureLevelReport& report) {
-  steps_.run_damped(start, {}, report);
-  if (!is_finest()) return;
-  on_points_ = true;
-  fold_repair_.run(start, report);
-  report.converged = report.left <= steps_.accurate_end().movement;
+bool GaussNewtonSolver::OwnPads::update() {
+  if (!given || (own && places == given->places())) return false;
+  own = *given;
+  places = given->places();
+  return true;
+}
+
+GaussNewtonSolver::Snapshot GaussNewtonSolver::snapshot(const CurvatureLevelReport& report) {
+  return {iterate_.current, report, pads_.own};
+}
+
+void GaussNewtonSolver::restore(const Snapshot& saved, CurvatureLevelReport& report) {
+  iterate_.current = saved.surface;
+  report = saved.report;
+  pads_.own = saved.pads;
 }
 
 StopCriterion GaussNewtonSolver::end() {
   if (is_finest() && (!varies() || variation_.vanishes())) return steps_.accurate_end();
-  return {pads() ? start_decrement : plain_decrement, 0};
+  return {pads_.now() ? start_decrement : plain_decrement, 0};
 }
 
 void GaussNewtonSolver::end_constraints(CurvatureLevelReport& report) {
@@ -186,7 +191,7 @@ bool GaussNewtonSolver::has_diverged(const Array<double>& x, const Array<double>
 }
 
 double GaussNewtonSolver::energy_bound(const CurvatureLevelReport& report) {
-  return (pads() ? other_minimum : 1.0) * report.plate_energy;
+  return (pads_.now() ? other_minimum : 1.0) * report.plate_energy;
 }
 
 bool GaussNewtonSolver::is_settled(const CurvatureLevelReport& report) {
@@ -221,7 +226,7 @@ bool GaussNewtonSolver::steps_go_well(Mirrors mirrors, CurvatureLevelReport& rep
   if (varies())
     variation_.run(steps_.accurate_end(), report);
   else
-    steps_.run_plain(pads(), steps_.accurate_end(), short_patience, report);
+    steps_.run_plain(pads_.now(), steps_.accurate_end(), short_patience, report);
   report.folds_before = report.folds = fold_repair_.find().count();
   solved_.is_sound =
       report.converged && report.folds <= solved_.folds &&

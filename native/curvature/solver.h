@@ -6,7 +6,7 @@
 
 #include <optional>
 
-#include "curvature/fold_repair.h"
+#include "curvature/fallback.h"
 #include "curvature/variation.h"
 #include "grid/thickness.h"
 
@@ -35,11 +35,27 @@ class GaussNewtonSolver {
   bool can_move() const;
   bool solve_moved(Mirrors mirrors, Array<double>& surface, CurvatureLevelReport& report);
 
-  // The pads that hold control vertices after the levels so far; null: point forces do.
-  const Pads* pads() const { return on_points_ ? nullptr : pads_; }
+  // The pads that are active after the levels so far; null: none.
+  const Pads* pads() { return pads_.now(); }
 
  private:
   Array<double>& surface() { return iterate_.current.points; }  // of the latest level
+  // A copy of the given pads, some of which become inactive.
+  struct OwnPads {
+    const Pads* given;  // null: no pads
+    std::optional<Pads> own{};
+    std::vector<std::uint8_t> places{};  // of the given pads when they were copied
+
+    Pads* now() { return own ? &*own : nullptr; }
+    // Copies the given pads if they have changed. Returns whether they have.
+    bool update();
+  };
+  // A surface to go back to, with its pads.
+  struct Snapshot {
+    LinearizedSurface surface;
+    CurvatureLevelReport report;
+    std::optional<Pads> pads;
+  };
   // Results of a level for the next one.
   struct Below {
     Array<double> plate;   // the thin plate's surface
@@ -52,6 +68,9 @@ class GaussNewtonSolver {
     double energy = 0;
     std::size_t folds = 0;
   };
+  Snapshot snapshot(const CurvatureLevelReport& report);
+  void restore(const Snapshot& saved, CurvatureLevelReport& report);
+
   StopCriterion end();
   // Ends the constraints: control vertices are fixed from here on. A few plain steps move the
   // surface accordingly, if they converge.
@@ -60,9 +79,6 @@ class GaussNewtonSolver {
   bool solve_total_curvature(const StepStart& start, const Array<double>& plate,
                              CurvatureLevelReport& report);
   bool step(const StepStart& start, CurvatureLevelReport& report);
-  // For meshes so rough that plain steps on pads diverge: damped steps on point forces, which lower
-  // an energy. On the finest level the surface stays on point forces. Resets `report`.
-  void fall_back(const StepStart& start, CurvatureLevelReport& report);
   // Whether the level below is a bubble and no steps, or very many, would reach its minimum. This
   // excludes the case that plain steps converged there and here.
   bool is_lost(bool is_plain) const { return below_.is_bubble && (!is_plain || varies()); }
@@ -86,9 +102,7 @@ class GaussNewtonSolver {
 
   GaussNewtonOptions options_;
   IntervalConstraints constraints_;
-  const Pads* pads_;                  // null: none
-  std::vector<std::uint8_t> places_;  // of the pads on the latest level
-  bool on_points_ = false;            // the fallback's surface is
+  OwnPads pads_;
   GaussNewtonSystem system_;
   SurfaceIterate iterate_;
   int next_level_;
@@ -96,6 +110,7 @@ class GaussNewtonSolver {
   std::optional<Thickness> thickness_;      // only below the finest level
   CurvatureSteps steps_;
   FoldRepair fold_repair_;
+  FallbackSteps fallback_;
   VariationSteps variation_;
   Below below_;
   Solved solved_;

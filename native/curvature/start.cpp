@@ -85,7 +85,7 @@ void start_at_plate(SurfaceIterate& iterate, int level, const Array<double>& pla
   iterate.system.symmetrizer().points(iterate.grid(), iterate.current.points);
 }
 
-void choose_start(SurfaceIterate& iterate, int level, const Pads* pads, const Array<double>& plate,
+void choose_start(SurfaceIterate& iterate, int level, Pads* pads, const Array<double>& plate,
                   const Array<double>& plate_below, std::span<const Vec3> given,
                   CurvatureLevelReport& report) {
   const LinearizedSurface below = std::exchange(iterate.current, {});

@@ -25,7 +25,7 @@ void start_at_plate(SurfaceIterate& iterate, int level, const Array<double>& pla
 //      to four times the energy of the level below).
 //
 // Sets plate_energy and start_energy of `report`.
-void choose_start(SurfaceIterate& iterate, int level, const Pads* pads, const Array<double>& plate,
+void choose_start(SurfaceIterate& iterate, int level, Pads* pads, const Array<double>& plate,
                   const Array<double>& plate_below, std::span<const Vec3> given,
                   CurvatureLevelReport& report);
 

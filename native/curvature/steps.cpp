@@ -280,8 +280,8 @@ bool is_near(const CurvatureLevelReport& report, double decrement) {
   return last.length > 0 && last.decrement <= decrement;
 }
 
-void CurvatureSteps::run(const Pads* pads, LocalDamping* damping, const StopCriterion& end,
-                         int patience, CurvatureLevelReport& report) {
+void CurvatureSteps::run(Pads* pads, LocalDamping* damping, const StopCriterion& end, int patience,
+                         CurvatureLevelReport& report) {
   // Local damping compares tensors in space, so it needs the charts' axes.
   StepLoop(iterate_, {CurvatureEnergy::total_curvature, pads, damping != nullptr}, damping, end,
            patience)
@@ -305,12 +305,12 @@ void CurvatureSteps::run_variation(const StopCriterion& end, CurvatureLevelRepor
   }
 }
 
-void CurvatureSteps::run_plain(const Pads* pads, const StopCriterion& end, int patience,
+void CurvatureSteps::run_plain(Pads* pads, const StopCriterion& end, int patience,
                                CurvatureLevelReport& report) {
   run(pads, nullptr, end, patience, report);
 }
 
-void CurvatureSteps::run_damped(const StepStart& start, const Array<float>& filled,
+void CurvatureSteps::run_damped(Pads* pads, const StepStart& start, const Array<float>& filled,
                                 CurvatureLevelReport& report) {
   iterate_.current = {};
   iterate_.current.points = start.points;
@@ -319,7 +319,7 @@ void CurvatureSteps::run_damped(const StepStart& start, const Array<float>& fill
   report.damped = true;
   LocalDamping damping(iterate_.grid(), iterate_.system.shared().unknowns, iterate_.workers());
   if (!filled.empty()) damping.hold(filled);
-  run(nullptr, &damping, {damped_decrement, 0, worthwhile_gain}, 0, report);
+  run(pads, &damping, {damped_decrement, 0, worthwhile_gain}, 0, report);
 }
 
 void CurvatureSteps::polish(int patience, CurvatureLevelReport& report) {

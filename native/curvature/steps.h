@@ -44,6 +44,7 @@ constexpr double flat_energy = roundoff;
 // have come near the solution.
 constexpr int long_patience = 14, short_patience = 6;
 // Most successive plain steps that may raise the energy; the next one must reach a new minimum.
+// Also the number in which plain steps after damped ones reach plain_decrement, or never do.
 constexpr int longest_climb = 3;
 
 // Whether the steps have come near a solution: the last one was accepted, and its decrement is at
@@ -75,11 +76,11 @@ class CurvatureSteps {
 
   // Steps from iterate.current with control vertices on these pads; null: on point forces. Adds the
   // steps to `report`, and sets energy, `left` and `converged`. Throws ErrorCode::cancelled.
-  void run_plain(const Pads* pads, const StopCriterion& end, int patience,
-                 CurvatureLevelReport& report);
-  // Steps from `start` on point forces to damped_decrement, or until the gain is too small. Resets `report`. Points
+  void run_plain(Pads* pads, const StopCriterion& end, int patience, CurvatureLevelReport& report);
+  // Steps from `start` to damped_decrement, or until the gain is too small. Resets `report`. Points
   // that are `filled` (above zero; empty: none) are damped throughout.
-  void run_damped(const StepStart& start, const Array<float>& filled, CurvatureLevelReport& report);
+  void run_damped(Pads* pads, const StepStart& start, const Array<float>& filled,
+                  CurvatureLevelReport& report);
 
   // Damped steps on point forces from iterate.current to least variation. Adds the steps to
   // `report`, and sets `left` and `converged`.
@@ -93,7 +94,7 @@ class CurvatureSteps {
   StopCriterion accurate_end() const { return {0, options_.step_tolerance}; }
 
  private:
-  void run(const Pads* pads, LocalDamping* damping, const StopCriterion& end, int patience,
+  void run(Pads* pads, LocalDamping* damping, const StopCriterion& end, int patience,
            CurvatureLevelReport& report);
 
   SurfaceIterate& iterate_;

@@ -23,13 +23,11 @@ namespace {
 // between iterations for a surface that is replaced anyway and steps from a worse start.
 constexpr double start_tolerance = 1e-3;
 
-// `used`: whether the surface is on those pads; else all are gone.
-PadReport report_of(const Pads& pads, bool used, std::size_t vertices, double unit) {
+PadReport report_of(const Pads& pads, std::size_t vertices, double unit) {
   PadReport out;
   for (std::size_t v = 0; v < vertices; ++v) {
-    const bool is_under = used && pads.under(v);
-    out.widths.push_back(is_under ? unit * pads.reach(v) : 0.0);
-    out.gone += pads.began_under(v) && !is_under;
+    out.widths.push_back(pads.under(v) ? unit * pads.reach(v) : 0.0);
+    out.gone += pads.began_under(v) && !pads.under(v);
   }
   return out;
 }
@@ -193,9 +191,9 @@ bool FairingSystems::solve_moved(const ControlPositions& control, RecentSurfaces
 }
 
 void FairingSystems::report_held(Report& report) {
-  if (const Pads* const pads = plate().pads())
-    report.pads = report_of(*pads, !steps_ || steps_->pads(),
-                            std::size_t(problem_.mesh.input_vertices), problem_.frame.scale);
+  const Pads* const pads = steps_ && steps_->pads() ? steps_->pads() : plate().pads();
+  if (pads)
+    report.pads = report_of(*pads, std::size_t(problem_.mesh.input_vertices), problem_.frame.scale);
   report_normals(problem_.normals, report.levels.back(), report);
 }
 
