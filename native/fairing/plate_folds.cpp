@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
-#include "base/roundoff.h"
 #include "curvature/fold_repair.h"
 #include "curvature/local_damping.h"
 #include "fairing/steepest.h"
@@ -80,8 +78,7 @@ class PlateFoldRepair {
     // itself in both faces beside it
     for (int rings = 2; rings <= 2 * grid_.n() + 2 && folds.count() > 0; rings += 1 + rings / 4) {
       mark_folds(grid_, surface.data(), folds, marks);
-      if (rings > 2 && folds.count() >= before)
-        straighten_near(surface, marks, repair.straightened);
+      if (rings > 2 && folds.count() >= before) straighten_near(marks, repair.straightened);
       before = folds.count();
       dilate_by(rings, marks);
       for (std::size_t i = 0; i < marks.size(); ++i)
@@ -119,15 +116,6 @@ class PlateFoldRepair {
   std::size_t inner() const { return std::size_t(grid_.n() - 1); }  // points of an edge
   std::ptrdiff_t first_number(Index e) const { return 3 * std::ptrdiff_t(grid_.edge_base(e)); }
 
-  // Whether the curve is its control edge.
-  bool is_straight(const Array<double>& surface, Index e) const {
-    const auto& [from, to] = mesh_.edges[std::size_t(e)].vertex;
-    const double length = (control_[std::size_t(to)] - control_[std::size_t(from)]).norm();
-    const auto is_near = [&](double a, double b) { return std::abs(a - b) <= roundoff * length; };
-    const auto own = surface.begin() + first_number(e);
-    return std::equal(own, own + 3 * std::ptrdiff_t(inner()), polyhedron_.begin() + first_number(e),
-                      is_near);
-  }
   // Including those of the control mesh.
   std::size_t count_all(const Array<double>& surface) const {
     return find_folds(grid_, workers_, surface.data(), {}).count();
@@ -178,9 +166,8 @@ class PlateFoldRepair {
     for (int r = 0; r < rings; ++r) dilate(grid_, workers_, slots_, nullptr, marks);
   }
 
-  // Marks the points of curves near a marked point, and adds the edges that they leave.
-  void straighten_near(const Array<double>& surface, Array<float>& marks,
-                       std::vector<Index>& edges) {
+  // Adds the edges whose curves are near a marked point, and marks their points.
+  void straighten_near(Array<float>& marks, std::vector<Index>& edges) {
     Array<float> near = marks;
     dilate_by(1, near);
     const auto begin = [&](auto& of, Index e) {
@@ -193,9 +180,9 @@ class PlateFoldRepair {
                       [](float mark) { return mark > 0; }))
         is_near[run(e)] = 1;
     for (const Index e : on_curves()) {
-      if (!is_near[run(e)] || std::exchange(is_marked_[std::size_t(e)], 1)) continue;
+      if (!is_near[run(e)] || std::find(edges.begin(), edges.end(), e) != edges.end()) continue;
       std::fill_n(begin(marks, e), inner(), 1.0f);
-      if (!is_straight(surface, e)) edges.push_back(e);
+      edges.push_back(e);
     }
   }
 
@@ -213,7 +200,6 @@ class PlateFoldRepair {
   std::span<const Vec3> control_;
   Unknowns unknowns_;
   Array<double> polyhedron_;
-  std::vector<std::uint8_t> is_marked_ = std::vector<std::uint8_t>(mesh_.edges.size(), 0);
   ElementSlots<float, 1> slots_;
 };
 
