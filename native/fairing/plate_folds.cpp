@@ -74,9 +74,8 @@ class PlateFoldRepair {
     const Array<double> plate = surface;
     Array<float> marks;
     std::size_t before = folds.count();
-    // a quarter farther each time, up to two control faces: at a re-entrant corner the plate overtakes
-    // itself in both faces beside it
-    for (int rings = 2; rings <= 2 * grid_.n() + 2 && folds.count() > 0; rings += 1 + rings / 4) {
+    // one ring more each time, up to a control face
+    for (int rings = 2; rings <= grid_.n() + 2 && folds.count() > 0; ++rings) {
       mark_folds(grid_, surface.data(), folds, marks);
       if (rings > 2 && folds.count() >= before) straighten_near(marks, repair.straightened);
       before = folds.count();
@@ -98,18 +97,12 @@ class PlateFoldRepair {
     return {};
   }
 
-  // What is filled is the distance from the polyhedron: filled as a whole, the surface is the
-  // polyhedron, without folds. `shape`: for the weights.
+  // `shape`: for the weights.
   void apply(const PlateRepair& repair, const Array<double>& shape, Array<double>& surface) {
     for (const Index e : repair.straightened)
       std::copy_n(polyhedron_.begin() + first_number(e), 3 * inner(),
                   surface.begin() + first_number(e));
-    Array<double> off(surface.size());
-    for (std::size_t i = 0; i < off.size(); ++i) off[i] = surface[i] - polyhedron_[i];
-    fill_harmonically(grid_, unknowns_, repair.filled, shape.data(), off.data());
-    // others stay bit for bit
-    for (std::size_t i = 0; i < off.size(); ++i)
-      surface[i] += off[i] - (surface[i] - polyhedron_[i]);
+    fill_harmonically(grid_, unknowns_, repair.filled, shape.data(), surface.data());
   }
 
  private:
