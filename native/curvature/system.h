@@ -68,6 +68,7 @@ class GaussNewtonSystem {
   ~GaussNewtonSystem();
   GaussNewtonSystem(const GaussNewtonSystem&) = delete;  // its parts refer to each other
 
+  int base() const { return base_; }
   int finest() const { return int(grids_.size()) - 1; }
   const ControlMesh& mesh() const { return shared_.mesh; }
   const GridLevel& grid(int level) const { return *grids_[std::size_t(level)]; }

@@ -4,25 +4,14 @@
 // approximates it in the control metric.
 #pragma once
 
-#include "curvature/point_curvature.h"
+#include <vector>
+
 #include "grid/grid_level.h"
 #include "parallel/workers.h"
 
 namespace fairing {
 
-// Of a ring, by cotangents and angles [Meyer, Desbrun, Schroeder, Barr 2003]: less accurate than a
-// fit (point_curvature.h), but bounded by the ring's own bending.
-struct CotangentCurvature {
-  double mean = 0;   // the integral of 2 H^2, (k1 + k2)^2 / 2, over the point's mixed area
-  double gauss = 0;  // the integral of K: a full turn minus the sum of the angles
-};
-
-// For a closed ring. A quad counts as the mean of its two triangulations; triangles without an area
-// count by their angle only. Sums are exact: over a closed surface `gauss` is 2 pi times its Euler
-// characteristic. A ring that is not finite, or exceeds ring_farthest, has an infinite `mean`.
-CotangentCurvature cotangent_curvature(const SurfaceRing& ring);
-
-// The sum of cotangent_curvature(), with k1^2 + k2^2 = 4 H^2 - 2 K. The fits of the
+// By cotangents and angles (cotangent_curvature.h), with k1^2 + k2^2 = 4 H^2 - 2 K. The fits of the
 // Gauss-Newton steps are not used, since they overestimate it many times where triangles are thin.
 // The sum is over points with a fit: not those of curves, corners and boundaries in any mode, so
 // the half cells along these do not count. x: 3 numbers a point.

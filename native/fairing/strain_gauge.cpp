@@ -9,6 +9,8 @@
 #include "fairing/symmetry.h"
 #include "mesh/normal.h"
 #include "strain/excess.h"
+#include "strain/load_matrix.h"
+#include "strain/probes.h"
 
 namespace fairing {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "fairing/problem.h"
 #include "strain/curve_loads.h"
-#include "strain/load_matrix.h"
+#include "strain/probes.h"
 
 namespace fairing {
 

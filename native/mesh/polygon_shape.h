@@ -22,6 +22,7 @@ class PolygonShape {
   explicit PolygonShape(std::span<const Vec3> corners);
 
   std::size_t size() const { return corners_.size(); }
+  double area() const { return area_; }
   const Vec3& normal() const { return normal_; }
 
   // The area centroid, where a centre vertex is placed.

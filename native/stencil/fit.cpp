@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stencil/fit.h"
 
-#include <Eigen/Eigenvalues>
-#include <algorithm>
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <cmath>
 #include <numbers>
 
+#include "stencil/staged_fit.h"
 #include "stencil/whitened_fit.h"
 
 namespace fairing {
@@ -12,41 +14,54 @@ namespace {
 
 constexpr double half_root_half = std::numbers::sqrt2 / 4;  // 1 / (2 sqrt 2)
 
-using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 5, 5>;
-
-// The pseudo-inverse of a positive semidefinite matrix, without the directions whose eigenvalues
-// are a small share of the largest, or of `scale` if that is larger.
-SmallMatrix pseudo_inverse(const SmallMatrix& gram, double scale = 0) {
-  const Eigen::SelfAdjointEigenSolver<SmallMatrix> eigen(gram);
-  const double least = undetermined_square * std::max(eigen.eigenvalues().maxCoeff(), scale);
-  const auto inverse = eigen.eigenvalues().unaryExpr(
-      [least](double value) { return value > least ? 1 / value : 0.0; });
-  return eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
+// Whether the Cholesky factor of the scaled normal equations determines all coefficients. Rotations
+// of the chart mix the last two columns, so the remainder for them is judged by its eigenvalues and
+// does not depend on the first neighbour.
+bool determines(const Eigen::Matrix<double, 5, 5>& lower, const Coefficients& scale) {
+  if (lower.diagonal().head<3>().minCoeff() < undetermined) return false;
+  const Eigen::Matrix2d root = scale.tail<2>().asDiagonal() * lower.bottomRightCorner<2, 2>();
+  const Eigen::Matrix2d rest = root * root.transpose();
+  const double least = 0.5 * undetermined_square * scale.tail<2>().squaredNorm();
+  const Eigen::Matrix2d above = rest - least * Eigen::Matrix2d::Identity();
+  return above(0, 0) > 0 && above(0, 0) * above(1, 1) > above(0, 1) * above(1, 0);
 }
 
-// The rows of fit() in two stages: first the `leading` coefficients alone, by least squares; then,
-// from the remainder, the others with least norm. Zero for a ring without extent.
-FitRows staged_fit(std::span<const Vec2> ring, Eigen::Index leading) {
-  const auto size = Eigen::Index(ring.size()), others = 5 - leading;
-  FitRows rows = FitRows::Zero(5, size);
-  double radius = 0;
-  for (const Vec2& p : ring) radius += p.norm() / double(size);
-  if (!(radius > 0)) return rows;
-  FitRows terms(5, size);
-  for (Eigen::Index j = 0; j < size; ++j) terms.col(j) = basis(ring[std::size_t(j)] / radius);
-  const SmallMatrix gram = terms * terms.transpose();
-  const SmallMatrix first = pseudo_inverse(gram.topLeftCorner(leading, leading));
-  const SmallMatrix mixed = first * gram.topRightCorner(leading, others);
-  // The remainder is compared with the terms themselves: if it is zero, its own largest eigenvalue
-  // is noise. All terms together, since rotations of the chart mix them.
-  const SmallMatrix rest =
-      gram.bottomRightCorner(others, others) - gram.bottomLeftCorner(others, leading) * mixed;
-  rows.bottomRows(others) = pseudo_inverse(rest, gram.bottomRightCorner(others, others).trace()) *
-                            (terms.bottomRows(others) - mixed.transpose() * terms.topRows(leading));
-  rows.topRows(leading) = first * terms.topRows(leading) - mixed * rows.bottomRows(others);
-  rows.topRows(2) /= radius;
-  rows.bottomRows(3) /= radius * radius;
-  return rows;
+// Least squares after a linear map makes the ring round: quadratics are invariant under linear
+// maps, so the fit is the same, and well-conditioned for any skew. Empty if undetermined.
+bool whitened_fit(const std::vector<Vec2>& ring, FitRows& rows) {
+  Eigen::Matrix2d moment = Eigen::Matrix2d::Zero();
+  for (const Vec2& p : ring) moment += p * p.transpose();
+  moment /= double(ring.size());
+  const Eigen::LLT<Eigen::Matrix2d> root(moment);
+  if (root.info() != Eigen::Success) return false;
+  const Eigen::Matrix2d l = root.matrixL();
+  if (!(l(0, 0) > 0) || !(l(1, 1) > roundoff * l(0, 0))) return false;
+  const Eigen::Matrix2d w = l.inverse();
+  FitRows a(5, Eigen::Index(ring.size()));
+  for (std::size_t j = 0; j < ring.size(); ++j) a.col(Eigen::Index(j)) = basis(w * ring[j]);
+  Eigen::Matrix<double, 5, 5> gram = a * a.transpose();
+  const Coefficients scale = gram.diagonal().cwiseSqrt();
+  if (!(scale.minCoeff() > 0)) return false;
+  gram = scale.cwiseInverse().asDiagonal() * gram * scale.cwiseInverse().asDiagonal();
+  const Eigen::LLT<Eigen::Matrix<double, 5, 5>> factor(gram);
+  if (factor.info() != Eigen::Success) return false;
+  if (!determines(factor.matrixL(), scale)) return false;
+  a = scale.cwiseInverse().asDiagonal() * a;
+  factor.solveInPlace(a);
+  a = scale.cwiseInverse().asDiagonal() * a;
+  // Maps back: gradient w^T g, Hessian w^T H w, column by column.
+  rows.resize(5, a.cols());
+  for (Eigen::Index j = 0; j < a.cols(); ++j) {
+    const auto c = a.col(j);
+    Eigen::Matrix2d h;
+    h << root_half * (c(2) + c(3)), root_half * c(4), root_half * c(4), root_half * (c(2) - c(3));
+    h = w.transpose() * h * w;
+    rows.col(j).head<2>() = w.transpose() * c.head<2>();
+    rows(2, j) = root_half * (h(0, 0) + h(1, 1));
+    rows(3, j) = root_half * (h(0, 0) - h(1, 1));
+    rows(4, j) = std::numbers::sqrt2 * h(0, 1);
+  }
+  return true;
 }
 
 using Whitened = WhitenedFit<double>;
@@ -80,25 +95,24 @@ Coefficients basis(const Vec2& p) {
 }
 
 FitRows fit(const Chart& chart) {
-  Whitened whitened;
-  if (!make(chart.ring, {}, whitened)) return staged_fit(chart.ring, chart.closed ? 3 : 2);
-  FitRows rows(5, Eigen::Index(chart.ring.size()));
-  for (std::size_t j = 0; j < chart.ring.size(); ++j) {
-    Whitened::Term sum;
-    whitened.add(chart.ring[j].x(), chart.ring[j].y(), 1.0, sum);
-    auto row = rows.col(Eigen::Index(j));
-    whitened.gradient(sum, row[0], row[1]);
-    whitened.hessian(sum, row[2], row[3], row[4]);
-  }
+  const auto n = Eigen::Index(chart.ring.size());
+  FitRows rows;
+  if (n >= 5 && whitened_fit(chart.ring, rows)) return rows;
+  double radius = 0;
+  for (const Vec2& p : chart.ring) radius += p.norm() / double(n);
+  Eigen::MatrixXd a(n, 5);
+  for (Eigen::Index j = 0; j < n; ++j)
+    a.row(j) = basis(chart.ring[std::size_t(j)] / radius).transpose();
+  rows = staged_fit(a, chart.closed ? 3 : 2);
+  rows.topRows(2) /= radius;
+  rows.bottomRows(3) /= radius * radius;
   return rows;
 }
 
 Vec3 fitted_hessian(std::span<const Vec2> ring, std::span<const double> difference,
                     std::span<const double> weight) {
   Whitened whitened;
-  if (!make(ring, weight, whitened))
-    return staged_fit(ring, 3).bottomRows<3>() *
-           Eigen::Map<const Eigen::VectorXd>(difference.data(), Eigen::Index(difference.size()));
+  if (!make(ring, weight, whitened)) return StagedHessian(ring)(difference);
   Whitened::Term sum;
   for (std::size_t j = 0; j < ring.size(); ++j)
     whitened.add(ring[j].x(), ring[j].y(),
@@ -118,8 +132,8 @@ void hessian_rows(std::span<const Vec2> ring, std::span<const double> weight,
     }
     return;
   }
-  const FitRows staged = staged_fit(ring, 3);
-  for (std::size_t j = 0; j < ring.size(); ++j) rows[j] = staged.col(Eigen::Index(j)).tail<3>();
+  const StagedHessian staged(ring);
+  for (std::size_t j = 0; j < ring.size(); ++j) rows[j] = staged.of_neighbour(j);
 }
 
 }  // namespace fairing

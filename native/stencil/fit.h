@@ -39,7 +39,8 @@ constexpr double thinnest_ring_square = roundoff * roundoff;
 // Hessian of least norm.
 FitRows fit(const Chart& chart);
 
-// The divided differences of one function at one point, where the rows of fit() would cost too much.
+// The divided differences of one function at one point, on the stack and in closed form, where the
+// rows of fit() would cost too much.
 //
 // Returns the last three of fit()'s coefficients from the differences f_j - f_0 over a closed ring.
 // The same rules apply where the ring does not determine a quadratic: valence 4 gives the trace and

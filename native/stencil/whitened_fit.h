@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The least-squares quadratic of five and more neighbours in closed form, for numbers and packs
-// (base/simd.h).
+// The least-squares quadratic of a closed ring of five and more neighbours in closed form, for
+// numbers and packs (base/simd.h).
 #pragma once
 
 #include <cmath>
@@ -83,8 +83,13 @@ struct WhitenedFit {
   // The Hessian, in the components of stencil/fit.h, of the quadratic with the right-hand side
   // `sum`: the sum of the neighbours' terms times their weights and differences.
   DF_INLINE void hessian(const Term& sum, N& trace, N& difference, N& mixed) const {
-    N c0, c1, c2;
-    solve(sum, c0, c1, c2);
+    const N r0 = sum.a - each * (sum.x * xa + sum.y * ya),
+            r1 = sum.b - each * (sum.x * xb + sum.y * yb),
+            r2 = sum.c - each * (sum.x * xc + sum.y * yc);
+    const N z1 = r1 - l10 * r0;
+    const N c2 = inverse[2] * (r2 - l20 * r0 - l21 * z1);
+    const N c1 = inverse[1] * z1 - l21 * c2;
+    const N c0 = inverse[0] * r0 - l10 * c1 - l20 * c2;
     const N xx = S(2) * (c0 + c1), xy = S(2) * c2, yy = S(2) * (c0 - c1);
     const N uu = w0 * w0 * xx + S(2) * w0 * w1 * xy + w1 * w1 * yy, vv = w2 * w2 * yy;
     trace = S(root_half) * (uu + vv);
@@ -92,27 +97,7 @@ struct WhitenedFit {
     mixed = S(std::numbers::sqrt2) * (w2 * (w0 * xy + w1 * yy));
   }
 
-  // The gradient of that quadratic.
-  DF_INLINE void gradient(const Term& sum, N& u, N& v) const {
-    N c0, c1, c2;
-    solve(sum, c0, c1, c2);
-    const N x = each * (sum.x - xa * c0 - xb * c1 - xc * c2),
-            y = each * (sum.y - ya * c0 - yb * c1 - yc * c2);
-    u = w0 * x + w1 * y;
-    v = w2 * y;
-  }
-
  private:
-  // The coefficients of a, b and c.
-  DF_INLINE void solve(const Term& sum, N& c0, N& c1, N& c2) const {
-    const N r0 = sum.a - each * (sum.x * xa + sum.y * ya),
-            r1 = sum.b - each * (sum.x * xb + sum.y * yb),
-            r2 = sum.c - each * (sum.x * xc + sum.y * yc);
-    const N z1 = r1 - l10 * r0;
-    c2 = inverse[2] * (r2 - l20 * r0 - l21 * z1);
-    c1 = inverse[1] * z1 - l21 * c2;
-    c0 = inverse[0] * r0 - l10 * c1 - l20 * c2;
-  }
   DF_INLINE static void root(const N& of, N& out) {
     if constexpr (std::is_arithmetic_v<N>)
       out = std::sqrt(of);

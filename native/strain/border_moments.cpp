@@ -8,7 +8,7 @@
 
 #include "mesh/normal.h"
 #include "parallel/cancel.h"
-#include "strain/curve_loads.h"
+#include "strain/stretches.h"
 
 namespace fairing {
 namespace {

@@ -12,15 +12,6 @@
 
 namespace fairing {
 
-// A chain or a part of one, from one corner to the next, including corners that are not marked, with
-// vertices and edges as in Chain.
-struct Stretch {
-  std::vector<Index> vertices, edges;
-  bool closed;
-};
-
-std::vector<Stretch> stretches_of(const Chain& chain, std::span<const Vec3> positions);
-
 class CurveLoads {
  public:
   // For the curves that are smoothed. `positions` of the control vertices give chord lengths, to

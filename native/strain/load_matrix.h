@@ -1,37 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The loads on pads (constraints/pads.h) that moves of control vertices cause while all else stays.
-// The loads of the thin plate depend linearly on the control vertices, f = G c plus a constant, in
-// the same way for x, y and z, so G is one matrix. The effect of a move falls by a factor of 2.6
-// with every ring of control faces, so distant vertices share a solve, a set for each coordinate.
+// G (probes.h) as a sparse matrix, by one solve for each set of distant vertices.
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "strain/ease.h"
-#include "thin_plate/solver.h"
+#include "strain/probes.h"
 
 namespace fairing {
-
-// Calls visit(i, around) for each of the `vertices`, where `around` has it, its copies, and all
-// vertices at most `rings` rings away.
-void visit_around(
-    const ControlMesh& mesh, const std::vector<Index>& vertices, int rings,
-    const std::function<void(std::size_t i, const std::vector<Index>& around)>& visit);
 
 struct ProbedMatrix {
   LoadMatrix g;    // rows and columns of the given vertices
   int solves = 0;  // number of solves, each with three sets
 };
 
-// Called before each solve with its part of the whole; may be empty.
-using OnPart = std::function<void(double begin, double end)>;
-
 // G of `vertices`, input vertices on pads, ascending, from sets with members at least `rings_apart`
 // rings apart. In the result of a set each vertex is attributed to the nearest member. The part of
 // a column beyond that goes to a nearer member, so rows keep their sums and a common move of all
-// vertices has correct loads. Exact if every set has one member. `curves`
-// are the solver's; their points do not move.
+// vertices has correct loads. Exact if every set has one member.
 ProbedMatrix load_matrix(ThinPlateSolver& solver, const FeatureCurves& curves,
                          const std::vector<Index>& vertices, int rings_apart,
                          const OnPart& on_part);

@@ -3,102 +3,12 @@
 
 #include <cmath>
 
-#include "multigrid/assembly.h"
-#include "parallel/cancel.h"
 #include "parallel/reductions.h"
 #include "sparse/repeated_rows.h"
-#include "sparse/unknown_points.h"
-#include "stencil/weights.h"
+#include "thin_plate/differences.h"
 
 namespace fairing {
 namespace {
-
-// The divided differences of one level, ring by ring and one column at a time, from which matrices
-// are summed.
-class PlateDifferences {
- public:
-  using Column = EnergyRows::Column;
-
-  // `grid` and `stencils` must outlive it, and `surface`, whose differences replace those of the
-  // stencils if it is given. Throws FairingError(cancelled).
-  PlateDifferences(const GridLevel& grid, const Stencils& stencils, const Unknowns& unknowns,
-                   Workers& workers, const SurfaceDifferences* surface = nullptr);
-
-  const RingTable& rings() const { return rings_; }
-  // Whether points have weights besides the stencils.
-  bool is_weighted() const { return surface_ || !weight_.empty(); }
-  double penalty(Index p) const { return surface_ ? surface_->penalty(p) : 0.0; }
-  MembraneWeights membrane(const RingTable::Ring& ring) const {
-    return {mesh_, stencils_, ring.element};
-  }
-
-  bool has_fit(const RingTable::Ring& ring) const {
-    return begin_[std::size_t(ring.element)] != none;
-  }
-  // For a ring with a fit: the three differences there of a unit at a member, without the root of
-  // weight().
-  Column column(Index centre, const RingTable::Ring& ring, std::size_t slot) const {
-    if (surface_) return surface_->column(centre, slot);
-    return column_[begin_[std::size_t(ring.element)] + slot];
-  }
-  double weight(Index centre) const {
-    return surface_ || weight_.empty() ? 1.0 : weight_[std::size_t(centre)];
-  }
-
- private:
-  static constexpr std::size_t none = std::size_t(-1);
-
-  const ControlMesh& mesh_;
-  const Stencils& stencils_;
-  const SurfaceDifferences* surface_;
-  const RingTable rings_;
-  const Array<double> weight_;      // of the points; empty: all are one
-  std::vector<std::size_t> begin_;  // by element: the begin of its columns, the centre's first
-  Array<Column> column_;
-};
-
-PlateDifferences::PlateDifferences(const GridLevel& grid, const Stencils& stencils,
-                                   const Unknowns& unknowns, Workers& workers,
-                                   const SurfaceDifferences* surface)
-    : mesh_(grid.mesh()),
-      stencils_(stencils),
-      surface_(surface),
-      rings_(grid, unknowns, workers),
-      weight_(point_weights(grid)) {
-  const double scale = grid.n();
-  const auto elements = std::size_t(mesh_.vertex_count()) + mesh_.edges.size() + mesh_.faces.size();
-  for (std::size_t element = 0; element < elements; ++element) {
-    stop_if_cancelled(element);
-    const EnergyRows rows(mesh_, stencils, Index(element));
-    const std::size_t begin = column_.size();
-    begin_.push_back(rows.size() > 0 ? begin : none);
-    if (rows.size() == 0) continue;
-    column_.insert(column_.end(), 1 + rows.size(), Column{});
-    for (std::size_t k = 0; k < rows.size(); ++k)
-      for (std::size_t c = 0; c < 3; ++c) {
-        column_[begin + 1 + k][c] = scale * rows[k][c];
-        column_[begin][c] -= scale * rows[rows.by_pairs(k)][c];
-      }
-  }
-}
-
-// The rows of all points, in order.
-void visit_rows(const PlateDifferences& plate, const VisitRows& visit) {
-  std::vector<Index> ring_points;
-  std::vector<double> numbers;
-  for (std::size_t p = 0; p < plate.rings().points(); ++p) {
-    stop_if_cancelled(p);
-    const RingTable::Ring& ring = plate.rings().about(Index(p));
-    ring_points.clear();
-    numbers.clear();
-    const double root = std::sqrt(plate.weight(Index(p)));
-    for (std::size_t s = 0; s < ring.size && plate.has_fit(ring); ++s) {
-      ring_points.push_back(RingTable::id_of(plate.rings().members(ring)[s]));
-      for (const double number : plate.column(Index(p), ring, s)) numbers.push_back(root * number);
-    }
-    visit(ring_points, numbers);
-  }
-}
 
 // Calls visit(member, number) for a point's row of the membrane, on the unknowns of its ring.
 template <class Visit>
@@ -161,29 +71,6 @@ bool suits(const GridLevel& grid, const Stencils& stencils) {
 }
 
 }  // namespace
-
-AssembledSystem assemble_thin_plate(const GridLevel& grid, const Stencils& stencils,
-                                    const Unknowns& unknowns, const VertexWeights& weights,
-                                    Workers& workers, const SurfaceDifferences* surface) {
-  const PlateDifferences plate(grid, stencils, unknowns, workers, surface);
-  const std::vector<Index> number = number_unknowns(grid, unknowns);
-  AssembledSystem system = assemble_square(
-      grid, number, nullptr, [&](const VisitRows& visit) { visit_rows(plate, visit); });
-  Triplets entries;
-  for (Index i = 0; i < Index(system.unknown_points.size()); ++i) {
-    const Index p = system.unknown_points[std::size_t(i)];
-    const RingTable::Ring& ring = plate.rings().about(p);
-    const MembraneWeights membrane = plate.membrane(ring);
-    for (std::size_t k = 0; k < membrane.size(); ++k)
-      if (const RingTable::Member q = plate.rings().members(ring)[k + 1]; q >= 0)
-        entries.emplace_back(i, number[std::size_t(q)], -membrane[k]);
-    const double held = std::size_t(p) < weights.size() ? weights[std::size_t(p)] : 0.0;
-    if (const double own = membrane.total() + held + plate.penalty(p); own != 0)
-      entries.emplace_back(i, i, own);
-  }
-  if (!entries.empty()) add_entries(entries, system);
-  return system;
-}
 
 std::unique_ptr<PlateMatrix> PlateMatrix::make(const GridLevel& grid, const Stencils& stencils,
                                                const Unknowns& unknowns, Workers& workers,

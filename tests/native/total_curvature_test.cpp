@@ -10,6 +10,7 @@
 #include <map>
 #include <numbers>
 
+#include "curvature/cotangent_curvature.h"
 #include "curvature/point_curvature.h"
 #include "grid/linear.h"
 #include "meshes.h"

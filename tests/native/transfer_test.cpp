@@ -203,17 +203,6 @@ TEST(Rows, RefuseTooManyColumnsInOnePlace) {
   }
 }
 
-// The matrix times x, 3 numbers a row and a column; x has room for a pack behind them.
-Eigen::VectorXf product(const AssembledMatrix& matrix, Workers& workers, Index rows,
-                        const Eigen::VectorXf& x) {
-  Eigen::VectorXf y = Eigen::VectorXf::Zero(3 * rows);
-  matrix.visit_products(x.data(), workers,
-                        [&](std::size_t row, std::size_t count, const float* of) {
-                          std::copy_n(of, 3 * count, y.data() + 3 * row);
-                        });
-  return y;
-}
-
 // A row that has the numbers of another one, in other columns; where one is named twice it is refused,
 // and the row is still empty.
 TEST(Rows, RepeatNumbersInOtherColumns) {
@@ -236,10 +225,10 @@ TEST(Rows, RepeatNumbersInOtherColumns) {
   };
   const auto matrix = AssembledMatrix::make(size, size + 1, workers, writer);
   ASSERT_NE(matrix, nullptr);
-  const Eigen::VectorXf x = Eigen::VectorXf::LinSpaced(3 * (size + 1) + 16, 1, 3 * (size + 1) + 16);
-  const Eigen::VectorXf y = product(*matrix, workers, size, x);
-  for (Index i = 0; i < 3 * size; ++i)
-    EXPECT_EQ(y[i], i < 3 || i / 3 % 2 == 1 ? 3 * x[i] + 0.5f * x[i + 3] : 7 * x[i]) << i;
+  Eigen::VectorXf x = Eigen::VectorXf::LinSpaced(size + 16, 1, size + 16), y = x;
+  matrix->apply<1>(x.data(), workers, y.data());
+  for (Index r = 0; r < size; ++r)
+    EXPECT_EQ(y[r], r == 0 || r % 2 == 1 ? 3 * x[r] + 0.5f * x[r + 1] : 7 * x[r]) << r;
 }
 
 // A writer that leaves by an exception, in the middle of a row, leaves nothing to the next builder.
@@ -260,9 +249,10 @@ TEST(Rows, KeepNoMarksOfARowThatWasInterrupted) {
     EXPECT_THROW(AssembledMatrix::make(size, size, workers, writer(last)), std::bad_alloc);
     const auto whole = AssembledMatrix::make(size, size, workers, writer(size));
     ASSERT_NE(whole, nullptr);
-    const Eigen::VectorXf y = product(*whole, workers, size, Eigen::VectorXf::Ones(3 * size + 16));
-    for (Index i = 0; i < 3 * size; ++i)
-      EXPECT_EQ(y[i], float(size * (i / 3) + size * (size - 1) / 2));
+    const Eigen::VectorXf x = Eigen::VectorXf::Ones(size + 16);
+    Eigen::VectorXf y = Eigen::VectorXf::Zero(size + 16);
+    whole->apply<1>(x.data(), workers, y.data());
+    for (Index r = 0; r < size; ++r) EXPECT_EQ(y[r], float(size * r + size * (size - 1) / 2));
   }
 }
 

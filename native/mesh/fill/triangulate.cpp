@@ -5,114 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <queue>
-#include <utility>
 
-#include "base/points.h"
 #include "base/roundoff.h"
-#include "mesh/sharp_turn.h"
+#include "mesh/fill/ears.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
 namespace {
 
-// Number of corners for which all pairs are considered: 0.2 s. Longer polygons lose ears first.
-constexpr std::size_t longest_whole = 400;
-
-// The rest of a polygon.
-struct Shortened {
-  std::vector<Triangle> ears;  // corners, ascending
-  std::vector<Index> corners;  // the remaining ones, in their order
-  std::vector<Vec3> normals;   // of the face behind the side from each of these to the next
-};
-
-// Shortens a ragged polygon by ears, the sharpest corner first, until `enough` corners are left or
-// none may be cut. At first only smooth ears: they turn by less than 60 degrees against the faces
-// behind both sides.
-class Ears {
- public:
-  explicit Ears(const SpacePolygon& polygon)
-      : polygon_(polygon), normals_(polygon.normals), count_(polygon.points.size()) {
-    for (std::size_t i = 0; i < count_; ++i) {
-      before_.push_back((i + count_ - 1) % count_);
-      after_.push_back((i + 1) % count_);
-    }
-    changes_.assign(count_, 0);
-    for (std::size_t i = 0; i < count_; ++i) look_at(i);
-  }
-
-  Shortened cut(std::size_t enough) {
-    Shortened found;
-    while (count_ > enough) {
-      stop_if_cancelled(count_);
-      if (open_.empty()) {
-        if (std::exchange(may_fold_, true)) break;
-        for (std::size_t i = after_[last_cut_], k = 0; k < count_; ++k, i = after_[i]) look_at(i);
-        continue;
-      }
-      const Candidate best = open_.top();
-      open_.pop();
-      if (best.change != changes_[best.corner]) continue;
-      const std::size_t i = best.corner, a = before_[i], b = after_[i];
-      Triangle ear{Index(a), Index(i), Index(b)};
-      std::sort(ear.begin(), ear.end());  // equivalent to a rotation
-      found.ears.push_back(ear);
-      normals_[a] = normal(i);
-      after_[a] = b, before_[b] = a;
-      ++changes_[i];
-      last_cut_ = i;
-      --count_;
-      look_at(a), look_at(b);
-    }
-    const std::size_t first = after_[last_cut_];
-    std::size_t i = first;
-    do {
-      found.corners.push_back(Index(i));
-      i = after_[i];
-    } while (i != first);
-    std::rotate(found.corners.begin(), std::min_element(found.corners.begin(), found.corners.end()),
-                found.corners.end());
-    for (const Index corner : found.corners) found.normals.push_back(normals_[std::size_t(corner)]);
-    return found;
-  }
-
- private:
-  struct Candidate {
-    double cosine;  // of the angle at the corner
-    std::size_t corner;
-    int change;  // number of changes of the corner's neighbours
-    bool operator<(const Candidate& other) const {
-      return cosine < other.cosine || (cosine == other.cosine && corner > other.corner);
-    }
-  };
-
-  Vec3 side(std::size_t from, std::size_t to) const {
-    return polygon_.points[to] - polygon_.points[from];
-  }
-
-  // Unit normal of the ear at a corner; zero without area.
-  Vec3 normal(std::size_t i) const {
-    return unit_or_zero(side(before_[i], i).cross(side(i, after_[i])));
-  }
-
-  void look_at(std::size_t i) {
-    const int change = ++changes_[i];
-    const std::size_t a = before_[i], b = after_[i];
-    const Vec3 ear = normal(i), leaving = side(i, a), arriving = side(i, b);
-    for (const Vec3& behind : {normals_[a], normals_[i]})
-      if (!may_fold_ && !behind.isZero() && ear.dot(behind) < sharp_turn) return;
-    if (ear.isZero() || !polygon_.may_join(std::min(a, b), std::max(a, b))) return;
-    open_.push({leaving.dot(arriving) / (leaving.norm() * arriving.norm()), i, change});
-  }
-
-  const SpacePolygon& polygon_;
-  std::vector<Vec3> normals_;  // of the face behind the side from each corner
-  std::size_t count_, last_cut_ = 0;
-  std::vector<std::size_t> before_, after_;
-  std::vector<int> changes_;
-  std::priority_queue<Candidate> open_;
-  bool may_fold_ = false;  // once no smooth ear is left
-};
+// Number of corners for which all pairs are considered: 0.2 s. Longer polygons lose ears first;
+// those that remain longer are processed through a window of this number of corners, which doubles
+// its stride whenever it is full: 5,000 corners in 7 s.
+constexpr std::size_t longest_whole = 400, window_size = 128;
 
 // The cost of triangles, in order of priority.
 struct Cost {
@@ -137,65 +41,129 @@ struct Best {
   Vec3 normal = Vec3::Zero();
 };
 
+// The chords in use and where they are stored. Corner i is at place i of a line, the last one where
+// all strides meet.
+class Chords {
+ public:
+  explicit Chords(std::size_t corners) : corners_(corners) {
+    window_ = corners <= longest_whole ? corners : window_size;
+    while (window_ << top_ < corners - 1) ++top_;
+    const std::size_t stride = std::size_t(1) << top_;
+    end_ = (corners - 1 + stride - 1) / stride * stride;
+    for (std::size_t level = 0; level <= top_; ++level) {
+      begin_.push_back(kept_.size());
+      kept_.resize(kept_.size() + ((end_ >> level) + 1) * window_);
+    }
+    by_start_.resize((end_ + 1) * window_);
+    by_end_.resize((end_ + 1) * window_);
+  }
+
+  std::size_t top() const { return top_; }
+  std::size_t window() const { return window_; }
+  std::size_t place(std::size_t corner) const { return corner + 1 == corners_ ? end_ : corner; }
+  bool is_corner(std::size_t place) const { return place + 1 < corners_ || place == end_; }
+  std::size_t corner(std::size_t place) const { return place == end_ ? corners_ - 1 : place; }
+  std::size_t last_place() const { return end_; }
+
+  // Null if the chord between two places is not used.
+  Best* find(std::size_t low, std::size_t high) {
+    std::size_t level = 0;
+    while (window_ << level < high - low) ++level;
+    const std::size_t mask = (std::size_t(1) << level) - 1;
+    if ((low | high) & mask) return nullptr;
+    return &kept_[begin_[level] + (low >> level) * window_ + ((high - low) >> level) - 1];
+  }
+
+  // Copies of chords up to the window's length, in the order in which look_at() reads them: those
+  // from `low` by length, and those to `high`.
+  void note(std::size_t low, std::size_t high, const Cost& cost) {
+    if (high - low > window_) return;
+    by_start_[low * window_ + high - low - 1] = by_end_[high * window_ + high - low - 1] = cost;
+  }
+  const Cost* from(std::size_t low) const { return &by_start_[low * window_]; }
+  const Cost* to(std::size_t high) const { return &by_end_[high * window_]; }
+
+ private:
+  std::size_t corners_, window_ = 0, top_ = 0, end_ = 0;
+  std::vector<std::size_t> begin_;
+  std::vector<Best> kept_;
+  std::vector<Cost> by_start_, by_end_;
+};
+
 class Search {
  public:
   explicit Search(const SpacePolygon& polygon)
-      : polygon_(polygon),
-        size_(polygon.points.size()),
-        best_(size_ * size_),
-        by_start_(size_ * size_),
-        by_end_(size_ * size_) {}
+      : polygon_(polygon), chords_(polygon.points.size()) {}
 
   std::vector<Triangle> run() {
-    for (std::size_t i = 0; i + 1 < size_; ++i) {
-      at(i, i + 1) = {{0, 1, 0}, Index(i), polygon_.normals[i]};
-      note(i, i + 1);
+    const std::size_t size = polygon_.points.size();
+    for (std::size_t i = 0; i + 1 < size; ++i) {
+      const std::size_t end = i + 2 == size ? chords_.last_place() : i + 1;
+      Best* side = chords_.find(i, end);
+      if (!side) continue;
+      *side = {{0, 1, 0}, Index(i), polygon_.normals[i]};
+      chords_.note(i, end, side->cost);
     }
-    for (std::size_t gap = 2; gap < size_; ++gap)
-      for (std::size_t low = 0; low + gap < size_; ++low) {
-        stop_if_cancelled();
-        look_at(low, low + gap);
-      }
+    for (std::size_t level = 0; level <= chords_.top(); ++level)
+      for (std::size_t gap = level ? chords_.window() / 2 + 1 : 2; gap <= chords_.window(); ++gap)
+        look_at_all(level, gap << level);
     return triangles();
   }
 
  private:
-  Best& at(std::size_t low, std::size_t high) { return best_[low * size_ + high]; }
-
-  // Copies the cost of a chord, in the order in which look_at() reads them: those from `low` by
-  // length, and those to `high`.
-  void note(std::size_t low, std::size_t high) {
-    by_start_[low * size_ + high - low - 1] = by_end_[high * size_ + high - low - 1] =
-        at(low, high).cost;
-  }
-
-  void look_at(std::size_t low, std::size_t high) {
-    if (high - low + 1 < size_ && !polygon_.may_join(low, high)) return;
-    const Cost *from = &by_start_[low * size_], *to = &by_end_[high * size_];
-    for (std::size_t middle = low + 1; middle < high; ++middle) {
-      const Cost parts = from[middle - low - 1] + to[high - middle - 1];
-      if (parts.is_less_than(at(low, high).cost)) consider(low, middle, high, parts);
+  void look_at_all(std::size_t level, std::size_t gap) {
+    const std::size_t stride = std::size_t(1) << level;
+    for (std::size_t low = 0; low + gap <= chords_.last_place(); low += stride) {
+      stop_if_cancelled();
+      const std::size_t high = low + gap;
+      if (chords_.is_corner(low) && chords_.is_corner(high)) look_at(low, high, level);
     }
-    note(low, high);
   }
 
-  // The triangle of three corners, with these `parts` beyond its other two sides.
-  void consider(std::size_t low, std::size_t middle, std::size_t high, const Cost& parts) {
+  void look_at(std::size_t low, std::size_t high, std::size_t level) {
+    const std::size_t first = chords_.corner(low), last = chords_.corner(high);
+    const bool whole = first == 0 && last + 1 == polygon_.points.size();
+    if (last == first + 1) return;  // the last side, if it is long
+    Best& best = *chords_.find(low, high);
+    if (!whole && !polygon_.may_join(first, last)) return;
+    if (level == 0) {
+      const Cost *from = chords_.from(low), *to = chords_.to(high);
+      for (std::size_t middle = low + 1; middle < high; ++middle) {
+        const Cost parts = from[middle - low - 1] + to[high - middle - 1];
+        if (parts.is_less_than(best.cost)) consider(low, middle, high, parts, best);
+      }
+      chords_.note(low, high, best.cost);
+      return;
+    }
+    // the longer of the other two sides spans at least half of this one
+    const std::size_t stride = std::size_t(1) << (level - 1);
+    for (std::size_t middle = low + stride; middle < high; middle += stride) {
+      if (!chords_.is_corner(middle)) continue;
+      const Best *left = chords_.find(low, middle), *right = chords_.find(middle, high);
+      if (!left || !right) continue;
+      const Cost parts = left->cost + right->cost;
+      if (parts.is_less_than(best.cost)) consider(low, middle, high, parts, best);
+    }
+  }
+
+  // The triangle of three places, with these `parts` beyond its other two sides.
+  void consider(std::size_t low, std::size_t middle, std::size_t high, const Cost& parts,
+                Best& best) {
     const std::vector<Vec3>& p = polygon_.points;
-    Vec3 normal = (p[middle] - p[low]).cross(p[high] - p[low]);
+    const std::size_t i = chords_.corner(low), j = chords_.corner(middle), k = chords_.corner(high);
+    Vec3 normal = (p[j] - p[i]).cross(p[k] - p[i]);
     const double length = normal.norm();
     if (length > 0) normal /= length;
-    double turns[] = {turn(normal, at(low, middle).normal), turn(normal, at(middle, high).normal),
-                      1};
-    if (high - low + 1 == size_) turns[2] = turn(normal, polygon_.normals[high]);
+    double turns[] = {turn(normal, chords_.find(low, middle)->normal),
+                      turn(normal, chords_.find(middle, high)->normal), 1};
+    if (i == 0 && k + 1 == p.size()) turns[2] = turn(normal, polygon_.normals[k]);
     Cost cost = parts;
     for (const double t : turns) {
       cost.folding += std::max(0.0, -t);
       cost.cosine = std::min(cost.cosine, t);
     }
     cost.area += length / 2;
-    if (Best& best = at(low, high); cost.is_less_than(best.cost))
-      best = {cost, Index(middle), normal};
+    if (cost.is_less_than(best.cost)) best = {cost, Index(j), normal};
   }
 
   // The cosine between two normals, in steps, so that rounding does not decide in flat holes. A
@@ -207,24 +175,24 @@ class Search {
 
   std::vector<Triangle> triangles() {
     std::vector<Triangle> found;
-    std::vector<std::pair<std::size_t, std::size_t>> open{{0, size_ - 1}};
+    std::vector<std::pair<std::size_t, std::size_t>> open{{0, chords_.last_place()}};
     while (!open.empty()) {
       const auto [low, high] = open.back();
       open.pop_back();
-      if (high == low + 1) continue;
-      const Index middle = at(low, high).middle;
-      if (middle < 0) return {};
-      found.push_back({Index(low), middle, Index(high)});
-      open.push_back({std::size_t(middle), high});
-      open.push_back({low, std::size_t(middle)});
+      const std::size_t first = chords_.corner(low), last = chords_.corner(high);
+      if (last == first + 1) continue;
+      const Best* best = chords_.find(low, high);
+      if (!best || best->middle < 0) return {};
+      const std::size_t middle = chords_.place(std::size_t(best->middle));
+      found.push_back({Index(first), best->middle, Index(last)});
+      open.push_back({middle, high});
+      open.push_back({low, middle});
     }
     return found;
   }
 
   const SpacePolygon& polygon_;
-  std::size_t size_;
-  std::vector<Best> best_;  // of the chord between two corners, the lower one first
-  std::vector<Cost> by_start_, by_end_;
+  Chords chords_;
 };
 
 }  // namespace
@@ -232,24 +200,21 @@ class Search {
 std::vector<Triangle> triangulate(const SpacePolygon& polygon) {
   if (polygon.points.size() < 3) return {};
   if (polygon.points.size() <= longest_whole) return Search(polygon).run();
-  const auto of_rest = [&polygon](Shortened rest) -> std::vector<Triangle> {
-    if (rest.corners.size() > longest_whole) return {};
-    SpacePolygon left;
-    for (const Index corner : rest.corners)
-      left.points.push_back(polygon.points[std::size_t(corner)]);
-    left.normals = std::move(rest.normals);
-    left.may_join = [&](std::size_t low, std::size_t high) {
-      return polygon.may_join(std::size_t(rest.corners[low]), std::size_t(rest.corners[high]));
-    };
-    const std::vector<Triangle> inner = Search(left).run();
-    if (inner.empty()) return {};
-    for (const Triangle& t : inner)
-      rest.ears.push_back({rest.corners[std::size_t(t[0])], rest.corners[std::size_t(t[1])],
-                           rest.corners[std::size_t(t[2])]});
-    return std::move(rest.ears);
+  Shortened rest = cut_ears(polygon, longest_whole);
+  SpacePolygon left;
+  for (const Index corner : rest.corners)
+    left.points.push_back(polygon.points[std::size_t(corner)]);
+  left.normals = std::move(rest.normals);
+  left.may_join = [&](std::size_t low, std::size_t high) {
+    return polygon.may_join(std::size_t(rest.corners[low]), std::size_t(rest.corners[high]));
   };
-  std::vector<Triangle> found = of_rest(Ears(polygon).cut(longest_whole));
-  return found.empty() ? of_rest(Ears(polygon).cut(3)) : found;
+  const std::vector<Triangle> inner = Search(left).run();
+  if (inner.empty()) return Search(polygon).run();
+  std::vector<Triangle> found = std::move(rest.ears);
+  for (const Triangle& t : inner)
+    found.push_back({rest.corners[std::size_t(t[0])], rest.corners[std::size_t(t[1])],
+                     rest.corners[std::size_t(t[2])]});
+  return found;
 }
 
 }  // namespace fairing

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "multigrid/assembly.h"
+#include "parallel/cancel.h"
+#include "sparse/unknown_points.h"
+#include "thin_plate/differences.h"
+#include "thin_plate/matrix.h"
+
+namespace fairing {
+namespace {
+
+// The rows of all points, in order.
+void visit_rows(const PlateDifferences& plate, const VisitRows& visit) {
+  std::vector<Index> ring_points;
+  std::vector<double> numbers;
+  for (std::size_t p = 0; p < plate.rings().points(); ++p) {
+    stop_if_cancelled(p);
+    const RingTable::Ring& ring = plate.rings().about(Index(p));
+    ring_points.clear();
+    numbers.clear();
+    const double root = std::sqrt(plate.weight(Index(p)));
+    for (std::size_t s = 0; s < ring.size && plate.has_fit(ring); ++s) {
+      ring_points.push_back(RingTable::id_of(plate.rings().members(ring)[s]));
+      for (const double number : plate.column(Index(p), ring, s)) numbers.push_back(root * number);
+    }
+    visit(ring_points, numbers);
+  }
+}
+
+}  // namespace
+
+AssembledSystem assemble_thin_plate(const GridLevel& grid, const Stencils& stencils,
+                                    const Unknowns& unknowns, const VertexWeights& weights,
+                                    Workers& workers, const SurfaceDifferences* surface) {
+  const PlateDifferences plate(grid, stencils, unknowns, workers, surface);
+  const std::vector<Index> number = number_unknowns(grid, unknowns);
+  AssembledSystem system = assemble_square(
+      grid, number, nullptr, [&](const VisitRows& visit) { visit_rows(plate, visit); });
+  Triplets entries;
+  for (Index i = 0; i < Index(system.unknown_points.size()); ++i) {
+    const Index p = system.unknown_points[std::size_t(i)];
+    const RingTable::Ring& ring = plate.rings().about(p);
+    const MembraneWeights membrane = plate.membrane(ring);
+    for (std::size_t k = 0; k < membrane.size(); ++k)
+      if (const RingTable::Member q = plate.rings().members(ring)[k + 1]; q >= 0)
+        entries.emplace_back(i, number[std::size_t(q)], -membrane[k]);
+    const double held = std::size_t(p) < weights.size() ? weights[std::size_t(p)] : 0.0;
+    if (const double own = membrane.total() + held + plate.penalty(p); own != 0)
+      entries.emplace_back(i, i, own);
+  }
+  if (!entries.empty()) add_entries(entries, system);
+  return system;
+}
+
+}  // namespace fairing
