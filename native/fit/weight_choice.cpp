@@ -88,6 +88,7 @@ double WeightChoice::held_out_error() {
 // points is known within 1 / sqrt(2 n) of itself, so a least one among them says nothing. In trials
 // after the best.
 double WeightChoice::middle_of_good(std::size_t best) const {
+  if (held_.empty()) return 0;  // a tiny scan: no trial has an error
   const double good = trials_[best][1] * (1 + 1 / std::sqrt(2 * double(held_.size())));
   const auto reach = [&](int way) {
     auto k = std::ptrdiff_t(best);

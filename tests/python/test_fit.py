@@ -163,6 +163,15 @@ def test_border_curves_come_to_the_border_of_the_scan():
     assert np.abs(reach - 1).max() < 0.01
 
 
+@pytest.mark.parametrize("seed", range(6))
+def test_a_scan_of_ten_points_has_a_surface(seed):
+    """Few enough that often none of them is held out."""
+    vertices, faces = sheet(*2 * [np.linspace(-1, 1, 3)], dome)
+    x, y = np.random.default_rng(seed).uniform(-0.9, 0.9, (2, 10))
+    fitted = df.fit(vertices, faces, np.stack([x, y, dome(x, y)], 1))
+    assert np.isfinite(fitted.vertices).all() and fitted.weight > 0
+
+
 def test_border_curves_follow_no_noise():
     fine, dense = np.linspace(-1, 1, 17), np.linspace(-1, 1, 101)
     vertices, faces = sheet(fine, fine, dome)
