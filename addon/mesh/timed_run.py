@@ -19,9 +19,7 @@ class TimedRun:
     """What all runs share; they read when they are made."""
 
     kind: str  # for predictions: an energy, or what is done
-    again: (
-        str  # what to do once more, as "Fill", where somebody else has changed the mesh meanwhile
-    )
+    again: str  # what to do once more where the mesh has changed meanwhile, as "Fill"
     name: str  # what sentences call it
     reference: Reference
     shape: WorldShape

@@ -3,8 +3,6 @@
 
 #include <Eigen/Dense>
 #include <Eigen/SparseCholesky>
-#include <cmath>
-#include <numbers>
 
 #include "base/points.h"
 #include "parallel/cancel.h"
@@ -160,8 +158,7 @@ std::vector<Vec3> CurveFit::moves(const std::vector<MoveEquations>& equations, d
       rest[3 * unknown[v] + i] = equations[v].rest[i];
     }
   }
-  // a plate of this weight follows waves of 2 pi / (weight^(1/4)) control edges (ScanFit::unit_)
-  const double stiffness = 1 / (weight * std::pow(2 * std::numbers::pi, 4));
+  const double stiffness = 1 / (weight * stiffness_of_wave);
   for (const Bend& bend : bends_) {
     const double points = equations[std::size_t(bend.at[1])].square.trace();
     Vec3 bent = Vec3::Zero();

@@ -95,8 +95,7 @@ class ScanFit {
         curves_(problem, scan, settings.fixed),
         search_(search_level(problem.mesh, levels.top(), scan.size())),
         thin_(thinned(scan, (scan.size() + enough_points - 1) / enough_points)),
-        unit_(std::pow(2 * std::numbers::pi, 4) /
-              std::pow(problem.units.edge * problem.units.edge_in_space, 2)),
+        unit_(stiffness_of_wave / std::pow(problem.units.edge * problem.units.edge_in_space, 2)),
         area_(area_of(levels.grid(search_), levels.workers(), control_.working)) {}
 
   void run(FitReport& report) {

@@ -2,10 +2,16 @@
 // One level of a surface that is fitted to a scan: iterations of feet, forces and a solve.
 #pragma once
 
+#include <cmath>
+#include <numbers>
+
 #include "fit/point_forces.h"
 #include "thin_plate/levels.h"
 
 namespace fairing {
+
+// Of a plate, by area, and of a curve, by length, against a wave of length 1.
+inline const double stiffness_of_wave = std::pow(2 * std::numbers::pi, 4);
 
 // Keeps the surface in place where the scan has no points: a weight and a place each; or empty.
 struct Prior {

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
+from .arrays import following
 from .rounds import SLIVER
 
 Cuts = dict[tuple[int, int], list[int]]  # by the ends of a face's side, in its direction
@@ -23,9 +24,7 @@ def cuts_for(
     if not found:
         return {}
     both = [*found, *(ids[::-1] for ids in found)]
-    after = np.roll(corners, -1)
-    after[offsets[1:] - 1] = corners[offsets[:-1]]
-    sides = corners * len(points) + after
+    sides = corners * len(points) + corners[following(offsets)]
     are_sides = np.isin([ids[0] * len(points) + ids[-1] for ids in both], sides)
     return {(ids[0], ids[-1]): ids[1:-1] for ids, is_side in zip(both, are_sides) if is_side}
 

@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
+from ..arrays import following
 from ..patches import connected_parts
 
 
@@ -153,8 +154,7 @@ class Sides:
 
     def __init__(self, state: State) -> None:
         count = len(state.corners)
-        self.next = np.arange(1, count + 1)
-        self.next[state.offsets[1:] - 1] = state.offsets[:-1]
+        self.next = following(state.offsets)
         begin, end = state.corners, state.corners[self.next]
         self.forward = begin < end
         low, high = np.minimum(begin, end), np.maximum(begin, end)
