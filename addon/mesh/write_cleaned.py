@@ -189,8 +189,7 @@ def _fillings(made: Cleaned) -> list[np.ndarray]:
     ends = np.cumsum(sizes)
     owner = np.repeat(np.arange(len(rows)), sizes)
     corners = made.corners[np.arange(len(owner)) + (made.offsets[rows] - ends + sizes)[owner]]
-    after = np.roll(corners, -1)
-    after[ends - 1] = corners[ends - sizes]
+    after = corners[module().arrays.following(np.append(0, ends))]
     sides = np.sort(np.stack([corners, after], axis=1), axis=1)
     order = np.lexsort(sides.T)
     same = np.flatnonzero((sides[order[1:]] == sides[order[:-1]]).all(axis=1))

@@ -10,7 +10,7 @@ from bpy.props import IntProperty
 from ..blender import Context, Object, registration
 from ..job import Job
 from ..mesh.scans import is_scan, read_scans
-from ..poll import in_mode, needs
+from ..poll import in_mode
 from ..properties import FitAmount
 from ..scan_fit import Fit, FitJob, make_cage
 from ..settings import Settings
@@ -28,6 +28,15 @@ def _chosen(context: Context) -> tuple[Object | None, list[Object]]:
     if active is None or active not in selected or active.type != "MESH":
         return None, []
     return active, [o for o in selected if o != active]
+
+
+def _choice_reason(context: Context) -> str:
+    cage, scans = _chosen(context)
+    if not scans:
+        return "Select the scan, or the scan first and the cage last"
+    if cage is None and scans[0].type != "MESH":
+        return "Select the cage last: one can be made for a mesh, not for a point cloud"
+    return ""
 
 
 class OBJECT_OT_fairing_fit(Shown, WholeFairing, FitAmount, bpy.types.Operator):
@@ -57,11 +66,7 @@ class OBJECT_OT_fairing_fit(Shown, WholeFairing, FitAmount, bpy.types.Operator):
     reasons = (
         can_fair,
         in_mode("Go to Object Mode first", "OBJECT"),
-        needs(lambda c: _chosen(c)[1], "Select the scan, or the scan first and the cage last"),
-        needs(
-            lambda c: _chosen(c)[0] or _chosen(c)[1][0].type == "MESH",
-            "Select the cage last: one can be made for a mesh, not for a point cloud",
-        ),
+        _choice_reason,
     )
 
     def shown(self, _context: Context) -> Iterable[str]:
