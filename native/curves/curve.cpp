@@ -12,7 +12,8 @@
 //   (2N² + 1)(h₋ + h₊) M_j + (N² − 1)(h₊ M_{j+1} + h₋ M_{j−1})
 //       = 6N [(c_{j+1} − c_j)/H₊ − (c_j − c_{j−1})/H₋].
 //
-// M is zero at the ends of an open chain. N → ∞ gives the cubic spline.
+// M is constant in the first and the last segment of an open chain of three vertices and more: zero at
+// its ends would flatten them. N → ∞ gives the cubic spline.
 #include "curves/curve.h"
 
 #include <algorithm>
@@ -91,8 +92,16 @@ std::vector<Vec3> joint_moments(const std::vector<Vec3>& c, const std::vector<do
     right[k] = (n * n - 1) * lengths[after] / n;
     value[k] = 6 * n * ((next - c[j]) / lengths[after] - (c[j] - previous) / lengths[before]);
   }
+  if (!closed) {
+    diagonal.front() += (n * n - 1) * lengths.front() / n;
+    diagonal.back() += (n * n - 1) * lengths.back() / n;
+  }
   const std::vector<Vec3> solution = solve_tridiagonal(diagonal, right, std::move(value), closed);
   std::copy(solution.begin(), solution.end(), moments.begin() + std::ptrdiff_t(first));
+  if (!closed) {
+    moments.front() = moments[1];
+    moments.back() = moments[count - 2];
+  }
   return moments;
 }
 
