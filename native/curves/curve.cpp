@@ -12,8 +12,7 @@
 //   (2N² + 1)(h₋ + h₊) M_j + (N² − 1)(h₊ M_{j+1} + h₋ M_{j−1})
 //       = 6N [(c_{j+1} − c_j)/H₊ − (c_j − c_{j−1})/H₋].
 //
-// M is constant in the first and the last segment of an open chain of three vertices and more: zero at
-// its ends would flatten them. N → ∞ gives the cubic spline.
+// M is constant in the end segments of an open chain. N → ∞ gives the cubic spline.
 #include "curves/curve.h"
 
 #include <algorithm>

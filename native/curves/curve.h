@@ -12,7 +12,8 @@ namespace fairing {
 
 // Points of a chain refined into `subdivisions` pieces an edge: the minimizer of the squared second
 // divided differences with respect to (chord length)^exponent, through the chain's vertices
-// [Kobbelt 1996, §3]; natural at the ends of an open chain, periodic on a loop.
+// [Kobbelt 1996, §3], periodic on a loop; in the first and the last segment of an open chain of three
+// vertices and more the second difference is constant, since zero at its ends would flatten them.
 //
 // Returns, edge by edge along the chain, the subdivisions - 1 interior points of each edge, in the
 // chain's direction. The result depends on the coordinates alone, not on numbering, direction or

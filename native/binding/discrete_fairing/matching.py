@@ -301,12 +301,13 @@ def _turned(
 
 
 def _steady(values: np.ndarray, ends: tuple[bool, bool], count: int) -> np.ndarray:
-    """Where the joint ends, what is fitted to a few faces swings: the last ones are those before."""
+    """Where the joint ends, what is fitted to a few faces swings: the line through those before."""
     values, count = values.copy(), min(count, (len(values) - 1) // 2)
-    if ends[0]:
-        values[:count] = values[count]
-    if ends[1]:
-        values[-count:] = values[-count - 1]
+    steps = np.arange(count, 0, -1)[:, None]
+    for end, row in zip(ends, (values, values[::-1])):
+        if end:
+            slope = row[count + 1] - row[count] if len(row) > count + 1 else 0
+            row[:count] = row[count] - steps * slope
     return values
 
 
