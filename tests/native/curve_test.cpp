@@ -34,9 +34,9 @@ double distance(const Points& a, const Points& b) {
   return largest;
 }
 
-// Minimizes the sum of ω |second divided difference|² over all points but the given ones, by dense
-// least squares.
-Points minimize_directly(const Points& vertices, bool closed, int n, double exponent) {
+// Makes the sum of ω |second divided difference|² stationary in all points but the given ones; in the
+// end segments of an open chain the second differences are equal instead. A dense system.
+Points solve_directly(const Points& vertices, bool closed, int n, double exponent) {
   const int count = int(vertices.size()), segments = closed ? count : count - 1,
             points = segments * n + !closed;
   std::vector<double> spacing;
@@ -49,6 +49,7 @@ Points minimize_directly(const Points& vertices, bool closed, int n, double expo
 
   const int first = closed ? 0 : 1, rows = closed ? points : points - 2;
   Eigen::MatrixXd differences = Eigen::MatrixXd::Zero(rows, points);
+  Eigen::VectorXd weights(rows);
   for (int r = 0; r < rows; ++r) {
     const int i = first + r, before = (i + points - 1) % points, after = (i + 1) % points;
     const double left = spacing[std::size_t(closed ? before : i - 1)],
@@ -58,25 +59,30 @@ Points minimize_directly(const Points& vertices, bool closed, int n, double expo
     differences(r, before) += 1 / left;
     differences(r, i) -= 1 / left + 1 / right;
     differences(r, after) += 1 / right;
-    differences.row(r) *= std::sqrt(weight) / weight;
+    differences.row(r) /= weight;
+    weights[r] = weight;
   }
-  Eigen::MatrixXd free(rows, points - count), fixed(rows, count), given(count, 3);
-  for (int i = 0, f = 0; i < points; ++i) {
+  Eigen::MatrixXd system = differences.transpose() * weights.asDiagonal() * differences;
+  Eigen::MatrixXd value = Eigen::MatrixXd::Zero(points, 3);
+  const auto end_segment = [&](int i) {
+    return !closed && count > 2 && (i < n || i > points - 1 - n);
+  };
+  for (int i = 0; i < points; ++i) {
     if (i % n == 0) {
-      fixed.col(i / n) = differences.col(i);
-      given.row(i / n) = vertices[std::size_t(i / n)].transpose();
-    } else {
-      free.col(f++) = differences.col(i);
+      system.row(i) = Eigen::RowVectorXd::Unit(points, i);
+      value.row(i) = vertices[std::size_t(i / n)].transpose();
+    } else if (end_segment(i)) {  // row i - 1 is the difference at point i
+      system.row(i) = differences.row(i - 1) - differences.row(i < n ? i : i - 2);
     }
   }
-  const Eigen::MatrixXd solution =
-      (free.transpose() * free).ldlt().solve(-free.transpose() * (fixed * given));
+  const Eigen::MatrixXd solution = system.fullPivLu().solve(value);
   Points result;
-  for (Eigen::Index i = 0; i < solution.rows(); ++i) result.push_back(solution.row(i).transpose());
+  for (int i = 0; i < points; ++i)
+    if (i % n != 0) result.push_back(solution.row(i).transpose());
   return result;
 }
 
-TEST(Curve, MinimizesTheSquaredSecondDividedDifferences) {
+TEST(Curve, MinimizesTheSquaredSecondDividedDifferencesBetweenItsEndSegments) {
   for (const double exponent : {0.0, 0.5, 1.0})
     for (const int count : {2, 3, 4, 7})
       for (const int n : {2, 3, 8})
@@ -84,7 +90,7 @@ TEST(Curve, MinimizesTheSquaredSecondDividedDifferences) {
           if (closed && count < 3) continue;
           const Points chain = random_chain(unsigned(count), count);
           EXPECT_LT(distance(refine_chain(chain, closed, n, exponent),
-                             minimize_directly(chain, closed, n, exponent)),
+                             solve_directly(chain, closed, n, exponent)),
                     1e-9)
               << count << " vertices, N = " << n << ", exponent " << exponent
               << (closed ? ", closed" : "");
