@@ -12,7 +12,7 @@
 //   (2N² + 1)(h₋ + h₊) M_j + (N² − 1)(h₊ M_{j+1} + h₋ M_{j−1})
 //       = 6N [(c_{j+1} − c_j)/H₊ − (c_j − c_{j−1})/H₋].
 //
-// M is constant in the end segments of an open chain. N → ∞ gives the cubic spline.
+// At the ends of an open chain M is zero or that of the next vertex. N → ∞ gives the cubic spline.
 #include "curves/curve.h"
 
 #include <algorithm>
@@ -75,7 +75,9 @@ std::vector<Order> canonical_orders(std::span<const Vec3> vertices, bool closed)
 // The second divided differences M at the control vertices; lengths[s] is the length of the segment
 // from vertex s to s + 1.
 std::vector<Vec3> joint_moments(const std::vector<Vec3>& c, const std::vector<double>& lengths,
-                                bool closed, double n) {
+                                bool closed, const CurveScheme& scheme) {
+  const double n = scheme.subdivisions;
+  const bool parabolic = !closed && scheme.ends == ChainEnds::parabolic;
   const std::size_t count = c.size(), segments = lengths.size();
   const std::size_t first = closed ? 0 : 1, joints = closed ? count : count - 2;
   std::vector<Vec3> moments(count, Vec3::Zero());
@@ -91,13 +93,13 @@ std::vector<Vec3> joint_moments(const std::vector<Vec3>& c, const std::vector<do
     right[k] = (n * n - 1) * lengths[after] / n;
     value[k] = 6 * n * ((next - c[j]) / lengths[after] - (c[j] - previous) / lengths[before]);
   }
-  if (!closed) {
+  if (parabolic) {
     diagonal.front() += (n * n - 1) * lengths.front() / n;
     diagonal.back() += (n * n - 1) * lengths.back() / n;
   }
   const std::vector<Vec3> solution = solve_tridiagonal(diagonal, right, std::move(value), closed);
   std::copy(solution.begin(), solution.end(), moments.begin() + std::ptrdiff_t(first));
-  if (!closed) {
+  if (parabolic) {
     moments.front() = moments[1];
     moments.back() = moments[count - 2];
   }
@@ -106,14 +108,14 @@ std::vector<Vec3> joint_moments(const std::vector<Vec3>& c, const std::vector<do
 
 // Interior points in canonical order, segment by segment.
 std::vector<Vec3> refine_canonical(const std::vector<Vec3>& parameters, const std::vector<Vec3>& c,
-                                   bool closed, int subdivisions, double exponent) {
+                                   bool closed, const CurveScheme& scheme) {
   const std::size_t segments = closed ? c.size() : c.size() - 1;
   std::vector<double> lengths(segments);
   for (std::size_t s = 0; s < segments; ++s)
-    lengths[s] = std::pow((parameters[(s + 1) % c.size()] - parameters[s]).norm(), exponent);
+    lengths[s] = std::pow((parameters[(s + 1) % c.size()] - parameters[s]).norm(), scheme.exponent);
 
-  const double n = subdivisions;
-  const std::vector<Vec3> moments = joint_moments(c, lengths, closed, n);
+  const double n = scheme.subdivisions;
+  const std::vector<Vec3> moments = joint_moments(c, lengths, closed, scheme);
   const auto phi = [n](double i) { return (i * i * i - n * n * i) / (6 * n); };
   std::vector<Vec3> points;
   for (std::size_t s = 0; s < segments; ++s) {
@@ -121,7 +123,7 @@ std::vector<Vec3> refine_canonical(const std::vector<Vec3>& parameters, const st
     const Vec3 &a = c[s], &b = c[(s + 1) % c.size()];
     const Vec3 &bend_a = moments[s], &bend_b = moments[(s + 1) % c.size()];
     const double h = lengths[s] / n;
-    for (int i = 1; i < subdivisions; ++i)
+    for (int i = 1; i < scheme.subdivisions; ++i)
       points.push_back(a + (i / n) * (b - a) + h * h * (phi(n - i) * bend_a + phi(i) * bend_b));
   }
   return points;
@@ -129,16 +131,16 @@ std::vector<Vec3> refine_canonical(const std::vector<Vec3>& parameters, const st
 
 }  // namespace
 
-std::vector<Vec3> refine_chain(std::span<const Vec3> vertices, bool closed, int subdivisions,
-                               double exponent) {
-  return refine_chain(vertices, vertices, closed, subdivisions, exponent);
+std::vector<Vec3> refine_chain(std::span<const Vec3> vertices, bool closed,
+                               const CurveScheme& scheme) {
+  return refine_chain(vertices, vertices, closed, scheme);
 }
 
 std::vector<Vec3> refine_chain(std::span<const Vec3> parameters, std::span<const Vec3> vertices,
-                               bool closed, int subdivisions, double exponent) {
-  if (vertices.size() < 2 || subdivisions < 2) return {};
+                               bool closed, const CurveScheme& scheme) {
+  if (vertices.size() < 2 || scheme.subdivisions < 2) return {};
   const std::size_t count = vertices.size(), segments = closed ? count : count - 1;
-  const auto inner = std::size_t(subdivisions - 1);
+  const auto inner = std::size_t(scheme.subdivisions - 1);
 
   std::vector<Order> orders = canonical_orders(parameters, closed);
   // The orders are equal for the parameters, but may differ for other vertices.
@@ -150,7 +152,7 @@ std::vector<Vec3> refine_chain(std::span<const Vec3> parameters, std::span<const
     canonical.push_back(vertices[from] + Vec3::Zero());
   }
   const std::vector<Vec3> refined =
-      refine_canonical(canonical_parameters, canonical, closed, subdivisions, exponent);
+      refine_canonical(canonical_parameters, canonical, closed, scheme);
 
   // If there are several orders, segments at the same place take the points of the first of them.
   std::vector<Vec3> points(segments * inner);

@@ -10,20 +10,31 @@
 
 namespace fairing {
 
-// Points of a chain refined into `subdivisions` pieces an edge: the minimizer of the squared second
-// divided differences with respect to (chord length)^exponent, through the chain's vertices
-// [Kobbelt 1996, §3], periodic on a loop; in the first and the last segment of an open chain of three
-// vertices and more the second difference is constant, since zero at its ends would flatten them.
+// The second difference at the ends of an open chain of three vertices or more.
+enum class ChainEnds {
+  natural,    // zero, as the boundary of a Catmull-Clark surface has it at corners
+  parabolic,  // as at the next vertex: zero would flatten the ends of a curve through measured points
+};
+
+struct CurveScheme {
+  int subdivisions;  // pieces an edge
+  double exponent;   // of the chord length
+  ChainEnds ends = ChainEnds::parabolic;
+};
+
+// Points of a refined chain: the minimizer of the squared second divided differences with respect to
+// (chord length)^exponent, through the chain's vertices [Kobbelt 1996, §3], periodic on a loop; with
+// parabolic ends the second difference is constant in the first and in the last segment.
 //
 // Returns, edge by edge along the chain, the subdivisions - 1 interior points of each edge, in the
 // chain's direction. The result depends on the coordinates alone, not on numbering, direction or
 // first vertex: equal polylines give bit-identical points.
-std::vector<Vec3> refine_chain(std::span<const Vec3> vertices, bool closed, int subdivisions,
-                               double exponent);
+std::vector<Vec3> refine_chain(std::span<const Vec3> vertices, bool closed,
+                               const CurveScheme& scheme);
 
 // The same through `vertices`, with the chord lengths and the order of `parameters`: linear in
 // `vertices`.
 std::vector<Vec3> refine_chain(std::span<const Vec3> parameters, std::span<const Vec3> vertices,
-                               bool closed, int subdivisions, double exponent);
+                               bool closed, const CurveScheme& scheme);
 
 }  // namespace fairing

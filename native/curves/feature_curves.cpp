@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "curves/curve.h"
 #include "curves/straight.h"
 #include "parallel/cancel.h"
 
@@ -27,10 +26,10 @@ std::vector<Vec3> straight_points(std::span<const Vec3> vertices, bool closed, i
 }
 
 FeatureCurves refine_chains(const ControlMesh& mesh, std::span<const Vec3> parameters,
-                            std::span<const Vec3> positions, int subdivisions, double exponent) {
+                            std::span<const Vec3> positions, const CurveScheme& scheme) {
   const bool own = positions.data() == parameters.data();
   FeatureCurves curves;
-  curves.points_per_edge = subdivisions - 1;
+  curves.points_per_edge = scheme.subdivisions - 1;
   curves.run.assign(mesh.edges.size(), -1);
   const auto inner = std::size_t(curves.points_per_edge);
   Index runs = 0;
@@ -41,10 +40,10 @@ FeatureCurves refine_chains(const ControlMesh& mesh, std::span<const Vec3> param
       vertices.push_back(positions[std::size_t(v)]);
       parameter_vertices.push_back(parameters[std::size_t(v)]);
     }
-    std::vector<Vec3> points = chain.straight
-                                   ? straight_points(vertices, chain.closed, subdivisions)
-                                   : refine_chain(own ? vertices : parameter_vertices, vertices,
-                                                  chain.closed, subdivisions, exponent);
+    std::vector<Vec3> points =
+        chain.straight
+            ? straight_points(vertices, chain.closed, scheme.subdivisions)
+            : refine_chain(own ? vertices : parameter_vertices, vertices, chain.closed, scheme);
     for (std::size_t k = 0; k < chain.edges.size(); ++k) {
       const auto edge = std::size_t(chain.edges[k]);
       curves.run[edge] = runs++;
@@ -73,18 +72,17 @@ void straighten(const ControlMesh& mesh, std::span<const Index> edges,
   }
 }
 
-FeatureCurves refine_feature_edges(const ControlMesh& mesh, int subdivisions, double exponent) {
-  return refine_feature_edges(mesh, mesh.positions, mesh.positions, subdivisions, exponent);
+FeatureCurves refine_feature_edges(const ControlMesh& mesh, const CurveScheme& scheme) {
+  return refine_feature_edges(mesh, mesh.positions, mesh.positions, scheme);
 }
 
 FeatureCurves refine_feature_edges(const ControlMesh& mesh, std::span<const Vec3> parameters,
-                                   std::span<const Vec3> positions, int subdivisions,
-                                   double exponent) {
-  FeatureCurves own = refine_chains(mesh, parameters, parameters, subdivisions, exponent);
+                                   std::span<const Vec3> positions, const CurveScheme& scheme) {
+  FeatureCurves own = refine_chains(mesh, parameters, parameters, scheme);
   std::vector<Index> edges = edges_to_straighten(mesh, parameters, own);
   FeatureCurves curves = positions.data() == parameters.data()
                              ? std::move(own)
-                             : refine_chains(mesh, parameters, positions, subdivisions, exponent);
+                             : refine_chains(mesh, parameters, positions, scheme);
   straighten(mesh, edges, positions, curves);
   curves.straightened = std::move(edges);
   return curves;

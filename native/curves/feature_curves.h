@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "curves/curve.h"
 #include "mesh/control_mesh.h"
 
 namespace fairing {
@@ -27,15 +28,14 @@ struct FeatureCurves {
 void straighten(const ControlMesh& mesh, std::span<const Index> edges,
                 std::span<const Vec3> positions, FeatureCurves& curves);
 
-// Straight chains stay on their edges (point k is at k / subdivisions, the same from either end,
+// Straight chains stay on their edges (point k is at k / scheme.subdivisions, the same from either end,
 // bit for bit). All others are refined by refine_chain, and become straight where faces are too
 // narrow for them (curves/straight.h).
-FeatureCurves refine_feature_edges(const ControlMesh& mesh, int subdivisions, double exponent);
+FeatureCurves refine_feature_edges(const ControlMesh& mesh, const CurveScheme& scheme);
 
 // The same through other positions of the control vertices. The parameters of the chains come from
 // `parameters`; if both are the same array, the result is that of a mesh with these positions.
 FeatureCurves refine_feature_edges(const ControlMesh& mesh, std::span<const Vec3> parameters,
-                                   std::span<const Vec3> positions, int subdivisions,
-                                   double exponent);
+                                   std::span<const Vec3> positions, const CurveScheme& scheme);
 
 }  // namespace fairing

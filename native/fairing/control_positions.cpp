@@ -115,9 +115,9 @@ Frame working_frame(const ControlMesh& mesh, std::span<const Vec3> world) {
 }
 
 ControlPositions positions_of_mesh(const ControlMesh& mesh, std::vector<Vec3> world,
-                                   const Frame& frame, int subdivisions, double exponent,
+                                   const Frame& frame, const CurveScheme& scheme,
                                    const HandedCurves& handed) {
-  FeatureCurves curves = refine_feature_edges(mesh, world, world, subdivisions, exponent);
+  FeatureCurves curves = refine_feature_edges(mesh, world, world, scheme);
   set_handed(mesh, handed, 0, curves);
   return in_both_systems(mesh, std::move(world), std::move(curves), frame);
 }
@@ -134,10 +134,10 @@ std::vector<Vec3> all_positions(const ControlMesh& mesh, std::span<const Vec3> b
 
 ControlPositions positions_of_shape(const ControlMesh& mesh, std::span<const Vec3> basis_world,
                                     std::span<const double> coordinates, const Frame& frame,
-                                    int subdivisions, double exponent, const HandedCurves& handed,
+                                    const CurveScheme& scheme, const HandedCurves& handed,
                                     std::size_t shape) {
   std::vector<Vec3> world = all_positions(mesh, basis_world, coordinates);
-  FeatureCurves curves = refine_feature_edges(mesh, basis_world, world, subdivisions, exponent);
+  FeatureCurves curves = refine_feature_edges(mesh, basis_world, world, scheme);
   if (!handed.edges.empty()) set_handed(mesh, handed, shape + 1, curves);
   return in_both_systems(mesh, std::move(world), std::move(curves), frame);
 }

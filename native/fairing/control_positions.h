@@ -46,12 +46,10 @@ struct ControlPositions {
   }
 };
 
-// The positions `world` themselves, which also give the parameters of the curves. `subdivisions`:
-// 2^L for the finest level L. `exponent`: that of the control metric (stencil/metric.h). `handed`
-// curves are taken from the whole mesh; throws FairingError(bad_shape) if they have the wrong
+// The positions `world` themselves, which also give the parameters of the curves. `handed` curves are taken from the whole mesh; throws FairingError(bad_shape) if they have the wrong
 // number of points.
 ControlPositions positions_of_mesh(const ControlMesh& mesh, std::vector<Vec3> world,
-                                   const Frame& frame, int subdivisions, double exponent,
+                                   const Frame& frame, const CurveScheme& scheme,
                                    const HandedCurves& handed);
 
 // Other positions of the input's vertices: `coordinates`, world, 3 numbers each. The result is
@@ -59,8 +57,8 @@ ControlPositions positions_of_mesh(const ControlMesh& mesh, std::vector<Vec3> wo
 // `basis_world`. Handed curves are those of the shape with this number.
 ControlPositions positions_of_shape(const ControlMesh& mesh, std::span<const Vec3> basis_world,
                                     std::span<const double> coordinates, const Frame& frame,
-                                    int subdivisions, double exponent,
-                                    const HandedCurves& handed = {}, std::size_t shape = 0);
+                                    const CurveScheme& scheme, const HandedCurves& handed = {},
+                                    std::size_t shape = 0);
 
 // Extends `coordinates`, 3 numbers for each input vertex, to all control vertices: copies, and
 // centres by their weights in `basis_world`.

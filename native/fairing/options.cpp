@@ -101,6 +101,12 @@ void check_paper(const FairOptions& o) {
 }  // namespace
 
 // By default errors remain that are invisible, as with the thin plate.
+CurveScheme FairOptions::curve_scheme() const {
+  const bool limit = interpolation == Interpolation::limit;
+  return {1 << levels, paper.metric_exponent(metric_exponent),
+          limit ? ChainEnds::natural : ChainEnds::parabolic};
+}
+
 double FairOptions::step_tolerance_wanted() const {
   if (step_tolerance > 0) return step_tolerance;
   // in sizes of the mesh; smaller with the residual, down to single precision

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "curves/curve.h"
 #include "fairing/whole.h"
 #include "mesh/control_mesh.h"
 #include "mesh/polygon_mesh.h"
@@ -53,6 +54,8 @@ struct FairOptions {
   int max_steps = 20;
   // Exponent of the control edge lengths in the charts; 0 to 1.
   double metric_exponent = centripetal;
+  // Of borders and creases. Limit positions ask for the ends that the subdivision surface has.
+  CurveScheme curve_scheme() const;
   FeatureOptions features;
   Repair repair = Repair::refuse;
   // Mending merges vertices no farther apart than this, in mesh units. 0: only vertices at one

@@ -54,8 +54,8 @@ void set_edges(const ControlMesh& mesh, Outline& out) {
 }
 
 // Sets curves and centres of the mesh and its shapes. `held`: one position a control vertex.
-void set_surfaces(const ControlMesh& mesh, const HeldMesh& held, double exponent, Outline& out) {
-  const int subdivisions = 1 << out.options.levels;
+void set_surfaces(const ControlMesh& mesh, const HeldMesh& held, Outline& out) {
+  const CurveScheme scheme = out.options.curve_scheme();
   const auto append = [&](const FeatureCurves& curves, std::span<const Vec3> world) {
     for (Index c = mesh.first_centre(); c < mesh.first_copied_centre(); ++c) {
       const Vec3& centre = world[std::size_t(c)];
@@ -65,8 +65,7 @@ void set_surfaces(const ControlMesh& mesh, const HeldMesh& held, double exponent
       for (const Vec3& p : curves.of(e))
         out.curve_points.insert(out.curve_points.end(), p.data(), p.data() + 3);
   };
-  const FeatureCurves own =
-      refine_feature_edges(mesh, held.world, held.world, subdivisions, exponent);
+  const FeatureCurves own = refine_feature_edges(mesh, held.world, held.world, scheme);
   for (Index e = 0; e < mesh.first_copied_edge(); ++e)
     if (own.run[std::size_t(e)] >= 0) out.curve.push_back(e);
   append(own, held.world);
@@ -74,7 +73,7 @@ void set_surfaces(const ControlMesh& mesh, const HeldMesh& held, double exponent
   for (std::size_t s = 0; s * size < out.shapes.size(); ++s) {
     const std::span<const double> shape = std::span(out.shapes).subspan(s * size, size);
     const std::vector<Vec3> world = all_positions(mesh, held.world, held.rule.of(shape));
-    append(refine_feature_edges(mesh, held.world, world, subdivisions, exponent), world);
+    append(refine_feature_edges(mesh, held.world, world, scheme), world);
   }
 }
 
@@ -92,11 +91,10 @@ Outline outline_of(const Mending& mending) {
   if (mending.mended()) out.mended = *mending.mended();
   set_faces(mesh, out);
   set_edges(mesh, out);
-  const double exponent = options.paper.metric_exponent(options.metric_exponent);
   HeldMesh held = held_positions(mending.mesh(), mesh, options);
-  set_surfaces(mesh, held, exponent, out);
+  set_surfaces(mesh, held, out);
   mesh.positions = std::move(held.world);
-  out.units = measure_units(mesh, exponent);
+  out.units = measure_units(mesh, options.curve_scheme().exponent);
   mending.restore(out.report);
   out.options.shapes = {};  // they belong to `mending`
   return out;

@@ -46,8 +46,8 @@ void make_about(std::vector<Vec3> world, std::vector<Vec3> cage, Stopwatch& watc
   ControlMesh& mesh = problem.mesh;
   watch.enter(Phase::curves, 0);
   problem.frame = working_frame(mesh, world);
-  problem.basis = positions_of_mesh(mesh, std::move(world), problem.frame, 1 << options.levels,
-                                    problem.exponent, options.whole.curves);
+  problem.basis = positions_of_mesh(mesh, std::move(world), problem.frame, options.curve_scheme(),
+                                    options.whole.curves);
   problem.basis.cage = std::move(cage);
 
   watch.enter(Phase::hierarchy, 0);
@@ -91,7 +91,7 @@ std::unique_ptr<const FairingProblem> make_problem(const PolygonMesh& input,
       FairingProblem{options,
                      std::move(workers),
                      make_control_mesh(input, options.features, report.flipped_faces),
-                     options.paper.metric_exponent(options.metric_exponent),
+                     options.curve_scheme().exponent,
                      {},
                      {}});
   report.sheets = sheets_of(problem->mesh);
@@ -129,7 +129,7 @@ ControlPositions FairingProblem::shape_positions(std::size_t shape) const {
 ControlPositions FairingProblem::about(std::span<const double> coordinates,
                                        const HandedCurves& handed, std::size_t shape) const {
   ControlPositions control = positions_of_shape(mesh, basis.world, held.of(coordinates), frame,
-                                                1 << options.levels, exponent, handed, shape);
+                                                options.curve_scheme(), handed, shape);
   for (std::size_t v = 0; v < control.cage.size(); ++v)
     control.cage[v] = point_at(coordinates, Index(v));
   return control;

@@ -34,9 +34,10 @@ double distance(const Points& a, const Points& b) {
   return largest;
 }
 
-// Makes the sum of ω |second divided difference|² stationary in all points but the given ones; in the
-// end segments of an open chain the second differences are equal instead. A dense system.
-Points solve_directly(const Points& vertices, bool closed, int n, double exponent) {
+// Makes the sum of ω |second divided difference|² stationary in all points but the given ones; in
+// parabolic end segments the second differences are equal instead. A dense system.
+Points solve_directly(const Points& vertices, bool closed, const CurveScheme& scheme) {
+  const int n = scheme.subdivisions;
   const int count = int(vertices.size()), segments = closed ? count : count - 1,
             points = segments * n + !closed;
   std::vector<double> spacing;
@@ -44,7 +45,7 @@ Points solve_directly(const Points& vertices, bool closed, int n, double exponen
     for (int i = 0; i < n; ++i)
       spacing.push_back(
           std::pow((vertices[std::size_t((s + 1) % count)] - vertices[std::size_t(s)]).norm(),
-                   exponent) /
+                   scheme.exponent) /
           n);
 
   const int first = closed ? 0 : 1, rows = closed ? points : points - 2;
@@ -65,7 +66,8 @@ Points solve_directly(const Points& vertices, bool closed, int n, double exponen
   Eigen::MatrixXd system = differences.transpose() * weights.asDiagonal() * differences;
   Eigen::MatrixXd value = Eigen::MatrixXd::Zero(points, 3);
   const auto end_segment = [&](int i) {
-    return !closed && count > 2 && (i < n || i > points - 1 - n);
+    return scheme.ends == ChainEnds::parabolic && !closed && count > 2 &&
+           (i < n || i > points - 1 - n);
   };
   for (int i = 0; i < points; ++i) {
     if (i % n == 0) {
@@ -82,19 +84,20 @@ Points solve_directly(const Points& vertices, bool closed, int n, double exponen
   return result;
 }
 
-TEST(Curve, MinimizesTheSquaredSecondDividedDifferencesBetweenItsEndSegments) {
+TEST(Curve, MinimizesTheSquaredSecondDividedDifferences) {
   for (const double exponent : {0.0, 0.5, 1.0})
     for (const int count : {2, 3, 4, 7})
       for (const int n : {2, 3, 8})
-        for (const bool closed : {false, true}) {
-          if (closed && count < 3) continue;
-          const Points chain = random_chain(unsigned(count), count);
-          EXPECT_LT(distance(refine_chain(chain, closed, n, exponent),
-                             solve_directly(chain, closed, n, exponent)),
-                    1e-9)
-              << count << " vertices, N = " << n << ", exponent " << exponent
-              << (closed ? ", closed" : "");
-        }
+        for (const bool closed : {false, true})
+          for (const ChainEnds ends : {ChainEnds::natural, ChainEnds::parabolic}) {
+            if (closed && count < 3) continue;
+            const Points chain = random_chain(unsigned(count), count);
+            EXPECT_LT(distance(refine_chain(chain, closed, {n, exponent, ends}),
+                               solve_directly(chain, closed, {n, exponent, ends})),
+                      1e-9)
+                << count << " vertices, N = " << n << ", exponent " << exponent
+                << (closed ? ", closed" : "") << ", ends " << int(ends);
+          }
 }
 
 Points reversed_result(Points points) {
@@ -105,13 +108,13 @@ Points reversed_result(Points points) {
 TEST(Curve, BitIdenticalInBothDirections) {
   for (unsigned seed = 0; seed < 50; ++seed) {
     const Points chain = random_chain(seed, 2 + int(seed % 9));
-    EXPECT_EQ(refine_chain(reversed_result(chain), false, 5, 0.5),
-              reversed_result(refine_chain(chain, false, 5, 0.5)));
+    EXPECT_EQ(refine_chain(reversed_result(chain), false, {5, 0.5}),
+              reversed_result(refine_chain(chain, false, {5, 0.5})));
   }
   Points bow = random_chain(3, 6);  // ends where it starts: the next vertices decide
   bow.back() = bow.front();
-  EXPECT_EQ(refine_chain(reversed_result(bow), false, 5, 0.5),
-            reversed_result(refine_chain(bow, false, 5, 0.5)));
+  EXPECT_EQ(refine_chain(reversed_result(bow), false, {5, 0.5}),
+            reversed_result(refine_chain(bow, false, {5, 0.5})));
 }
 
 TEST(Curve, LoopsAreBitIdenticalFromAnyVertex) {
@@ -124,15 +127,15 @@ TEST(Curve, LoopsAreBitIdenticalFromAnyVertex) {
     if (seed % 2) std::rotate(loop.begin(), loop.begin() + 1, loop.end());
     if (seed % 2 && count > 3) std::swap(loop[0], loop[std::size_t(count) - 1]);
     if (seed % 2) loop[1] = Vec3(1, double(seed), 2);
-    const Points points = refine_chain(loop, true, n, 0.5);
+    const Points points = refine_chain(loop, true, {n, 0.5});
     for (int shift = 0; shift < count; ++shift) {
       Points turned = loop, expected = points;
       std::rotate(turned.begin(), turned.begin() + shift, turned.end());
       std::rotate(expected.begin(), expected.begin() + shift * (n - 1), expected.end());
-      EXPECT_EQ(refine_chain(turned, true, n, 0.5), expected);
+      EXPECT_EQ(refine_chain(turned, true, {n, 0.5}), expected);
       // Backwards from the same vertex, the last segment comes first.
       std::reverse(turned.begin() + 1, turned.end());
-      EXPECT_EQ(refine_chain(turned, true, n, 0.5), reversed_result(expected));
+      EXPECT_EQ(refine_chain(turned, true, {n, 0.5}), reversed_result(expected));
     }
   }
 }
@@ -141,7 +144,7 @@ TEST(Curve, LoopsAreBitIdenticalFromAnyVertex) {
 TEST(Curve, StrandsAtTheSamePlaceAgree) {
   Points slit = random_chain(4, 6);
   for (std::size_t i = 4; i > 0; --i) slit.push_back(slit[i]);
-  const Points points = refine_chain(slit, true, 4, 0.5);
+  const Points points = refine_chain(slit, true, {4, 0.5});
   EXPECT_EQ(points, reversed_result(points));
 }
 

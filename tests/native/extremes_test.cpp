@@ -23,7 +23,7 @@ TEST(Extremes, NoSurfaceThatIsNotFiniteGoesOut) {
   const auto refusal = [&](std::size_t bad, double value, double factor) {
     std::vector<Vec3> positions = mesh.positions;
     positions[7] *= factor;
-    const ControlPositions control = positions_of_mesh(mesh, positions, {}, 1, 0.5, {});
+    const ControlPositions control = positions_of_mesh(mesh, positions, {}, {1, 0.5}, {});
     x[bad] = value;
     const FairingError error =
         thrown([&] { require_finite(mesh, control, workers, x.size(), x.data()); });
