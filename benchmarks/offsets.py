@@ -202,7 +202,7 @@ def run() -> dict[str, Any]:
             mean = means([errors_of(mesh, length, seed) for seed in range(SEEDS)])
             tried = [planted_in(mesh, length, seed) for seed in range(SEEDS)]
             found = sum(hit for hit, _ in tried)
-            share = float(np.nanmedian([back for _, back in tried])) if found else float("nan")
+            share = float(np.nanmedian([back for _, back in tried])) if found else None
             best = min(mean["amount"])
             result[f"{name}, {scatter}"] = mean | {
                 "edge": unit, "clean_move": clean, "found": found, "moved_back": share,

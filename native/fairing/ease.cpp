@@ -116,11 +116,13 @@ class Easing {
       // Scatter also causes moments on borders, which cannot be distinguished from those of the
       // shape: with them, results for few vertices with faint scatter are up to a tenth worse.
       Loads loads = std::move(plate.free);
-      // A curve has too few vertices to estimate scatter: that of inner vertices is a bound.
+      // A curve has too few vertices to estimate scatter: that of inner vertices is a bound, and if
+      // they have an estimate, a curve without one stays.
       const EaseSystem inner = inner_system(loads, control), curve = curve_system(control);
-      double s = amount(curve_, curve);
+      const double read = estimated_amount(inner_, inner);
+      double s = read > 0 ? estimated_amount(curve_, curve) : amount(curve_, curve);
       if (wanted_.amount < 0 && inner.unknowns() > 0)
-        s = with_noise_up_to(curve, s, inner.noise(amount(inner_, inner)));
+        s = with_noise_up_to(curve, s, inner.noise(read > 0 ? read : amount(inner_, inner)));
       if (apply(curve_, curve, s)) {
         control = problem_->control_positions(at_);
         loads = loads_of(control).free;
@@ -203,16 +205,21 @@ class Easing {
     return bounds;
   }
 
-  // The amount from the estimated scatter, or, without an estimate, the largest within the bounds.
-  // Curves and inner vertices may scatter differently, so each kind has its own.
-  double amount(const Movable& movable, const EaseSystem& system) const {
+  // The requested amount, or that from the estimated scatter. Curves and inner vertices may scatter
+  // differently, so each kind has its own.
+  double estimated_amount(const Movable& movable, const EaseSystem& system) const {
     if (!(system.mean() > 0)) return 0;
     if (wanted_.amount >= 0) return wanted_.amount / system.mean();
-    double s = cross_validated(system);
+    const double s = cross_validated(system);
+    if (movable.differences.rows() == 0) return s;
     // at most the difference between similar stars
-    if (movable.differences.rows() > 0)
-      if (const double noise = system.noise_of(movable.differences); std::isfinite(noise))
-        s = with_noise_up_to(system, s, noise);
+    const double noise = system.noise_of(movable.differences);
+    return std::isfinite(noise) ? with_noise_up_to(system, s, noise) : s;
+  }
+
+  // Without an estimate the largest amount within the bounds.
+  double amount(const Movable& movable, const EaseSystem& system) const {
+    const double s = estimated_amount(movable, system);
     if (s > 0 || wanted_.tolerance.empty()) return s;
     return with_moves_within(system, bounds_of(movable));
   }

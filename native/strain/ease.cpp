@@ -33,8 +33,8 @@ constexpr double robustness = 0.8;
 // those of the best amount, and 1.19 times with the least score; a sphere scattered by 0.005 ended
 // with 1.5 times its error.
 constexpr double faint = 2, leeway = 1.15;
-// Relative to the largest bound: the difference between moves and their bounded copies, and their
-// change, at convergence.
+// Relative to the largest bound or free move: the difference between moves and their bounded copies,
+// and their change, at convergence.
 constexpr double bound_tolerance = 1e-3;
 constexpr int most_iterations = 200;  // of the alternating directions
 
@@ -49,6 +49,15 @@ VectorXd random_signs(Eigen::Index n, std::uint64_t seed) {
     sign = (z ^ (z >> 31)) & 1 ? 1.0 : -1.0;
   }
   return out;
+}
+
+// Rows longer than their bounds are shortened to them.
+Columns bounded(Columns rows, const VectorXd& bounds) {
+  for (Eigen::Index j = 0; j < rows.rows(); ++j) {
+    const double length = rows.row(j).norm();
+    if (length > bounds[j]) rows.row(j) *= bounds[j] / length;
+  }
+  return rows;
 }
 
 }  // namespace
@@ -228,24 +237,21 @@ Columns EaseSystem::moves(double s) const {
 
 // A weight between the extreme eigenvalues of (*) couples the moves and their bounded copies.
 Columns EaseSystem::moves_within(double s, const VectorXd& bounds) const {
+  Columns d = moves(s);
+  const double largest = std::min(bounds.maxCoeff(), d.rowwise().norm().maxCoeff());
   const double weight = 1 + s * mean_;
   const Columns wanted = -s * s * gradient_;
-  Columns within = Columns::Zero(unknowns(), 3), apart = within, d = within;
+  Columns within = bounded(d, bounds), apart = d - within;
+  if (apart.isZero(0)) return within;
   for (int round = 0; round < most_iterations; ++round) {
     stop_if_cancelled();
     d = solve(s, weight, wanted + weight * (within - apart), d);
-    apart += d;
-    double left = 0;
-    for (Eigen::Index j = 0; j < unknowns(); ++j) {
-      const double length = apart.row(j).norm();
-      const Eigen::RowVector3d next = length > bounds[j]
-                                          ? Eigen::RowVector3d(apart.row(j) * (bounds[j] / length))
-                                          : Eigen::RowVector3d(apart.row(j));
-      left = std::max({left, (next - within.row(j)).norm(), (d.row(j) - next).norm()});
-      within.row(j) = next;
-    }
-    apart -= within;
-    if (left <= bound_tolerance * bounds.maxCoeff()) break;
+    const Columns next = bounded(d + apart, bounds);
+    const double left = std::max((next - within).rowwise().norm().maxCoeff(),
+                                 (d - next).rowwise().norm().maxCoeff());
+    apart += d - next;
+    within = next;
+    if (left <= bound_tolerance * largest) break;
   }
   return within;
 }

@@ -50,6 +50,16 @@ def test_scatter_is_read():
     assert abs(np.mean(noise) / NOISE - 1) < 0.25
 
 
+@pytest.mark.parametrize("shape", ["bump", "saddle"])
+def test_a_bound_above_all_moves_changes_none(shape):
+    """The border, whose scatter cannot be read, moved by the whole bound."""
+    truth, faces, inner = sheet(shape)
+    measured = scattered(truth, inner, 0)
+    free = df.ease(measured, faces)
+    for bound in (1.01 * free.moves.max(), 1e4 * NOISE):
+        assert np.array_equal(df.ease(measured, faces, tolerance=bound).vertices, free.vertices)
+
+
 def test_moves_stay_within_a_bound_and_use_it():
     truth, faces, inner = sheet()
     measured = scattered(truth, inner, 1)
