@@ -2,7 +2,9 @@
 #include "fairing/mending.h"
 
 #include <algorithm>
+#include <type_traits>
 
+#include "fairing/settings.h"
 #include "mesh/region.h"
 #include "mesh/validate/check.h"
 #include "mesh/vertex_pair.h"
@@ -171,8 +173,10 @@ void Mending::map_vertex_values(const PolygonMesh& input) {
     }
   };
   gather(options_.tolerance, [](double a, double b) { return std::min(a, b); });
-  gather(options_.weights, [](double a, double b) { return std::max(a, b); });
-  gather(options_.sharpness.vertices, [](double a, double b) { return std::max(a, b); });
+  for_each_setting([&](const char*, auto range, auto... member) {
+    if constexpr (std::is_same_v<decltype(range), PerVertex>)
+      gather((options_.*....*member), [](double a, double b) { return std::max(a, b); });
+  });
 }
 
 void Mending::restore_points(double* world) const {

@@ -30,26 +30,28 @@ void in_range(const char* option, double value, Range range) {
   refuse(text);
 }
 
-void check_ranges(const FairOptions& o) {
-  for_each_setting([&](const char* option, auto range, auto... member) {
-    if constexpr (std::is_same_v<decltype(range), Range>)
-      in_range(option, double((o.*....*member)), range);
-  });
-}
-
-// Checks for one number a vertex, not negative or NaN.
+// Checks for one number a vertex, from 0 to `most`, and not NaN.
 void check_per_vertex(const PolygonMesh& mesh, const char* option,
-                      const std::vector<double>& values) {
+                      const std::vector<double>& values, double most) {
   if (std::int64_t(values.size()) != mesh.vertex_count())
     refuse(std::string(option) + " has " + std::to_string(values.size()) + " entries for " +
            std::to_string(mesh.vertex_count()) + " vertices; give one for each vertex.");
   std::vector<std::int64_t> bad;
   for (std::size_t v = 0; v < values.size(); ++v)
-    if (!(values[v] >= 0)) bad.push_back(std::int64_t(v));
+    if (!(values[v] >= 0 && values[v] <= most)) bad.push_back(std::int64_t(v));
   if (!bad.empty())
-    refuse(std::string(option) + " must be zero or positive; see vertex " + std::to_string(bad[0]) +
-               ".",
+    refuse(std::string(option) + " must be " + up_to(most) + "; see vertex " +
+               std::to_string(bad[0]) + ".",
            bad);
+}
+
+void check_values(const PolygonMesh& mesh, const FairOptions& o) {
+  for_each_setting([&](const char* option, auto range, auto... member) {
+    if constexpr (std::is_same_v<decltype(range), Range>)
+      in_range(option, double((o.*....*member)), range);
+    if constexpr (std::is_same_v<decltype(range), PerVertex>)
+      if (!(o.*....*member).empty()) check_per_vertex(mesh, option, (o.*....*member), range.most);
+  });
 }
 
 void check_normals(const PolygonMesh& mesh, const FairOptions& o) {
@@ -66,37 +68,11 @@ void check_normals(const PolygonMesh& mesh, const FairOptions& o) {
         ErrorCode::bad_option,
         "{vertex} {has|have} an infinite normal; give finite numbers, or NaN for none.", bad,
         ElementKind::vertex);
-  if (!o.has_normals()) return;
-  if (o.energy != Energy::thin_plate)
-    refuse(
-        "normals are for the thin plate only; use energy=\"thin_plate\", or "
-        "free the normals.");
 }
-
-// Strength at tension 1: swelling is gone on the meshes that tension is for, and cusps at control
-// vertices begin to cost more than more tension gains.
-constexpr double tautest = 30;
 
 // With 10 all 14 cages of benchmarks/limits.py have less energy than Subdivision Surface, and rims
 // turn by at most 0.3 % more. With 3 the fox intersects itself; with 30 two have larger angles.
 constexpr double tightest = 10;
-
-void check_paper(const FairOptions& o) {
-  const PaperOptions& paper = o.paper;
-  if (paper.epsilon > 0 && o.energy != Energy::thin_plate)
-    refuse(
-        "epsilon is for the thin plate; under another energy use interpolation=\"approximate\" "
-        "with a tolerance.");
-  if (paper.method != Method::back_leg) return;
-  if (o.energy != Energy::thin_plate)
-    refuse("method=\"back_leg\" is for the thin plate only; use multigrid for other energies.");
-  if (o.interpolation == Interpolation::approximate || paper.epsilon > 0)
-    refuse(
-        "method=\"back_leg\" interpolates exactly; use multigrid for tolerance, weights or "
-        "epsilon.");
-  if (o.has_normals())
-    refuse("method=\"back_leg\" solves without couples; use multigrid to fix normals.");
-}
 
 }  // namespace
 
@@ -142,35 +118,19 @@ std::size_t FairOptions::bytes_allowed() const {
   return memory_limit ? memory_limit : physical_memory() / 4 * 3;
 }
 
-// A membrane of strength t removes a share of about t / (t + c) of the surface's swelling; c is 14
-// for the thin plate, 6 for total curvature and less for bubbles (measured: volumes of two
-// animals). With c = 10 equal steps of `tension` remove about equal shares.
-double membrane_strength(double tension) { return tautest * tension / (4 - 3 * tension); }
-
 double limit_penalty(double limit) { return tightest * std::pow(limit, 4); }
 
 void check_options(const PolygonMesh& mesh, const FairOptions& o) {
-  check_ranges(o);
+  check_values(mesh, o);
   if (o.tolerance.size() == 1)
     in_range("tolerance", o.tolerance[0], any_length);
   else
-    check_per_vertex(mesh, "tolerance", o.tolerance);
-  if (o.weld >= 0 && o.repair != Repair::mend)
-    refuse("weld is for repair=\"mend\"; a mesh that is refused or faired as it is has none.");
+    check_per_vertex(mesh, "tolerance", o.tolerance, no_limit);
   check_edge_values("edge_sharpness", mesh.vertex_count(), o.sharpness.edges, sharp_for_ever);
   check_edge_values("soft_creases", mesh.vertex_count(), o.features.soft_creases, 1);
-  if (!o.sharpness.vertices.empty())
-    check_per_vertex(mesh, "vertex_sharpness", o.sharpness.vertices);
   check_normals(mesh, o);
-  if (o.tension > 0 && o.energy == Energy::minimum_variation)
-    refuse(
-        "tension cannot be used with minimum variation; "
-        "use energy=\"thin_plate\" or energy=\"total_curvature\", or set tension to 0.");
-  check_paper(o);
-  if (o.weights.empty()) return;
-  if (o.interpolation != Interpolation::approximate)
-    refuse("weights are for interpolation=\"approximate\"; other interpolations have none.");
-  check_per_vertex(mesh, "weights", o.weights);
+  for (const Conflict& conflict : conflicts)
+    if (conflict.is_in(o)) refuse(conflict.message);
 }
 
 }  // namespace fairing

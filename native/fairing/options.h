@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every setting of fair() and FairSolver, with its default, unit and range. A new setting goes
-// here, into the table in settings.h, and into the package's (discrete_fairing/options.py).
+// here or into the options of its folder (`membrane`, `solve`, `paper`, `features`), into the table
+// in settings.h, and into the package's (discrete_fairing/options.py).
 #pragma once
 
 #include <cstdint>
@@ -15,6 +16,7 @@
 #include "multigrid/solve_options.h"
 #include "paper/options.h"
 #include "stencil/chart.h"
+#include "stencil/membrane.h"
 
 namespace fairing {
 
@@ -87,9 +89,7 @@ struct FairOptions {
   bool has_normal(std::size_t v) const;
   bool has_normals() const;
 
-  // A membrane that prevents swelling and overshoots: 0 none, 1 the strongest that is of use
-  // (membrane_strength()).
-  double tension = 0;
+  MembraneOptions membrane;
 
   // For a piece of a larger mesh: data of the whole (fairing/outline.h). Not a setting.
   OfWhole whole{};
@@ -117,10 +117,6 @@ struct FairOptions {
 
   PaperOptions paper;
 };
-
-// The membrane's factor relative to bending over the length of a control edge (stencil/membrane.h),
-// from FairOptions::tension.
-double membrane_strength(double tension);
 
 // The factor of the penalty on the distance from the subdivision surface, relative to the plate's
 // bending (grid/limit_surface.h), from FairOptions::limit.

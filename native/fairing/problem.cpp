@@ -32,11 +32,11 @@ MeshUnits units_in_working(const FairingProblem& problem) {
 }
 
 // Stencils measure it in the mean edge of their own mesh.
-double strength_of_membrane(const FairingProblem& problem) {
-  const double strength = membrane_strength(problem.options.tension);
-  if (!problem.options.whole.given || !(strength > 0)) return strength;
-  const double ratio = measure_units(problem.mesh, problem.exponent).edge / problem.units.edge;
-  return strength * ratio * ratio;
+MembraneOptions membrane_of(const FairingProblem& problem) {
+  MembraneOptions out = problem.options.membrane;
+  if (problem.options.whole.given && out.tension > 0)
+    out.edge_ratio = measure_units(problem.mesh, problem.exponent).edge / problem.units.edge;
+  return out;
 }
 
 // `world`: one position a control vertex; `cage`: the caller's. Sets working coordinates.
@@ -54,8 +54,8 @@ void make_about(std::vector<Vec3> world, std::vector<Vec3> cage, Stopwatch& watc
   mesh.positions = problem.basis.working;
   require_near(mesh, problem.normals.fixed);
   problem.units = units_in_working(problem);
-  problem.stencils = make_stencils(mesh, *problem.charts(), options.paper, *problem.workers,
-                                   strength_of_membrane(problem));
+  problem.stencils =
+      make_stencils(mesh, *problem.charts(), options.paper, *problem.workers, membrane_of(problem));
   if (options.energy != Energy::thin_plate)
     problem.mirrors = find_symmetry(mesh, problem.basis, problem.frame, options);
   problem.start_weights =

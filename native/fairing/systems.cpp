@@ -88,7 +88,7 @@ std::unique_ptr<GaussNewtonSolver> FairingSystems::make_steps(const ControlPosit
   if (problem_.options.energy == Energy::minimum_variation)
     options.energy = CurvatureEnergy::minimum_variation;
   const double length = problem_.units.edge_in_space;
-  options.tension = membrane_strength(problem_.options.tension) / (length * length);
+  options.tension = problem_.options.membrane.strength() / (length * length);
   options.step_tolerance = problem_.options.step_tolerance_wanted();
   const double forces_left = 5 * problem_.options.solve.relative_residual;
   // relative to the loads; less than 1e-4 has not been measured

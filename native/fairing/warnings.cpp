@@ -110,7 +110,7 @@ std::string cure_of_thickness(const FairOptions& options, bool is_thicker) {
   std::vector<std::string> cures;
   if (options.energy != Energy::thin_plate) cures.push_back("energy=\"thin_plate\"");
   if (!is_thicker && options.metric_exponent > 0.25) cures.push_back("metric_exponent=0.25");
-  if (is_thicker && options.energy != Energy::minimum_variation && options.tension < 1)
+  if (is_thicker && options.energy != Energy::minimum_variation && options.membrane.tension < 1)
     cures.push_back("more tension");
   if (is_thicker && options.interpolation == Interpolation::exact)
     cures.push_back("interpolation=\"limit\"");

@@ -8,6 +8,8 @@
 
 namespace fairing {
 
+const char* up_to(double most) { return std::isfinite(most) ? "from 0 to 1" : "zero or positive"; }
+
 void check_edge_values(const std::string& name, std::int64_t vertices, const EdgeValues& given,
                        double most) {
   const auto refuse = [](const std::string& message, std::vector<std::int64_t> elements = {}) {
@@ -30,9 +32,8 @@ void check_edge_values(const std::string& name, std::int64_t vertices, const Edg
                            std::to_string(vertices - 1) + ".",
                        unknown, ElementKind::vertex);
   if (bad.empty()) return;
-  const std::string wanted = std::isfinite(most) ? "from 0 to 1" : "zero or positive";
-  refuse(name + " must be " + wanted + "; see the edge of the vertices " + std::to_string(bad[0]) +
-             " and " + std::to_string(bad[1]) + ".",
+  refuse(name + " must be " + up_to(most) + "; see the edge of the vertices " +
+             std::to_string(bad[0]) + " and " + std::to_string(bad[1]) + ".",
          bad);
 }
 

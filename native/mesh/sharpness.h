@@ -29,6 +29,9 @@ struct Sharpness {
 void check_edge_values(const std::string& name, std::int64_t vertices, const EdgeValues& given,
                        double most);
 
+// "from 0 to 1", or "zero or positive" without a limit.
+const char* up_to(double most);
+
 constexpr double sharp_for_ever = std::numeric_limits<double>::infinity();
 
 // The sharpness after some steps.

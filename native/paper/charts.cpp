@@ -125,12 +125,13 @@ std::unique_ptr<ChartMaker> make_charts(const ControlMesh& mesh, double exponent
 }
 
 Stencils make_stencils(const ControlMesh& mesh, const ChartMaker& charts,
-                       const PaperOptions& options, Workers& workers, double tension) {
-  Stencils out = make_stencils(mesh, charts, workers, tension);
+                       const PaperOptions& options, Workers& workers,
+                       const MembraneOptions& membrane) {
+  Stencils out = make_stencils(mesh, charts, workers, membrane);
   const double alpha = options.chart_blend;
   if (!out.membrane.any() || alpha == 1) return out;
   const ChartMaker uniform(mesh, 0);
-  const Membrane other = make_membrane(mesh, uniform, out.ring_offset, tension);
+  const Membrane other = make_membrane(mesh, uniform, out.ring_offset, membrane);
   // Keeps the mean radius of the charts.
   const double ratio = mean_edge(mesh, uniform.flat()) / mean_edge(mesh, charts.flat()),
                scale = ratio * ratio;

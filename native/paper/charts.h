@@ -47,9 +47,10 @@ class BlendedCharts final : public Base {
 std::unique_ptr<ChartMaker> make_charts(const ControlMesh& mesh, double exponent,
                                         const PaperOptions& options);
 
-// The stencils of such charts. `tension` is as in make_membrane(); its weights are blended too.
+// The stencils of such charts. The membrane's weights are blended too.
 // Throws if the run is cancelled.
 Stencils make_stencils(const ControlMesh& mesh, const ChartMaker& charts,
-                       const PaperOptions& options, Workers& workers, double tension);
+                       const PaperOptions& options, Workers& workers,
+                       const MembraneOptions& membrane);
 
 }  // namespace fairing

@@ -27,12 +27,22 @@ struct Membrane {
   bool any() const { return !face.empty(); }
 };
 
+struct MembraneOptions {
+  // A membrane that prevents swelling and overshoots: 0 none, 1 the strongest that is of use.
+  double tension = 0;
+  // For a piece of a larger mesh: its mean edge over that of the whole. Not a setting.
+  double edge_ratio = 1;
+
+  // The membrane's factor relative to bending over the length of a control edge.
+  double strength() const;
+};
+
 // Mean length of the faired edges.
 double mean_edge(const ControlMesh& mesh, const std::vector<FlatFace>& flat);
 
-// tau = t / l^2 with l the mean edge in the metric, so that a scaled mesh has the scaled surface.
-// Throws FairingError(cancelled).
+// tau = strength / l^2 with l the mean edge in the metric, so that a scaled mesh has the scaled
+// surface. Throws FairingError(cancelled).
 Membrane make_membrane(const ControlMesh& mesh, const ChartMaker& charts,
-                       const std::vector<Index>& ring_offset, double t);
+                       const std::vector<Index>& ring_offset, const MembraneOptions& options);
 
 }  // namespace fairing

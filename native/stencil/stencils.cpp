@@ -126,7 +126,7 @@ MembraneWeights::MembraneWeights(const ControlMesh& mesh, const Stencils& s, Ind
 }
 
 Stencils make_stencils(const ControlMesh& mesh, const ChartMaker& charts, Workers& workers,
-                       double tension) {
+                       const MembraneOptions& membrane) {
   const auto vertices = std::size_t(mesh.vertex_count()), edges = mesh.edges.size(),
              faces = mesh.faces.size();
   Stencils s;
@@ -156,7 +156,7 @@ Stencils make_stencils(const ControlMesh& mesh, const ChartMaker& charts, Worker
   workers.for_parts(faces, 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) fill_face(mesh, charts, Index(f), s);
   });
-  s.membrane = make_membrane(mesh, charts, s.ring_offset, tension);
+  s.membrane = make_membrane(mesh, charts, s.ring_offset, membrane);
   return s;
 }
 

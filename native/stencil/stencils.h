@@ -97,8 +97,8 @@ class MembraneWeights {
   std::size_t size_ = 0, period_ = 1;  // opposite neighbours share their weights
 };
 
-// Makes all of them, with `tension` as in make_membrane(). Throws FairingError(cancelled).
+// Makes all of them. Throws FairingError(cancelled).
 Stencils make_stencils(const ControlMesh& mesh, const ChartMaker& charts, Workers& workers,
-                       double tension = 0);
+                       const MembraneOptions& membrane = {});
 
 }  // namespace fairing

@@ -13,7 +13,7 @@
 namespace fairing::test {
 namespace {
 
-constexpr double tau = 0.7;
+const MembraneOptions taut{0.1};
 
 // A control mesh with a membrane, at one level.
 struct Stretched {
@@ -29,8 +29,8 @@ void on_all_stretched(int most_levels, double exponent, const PaperOptions& opti
     for (int level = 0; level <= most_levels; ++level) {
       SCOPED_TRACE(name + ", level " + std::to_string(level));
       const std::unique_ptr<ChartMaker> charts = make_charts(mesh, exponent, options);
-      body({mesh, GridLevel(mesh, level), make_stencils(mesh, *charts, options, workers, 0),
-            make_stencils(mesh, *charts, options, workers, tau)},
+      body({mesh, GridLevel(mesh, level), make_stencils(mesh, *charts, options, workers, {}),
+            make_stencils(mesh, *charts, options, workers, taut)},
            workers);
     }
 }
@@ -62,7 +62,7 @@ void add_triangle(const std::array<Index, 3>& point, const std::array<Eigen::Vec
 Dense reference(const GridLevel& grid, double exponent) {
   const ControlMesh& mesh = grid.mesh();
   const std::vector<FlatFace> flat = flatten(mesh, exponent);
-  const double length = metric_edge(mesh, flat), factor = 0.5 * tau / (length * length);
+  const double length = metric_edge(mesh, flat), factor = 0.5 * taut.strength() / (length * length);
   Dense l = Dense::Zero(Eigen::Index(grid.size()), Eigen::Index(grid.size()));
   for (Index f = 0; f < Index(mesh.faces.size()); ++f) {
     const bool quad = mesh.faces[std::size_t(f)].quad();
@@ -196,7 +196,7 @@ TEST(Membrane, EndsAtARegionsJoint) {
     FeatureOptions features;
     features.region = {true, {0, 1, 2, 5}, joint};
     const ControlMesh mesh = control(shaken(mixed_grid(4, 3)), features);
-    const Stencils stencils = make_stencils(mesh, ChartMaker(mesh), workers, tau);
+    const Stencils stencils = make_stencils(mesh, ChartMaker(mesh), workers, taut);
     const GridLevel grid(mesh, 2);
     Points x = random_points(grid.size());
     const double before = membrane_energy(grid, stencils, workers, x.data());
@@ -227,8 +227,8 @@ TEST(Membrane, LeavesNoTraceWithoutTension) {
   Workers workers(1);
   const ControlMesh mesh = control(shaken(mixed_grid(4, 3)));
   EXPECT_FALSE(make_stencils(mesh, ChartMaker(mesh), workers).membrane.any());
-  EXPECT_FALSE(make_stencils(mesh, ChartMaker(mesh), workers, 0).membrane.any());
-  EXPECT_TRUE(make_stencils(mesh, ChartMaker(mesh), workers, 1e-3).membrane.any());
+  EXPECT_FALSE(make_stencils(mesh, ChartMaker(mesh), workers, MembraneOptions{0}).membrane.any());
+  EXPECT_TRUE(make_stencils(mesh, ChartMaker(mesh), workers, MembraneOptions{1e-3}).membrane.any());
 }
 
 }  // namespace

@@ -5,9 +5,10 @@ import inspect
 from typing import get_args, get_type_hints
 
 import discrete_fairing as df
+import numpy as np
 import pytest
 from discrete_fairing import _native
-from discrete_fairing.options import OPTIONAL, SETTINGS, AllSettings, native_options
+from discrete_fairing.options import ONE_A_VERTEX, OPTIONAL, SETTINGS, AllSettings, native_options
 
 
 def test_the_core_has_every_setting():
@@ -39,6 +40,15 @@ def test_what_may_be_none_is_the_default_then():
         assert getattr(native_options({name: None}), name) == getattr(_native.Options(), name)
     with pytest.raises(df.FairingError, match="chart is None"):
         native_options({"chart": None})
+
+
+@pytest.mark.parametrize("values", (np.ones(3), [1.0, 1.0, 1.0, -0.5], [1.0, 1.0, 1.0, np.nan]))
+@pytest.mark.parametrize("name", ONE_A_VERTEX)
+def test_one_number_a_vertex_is_checked_by_the_core(name, values):
+    square = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], float)
+    with pytest.raises(df.FairingError, match=f"^{name} (has 3 entries|must be)") as caught:
+        df.fair(square, [(0, 1, 2, 3)], **{name: values})
+    assert caught.value.code == "BAD_OPTION"
 
 
 def test_a_name_that_is_no_setting_is_refused():

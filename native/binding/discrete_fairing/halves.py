@@ -18,7 +18,7 @@ from . import _native
 from ._native import FairingError
 from .arrays import face_arrays, vertex_array
 from .errors import about, fairing_error
-from .options import edges_with_values, native_options
+from .options import ONE_A_VERTEX, edges_with_values, native_options
 
 PLANES = {"x": 0, "y": 1, "z": 2}
 SNAP = 1e-6  # share of the mesh's size: border vertices nearer to the plane lie in it
@@ -203,7 +203,7 @@ class Half:
     def settings(self, settings: dict[str, Any]) -> dict[str, Any]:
         """Those that name vertices, edges or faces, for the double."""
         given = dict(settings)
-        for name in ("tolerance", "weights", "vertex_sharpness"):
+        for name in ("tolerance", *ONE_A_VERTEX):
             values = given.get(name)
             if values is not None and np.ndim(values) == 1 and len(values) == self.vertex_count:
                 values = np.asarray(values)

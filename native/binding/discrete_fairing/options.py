@@ -365,5 +365,7 @@ _HINTS = get_type_hints(AllSettings, include_extras=True)
 SETTINGS: dict[str, Callable[[str, Any], Any]] = {
     name: hint.__metadata__[0] for name, hint in _HINTS.items()
 }
+# those of one number a vertex
+ONE_A_VERTEX = tuple(name for name, check in SETTINGS.items() if check is weight_array)
 # those that may be None
 OPTIONAL = {name for name, hint in _HINTS.items() if type(None) in get_args(hint.__origin__)}

@@ -74,7 +74,7 @@ std::vector<Job> jobs() {
   region.features.region = {true, {0, 1, 2, 3, 4, 8, 9, 10}, RegionContinuity::tangent};
   all.push_back({"region", torus(8, 6), region});
   FairOptions taut = options(1, Energy::total_curvature);
-  taut.tension = 0.5;
+  taut.membrane.tension = 0.5;
   taut.pad_size = 0;
   all.push_back({"tension", cube_triangles(), taut});
   FairOptions back_leg = options(2, Energy::thin_plate);

@@ -9,7 +9,7 @@ import numpy as np
 
 from .. import _native
 from ..errors import fairing_error
-from ..options import SETTINGS, native_options, whole
+from ..options import ONE_A_VERTEX, SETTINGS, native_options, whole
 from .outline import Outline
 
 # fair()'s arguments that pieces exclude, and what to do instead.
@@ -29,7 +29,7 @@ DECIDED = (
     "repair",
     "weld",
 )
-PER_VERTEX = ("tolerance", "weights", "normals", "vertex_sharpness")
+PER_VERTEX = ("tolerance", "normals", *ONE_A_VERTEX)
 BY_ID = ("region", "flat_faces", "corner_vertices", "edge_sharpness")
 
 
@@ -72,12 +72,11 @@ class PieceSettings:
             self.common["tolerance"] = float(tolerance[0])
         else:
             self.per_vertex["tolerance"] = tolerance
-        if len(options.weights):
-            self.per_vertex["weights"] = np.asarray(options.weights, float)
+        for name in ONE_A_VERTEX:
+            if len(values := getattr(options, name)):
+                self.per_vertex[name] = np.asarray(values, float)
         if len(options.normals):
             self.per_vertex["normals"] = np.asarray(options.normals, float).reshape(-1, 3)
-        if len(options.vertex_sharpness):
-            self.per_vertex["vertex_sharpness"] = np.asarray(options.vertex_sharpness, float)
         edges, sharpness = options.edge_sharpness
         self.sharp_edges = np.asarray(edges, np.int64).reshape(-1, 2)
         self.sharpness = np.asarray(sharpness, float)
