@@ -21,7 +21,8 @@ Unknowns points_to_fill(const FairingProblem& problem) {
   return unknowns;
 }
 
-// Connected patches of marked points, numbered by their first points; -1: not marked.
+// Connected patches of marked points, numbered by their first points; -1: not marked. In all
+// directions of a triangle, so that they do not depend on its first corner.
 class Patches {
  public:
   Patches(const GridLevel& grid, const Array<float>& marks) : marks_(marks), sets_(grid.size()) {
@@ -33,6 +34,7 @@ class Patches {
         for (int i = 0; i < (quad ? n : n - j); ++i) {
           join(grid.face_point(f, i, j), grid.face_point(f, i + 1, j));
           join(grid.face_point(f, j, i), grid.face_point(f, j, i + 1));
+          if (!quad) join(grid.face_point(f, i + 1, j), grid.face_point(f, i, j + 1));
         }
     }
   }
