@@ -19,6 +19,7 @@ from .blender import Context, Object, Scene, all_objects, current_context
 from .core import ControlArrays
 from .errors import JobError
 from .memory import FAIRING_PG_surface, source_of
+from .mesh import scans
 from .mesh.object import Reference, changed_keys, session_key
 from .mesh.read import (
     control_mesh,
@@ -35,13 +36,16 @@ from .settings import NAMES, AnySettings, is_evaluated
 SOURCE_CHANGED = "Source changed"
 SETTINGS_CHANGED = "Settings changed"
 SOURCE_MOVED = "Source moved"
+SCAN_CHANGED = "Scan changed"
+SCAN_MOVED = "Scan moved"
 UNFINISHED = "Shown with fewer levels"
 # settings that change nothing about a surface that is there
 _ELSEWHERE = {"hide_source", "copy_modifiers", "memory_limit"}
 _SOON = 0.3  # seconds
 
 _surfaces: dict[int | str, Reference] = {}  # those that are known
-_sums: dict[int | str, int] = {}  # surface: of its source, as of the last look
+# surface: checksum of its source, and what its scans are, as of the last look
+_seen: dict[int | str, tuple[int, dict[str, Any] | None]] = {}
 _unread: set[int | str] = set()  # surfaces whose source may have changed since
 _watched: dict[int | str, set[int | str]] = {}  # source or its mesh: surfaces
 
@@ -94,7 +98,8 @@ def know(target: Object) -> None:
     key, source = session_key(target), source_of(target)
     _surfaces.setdefault(key, Reference(target))
     if source is not None:
-        for block in (source, source.data, source.data.shape_keys, *curve_cage.watched(source)):
+        beside = (*curve_cage.watched(source), *scans.watched(memory.scans_of(target)))
+        for block in (source, source.data, source.data.shape_keys, *beside):
             if block is not None:
                 _watched.setdefault(session_key(block), set()).add(key)
 
@@ -120,15 +125,25 @@ def why_stale(target: Object) -> str:
     if _differ(made["settings"], target.discrete_fairing) or met != getattr(neighbour, "name", ""):
         return SETTINGS_CHANGED
     key = session_key(target)
-    if key not in _sums or key in _unread:
+    if key not in _seen or key in _unread:
         _unread.add(key)
         if bpy.app.background:
             _look()
         else:
             events.start_timer(_look, _SOON)
-    if _sums.get(key, made["source"]) != made["source"]:
+    total, near = _seen.get(key, (made["source"], None))
+    if total != made["source"]:
         return SOURCE_CHANGED
-    return SOURCE_MOVED if place.moved(target) else ""
+    return SOURCE_MOVED if place.moved(target) else _why_off(made.get("scans"), near)
+
+
+def _why_off(made: dict[str, Any] | None, now: dict[str, Any] | None) -> str:
+    """The scans, of before and of now."""
+    if not made or now is None:
+        return ""
+    if (made["shape"], len(made["places"])) != (now["shape"], len(now["places"])):
+        return SCAN_CHANGED
+    return SCAN_MOVED if scans.are_moved(made, now) else ""
 
 
 def stale_surfaces(source: Object | None = None) -> Iterator[Object]:
@@ -167,7 +182,10 @@ def _look() -> None:
         target = _surfaces[key].find() if key in _surfaces else None
         source = source_of(target) if target is not None else None
         if target is not None and source is not None:
-            _sums[key] = _checksum(context, source, target.discrete_fairing)
+            total, near = _checksum(context, source, target.discrete_fairing), None
+            if len(target.discrete_fairing_fit.scans):
+                near = scans.made_of(context, memory.scans_of(target), source)
+            _seen[key] = total, near
     _unread.clear()
     tag_sidebars(context)
     tag_outliners(context)
@@ -212,7 +230,7 @@ def _mark_all_unread(*_: Any) -> None:
 
 def _begin(*_: Any) -> None:
     """With the surfaces of the file that was just opened."""
-    for known in (_surfaces, _sums, _unread, _watched):
+    for known in (_surfaces, _seen, _unread, _watched):
         known.clear()
     for target in all_objects():
         if target.type == "MESH" and target.discrete_fairing.source is not None:
@@ -234,5 +252,5 @@ def register() -> None:
 def unregister() -> None:
     events.ignore(_HANDLERS)
     events.stop_timer(_look)
-    for known in (_surfaces, _sums, _unread, _watched):
+    for known in (_surfaces, _seen, _unread, _watched):
         known.clear()

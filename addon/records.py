@@ -66,6 +66,10 @@ def _pair(value: Any) -> bool:
     return _all(_id)(value) and len(value) == 2
 
 
+def _matrix(value: Any) -> bool:
+    return _all(_all(_number))(value) and [len(row) for row in value] == [4] * 4
+
+
 def _one_of(names: frozenset[str]) -> Form:
     return lambda value: _text(value) and value in names
 
@@ -109,6 +113,7 @@ _LEVEL = _dict(
 _REPAIR = _dict({"code": _one_of(REPAIR_CODES), "elements": _all(lambda _: True)})
 _FIGURES = _dict({}, dict.fromkeys(FIGURES, _or_none(_number)))
 _NAMES = dict.fromkeys(("attributes", "groups", "marks", "keys"), _all(_text))
+_SCANS = _dict({"shape": _whole, "places": _all(_matrix)})
 
 _FORMS = {
     "report": _dict({}, {"curvature": _all(_LEVEL), "faults": _counts, "repairs": _all(_REPAIR)}),
@@ -121,7 +126,7 @@ _FORMS = {
     ),
     "carried": _dict({}, _NAMES),
     "stood": _any_dict,
-    "made": _dict({"settings": _any_dict, "source": _whole}, {"neighbour": _text}),
+    "made": _dict({"settings": _any_dict, "source": _whole}, {"neighbour": _text, "scans": _SCANS}),
     "defects": _dict(
         {"defects": _all(_defect), "counts": _all(_whole)},
         {"holes": _all(_dict({"edges": _id, "at": _pair})), "cleaned": _all(_text)},

@@ -10,11 +10,12 @@ from typing import Any, cast
 import bpy
 import numpy as np
 
-from . import core, memory, prediction
+from . import core, freshness, memory, prediction
 from .blender import Context, Mesh, Object
 from .check.defects import recall_defects, store_defects
 from .errors import JobError
 from .job import Job
+from .mesh import scans
 from .mesh.object import Reference, new_object, select_only
 from .mesh.scans import Scan, read_scans
 from .settings import Settings
@@ -41,15 +42,15 @@ class Fit:
         kept = target.discrete_fairing_fit
         if not len(kept.scans):
             return None
-        scans = memory.scans_of(target)
-        if not scans:
+        near = memory.scans_of(target)
+        if not near:
             raise JobError(
                 f"{target.name}: Select a scan and the cage, and run Fair Surface on Scan. Its scan was deleted."
             )
-        scan = read_scans(context, scans)
+        scan = read_scans(context, near)
         if not again:
-            return cls(scan, weight=kept.weight, objects=scans)
-        return cls(scan, kept.tolerance if kept.amount == "TOLERANCE" else None, objects=scans)
+            return cls(scan, weight=kept.weight, objects=near)
+        return cls(scan, kept.tolerance if kept.amount == "TOLERANCE" else None, objects=near)
 
     def arguments(self, cage: Object) -> dict[str, Any]:
         """Of `discrete_fairing.fit`."""
@@ -92,6 +93,8 @@ class FitJob(Job):
         self._scans = [Reference(scan) for scan in fit.objects]
         self._amount = fit.tolerance
         self._near = fit.arguments(cage)
+        if fit.objects:
+            self._made["scans"] = scans.made_of(context, fit.objects, cage)
         self._points = len(fit.scan.points)
 
     def surface(self, **watchers: Any) -> Any:
@@ -115,10 +118,11 @@ class FitJob(Job):
 
     def write(self, context: Context, own: Any = None) -> Object:
         target = super().write(context, own)
-        scans = [scan for reference in self._scans if (scan := reference.find()) is not None]
-        if scans:
-            memory.remember_fit(target, scans, self._amount, self.result.weight, self.said())
-            self._note_places(context, scans)
+        near = [scan for reference in self._scans if (scan := reference.find()) is not None]
+        if near:
+            memory.remember_fit(target, near, self._amount, self.result.weight, self.said())
+            freshness.know(target)  # its scans, too
+            self._note_places(context, near)
         return target
 
     def said(self) -> str:
@@ -136,15 +140,15 @@ class FitJob(Job):
             text += f" {counted(strays, 'point is a stray', 'points are strays')}."
         return text
 
-    def _note_places(self, context: Context, scans: Sequence[Object]) -> None:
+    def _note_places(self, context: Context, near: Sequence[Object]) -> None:
         """Lists what the words count in the panel Check, whose buttons select it: faces of the cage, and
         points of a scan that is one plain mesh.
         """
         found, cage = self.result, cast(Object, self.source)
         bare = np.flatnonzero(found.coverage == 0)
         _note(context, cage, {TOO_COARSE: found.too_coarse, NO_POINTS: bare}, "face")
-        plain = [one for one in scans if one.type == "MESH" and one.mode == "OBJECT"]
-        if plain == scans[:1] and len(plain[0].data.vertices) == self._points:
+        plain = [one for one in near if one.type == "MESH" and one.mode == "OBJECT"]
+        if plain == near[:1] and len(plain[0].data.vertices) == self._points:
             _note(context, plain[0], {OUTLIERS: found.outliers}, "vertex")
 
 

@@ -99,13 +99,12 @@ def _follow(_scene: Scene, depsgraph: bpy.types.Depsgraph) -> None:
     if not registry.sessions() or registry.ignores_updates():
         return
     reshaped = changed_keys(depsgraph, moved=False)
-    reshaped |= curve_cages.refreshed(
-        filter(_is_awake, registry.sessions()), changed_keys(depsgraph, moved=True)
-    )
+    moved = changed_keys(depsgraph, moved=True)
+    reshaped |= curve_cages.refreshed(filter(_is_awake, registry.sessions()), moved)
 
     def step(session: Session) -> None:
         session.stand()
-        if session.needs_look(reshaped):
+        if session.needs_look(reshaped, moved):
             session.follow(depsgraph)
 
     for session in registry.sessions():

@@ -17,11 +17,12 @@ from ..core import ControlArrays
 from ..errors import JobError
 from ..inspection import display, overlay
 from ..memory import source_of
+from ..mesh import scans
 from ..mesh.layers import read_data
 from ..mesh.object import Reference, session_key
 from ..mesh.own import OwnData, carried_names, read_own, write_own
 from ..mesh.read import control_mesh, read_mesh, selected_faces, tolerance_factors, vertex_pulls
-from ..mesh.world_shape import WorldShape, world_shape
+from ..mesh.world_shape import WorldShape, world_matrix, world_shape
 from ..mesh.write import has_faces_of, rebuild_mesh, write_positions
 from ..preferences import preferences
 from ..scan_fit import live_scan
@@ -71,6 +72,9 @@ class Session:
         self._settings: Any = None
         self._shape = WorldShape(None)
         self._scan: Any = None  # as core.solver takes it
+        self._scan_blocks: set[int | str] = set()  # keys of what it is read from
+        self._scan_seen: Any = None  # the place of the cage that it was read for
+        self._scan_due = False  # whether it may be another by now
         self._neighbour: int | str | None = None  # its key
         self._beside: dict[str, Any] = {}  # of it, for the core
         self._region: np.ndarray | None = None
@@ -96,13 +100,20 @@ class Session:
         """Why there is nothing to follow any more, a sentence; empty if there is."""
         return why_gone(*self.objects())
 
-    def needs_look(self, reshaped: Collection[int | str] = ()) -> bool:
+    def needs_look(
+        self, reshaped: Collection[int | str] = (), moved: Collection[int | str] = ()
+    ) -> bool:
         """Whether the surface may be out of date; `reshaped`: keys of the data-blocks whose
-        geometry has changed.
+        geometry has changed, `moved`: of those whose place has, too. A scan is read again by the timer,
+        once nothing is dragged: it may be large.
         """
         source, target = self._present()
         its = {session_key(source), session_key(source.data)}
-        if self._stale or self._unseen or not its.isdisjoint(reshaped):
+        self._scan_due |= not self._scan_blocks.isdisjoint(moved)
+        if self._scan_seen is not None and self._scan_seen != world_matrix(source):
+            self._scan_due = True
+        again = self._scan_due and not moved and not is_dragging(current_context())
+        if self._stale or self._unseen or again or not its.isdisjoint(reshaped):
             return True
         return not self._has_settings_of(source, target)
 
@@ -146,13 +157,15 @@ class Session:
                 _chosen_level(target),
             )
             self._shape = world_shape(source)
-            self._scan = live_scan(current_context(), source, target)
+            self._read_scan(source, target)
             self._neighbour = _key_of_neighbour(target)
             neighbour = neighbours.neighbour_of(target)
             if neighbour is not None:
                 self._beside = neighbours.arguments(
                     current_context(), neighbour, target, source, self._settings
                 )
+        elif self._scan_due and depsgraph is None:
+            self._read_scan(source, target)
         with self._mesh_now(source, depsgraph) as mesh:
             arrays = read_mesh(mesh)
             if not self._has_values_of(arrays):
@@ -177,6 +190,13 @@ class Session:
         self.updates += 1
         self._schedule.plan()
         return True
+
+    def _read_scan(self, source: Object, target: Object) -> None:
+        self._scan = live_scan(current_context(), source, target)
+        if self._scan is not None:
+            self._scan_blocks = set(map(session_key, scans.watched(memory.scans_of(target))))
+            self._scan_seen = world_matrix(source).copy()
+        self._scan_due = False
 
     def _mesh_now(self, source: Object, depsgraph: Update) -> AbstractContextManager[Mesh]:
         """The control mesh of this moment, from Object Mode, Sculpt Mode or during an
@@ -319,8 +339,8 @@ class Session:
                 full.start()
 
     def follow_unseen(self) -> None:
-        """What Blender's update did not see. Not within one."""
-        if self._unseen:
+        """What Blender's update did not see, and scans. Not within one."""
+        if self._unseen or self._scan_due:
             self.follow()
 
     def complete(self, context: Context) -> None:

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Scans as arrays: meshes, point clouds and instances, with modifiers, in the world."""
 
+import zlib
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, cast
 
+import bpy
 import numpy as np
 
 from ..blender import Context, Mesh, Object, column
@@ -57,8 +59,7 @@ def is_scan(target: Object) -> bool:
 
 def read_scans(context: Context, targets: Sequence[Object]) -> Scan:
     """All of them as one, as the window shows them: with modifiers and instances, in the world."""
-    parts = [part for target in targets for part in (*_own(context, target),)]
-    parts += _instances(context, targets)
+    parts = [part.moved(matrix) for part, matrix in _parts(context, targets)]
     begins = np.cumsum([0, *(len(part.points) for part in parts)])
     return Scan(
         np.concatenate([np.empty((0, 3)), *(part.points for part in parts)]),
@@ -71,23 +72,57 @@ def read_scans(context: Context, targets: Sequence[Object]) -> Scan:
     )
 
 
+def made_of(context: Context, targets: Sequence[Object], cage: Object) -> dict[str, Any]:
+    """What a fit is made of beside its cage: a checksum of the scans in their own coordinates, and their
+    places as the cage sees them.
+    """
+    back, places, total = np.linalg.inv(np.array(world_matrix(cage), np.float64)), [], 0
+    for part, matrix in _parts(context, targets):
+        for array in (part.points, part.triangles):
+            total = zlib.crc32(np.ascontiguousarray(array).tobytes(), total)
+        places.append((back @ matrix).tolist())
+    return {"shape": total, "places": places}
+
+
+def are_moved(made: dict[str, Any], now: dict[str, Any]) -> bool:
+    """Of two that `made_of` has returned: by more than Blender's own matrices are off."""
+    before, after = (np.array(one["places"]) for one in (made, now))
+    return bool(np.abs(before - after).max(initial=0.0) > 1e-5 * np.abs(before).max(initial=0.0))
+
+
+def watched(targets: Iterable[Object]) -> Iterator[bpy.types.ID]:
+    """The data-blocks whose change may change what `read_scans` returns."""
+    for target in targets:
+        yield target
+        if target.data is not None:
+            yield target.data
+        if target.instance_collection is not None:
+            yield from watched(cast(Iterable[Object], target.instance_collection.all_objects))
+
+
 def in_metres(context: Context, target: Object) -> tuple[np.ndarray, np.ndarray]:
     """One of them: points (n, 3) in metres, and triangles (m, 3)."""
     found = read_scans(context, [target])
     return found.points * context.scene.unit_settings.scale_length, found.triangles
 
 
-def _own(context: Context, target: Object) -> Iterator[Scan]:
+def _parts(context: Context, targets: Sequence[Object]) -> list[tuple[Scan, np.ndarray]]:
+    """Each in its own coordinates, and its (4, 4) matrix to the world."""
+    own = [part for target in targets for part in _own(context, target)]
+    return own + _instances(context, targets)
+
+
+def _own(context: Context, target: Object) -> Iterator[tuple[Scan, np.ndarray]]:
     matrix = np.array(world_matrix(target), dtype=np.float64)
     if target.type == "POINTCLOUD":
         owner = target.evaluated_get(context.evaluated_depsgraph_get())
-        yield _of_cloud(owner.data).moved(matrix)
+        yield _of_cloud(owner.data), matrix
     elif target.type == "MESH":
         with control_mesh(context, target, evaluated=True) as mesh:
-            yield of_mesh(mesh).moved(matrix)
+            yield of_mesh(mesh), matrix
 
 
-def _instances(context: Context, targets: Iterable[Object]) -> list[Scan]:
+def _instances(context: Context, targets: Iterable[Object]) -> list[tuple[Scan, np.ndarray]]:
     """What collections, nodes and instancers among the `targets` show elsewhere."""
     found, meshes = [], {}
     wanted = {target.name_full for target in targets}
@@ -101,7 +136,7 @@ def _instances(context: Context, targets: Iterable[Object]) -> list[Scan]:
         key = owner.data.as_pointer()
         if key not in meshes:
             meshes[key] = (_of_cloud if owner.type == "POINTCLOUD" else of_mesh)(owner.data)
-        found.append(meshes[key].moved(matrix))
+        found.append((meshes[key], matrix))
     return found
 
 

@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 import step_files
 from fake_layout import draw
+from mathutils import Matrix
 from scans import blob_cage, blob_scan
 from scenes import CUBE, activate, add, positions, recompute, refused, to_object_mode
 
 from addon.check.defects import recall_defects
-from addon.freshness import SOURCE_CHANGED, why_stale
+from addon.freshness import SCAN_CHANGED, SCAN_MOVED, SOURCE_CHANGED, why_stale
 from addon.inspection import display
 from addon.live import registry, switch
 from addon.mesh.layers import layer_values
@@ -102,8 +103,8 @@ def fitted():
     return scan, cage, bpy.context.active_object
 
 
-def off(target):
-    return np.sqrt(np.mean((np.linalg.norm(world(target), axis=1) - 1) ** 2))
+def off(target, centre=(0, 0, 0)):
+    return np.sqrt(np.mean((np.linalg.norm(world(target) - centre, axis=1) - 1) ** 2))
 
 
 def test_recompute_fits_again_and_follows_the_cage():
@@ -155,6 +156,45 @@ def test_live_follows_the_cage_near_the_scan():
     switch.switch_off(made, bpy.context)
     assert made.discrete_fairing_fit.weight == pytest.approx(weight)
     assert len(made.data.vertices) == 386 and off(made) < 0.007
+
+
+def test_a_scan_that_moves_or_is_edited_leaves_the_surface_out_of_date():
+    scan, cage, made = fitted()
+    both = [scan, cage]
+    for one in both:
+        one.location.x += 0.5
+    bpy.context.view_layer.update()
+    recompute(made)  # which follows its cage
+    assert why_stale(made) == ""
+    scan.location.z += 0.1
+    bpy.context.view_layer.update()
+    assert why_stale(made) == SCAN_MOVED
+    recompute(made)
+    assert why_stale(made) == ""
+    assert off(made, (0.5, 0, 0.1)) < 0.007
+    scan.data.vertices[3].co *= 1.1
+    scan.data.update()
+    bpy.context.view_layer.update()
+    assert why_stale(made) == SCAN_CHANGED
+
+
+def test_live_follows_the_scan():
+    scan, _, made = fitted()
+    switch.switch_on(made)
+    (session,) = registry.sessions()
+    assert not session.needs_look()
+    scan.location.z += 0.1
+    bpy.context.view_layer.update()
+    assert session.needs_look() and session.follow()  # as the timer does
+    assert off(made, (0, 0, 0.1)) < 0.02
+    assert not session.needs_look()
+    scan.data.transform(Matrix.Scale(1.2, 4))
+    scan.data.update()
+    bpy.context.view_layer.update()
+    assert session.needs_look() and session.follow()
+    switch.switch_off(made, bpy.context)
+    radii = np.linalg.norm(world(made) - (0, 0, 0.1), axis=1)
+    assert radii == pytest.approx(1.2, abs=0.03) and why_stale(made) == ""
 
 
 def test_deviation_is_from_the_scan():
