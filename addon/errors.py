@@ -46,8 +46,11 @@ REMEDIES = {
     "NOT_CONVERGED": "Set Spacing to ½ or lower, or use fewer levels",
 }
 _UNRESOLVED_TAUTER = "Move or add vertices there, crease the edges where it turns, or raise Tension"
-# Where there is no setting Defects; and where holes are filled.
+# Where there is no setting Defects; where scans are near; and where holes are filled.
 WITHOUT_MENDING = {code: text.removesuffix(_OR_MEND) for code, text in REMEDIES.items()}
+OF_FITS = REMEDIES | {
+    "INCONSISTENT_ORIENTATION": "Recalculate the normals of cage and scan (Shift N in Edit Mode)",
+}
 OF_HOLES = WITHOUT_MENDING | {
     "BAD_OPTION": "Select the hole without its islands, or fill it by hand",
     "NONMANIFOLD_EDGE": "Delete the surplus faces at its rim",

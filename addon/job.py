@@ -44,6 +44,7 @@ class Job(TimedRun):
     """The fairing of one object. A failed or cancelled job leaves everything as it was."""
 
     made_name = "Fair"  # of a new object, behind its source's
+    remedies = errors.REMEDIES
 
     def __init__(
         self,
@@ -120,7 +121,7 @@ class Job(TimedRun):
         self.spread: core.Spread | None = None  # how pieces are faired otherwise
 
     def _compute(self, watchers: dict[str, Any]) -> None:
-        with errors.explained(self.name):
+        with errors.explained(self.name, self.remedies):
             self.result = self.surface(**watchers)
         self.transfer = AttributeTransfer(self.result, self.arrays, self.settings.levels)
         self._edges = edge_table(self.result.faces)

@@ -13,7 +13,7 @@ import numpy as np
 from . import core, freshness, memory, prediction
 from .blender import Context, Mesh, Object
 from .check.defects import recall_defects, store_defects
-from .errors import JobError
+from .errors import OF_FITS, REMEDIES, JobError
 from .job import Job
 from .mesh import scans
 from .mesh.object import Reference, new_object, select_only
@@ -74,6 +74,7 @@ class FitJob(Job):
     """One cage and its scans."""
 
     made_name = "Fit"
+    remedies = OF_FITS
 
     def __init__(
         self,
@@ -83,10 +84,7 @@ class FitJob(Job):
         settings: Settings,
         target: Object | None = None,
     ) -> None:
-        if not fit.scan.points.size:
-            raise JobError(
-                f"{cage.name}: Select the scan, too. What is selected beside the cage has no points."
-            )
+        _require(cage, fit)
         super().__init__(context, cage, settings_of_fit(settings), target)
         self.kind = "FIT"
         self._units = Units.of(context.scene)
@@ -152,6 +150,27 @@ class FitJob(Job):
             _note(context, plain[0], {OUTLIERS: found.outliers}, "vertex")
 
 
+def _require(cage: Object, fit: Fit) -> None:
+    """Raises JobError where no surface can be near the scan."""
+    points, faces = fit.scan.points, len(cage.data.polygons)
+    if not len(points):
+        raise JobError(
+            f"{cage.name}: Select the scan, too. What is selected beside the cage has no points."
+        )
+    lost = int(np.count_nonzero(~np.isfinite(points).all(axis=1)))
+    if lost:
+        names = ", ".join(scan.name for scan in fit.objects) or cage.name
+        raise JobError(
+            f"{names}: {REMEDIES['NON_FINITE']}."
+            f" {counted(lost, 'point of the scan has', 'points of the scan have')} no finite position."
+        )
+    if len(points) < faces:
+        raise JobError(
+            f"{cage.name}: Select the scan first and the cage last, or make the cage coarser. It has"
+            f" {counted(faces, 'face', 'faces')}, and the scan {counted(len(points), 'point', 'points')} only."
+        )
+
+
 def _note(context: Context, target: Object, places: dict[str, np.ndarray], kind: str) -> None:
     known = recall_defects(target)
     kept = [] if known is None or known[1] else known[0]
@@ -191,6 +210,10 @@ def live_scan(context: Context, source: Object, target: Object) -> dict[str, Any
 
 def make_cage(context: Context, scan: Object, faces: int) -> Object:
     """A new object with some `faces` quads over the scan, by QuadriFlow. Raises JobError."""
+    if not read_scans(context, [scan]).triangles.size:
+        raise JobError(
+            f"{scan.name}: Draw a cage over it, and select it last. The scan has no faces, which QuadriFlow needs."
+        )
     depsgraph = context.evaluated_depsgraph_get()
     mesh = cast(Mesh, bpy.data.meshes.new_from_object(scan.evaluated_get(depsgraph)))
     mesh.name = f"{scan.name} Cage"

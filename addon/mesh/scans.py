@@ -10,6 +10,7 @@ import bpy
 import numpy as np
 
 from ..blender import Context, Mesh, Object, column
+from ..errors import JobError
 from ..triangles import normals
 from .read import control_mesh
 from .world_shape import transformed, world_matrix, world_shape
@@ -26,8 +27,12 @@ class Scan:
     normals: np.ndarray | None = None  # (S, 3), outwards, of any length; zero where unknown
 
     def in_shape_of(self, cage: Object) -> "Scan":
-        """Where the cage's own coordinates are, in the size that it has in the world."""
+        """Where the cage's own coordinates are, in the size that it has in the world. Raises JobError."""
         matrix = np.array(world_matrix(cage), dtype=np.float64)
+        if np.linalg.matrix_rank(matrix) < 4:
+            raise JobError(
+                f"{cage.name}: Type a scale other than 0 in the sidebar (N, Item). The cage is flat by its scale."
+            )
         moved = self.moved(np.linalg.inv(matrix))
         return Scan(world_shape(cage).of(moved.points), moved.triangles)
 
@@ -76,7 +81,8 @@ def made_of(context: Context, targets: Sequence[Object], cage: Object) -> dict[s
     """What a fit is made of beside its cage: a checksum of the scans in their own coordinates, and their
     places as the cage sees them.
     """
-    back, places, total = np.linalg.inv(np.array(world_matrix(cage), np.float64)), [], 0
+    # a cage may have been scaled to nothing
+    back, places, total = np.linalg.pinv(np.array(world_matrix(cage), np.float64)), [], 0
     for part, matrix in _parts(context, targets):
         for array in (part.points, part.triangles):
             total = zlib.crc32(np.ascontiguousarray(array).tobytes(), total)

@@ -35,7 +35,7 @@ def _choice_reason(context: Context) -> str:
     if not scans:
         return "Select the scan, or the scan first and the cage last"
     if cage is None and scans[0].type != "MESH":
-        return "Select the cage last: one can be made for a mesh, not for a point cloud"
+        return "Select the cage last: one can be made for a mesh only"
     return ""
 
 

@@ -89,11 +89,26 @@ def test_what_cannot_be_fitted_is_said():
     bpy.context.view_layer.update()
     select(scan, cage)
     refused("units of length", bpy.ops.object.fairing_fit)
+    scan.scale = (1, 1, 1)
     count = len(bpy.data.objects)
+    scan.data.flip_normals()
+    refused("normals of cage and scan", bpy.ops.object.fairing_fit)
+    scan.data.flip_normals()
+    cage.scale.x = 0
+    refused("Cage: Type a scale other than 0", bpy.ops.object.fairing_fit)
+    cage.scale.x = 1
+    scan.data.vertices[3].co.x = np.nan
+    refused("Scan: Delete", bpy.ops.object.fairing_fit)
+    scan.data.vertices[3].co.x = 0
+    select(cage, scan)
+    refused("Scan: Select the scan first and the cage last", bpy.ops.object.fairing_fit)
     activate(cage)
     cage.select_set(False)
     refused("Select the scan", bpy.ops.object.fairing_fit)
-    assert len(bpy.data.objects) == count
+    cloud = add("Cloud", positions(scan.data).tolist(), [])
+    activate(cloud)
+    refused("Cloud: Draw a cage over it", bpy.ops.object.fairing_fit)
+    assert len(bpy.data.objects) == count + 1
 
 
 def fitted():

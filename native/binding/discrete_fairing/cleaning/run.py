@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -191,15 +192,13 @@ def clean(
         if run.count:
             run.mend(mend)
     if normals:
-        turned = lambda s: topology.turned_alike(s, run.watchers)  # noqa: E731
-        run.step("normals", 0.15, turned, *TURNED)
+        run.step("normals", 0.15, run.watched(topology.turned_alike), *TURNED)
     if fins:
         run.step("fins", 0.18, topology.without_fins, *_dropped("of a fin", "of fins"))
     if join:
-        cut = lambda s: topology.edges_cut(s, run.watchers)  # noqa: E731
-        run.step("join", 0.19, cut, *CUT)
+        run.step("join", 0.19, run.watched(topology.edges_cut), *CUT)
     if islands > 0.0:
-        apart = lambda s: _without_islands(s, float(islands))  # noqa: E731
+        apart = partial(_without_islands, share=float(islands))
         run.step("islands", 0.2, apart, "island dropped", "islands dropped")
     if inner:
         run.step("inner", 0.25, topology.without_inner, *_dropped("inside", "inside"))
@@ -208,8 +207,7 @@ def clean(
         if mend:
             run.mend(mend)
     if pinched:
-        split = lambda s: topology.vertices_split(s, every=not fill)  # noqa: E731
-        run.step("pinched", 0.3, split, *SPLIT)
+        run.step("pinched", 0.3, partial(topology.vertices_split, every=not fill), *SPLIT)
     skipped: list[Any] = []
     if fill:
         settings = {"joint": joint, "energy": energy, "density": density, "rim": rim}
@@ -217,12 +215,11 @@ def clean(
         if spikes or folds:
             run.press(held, spikes, folds, filled=True)
         if pinched:
-            apart_now = lambda s: topology.vertices_split(s, every=True)  # noqa: E731
-            run.step("pinched", 0.92, apart_now, *SPLIT)
+            run.step("pinched", 0.92, partial(topology.vertices_split, every=True), *SPLIT)
     if normals:
         run.step("normals", 0.94, topology.turned_out, *TURNED)
     if passes is not None:
-        smoothed = lambda s: _without_noise(s, run.held(held), passes)  # noqa: E731
+        smoothed = partial(_without_noise, fixed=run.held(held), passes=passes)
         run.step("noise", 0.95, smoothed, "vertex smoothed", "vertices smoothed")
     found = run.cleaned(skipped)
     watched.finish()
@@ -316,6 +313,12 @@ class _Run:
     def watchers(self) -> tuple[Any, Any]:
         run = self._watched.run(self._at, self._at)
         return run["monitor"], run["progress"]
+
+    def watched(
+        self, call: Callable[..., tuple[State, int]]
+    ) -> Callable[[State], tuple[State, int]]:
+        """A step that also takes the watchers of its own time."""
+        return lambda state: call(state, self.watchers)
 
     def note(self, step: str, count: int, one: str, several: str) -> None:
         self.count = count
