@@ -152,7 +152,7 @@ class FitJob(Job):
 
 def _require(cage: Object, fit: Fit) -> None:
     """Raises JobError where no surface can be near the scan."""
-    points, faces = fit.scan.points, len(cage.data.polygons)
+    points = fit.scan.points
     if not len(points):
         raise JobError(
             f"{cage.name}: Select the scan, too. What is selected beside the cage has no points."
@@ -163,11 +163,6 @@ def _require(cage: Object, fit: Fit) -> None:
         raise JobError(
             f"{names}: {REMEDIES['NON_FINITE']}."
             f" {counted(lost, 'point of the scan has', 'points of the scan have')} no finite position."
-        )
-    if len(points) < faces:
-        raise JobError(
-            f"{cage.name}: Select the scan first and the cage last, or make the cage coarser. It has"
-            f" {counted(faces, 'face', 'faces')}, and the scan {counted(len(points), 'point', 'points')} only."
         )
 
 

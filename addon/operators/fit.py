@@ -8,6 +8,7 @@ import bpy
 from bpy.props import IntProperty
 
 from ..blender import Context, Object, registration
+from ..errors import JobError
 from ..job import Job
 from ..mesh.scans import is_scan, read_scans
 from ..poll import in_mode
@@ -15,6 +16,7 @@ from ..properties import FitAmount
 from ..scan_fit import Fit, FitJob, make_cage
 from ..settings import Settings
 from ..ui.layout import amount_names
+from ..words import counted
 from .fair import WholeFairing, can_fair
 from .shown import Shown
 
@@ -76,9 +78,15 @@ class OBJECT_OT_fairing_fit(Shown, WholeFairing, FitAmount, bpy.types.Operator):
         cage, scans = _chosen(context)
         if cage is None:
             cage = make_cage(context, scans[0], self.cage_faces)
+        scan, faces = read_scans(context, scans), len(cage.data.polygons)
+        if 0 < len(scan.points) < faces:
+            raise JobError(
+                f"{cage.name}: Select the scan first and the cage last, or make the cage coarser. It has"
+                f" {counted(faces, 'face')}, and the scan {counted(len(scan.points), 'point')} only."
+            )
         settings = replace(Settings.of(context.scene.discrete_fairing), levels=self.levels)
         tolerance = self.tolerance if self.amount == "TOLERANCE" else None
-        fit = Fit(read_scans(context, scans), tolerance, objects=scans)
+        fit = Fit(scan, tolerance, objects=scans)
         return [FitJob(context, cage, fit, settings)]
 
 
