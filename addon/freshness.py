@@ -38,14 +38,16 @@ SETTINGS_CHANGED = "Settings changed"
 SOURCE_MOVED = "Source moved"
 SCAN_CHANGED = "Scan changed"
 SCAN_MOVED = "Scan moved"
+NEIGHBOUR_CHANGED = "Neighbour changed"
+NEIGHBOUR_MOVED = "Neighbour moved"
 UNFINISHED = "Shown with fewer levels"
 # settings that change nothing about a surface that is there
 _ELSEWHERE = {"hide_source", "copy_modifiers", "memory_limit"}
 _SOON = 0.3  # seconds
 
 _surfaces: dict[int | str, Reference] = {}  # those that are known
-# surface: checksum of its source, and what its scans are, as of the last look
-_seen: dict[int | str, tuple[int, dict[str, Any] | None]] = {}
+# surface: checksum of its source, and what its scans and its neighbour are, as of the last look
+_seen: dict[int | str, tuple[int, dict[str, Any] | None, dict[str, Any] | None]] = {}
 _unread: set[int | str] = set()  # surfaces whose source may have changed since
 _watched: dict[int | str, set[int | str]] = {}  # source or its mesh: surfaces
 
@@ -98,7 +100,7 @@ def know(target: Object) -> None:
     key, source = session_key(target), source_of(target)
     _surfaces.setdefault(key, Reference(target))
     if source is not None:
-        beside = (*curve_cage.watched(source), *scans.watched(memory.scans_of(target)))
+        beside = (*curve_cage.watched(source), *scans.watched(neighbours.with_scans(target)))
         for block in (source, source.data, source.data.shape_keys, *beside):
             if block is not None:
                 _watched.setdefault(session_key(block), set()).add(key)
@@ -131,19 +133,25 @@ def why_stale(target: Object) -> str:
             _look()
         else:
             events.start_timer(_look, _SOON)
-    total, near = _seen.get(key, (made["source"], None))
+    total, near, beside = _seen.get(key, (made["source"], None, None))
     if total != made["source"]:
         return SOURCE_CHANGED
-    return SOURCE_MOVED if place.moved(target) else _why_off(made.get("scans"), near)
+    if place.moved(target):
+        return SOURCE_MOVED
+    return _why_off(made.get("scans"), near, SCAN_CHANGED, SCAN_MOVED) or _why_off(
+        made.get("beside"), beside, NEIGHBOUR_CHANGED, NEIGHBOUR_MOVED
+    )
 
 
-def _why_off(made: dict[str, Any] | None, now: dict[str, Any] | None) -> str:
-    """The scans, of before and of now."""
+def _why_off(
+    made: dict[str, Any] | None, now: dict[str, Any] | None, changed: str, moved: str
+) -> str:
+    """Other objects, of before and of now."""
     if not made or now is None:
         return ""
     if (made["shape"], len(made["places"])) != (now["shape"], len(now["places"])):
-        return SCAN_CHANGED
-    return SCAN_MOVED if scans.are_moved(made, now) else ""
+        return changed
+    return moved if scans.are_moved(made, now) else ""
 
 
 def stale_surfaces(source: Object | None = None) -> Iterator[Object]:
@@ -185,7 +193,9 @@ def _look() -> None:
             total, near = _checksum(context, source, target.discrete_fairing), None
             if len(target.discrete_fairing_fit.scans):
                 near = scans.made_of(context, memory.scans_of(target), source)
-            _seen[key] = total, near
+            met = neighbours.neighbour_of(target)
+            beside = None if met is None else scans.made_of(context, [met], target)
+            _seen[key] = total, near, beside
     _unread.clear()
     tag_sidebars(context)
     tag_outliners(context)

@@ -17,6 +17,7 @@ from .check.faults import find_faults
 from .choices import energy_name
 from .errors import JobError
 from .inspection import display, measures
+from .mesh import scans
 from .mesh.layers import read_data, write_data
 from .mesh.modifiers import copy_modifiers, without_inspection
 from .mesh.object import Reference, new_object
@@ -102,8 +103,10 @@ class Job(TimedRun):
         self._neighbour = None if neighbour is None else Reference(neighbour)
         self._made["neighbour"] = "" if neighbour is None else neighbour.name
         if neighbour is not None:
+            stands = surface or target or source
+            self._made["beside"] = scans.made_of(context, [neighbour], stands)
             self.arguments |= neighbours.arguments(
-                context, neighbour, surface or target or source, source, self.settings
+                context, neighbour, stands, source, self.settings
             )
         self.notes = list(self.data.notes)  # what the user may want to know, a sentence each
         if "shapes" in self.arguments and self.settings.energy != "THIN_PLATE":

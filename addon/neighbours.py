@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from . import memory
 from .blender import Context, Object
 from .mesh.read import control_mesh, read_mesh
 from .mesh.world_shape import transformed, world_matrix, world_shape
@@ -17,6 +18,12 @@ def neighbour_of(target: Object | None) -> Object | None:
         return None
     found = target.discrete_fairing.neighbour
     return found if found is not None and found.type == "MESH" else None
+
+
+def with_scans(target: Object) -> list[Object]:
+    """The other objects that the surface depends on."""
+    neighbour = neighbour_of(target)
+    return memory.scans_of(target) + ([] if neighbour is None else [neighbour])
 
 
 def arguments(

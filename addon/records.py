@@ -126,7 +126,10 @@ _FORMS = {
     ),
     "carried": _dict({}, _NAMES),
     "stood": _any_dict,
-    "made": _dict({"settings": _any_dict, "source": _whole}, {"neighbour": _text, "scans": _SCANS}),
+    "made": _dict(
+        {"settings": _any_dict, "source": _whole},
+        {"neighbour": _text, "scans": _SCANS, "beside": _SCANS},
+    ),
     "defects": _dict(
         {"defects": _all(_defect), "counts": _all(_whole)},
         {"holes": _all(_dict({"edges": _id, "at": _pair})), "cleaned": _all(_text)},

@@ -10,7 +10,7 @@ from scenes import activate, add, fair, positions, recompute, refused, to_object
 
 from addon import core, neighbours
 from addon.check import joints
-from addon.freshness import why_stale
+from addon.freshness import NEIGHBOUR_CHANGED, NEIGHBOUR_MOVED, why_stale
 from addon.live import registry
 from addon.mesh.object import select_only
 from addon.ui import check as check_panel
@@ -85,6 +85,22 @@ def test_live_keeps_the_joint(panels):
     for session in registry.sessions():
         session.follow()
     assert np.degrees(check(*panels).kink) < 0.1
+
+
+def test_a_neighbour_that_moves_or_changes_leaves_the_surface_out_of_date(panels):
+    bonnet, fender = panels
+    select(*panels)
+    bpy.ops.object.fairing_match_border()
+    assert why_stale(fender) == ""
+    bonnet.location.z += 0.01
+    bpy.context.view_layer.update()
+    assert why_stale(fender) == NEIGHBOUR_MOVED
+    recompute(fender)
+    assert why_stale(fender) == ""
+    bonnet.data.vertices[0].co.z += 0.1
+    bonnet.data.update()
+    bpy.context.view_layer.update()
+    assert why_stale(fender) == NEIGHBOUR_CHANGED
 
 
 def test_the_worst_place_is_shown(panels):
