@@ -5,7 +5,7 @@ Fair. What fills a hole has a colour of its own.
     .venv/bin/python examples/render_fills.py               all of them, to docs/images/filling/
     .venv/bin/python examples/render_fills.py saddle        only those named
 
-Needs what the benchmark `fills` needs. Rendered by Cycles on the processor, some ten seconds a tile.
+Needs what the benchmark `fills` needs, else the picture is left as it is. Rendered by Cycles on the processor, some ten seconds a tile.
 """
 
 import sys
@@ -104,9 +104,9 @@ def draw_tile(name, label, maker, path):
     if maker is not None:
         made = fill_rivals.made(maker, given, LIMIT)
         if isinstance(made, str):
-            label = f"{label}\n{made}"
-        else:
-            vertices, faces = made[:2]
+            print(f"{label}: {made}. The picture is left as it is.")
+            sys.exit()
+        vertices, faces = made[:2]
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     old = {tuple(sorted(face)) for face in given[1].tolist()}
     mesh = bpy.data.meshes.new(label)
