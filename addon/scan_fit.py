@@ -58,10 +58,13 @@ class Fit:
         return scan.arguments | {"tolerance": self.tolerance, "weight": self.weight}
 
 
-def settings_of_fit(settings: Settings) -> Settings:
-    """Without what a fit does not know."""
+def settings_of_fit(settings: Settings, scan: Scan) -> Settings:
+    """Without what a fit does not know. Points without faces have no border, and nothing along a surface
+    holds a border curve near them: there borders keep to the points as all else does.
+    """
     return replace(
         settings,
+        boundary=settings.boundary if len(scan.triangles) else "FREE",
         energy="THIN_PLATE",
         interpolation="EXACT",
         use_selection=False,
@@ -85,8 +88,12 @@ class FitJob(Job):
         target: Object | None = None,
     ) -> None:
         _require(cage, fit)
-        super().__init__(context, cage, settings_of_fit(settings), target)
+        super().__init__(context, cage, settings_of_fit(settings, fit.scan), target)
         self.kind = "FIT"
+        if self.settings.boundary != settings.boundary and self._is_open():
+            self.notes.append(
+                "Its border stays as far as the cage: points without faces have none."
+            )
         self._units = Units.of(context.scene)
         self._scans = [Reference(scan) for scan in fit.objects]
         self._amount = fit.tolerance
@@ -94,6 +101,9 @@ class FitJob(Job):
         if fit.objects:
             self._made["scans"] = scans.made_of(context, fit.objects, cage)
         self._points = len(fit.scan.points)
+
+    def _is_open(self) -> bool:
+        return bool((np.bincount(self.arrays.corner_edges) == 1).any())
 
     def surface(self, **watchers: Any) -> Any:
         return core.module().fit(**core.of_fits(self.arguments), **self._near, **watchers)

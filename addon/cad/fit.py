@@ -50,7 +50,7 @@ class PatchJob(Job):
             settings = Settings.of(shown.discrete_fairing)
             fit = Fit.of(context, shown, again=False)
         settings = settings or Settings.of(context.scene.discrete_fairing)
-        settings = settings if fit is None else settings_of_fit(settings)
+        settings = settings if fit is None else settings_of_fit(settings, fit.scan)
         # the lattice has levels of its own
         super().__init__(
             context,

@@ -172,6 +172,17 @@ def test_a_scan_of_ten_points_has_a_surface(seed):
     assert np.isfinite(fitted.vertices).all() and fitted.weight > 0
 
 
+def test_the_border_of_a_cloud_stays_where_it_was_drawn():
+    """On a flat cage, up to 0.3 away from the points."""
+    even = np.linspace(-0.95, 0.95, 6)
+    vertices, faces = sheet(even, even, lambda x, y: 0 * x + 0.1)
+    x, y = np.random.default_rng(0).uniform(-1, 1, (2, 6000))
+    fitted = df.fit(vertices, faces, np.stack([x, y, dome(x, y)], 1), levels=3)
+    x, y, z = fitted.vertices.T
+    assert np.abs([x, y]).max() == pytest.approx(0.95, abs=0.03) and len(fitted.outliers) == 0
+    assert rms(z - dome(x, y)) < 1e-3
+
+
 def test_border_curves_follow_no_noise():
     fine, dense = np.linspace(-1, 1, 17), np.linspace(-1, 1, 101)
     vertices, faces = sheet(fine, fine, dome)

@@ -99,7 +99,8 @@ def fit(
     symmetry_plane
         As of fair(); the scan is that of the whole, and both halves' points count.
     **options
-        Further settings of fair(), but for those that move control vertices.
+        Further settings of fair(), but for those that move control vertices. Without triangles
+        boundary is "free".
 
     Raises
     ------
@@ -115,7 +116,9 @@ def fit(
         raise fairing_error(
             "BAD_OPTION", "tolerance and weight exclude each other.", cure="Give one."
         )
-    control = Control(vertices, faces, {**options, "levels": levels}, symmetry_plane)
+    # without the border of a mesh nothing along the surface holds a border curve
+    border = {"boundary": "free"} if triangles is None else {}
+    control = Control(vertices, faces, {**border, **options, "levels": levels}, symmetry_plane)
     stays, half = fixed_flags(fixed, control.count), control.half
     if half:
         scan, outward, sides = _with_images(scan, outward, sides, half.axis)

@@ -72,6 +72,20 @@ def test_modifiers_of_the_scan_count():
     assert np.linalg.norm(world(bpy.context.active_object), axis=1).mean() > 1.1
 
 
+def test_the_border_near_a_cloud_stays_as_far_as_the_cage(capsys):
+    bpy.ops.mesh.primitive_grid_add(x_subdivisions=40, y_subdivisions=40)
+    points = positions(bpy.context.object.data)
+    points[:, 2] = 0.6 * np.cos(1.5 * points[:, 0]) - 0.1
+    cloud = add("Cloud", points.tolist(), [])
+    bpy.ops.mesh.primitive_grid_add(x_subdivisions=5, y_subdivisions=5, size=1.9)
+    select(cloud, bpy.context.object)
+    assert bpy.ops.object.fairing_fit(levels=2) == {"FINISHED"}
+    made = bpy.context.object
+    assert np.abs(world(made)[:, :2]).max() == pytest.approx(0.95, abs=0.03)
+    assert made.discrete_fairing.boundary == "FREE" and "stays as far" in capsys.readouterr().out
+    assert why_stale(made) == ""
+
+
 def test_a_scan_alone_gets_a_cage():
     scan = ball("Scan", 5, noise=0.003)
     activate(scan)
