@@ -76,14 +76,16 @@ class OBJECT_OT_fairing_fit(Shown, WholeFairing, FitAmount, bpy.types.Operator):
 
     def make_jobs(self, context: Context) -> list[Job]:
         cage, scans = _chosen(context)
-        if cage is None:
-            cage = make_cage(context, scans[0], self.cage_faces)
-        scan, faces = read_scans(context, scans), len(cage.data.polygons)
-        if 0 < len(scan.points) < faces:
+        scan = read_scans(context, scans)
+        faces = self.cage_faces if cage is None else len(cage.data.polygons)
+        if len(scan.triangles if cage is None else scan.points) and len(scan.points) < faces:
+            cure = "Select the scan first and the cage last, or make the cage coarser"
             raise JobError(
-                f"{cage.name}: Select the scan first and the cage last, or make the cage coarser. It has"
+                f"{(cage or scans[0]).name}: {'Lower Faces of Cage' if cage is None else cure}. The cage has"
                 f" {counted(faces, 'face')}, and the scan {counted(len(scan.points), 'point')} only."
             )
+        if cage is None:
+            cage = make_cage(context, scans[0], self.cage_faces)
         settings = replace(Settings.of(context.scene.discrete_fairing), levels=self.levels)
         tolerance = self.tolerance if self.amount == "TOLERANCE" else None
         fit = Fit(scan, tolerance, objects=scans)

@@ -5,7 +5,7 @@ import discrete_fairing as df
 import numpy as np
 import pytest
 import spline_measures
-from discrete_fairing.patch_distances import evaluate
+from discrete_fairing.patch_distances import distances_from, evaluate
 from scans import (
     angles_to_blob,
     blob_cage,
@@ -352,3 +352,12 @@ def test_memory_is_predicted(cage, scan):
     with pytest.raises(df.FairingError) as caught:
         df.fit(*cage, scan, levels=4, memory_limit=1_000_000)
     assert caught.value.code == "TOO_LARGE"
+
+
+def test_a_lone_point_over_a_face_has_a_distance(cage):
+    """Its nearest sample is the only one that counts."""
+    patches = df.fit_patches(*cage, levels=2)
+    away = 1.02 * cage[0][cage[1]].mean(axis=1)
+    for face, point in enumerate(away):
+        (found,) = distances_from(patches, point[None], np.array([face]))
+        assert abs(found) < 0.1

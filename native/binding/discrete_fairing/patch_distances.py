@@ -42,8 +42,8 @@ def _begin(
         grid = np.concatenate([grids[p] for p in own])
         square = (near**2).sum(axis=1)
         # farther than this from the middle lies no point's nearest sample: triangle inequality
-        reach = 2.0 * np.linalg.norm(points[here] - middle, axis=1).max() + np.sqrt(square.min())
-        kept = square <= reach**2
+        away, across = np.sqrt(square), np.linalg.norm(points[here] - middle, axis=1).max()
+        kept = away <= 2.0 * across + away.min()  # lengths: squared, rounding may leave none
         near, ids, grid, square = near[kept], ids[kept], grid[kept], square[kept]
         for rows in np.array_split(here, len(here) * len(near) // 2**22 + 1):
             nearest = (square - 2.0 * (points[rows] - middle) @ near.T).argmin(axis=1)

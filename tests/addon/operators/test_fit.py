@@ -116,6 +116,8 @@ def test_what_cannot_be_fitted_is_said():
     scan.data.vertices[3].co.x = 0
     select(cage, scan)
     refused("Scan: Select the scan first and the cage last", bpy.ops.object.fairing_fit)
+    activate(scan)
+    refused("Scan: Lower Faces of Cage", bpy.ops.object.fairing_fit)
     activate(cage)
     cage.select_set(False)
     refused("Select the scan", bpy.ops.object.fairing_fit)
