@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "base/roundoff.h"
 #include "curvature/fold_repair.h"
 #include "curvature/local_damping.h"
 #include "fairing/steepest.h"
@@ -76,15 +78,18 @@ class PlateFoldRepair {
     const Array<double> plate = surface;
     Array<float> marks;
     std::size_t before = folds.count();
-    // one ring more each time, up to a control face
-    for (int rings = 2; rings <= grid_.n() + 2 && folds.count() > 0; ++rings) {
+    // a quarter farther each time, up to two control faces: at a re-entrant corner the plate
+    // overtakes itself in both faces beside it
+    for (int rings = 2; rings <= 2 * grid_.n() && folds.count() > 0; rings += 1 + rings / 4) {
       mark_folds(grid_, surface.data(), folds, marks);
-      if (rings > 2 && folds.count() >= before) straighten_near(marks, repair.straightened);
+      if (rings > 2 && folds.count() >= before)
+        straighten_near(surface, marks, repair.straightened);
       before = folds.count();
       dilate_by(rings, marks);
       for (std::size_t i = 0; i < marks.size(); ++i)
         repair.filled[i] = std::max(repair.filled[i], marks[i]);
       unmark(excused, repair.filled);
+      unmark(mesh_.flat.face, repair.filled);  // their stiffness holds their points in the plane
       surface = plate;
       apply(repair, polyhedron_, surface);
       folds = find();
@@ -99,17 +104,33 @@ class PlateFoldRepair {
     return {};
   }
 
-  // `shape`: for the weights.
+  // What is filled is the distance from the polyhedron: filled as a whole, the surface is the
+  // polyhedron, without folds. `shape`: for the weights.
   void apply(const PlateRepair& repair, const Array<double>& shape, Array<double>& surface) {
     for (const Index e : repair.straightened)
       std::copy_n(polyhedron_.begin() + first_number(e), 3 * inner(),
                   surface.begin() + first_number(e));
-    fill_harmonically(grid_, unknowns_, repair.filled, shape.data(), surface.data());
+    Array<double> off(surface.size());
+    for (std::size_t i = 0; i < off.size(); ++i) off[i] = surface[i] - polyhedron_[i];
+    fill_harmonically(grid_, unknowns_, repair.filled, shape.data(), off.data());
+    // others stay bit for bit
+    for (std::size_t i = 0; i < off.size(); ++i)
+      surface[i] += off[i] - (surface[i] - polyhedron_[i]);
   }
 
  private:
   std::size_t inner() const { return std::size_t(grid_.n() - 1); }  // points of an edge
   std::ptrdiff_t first_number(Index e) const { return 3 * std::ptrdiff_t(grid_.edge_base(e)); }
+
+  // Whether the curve is its control edge.
+  bool is_straight(const Array<double>& surface, Index e) const {
+    const auto& [from, to] = mesh_.edges[std::size_t(e)].vertex;
+    const double length = (control_[std::size_t(to)] - control_[std::size_t(from)]).norm();
+    const auto is_near = [&](double a, double b) { return std::abs(a - b) <= roundoff * length; };
+    const auto own = surface.begin() + first_number(e);
+    return std::equal(own, own + 3 * std::ptrdiff_t(inner()), polyhedron_.begin() + first_number(e),
+                      is_near);
+  }
 
   // Including those of the control mesh.
   std::size_t count_all(const Array<double>& surface) const {
@@ -161,8 +182,9 @@ class PlateFoldRepair {
     for (int r = 0; r < rings; ++r) dilate(grid_, workers_, slots_, nullptr, marks);
   }
 
-  // Adds the edges whose curves are near a marked point, and marks their points.
-  void straighten_near(Array<float>& marks, std::vector<Index>& edges) {
+  // Marks the points of curves near a marked point, and adds the edges that they leave.
+  void straighten_near(const Array<double>& surface, Array<float>& marks,
+                       std::vector<Index>& edges) {
     Array<float> near = marks;
     dilate_by(1, near);
     const auto begin = [&](auto& of, Index e) {
@@ -175,9 +197,9 @@ class PlateFoldRepair {
                       [](float mark) { return mark > 0; }))
         is_near[run(e)] = 1;
     for (const Index e : on_curves()) {
-      if (!is_near[run(e)] || std::find(edges.begin(), edges.end(), e) != edges.end()) continue;
+      if (!is_near[run(e)] || std::exchange(is_marked_[std::size_t(e)], 1)) continue;
       std::fill_n(begin(marks, e), inner(), 1.0f);
-      edges.push_back(e);
+      if (!is_straight(surface, e)) edges.push_back(e);
     }
   }
 
@@ -195,6 +217,7 @@ class PlateFoldRepair {
   std::span<const Vec3> control_;
   Unknowns unknowns_;
   Array<double> polyhedron_;
+  std::vector<std::uint8_t> is_marked_ = std::vector<std::uint8_t>(mesh_.edges.size(), 0);
   ElementSlots<float, 1> slots_;
 };
 

@@ -8,6 +8,7 @@ from pathlib import Path
 import control_meshes
 import discrete_fairing as df
 import example_meshes
+import folding_meshes
 import half_hulls
 import numpy as np
 import pytest
@@ -364,17 +365,37 @@ def test_a_fold_is_refused_or_named():
     assert len(df.fit_patches(*LEAF, force=True).unresolved)
 
 
-def test_a_finer_level_that_folds_takes_no_patches_away():
-    """A block over an L has edges off its flat faces' lines, for which finer levels were tried; these fold."""
-    flat = np.array([(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)], float)
-    points = np.vstack([np.c_[flat, np.full(6, z)] for z in (0.0, 1.0)])
+def block_over_an_l():
+    """Finer levels are tried for it: it has edges off its flat faces' lines."""
+    flat, _ = folding_meshes.corner()
     walls = [[i, (i + 1) % 6, 6 + (i + 1) % 6, 6 + i] for i in range(6)]
-    faces = [list(range(6))[::-1], list(range(6, 12)), *walls]
-    patches = df.fit_patches(
-        points, faces, crease_angle=np.radians(30), corner_angle=np.radians(20)
-    )
+    return np.vstack([flat, flat + [0, 0, 1]]), [list(range(6))[::-1], list(range(6, 12)), *walls]
+
+
+SHARP = {"crease_angle": np.radians(30), "corner_angle": np.radians(20)}
+
+
+def test_a_block_with_a_flat_concave_face_has_patches_at_a_fine_level():
+    patches = df.fit_patches(*block_over_an_l(), levels=6, **SHARP)
     assert not len(patches.unresolved) and patches.shell_closed.all()
-    assert patches.levels == 5
+    # its creases are straight already
+    assert "STRAIGHT_CURVE" not in [w["code"] for w in patches.result.report["warnings"]]
+
+
+def test_a_finer_level_that_folds_takes_no_patches_away(monkeypatch):
+    fair, folded = fitting.fair, []
+
+    def folded_at_level_6(points, faces, level, **options):
+        result = fair(points, faces, level, **options)
+        if level == 6:
+            result.vertices[-1] = result.vertices[0]
+            folded.append(result)
+        return result
+
+    monkeypatch.setattr(fitting, "fair", folded_at_level_6)
+    patches = df.fit_patches(*block_over_an_l(), **SHARP)
+    assert not len(patches.unresolved) and patches.shell_closed.all()
+    assert folded and patches.levels == 5
 
 
 def test_a_thin_tray_misses_few_faces():

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """No energy leaves folds that the control mesh does not have."""
 
+from itertools import product
+
+import bevelled_boxes
 import control_meshes as meshes
 import discrete_fairing as df
 import folding_meshes as folding
@@ -105,8 +108,7 @@ OUTLINES = {
 
 
 @pytest.mark.parametrize("boundary", ["linear", "curve"])
-@pytest.mark.parametrize("levels", [1, 2, 3])
-@pytest.mark.parametrize("name", OUTLINES)
+@pytest.mark.parametrize("name, levels", [*product(OUTLINES, (1, 2, 3)), ("corner", 6)])
 def test_a_flat_mesh_stays_one_layer(name, levels, boundary):
     vertices, faces = OUTLINES[name]
     result = df.fair(vertices, faces, levels, boundary=boundary)
@@ -117,12 +119,21 @@ def test_a_flat_mesh_stays_one_layer(name, levels, boundary):
     assert result.vertices[: len(vertices)].tobytes() == vertices.tobytes()
 
 
+THIN_BOX = bevelled_boxes.bevelled_box((1, 1, 0.02), 0.0001)
 THIN_PLATES = {
     "rounded box of 16": (folding.rounded_box(16), 3, {}),
     "rounded box of 32": (folding.rounded_box(32), 2, {}),
     "rounded box, uniform": (folding.rounded_box(32), 1, {"metric_exponent": 0.0}),
     "rounded box, point forces": (folding.rounded_box(32), 1, {"pad_size": 0.0}),
     "rounded box, tension": (folding.rounded_box(32), 1, {"tension": 0.5}),
+    "plate with a bevel of a 200th": (THIN_BOX, 2, {}),
+    "plate with a bevel of a 200th, finer": (THIN_BOX, 3, {}),
+    "plate with a bevel of a 200th, true lengths": (THIN_BOX, 3, {"metric_exponent": 1.0}),
+    "box with a bevel of a 500th": (
+        bevelled_boxes.bevelled_box((1, 0.5, 0.2), 0.0004),
+        2,
+        {"metric_exponent": 0.25},
+    ),
     "hanging vertex": (folding.octahedron_with_a_hanging_vertex(), 3, {}),
     "chamfered drum of 32": (folding.chamfered_drum(32), 3, {}),
     "chamfered drum of 64": (folding.chamfered_drum(64), 2, {}),
