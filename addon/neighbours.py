@@ -32,18 +32,24 @@ def arguments(
     """Of `discrete_fairing.fair`: the neighbour as the window shows it, where the own coordinates of the
     `surface` are, in the size that its source has in the world.
     """
-    points, faces = shown_in_world(context, neighbour)
-    way = np.linalg.inv(np.array(world_matrix(surface), np.float64))
-    points = world_shape(source).of(transformed(points, way))
-    return {"neighbour": (points, faces), "joint": settings.joint.lower()}
+    stretch = np.linalg.inv(world_shape(source).way_back)
+    way = stretch @ np.linalg.inv(np.array(world_matrix(surface), np.float64))
+    return {"neighbour": _shown(context, neighbour, way), "joint": settings.joint.lower()}
 
 
 def shown_in_world(
     context: Context, target: Object
 ) -> tuple[np.ndarray, tuple[np.ndarray, np.ndarray]]:
     """Points and faces (corners, offsets) of `target` as the window shows it, in the world."""
+    return _shown(context, target, np.eye(4))
+
+
+def _shown(
+    context: Context, target: Object, way: np.ndarray
+) -> tuple[np.ndarray, tuple[np.ndarray, np.ndarray]]:
+    """The same, moved by a (4, 4) matrix from the world."""
     with control_mesh(context, target, evaluated=True) as mesh:
         arrays = read_mesh(mesh)
-    matrix = np.array(world_matrix(target), np.float64)
+    matrix = way @ np.array(world_matrix(target), np.float64)
     points = transformed(arrays.positions.astype(np.float64), matrix)
     return points, (arrays.corners.astype(np.int64), arrays.offsets.astype(np.int64))

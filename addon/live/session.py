@@ -72,11 +72,12 @@ class Session:
         self._settings: Any = None
         self._shape = WorldShape(None)
         self._scan: Any = None  # as core.solver takes it
-        self._scan_blocks: set[int | str] = set()  # keys of what it is read from
-        self._scan_seen: Any = None  # the place of the cage that it was read for
-        self._scan_due = False  # whether it may be another by now
         self._neighbour: int | str | None = None  # its key
         self._beside: dict[str, Any] = {}  # of it, for the core
+        # of scans and neighbour:
+        self._other_blocks: set[int | str] = set()  # keys of what they are read from
+        self._others_seen: Any = None  # the places of source and surface that they were read for
+        self._others_due = False  # whether they may be others by now
         self._region: np.ndarray | None = None
         self._tolerance_factors: np.ndarray | None = None
         self._pulls: np.ndarray | None = None
@@ -104,15 +105,15 @@ class Session:
         self, reshaped: Collection[int | str] = (), moved: Collection[int | str] = ()
     ) -> bool:
         """Whether the surface may be out of date; `reshaped`: keys of the data-blocks whose
-        geometry has changed, `moved`: of those whose place has, too. A scan is read again by the timer,
-        once nothing is dragged: it may be large.
+        geometry has changed, `moved`: of those whose place has, too. Scans and neighbours are read again by
+        the timer, once nothing is dragged: they may be large.
         """
         source, target = self._present()
         its = {session_key(source), session_key(source.data)}
-        self._scan_due |= not self._scan_blocks.isdisjoint(moved)
-        if self._scan_seen is not None and self._scan_seen != world_matrix(source):
-            self._scan_due = True
-        again = self._scan_due and not moved and not is_dragging(current_context())
+        self._others_due |= not self._other_blocks.isdisjoint(moved)
+        if self._other_blocks and self._others_seen != _places(source, target):
+            self._others_due = True
+        again = self._others_due and not moved and not is_dragging(current_context())
         if self._stale or self._unseen or again or not its.isdisjoint(reshaped):
             return True
         return not self._has_settings_of(source, target)
@@ -157,15 +158,9 @@ class Session:
                 _chosen_level(target),
             )
             self._shape = world_shape(source)
-            self._read_scan(source, target)
-            self._neighbour = _key_of_neighbour(target)
-            neighbour = neighbours.neighbour_of(target)
-            if neighbour is not None:
-                self._beside = neighbours.arguments(
-                    current_context(), neighbour, target, source, self._settings
-                )
-        elif self._scan_due and depsgraph is None:
-            self._read_scan(source, target)
+            self._read_others(source, target)
+        elif self._others_due and depsgraph is None:
+            self._read_others(source, target)
         with self._mesh_now(source, depsgraph) as mesh:
             arrays = read_mesh(mesh)
             if not self._has_values_of(arrays):
@@ -191,12 +186,17 @@ class Session:
         self._schedule.plan()
         return True
 
-    def _read_scan(self, source: Object, target: Object) -> None:
-        self._scan = live_scan(current_context(), source, target)
-        if self._scan is not None:
-            self._scan_blocks = set(map(session_key, scans.watched(memory.scans_of(target))))
-            self._scan_seen = world_matrix(source).copy()
-        self._scan_due = False
+    def _read_others(self, source: Object, target: Object) -> None:
+        context = current_context()
+        self._scan = live_scan(context, source, target)
+        self._neighbour = _key_of_neighbour(target)
+        neighbour = neighbours.neighbour_of(target)
+        if neighbour is not None:
+            self._beside = neighbours.arguments(context, neighbour, target, source, self._settings)
+        others = scans.watched(neighbours.with_scans(target))
+        self._other_blocks = set(map(session_key, others))
+        self._others_seen = _places(source, target)
+        self._others_due = False
 
     def _mesh_now(self, source: Object, depsgraph: Update) -> AbstractContextManager[Mesh]:
         """The control mesh of this moment, from Object Mode, Sculpt Mode or during an
@@ -339,8 +339,8 @@ class Session:
                 full.start()
 
     def follow_unseen(self) -> None:
-        """What Blender's update did not see, and scans. Not within one."""
-        if self._unseen or self._scan_due:
+        """What Blender's update did not see, scans and neighbours. Not within one."""
+        if self._unseen or self._others_due:
             self.follow()
 
     def complete(self, context: Context) -> None:
@@ -429,6 +429,10 @@ class Session:
 
 def _chosen_level(target: Object) -> int:
     return min(target.discrete_fairing_live.levels, target.discrete_fairing.levels)
+
+
+def _places(source: Object, target: Object) -> Any:
+    return world_matrix(source).copy(), world_matrix(target).copy()
 
 
 def _key_of_neighbour(target: Object) -> int | str | None:

@@ -87,6 +87,32 @@ def test_live_keeps_the_joint(panels):
     assert np.degrees(check(*panels).kink) < 0.1
 
 
+def test_live_follows_the_neighbour(panels):
+    bonnet, fender = panels
+    select(*panels)
+    bpy.ops.object.fairing_match_border()
+    activate(fender)
+    assert bpy.ops.object.fairing_live() == {"FINISHED"}
+    (session,) = registry.sessions()
+    session.follow()
+    assert not session.needs_look()
+    rotated(bonnet, 10)
+    assert np.degrees(check(*panels).kink) > 3
+    assert session.needs_look() and session.follow()  # as the timer does
+    assert not session.needs_look()
+    assert np.degrees(check(*panels).kink) < 0.1
+    bpy.ops.object.fairing_live()
+    assert why_stale(fender) == ""
+
+
+def rotated(bonnet, angle):
+    """About the joint with the fender, which is straight in x and y only: so its mesh turns."""
+    for vertex in bonnet.data.vertices:
+        vertex.co.z += np.tan(np.radians(angle)) * (vertex.co.y - 1.2)
+    bonnet.data.update()
+    bpy.context.view_layer.update()
+
+
 def test_a_neighbour_that_moves_or_changes_leaves_the_surface_out_of_date(panels):
     bonnet, fender = panels
     select(*panels)
