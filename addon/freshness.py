@@ -193,7 +193,7 @@ def _look() -> None:
             total, near = _checksum(context, source, target.discrete_fairing), None
             if len(target.discrete_fairing_fit.scans):
                 near = scans.made_of(context, memory.scans_of(target), source)
-            met = neighbours.neighbour_of(target)
+            met = neighbours.watched(target)
             beside = None if met is None else scans.made_of(context, [met], target)
             _seen[key] = total, near, beside
     _unread.clear()

@@ -103,7 +103,7 @@ class Job(TimedRun):
         self._neighbour = None if neighbour is None else Reference(neighbour)
         self._made["neighbour"] = "" if neighbour is None else neighbour.name
         if neighbour is not None:
-            stands = surface or target or source
+            stands = surface or place.next_of(source, target)
             self._made["beside"] = scans.made_of(context, [neighbour], stands)
             self.arguments |= neighbours.arguments(
                 context, neighbour, stands, source, self.settings

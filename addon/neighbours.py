@@ -20,9 +20,17 @@ def neighbour_of(target: Object | None) -> Object | None:
     return found if found is not None and found.type == "MESH" else None
 
 
-def with_scans(target: Object) -> list[Object]:
-    """The other objects that the surface depends on."""
+def watched(target: Object) -> Object | None:
+    """The neighbour whose changes leave `target` out of date: of two surfaces that meet each other, each
+    would do so to the other without end.
+    """
     neighbour = neighbour_of(target)
+    return None if neighbour is None or neighbour_of(neighbour) == target else neighbour
+
+
+def with_scans(target: Object) -> list[Object]:
+    """The other objects whose changes leave the surface out of date."""
+    neighbour = watched(target)
     return memory.scans_of(target) + ([] if neighbour is None else [neighbour])
 
 

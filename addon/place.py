@@ -25,6 +25,17 @@ def moved(target: Object) -> bool:
     return bool(_due(target))
 
 
+def next_of(source: Object, target: Object | None) -> Object:
+    """The object that stands where the next surface will: the source of a new one, and of one that follows
+    it in all parts.
+    """
+    if target is None:
+        return source
+    stood = memory.recall(target, "stood") or {}
+    whole = moved(target) and _following(target, stood) == set(PLACE)
+    return source if whole else target
+
+
 def follow(context: Context | None, target: Object) -> bool:
     """Lets the surface stand where its source does, as far as it follows; whether it had moved.
     `context`: as `copy_place` takes it.

@@ -129,6 +129,39 @@ def test_a_neighbour_that_moves_or_changes_leaves_the_surface_out_of_date(panels
     assert why_stale(fender) == NEIGHBOUR_CHANGED
 
 
+def test_both_sources_move_and_the_joint_is_kept(panels):
+    bonnet, fender = panels
+    select(*panels)
+    bpy.ops.object.fairing_match_border()
+    for panel in panels:
+        panel.discrete_fairing.source.location = (0.5, 0, 0.2)
+    bpy.context.view_layer.update()
+    for panel in panels:
+        recompute(panel)
+    row = check(*panels)
+    assert row.gap < 1e-6 and np.degrees(row.kink) < 0.05
+    assert (why_stale(bonnet), why_stale(fender)) == ("", "")
+
+
+def test_two_that_meet_each_other_do_not_leave_one_another_out_of_date(panels):
+    bonnet, fender = panels
+    bonnet.discrete_fairing.neighbour, fender.discrete_fairing.neighbour = fender, bonnet
+    for panel in panels:
+        activate(panel)
+        assert bpy.ops.object.fairing_live() == {"FINISHED"}
+    for _ in range(3):
+        for session in registry.sessions():
+            if session.needs_look():
+                session.follow()
+        bpy.context.view_layer.update()
+    assert not any(session.needs_look() for session in registry.sessions())
+    for panel in panels:
+        activate(panel)
+        bpy.ops.object.fairing_live()
+        recompute(panel)
+    assert (why_stale(bonnet), why_stale(fender)) == ("", "")
+
+
 def test_the_worst_place_is_shown(panels):
     row = check(*panels)
     drawn = draw(check_panel.VIEW3D_PT_fairing_check)
