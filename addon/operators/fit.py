@@ -13,7 +13,7 @@ from ..job import Job
 from ..mesh.scans import is_scan, read_scans
 from ..poll import in_mode
 from ..properties import FitAmount
-from ..scan_fit import Fit, FitJob, make_cage
+from ..scan_fit import LEAST_CAGE_FACES, Fit, FitJob, make_cage, most_cage_faces
 from ..settings import Settings
 from ..ui.layout import amount_names
 from ..words import counted
@@ -58,9 +58,9 @@ class OBJECT_OT_fairing_fit(Shown, WholeFairing, FitAmount, bpy.types.Operator):
     )
     cage_faces: IntProperty(
         name="Faces of Cage",
-        description="Faces of the cage that is made where the scan alone is selected",
+        description="Faces of the cage that is made where the scan alone is selected; at most one for 25 of its points",
         default=300,
-        min=20,
+        min=LEAST_CAGE_FACES,
         max=20000,
         soft_max=2000,
     )
@@ -77,19 +77,22 @@ class OBJECT_OT_fairing_fit(Shown, WholeFairing, FitAmount, bpy.types.Operator):
     def make_jobs(self, context: Context) -> list[Job]:
         cage, scans = _chosen(context)
         scan = read_scans(context, scans)
-        faces = self.cage_faces if cage is None else len(cage.data.polygons)
-        if len(scan.triangles if cage is None else scan.points) and len(scan.points) < faces:
-            cure = "Select the scan first and the cage last, or make the cage coarser"
-            raise JobError(
-                f"{(cage or scans[0]).name}: {'Lower Faces of Cage' if cage is None else cure}. The cage has"
-                f" {counted(faces, 'face')}, and the scan {counted(len(scan.points), 'point')} only."
-            )
+        fewer = cage is None and self.cage_faces > most_cage_faces(scan)
         if cage is None:
             cage = make_cage(context, scans[0], self.cage_faces)
+        elif 0 < len(scan.points) < len(cage.data.polygons):
+            raise JobError(
+                f"{cage.name}: Select the scan first and the cage last, or make the cage coarser. It has"
+                f" {counted(len(cage.data.polygons), 'face')}, and the scan {counted(len(scan.points), 'point')} only."
+            )
         settings = replace(Settings.of(context.scene.discrete_fairing), levels=self.levels)
         tolerance = self.tolerance if self.amount == "TOLERANCE" else None
         fit = Fit(scan, tolerance, objects=scans)
-        return [FitJob(context, cage, fit, settings)]
+        job = FitJob(context, cage, fit, settings)
+        if fewer:
+            made = counted(len(cage.data.polygons), "face")
+            job.notes.append(f"The scan has few points: its cage has {made}, and not more.")
+        return [job]
 
 
 register, unregister = registration(OBJECT_OT_fairing_fit)

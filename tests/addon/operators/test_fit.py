@@ -97,6 +97,17 @@ def test_a_scan_alone_gets_a_cage():
     assert np.abs(np.linalg.norm(world(made), axis=1) - 1).max() < 0.01
 
 
+def test_a_sparse_scan_gets_a_cage_that_does_not_follow_its_noise():
+    scan = ball("Scan", 5, noise=0.003)
+    off = np.linalg.norm(positions(scan.data), axis=1) - 1
+    activate(scan)
+    assert bpy.ops.object.fairing_fit() == {"FINISHED"}
+    made = bpy.context.active_object
+    assert len(scan.data.vertices) / len(bpy.data.objects["Scan Cage"].data.polygons) > 20
+    left = np.linalg.norm(world(made), axis=1) - 1
+    assert np.sqrt((left**2).mean()) < 0.7 * np.sqrt((off**2).mean())
+
+
 def test_what_cannot_be_fitted_is_said():
     scan, cage = ball("Scan", 3), cage_of_cube()
     scan.scale = (1000, 1000, 1000)
@@ -116,8 +127,6 @@ def test_what_cannot_be_fitted_is_said():
     scan.data.vertices[3].co.x = 0
     select(cage, scan)
     refused("Scan: Select the scan first and the cage last", bpy.ops.object.fairing_fit)
-    activate(scan)
-    refused("Scan: Lower Faces of Cage", bpy.ops.object.fairing_fit)
     activate(cage)
     cage.select_set(False)
     refused("Select the scan", bpy.ops.object.fairing_fit)
