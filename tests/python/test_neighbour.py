@@ -78,36 +78,32 @@ def fair(mesh, levels, **settings):
 
 
 # degrees: the halves of the bottle met at up to 34, over faces that turn by 30
-@pytest.mark.parametrize(
-    ("pair", "levels", "most"),
-    [
-        ("bonnet", 3, 0.05),
-        ("hull", 3, 0.05),
-        ("bottle", 3, 0.15),
-    ],
-)
-def test_tangents_join(pair, levels, most):
+@pytest.mark.parametrize("levels", [3, 4])
+@pytest.mark.parametrize("pair", PAIRS)
+def test_tangents_join(pair, levels):
     fixed, other = PAIRS[pair]()
     first, before = fair(fixed, levels), fair(other, levels)
     assert np.degrees(seam(before, first).kink.max()) > 5
     met = fair(other, levels, neighbour=(first.vertices, first.faces))
     joint = seam(met, first)
     assert len(joint.kink) >= 5 * 2**levels - 3 and joint.gap.max() < 1e-12
-    assert np.degrees(joint.kink.max()) < most
+    assert np.degrees(joint.kink.max()) < 0.05
     # ids, faces, and the control vertices, bit for bit
     assert all(np.array_equal(a, b) for a, b in zip(met.faces, before.faces))
     assert np.array_equal(met.vertices[: len(other[0])], other[0])
 
 
+@pytest.mark.parametrize("levels", [3, 4])
 @pytest.mark.parametrize("pair", PAIRS)
-def test_curvature_joins(pair):
+def test_curvature_joins(pair, levels):
     """At nine points in ten; beside the ends of the joint it jumps by more."""
     fixed, other = PAIRS[pair]()
-    first = fair(fixed, 4)
-    met = fair(other, 4, neighbour=(first.vertices, first.faces), joint="curvature")
+    first = fair(fixed, levels)
+    met = fair(other, levels, neighbour=(first.vertices, first.faces), joint="curvature")
     joint = seam(met, first)
     assert np.degrees(joint.kink.max()) < 0.05
-    assert np.quantile(joint.jump, 0.9) < 0.03 and np.median(joint.jump) < 0.01
+    most = {3: 0.04, 4: 0.03}[levels]
+    assert np.quantile(joint.jump, 0.9) < most and np.median(joint.jump) < most / 3
 
 
 def curved(u, v):

@@ -88,9 +88,15 @@ def border_edges(corners: np.ndarray, offsets: np.ndarray) -> tuple[np.ndarray, 
 
 
 def border_of(
-    points: np.ndarray, corners: np.ndarray, offsets: np.ndarray, rings: int = RINGS
+    points: np.ndarray,
+    corners: np.ndarray,
+    offsets: np.ndarray,
+    rings: int = RINGS,
+    only: np.ndarray | None = None,
 ) -> Border:
-    """The border of a mesh; where two borders meet in a vertex, its rows are those of one of them."""
+    """The border of a mesh; where two borders meet in a vertex, its rows are those of one of them.
+    `only`: (j,) vertices, of which alone the border is wanted.
+    """
     edge, face = border_edges(corners, offsets)
     vertex = np.unique(edge)
     slot = np.full(len(points), -1)
@@ -99,6 +105,12 @@ def border_of(
     after[slot[edge[:, 0]]] = edge[:, 1]
     before[slot[edge[:, 1]]] = edge[:, 0]
     along = _tangents(points, vertex, before, after)
+    if only is not None:
+        kept = np.isin(edge, only).all(axis=1)
+        edge, face, along = edge[kept], face[kept], along[np.isin(vertex, edge[kept])]
+        vertex = np.unique(edge)
+        slot[:] = -1
+        slot[vertex] = np.arange(len(vertex))
     around = _Around(corners, offsets)
     up, near = around.normals(points, vertex), around.rings(vertex, rings)
     normal, inward = np.empty((len(vertex), 3)), np.empty((len(vertex), 3))

@@ -22,8 +22,9 @@ from .piecewise.lattice import Lattice
 
 # Share of a border edge: ends that are nearer to the neighbour's border lie on it.
 NEAR = 0.05
-# The second takes away what the first leaves of a large kink, which is of its square.
-PASSES = 2
+# Each leaves some two thirds of the kink: two halves of a bottle of 70 faces meet at 0.10 degrees after two
+# and 0.044 after six.
+PASSES = 6
 
 
 def require_matchable(settings: dict[str, Any], shapes: int) -> None:
@@ -52,27 +53,30 @@ def match_border(
     edge, _ = border_edges(control.corners, control.offsets)
     edge = edge[_chosen(points[: len(control.points)], edge, other, border)]
     faces = _closed_faces(found, 1 << control.options.levels)
+    beside = [_beside(faces, a, b) for a, b in edge.tolist()]
+    on = np.unique([face.side_ids(side) for face, side in beside])
+    _, corners, offsets = mesh_arrays((points, (found["triangles"], found["quads"])))
     joint = control.settings.get("joint", "tangent")
     for _ in range(PASSES):
-        points = points + _change(points, found, faces, edge, other, joint)
+        own = border_of(points, corners, offsets, only=on)
+        points = points + _change(points, faces, edge, beside, own, other, joint)
     found["vertices"] = points
 
 
 def _change(
     points: np.ndarray,
-    found: dict[str, Any],
     faces: list[_Face],
     edge: np.ndarray,
+    beside: list[tuple[_Face, int]],
+    own: Border,
     other: Border,
     joint: str,
 ) -> np.ndarray:
-    """(N, 3): what takes the points to the neighbour."""
-    own = border_of(*mesh_arrays((points, (found["triangles"], found["quads"]))))
+    """(N, 3): what takes the points to the neighbour. `beside`: face and side of each edge."""
     change = np.zeros_like(points)
     once = np.bincount(edge.ravel()) == 1
     spokes: dict[tuple[int, int], np.ndarray] = {}
-    for a, b in edge.tolist():
-        face, side = _beside(faces, a, b)
+    for (a, b), (face, side) in zip(edge.tolist(), beside):
         u, v = _along(face.lattice, side)
         ends = (bool(once[a]), bool(once[b]))
         moved = _Change(points, face, side, own, other, joint, ends)
