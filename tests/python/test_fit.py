@@ -263,6 +263,12 @@ def test_triangles_give_the_normals(cage, scan, fitted):
     assert caught.value.code == "INCONSISTENT_ORIENTATION"
 
 
+def test_a_fit_has_no_pads_and_says_so(cage, scan):
+    with pytest.raises(df.FairingError, match="no pads") as caught:
+        df.fit(*cage, scan[:500], pad_size=1.0)
+    assert caught.value.code == "BAD_OPTION"
+
+
 def test_half_with_a_symmetry_plane_fits_both_halves(scan):
     vertices, faces = blob_cage(6)
     symmetric = np.concatenate([scan, scan * [1, -1, 1]])

@@ -116,6 +116,12 @@ def fit(
         raise fairing_error(
             "BAD_OPTION", "tolerance and weight exclude each other.", cure="Give one."
         )
+    if options.get("pad_size", 0):
+        raise fairing_error(
+            "BAD_OPTION",
+            "A fit has no pads: fixed vertices are points.",
+            cure="Leave pad_size out.",
+        )
     # without the border of a mesh nothing along the surface holds a border curve
     border = {"boundary": "free"} if triangles is None else {}
     control = Control(vertices, faces, {**border, **options, "levels": levels}, symmetry_plane)
