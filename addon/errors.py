@@ -39,7 +39,7 @@ REMEDIES = {
     "NO_THREAD": "Close other programs",
     "UNRESOLVED": "Move or add vertices there, or crease the edges where it turns",
     "PATCH_TOLERANCE": "Raise Levels, Tolerance or Angle of the export, or add vertices there",
-    "SURFACE_TOLERANCE": "Raise Tolerance, or set Fairness to Curvature, which settles sooner than Bending",
+    "SURFACE_TOLERANCE": "Raise Tolerance, or set Fairness to Curvature where there is no scan: it settles sooner",
     "FIT_TOO_COARSE": "Add edges to these faces of the cage (Loop Cut, Subdivide), and press Recompute",
     "FIT_NO_POINTS": "Leave them: the surface is as fair there as its surroundings allow; or scan that place again",
     "FIT_OUTLIERS": "Leave them: they have no effect; or delete them",
