@@ -9,11 +9,11 @@ from functools import partial
 from pathlib import Path
 from queue import SimpleQueue
 
-from debian_root import ROOTS
+from debian_root import ROOTS, DebianRoot
 from extension import build
 from layout import OUT, ROOT
-from real_blender import TIME_LIMIT, RealBlender, places
-from shell import DevError, output, run, say
+from real_blender import TIME_LIMIT, RealBlender, of_debian
+from shell import output, run, say
 from stamp import alone
 from tally import Tally, attempt, with_exit_code
 
@@ -34,7 +34,7 @@ LANES = 2
 def install(blender: RealBlender) -> RealBlender:
     """The Blender, with the extension packed and installed as a user would, into settings that nobody else has."""
     blender.clear()
-    made = build([blender.wheel()], blender)
+    made = build([blender.root.wheel()], blender)
     where = ["--repo", "user_default", "--enable", blender.seen(made)]
     run(*blender.headless("--command", "extension", "install-file", *where))
     return blender
@@ -99,10 +99,9 @@ def run_in_lanes(lanes: list[RealBlender], scripts: list[Path]) -> list[Tally]:
         return list(pool.map(run_next, scripts))
 
 
-def left_to_others(place: str) -> set[str]:
-    """The long scripts that this place does not run: the Debian roots, which have screens, take turns."""
-    takers = [root.suite for root in ROOTS]
-    return {script for k, script in enumerate(LONG) if takers[k % len(takers)] != place}
+def left_to_others(root: DebianRoot) -> set[str]:
+    """The long scripts that the Blender of this root does not run: they take turns."""
+    return {script for k, script in enumerate(LONG) if ROOTS[k % len(ROOTS)] != root}
 
 
 def try_all(blender: RealBlender, wanted: str, left_out: set[str]) -> Tally:
@@ -112,10 +111,9 @@ def try_all(blender: RealBlender, wanted: str, left_out: set[str]) -> Tally:
     for scripts in (SCRIPTS, EXAMPLES, ROOT / "docs"):  # whose models and calls are tried
         shutil.copytree(scripts, blender.exchange / scripts.name, ignore=ignored)
     (blender.exchange / "screenshots").mkdir()
-    kinds = [HEADLESS, WINDOW] if blender.has_screen() else [HEADLESS]
     scripts = [
         path
-        for kind in kinds
+        for kind in (HEADLESS, WINDOW)
         for path in sorted(folder.glob(kind))
         if wanted in path.name and path.name not in left_out
     ]
@@ -132,49 +130,16 @@ def try_all(blender: RealBlender, wanted: str, left_out: set[str]) -> Tally:
     return sum(done, Tally())
 
 
-def or_why(get: Callable[[], RealBlender]) -> RealBlender | str:
-    """A Blender, or why there is none."""
-    try:
-        return get()
-    except DevError as error:
-        print(f"dev.py: {error}", flush=True)
-        return str(error)
+def in_each(work: Callable[[RealBlender], Tally], workers: int | None = None) -> dict[str, Tally]:
+    """What `work` counts in each Blender, `workers` at a time; one that cannot be had is one failure."""
 
-
-def prepared() -> dict[str, RealBlender | str]:
-    """Each Blender that is available with the extension installed, or why there is none.
-
-    The systems in folders are made side by side, as each waits for the network and for one processor; the extension
-    is installed in one after the other, since compilers use all cores.
-    """
-    getters = places()
-    with ThreadPoolExecutor(max_workers=len(getters)) as pool:
-        found = list(pool.map(or_why, getters.values()))
-    return {
-        place: blender if isinstance(blender, str) else or_why(partial(install, blender))
-        for place, blender in zip(getters, found, strict=True)
-    }
-
-
-def in_each(
-    blenders: dict[str, RealBlender | str],
-    work: Callable[[str, RealBlender], Tally],
-    workers: int | None = None,
-) -> dict[str, Tally]:
-    """What `work` counts in the Blender of each place, `workers` at a time; one that cannot be had is one failure."""
-
-    def tally(place: str) -> Tally:
-        blender = blenders[place]
-        if isinstance(blender, str):
-            return Tally(failed=1, note=blender)
-        return attempt(partial(work, place, blender))
-
-    def called(place: str) -> str:
-        version = getattr(blenders[place], "version", "")
-        return f"{place} {version}".rstrip()
+    def tally(root: DebianRoot) -> Tally:
+        blender = of_debian(root)
+        return Tally(note=f"Blender {blender.version}") + work(blender)
 
     with ThreadPoolExecutor(max_workers=workers) as pool:
-        return dict(zip(map(called, blenders), pool.map(tally, blenders), strict=True))
+        found = pool.map(lambda root: attempt(partial(tally, root)), ROOTS)
+        return dict(zip((root.suite for root in ROOTS), found, strict=True))
 
 
 def run_suite(wanted: str = "", everything: bool = False) -> dict[str, Tally]:
@@ -184,8 +149,11 @@ def run_suite(wanted: str = "", everything: bool = False) -> dict[str, Tally]:
     folders.
     """
 
-    def work(place: str, blender: RealBlender) -> Tally:
-        return try_all(blender, wanted, set() if wanted or everything else left_to_others(place))
+    def work(blender: RealBlender) -> Tally:
+        with alone("installation"):  # compilers use all cores
+            install(blender)
+        all_scripts = wanted or everything
+        return try_all(blender, wanted, set() if all_scripts else left_to_others(blender.root))
 
     with alone("blender"):
-        return in_each(prepared(), work)
+        return in_each(work)

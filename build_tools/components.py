@@ -11,7 +11,7 @@ from layout import ROOT
 from shell import DevError
 
 SOURCES, DEPENDENCIES = "build_tools/cross/sources.py", "cmake/dependencies.cmake"
-ZIG = rf"{SOURCES} ziglang-([\d.]+)-"
+ZIG = r"build_tools/requirements_zig.txt ziglang==([\d.]+)"
 # what THIRD_PARTY_LICENSES.txt names: name, the file and the pattern of the version that releases are
 # compiled with, licence, page, package
 LIBRARIES = (

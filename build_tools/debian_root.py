@@ -10,8 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from layout import CACHE, ROOT
-from native_wheel import PIP_WHEEL, inputs, local_version
-from repair import only_wheel, repair
+from native_wheel import PIP_WHEEL, inputs, local_version, only_wheel, repair
 from shell import DevError, as_root, run, say
 from stamp import alone, fingerprint, is_fresh, leave
 from wheel_version import LOCAL_PART

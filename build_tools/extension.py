@@ -6,14 +6,12 @@ Blender wants `__init__.py` beside the manifest, so what lies in addon/ and at t
 
 import re
 import shutil
-import tomllib
-import zipfile
 from pathlib import Path
 
 import native_wheel
 from debian_root import ROOTS
 from layout import ADDON, MANIFEST, OUT, ROOT
-from real_blender import RealBlender, places
+from real_blender import RealBlender, of_debian
 from shell import DevError, run, say
 from stamp import alone
 from wheel_version import manifest_version
@@ -54,15 +52,10 @@ def wheel_version(wheel: Path) -> str:
     return wheel.stem.split("-")[1].partition("+")[0]
 
 
-def python_tags(wheels: list[Path]) -> list[str]:
-    """The Pythons of a zip's wheels."""
-    return [python_tag(wheel) for wheel in wheels]
-
-
 def only_platform(wheels: list[Path]) -> str:
     """Blender's name of the one platform that the wheels of a zip are for."""
     found = {platform(wheel) for wheel in wheels}
-    if len(found) != 1 or len(set(python_tags(wheels))) != len(wheels):
+    if len(found) != 1 or len(set(map(python_tag, wheels))) != len(wheels):
         names = ", ".join(wheel.name for wheel in wheels)
         raise DevError(f"a zip holds wheels of one platform, one a Python: {names}.")
     return found.pop()
@@ -70,7 +63,7 @@ def only_platform(wheels: list[Path]) -> str:
 
 def name(wheels: list[Path]) -> str:
     """What the zip that carries these wheels is called, without the suffix."""
-    tags = python_tags(wheels)
+    tags = [*map(python_tag, wheels)]
     python = f"{tags[0]}-" if len(tags) == 1 else ""
     place = only_platform(wheels).replace("-", "_")
     return f"discrete_fairing-{manifest_version()}-{python}{place}"
@@ -80,7 +73,7 @@ def added_lines(wheels: list[Path]) -> dict[str, str]:
     """What only the staging knows of the manifest."""
     paths = ", ".join(f'"./wheels/{wheel.name}"' for wheel in wheels)
     lines = {"platforms": f'["{only_platform(wheels)}"]', "wheels": f"[{paths}]"}
-    ends = [ENDS.get(tag) for tag in python_tags(wheels)]
+    ends = [ENDS.get(python_tag(wheel)) for wheel in wheels]
     if None not in ends:
         lines["blender_version_max"] = f'"{max(ends)}"'
     return lines
@@ -109,30 +102,6 @@ def stage(wheels: list[Path], folder: Path) -> None:
     (folder / "blender_manifest.toml").write_text(staged_manifest(wheels))
 
 
-def faults(path: Path) -> list[str]:
-    """What is wrong with a zip that Blender's own validation would let pass."""
-    with zipfile.ZipFile(path) as archive:
-        names = set(archive.namelist())
-        manifest = tomllib.loads(archive.read("blender_manifest.toml").decode())
-    wheels = [entry.removeprefix("./") for entry in manifest.get("wheels", [])]
-    carried = [entry for entry in names if entry.endswith(".whl")]
-    tagline = manifest["tagline"]
-    platforms, permissions = manifest["platforms"], sorted(manifest.get("permissions", {}))
-    compiled = [entry for entry in names if "__pycache__" in entry or entry.endswith(".pyc")]
-    others = [entry for entry in wheels if wheel_version(Path(entry)) != manifest["version"]]
-    checks = {
-        "the version is not the project's": manifest["version"] == manifest_version(),
-        "other wheels than it names": wheels != [] and sorted(carried) == sorted(wheels),
-        "a wheel has another version": not others,
-        "a wheel is for another platform": {platform(Path(w)) for w in wheels} == set(platforms),
-        "other permissions than for files and a cluster": permissions == ["files", "network"],
-        "the tagline is too long or ends in a period": len(tagline) <= 64 and tagline[-1] != ".",
-        "no licence": names.issuperset(LICENCES),
-        "compiled Python": not compiled,
-    }
-    return [fault for fault, fine in checks.items() if not fine]
-
-
 def build(wheels: list[Path], blender: RealBlender) -> Path:
     """One zip, built and validated by `blender`; it is left in the folder common with Blender."""
     source = blender.exchange / name(wheels)
@@ -142,8 +111,6 @@ def build(wheels: list[Path], blender: RealBlender) -> Path:
     where = ["--source-dir", blender.seen(source), "--output-filepath", blender.seen(made)]
     run(*blender.headless("--command", "extension", "build", *where))
     run(*blender.headless("--command", "extension", "validate", blender.seen(made)))
-    if found := faults(made):
-        raise DevError(f"{made.name}: {'; '.join(found)}.")
     return made
 
 
@@ -160,11 +127,13 @@ def wheels_at_hand() -> list[list[Path]]:
     return [[wheel] for wheel in reversed(first.values())]
 
 
-def wheels_of_platforms(names: list[str] | None = None) -> list[list[Path]]:
-    """The wheels of each platform named, of all that are cross-compiled for where none is."""
+def zips(folder: Path | None, names: list[str] | None = None) -> list[list[Path]]:
+    """The wheels in a folder or, where none is given, compiled for the platforms named or for all; by platform."""
     from cross.targets import TARGETS, target_named
     from cross.wheels import build as compile_for
 
+    if folder is not None:
+        return wheels_in(folder.resolve())
     targets = [target_named(name) for name in names] if names else TARGETS
     return by_platform([wheel for target in targets for wheel in compile_for(target)])
 
@@ -183,7 +152,7 @@ def build_all(zips: list[list[Path]]) -> list[Path]:
     """A zip for each list of wheels, under out/, made by a Blender with a wheel's Python where there is one."""
     folder = OUT / "extension"
     with alone("blender"):
-        blenders = [get() for get in places().values()]
+        blenders = [of_debian(root) for root in ROOTS]
         for blender in blenders:
             blender.clear()
         shutil.rmtree(folder, ignore_errors=True)
@@ -191,6 +160,6 @@ def build_all(zips: list[list[Path]]) -> list[Path]:
         made = []
         for wheels in zips:
             say(f"extension {name(wheels)}")
-            fitting = [each for each in blenders if each.python_tag in python_tags(wheels)]
+            fitting = [each for each in blenders if each.root.python_tag in map(python_tag, wheels)]
             made.append(Path(shutil.copy(build(wheels, (fitting or blenders)[0]), folder)))
     return made

@@ -6,7 +6,8 @@ from pathlib import Path
 
 import native_wheel
 from layout import BUILD, ROOT, VENV_PYTHON
-from shell import DevError, output, run
+from python_environment import pybind11
+from shell import output, run
 
 TESTS = ROOT / "tests" / "fuzz"
 ADDRESSES, THREADS = "asan-ubsan", "tsan"  # presets
@@ -23,10 +24,7 @@ def fuzz(minutes: float) -> int:
 
 def sanitized_package(preset: str) -> Path:
     """A folder to import discrete_fairing from, built with the preset's sanitizers."""
-    code, pybind11 = output(VENV_PYTHON, "-m", "pybind11", "--cmakedir")
-    if code:
-        raise DevError("pybind11 is not in .venv: run `dev.py setup`.")
-    found = [f"-Dpybind11_DIR={pybind11.strip()}", f"-DPython_EXECUTABLE={VENV_PYTHON}"]
+    found = [f"-Dpybind11_DIR={pybind11()}", f"-DPython_EXECUTABLE={VENV_PYTHON}"]
     run("cmake", "--preset", preset, "-DDF_BUILD_PYTHON=ON", *found)
     run("cmake", "--build", "--preset", preset, "--target", "_native")
     folder = BUILD / preset / "package"

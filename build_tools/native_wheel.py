@@ -4,10 +4,9 @@
 import shutil
 from pathlib import Path
 
-from layout import BUILD, MANIFEST, ROOT, VENV
+from layout import BUILD, MANIFEST, ROOT, VENV, VENV_BIN
 from python_environment import pip
-from repair import only_wheel, repair
-from shell import output, say
+from shell import DevError, output, say
 from stamp import alone, files_under, fingerprint, is_fresh, leave
 from wheel_version import LOCAL_PART, manifest_version
 
@@ -22,13 +21,8 @@ PIP_WHEEL += ["--config-settings=cmake.define.DF_WARNINGS_AS_ERRORS=ON"]
 def inputs() -> list[Path]:
     """Every file that the wheel is made of."""
     names = ["native", "cmake", "CMakeLists.txt", "pyproject.toml", "LICENSE"]
-    names += ["THIRD_PARTY_LICENSES.txt", "build_tools/wheel_version.py", "build_tools/repair.py"]
+    names += ["THIRD_PARTY_LICENSES.txt", "build_tools/wheel_version.py"]
     return files_under(MANIFEST, *(ROOT / name for name in names))
-
-
-def state() -> str:
-    """A hash of the wheel's inputs."""
-    return fingerprint(inputs())
 
 
 def local_version() -> str:
@@ -37,7 +31,28 @@ def local_version() -> str:
     clean = output("git", "status", "--porcelain", "--untracked-files=no") == (0, "")
     if clean and f"v{manifest_version()}" in tags.split():
         return ""
-    return f"g{state()[:10]}"
+    return f"g{fingerprint(inputs())[:10]}"
+
+
+def only_wheel(folder: Path) -> Path:
+    """The one wheel in a folder."""
+    found = list(folder.glob("*.whl"))
+    if len(found) != 1:
+        raise DevError(f"{folder} should hold one wheel, but holds {len(found)}.")
+    return found[0]
+
+
+def repair(wheel: Path, folder: Path, *libraries: Path) -> None:
+    """Writes the self-contained wheel, named after the platforms that can load it, to `folder`.
+
+    `libraries` are the folders to take libraries from; without any, it is the machine's own.
+    """
+    words = [VENV_BIN / "auditwheel", "repair", "--strip"]
+    if libraries:
+        words += ["--ldpaths", ":".join(map(str, libraries))]
+    code, text = output(*words, "--wheel-dir", folder, wheel)
+    if code != 0:
+        raise DevError(f"{wheel.name} cannot be made self-contained: {text.strip()[-1000:]}")
 
 
 def build() -> Path:

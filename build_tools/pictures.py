@@ -92,7 +92,7 @@ def draw(name: str, meshes: Path | None) -> None:
     """Makes one picture; its script leaves it as it is where what it needs is not here."""
     script, *arguments = maker(name).split()
     if script == RECORDINGS:
-        recordings.record(arguments, (IMAGES / name).parent)
+        recordings.record(*arguments, IMAGES / name)
     elif script == WINDOWS:
         window_pictures.cut(*arguments)
     else:

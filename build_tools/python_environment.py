@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 from layout import CACHE, ROOT, VENV, VENV_PYTHON
-from shell import output, run, say
+from shell import DevError, output, run, say
 from stamp import fingerprint, is_fresh, leave
 
 REQUIREMENTS = ROOT / "build_tools" / "requirements.lock"  # of requirements.txt
@@ -68,6 +68,14 @@ def install_tool(name: str, lock: Path) -> Path:
         (packages / "shared.pth").write_text(f"{shared}\n")
         leave(stamp, value)
     return python
+
+
+def pybind11() -> str:
+    """The folder of CMake's files of pybind11."""
+    code, folder = output(VENV_PYTHON, "-m", "pybind11", "--cmakedir")
+    if code:
+        raise DevError("pybind11 is not in .venv: run `dev.py setup` first.")
+    return folder.strip()
 
 
 def pip(*arguments: str | Path, python: Path = VENV_PYTHON, **extra: str) -> None:

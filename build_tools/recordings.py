@@ -8,7 +8,7 @@ from pathlib import Path
 from blender_suite import install
 from debian_root import ROOTS
 from layout import ROOT
-from real_blender import RealBlender, of_debian
+from real_blender import of_debian
 from shell import DevError, run
 from stamp import alone
 
@@ -47,40 +47,26 @@ def palette(taken: dict, folder: Path) -> list[str]:
     """The words after `convert` that choose the colours of all frames together."""
     width, height, left, top = taken["crop"]
     pictures = sorted({frame[0] for frame in taken["frames"]})
-    cut = ["-crop", f"{width}x{height}+{left}+{top}", "+repage", "-resize", "25%", "-append"]
-    return [
-        *(str(folder / name) for name in pictures),
-        *cut,
-        "-colors",
-        str(COLOURS),
-        "-unique-colors",
-    ]
+    words = [*(str(folder / name) for name in pictures), "-crop", f"{width}x{height}+{left}+{top}"]
+    words += ["+repage", "-resize", "25%", "-append"]
+    return [*words, "-colors", str(COLOURS), "-unique-colors"]
 
 
-def film(blender: RealBlender, name: str, target: Path) -> None:
-    """One recording."""
-    shots = blender.exchange / "screenshots"
-    shutil.rmtree(shots, ignore_errors=True)
-    shots.mkdir()
-    shots.chmod(0o777)
-    seen = blender.seen(shots)
-    script = blender.seen(blender.exchange / SCRIPT)
-    arguments = ["--python", script, "--", name]
-    run(*blender.window(*arguments, size=WINDOW, DF_SCREENSHOTS=str(seen)))
-    if not (shots / "frames.json").is_file():
-        raise DevError(f"no recording of {name}: what Blender said is above.")
-    taken = json.loads((shots / "frames.json").read_text())
-    run(*blender.command("convert", *palette(taken, seen), seen / "palette.png"))
-    optimized = ["-layers", "OptimizeTransparency", seen / "film.gif"]
-    run(*blender.command("convert", *animation(taken, seen), *optimized))
-    shutil.copy(shots / "film.gif", target)
-
-
-def record(names: list[str], folder: Path) -> None:
-    """GIFs of these recordings, in a real Blender's window."""
+def record(name: str, target: Path) -> None:
+    """The GIF of one recording, in a real Blender's window."""
     with alone("blender"):
         blender = install(of_debian(ROOTS[0]))
         for part in NEEDED:
             shutil.copytree(ROOT / part, blender.exchange / part)
-        for name in names:
-            film(blender, name, folder / f"{name}.gif")
+        (shots := blender.exchange / "screenshots").mkdir()
+        shots.chmod(0o777)
+        seen, script = blender.seen(shots), blender.seen(blender.exchange / SCRIPT)
+        words = ["--python", script, "--", name]
+        run(*blender.window(*words, size=WINDOW, DF_SCREENSHOTS=str(seen)))
+        if not (shots / "frames.json").is_file():
+            raise DevError(f"no recording of {name}: what Blender said is above.")
+        taken = json.loads((shots / "frames.json").read_text())
+        run(*blender.command("convert", *palette(taken, seen), seen / "palette.png"))
+        optimized = ["-layers", "OptimizeTransparency", seen / "film.gif"]
+        run(*blender.command("convert", *animation(taken, seen), *optimized))
+        shutil.copy(shots / "film.gif", target)

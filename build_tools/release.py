@@ -11,9 +11,10 @@ import blender_repository
 import components
 import extension
 import site_pages
+from debian_root import ROOTS
 from layout import OUT, ROOT, VENV_PYTHON
 from python_environment import has_bpy
-from real_blender import places
+from real_blender import of_debian
 from shell import DevError, output, run, say
 from stamp import alone
 from wheel_version import manifest_version
@@ -68,8 +69,7 @@ def build(zips: list[list[Path]]) -> Path:
     shutil.rmtree(RELEASE, ignore_errors=True)
     (RELEASE / "wheels").mkdir(parents=True)
     with alone("blender"):
-        blender = next(iter(places().values()))()
-        blender_repository.generate(blender, packed, RELEASE / REPOSITORY)
+        blender_repository.generate(of_debian(ROOTS[0]), packed, RELEASE / REPOSITORY)
     for wheel in (wheel for wheels in zips for wheel in wheels):
         shutil.copy(wheel, RELEASE / "wheels")
     run(VENV_PYTHON, "-c", BUILD_SDIST, RELEASE)

@@ -8,9 +8,9 @@ from pathlib import Path
 import blender_repository
 import extension
 from blender_suite import SCRIPTS as BLENDER_SCRIPTS
-from blender_suite import count, in_each, or_why
+from blender_suite import count, in_each
 from layout import BUILD, ROOT
-from real_blender import RealBlender, places
+from real_blender import RealBlender
 from serving import served
 from shell import DevError, output, say
 from stamp import alone
@@ -80,7 +80,7 @@ def live(blender: RealBlender) -> Tally:
     """All stages in one Blender."""
     blender.clear()
     (folder := SERVED / blender.version).mkdir(parents=True, exist_ok=True)
-    zipped = extension.build([blender.wheel()], blender)
+    zipped = extension.build([blender.root.wheel()], blender)
     tests = blender.exchange / "tests"
     shutil.copytree(SCRIPTS, tests, ignore=shutil.ignore_patterns("__pycache__"))
     shutil.copy(BLENDER_SCRIPTS / "harness.py", tests)
@@ -111,5 +111,4 @@ def live(blender: RealBlender) -> Tally:
 def run_suite() -> dict[str, Tally]:
     """The tallies by Blender, one after the other."""
     with alone("blender"):
-        blenders = {place: or_why(get) for place, get in places().items()}
-        return in_each(blenders, lambda _, blender: live(blender), workers=1)
+        return in_each(live, workers=1)

@@ -2,11 +2,9 @@
 """The test suites, one after the other, and their sum."""
 
 import os
-import xml.etree.ElementTree as ElementTree
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from importlib import import_module
 from pathlib import Path
 from time import monotonic
 
@@ -16,11 +14,12 @@ import native_wheel
 import release_suite
 import style
 import system_packages
-from layout import BUILD, ROOT, VENV_PYTHON
+from cross import emulated
+from layout import BUILD, VENV_PYTHON
 from python_environment import has_bpy
 from shell import DevError, run, say
 from stamp import alone
-from tally import Tally, attempt, with_exit_code
+from tally import Tally, attempt, read_junit, with_exit_code
 
 # tests of one label alone, or all others
 FAULTS = ("--label-regex", "^faults$")
@@ -29,18 +28,6 @@ NIGHT_OF_FUZZING = 30.0  # minutes
 # a process for each core; the tests of one file stay together, for what they share
 ON_ALL_CORES = ("--numprocesses=auto", "--dist=loadfile")
 REPORTS = BUILD / "reports"
-
-
-def read_junit(report: Path) -> Tally:
-    """Counts a JUnit report of CTest or pytest; an absent or empty one is a failure."""
-    if not report.is_file():
-        return Tally(failed=1, note="ended without a report")
-    cases = list(ElementTree.parse(report).iter("testcase"))
-    bad = sum(case.find("failure") is not None or case.find("error") is not None for case in cases)
-    skipped = sum(case.find("skipped") is not None for case in cases)
-    if not cases:
-        return Tally(failed=1, note="no tests found")
-    return Tally(len(cases) - bad - skipped, bad, skipped)
 
 
 def fresh_report(name: str) -> Path:
@@ -68,14 +55,12 @@ def native_suite(preset: str, *chosen: str) -> Tally:
     return with_exit_code(read_junit(report), code)
 
 
-def pytest_suite(name: str, *options: str, only: Iterable[str] = (), **environment: str) -> Tally:
-    """pytest on one folder or file below tests/, or on the folder's files `only`."""
+def pytest_suite(name: str, *options: str, **environment: str) -> Tally:
+    """pytest on one folder or file below tests/."""
     native_wheel.install()
     report = fresh_report(name.replace("/", "-"))
-    found = [path for file in only for path in (ROOT / "tests" / name).rglob(f"test_{file}.py")]
-    paths = found or [f"tests/{name}"]
     shown = ["-q", "--durations=10", "--durations-min=1", f"--junitxml={report}"]
-    command = [VENV_PYTHON, "-m", "pytest", *shown, *paths]
+    command = [VENV_PYTHON, "-m", "pytest", *shown, f"tests/{name}"]
     code = run(*command, *options, check=False, **environment)
     return with_exit_code(read_junit(report), code)
 
@@ -123,11 +108,6 @@ SUITES: dict[str, Callable[[], Tally | dict[str, Tally]]] = {
 }
 
 
-def cross_suite(name: str) -> dict[str, Tally]:
-    """The native tests as programs for another machine."""
-    return getattr(import_module("cross.emulated"), name)()
-
-
 def nightly_suite() -> dict[str, Tally]:
     """What is too long for every day: long scripts in every Blender, races between threads, new random calls."""
     blenders = blender_suite.run_suite(everything=True)
@@ -142,30 +122,10 @@ def nightly_suite() -> dict[str, Tally]:
     }
 
 
-# what daily work touches most
-QUICK = {
-    "python": ["interpolation", "total_curvature", "near_on_pads", "threads", "settings", "check"],
-    "addon": ["operator", "register", "ui", "documents"],
-    "build_tools": ["layering"],
-}
-# without the few tests of these files that take as long as all others
-NOT_LONG = ("-m", "not long")
-
-
-def quick_suite() -> dict[str, Tally]:
-    """What a change needs daily: form, the core, and a few files of each other suite."""
-    tallies = {"style": style_suite(), "native": native_suite("release", *NO_FAULTS)}
-    for suite, files in QUICK.items():
-        if suite != "addon" or has_bpy():
-            tallies[suite] = pytest_suite(suite, *ON_ALL_CORES, *NOT_LONG, only=files)
-    return tallies
-
-
-# by name alone: quick is a part of the others, the rest take half an hour each
+# by name alone, as each takes half an hour
 LONG_SUITES: dict[str, Callable[[], Tally | dict[str, Tally]]] = {
-    "quick": quick_suite,
-    "windows": partial(cross_suite, "windows"),
-    "arm": partial(cross_suite, "arm"),
+    "windows": emulated.windows,
+    "arm": emulated.arm,
     "nightly": nightly_suite,
 }
 

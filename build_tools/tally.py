@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How many tests of a suite, or of a part of it, ended how."""
 
+import xml.etree.ElementTree as ElementTree
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TypeVar
 
 from shell import DevError
@@ -23,6 +25,18 @@ class Tally:
         notes = [note for note in (self.note, other.note) if note]
         sums = self.passed + other.passed, self.failed + other.failed, self.skipped + other.skipped
         return Tally(*sums, note="; ".join(notes))
+
+
+def read_junit(report: Path) -> Tally:
+    """Counts a JUnit report of CTest or pytest; an absent or empty one is a failure."""
+    if not report.is_file():
+        return Tally(failed=1, note="ended without a report")
+    cases = list(ElementTree.parse(report).iter("testcase"))
+    bad = sum(case.find("failure") is not None or case.find("error") is not None for case in cases)
+    skipped = sum(case.find("skipped") is not None for case in cases)
+    if not cases:
+        return Tally(failed=1, note="no tests found")
+    return Tally(len(cases) - bad - skipped, bad, skipped)
 
 
 def with_exit_code(tally: Tally, code: int) -> Tally:

@@ -12,8 +12,7 @@ from debian_root import INSIDE, DebianRoot
 from layout import BUILD, CACHE
 from shell import DevError, output, run, say
 from stamp import alone, fingerprint, is_fresh, leave
-from suites import read_junit
-from tally import Tally, with_exit_code
+from tally import Tally, read_junit, with_exit_code
 
 from cross import native_build
 from cross.targets import Target, target_named

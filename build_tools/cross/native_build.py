@@ -5,9 +5,10 @@ import os
 from pathlib import Path
 
 import system_packages
-from layout import BUILD, ROOT, VENV_PYTHON
+from layout import BUILD, ROOT
 from native_wheel import local_version
-from shell import DevError, output, run
+from python_environment import pybind11
+from shell import DevError, run
 from wheel_version import version
 
 from cross.python_parts import headers, import_library
@@ -25,9 +26,6 @@ def build_folder(target: Target) -> Path:
 
 def settings(target: Target) -> dict[str, str | Path]:
     """CMake's variables that do not depend on the Python."""
-    code, pybind11 = output(VENV_PYTHON, "-m", "pybind11", "--cmakedir")
-    if code:
-        raise DevError("pybind11 is not in .venv: run `dev.py setup` first.")
     return {
         "CMAKE_TOOLCHAIN_FILE": TOOLCHAIN,
         "CMAKE_BUILD_TYPE": "Release",
@@ -35,7 +33,7 @@ def settings(target: Target) -> dict[str, str | Path]:
         "DF_ZIG_TARGET": target.zig,
         "DF_WARNINGS_AS_ERRORS": "ON",
         "FETCHCONTENT_SOURCE_DIR_OPENMESH": openmesh(),
-        "pybind11_DIR": pybind11.strip(),
+        "pybind11_DIR": pybind11(),
         "SKBUILD_PROJECT_VERSION_FULL": version(local_version()),
     }
 

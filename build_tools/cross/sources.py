@@ -1,20 +1,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What cross compilation takes from elsewhere, each at one version with one hash: fetched once, unpacked once."""
+"""What cross compilation takes from elsewhere, each at one version with its hash: zig by pip, sources from Debian."""
 
 import hashlib
 import shutil
 import tarfile
-import zipfile
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from urllib.request import urlretrieve
 
-from layout import CACHE, VENV_PYTHON
+from layout import CACHE, ROOT
+from python_environment import install_tool
 from shell import DevError, output, say
 from stamp import alone, is_fresh, leave
 
 FOLDER = CACHE / "cross"
+ZIG = ROOT / "build_tools" / "requirements_zig.lock"
 
 
 def debian(file: str, folder: Path) -> None:
@@ -26,21 +27,11 @@ def debian(file: str, folder: Path) -> None:
     urlretrieve(f"{mirrors[0].rstrip('/')}/pool/main/{file}", folder / Path(file).name)
 
 
-def pypi(file: str, folder: Path) -> None:
-    """Brings a wheel from the index that pip uses here."""
-    project, version, _ = file.split("-", 2)
-    words = ["download", "--quiet", "--no-deps", "--dest", folder, f"{project}=={version}"]
-    code, text = output(VENV_PYTHON, "-m", "pip", *words)
-    if code:
-        raise OSError(text.strip()[-300:])
-
-
 @dataclass(frozen=True)
 class Source:
-    """An archive, and who brings it: a file of a registry."""
+    """An archive of Debian's pool."""
 
     name: str
-    registry: Callable[[str, Path], None]
     file: str
     sha256: str
 
@@ -54,7 +45,7 @@ class Source:
             say(f"fetching {self.archive.name}")
             self.archive.parent.mkdir(parents=True, exist_ok=True)
             try:
-                self.registry(self.file, self.archive.parent)
+                debian(self.file, self.archive.parent)
             except OSError as error:
                 raise DevError(
                     f"{self.archive.name} cannot be fetched ({error}): put the file into "
@@ -79,19 +70,11 @@ class Source:
             if not (is_fresh(stamp, self.sha256) and folder.is_dir()):
                 archive = self.fetch()
                 shutil.rmtree(folder, ignore_errors=True)
-                unpack(archive, folder, wanted)
+                with tarfile.open(archive) as file:
+                    # hashes vouch for them
+                    file.extractall(folder, [m for m in file if wanted(m.name)])
                 leave(stamp, self.sha256)
         return folder
-
-
-def unpack(archive: Path, folder: Path, wanted: Callable[[str], bool]) -> None:
-    """Unpacks the wanted files of a zip, a wheel or a tar archive."""
-    if archive.suffix in (".zip", ".whl"):
-        with zipfile.ZipFile(archive) as file:
-            file.extractall(folder, [name for name in file.namelist() if wanted(name)])
-        return
-    with tarfile.open(archive) as file:
-        file.extractall(folder, [m for m in file if wanted(m.name)])  # hashes vouch for them
 
 
 def only_folder(folder: Path) -> Path:
@@ -100,15 +83,8 @@ def only_folder(folder: Path) -> Path:
     return found
 
 
-ZIG = Source(
-    "zig",
-    pypi,
-    "ziglang-0.17.1-py3-none-manylinux_2_12_x86_64.manylinux2010_x86_64.musllinux_1_1_x86_64.whl",
-    "ea6cc5d87b033cf0aedfbc8f9549a908cae6c50ac31f1698188fa48a74524b54",
-)
 OPENMESH = Source(
     "openmesh",
-    debian,
     "o/openmesh/openmesh_11.0.0.orig.tar.gz",
     "c7f35d29673e6dbb6d65b214c10c4c6249521a8f1e8f8db6e8bdc2eed798aedc",
 )
@@ -116,13 +92,11 @@ OPENMESH = Source(
 PYTHON_SOURCES = {
     "cp311": Source(
         "python311",
-        debian,
         "p/python3.11/python3.11_3.11.2.orig.tar.gz",
         "2411c74bda5bbcfcddaf4531f66d1adc73f247f529aee981b029513aefdbf849",
     ),
     "cp313": Source(
         "python313",
-        debian,
         "p/python3.13/python3.13_3.13.5.orig.tar.xz",
         "93e583f243454e6e9e4588ca2c2662206ad961659863277afcdb96801647d640",
     ),
@@ -131,8 +105,9 @@ PYTHON_SOURCES = {
 
 def zig() -> Path:
     """zig's program: clang, its linker, and the libraries of every platform."""
-    program = (ZIG.unpacked() / "ziglang" / "zig").resolve()
-    program.chmod(0o755)
+    with alone("zig"):
+        python = install_tool("zig", ZIG)
+    (program,) = python.parent.parent.glob("lib/python*/site-packages/ziglang/zig")
     for tool in ("ar", "ranlib"):  # CMake wants programs of one word
         script = program.with_name(f"zig-{tool}")
         script.write_text(f'#!/bin/sh\nexec "{program}" {tool} "$@"\n')

@@ -7,13 +7,13 @@ import tempfile
 from pathlib import Path
 
 from layout import CACHE, ROOT, VENV_PYTHON
-from native_wheel import inputs, local_version
-from repair import only_wheel
+from native_wheel import inputs, local_version, only_wheel
 from shell import DevError, output, run, say
 from stamp import alone, files_under, fingerprint, is_fresh, leave
 from wheel_version import LOCAL_PART
 
 from cross import native_build
+from cross.sources import ZIG
 from cross.targets import PYTHONS, Target
 
 PACKAGE = ROOT / "native" / "binding" / "discrete_fairing"
@@ -56,9 +56,8 @@ def build(target: Target, pythons: tuple[str, ...] = PYTHONS) -> list[Path]:
     """One platform's wheels, compiled and inspected; returns at once when nothing changed."""
     with alone("cross"):
         folder, stamp = WHEELS / target.name, CACHE / f"cross-{target.name}.stamp"
-        value = fingerprint(
-            inputs() + files_under(ROOT / "build_tools" / "cross"), local_version(), *pythons
-        )
+        tools = files_under(ROOT / "build_tools" / "cross", ZIG)
+        value = fingerprint(inputs() + tools, local_version(), *pythons)
         if not (is_fresh(stamp, value) and folder.is_dir()):
             say(f"cross compilation for {target.name}")
             shutil.rmtree(folder, ignore_errors=True)

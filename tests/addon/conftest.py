@@ -22,9 +22,7 @@ from addon.live import full_level  # noqa: E402
 
 def pytest_configure(config):
     config.addinivalue_line("markers", "plain: without Blender")
-    config.addinivalue_line(
-        "markers", "long: seconds of a processor, left out of `dev.py test quick`"
-    )
+    config.addinivalue_line("markers", "long: seconds of a processor")
 
 
 @pytest.fixture(autouse=True)

@@ -5,6 +5,7 @@ from time import sleep
 
 import blender_suite
 from debian_root import ROOTS
+from shell import DevError
 
 
 def test_every_long_script_is_there():
@@ -13,12 +14,8 @@ def test_every_long_script_is_there():
 
 
 def test_every_long_script_runs_in_one_blender():
-    taken = [set(blender_suite.LONG) - blender_suite.left_to_others(root.suite) for root in ROOTS]
+    taken = [set(blender_suite.LONG) - blender_suite.left_to_others(root) for root in ROOTS]
     assert sorted(script for scripts in taken for script in scripts) == sorted(blender_suite.LONG)
-
-
-def test_a_blender_without_a_screen_takes_none():
-    assert blender_suite.left_to_others("path") == set(blender_suite.LONG)
 
 
 def test_timed_scripts_are_there():
@@ -41,6 +38,21 @@ def test_two_lanes_never_run_in_one_another(monkeypatch):
     monkeypatch.setattr(blender_suite, "run_script", run_script)
     done = blender_suite.run_in_lanes(["a", "b"], list(range(20)))
     assert done == list(range(20)) and max(most) == 2
+
+
+def test_a_blender_that_cannot_be_had_is_one_failure(monkeypatch):
+    """And no reason to leave the others out."""
+
+    def of_debian(root):
+        if root == ROOTS[0]:
+            raise DevError("no mirror")
+        return blender_suite.RealBlender("5.2.2", root)
+
+    monkeypatch.setattr(blender_suite, "of_debian", of_debian)
+    found = blender_suite.in_each(lambda blender: blender_suite.Tally(passed=3))
+    bad, *good = (found[root.suite] for root in ROOTS)
+    assert (bad.passed, bad.failed, bad.note) == (0, 1, "no mirror")
+    assert [(each.passed, each.note) for each in good] == [(3, "Blender 5.2.2")]
 
 
 def test_each_line_of_a_script_is_a_test():

@@ -2,7 +2,9 @@
 """Cross compilation, as far as it needs no compiler: names, pinned sources, how wheels are packed."""
 
 import hashlib
+import io
 import shutil
+import tarfile
 import zipfile
 
 import extension
@@ -35,12 +37,12 @@ def test_a_module_is_called_as_its_python_looks_for_it(name, suffix):
 
 
 def all_sources():
-    return [sources.ZIG, sources.OPENMESH, *sources.PYTHON_SOURCES.values()]
+    return [sources.OPENMESH, *sources.PYTHON_SOURCES.values()]
 
 
 @pytest.mark.parametrize("source", all_sources(), ids=lambda source: source.name)
 def test_sources_are_pinned(source):
-    assert source.registry in (sources.debian, sources.pypi) and "://" not in source.file
+    assert "://" not in source.file
     assert len(bytes.fromhex(source.sha256)) == hashlib.sha256().digest_size
 
 
@@ -48,23 +50,22 @@ def test_every_python_has_its_sources():
     assert set(PYTHONS) == set(sources.PYTHON_SOURCES)
 
 
-def source_of(path):
-    """A source that is this file."""
-    digest = hashlib.sha256(path.read_bytes()).hexdigest()
-    return Source(
-        path.stem, lambda file, to: shutil.copy(path.parent / file, to), path.name, digest
-    )
+def source_of(path, texts):
+    """A source that is an archive of these files, made at `path`."""
+    with tarfile.open(path, "w") as archive:
+        for name, text in texts.items():
+            entry = tarfile.TarInfo(name)
+            entry.size = len(text)
+            archive.addfile(entry, io.BytesIO(text.encode()))
+    return Source(path.stem, path.name, hashlib.sha256(path.read_bytes()).hexdigest())
 
 
 @pytest.fixture
 def served(tmp_path, monkeypatch):
-    """A source whose archive is a zip on this machine."""
+    """A source whose archive is on this machine."""
     monkeypatch.setattr(sources, "FOLDER", tmp_path / "cache")
-    path = tmp_path / "thing.zip"
-    with zipfile.ZipFile(path, "w") as archive:
-        archive.writestr("thing/wanted.h", "1")
-        archive.writestr("thing/other.c", "2")
-    return source_of(path)
+    monkeypatch.setattr(sources, "debian", lambda file, to: shutil.copy(tmp_path / file, to))
+    return source_of(tmp_path / "thing.tar", {"thing/wanted.h": "1", "thing/other.c": "2"})
 
 
 def test_only_what_is_wanted_is_unpacked(served):
@@ -74,14 +75,14 @@ def test_only_what_is_wanted_is_unpacked(served):
 
 
 def test_another_file_than_the_pinned_one_is_refused(served):
-    other = Source(served.name, served.registry, served.file, "0" * 64)
+    other = Source(served.name, served.file, "0" * 64)
     with pytest.raises(DevError, match="hash"):
         other.unpacked()
     assert not other.archive.exists() and not (sources.FOLDER / "thing").exists()
 
 
 def test_a_source_out_of_reach_says_where_to_put_it(served):
-    gone = Source("gone", served.registry, "gone.zip", "0" * 64)
+    gone = Source("gone", "gone.tar", "0" * 64)
     with pytest.raises(DevError, match="by hand"):
         gone.fetch()
 
@@ -100,15 +101,13 @@ def test_which_of_pythons_files_are_headers(name, wanted):
     assert python_parts.is_header(name) is wanted
 
 
+@pytest.mark.usefixtures("served")
 def test_headers_keep_their_times(tmp_path, monkeypatch):
     """Else the second run would compile everything again."""
-    monkeypatch.setattr(sources, "FOLDER", tmp_path / "cache")
     monkeypatch.setattr(python_parts, "FOLDER", tmp_path / "cache")
-    path = tmp_path / "python.zip"
-    with zipfile.ZipFile(path, "w") as archive:
-        archive.writestr("Python-3/Include/Python.h", "")
-        archive.writestr("Python-3/PC/pyconfig.h", "windows")
-    monkeypatch.setitem(python_parts.PYTHON_SOURCES, "cp311", source_of(path))
+    texts = {"Python-3/Include/Python.h": "", "Python-3/PC/pyconfig.h": "windows"}
+    source = source_of(tmp_path / "python.tar", texts)
+    monkeypatch.setitem(python_parts.PYTHON_SOURCES, "cp311", source)
     for name, config in (("windows-x64", "windows"), ("macos-arm64", "SIZEOF_LONG 8")):
         config_file = python_parts.headers(target_named(name), "cp311") / "pyconfig.h"
         assert config in config_file.read_text()

@@ -8,8 +8,7 @@ from importlib import metadata
 import lief
 import pytest
 from cross import python_parts, wheels
-from cross.inspection import Binary, faults, faults_of, names_this_folder, read
-from layout import ROOT
+from cross.inspection import Binary, faults, faults_of, read
 from shell import DevError
 
 INIT = ["PyInit__native"]
@@ -49,11 +48,6 @@ def test_a_good_module_has_no_faults(tag):
 def test_faults_are_found(tag, change, fault):
     module = Binary(**{**vars(GOOD[tag]), **change})
     assert [found for found in faults_of(module, tag, "cp311") if fault in found]
-
-
-def test_a_module_that_names_its_folder_is_seen():
-    assert names_this_folder(b"\0" + bytes(ROOT / "native" / "fair.cpp") + b"\0")
-    assert not names_this_folder(b"\0./native/fair.cpp\0")
 
 
 def macho(*commands):
