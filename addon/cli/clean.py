@@ -7,13 +7,13 @@ from typing import Any
 
 from ..blender import Object, current_context
 from ..cleaning import STEPS, CleanJob, CleanOptions
-from .numbers import number
 from .report import counts
+from .rna import OfOperator
 
 _NAMES = [name for name, *_ in STEPS]
-DEFAULTS: dict[str, Any] = {"clean_without": (), "clean_islands": 0.1, "clean_noise": 0}
-
-_SHARE = number("a number from 0 to 1", lambda value: 0.0 <= value <= 1.0)
+OPTIONS = OfOperator(
+    "object.fairing_clean", {"clean_without": (), "clean_noise": 0}, clean_islands="islands"
+)
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -31,19 +31,13 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         metavar="STEP",
         help=f"leave out a step; may be repeated: {', '.join(_NAMES)} [none]",
     )
-    group.add_argument(
-        "--clean-islands",
-        type=_SHARE,
-        metavar="X",
-        help="remove parts whose box has a diagonal below this share of the longest; 0: none "
-        f"[{DEFAULTS['clean_islands']:g}]",
-    )
+    OPTIONS.add(group)
     group.add_argument(
         "--clean-noise",
         type=_passes,
         metavar="N",
         help="auto: remove noise by an amount chosen around each vertex; a number: passes of a filter, the same "
-        f"everywhere, up to 1000; ten are enough for most scans [{DEFAULTS['clean_noise']}]",
+        "everywhere, up to 1000; ten are enough for most scans [0]",
     )
 
 

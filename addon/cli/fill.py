@@ -5,21 +5,20 @@ import argparse
 from typing import Any
 
 from ..blender import Object, current_context
-from ..choices import JOINTS
 from ..errors import JobError
 from ..holes import LARGER_HOLES, NO_HOLE, FillOptions, HoleJob, fill_warnings
-from .numbers import number
 from .report import counts
+from .rna import OfOperator
 
-DEFAULTS: dict[str, Any] = {
-    "fill_joint": "curvature",
-    "fill_density": 1.0,
-    "fill_noisy": False,
-    "fill_quads": False,
-}
+OPTIONS = OfOperator(
+    "object.fairing_fill",
+    {},
+    fill_joint="joint",
+    fill_density="density",
+    fill_noisy="noisy",
+    fill_quads="quads",
+)
 ENERGY = "TOTAL_CURVATURE"
-
-_DENSITY = number("a number from 0 to 100", lambda value: 0.0 <= value <= 100.0)
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -30,38 +29,13 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         help="fill the holes of each mesh instead of fairing it; of the settings only --energy is used "
         "then [off; energy: total_curvature]",
     )
-    names = [identifier.lower() for identifier, *_ in JOINTS]
-    group.add_argument(
-        "--fill-joint",
-        choices=names,
-        metavar="|".join(names),
-        help=f"how a filling meets the faces around [{DEFAULTS['fill_joint']}]",
-    )
-    group.add_argument(
-        "--fill-density",
-        type=_DENSITY,
-        metavar="X",
-        help="how many times finer than the rim the filling is; 0: no new vertices "
-        f"[{DEFAULTS['fill_density']:g}]",
-    )
-    group.add_argument(
-        "--fill-noisy",
-        action="store_true",
-        default=None,
-        help="the faces around are measured: read six rings of them, none exactly",
-    )
-    group.add_argument(
-        "--fill-quads",
-        action="store_true",
-        default=None,
-        help="fill holes among quads with a grid of quads if the rim allows it, else with triangles",
-    )
+    OPTIONS.add(group)
 
 
 def options_of(said: dict[str, Any]) -> FillOptions:
     """From the options that were said, or their defaults."""
     return FillOptions(
-        said["fill_joint"].upper(),
+        said["fill_joint"],
         said["energy"],
         said["fill_density"],
         said["largest_hole"],

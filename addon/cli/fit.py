@@ -18,6 +18,7 @@ from ..scan_fit import Fit, FitJob, make_cage
 from ..settings import Settings
 from .files import FileError, read_file
 from .places import FORMATS, Place, file_format
+from .rna import option
 
 _CAGE_FACES = 300
 # what a fit does by itself, or has another meaning for
@@ -67,16 +68,14 @@ def options_of(arguments: argparse.Namespace, settings: Settings) -> FitOptions 
     if not arguments.fit:
         for name in ("cage", "cage_faces"):
             if getattr(arguments, name) is not None:
-                raise ValueError(f"{_option(name)} needs --fit")
+                raise ValueError(f"{option(name)} needs --fit")
         return None
     for name in _NOT_HERE:
         if name in vars(arguments):
-            raise ValueError(
-                f"{_option(name)} is not for --fit, which moves all vertices by itself"
-            )
+            raise ValueError(f"{option(name)} is not for --fit, which moves all vertices by itself")
     for name in ("pieces", "ease", "ease_tolerance", "ease_stiffness", "strain", "fill", "clean"):
         if getattr(arguments, name, None) not in (None, False):
-            raise ValueError(f"{_option(name)} is not for --fit: call twice")
+            raise ValueError(f"{option(name)} is not for --fit: call twice")
     if arguments.cage is not None and arguments.cage_faces is not None:
         raise ValueError("give one of --cage and --cage-faces: a cage has its own faces")
     cage = None if arguments.cage is None else Path(arguments.cage)
@@ -162,10 +161,6 @@ def table_line(record: dict[str, Any], width: int) -> str:
         f"{record['input']:<{width}} {item['control']['faces']:>10,} {item['result']['faces']:>11,} "
         f"{record['seconds']:>8.2f} {words.short(told['within']):>10} {words.short(told['noise']):>10}"
     )
-
-
-def _option(name: str) -> str:
-    return "--" + name.replace("_", "-")
 
 
 def _count(text: str) -> int:

@@ -4,19 +4,16 @@
 import argparse
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import inf
 from typing import Any
 
 from ..settings import NAMES
 from . import clean, fill
-from .numbers import number
 from .places import Place, is_cad
+from .rna import OfOperator, option
 
 _OTHERS = ("pieces", "weld")  # that mean nothing here, beside settings
-_OF_BOTH: dict[str, Any] = {"largest_hole": 0.0}
+_OF_BOTH = OfOperator("object.fairing_fill", {}, largest_hole="largest")
 _MODULES: dict[str, Any] = {"fill": fill, "clean": clean}
-
-_WIDTH = number("a length, 0 or more", lambda value: 0.0 <= value < inf)
 
 
 @dataclass(frozen=True)
@@ -29,13 +26,7 @@ class Mending:
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     group = parser.add_argument_group("holes, of --fill and --clean")
-    group.add_argument(
-        "--largest-hole",
-        type=_WIDTH,
-        metavar="LENGTH",
-        help="holes wider than this between two vertices of the rim stay open, in the file's unit; 0: only the "
-        f"borders of sheets stay open [{_OF_BOTH['largest_hole']:g}]",
-    )
+    _OF_BOTH.add(group)
     fill.add_options(parser)
     clean.add_options(parser)
 
@@ -47,9 +38,9 @@ def asked_of(arguments: argparse.Namespace, files: Sequence[Place]) -> Mending |
         raise ValueError("give one of --fill and --clean: cleaning fills holes, too")
     name = names[0] if names else ""
     for each, module in _MODULES.items():
-        for given in module.DEFAULTS:
+        for given in module.OPTIONS.names:
             if name != each and getattr(arguments, given) is not None:
-                raise ValueError(f"{_option(given)} needs --{each}")
+                raise ValueError(f"{option(given)} needs --{each}")
     if not name:
         if arguments.largest_hole is not None:
             raise ValueError("--largest-hole needs --fill or --clean")
@@ -59,18 +50,11 @@ def asked_of(arguments: argparse.Namespace, files: Sequence[Place]) -> Mending |
     found += [key for key in _OTHERS if getattr(arguments, key) is not None]
     if found:
         raise ValueError(
-            f"{_option(found[0])} is for fairing, and --{name} does not fair: call twice"
+            f"{option(found[0])} is for fairing, and --{name} does not fair: call twice"
         )
     if any(is_cad(file.target) for file in files):
         raise ValueError(f"--{name} writes meshes: OUT cannot be a STEP file")
-    defaults = _MODULES[name].DEFAULTS | _OF_BOTH
-    said = {
-        key: value if (value := getattr(arguments, key)) is not None else default
-        for key, default in defaults.items()
-    }
+    module = _MODULES[name]
+    said = _OF_BOTH.said(arguments) | module.OPTIONS.said(arguments)
     said["energy"] = getattr(arguments, "energy", fill.ENERGY)
-    return Mending(_MODULES[name], _MODULES[name].options_of(said))
-
-
-def _option(name: str) -> str:
-    return "--" + name.removeprefix("use_").replace("_", "-")
+    return Mending(module, module.options_of(said))

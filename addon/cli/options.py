@@ -2,9 +2,8 @@
 """What can be said on the command line: the list of settings, and what goes with files."""
 
 import argparse
-from collections.abc import Callable
 from dataclasses import asdict
-from math import degrees, inf, radians
+from math import inf
 from typing import Any
 
 from ..properties import FAIRING_PG_settings
@@ -12,6 +11,7 @@ from ..settings import NAMES, OF_NEAR, Settings
 from . import ease, fit, mending, step
 from .numbers import number
 from .places import FORMATS
+from .rna import add, default, option
 
 # Settings that mean something beside an open scene only, or for what no OBJ, PLY or STL file holds.
 NOT_HERE = frozenset(
@@ -81,7 +81,8 @@ def add_settings(parser: argparse.ArgumentParser) -> None:
         if name in NOT_HERE or name in ("weld", "tolerance") or _said_by_value(name):
             continue
         group = next((group for group, members in _GROUPS.items() if name in members), "advanced")
-        _add(groups[group], name, _property(name))
+        # SUPPRESS: what is not said is absent, so that saying a default still counts as said
+        add(groups[group], name, _property(name), argparse.SUPPRESS, "use_" + name in NAMES)
     groups["shape"].add_argument(
         "--tolerance",
         type=_tolerance,
@@ -100,7 +101,7 @@ def settings_of(arguments: argparse.Namespace) -> Settings:
     given = {name: value for name, value in vars(arguments).items() if name in NAMES}
     if given.get("weld") is None:
         given.pop("weld", None)
-    settings = {name: _default(_property(name)) for name in NAMES} | given
+    settings = {name: default(_property(name)) for name in NAMES} | given
     if "tolerance" in given:
         settings["tolerance"], settings["tolerance_unit"] = given["tolerance"]
     for name in given:
@@ -127,11 +128,6 @@ def shown(settings: Settings) -> dict[str, Any]:
     return {name: value for name, value in asdict(settings).items() if name not in NOT_HERE}
 
 
-def option(name: str) -> str:
-    """`--crease-angle` for crease_angle; the word "use" says nothing beside --x and --no-x."""
-    return "--" + name.removeprefix("use_").replace("_", "-")
-
-
 def _tolerance(text: str) -> tuple[float, str]:
     """A number and its unit."""
     share = text.endswith("%")
@@ -150,82 +146,6 @@ def _said_by_value(name: str) -> bool:
 
 def _property(name: str) -> Any:
     return FAIRING_PG_settings.bl_rna.properties[name]
-
-
-def _default(prop: Any) -> Any:
-    # Blender keeps single precision: 0.01 would come out as 0.0099999998
-    return float(f"{prop.default:.7g}") if prop.type == "FLOAT" else prop.default
-
-
-def _add(group: argparse._ArgumentGroup, name: str, prop: Any) -> None:
-    kind = _KINDS.get(prop.type)
-    if kind is None or getattr(prop, "is_array", False):
-        raise TypeError(f"the setting {name} has no option yet: {prop.type}")
-    # SUPPRESS: what is not said is absent, so that saying a default still counts as said
-    group.add_argument(option(name), dest=name, default=argparse.SUPPRESS, **kind(name, prop))
-
-
-def _boolean(_name: str, prop: Any) -> dict[str, Any]:
-    shown = "on" if prop.default else "off"
-    return {"action": argparse.BooleanOptionalAction, "help": _help(prop, shown)}
-
-
-def _number(name: str, prop: Any) -> dict[str, Any]:
-    angle = prop.subtype == "ANGLE"
-    shown = degrees(prop.default) if angle else prop.default
-    return {
-        "type": _bounded(prop, int if prop.type == "INT" else float, angle),
-        "metavar": "DEGREES" if angle else "N" if prop.type == "INT" else "X",
-        "help": _help(prop, "off" if "use_" + name in NAMES else f"{shown:.4g}"),
-    }
-
-
-def _choice(_name: str, prop: Any) -> dict[str, Any]:
-    spelled = {item.identifier.lower(): item for item in prop.enum_items}
-    listed = "; ".join(f"{word}: {item.description}" for word, item in spelled.items())
-    shown = prop.default.lower()
-
-    def parse(text: str) -> str:
-        word = text.replace("-", "_")  # as options themselves are spelled
-        if word not in spelled:
-            raise argparse.ArgumentTypeError(f"{text!r} is not one of {', '.join(spelled)}")
-        return spelled[word].identifier
-
-    return {"type": parse, "metavar": "|".join(spelled), "help": _help(prop, shown, listed)}
-
-
-def _text(_name: str, prop: Any) -> dict[str, Any]:
-    return {"metavar": "NAME", "help": _help(prop, prop.default or "none")}
-
-
-_KINDS = {"BOOLEAN": _boolean, "INT": _number, "FLOAT": _number, "ENUM": _choice, "STRING": _text}
-
-
-def _bounded(prop: Any, number: type, angle: bool) -> Callable[[str], float]:
-    """A parser of numbers that keeps Blender's own limits; in degrees for angles."""
-    lowest, highest = (degrees(x) if angle else x for x in (prop.hard_min, prop.hard_max))
-
-    def parse(text: str) -> float:
-        try:
-            value = number(text)
-        except ValueError:
-            value = None
-        # the limits of angles went through radians in single precision
-        if value is None or not lowest - 1e-4 * angle <= value <= highest + 1e-4 * angle:
-            span = f"from {lowest:g}" + (f" to {highest:g}" if highest < 2**30 else "")
-            whole = "a whole number " if number is int else "a number "
-            raise argparse.ArgumentTypeError(f"{text!r} is not {whole}{span}")
-        return radians(value) if angle else value
-
-    return parse
-
-
-def _help(prop: Any, shown: str, more: str = "") -> str:
-    # argparse reads % as a format
-    return (
-        ". ".join(part for part in (prop.description, more) if part).replace("%", "%%")
-        + f" [{shown}]"
-    )
 
 
 def parser(version: str) -> argparse.ArgumentParser:

@@ -3,52 +3,31 @@
 
 import argparse
 from collections.abc import Sequence
-from math import degrees, radians
+from math import degrees
 from typing import Any
 
 from ..cad import words
 from ..cad.fit import PatchJob, refused
-from ..cad.settings import METRES
 from ..cad.step import write_jobs
 from ..errors import JobError
 from ..settings import PatchOptions, Settings
 from .files import write_whole
-from .numbers import number
 from .places import Place, is_cad
+from .rna import OfOperator, option
 
-_TOLERANCE, _ANGLE, _UNIT = 1e-4, 0.05, "mm"
-_ONLY_HERE = ("fit_tolerance", "fit_angle", "unit", "force")
-
-_POSITIVE = number("a number above 0 and below 90", lambda value: 0.0 < value < 90.0)
+_OPTIONS = OfOperator(
+    "export_scene.fairing_step",
+    {},
+    fit_tolerance="fit_tolerance",
+    fit_angle="fit_angle",
+    unit="unit",
+    force="force",
+)
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     group = parser.add_argument_group("files for CAD (OUT ends in .step or .stp)")
-    group.add_argument(
-        "--fit-tolerance",
-        type=_POSITIVE,
-        metavar="X",
-        help="largest distance of a patch from the fair surface, as a share of its size "
-        f"[{_TOLERANCE:g}]",
-    )
-    group.add_argument(
-        "--fit-angle",
-        type=_POSITIVE,
-        metavar="DEGREES",
-        help=f"largest angle between two patches where there is no crease [{_ANGLE}]",
-    )
-    group.add_argument(
-        "--unit",
-        choices=[unit.lower() for unit in METRES],
-        metavar="|".join(unit.lower() for unit in METRES),
-        help=f"the unit of the coordinates; they do not change [{_UNIT}]",
-    )
-    group.add_argument(
-        "--force",
-        action="store_true",
-        default=None,
-        help="also write a surface that folds or turns too sharply for patches; its patches are red there",
-    )
+    _OPTIONS.add(group)
 
 
 def options_of(
@@ -58,19 +37,14 @@ def options_of(
     all the same.
     """
     if not any(is_cad(file.target) for file in files):
-        for name in _ONLY_HERE:
+        for name in _OPTIONS.names:
             if getattr(arguments, name) is not None:
-                raise ValueError(f"--{name.replace('_', '-')} needs an output that ends in .step")
+                raise ValueError(f"{option(name)} needs an output that ends in .step")
         return None
     if arguments.pieces is not None:
         raise ValueError("--pieces is for meshes: spline patches are fitted to the whole surface")
-    return PatchOptions(
-        fit_tolerance=arguments.fit_tolerance or _TOLERANCE,
-        fit_angle=radians(arguments.fit_angle or _ANGLE),
-        fit_levels=settings.levels if "levels" in vars(arguments) else 0,
-        force=bool(arguments.force),
-        unit=arguments.unit or _UNIT,
-    )
+    levels = settings.levels if "levels" in vars(arguments) else 0
+    return PatchOptions(fit_levels=levels, **_OPTIONS.said(arguments))
 
 
 def require_patches(jobs: Sequence[PatchJob]) -> None:

@@ -184,7 +184,7 @@ TO = "in.obj out.obj"
         (f"{TO} --fill --clean-noise 3", "--clean-noise needs --clean"),
         (f"{TO} --fill --levels 2", "--levels is for fairing"),
         (f"{TO} --fill --pieces 2", "--pieces is for fairing"),
-        (f"{TO} --fill --largest-hole -2", "is not a length"),
+        (f"{TO} --fill --largest-hole -2", "is not a number from 0"),
         (f"{TO} --fill --fill-density -1", "from 0 to 100"),
         ("in.obj out.step --fill", "STEP"),
         (f"{TO} --clean --fill-noisy", "--fill-noisy needs --fill"),

@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Options that are Blender's properties: each has its description, default and range in one place."""
+
+import argparse
+from collections.abc import Callable
+from math import degrees, radians
+from typing import Any
+
+import bpy
+
+
+def default(prop: Any) -> Any:
+    # Blender keeps single precision: 0.01 would come out as 0.0099999998
+    return float(f"{prop.default:.7g}") if prop.type == "FLOAT" else prop.default
+
+
+def option(name: str) -> str:
+    """`--crease-angle` for crease_angle; the word "use" says nothing beside --x and --no-x."""
+    return "--" + name.removeprefix("use_").replace("_", "-")
+
+
+def add(
+    group: argparse._ArgumentGroup, name: str, prop: Any, absent: Any = None, is_off: bool = False
+) -> None:
+    """An option for the setting `name`, which is the property; `absent`: where it is not said. `is_off`:
+    whether it is then without effect.
+    """
+    kind = _KINDS.get(prop.type)
+    if kind is None or getattr(prop, "is_array", False):
+        raise TypeError(f"the setting {name} has no option yet: {prop.type}")
+    group.add_argument(option(name), dest=name, default=absent, **kind(prop, is_off))
+
+
+class OfOperator:
+    """Options that are an operator's properties, by their names on the command line, and `others` with
+    their defaults.
+    """
+
+    def __init__(self, operator: str, others: dict[str, Any], **properties: str) -> None:
+        self._operator, self._others, self._properties = operator, others, properties
+        self.names = (*properties, *others)
+
+    def _all(self) -> dict[str, Any]:
+        """Each property; only once the add-on is registered."""
+        module, _, function = self._operator.partition(".")
+        found = getattr(getattr(bpy.ops, module), function).get_rna_type().properties
+        return {option: found[name] for option, name in self._properties.items()}
+
+    def add(self, group: argparse._ArgumentGroup) -> None:
+        for name, prop in self._all().items():
+            add(group, name, prop)
+
+    def said(self, arguments: argparse.Namespace) -> dict[str, Any]:
+        """What was said, and defaults for all that was not."""
+        values = {name: default(prop) for name, prop in self._all().items()} | self._others
+        given = {name: getattr(arguments, name) for name in self.names}
+        return values | {name: value for name, value in given.items() if value is not None}
+
+
+def _boolean(prop: Any, _is_off: bool) -> dict[str, Any]:
+    shown = "on" if prop.default else "off"
+    return {"action": argparse.BooleanOptionalAction, "help": _help(prop, shown)}
+
+
+def _number(prop: Any, is_off: bool) -> dict[str, Any]:
+    angle = prop.subtype == "ANGLE"
+    shown = degrees(prop.default) if angle else prop.default
+    return {
+        "type": _bounded(prop, int if prop.type == "INT" else float, angle),
+        "metavar": "DEGREES" if angle else "N" if prop.type == "INT" else "X",
+        "help": _help(prop, "off" if is_off else f"{shown:.4g}"),
+    }
+
+
+def _choice(prop: Any, _is_off: bool) -> dict[str, Any]:
+    spelled = {item.identifier.lower(): item for item in prop.enum_items}
+    listed = "; ".join(f"{word}: {item.description}" for word, item in spelled.items())
+    shown = prop.default.lower()
+
+    def parse(text: str) -> str:
+        word = text.replace("-", "_")  # as options themselves are spelled
+        if word not in spelled:
+            raise argparse.ArgumentTypeError(f"{text!r} is not one of {', '.join(spelled)}")
+        return spelled[word].identifier
+
+    return {"type": parse, "metavar": "|".join(spelled), "help": _help(prop, shown, listed)}
+
+
+def _text(prop: Any, _is_off: bool) -> dict[str, Any]:
+    return {"metavar": "NAME", "help": _help(prop, prop.default or "none")}
+
+
+_KINDS = {"BOOLEAN": _boolean, "INT": _number, "FLOAT": _number, "ENUM": _choice, "STRING": _text}
+
+
+def _bounded(prop: Any, number: type, angle: bool) -> Callable[[str], float]:
+    """A parser of numbers that keeps Blender's own limits; in degrees for angles."""
+    lowest, highest = (degrees(x) if angle else x for x in (prop.hard_min, prop.hard_max))
+
+    def parse(text: str) -> float:
+        try:
+            value = number(text)
+        except ValueError:
+            value = None
+        # the limits of angles went through radians in single precision
+        if value is None or not lowest - 1e-4 * angle <= value <= highest + 1e-4 * angle:
+            span = f"from {lowest:g}" + (f" to {highest:g}" if highest < 2**30 else "")
+            whole = "a whole number " if number is int else "a number "
+            raise argparse.ArgumentTypeError(f"{text!r} is not {whole}{span}")
+        return radians(value) if angle else value
+
+    return parse
+
+
+def _help(prop: Any, shown: str, more: str = "") -> str:
+    # argparse reads % as a format
+    return (
+        ". ".join(part for part in (prop.description, more) if part).replace("%", "%%")
+        + f" [{shown}]"
+    )
