@@ -149,10 +149,9 @@ void warn_of_thickness(const GridLevel& grid, Workers& workers, const double* x,
   const ControlMesh& mesh = grid.mesh();
   std::vector<Vec3> control;
   for (Index v = 0; v < mesh.vertex_count(); ++v) control.push_back(point_at(x, v));
-  // Total curvature has no flats: what it makes of them is seen early on closed bodies.
-  const bool is_closed = std::none_of(mesh.edges.begin(), mesh.edges.end(),
-                                      [](const Edge& edge) { return edge.boundary(); });
-  const bool of_flats = is_closed && options.energy == Energy::total_curvature;
+  // What an energy makes of flats is seen early on closed bodies.
+  const bool of_flats = std::none_of(mesh.edges.begin(), mesh.edges.end(),
+                                     [](const Edge& edge) { return edge.boundary(); });
   const ThicknessChange change = Thickness(mesh, control, workers).of(grid, workers, x, of_flats);
   if (change.faces.empty()) return;
   std::vector<std::int64_t> polygons;
