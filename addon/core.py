@@ -8,19 +8,16 @@ Plain arrays, no Blender.
 import re
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
 import numpy as np
 
-from .choices import EDGE_BOUNDARIES
+from .control_arrays import ControlArrays
 from .settings import AnySettings, PatchOptions, Settings, is_limit, is_near
 
 MISSING = "The native module 'discrete_fairing' could not be loaded: reinstall the extension for this Blender version"
 
-# half: the cosine of a turn of 60°, above which a border has a corner
-_COSINE_OF_CORNER = 0.5
 _OF_LIMIT = ("limit", "edge_sharpness", "vertex_sharpness")
 _AT = 0.99  # of its tolerance: what a vertex has used up that is held by it
 
@@ -61,34 +58,6 @@ def why_missing() -> str:
     return _load()[1]
 
 
-@dataclass(frozen=True)
-class ControlArrays:
-    """A control mesh of n vertices, e edges, m faces and c face corners."""
-
-    positions: np.ndarray  # (n, 3) float64
-    edges: np.ndarray  # (e, 2) int32, vertex pairs
-    corners: np.ndarray  # (c,) int32, vertices of the faces, face after face
-    corner_edges: np.ndarray  # (c,) int32, the edge that leaves each corner
-    offsets: np.ndarray  # (m + 1,) int32: face f has the corners offsets[f] … offsets[f + 1] - 1
-    edge_crease: np.ndarray | None  # (e,) float32
-    vertex_crease: np.ndarray | None  # (n,) float32
-    sharp_edge: np.ndarray | None  # (e,) bool
-    # (e,) int32, what an edge of the border is: by the numbers of choices.EDGE_BOUNDARIES
-    boundary_edge: np.ndarray | None = None
-    normals: np.ndarray | None = None  # (n, 3), that the surface is to have; zero: none
-    flat_face: np.ndarray | None = None  # (m,) bool: meant flat
-
-    @property
-    def face_sizes(self) -> np.ndarray:
-        """(m,) int32: corners of each face."""
-        return self.offsets[1:] - self.offsets[:-1]
-
-    @property
-    def edge_uses(self) -> np.ndarray:
-        """(e,) int: how many faces each edge has."""
-        return np.bincount(self.corner_edges, minlength=len(self.edges))
-
-
 def fair_arguments(
     arrays: ControlArrays,
     settings: Settings,
@@ -121,12 +90,12 @@ def fair_arguments(
         "pad_size": settings.pad_size,
         # the steps of minimum variation would burst under it
         "tension": 0.0 if settings.energy == "MINIMUM_VARIATION" else settings.tension,
-        "crease_edges": crease_edges(arrays, threshold, settings.use_sharp_edges),
+        "crease_edges": arrays.crease_edges(threshold, settings.use_sharp_edges),
         "corner_vertices": _corners(arrays, settings, threshold),
         "crease_angle": settings.crease_angle if settings.use_crease_angle else None,
         "corner_angle": settings.corner_angle if settings.use_corner_angle else None,
         "boundary": "curve" if settings.boundary == "CORNERS" else settings.boundary.lower(),
-        "boundary_edges": boundary_edges(arrays),
+        "boundary_edges": arrays.boundary_edges(),
         "repair": settings.repair.lower(),
         "memory_limit": (settings.memory_limit or preferences.memory_limit) * 2**20,
         "threads": preferences.threads,
@@ -139,7 +108,7 @@ def fair_arguments(
     if is_limit(settings):
         arguments |= _limit(arrays, settings)
     elif threshold is not None:
-        arguments["soft_creases"] = soft_creases(arrays, threshold)
+        arguments["soft_creases"] = arrays.soft_creases(threshold)
     if pulls is not None:
         arguments["weights"] = pulls
     if settings.weld > 0 and settings.repair == "MEND":
@@ -158,33 +127,12 @@ def _limit(arrays: ControlArrays, settings: Settings) -> dict[str, Any]:
     found: dict[str, Any] = {"limit": settings.limit}
     if not settings.use_crease_attribute:
         return found
-    if arrays.edge_crease is not None:
-        creased = (arrays.edge_crease > 0) & _occurs(arrays.corner_edges, len(arrays.edges))
-        found["edge_sharpness"] = (arrays.edges[creased], _sharpness(arrays.edge_crease[creased]))
-    corners = _vertex_sharpness(arrays)
+    if (edges := arrays.edge_sharpness()) is not None:
+        found["edge_sharpness"] = edges
+    corners = arrays.vertex_sharpness()
     if corners.any():
         found["vertex_sharpness"] = corners
     return found
-
-
-def _vertex_sharpness(arrays: ControlArrays) -> np.ndarray:
-    """(n,) As Blender has it: a vertex with two edges, as at the corner of a sheet, is as sharp as the
-    softer of them, beside what it is itself.
-    """
-    count = len(arrays.positions)
-    own = np.zeros(count) if arrays.vertex_crease is None else _sharpness(arrays.vertex_crease)
-    if arrays.edge_crease is None:
-        return own
-    ends, sharpness = arrays.edges.ravel(), np.repeat(_sharpness(arrays.edge_crease), 2)
-    softer = np.full(count, np.inf)
-    np.minimum.at(softer, ends, sharpness)
-    two = np.bincount(ends, minlength=count) == 2
-    return np.where(two, np.minimum(own + np.where(two, softer, 0.0), 10.0), own)
-
-
-def _sharpness(creases: np.ndarray) -> np.ndarray:
-    """Blender's creases, 0 to 1, as the steps of subdivision for which they are sharp."""
-    return 10.0 * creases.astype(np.float64) ** 2
 
 
 def keeps_marks(settings: AnySettings) -> bool:
@@ -316,13 +264,6 @@ def released_arguments(fairing: Mapping[str, Any], free: np.ndarray) -> dict[str
     }
 
 
-def mean_edge_length(arrays: ControlArrays) -> float:
-    """Of the edges that belong to faces; 0 if there are none."""
-    ends = arrays.positions[arrays.edges[_occurs(arrays.corner_edges, len(arrays.edges))]]
-    lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
-    return float(lengths.mean()) if len(lengths) else 0.0
-
-
 def tolerance(settings: AnySettings, edge_length: float) -> float:
     """The farthest that a vertex may be missed, a length; 0 where the surface passes through all."""
     unit = edge_length if settings.tolerance_unit == "RELATIVE" else 1.0
@@ -335,126 +276,25 @@ def at_tolerance(arguments: Mapping[str, Any], surface: np.ndarray) -> list[int]
     """
     points = arguments["vertices"]
     allowed = np.broadcast_to(arguments["tolerance"], len(points))
-    may = (allowed > 0) & _occurs(np.asarray(arguments["faces"][0]), len(points))
+    may = (allowed > 0) & np.isin(np.arange(len(points)), arguments["faces"][0])
     off = np.linalg.norm(surface[: len(points)] - points, axis=1)
     may &= off > 0
     return [int((off[may] >= _AT * allowed[may]).sum()), int(may.sum())]
-
-
-def crease_edges(
-    arrays: ControlArrays, crease_threshold: float | None = None, use_sharp: bool = False
-) -> np.ndarray:
-    """Vertex pairs (k, 2) int32 of the edges that are creased by `crease_threshold` at least or,
-    with `use_sharp`, marked sharp.
-
-    `crease_threshold` None ignores creases. A weight of 0 is never a crease, whatever the
-    threshold. Edges without a face are left out: they carry no surface.
-    """
-    chosen = np.zeros(len(arrays.edges), bool)
-    if crease_threshold is not None and arrays.edge_crease is not None:
-        chosen |= _creased(arrays.edge_crease, crease_threshold)
-    if use_sharp and arrays.sharp_edge is not None:
-        chosen |= arrays.sharp_edge
-    chosen &= _occurs(arrays.corner_edges, len(arrays.edges))
-    return arrays.edges[chosen]
-
-
-def soft_creases(arrays: ControlArrays, crease_threshold: float) -> tuple[np.ndarray, np.ndarray]:
-    """Vertex pairs (k, 2) int32 of the edges whose crease weighs less than `crease_threshold`, and these
-    weights (k,). Limit positions have them already, as Subdivision Surface does.
-    """
-    if arrays.edge_crease is None:
-        return np.empty((0, 2), np.int32), np.empty(0)
-    weights = arrays.edge_crease
-    chosen = (weights > 0.0) & ~_creased(weights, crease_threshold)
-    chosen &= _occurs(arrays.corner_edges, len(arrays.edges))
-    return arrays.edges[chosen], weights[chosen].astype(np.float64)
-
-
-def boundary_edges(arrays: ControlArrays) -> dict[str, np.ndarray]:
-    """Vertex pairs (k, 2) int32 of the edges that are marked with a boundary of their own, by its
-    name. Edges without a face are left out.
-    """
-    if arrays.boundary_edge is None:
-        return {}
-    used = _occurs(arrays.corner_edges, len(arrays.edges))
-    marked = {
-        key.lower(): arrays.edges[used & (arrays.boundary_edge == number)]
-        for key, *_, number in EDGE_BOUNDARIES
-        if number
-    }
-    return {name: edges for name, edges in marked.items() if len(edges)}
-
-
-def corner_vertices(arrays: ControlArrays, crease_threshold: float | None = None) -> np.ndarray:
-    """Vertices (c,) int32 with a vertex crease of `crease_threshold` at least; None ignores them.
-
-    Loose ones are left out.
-    """
-    if crease_threshold is None or arrays.vertex_crease is None:
-        return np.empty(0, np.int32)
-    chosen = _creased(arrays.vertex_crease, crease_threshold) & _occurs(
-        arrays.corners, len(arrays.positions)
-    )
-    return np.flatnonzero(chosen).astype(np.int32)
-
-
-def border_corners(arrays: ControlArrays, plane: int | None = None) -> np.ndarray:
-    """Vertices (c,) int32 of the border where the sheet's own angle, however many faces it has, is so
-    narrow that the border turns by more than 60°, and neither of its edges there has a boundary of
-    its own; and vertices of a single face where that turns as much the other way.
-
-    `plane`: the axis across whose plane the mesh is mirrored; the border does not end in it.
-    """
-    count, corners = len(arrays.positions), arrays.corners
-    before = np.arange(len(corners)) - 1
-    before[arrays.offsets[:-1]] = arrays.offsets[1:] - 1
-    after = np.empty_like(before)
-    after[before] = np.arange(len(before))
-    points = arrays.positions[corners]
-    back, ahead = points[before] - points, points[after] - points
-    sizes, starts = np.diff(arrays.offsets), arrays.offsets[:-1]
-    spokes = points - np.repeat(points[starts], sizes, axis=0)
-    normals = np.add.reduceat(np.cross(spokes, spokes[after]), starts)
-    own = np.repeat(normals, sizes, axis=0)
-    across = np.cross(ahead, back)
-    sines = np.copysign(np.linalg.norm(across, axis=1), np.einsum("ij,ij->i", across, own))
-    angles = np.arctan2(sines, np.einsum("ij,ij->i", ahead, back))
-    single = np.bincount(corners, minlength=count)[corners] == 1
-    angles = np.where(single, np.abs(angles), angles % (2 * np.pi))
-    angle = np.bincount(corners, angles, minlength=count)
-    ends = module().borders.border_edges(corners, arrays.offsets)[0].ravel()
-    # at 120° themselves rounding would decide
-    turns = (angle < np.arccos(-_COSINE_OF_CORNER) - 1e-9) & np.isin(np.arange(count), ends)
-    if arrays.boundary_edge is not None:
-        marked = (arrays.boundary_edge != 0) & (arrays.edge_uses == 1)
-        turns &= ~np.isin(np.arange(count), arrays.edges[marked])
-    if plane is not None and count:
-        near = module().halves.SNAP * np.ptp(arrays.positions, axis=0).max()
-        turns &= np.abs(arrays.positions[:, plane]) > near
-    return np.flatnonzero(turns).astype(np.int32)
 
 
 def _corners(
     arrays: ControlArrays, settings: Settings, crease_threshold: float | None
 ) -> np.ndarray:
     """All vertices where curves end by request."""
-    found = corner_vertices(arrays, crease_threshold)
+    found = arrays.corner_vertices(crease_threshold)
     if settings.boundary != "CORNERS":
         return found
-    plane = settings.symmetry_plane
-    axis = None if plane == "NONE" else "XYZ".index(plane)
-    return np.union1d(found, border_corners(arrays, axis))
-
-
-def _creased(weights: np.ndarray, threshold: float) -> np.ndarray:
-    return (weights > 0.0) & (weights >= np.float32(threshold))
-
-
-def _occurs(ids: np.ndarray, count: int) -> np.ndarray:
-    occurs = np.zeros(count, bool)
-    occurs[ids] = True
-    return occurs
+    ends = arrays.border_corners()
+    if settings.symmetry_plane != "NONE" and len(ends):  # where the border does not end
+        near = module().halves.SNAP * np.ptp(arrays.positions, axis=0).max()
+        off = np.abs(arrays.positions[ends, "XYZ".index(settings.symmetry_plane)])
+        ends = ends[off > near]
+    return np.union1d(found, ends)
 
 
 def without_vertices(arguments: dict[str, Any]) -> dict[str, Any]:
@@ -475,11 +315,6 @@ def are_equal(a: Any, b: Any) -> bool:
     if isinstance(a, np.ndarray) and isinstance(b, np.ndarray):
         return np.array_equal(a, b)
     return type(a) is type(b) and a == b
-
-
-def same_faces(a: ControlArrays, b: ControlArrays | None) -> bool:
-    """Whether two control meshes differ in positions at the most."""
-    return b is not None and are_equal((a.corners, a.offsets), (b.corners, b.offsets))
 
 
 def are_together(positions: np.ndarray, origin: np.ndarray | None) -> bool:

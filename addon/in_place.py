@@ -95,7 +95,7 @@ class InPlaceJob(TimedRun):
         self.triangles = size.triangle_count(part.arrays.face_sizes, asked.levels)
         self._arguments = self._arguments_of(part.arrays, region)
         if settings.boundary == "CORNERS":  # those of the mesh: the selection's own are none
-            whole = core.border_corners(self.shape.of_arrays(self.arrays))
+            whole = self.shape.of_arrays(self.arrays).border_corners()
             corners = np.isin(part.vertices, whole)
             given = self._arguments["corner_vertices"]
             self._arguments["corner_vertices"] = np.union1d(given, np.flatnonzero(corners))

@@ -84,7 +84,7 @@ class Job(TimedRun):
         own = freshness.OwnMesh(self.arrays, selection, (factors, pulls), self.keys)
         self._made = freshness.made_of(context, source, self.settings, None if evaluated else own)
         world = self.shape.of_arrays(self.arrays)
-        self.edge_length = core.mean_edge_length(world)
+        self.edge_length = world.mean_edge_length
         self.triangles = size.triangle_count(self.arrays.face_sizes, self.settings.levels)
         too_large = size.why_too_large(self.triangles)
         if too_large:

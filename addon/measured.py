@@ -88,7 +88,7 @@ def smoothed(
     points = np.asarray(whole["vertices"], float)
     faces = free[arrays.corners]
     faces = np.logical_or.reduceat(faces, arrays.offsets[:-1]) if len(faces) else np.zeros(0, bool)
-    around = _AROUND * weight**-0.25 * core.mean_edge_length(arrays)
+    around = _AROUND * weight**-0.25 * arrays.mean_edge_length
     done, count = 0, max(int(faces.sum()), 1)
     for part, own in blocks(arrays, faces, BLOCK, around):
         begin, done = done, done + int(own.sum())

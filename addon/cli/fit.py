@@ -8,7 +8,6 @@ from typing import Any
 
 import bpy
 
-from .. import core
 from ..blender import Object, current_context
 from ..cad import words
 from ..cad.fit import PatchJob
@@ -38,7 +37,7 @@ class FitOptions:
         """Of a cage that has been read."""
         tolerance = self.tolerance
         if tolerance is not None and self.is_share:
-            tolerance *= core.mean_edge_length(read_mesh(cage.data))
+            tolerance *= read_mesh(cage.data).mean_edge_length
         return Fit(scan, tolerance)
 
 

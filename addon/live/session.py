@@ -225,15 +225,15 @@ class Session:
     def _prepare(self, source: Object, arrays: ControlArrays, depsgraph: Update) -> bool:
         """Makes a solver unless the present one is for the same mesh and settings; whether it did."""
         if self._settings.use_selection and (
-            self._region is None or not core.same_faces(arrays, self._arrays)
+            self._region is None or not arrays.has_faces_of(self._arrays)
         ):
             with self._mesh_now(source, depsgraph) as mesh:
                 self._region = selected_faces(mesh, source.name)
         computed = size.coarse_triangles(arrays.face_sizes) * halves(self._settings)
         self._level = self._pace.level(self._chosen, computed)
         world = self._shape.of_arrays(arrays)
-        if not (self._edge_length and core.same_faces(arrays, self._arrays)):
-            self._edge_length = core.mean_edge_length(world)
+        if not (self._edge_length and arrays.has_faces_of(self._arrays)):
+            self._edge_length = world.mean_edge_length
         arguments = core.fair_arguments(
             world,
             self._settings,
@@ -314,7 +314,7 @@ class Session:
             self._arrays is not None
             and not is_evaluated(self._settings)
             and is_dragging(current_context())
-            and core.same_faces(arrays, self._arrays)
+            and arrays.has_faces_of(self._arrays)
         )
 
     # --- the full level

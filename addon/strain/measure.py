@@ -58,7 +58,7 @@ class StrainJob(TimedRun):
             if as_mixed:
                 self.positions = mixed_positions(source, mesh, arrays.positions)
         world = self.shape.of_arrays(replace(arrays, positions=self.positions))
-        self._edge_length = core.mean_edge_length(world)
+        self._edge_length = world.mean_edge_length
         self.arguments = core.plate_arguments(core.fair_arguments(world, settings, preferences()))
         coarse = size.coarse_triangles(arrays.face_sizes) * halves(settings)
         self.triangles = coarse * 4**_LEVELS

@@ -8,7 +8,7 @@ from bl_ui.utils import PresetPanel
 
 from .. import core, errors, prediction, size, vertex_values
 from ..blender import Context, Mesh, Object, registration
-from ..core import keeps_marks, mean_edge_length, tolerance
+from ..core import keeps_marks, tolerance
 from ..live import switch
 from ..memory import FAIRING_PG_fit, FAIRING_PG_surface, recall, source_of, source_problem
 from ..mesh import boundary_marks, fixed_normals, flat_marks
@@ -212,7 +212,7 @@ def tolerance_text(context: Context, settings: FairingSettings, sources: list[Ob
     shape = world_shape(sources[0])
 
     def mean(mesh: Mesh) -> float:
-        return mean_edge_length(shape.of_arrays(read_mesh(mesh)))
+        return shape.of_arrays(read_mesh(mesh)).mean_edge_length
 
     length = tolerance(settings, shown(mesh, ("mean edge", shape.rows), mean, 0.0))
     return "= " + length_text(context.scene, length, digits=4) if length else ""

@@ -13,14 +13,7 @@ from scenes import CUBE, add, computed, set_edge_attribute, settings
 
 from addon import core
 from addon.choices import ENERGIES, TOLERANCE_UNITS
-from addon.core import (
-    are_equal,
-    corner_vertices,
-    crease_edges,
-    fair_arguments,
-    mean_edge_length,
-    soft_creases,
-)
+from addon.core import are_equal, fair_arguments
 from addon.job import Job
 from addon.mesh.read import ControlArrays, read_mesh
 from addon.preferences import Defaults
@@ -49,7 +42,7 @@ def test_values():
 
 def test_a_tolerance_is_a_share_of_the_mean_edge():
     arrays = triangle()
-    assert mean_edge_length(arrays) == pytest.approx((2 + 2**0.5) / 3), "the loose edge is left out"
+    assert arrays.mean_edge_length == pytest.approx((2 + 2**0.5) / 3), "the loose edge is left out"
     near = settings(interpolation="APPROXIMATE", tolerance=0.25, tolerance_unit="RELATIVE")
     assert fair_arguments(arrays, near, Defaults, edge_length=2.0)["tolerance"] == 0.5
     length = settings(interpolation="APPROXIMATE", tolerance=0.25, tolerance_unit="SCENE")
@@ -59,7 +52,7 @@ def test_a_tolerance_is_a_share_of_the_mean_edge():
     assert given["tolerance"].tolist() == [0.0, 0.0625, 0.25, 0.0]
     nothing = np.empty(0, np.int32)
     bare = replace(arrays, corners=nothing, corner_edges=nothing, offsets=np.zeros(1, int))
-    assert mean_edge_length(bare) == 0.0
+    assert bare.mean_edge_length == 0.0
 
 
 @pytest.mark.parametrize("energy", [key for key, *_ in ENERGIES])
@@ -127,22 +120,22 @@ def triangle(**attributes):
 )
 def test_crease_threshold(threshold, expected):
     weights = np.array([1.0, 0.5, 0.0, 1.0], np.float32)
-    assert [tuple(e) for e in crease_edges(triangle(edge_crease=weights), threshold)] == expected
+    assert [tuple(e) for e in triangle(edge_crease=weights).crease_edges(threshold)] == expected
     corners = [0, 1] if threshold is not None and threshold <= 0.5 else [0]
-    found = corner_vertices(triangle(vertex_crease=weights), threshold).tolist()
+    found = triangle(vertex_crease=weights).corner_vertices(threshold).tolist()
     assert found[: len(corners)] == ([] if threshold is None else corners)
 
 
 def test_threshold_compares_in_the_precision_of_the_attribute():
     weights = np.full(4, 0.1, np.float32)
-    assert len(crease_edges(triangle(edge_crease=weights), 0.1)) == 3
+    assert len(triangle(edge_crease=weights).crease_edges(0.1)) == 3
 
 
 def test_creases_below_the_threshold_are_soft():
     weights = np.array([1.0, 0.5, 0.25, 0.5], np.float32)  # the last edge has no face
-    edges, values = soft_creases(triangle(edge_crease=weights), 1.0)
+    edges, values = triangle(edge_crease=weights).soft_creases(1.0)
     assert edges.tolist() == [[1, 2], [0, 2]] and values.tolist() == [0.5, 0.25]
-    edges, values = soft_creases(triangle(edge_crease=weights), 0.5)
+    edges, values = triangle(edge_crease=weights).soft_creases(0.5)
     assert edges.tolist() == [[0, 2]] and values.tolist() == [0.25]
 
 
@@ -159,9 +152,9 @@ def test_sharp_edges_add_to_creases():
         edge_crease=np.array([1, 0, 0, 0], np.float32),
         sharp_edge=np.array([True, False, True, True]),
     )
-    assert [tuple(e) for e in crease_edges(arrays, 0.5, use_sharp=True)] == [(0, 1), (0, 2)]
-    assert [tuple(e) for e in crease_edges(arrays, 0.5, use_sharp=False)] == [(0, 1)]
-    assert [tuple(e) for e in crease_edges(arrays, None, use_sharp=True)] == [(0, 1), (0, 2)]
+    assert [tuple(e) for e in arrays.crease_edges(0.5, use_sharp=True)] == [(0, 1), (0, 2)]
+    assert [tuple(e) for e in arrays.crease_edges(0.5, use_sharp=False)] == [(0, 1)]
+    assert [tuple(e) for e in arrays.crease_edges(None, use_sharp=True)] == [(0, 1), (0, 2)]
 
 
 KINDS = [None, 1, True, 0.5, "x", np.arange(3), np.arange(4), np.zeros(3, int), {"a": 1}, {"b": 1}]
@@ -191,7 +184,7 @@ def test_a_sheet_keeps_its_corners_whatever_its_faces(diagonal, columns):
             triangles += [[a, b, d], [b, c, d]] if turned else [[a, b, c], [a, c, d]]
         faces = triangles
     wanted = [0, 2, 3 * columns, 3 * columns + 2]
-    assert core.border_corners(polygons(positions, faces)).tolist() == wanted
+    assert polygons(positions, faces).border_corners().tolist() == wanted
 
 
 def ring(count):
@@ -211,15 +204,20 @@ CORNERLESS = {
 
 @pytest.mark.parametrize("name", CORNERLESS)
 def test_what_has_no_corners(name):
-    assert not len(core.border_corners(polygons(*CORNERLESS[name])))
+    assert not len(polygons(*CORNERLESS[name]).border_corners())
 
 
 def test_an_edge_with_a_boundary_of_its_own_rounds_its_corners():
     plain = polygons(*sheet())
-    assert core.border_corners(plain, 1).tolist() == [2, 11], "none ends in the symmetry plane"
+    assert plain.border_corners().tolist() == [0, 2, 9, 11]
     marks = np.zeros(len(plain.edges), np.int32)
     marks[plain.edges.tolist().index([0, 1])] = 1
-    assert core.border_corners(polygons(*sheet(), boundary_edge=marks)).tolist() == [2, 9, 11]
+    assert polygons(*sheet(), boundary_edge=marks).border_corners().tolist() == [2, 9, 11]
+
+
+def test_no_border_ends_in_the_symmetry_plane():
+    given = fair_arguments(polygons(*sheet()), settings(symmetry_plane="Y"), Defaults)
+    assert given["corner_vertices"].tolist() == [2, 11]
 
 
 def test_corners_are_the_default_and_a_choice_of_their_own():

@@ -9,7 +9,6 @@ from live_scenes import live, session
 from polygons import grid
 from scenes import add, add_attribute, edit, faces_at_edges, fair, positions, to_object_mode
 
-from addon.core import boundary_edges
 from addon.mesh.boundary_marks import BOUNDARY, summary
 from addon.mesh.read import control_mesh, read_mesh
 from addon.transfer.cut_out import cut_out
@@ -106,7 +105,7 @@ def test_marks_of_another_kind_or_number_count_for_nothing():
     source.data.attributes.remove(source.data.attributes[BOUNDARY])
     layer = source.data.attributes.new(BOUNDARY, "INT", "EDGE")
     layer.data.foreach_set("value", np.full(len(source.data.edges), 7, np.int32))
-    assert boundary_edges(read_mesh(source.data)) == {} and summary([source]) == ""
+    assert read_mesh(source.data).boundary_edges() == {} and summary([source]) == ""
 
 
 def test_live_follows_marks():
@@ -140,4 +139,4 @@ def test_a_cut_lays_no_mark_bare():
     inner = [k for k, e in enumerate(arrays.edges.tolist()) if sorted(e) == [1, 5]]
     arrays.boundary_edge[inner] = 3
     part = cut_out(arrays, np.arange(9) % SIDE == 0).arrays
-    assert {key: len(pairs) for key, pairs in boundary_edges(part).items()} == {"linear": 1}
+    assert {key: len(pairs) for key, pairs in part.boundary_edges().items()} == {"linear": 1}

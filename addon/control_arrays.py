@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A control mesh as plain arrays, and what they say of its edges, vertices and creases. No Blender."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .choices import EDGE_BOUNDARIES
+
+# half: the cosine of a turn of 60°, above which a border has a corner
+_COSINE_OF_CORNER = 0.5
+
+
+@dataclass(frozen=True)
+class ControlArrays:
+    """A control mesh of n vertices, e edges, m faces and c face corners."""
+
+    positions: np.ndarray  # (n, 3) float64
+    edges: np.ndarray  # (e, 2) int32, vertex pairs
+    corners: np.ndarray  # (c,) int32, vertices of the faces, face after face
+    corner_edges: np.ndarray  # (c,) int32, the edge that leaves each corner
+    offsets: np.ndarray  # (m + 1,) int32: face f has the corners offsets[f] … offsets[f + 1] - 1
+    edge_crease: np.ndarray | None  # (e,) float32
+    vertex_crease: np.ndarray | None  # (n,) float32
+    sharp_edge: np.ndarray | None  # (e,) bool
+    # (e,) int32, what an edge of the border is: by the numbers of choices.EDGE_BOUNDARIES
+    boundary_edge: np.ndarray | None = None
+    normals: np.ndarray | None = None  # (n, 3), that the surface is to have; zero: none
+    flat_face: np.ndarray | None = None  # (m,) bool: meant flat
+
+    @property
+    def face_sizes(self) -> np.ndarray:
+        """(m,) int32: corners of each face."""
+        return self.offsets[1:] - self.offsets[:-1]
+
+    @property
+    def edge_uses(self) -> np.ndarray:
+        """(e,) int: how many faces each edge has."""
+        return np.bincount(self.corner_edges, minlength=len(self.edges))
+
+    @property
+    def mean_edge_length(self) -> float:
+        """Of the edges that belong to faces; 0 if there are none."""
+        ends = self.positions[self.edges[self.edge_uses > 0]]
+        lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+        return float(lengths.mean()) if len(lengths) else 0.0
+
+    def has_faces_of(self, other: "ControlArrays | None") -> bool:
+        """Whether the two differ in positions at the most."""
+        return (
+            other is not None
+            and np.array_equal(self.corners, other.corners)
+            and np.array_equal(self.offsets, other.offsets)
+        )
+
+    def crease_edges(self, threshold: float | None = None, use_sharp: bool = False) -> np.ndarray:
+        """Vertex pairs (k, 2) int32 of the edges that are creased by `threshold` at least or, with
+        `use_sharp`, marked sharp.
+
+        `threshold` None ignores creases. A weight of 0 is never a crease, whatever the threshold. Edges
+        without a face are left out: they carry no surface.
+        """
+        chosen = np.zeros(len(self.edges), bool)
+        if threshold is not None and self.edge_crease is not None:
+            chosen |= _creased(self.edge_crease, threshold)
+        if use_sharp and self.sharp_edge is not None:
+            chosen |= self.sharp_edge
+        return self.edges[chosen & (self.edge_uses > 0)]
+
+    def soft_creases(self, threshold: float) -> tuple[np.ndarray, np.ndarray]:
+        """Vertex pairs (k, 2) int32 of the edges whose crease weighs less than `threshold`, and these
+        weights (k,). Limit positions have them already, as Subdivision Surface does.
+        """
+        if self.edge_crease is None:
+            return np.empty((0, 2), np.int32), np.empty(0)
+        weights = self.edge_crease
+        chosen = (weights > 0.0) & ~_creased(weights, threshold) & (self.edge_uses > 0)
+        return self.edges[chosen], weights[chosen].astype(np.float64)
+
+    def edge_sharpness(self) -> tuple[np.ndarray, np.ndarray] | None:
+        """Vertex pairs (k, 2) int32 and sharpness (k,) of all creased edges; None without creases."""
+        if self.edge_crease is None:
+            return None
+        creased = (self.edge_crease > 0) & (self.edge_uses > 0)
+        return self.edges[creased], _sharpness(self.edge_crease[creased])
+
+    def vertex_sharpness(self) -> np.ndarray:
+        """(n,) As Blender has it: a vertex with two edges, as at the corner of a sheet, is as sharp as the
+        softer of them, beside what it is itself.
+        """
+        count = len(self.positions)
+        own = np.zeros(count) if self.vertex_crease is None else _sharpness(self.vertex_crease)
+        if self.edge_crease is None:
+            return own
+        ends, sharpness = self.edges.ravel(), np.repeat(_sharpness(self.edge_crease), 2)
+        softer = np.full(count, np.inf)
+        np.minimum.at(softer, ends, sharpness)
+        two = np.bincount(ends, minlength=count) == 2
+        return np.where(two, np.minimum(own + np.where(two, softer, 0.0), 10.0), own)
+
+    def boundary_edges(self) -> dict[str, np.ndarray]:
+        """Vertex pairs (k, 2) int32 of the edges that are marked with a boundary of their own, by its
+        name. Edges without a face are left out.
+        """
+        if self.boundary_edge is None:
+            return {}
+        used = self.edge_uses > 0
+        marked = {
+            key.lower(): self.edges[used & (self.boundary_edge == number)]
+            for key, *_, number in EDGE_BOUNDARIES
+            if number
+        }
+        return {name: edges for name, edges in marked.items() if len(edges)}
+
+    def corner_vertices(self, threshold: float | None = None) -> np.ndarray:
+        """Vertices (c,) int32 with a vertex crease of `threshold` at least; None ignores them.
+
+        Loose ones are left out.
+        """
+        if threshold is None or self.vertex_crease is None:
+            return np.empty(0, np.int32)
+        chosen = _creased(self.vertex_crease, threshold) & self.has_face
+        return np.flatnonzero(chosen).astype(np.int32)
+
+    @property
+    def has_face(self) -> np.ndarray:
+        """(n,) bool: which vertices belong to faces."""
+        return np.bincount(self.corners, minlength=len(self.positions)) > 0
+
+    def border_corners(self) -> np.ndarray:
+        """Vertices (c,) int32 of the border where the sheet's own angle, however many faces it has, is so
+        narrow that the border turns by more than 60°, and neither of its edges there has a boundary of
+        its own; and vertices of a single face where that turns as much the other way.
+        """
+        count, corners = len(self.positions), self.corners
+        before = np.arange(len(corners)) - 1
+        before[self.offsets[:-1]] = self.offsets[1:] - 1
+        after = np.empty_like(before)
+        after[before] = np.arange(len(before))
+        points = self.positions[corners]
+        back, ahead = points[before] - points, points[after] - points
+        sizes, starts = np.diff(self.offsets), self.offsets[:-1]
+        spokes = points - np.repeat(points[starts], sizes, axis=0)
+        normals = np.add.reduceat(np.cross(spokes, spokes[after]), starts)
+        own = np.repeat(normals, sizes, axis=0)
+        across = np.cross(ahead, back)
+        sines = np.copysign(np.linalg.norm(across, axis=1), np.einsum("ij,ij->i", across, own))
+        angles = np.arctan2(sines, np.einsum("ij,ij->i", ahead, back))
+        single = np.bincount(corners, minlength=count)[corners] == 1
+        angles = np.where(single, np.abs(angles), angles % (2 * np.pi))
+        angle = np.bincount(corners, angles, minlength=count)
+        is_border = self.edge_uses == 1
+        # at 120° themselves rounding would decide
+        turns = (angle < np.arccos(-_COSINE_OF_CORNER) - 1e-9) & np.isin(
+            np.arange(count), self.edges[is_border]
+        )
+        if self.boundary_edge is not None:
+            marked = (self.boundary_edge != 0) & is_border
+            turns &= ~np.isin(np.arange(count), self.edges[marked])
+        return np.flatnonzero(turns).astype(np.int32)
+
+
+def _sharpness(creases: np.ndarray) -> np.ndarray:
+    """Blender's creases, 0 to 1, as the steps of subdivision for which they are sharp."""
+    return 10.0 * creases.astype(np.float64) ** 2
+
+
+def _creased(weights: np.ndarray, threshold: float) -> np.ndarray:
+    return (weights > 0.0) & (weights >= np.float32(threshold))
