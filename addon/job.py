@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from . import core, errors, freshness, memory, neighbours, place, prediction, size
-from .blender import Context, Object, scene_of
+from .blender import Context, Mesh, Object, scene_of
 from .check.faults import find_faults
 from .choices import energy_name
 from .errors import JobError
@@ -245,7 +245,7 @@ class Job(TimedRun):
         memory.keep(target, "carried", carried)
         if wants_modifiers(settings) and old is None:
             self.notes += copy_modifiers(context, source, target, is_limit(settings))
-        self.faults.write(target.data)
+        self.mark(target.data)
         report = {
             **result.report,
             "faults": self.faults.counts,
@@ -262,6 +262,10 @@ class Job(TimedRun):
         display.refresh(target, scene_of(target).discrete_fairing_inspection)
         self.note()
         return target
+
+    def mark(self, mesh: Mesh) -> None:
+        """Gives the surface, in `mesh`, the attributes that say where something is wrong with it."""
+        self.faults.write(mesh)
 
     def warnings(self) -> list[str]:
         """What the user should know of a finished job, a sentence each."""

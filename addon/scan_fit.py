@@ -16,13 +16,15 @@ from .check.defects import recall_defects, store_defects
 from .errors import OF_FITS, REMEDIES, JobError
 from .job import Job
 from .mesh import scans
+from .mesh.layers import fill_layer, make_layer
 from .mesh.object import Reference, new_object, select_only
 from .mesh.scans import Scan, read_scans
+from .mesh.write import NO_POINTS
 from .settings import Settings
 from .units import Units
 from .words import counted
 
-TOO_COARSE, NO_POINTS, OUTLIERS = "FIT_TOO_COARSE", "FIT_NO_POINTS", "FIT_OUTLIERS"
+TOO_COARSE, UNCOVERED, OUTLIERS = "FIT_TOO_COARSE", "FIT_NO_POINTS", "FIT_OUTLIERS"
 
 
 # On a ball with noise of 0.3 % and 300 faces, 2,562 points give a surface that is 0.34 % off; with 100
@@ -140,13 +142,24 @@ class FitJob(Job):
             self._note_places(context, near)
         return target
 
+    @property
+    def _bare(self) -> np.ndarray:
+        """(m,) bool: faces of the cage without points."""
+        return np.asarray(self.result.coverage == 0)
+
+    def mark(self, mesh: Mesh) -> None:
+        super().mark(mesh)
+        if self._bare.any():
+            fine = self.transfer.face(self._bare)
+            fill_layer(make_layer(mesh, NO_POINTS, "BOOLEAN", "FACE"), fine)
+
     def said(self) -> str:
         """How well the surface fits, in words."""
         found = self.result
         length = self._units.lengths(found.within[0])
         text = f"Within {length(found.within[0])} of 95 % of the scan; its noise is about {length(found.noise)}."
         coarse, strays = len(found.too_coarse), len(found.outliers)
-        bare = int(np.count_nonzero(found.coverage == 0))
+        bare = int(np.count_nonzero(self._bare))
         if coarse:
             text += f" {counted(coarse, 'face is', 'faces are')} too coarse."
         if bare:
@@ -160,8 +173,8 @@ class FitJob(Job):
         points of a scan that is one plain mesh.
         """
         found, cage = self.result, cast(Object, self.source)
-        bare = np.flatnonzero(found.coverage == 0)
-        _note(context, cage, {TOO_COARSE: found.too_coarse, NO_POINTS: bare}, "face")
+        bare = np.flatnonzero(self._bare)
+        _note(context, cage, {TOO_COARSE: found.too_coarse, UNCOVERED: bare}, "face")
         plain = [one for one in near if one.type == "MESH" and one.mode == "OBJECT"]
         if plain == near[:1] and len(plain[0].data.vertices) == self._points:
             _note(context, plain[0], {OUTLIERS: found.outliers}, "vertex")

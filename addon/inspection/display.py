@@ -5,12 +5,13 @@ from typing import Any
 
 import numpy as np
 
-from ..blender import Context, Mesh, Object, Scene, all_objects, current_context
+from ..blender import Context, Mesh, Object, Scene, all_objects, column, current_context
 from ..memory import scans_of, source_of
 from ..mesh.layers import fill_layer, layer_values, make_layer
 from ..mesh.read import control_mesh, read_mesh
 from ..mesh.scans import read_scans
 from ..mesh.world_shape import world_shape
+from ..mesh.write import NO_POINTS, faces_without_points
 from ..settings import is_evaluated
 from ..units import curvature_text, length_text
 from . import deviation, measures, viewport_material
@@ -78,6 +79,11 @@ def write_colours(mesh: Mesh, mode: str, settings: Any) -> None:
     inner = np.ones(len(values), bool)
     if mode in CURVATURES:
         inner = layer_values(mesh.attributes[INNER])
+    bare = _corners_without_points(mesh, mode, settings)
+    if bare is not None:
+        corners = layer_values(mesh.attributes[".corner_vert"])
+        inner[:] = False
+        inner[corners[~bare]] = True
     signed = mode != "TOTAL"
     if settings.use_fixed_range:
         limit = settings.fixed_deviation if mode == "DEVIATION" else settings.fixed_range
@@ -87,9 +93,34 @@ def write_colours(mesh: Mesh, mode: str, settings: Any) -> None:
             values, inner, signed, settings.range_low, settings.range_high
         )
     rgba = measures.colours_of(values, limits, signed)
-    fill_layer(make_layer(mesh, COLOUR, "FLOAT_COLOR", "POINT"), rgba)
+    if bare is not None:
+        rgba = rgba[corners]
+        rgba[bare] = (*measures.NEUTRAL, 1.0)
+    domain = "POINT" if bare is None else "CORNER"
+    fill_layer(make_layer(mesh, COLOUR, "FLOAT_COLOR", domain), rgba)
     mesh.discrete_fairing.curvature_range = limits
     mesh.update()
+
+
+def _corners_without_points(mesh: Mesh, mode: str, settings: Any) -> np.ndarray | None:
+    """(c,) bool: corners of faces whose deviation from scans means nothing, as these have no points there;
+    None where there are none.
+    """
+    if (
+        mode != "DEVIATION"
+        or settings.deviation_object is not None
+        or NO_POINTS not in mesh.attributes
+    ):
+        return None
+    sizes = column(mesh.polygons, "loop_total", np.int32)
+    bare = np.repeat(faces_without_points(mesh), sizes)
+    return bare if bare.any() else None
+
+
+def shows_uncovered(mesh: Mesh) -> bool:
+    """Whether faces without points have a colour of their own: those have borders, vertices do not."""
+    layer = mesh.attributes.get(COLOUR)
+    return layer is not None and layer.domain == "CORNER"
 
 
 def remove_values(mesh: Mesh) -> None:

@@ -28,6 +28,8 @@ _AMOUNT = (
     (96, 8, 54),
 )
 
+NEUTRAL = (0.15, 0.15, 0.15)  # linear: where there is nothing to measure
+
 
 def measure(arrays: ControlArrays) -> dict[str, Any]:
     """What can be said of one mesh in numbers, as plain floats and ints; angles in

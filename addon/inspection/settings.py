@@ -58,8 +58,8 @@ MODES = (
     (
         "DEVIATION",
         "Deviation",
-        "How far the surface is from the vertices of its source or from another object: outside (red), "
-        "inside (blue)",
+        "How far the surface is from its scans, from the vertices of its source or from another object: outside (red), "
+        "inside (blue); grey where a scan has no points",
         "DRIVER_DISTANCE",
         7,
     ),

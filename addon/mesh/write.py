@@ -15,11 +15,13 @@ from ..transfer.lattice import fine_edges, mark_pairs
 from ..transfer.seams import seam_pairs
 from .boundary_marks import BOUNDARY
 from .fixed_normals import NORMAL
-from .layers import SurfaceData, fill_layer, layer_values, make_layer, write_data
+from .layers import SurfaceData, fill_layer, find_layer, layer_values, make_layer, write_data
 
 Edges: TypeAlias = tuple[np.ndarray, np.ndarray]  # (e, 2) vertices; the one that leaves each corner
 
 PAD_SIZES = "fair_pad_size"
+# an attribute on faces: a surface near scans that have no points there
+NO_POINTS = "fair_no_points"
 # attributes on points: where something is wrong with the surface, by kind
 FAULTS = {
     "crossing": "fair_crosses_itself",
@@ -94,7 +96,7 @@ def refill_mesh(
 
 def attributes_left_out(settings: Settings) -> tuple[str, ...]:
     """Names of the attributes that a surface does not take over from its source."""
-    made = (PAD_SIZES, BOUNDARY, NORMAL, *FAULTS.values())
+    made = (PAD_SIZES, NO_POINTS, BOUNDARY, NORMAL, *FAULTS.values())
     return (*made, "sharp_face") if settings.shade_smooth else made
 
 
@@ -106,6 +108,12 @@ def write_pad_sizes(mesh: Mesh, result: Any, transfer: AttributeTransfer) -> Non
     if pads["gone"]:
         widths = transfer.point(np.asarray(pads["widths"], np.float32))
         fill_layer(make_layer(mesh, PAD_SIZES, "FLOAT", "POINT"), widths.ravel())
+
+
+def faces_without_points(mesh: Mesh) -> np.ndarray:
+    """(f,) bool: faces that a fit has marked with `NO_POINTS`."""
+    layer = find_layer(mesh, NO_POINTS, "BOOLEAN", "FACE")
+    return np.zeros(len(mesh.polygons), bool) if layer is None else layer_values(layer)
 
 
 def has_faces_of(mesh: Mesh, result: Any) -> bool:

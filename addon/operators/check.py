@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from typing import Any, cast
 
 import bpy
+import numpy as np
 from bpy.props import IntProperty, IntVectorProperty
 
 from .. import core, errors
@@ -21,7 +22,7 @@ from ..check.defects import (
 from ..check.faults import faulty_vertices
 from ..check.holes import edges_of
 from ..mesh.read import active_mesh, source_objects
-from ..mesh.write import FAULTS
+from ..mesh.write import FAULTS, NO_POINTS, faces_without_points
 from ..poll import IN_EITHER_MODE, ExplainedPoll, needs, of_meshes
 from ..words import counted
 
@@ -146,7 +147,7 @@ class OBJECT_OT_fairing_select_hole(_Checking, bpy.types.Operator):
 
 
 class OBJECT_OT_fairing_select_faults(ExplainedPoll, bpy.types.Operator):
-    """Select in Edit Mode where this surface crosses itself, bulges far from its source, or is folded"""
+    """Select in Edit Mode where this surface crosses itself, bulges far from its source, is folded, or has no points of its scan"""
 
     bl_idname = "object.fairing_select_faults"
     bl_label = "Select Places"
@@ -159,7 +160,8 @@ class OBJECT_OT_fairing_select_faults(ExplainedPoll, bpy.types.Operator):
         ),
         needs(
             lambda context: any(
-                name in context.active_object.data.attributes for name in FAULTS.values()
+                name in context.active_object.data.attributes
+                for name in (*FAULTS.values(), NO_POINTS)
             ),
             "Nothing to do: nothing was found wrong with this surface",
         ),
@@ -168,7 +170,12 @@ class OBJECT_OT_fairing_select_faults(ExplainedPoll, bpy.types.Operator):
 
     def execute(self, context: Context) -> Answer:
         target = cast(Object, context.active_object)
-        select_defects(context, target, "vertex", faulty_vertices(target.data).tolist())
+        faulty, bare = (
+            faulty_vertices(target.data),
+            np.flatnonzero(faces_without_points(target.data)),
+        )
+        groups = (("vertex", faulty.tolist()), ("face", bare.tolist()))
+        select_in_all(context, [(target, [group for group in groups if group[1]])])
         return {"FINISHED"}
 
 

@@ -111,6 +111,8 @@ def _draw_legend(layout: bpy.types.UILayout, context: Context, target: Object, m
         texts = [display.value_text(context.scene, mode, limit) for limit in limits]
         column.label(text=f"{colours[0]}: {low}, {texts[0]}", icon="COLOR")
         column.label(text=f"{colours[1].title()}: {high}, {texts[1]}", icon="BLANK1")
+        if display.shows_uncovered(target.data):
+            column.label(text="Grey: no points of the scan", icon="BLANK1")
     layout.operator("object.fairing_refresh", icon="FILE_REFRESH")
 
 

@@ -17,7 +17,7 @@ from ..mesh.object import session_key
 from ..mesh.read import read_mesh, source_objects
 from ..mesh.read_curves import has_curves
 from ..mesh.world_shape import world_shape
-from ..mesh.write import FAULTS
+from ..mesh.write import FAULTS, NO_POINTS
 from ..properties import FairingSettings, KeptSettings
 from ..purposes import PRESET_FOLDER, is_shipped, job_of
 from ..queue import Queue, running, status_text
@@ -107,7 +107,7 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
         elif memory is not None:
             draw_stale(layout, cast(Object, context.active_object))
             _draw_button(layout, "object.fairing_recompute", "FILE_REFRESH", "Recompute")
-            _draw_faults(layout, memory)
+            _draw_places(layout, memory)
         elif followed is None:
             text = "Fair Selected Faces" if settings.use_selection else "Fair Surface"
             _draw_button(layout, "object.fairing_surface", "SURFACE_DATA", text)
@@ -162,15 +162,17 @@ def _size_text(settings: FairingSettings, sources: list[Object], triangles: int)
     return ", ".join(filter(None, (size.count_text(triangles), time))) if triangles else ""
 
 
-def _draw_faults(layout: bpy.types.UILayout, memory: FAIRING_PG_surface) -> None:
+def _draw_places(layout: bpy.types.UILayout, memory: FAIRING_PG_surface) -> None:
     """What was found wrong with the surface when it was made, as long as its mesh has the places."""
     target = cast(Object, memory.id_data)
+    attributes = target.data.attributes
     counts = (recall(target, "report") or {}).get("faults", {})
-    if not counts or not any(FAULTS[kind] in target.data.attributes for kind in counts):
-        return
-    summary = errors.faults_summary(counts)
-    draw_notice(layout, f"T{summary[1:]}. {errors.faults_remedy(memory)}")
-    layout.operator("object.fairing_select_faults", icon="RESTRICT_SELECT_OFF")
+    is_faulty = any(FAULTS[kind] in attributes for kind in counts)
+    if is_faulty:
+        summary = errors.faults_summary(counts)
+        draw_notice(layout, f"T{summary[1:]}. {errors.faults_remedy(memory)}")
+    if is_faulty or NO_POINTS in attributes:
+        layout.operator("object.fairing_select_faults", icon="RESTRICT_SELECT_OFF")
 
 
 def live_surface(context: Context) -> Object | None:

@@ -13,10 +13,12 @@ from scenes import CUBE, activate, add, positions, recompute, refused, to_object
 from addon.check.defects import recall_defects
 from addon.freshness import SCAN_CHANGED, SCAN_MOVED, SOURCE_CHANGED, why_stale
 from addon.inspection import display
+from addon.inspection.measures import NEUTRAL, value_range
 from addon.live import registry, switch
 from addon.mesh.layers import layer_values
 from addon.mesh.scans import read_scans
-from addon.scan_fit import OUTLIERS, TOO_COARSE
+from addon.scan_fit import OUTLIERS, TOO_COARSE, UNCOVERED
+from addon.ui.inspect import VIEW3D_PT_fairing_inspect
 from addon.ui.main import VIEW3D_PT_fairing
 
 
@@ -273,6 +275,36 @@ def test_faces_that_are_too_coarse_and_strays_are_listed_in_check():
     assert chosen == coarse["elements"]
     (strays,) = recall_defects(scan)[0]
     assert strays["code"] == OUTLIERS and 7 in strays["elements"]
+
+
+def test_faces_without_points_are_grey_and_can_be_selected():
+    points, (vertices, faces) = blob_scan(26_000, 0.002), blob_cage(6)
+    scan = add("Scan", points[points[:, 0] < 0.9].tolist(), [])  # its end is not scanned
+    cage = add("Cage", vertices.tolist(), faces.tolist())
+    select(scan, cage)
+    assert bpy.ops.object.fairing_fit(levels=2) == {"FINISHED"}
+    made = bpy.context.object
+    bare = np.repeat([polygon.index for polygon in cage.data.polygons], 16)
+    (uncovered,) = [d for d in recall_defects(cage)[0] if d["code"] == UNCOVERED]
+    bare = np.isin(bare, uncovered["elements"])
+    assert 3 < len(uncovered["elements"]) < len(faces) / 4
+    settings = bpy.context.scene.discrete_fairing_inspection
+    made.discrete_fairing_inspection.mode = "DEVIATION"
+    rgba = layer_values(made.data.attributes[display.COLOUR])
+    grey = (rgba == np.float32((*NEUTRAL, 1))).all(axis=1).reshape(-1, 4)
+    np.testing.assert_array_equal(grey.all(axis=1), bare)
+    np.testing.assert_array_equal(grey.any(axis=1), bare)
+    values = layer_values(made.data.attributes["fair_deviation"])
+    everywhere = value_range(values, np.ones(len(values), bool), True, 2, 98)
+    assert display.legend(made.data)[1] < 0.7 * everywhere[1]  # of faces with points
+    assert "Grey: no points of the scan" in draw(VIEW3D_PT_fairing_inspect)
+    settings.deviation_object = cage  # which is everywhere
+    assert "Grey: no points of the scan" not in draw(VIEW3D_PT_fairing_inspect)
+    assert "object.fairing_select_faults" in draw(VIEW3D_PT_fairing)
+    assert bpy.ops.object.fairing_select_faults() == {"FINISHED"}
+    to_object_mode()
+    chosen = np.array([face.select for face in made.data.polygons])
+    np.testing.assert_array_equal(chosen, bare)
 
 
 def test_instances_and_point_clouds_count():
