@@ -112,13 +112,16 @@ def read(file: Place, options: FitOptions, merge: bool) -> tuple[list[Object], F
             raise FileError(
                 "SEVERAL", f"{options.cage} has {len(cages)} meshes: join them, a cage is one."
             )
-    elif len(scans) > 1 or not len(scan.triangles):
-        what = "several meshes" if len(scan.triangles) else "points without faces"
-        raise FileError("NO_CAGE", f"{file.source} has {what}: draw a cage, and give it as --cage.")
+    elif not len(scan.triangles):
+        raise FileError(
+            "NO_CAGE",
+            f"{file.source} has points without faces: draw a cage, and give it as --cage.",
+        )
     else:
         name = scans[0].name
-        cages = [make_cage(context, scans[0], options.cage_faces)]
-        bpy.data.objects.remove(scans[0])
+        cages = [make_cage(context, scans, options.cage_faces)]
+        for one in scans:
+            bpy.data.objects.remove(one)
         cages[0].name = name
     return cages, options.fit(cages[0], scan)
 

@@ -53,7 +53,7 @@ def fill_mesh(mesh: Mesh, result: Any, sharp_pairs: np.ndarray, edges: Edges | N
     """The same into a `mesh` that has no geometry. Its materials stay. `edges`: as `edge_table` has
     them, so that a large surface does not make the window wait for them; None: Blender finds them.
     """
-    _write_faces(mesh, result.vertices, *result.faces)
+    write_faces(mesh, result.vertices, *result.faces)
     if edges is not None:
         _write_edges(mesh, *edges)
     mesh.update(calc_edges=edges is None)
@@ -134,9 +134,8 @@ def write_positions(mesh: Mesh, vertices: np.ndarray) -> None:
     mesh.update()
 
 
-def _write_faces(
-    mesh: Mesh, vertices: np.ndarray, triangles: np.ndarray, quads: np.ndarray
-) -> None:
+def write_faces(mesh: Mesh, vertices: np.ndarray, triangles: np.ndarray, quads: np.ndarray) -> None:
+    """Gives `mesh`, which has no geometry, `vertices` (n, 3), `triangles` (t, 3) and then `quads` (q, 4)."""
     corners = np.concatenate([triangles.ravel(), quads.ravel()]).astype(np.int32, copy=False)
     starts = np.concatenate(
         [3 * np.arange(len(triangles)), triangles.size + 4 * np.arange(len(quads))]

@@ -21,28 +21,43 @@ from .fair import WholeFairing, can_fair
 from .shown import Shown
 
 
-def _chosen(context: Context) -> tuple[Object | None, list[Object]]:
-    """The cage, None where it is to be made; and the scans."""
-    selected = [o for o in context.selected_objects if is_scan(o)]
-    active = context.active_object
-    if len(selected) == 1:
-        return None, selected
-    if active is None or active not in selected or active.type != "MESH":
-        return None, []
-    return active, [o for o in selected if o != active]
+def _selected(context: Context) -> list[Object]:
+    return [o for o in context.selected_objects if is_scan(o)]
 
 
 def _choice_reason(context: Context) -> str:
-    cage, scans = _chosen(context)
-    if not scans:
+    selected = _selected(context)
+    if not selected:
         return "Select the scan, or the scan first and the cage last"
-    if cage is None and scans[0].type != "MESH":
+    if len(selected) == 1 and selected[0].type != "MESH":
         return "Select the cage last: one can be made for a mesh only"
     return ""
 
 
+def _chosen(context: Context) -> tuple[Object | None, list[Object]]:
+    """The cage, None where it is to be made; and the scans. Raises JobError."""
+    selected, active = _selected(context), context.active_object
+    if len(selected) == 1 or _are_all_scans(context, selected):
+        return None, selected
+    if active is None or active not in selected or active.type != "MESH":
+        raise JobError(
+            "Select the scan first and the cage last. The active object is no mesh among those selected."
+        )
+    return active, [o for o in selected if o != active]
+
+
+def _are_all_scans(context: Context, selected: list[Object]) -> bool:
+    """Whether none of them can be the cage: each has more faces than any other has points."""
+    if not all(o.type == "MESH" and len(o.data.polygons) for o in selected):
+        return False
+    points = [len(read_scans(context, [o]).points) for o in selected]
+    return all(
+        len(o.data.polygons) > max(points[:k] + points[k + 1 :]) for k, o in enumerate(selected)
+    )
+
+
 class OBJECT_OT_fairing_fit(Shown, WholeFairing, FitAmount, bpy.types.Operator):
-    """Make the fairest surface near the selected scans, from the active mesh as cage or from a cage made for a lone scan"""
+    """Make the fairest surface near the selected scans, from the active mesh as cage, or from one that is made where all selected are scans"""
 
     bl_idname = "object.fairing_fit"
     bl_label = "Fair Surface on Scan"
@@ -58,7 +73,7 @@ class OBJECT_OT_fairing_fit(Shown, WholeFairing, FitAmount, bpy.types.Operator):
     )
     cage_faces: IntProperty(
         name="Faces of Cage",
-        description="Faces of the cage that is made where the scan alone is selected; at most one for 25 of its points",
+        description="Faces of the cage that is made where scans alone are selected; at most one for 25 of its points",
         default=300,
         min=LEAST_CAGE_FACES,
         max=20000,
@@ -79,7 +94,7 @@ class OBJECT_OT_fairing_fit(Shown, WholeFairing, FitAmount, bpy.types.Operator):
         scan = read_scans(context, scans)
         fewer = cage is None and self.cage_faces > most_cage_faces(scan)
         if cage is None:
-            cage = make_cage(context, scans[0], self.cage_faces)
+            cage = make_cage(context, scans, self.cage_faces)
         elif 0 < len(scan.points) < len(cage.data.polygons):
             raise JobError(
                 f"{cage.name}: Select the scan first and the cage last, or make the cage coarser. It has"

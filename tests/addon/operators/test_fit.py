@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Fair Surface on Scan: scans and cages where they stand, and cages that are made."""
 
+import bmesh
 import bpy
 import numpy as np
 import pytest
@@ -97,6 +98,46 @@ def test_a_scan_alone_gets_a_cage():
     assert 20 < len(cage.data.polygons) < 400
     assert made.name == "Scan Cage Fit"
     assert np.abs(np.linalg.norm(world(made), axis=1) - 1).max() < 0.01
+
+
+def part(name, keep, **place):
+    """A ball's vertices that `keep` takes, in an object that stands and is scaled somehow."""
+    made = ball(name, 5, noise=0.003)
+    for key, value in place.items():
+        setattr(made, key, value)
+    bpy.context.view_layer.update()
+    bm = bmesh.new()
+    bm.from_mesh(made.data)
+    lost = [vertex for vertex in bm.verts if not keep(vertex.co)]
+    bmesh.ops.delete(bm, geom=lost, context="VERTS")
+    bm.to_mesh(made.data)
+    bm.free()
+    made.data.transform(made.matrix_world.inverted())
+    return made
+
+
+def test_scans_alone_get_one_cage():
+    place = {"location": (1, 2, 3), "scale": (2, 0.5, 3), "rotation_euler": (1, 0.3, 0)}
+    above = part("Above", lambda co: co.z > -0.3, **place)
+    below = part("Below", lambda co: co.z < 0.2, scale=(0.01, 0.01, 0.01))
+    select(above, below)
+    assert bpy.ops.object.fairing_fit(levels=2, cage_faces=80) == {"FINISHED"}
+    made, cage = bpy.context.object, bpy.data.objects["Above Cage"]
+    assert made.name == "Above Cage Fit" and 40 < len(cage.data.polygons) < 160
+    uses = np.bincount([e for p in cage.data.polygons for e in mesh_edges(cage.data, p)])
+    assert (uses == 2).all()  # one closed cage, where the scans overlap
+    assert off(made) < 0.004
+    assert [scan.target for scan in made.discrete_fairing_fit.scans] == [above, below]
+    assert why_stale(made) == ""
+    open_ones = [part(name, lambda co: co.z > 0.5) for name in ("Cap", "Cap 2")]
+    count = len(bpy.data.objects), len(bpy.data.meshes)
+    select(*open_ones)
+    refused("Cap, Cap 2: Close", bpy.ops.object.fairing_fit)
+    assert (len(bpy.data.objects), len(bpy.data.meshes)) == count
+
+
+def mesh_edges(mesh, polygon):
+    return [mesh.loops[k].edge_index for k in polygon.loop_indices]
 
 
 def test_a_sparse_scan_gets_a_cage_that_does_not_follow_its_noise():
