@@ -90,18 +90,10 @@ def run(source: Object, options: FillOptions, **watchers: Any) -> tuple[dict[str
     return entry, [f"{source.name}: {sentence}." for sentence in said if sentence]
 
 
-def table_head(width: int) -> str:
-    return f"{'file':<{width}} {'faces in':>10} {'faces out':>11} {'seconds':>8} {'holes':>7} {'folded':>7}"
+COLUMNS = {"holes": 7, "folded": 7}
 
 
-def table_line(record: dict[str, Any], width: int) -> str:
-    """A finished input's line: sums over its objects."""
-    objects = record["objects"]
-    faces_in, faces_out = (
-        sum(item[side]["faces"] for item in objects) for side in ("control", "result")
-    )
+def cells(objects: list[dict[str, Any]], _record: dict[str, Any]) -> tuple[str, ...]:
+    """Of a finished input's line in the table: sums over its objects."""
     holes = [hole for item in objects for hole in item["report"]["holes"]]
-    return (
-        f"{record['input']:<{width}} {faces_in:>10,} {faces_out:>11,} {record['seconds']:>8.2f} "
-        f"{len(holes):>7,} {sum(hole['folds'] > 0 for hole in holes):>7,}"
-    )
+    return f"{len(holes):,}", f"{sum(hole['folds'] > 0 for hole in holes):,}"

@@ -151,18 +151,13 @@ def said(told: dict[str, Any]) -> str:
     return text + (f"; {coarse} faces of the cage are too coarse" if coarse else "")
 
 
-def table_head(width: int) -> str:
-    return f"{'file':<{width}} {'faces in':>10} {'faces out':>11} {'seconds':>8} {'within':>10} {'noise':>10}"
+COLUMNS = {"within": 10, "noise": 10}
 
 
-def table_line(record: dict[str, Any], width: int) -> str:
-    """A finished input's line."""
-    (item,) = record["objects"]
-    told = item["fit"]
-    return (
-        f"{record['input']:<{width}} {item['control']['faces']:>10,} {item['result']['faces']:>11,} "
-        f"{record['seconds']:>8.2f} {words.short(told['within']):>10} {words.short(told['noise']):>10}"
-    )
+def cells(objects: list[dict[str, Any]], _record: dict[str, Any]) -> tuple[str, ...]:
+    """Of a finished input's line in the table."""
+    told = objects[0]["fit"]
+    return words.short(told["within"]), words.short(told["noise"])
 
 
 def _count(text: str) -> int:

@@ -121,14 +121,15 @@ class _Table:
         energy: str,
     ) -> None:
         self.is_wanted = not arguments.quiet
-        self._mends = getattr(arguments.mending, "module", None)
-        self._meshes: Any = report if arguments.drawn is None else fit
+        meshes = report if arguments.drawn is None else fit
+        self._of_meshes: Any = arguments.mending.module if arguments.mending else meshes
         self._files, self._records = files, records
         # processes that share the work leave it to the one that began them
         self._log = Path(arguments.log) if arguments.log and arguments.only is None else None
         self._width = max((len(record["input"]) for record in records), default=0)
         if self.is_wanted:
-            _say(self._head(arguments, energy))
+            module = self._of_meshes if arguments.patches is None else step
+            _say(report.table_head(self._width, module, energy))
 
     def why_no_log(self) -> str:
         """A sentence; empty where lines can be appended."""
@@ -139,28 +140,15 @@ class _Table:
             return f"{self._log} cannot be written: {error.strerror}."
         return ""
 
-    def _head(self, arguments: argparse.Namespace, energy: str) -> str:
-        if self._mends:
-            return self._mends.table_head(self._width)
-        if arguments.patches is not None:
-            return step.table_head(self._width)
-        if self._meshes is fit:
-            return fit.table_head(self._width)
-        return report.table_head(self._width, energy)
-
     def line(self, index: int) -> None:
         record = self._records[index]
         if self._log is not None:
             with self._log.open("a", encoding="utf-8") as log:
                 log.write(report.log_line(record))
         if record["status"] == report.DONE and self.is_wanted:
-            _say(self._of(index).table_line(record, self._width))
-
-    def _of(self, index: int) -> Any:
-        """The module that knows what a line of the table says."""
-        if self._mends:
-            return self._mends
-        return step if is_cad(self._files[index].target) else self._meshes
+            is_step = is_cad(self._files[index].target)  # which no mending writes
+            module = step if is_step else self._of_meshes
+            _say(report.table_line(record, self._width, module))
 
 
 def _run_batches(

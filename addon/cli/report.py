@@ -82,35 +82,51 @@ def document(versions: dict[str, str], exit_code: int, records: list[dict[str, A
     return json.dumps(_finite(whole), indent=2, allow_nan=False, default=str) + "\n"
 
 
-def table_head(width: int, energy: str) -> str:
-    """`energy`: a setting's identifier, which decides how accuracy is said."""
-    accuracy = f"{'residual':>9}" if energy == "THIN_PLATE" else f"{'steps':>6} {'decrement':>9}"
-    return f"{'file':<{width}} {'faces in':>10} {'faces out':>11} {'seconds':>8} {'energy before → after':>25} {accuracy}"
+_SHARED = {"faces in": 10, "faces out": 11, "seconds": 8}
 
 
-def table_line(record: dict[str, Any], width: int) -> str:
-    """A finished input's line: sums over its objects, and the accuracy of the worst one."""
-    objects = record["objects"]
-    faces_in, faces_out = (
-        sum(item[side]["faces"] for item in objects) for side in ("control", "result")
-    )
+def cells(objects: list[dict[str, Any]], record: dict[str, Any]) -> tuple[str, ...]:
+    """Of a finished input's line in the table: sums over its objects, and the accuracy of the worst one."""
     before, after = (
         sum(_energy(item["report"], record, state) for item in objects)
         for state in ("polyhedron", "result")
     )
-    energies = f"{before:.4g} → {after:.4g}"
-    return (
-        f"{record['input']:<{width}} {faces_in:>10,} {faces_out:>11,} {record['seconds']:>8.2f} "
-        f"{energies:>25} {_accuracy([item['report'] for item in objects], record['settings']['energy'])}"
+    energies, reports = f"{before:.4g} → {after:.4g}", [item["report"] for item in objects]
+    if record["settings"]["energy"] == "THIN_PLATE":
+        residual = max(_number(report.get("residuals", [nan])[-1]) for report in reports)
+        return energies, f"{residual:.1e}"
+    steps = max(core.step_count(report) or 0 for report in reports)
+    decrement = max(core.last_decrement(report) or 0.0 for report in reports)
+    return energies, f"{steps}", f"{decrement:.1e}"
+
+
+def _columns(module: Any, energy: str) -> dict[str, int]:
+    """Titles and widths; `module`: that which knows the `cells`, of faired meshes this one."""
+    if hasattr(module, "COLUMNS"):
+        return _SHARED | module.COLUMNS
+    accuracy = {"residual": 9} if energy == "THIN_PLATE" else {"steps": 6, "decrement": 9}
+    return _SHARED | {"energy before → after": 25} | accuracy
+
+
+def table_head(width: int, module: Any, energy: str) -> str:
+    columns = _columns(module, energy)
+    return _row("file", width, columns, columns)
+
+
+def table_line(record: dict[str, Any], width: int, module: Any) -> str:
+    """A finished input's line."""
+    objects = record["objects"]
+    faces = sum(item["control"]["faces"] for item in objects)
+    out = sum(item["result"].get("faces") or item["result"].get("patches", 0) for item in objects)
+    cells = (f"{faces:,}", f"{out:,}", f"{record['seconds']:.2f}", *module.cells(objects, record))
+    return _row(
+        record["input"], width, _columns(module, record["settings"].get("energy", "")), cells
     )
 
 
-def _accuracy(reports: list[Mapping[str, Any]], energy: str) -> str:
-    if energy == "THIN_PLATE":
-        return f"{max(_number(report.get('residuals', [nan])[-1]) for report in reports):>9.1e}"
-    most_steps = max(core.step_count(report) or 0 for report in reports)
-    decrement = max(core.last_decrement(report) or 0.0 for report in reports)
-    return f"{most_steps:>6} {decrement:>9.1e}"
+def _row(name: str, width: int, columns: dict[str, int], cells: Iterable[str]) -> str:
+    padded = (f"{cell:>{wide}}" for cell, wide in zip(cells, columns.values(), strict=True))
+    return " ".join([f"{name:<{width}}", *padded])
 
 
 def _energy(report: Mapping[str, Any], record: dict[str, Any], state: str) -> float:

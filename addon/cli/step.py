@@ -91,20 +91,11 @@ def object_entry(job: PatchJob) -> dict[str, Any]:
     }
 
 
-def table_head(width: int) -> str:
-    return (
-        f"{'file':<{width}} {'faces in':>10} {'patches':>9} {'seconds':>8} {'off':>10} {'angle':>9}"
-    )
+COLUMNS = {"off": 10, "angle": 9}
 
 
-def table_line(record: dict[str, Any], width: int) -> str:
-    """A finished input's line: sums over its objects, and the accuracy of the worst one."""
-    objects = record["objects"]
-    faces = sum(item["control"]["faces"] for item in objects)
-    patches = sum(item["result"]["patches"] for item in objects)
+def cells(objects: list[dict[str, Any]], _record: dict[str, Any]) -> tuple[str, ...]:
+    """Of a finished input's line in the table: the accuracy of the worst object."""
     off = max(item["report"]["off"] for item in objects)
     angle = degrees(max(item["report"]["largest_angle"] for item in objects))
-    return (
-        f"{record['input']:<{width}} {faces:>10,} {patches:>9,} {record['seconds']:>8.2f} "
-        f"{words.short(off):>10} {words.short(angle) + '°':>9}"
-    )
+    return words.short(off), words.short(angle) + "°"
