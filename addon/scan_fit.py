@@ -21,6 +21,7 @@ from .mesh.object import Reference, linked_object, new_object, select_only
 from .mesh.scans import Scan, read_scans
 from .mesh.write import NO_POINTS, write_faces
 from .settings import Settings
+from .triangles import fans
 from .units import Units
 from .words import counted
 
@@ -117,6 +118,20 @@ class FitJob(Job):
 
     def surface(self, **watchers: Any) -> Any:
         return core.module().fit(**core.of_fits(self.arguments), **self._near, **watchers)
+
+    def _is_inside_out(self) -> bool:
+        corners, offsets = self.arrays.corners, self.arrays.offsets
+        triangles = corners[fans(offsets[:-1], np.diff(offsets))[0]]
+        return not self._is_open() and _volume(Scan(self.arrays.positions, triangles)) < 0
+
+    def warnings(self) -> list[str]:
+        told = super().warnings()
+        if self._is_inside_out():
+            told.append(
+                f"{self.name}: Flip the normals of scan and cage (Alt N in Edit Mode) if the surface should not be"
+                " inside out. They point inwards."
+            )
+        return told
 
     def _compute(self, watchers: dict[str, Any]) -> None:
         super()._compute(watchers)

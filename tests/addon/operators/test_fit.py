@@ -179,6 +179,20 @@ def test_what_cannot_be_fitted_is_said():
     assert len(bpy.data.objects) == count + 1
 
 
+def test_a_scan_that_is_inside_out_is_said(capsys):
+    scan = ball("Scan", 4)
+    scan.scale = (1, -1, 1)  # which turns nothing inside out
+    bpy.context.view_layer.update()
+    activate(scan)
+    assert bpy.ops.object.fairing_fit(levels=1, cage_faces=40) == {"FINISHED"}
+    assert "inside out" not in capsys.readouterr().out
+    scan.data.flip_normals()
+    activate(scan)
+    assert bpy.ops.object.fairing_fit(levels=1, cage_faces=40) == {"FINISHED"}
+    said = capsys.readouterr().out
+    assert "Flip the normals of scan and cage" in said and "They point inwards" in said
+
+
 def fitted():
     scan, cage = ball("Scan", 5, noise=0.01), cage_of_cube()
     select(scan, cage)
