@@ -9,11 +9,13 @@
 
 #include "base/angle.h"
 #include "base/points.h"
+#include "base/roundoff.h"
+#include "mesh/union_find.h"
 
 namespace fairing {
 namespace {
 
-// A body is thin where its thickness is less than the width of the face. A change of thickness is
+// A body is thin where its thickness is less than the width of the flat side. A change of thickness is
 // visible from this share on, beyond that of a rounded body (measured: a fair section through 8
 // points of a circle changes it by 8 %, a hollowed leading edge by 24 to 86 %). A body swells if
 // this share of its area does; otherwise it is an ear or a lip (measured: 9 animals, mugs and cases
@@ -85,6 +87,24 @@ double rounding_off(const ControlMesh& mesh, std::size_t f, std::span<const Face
   return sum / face.size;
 }
 
+// The area of the flat side that each face is a part of: whether a body is thin does not depend on how
+// finely its sides are divided.
+std::vector<double> areas_of_sides(const ControlMesh& mesh, std::span<const FacePlane> planes) {
+  UnionFind parts(planes.size());
+  for (const Edge& edge : mesh.edges) {
+    if (edge.boundary()) continue;
+    const Index f = mesh.sides[std::size_t(edge.side[0])].face;
+    const Index o = mesh.sides[std::size_t(edge.side[1])].face;
+    const double turn = angle_between(planes[std::size_t(f)].normal, planes[std::size_t(o)].normal);
+    if (turn * turn < single_roundoff) parts.unite(f, o);
+  }
+  std::vector<double> area(planes.size(), 0.0);
+  for (std::size_t f = 0; f < planes.size(); ++f)
+    area[std::size_t(parts.lead(Index(f)))] += planes[f].area;
+  for (std::size_t f = 0; f < planes.size(); ++f) area[f] = area[std::size_t(parts.lead(Index(f)))];
+  return area;
+}
+
 }  // namespace
 
 Thickness::Thickness(const ControlMesh& mesh, std::span<const Vec3> control, Workers& workers)
@@ -92,6 +112,7 @@ Thickness::Thickness(const ControlMesh& mesh, std::span<const Vec3> control, Wor
   for (const Face& face : mesh.faces) planes_.push_back(plane_of(face, control));
   for (std::size_t f = 0; f < planes_.size(); ++f)
     if (mesh.face_part(Index(f)) == RegionPart::inside) area_ += planes_[f].area;
+  side_area_ = areas_of_sides(mesh, planes_);
   opposite_ = opposite_faces(mesh, control, planes_, workers);
 }
 
@@ -126,7 +147,7 @@ ThicknessChange Thickness::of(const GridLevel& grid, Workers& workers, const dou
     const double otherwise =
         change - std::clamp(change, std::min(0.0, rounded), std::max(0.0, rounded));
     const double square = opposite.distance * opposite.distance;
-    const bool is_thin = planes_[f].area > (1 + seen_share) * square;
+    const bool is_thin = side_area_[f] > (1 + seen_share) * square;
     const bool is_flat = of_flats && otherwise > 0 &&
                          std::max(std::abs(lifted), std::abs(lifted_behind)) < unlifted_share;
     const double thin_share = is_flat ? unlifted_share : seen_share;

@@ -41,6 +41,7 @@ class Thickness {
  private:
   const ControlMesh& mesh_;
   std::vector<FacePlane> planes_;
+  std::vector<double> side_area_;
   std::vector<Opposite> opposite_;
   double area_ = 0;  // of the faired faces
 };
