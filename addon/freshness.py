@@ -175,8 +175,6 @@ def _differ(made: dict[str, Any], settings: FAIRING_PG_surface) -> bool:
     surface, counts as one that nobody has chosen.
     """
     properties: Any = settings.bl_rna.properties
-    if "relative_tolerance" in made and made.get("tolerance_unit") == "RELATIVE":
-        made = made | {"tolerance": made["relative_tolerance"]}  # of before: a number for each unit
     return any(
         now != made.get(name, properties[name].default)
         for name, now in _that_count(settings).items()

@@ -22,7 +22,7 @@ from bpy.props import (
 
 from . import events, records
 from .blender import Context, Object, all_objects, all_scenes, attached, in_order, registration
-from .properties import FitAmount, KeptSettings, bring_up_to_date, copy_settings
+from .properties import FairingSettings, FitAmount, copy_settings
 from .settings import Settings
 
 # by the names of object and record: panels ask at every redraw, and records are long
@@ -50,7 +50,7 @@ def _may_meet(group: Any, other: Object) -> bool:
     return other.type == "MESH" and other not in {group.id_data, group.source}
 
 
-class FAIRING_PG_surface(KeptSettings, bpy.types.PropertyGroup):
+class FAIRING_PG_surface(FairingSettings, bpy.types.PropertyGroup):
     """What a faired object remembers: where it comes from, and how it was made."""
 
     source: PointerProperty(
@@ -236,7 +236,6 @@ def unset_unsound_settings(*_: Any) -> None:
     for owner in cast(Iterable[Any], (*all_objects(), *all_scenes())):
         for group in _GROUPS:
             _unset_unsound(getattr(owner, group, None))
-        bring_up_to_date(owner.discrete_fairing)
     for mesh in bpy.data.meshes:
         _unset_unsound(cast(Any, mesh).discrete_fairing)
 

@@ -278,23 +278,6 @@ class FitAmount:
     )
 
 
-class KeptSettings(FairingSettings):
-    """Mix-in of annotations for what files and presets set."""
-
-    # from before `tolerance` and its unit had taken its place; `bring_up_to_date` reads it
-    relative_tolerance: FloatProperty(default=0.02, options={"HIDDEN", "SKIP_SAVE"})
-
-
-def bring_up_to_date(group: Any) -> None:
-    """What files and presets from before say of the tolerance: a number for each unit, of which one
-    counted.
-    """
-    if group.is_property_set("relative_tolerance"):
-        if group.tolerance_unit == "RELATIVE":
-            group.tolerance = group.relative_tolerance
-        group.property_unset("relative_tolerance")
-
-
 def copy_settings(source: Settings, target: Any) -> None:
     """Every setting of `source` onto `target` (operator properties or property group)."""
     for name in NAMES:
@@ -321,7 +304,7 @@ def take_near(given: Any) -> None:
         given.interpolation = "APPROXIMATE" if near else "LIMIT"
 
 
-class FAIRING_PG_settings(KeptSettings, bpy.types.PropertyGroup):
+class FAIRING_PG_settings(FairingSettings, bpy.types.PropertyGroup):
     """What the panel shows; kept with the scene."""
 
 

@@ -20,7 +20,7 @@ from ..memory import no_source_reason, source_of
 from ..mesh.object import is_in_view_layer, nothing_left_behind, select_only, why_not_here
 from ..mesh.read import source_objects
 from ..poll import IN_EITHER_MODE, LINKED_SURFACE, ExplainedPoll, in_mode, needs
-from ..properties import KeptSettings, bring_up_to_date, copy_settings, fill_in, take_near
+from ..properties import FairingSettings, copy_settings, fill_in, take_near
 from ..queue import ConsoleProgress, MeshJob, running
 from ..scan_fit import job_of
 from ..settings import Settings
@@ -159,7 +159,7 @@ class Fairing(ExplainedPoll, ModalRun):
         """For what is not common to both."""
 
 
-class FairSurface(Fairing, KeptSettings):
+class FairSurface(Fairing, FairingSettings):
     """All of Fair Surface but its name."""
 
     bl_idname: str
@@ -177,7 +177,6 @@ class FairSurface(Fairing, KeptSettings):
         return super().invoke(context, event)
 
     def execute(self, context: Context) -> Answer:
-        bring_up_to_date(self.properties)
         take_near(self.properties)
         return super().execute(context)
 

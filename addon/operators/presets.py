@@ -13,7 +13,6 @@ from bl_operators.presets import AddPresetBase
 from bpy.props import StringProperty
 
 from ..blender import Answer, Context, registration
-from ..properties import bring_up_to_date
 from ..purposes import FOLDER, PRESET_FOLDER
 from ..settings import NAMES
 from ..ui.main import active_settings
@@ -41,9 +40,7 @@ class OBJECT_OT_fairing_preset_apply(bpy.types.Operator):
     def execute(self, context: Context) -> Answer:
         with _settings_as_operator(context):
             execute: Any = bpy.ops.script.execute_preset  # whose stub says None
-            answer = execute(filepath=self.filepath, menu_idname="VIEW3D_PT_fairing_presets")
-        bring_up_to_date(active_settings(context))
-        return answer
+            return execute(filepath=self.filepath, menu_idname="VIEW3D_PT_fairing_presets")
 
 
 class OBJECT_OT_fairing_preset_add(AddPresetBase, bpy.types.Operator):

@@ -18,7 +18,7 @@ from ..mesh.read import read_mesh, source_objects
 from ..mesh.read_curves import has_curves
 from ..mesh.world_shape import world_shape
 from ..mesh.write import FAULTS, NO_POINTS
-from ..properties import FairingSettings, KeptSettings
+from ..properties import FairingSettings
 from ..purposes import PRESET_FOLDER, is_shipped, job_of
 from ..queue import Queue, running, status_text
 from ..settings import Settings, halves, is_evaluated, is_limit, is_near, subdivision
@@ -182,7 +182,7 @@ def live_surface(context: Context) -> Object | None:
     return followers[0] if followers else None
 
 
-def active_settings(context: Context) -> KeptSettings:
+def active_settings(context: Context) -> FairingSettings:
     """Those of the faired surface that is active, or that follows the active object; else those for
     the next one.
     """

@@ -56,8 +56,7 @@ OLD = """import bpy
 op = bpy.context.active_operator
 
 op.interpolation = "APPROXIMATE"
-op.tolerance = 0.005
-op.relative_tolerance = 0.25
+op.tolerance = 0.25
 op.tolerance_unit = "RELATIVE"
 op.vertex_release = 0.125
 op.repair_orientation = True

@@ -18,14 +18,12 @@ from scenes import (
     fair,
     moved,
     positions,
-    reopen,
 )
 
 from addon import vertex_values
 from addon.errors import JobError
-from addon.freshness import why_stale
 from addon.live import session as live_session
-from addon.memory import keep, recall
+from addon.memory import recall
 from addon.mesh.read import control_mesh, tolerance_factors
 from addon.properties import FairingSettings, _vertex_values
 from addon.settings import Settings
@@ -36,25 +34,6 @@ def test_a_setting_changes_no_other():
     before = asdict(Settings.of(settings))
     settings.tolerance = 0.5
     assert asdict(Settings.of(settings)) == before | {"tolerance": 0.5}
-
-
-@pytest.mark.parametrize("unit, counts", [("RELATIVE", 0.25), ("SCENE", 0.0625)])
-def test_files_from_before_keep_their_tolerance(tmp_path, unit, counts):
-    add("Box", *CUBE)
-    near = {"interpolation": "APPROXIMATE", "tolerance": counts, "tolerance_unit": unit}
-    target = fair(levels=1, **near)
-    made = recall(target, "made")
-    old = {"tolerance": 0.0625, "relative_tolerance": 0.25}
-    keep(target, "made", made | {"settings": made["settings"] | old})
-    for settings in (target.discrete_fairing, bpy.context.scene.discrete_fairing):
-        for name, value in (near | old).items():
-            setattr(settings, name, value)
-    reopen(tmp_path)
-    target = bpy.data.objects["Box Fair"]
-    for settings in (target.discrete_fairing, bpy.context.scene.discrete_fairing):
-        assert (settings.tolerance, settings.tolerance_unit) == (counts, unit)
-        assert not settings.is_property_set("relative_tolerance")
-    assert why_stale(target) == ""
 
 
 @pytest.mark.parametrize(
