@@ -96,14 +96,21 @@ def test_tangents_join(pair, levels):
 @pytest.mark.parametrize("levels", [3, 4])
 @pytest.mark.parametrize("pair", PAIRS)
 def test_curvature_joins(pair, levels):
-    """At nine points in ten; beside the ends of the joint it jumps by more."""
+    """Everywhere, also beside the ends of the joint, where it jumped by 76 to 97 %."""
     fixed, other = PAIRS[pair]()
     first = fair(fixed, levels)
     met = fair(other, levels, neighbour=(first.vertices, first.faces), joint="curvature")
     joint = seam(met, first)
     assert np.degrees(joint.kink.max()) < 0.05
-    most = {3: 0.04, 4: 0.03}[levels]
-    assert np.quantile(joint.jump, 0.9) < most and np.median(joint.jump) < most / 3
+    assert joint.jump.max() < 0.03
+
+
+def test_curvature_between_triangles_keeps_the_tangents():
+    """Kinks were 0.6 degrees."""
+    fixed, other = map(triangles, bonnet_and_fender())
+    first = fair(fixed, 3)
+    met = fair(other, 3, neighbour=(first.vertices, first.faces), joint="curvature")
+    assert np.degrees(seam(met, first).kink.max()) < 0.1
 
 
 def curved(u, v):

@@ -62,7 +62,7 @@ def test_curvature_too_and_again_by_recompute(panels):
     assert bpy.ops.object.fairing_match_border(joint="CURVATURE") == {"FINISHED"}
     assert np.degrees(check(*panels).kink) < 0.05
     meshes = [neighbours.shown_in_world(bpy.context, panel) for panel in (fender, bonnet)]
-    assert np.median(core.module().joint(*meshes).jump) < 0.02
+    assert core.module().joint(*meshes).jump.max() < 0.03
     made = positions(fender.data)
     recompute(fender)
     assert np.array_equal(positions(fender.data), made)
