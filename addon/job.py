@@ -5,7 +5,7 @@ Reading and writing belong to Blender's main thread. Computing touches nothing o
 run on any thread.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import nullcontext
 from typing import Any
 
@@ -99,29 +99,35 @@ class Job(TimedRun):
             pulls,
             self.edge_length,
         )
-        neighbour = neighbour or neighbours.neighbour_of(target)
+        stands = surface or place.next_of(source, target)
+        self._meet(context, source, neighbour or neighbours.neighbour_of(target), stands)
+        # what the user may want to know, a sentence each
+        self.notes = [*self.data.notes, *self._not_done()]
+        self.pieces: int | None = None  # faired one after another; None: as a whole
+        self.spread: core.Spread | None = None  # how pieces are faired otherwise
+
+    def _meet(
+        self, context: Context, source: Object, neighbour: Object | None, surface: Object
+    ) -> None:
+        """Has the border meet a neighbour's, if there is one, where `surface` stands."""
         self._neighbour = None if neighbour is None else Reference(neighbour)
         self._made["neighbour"] = "" if neighbour is None else neighbour.name
         if neighbour is not None:
-            stands = surface or place.next_of(source, target)
-            self._made["beside"] = scans.made_of(context, [neighbour], stands)
+            self._made["beside"] = scans.made_of(context, [neighbour], surface)
             self.arguments |= neighbours.arguments(
-                context, neighbour, stands, source, self.settings
+                context, neighbour, surface, source, self.settings
             )
-        self.notes = list(self.data.notes)  # what the user may want to know, a sentence each
+
+    def _not_done(self) -> Iterator[str]:
+        """What the energy leaves out, a sentence each."""
         if "shapes" in self.arguments and self.settings.energy != "THIN_PLATE":
-            self.notes.append(
-                "Each shape key is faired separately. Mixtures of them are fair with Bending only."
-            )
-        if not core.keeps_marks(self.settings):
-            if self.arrays.normals is not None:
-                self.notes.append("Fixed normals are not used: only Bending supports them.")
-            if self.arrays.flat_face is not None and self.arrays.flat_face.any():
-                self.notes.append(
-                    "Flat faces are not kept: only Bending keeps them. Choose Bending."
-                )
-        self.pieces: int | None = None  # faired one after another; None: as a whole
-        self.spread: core.Spread | None = None  # how pieces are faired otherwise
+            yield "Each shape key is faired separately. Mixtures of them are fair with Bending only."
+        if core.keeps_marks(self.settings):
+            return
+        if self.arrays.normals is not None:
+            yield "Fixed normals are not used: only Bending supports them."
+        if self.arrays.flat_face is not None and self.arrays.flat_face.any():
+            yield "Flat faces are not kept: only Bending keeps them. Choose Bending."
 
     def _compute(self, watchers: dict[str, Any]) -> None:
         with errors.explained(self.name, self.remedies):
