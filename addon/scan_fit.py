@@ -3,6 +3,7 @@
 by QuadriFlow.
 """
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any, cast
@@ -33,6 +34,7 @@ TOO_COARSE, UNCOVERED, OUTLIERS = "FIT_TOO_COARSE", "FIT_NO_POINTS", "FIT_OUTLIE
 POINTS_A_FACE = 25
 # QuadriFlow fails for fewer.
 LEAST_CAGE_FACES = 20
+_LENGTH = re.compile(r"\b\d+(?:\.\d+)?(?:e[+-]\d+)?\b(?!\.\d| %| points? )")
 VOXELS_AN_EDGE = 4  # of a cage over several scans
 
 
@@ -117,7 +119,26 @@ class FitJob(Job):
         return bool((np.bincount(self.arrays.corner_edges) == 1).any())
 
     def surface(self, **watchers: Any) -> Any:
-        return core.module().fit(**core.of_fits(self.arguments), **self._near, **watchers)
+        module = core.module()
+        try:
+            found = module.fit(**core.of_fits(self.arguments), **self._near, **watchers)
+        except module.FairingError as error:
+            if error.code == "BAD_SHAPE":
+                error.cause = self._with_units(error.cause)
+            raise
+        for warning in found.report["warnings"]:
+            if warning["code"] == "TOLERANCE_NOT_KEPT":
+                warning["message"] = self._with_units(warning["message"])
+        return found
+
+    def _with_units(self, text: str) -> str:
+        """What the core says of a scan, its lengths as the scene says them: all numbers but shares and counts."""
+
+        def told(found: re.Match[str]) -> str:
+            length = float(found.group())
+            return self._units.lengths(length)(length)
+
+        return _LENGTH.sub(told, text)
 
     def _is_inside_out(self) -> bool:
         corners, offsets = self.arrays.corners, self.arrays.offsets

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Fair Surface on Scan: scans and cages where they stand, and cages that are made."""
 
+import re
+
 import bmesh
 import bpy
 import numpy as np
@@ -149,6 +151,29 @@ def test_a_sparse_scan_gets_a_cage_that_does_not_follow_its_noise():
     assert len(scan.data.vertices) / len(bpy.data.objects["Scan Cage"].data.polygons) > 20
     left = np.linalg.norm(world(made), axis=1) - 1
     assert np.sqrt((left**2).mean()) < 0.7 * np.sqrt((off**2).mean())
+
+
+def test_lengths_of_scans_that_do_not_fit_have_units():
+    scan, cage = ball("Scan", 4, radius=0.5), cage_of_cube()
+    bpy.context.scene.unit_settings.length_unit = "ADAPTIVE"
+    scan.scale = (2000, 2000, 2000)
+    bpy.context.view_layer.update()
+    select(scan, cage)
+    refused(r"measures 3\.\d+ km and the control mesh 2\.08 m from", bpy.ops.object.fairing_fit)
+    scan.scale, scan.location = (1, 1, 1), (3, 0, 0)
+    bpy.context.view_layer.update()
+    refused(r"beside the control mesh, 1\.9 m away", bpy.ops.object.fairing_fit)
+    bpy.context.scene.unit_settings.system = "NONE"
+    refused(r"beside the control mesh, 1\.9 away", bpy.ops.object.fairing_fit)
+
+
+def test_a_tolerance_that_is_not_kept_is_said_with_units(capsys):
+    scan, cage = ball("Scan", 4, noise=0.01), cage_of_cube()
+    select(scan, cage)
+    assert bpy.ops.object.fairing_fit(levels=1, amount="TOLERANCE", tolerance=1e-4) == {"FINISHED"}
+    said = capsys.readouterr().out
+    assert re.search(r"95 % of the points are within [\d.]+ (m|cm|mm) of", said)
+    assert re.search(r"their noise is about [\d.]+ (m|cm|mm)\.", said)
 
 
 def test_what_cannot_be_fitted_is_said():
