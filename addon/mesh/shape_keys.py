@@ -109,7 +109,9 @@ def influences(
 
 
 def _absolute_influences(keys: ShapeKeys) -> dict[int, float | np.ndarray]:
-    """The same of absolute keys: between two of them, by the curve that each of the two asks for."""
+    """The same of absolute keys: between two of them, by the curve that each of the two asks for. Blender
+    mixes keys of its own alone, and no other mesh can have their frames, which are read-only.
+    """
     frames = [key.frame for key in keys.keys]
     kinds = [key.settings["interpolation"] for key in keys.keys]
     last = len(frames) - 1
