@@ -190,6 +190,7 @@ NORMALS[7] = 1.0
 ASKED = {
     "One-sided sheets": (one_sided_meshes.strip(), {}),
     "Fixed normals (`normals`)": (CUBE, {"normals": NORMALS}),
+    "Flat faces (`flat_faces`)": (CUBE, {"flat_faces": [0]}),
     "Tension (`tension`)": (CUBE, {"tension": 0.5}),
     "`epsilon`": (CUBE, {"epsilon": 0.1}),
     '`method="back_leg"`': (CUBE, {"method": "back_leg"}),

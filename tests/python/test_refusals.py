@@ -47,6 +47,13 @@ REFUSED = {
             ({"normals": "up"}, SHAPE, ""),
         ],
     ),
+    "flat faces": (
+        partial(df.fair, *BALL, 1),
+        [
+            ({"flat_faces": [0], "energy": "total_curvature"}, OPTION, "thin plate"),
+            ({"flat_faces": [0], "energy": "minimum_variation"}, OPTION, "thin plate"),
+        ],
+    ),
     "shapes": (
         partial(df.fair, *BALL, 1),
         [

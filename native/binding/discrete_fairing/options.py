@@ -37,6 +37,12 @@ def native_options(settings: Mapping[str, Any]) -> _native.Options:
         given["interpolation"] = _native.Interpolation.approximate
     for name, value in given.items():
         setattr(options, name, value)
+    if len(given.get("flat_faces", ())) and options.energy != _native.Energy.thin_plate:
+        raise fairing_error(
+            "BAD_OPTION",
+            "flat_faces are for the thin plate only; other energies leave waves in them.",
+            cure='Use energy="thin_plate", or leave flat_faces out.',
+        )
     return options
 
 
@@ -270,7 +276,7 @@ class Settings(TypedDict, total=False):
 
     flat_faces: Annotated[ArrayLike | None, face_ids]
     """(f,) int: faces that are meant flat: there the surface is a hundred thousand times as stiff, and the
-    rest blends into them."""
+    rest blends into them. For the thin plate."""
 
     crease_angle: Annotated[float | None, real]
     """Radians: edges folded by more are creases. None: no such rule."""
