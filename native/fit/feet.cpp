@@ -7,6 +7,7 @@
 #include <limits>
 #include <nanoflann.hpp>
 
+#include "base/angle.h"
 #include "base/points.h"
 #include "grid/runs.h"
 #include "parallel/reductions.h"
@@ -283,6 +284,18 @@ void FeetFinder::measure(Array<Foot>& feet) const {
   workers_.for_parts(feet.size(), vertex_grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s) finish(s, feet[s]);
   });
+}
+
+// The mean normal at a point is half of the turn away from the cells.
+std::vector<double> FeetFinder::turns() const {
+  std::vector<double> out(cells_.grid().mesh().faces.size(), 0.0);
+  for (std::size_t c = 0; c < cells_.size(); ++c)
+    for (const Index p : cells_.corners(Index(c))) {
+      if (p < 0 || on_curve_[std::size_t(p)]) continue;
+      double& most = out[std::size_t(cells_.face(Index(c)))];
+      most = std::max(most, 2 * angle_between(cell_normal_[c], point_normal_[std::size_t(p)]));
+    }
+  return out;
 }
 
 }  // namespace fairing
