@@ -1,41 +1,30 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The fair surface of a cage near scans, an ordinary surface of its cage that remembers its scans; and cages
-by QuadriFlow.
-"""
+"""The fair surface of a cage near scans, an ordinary surface of its cage that remembers its scans."""
 
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any, cast
 
-import bpy
 import numpy as np
 
 from . import core, freshness, memory, prediction
-from .blender import Context, Mesh, Object, column
+from .blender import Context, Mesh, Object
 from .check.defects import recall_defects, store_defects
 from .errors import OF_FITS, REMEDIES, JobError
 from .job import Job
 from .mesh import scans
 from .mesh.layers import fill_layer, make_layer
-from .mesh.object import Reference, linked_object, new_object, select_only
+from .mesh.object import Reference
 from .mesh.scans import Scan, read_scans
-from .mesh.write import NO_POINTS, write_faces
+from .mesh.write import NO_POINTS
 from .settings import Settings
 from .triangles import fans
 from .units import Units
 from .words import counted
 
 TOO_COARSE, UNCOVERED, OUTLIERS = "FIT_TOO_COARSE", "FIT_NO_POINTS", "FIT_OUTLIERS"
-
-
-# On a ball with noise of 0.3 % and 300 faces, 2,562 points give a surface that is 0.34 % off; with 100
-# faces 0.17 %.
-POINTS_A_FACE = 25
-# QuadriFlow fails for fewer.
-LEAST_CAGE_FACES = 20
 _LENGTH = re.compile(r"\b\d+(?:\.\d+)?(?:e[+-]\d+)?\b(?!\.\d| %| points? )")
-VOXELS_AN_EDGE = 4  # of a cage over several scans
 
 
 @dataclass(frozen=True)
@@ -143,7 +132,7 @@ class FitJob(Job):
     def _is_inside_out(self) -> bool:
         corners, offsets = self.arrays.corners, self.arrays.offsets
         triangles = corners[fans(offsets[:-1], np.diff(offsets))[0]]
-        return not self._is_open() and _volume(Scan(self.arrays.positions, triangles)) < 0
+        return not self._is_open() and Scan(self.arrays.positions, triangles).volume < 0
 
     def warnings(self) -> list[str]:
         told = super().warnings()
@@ -268,65 +257,3 @@ def live_scan(context: Context, source: Object, target: Object) -> dict[str, Any
         return None
     scan = fit.scan.in_shape_of(source).thinned()
     return scan.arguments | {"weight": fit.weight}
-
-
-def most_cage_faces(scan: Scan) -> int:
-    """Of a cage that is made: one for `POINTS_A_FACE` points."""
-    return max(len(scan.points) // POINTS_A_FACE, LEAST_CAGE_FACES)
-
-
-def make_cage(context: Context, near: Sequence[Object], faces: int) -> Object:
-    """A new object with some `faces` quads over the scans `near`, or as many as their points allow, by
-    QuadriFlow: of one scan in its place, of several in the world. Raises JobError.
-    """
-    read = read_scans(context, near)
-    faces = min(faces, most_cage_faces(read))
-    names = ", ".join(scan.name for scan in near)
-    if not read.triangles.size:
-        raise JobError(
-            f"{names}: Draw a cage over it, and select it last. The scan has no faces, which QuadriFlow needs."
-        )
-    if len(near) == 1:
-        depsgraph = context.evaluated_depsgraph_get()
-        mesh = cast(Mesh, bpy.data.meshes.new_from_object(near[0].evaluated_get(depsgraph)))
-        mesh.name = f"{near[0].name} Cage"
-        cage = new_object(context, near[0], mesh)
-    else:
-        mesh = cast(Mesh, bpy.data.meshes.new(f"{near[0].name} Cage"))
-        write_faces(mesh, read.points, read.triangles, np.empty((0, 4), np.int32))
-        mesh.update(calc_edges=True)
-        cage = linked_object(context, mesh, near[0])
-    select_only(context, [cage])
-    is_made = (len(near) == 1 or _unite(cage, faces)) and _make_quads(cage, faces)
-    if not is_made:
-        bpy.data.objects.remove(cage)
-        bpy.data.meshes.remove(mesh)
-        raise JobError(
-            f"{names}: Close its holes first (Clean Scan), or draw a cage over it. QuadriFlow made no cage of it."
-        )
-    return cage
-
-
-def _unite(joined: Object, faces: int) -> bool:
-    """Makes one closed surface of scans that overlap, as fine as a cage with `faces` needs. False where they
-    enclose nothing: then it has two sides, less than a voxel apart.
-    """
-    mesh = joined.data
-    edge = np.sqrt(column(mesh.polygons, "area").sum() / faces)
-    mesh.remesh_voxel_size = size = edge / VOXELS_AN_EDGE
-    bpy.ops.object.voxel_remesh()
-    return _volume(scans.of_mesh(mesh)) > size * column(mesh.polygons, "area").sum() / 2
-
-
-def _volume(scan: Scan) -> float:
-    """That a closed one encloses; negative where its normals point inwards."""
-    corners = (scan.points - scan.points.mean(axis=0))[scan.triangles]
-    return float(np.linalg.det(corners).sum()) / 6 if len(corners) else 0.0
-
-
-def _make_quads(mesh: Object, faces: int) -> bool:
-    try:
-        bpy.ops.object.quadriflow_remesh(mode="FACES", target_faces=faces, use_preserve_sharp=False)
-    except RuntimeError:
-        return False
-    return 0 < len(mesh.data.polygons) <= 10 * faces

@@ -13,7 +13,8 @@ from ..cad import words
 from ..cad.fit import PatchJob
 from ..mesh.read import read_mesh
 from ..mesh.scans import read_scans
-from ..scan_fit import Fit, FitJob, make_cage
+from ..scan_cage import make_cage
+from ..scan_fit import Fit, FitJob
 from ..settings import Settings
 from .files import FileError, read_file
 from .places import FORMATS, Place, file_format

@@ -49,6 +49,12 @@ class Scan:
         return Scan(self.points[::step], np.empty((0, 3), np.int64), outward)
 
     @property
+    def volume(self) -> float:
+        """That a closed one encloses; negative where its normals point inwards."""
+        corners = (self.points - self.points.mean(axis=0))[self.triangles]
+        return float(np.linalg.det(corners).sum()) / 6 if len(corners) else 0.0
+
+    @property
     def arguments(self) -> dict[str, Any]:
         """Of `discrete_fairing.fit`."""
         triangles = self.triangles if len(self.triangles) else None

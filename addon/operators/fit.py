@@ -10,10 +10,11 @@ from bpy.props import IntProperty
 from ..blender import Context, Object, registration
 from ..errors import JobError
 from ..job import Job
-from ..mesh.scans import is_scan, read_scans
+from ..mesh.scans import Scan, is_scan, read_scans
 from ..poll import in_mode
 from ..properties import FitAmount
-from ..scan_fit import LEAST_CAGE_FACES, Fit, FitJob, make_cage, most_cage_faces
+from ..scan_cage import LEAST_CAGE_FACES, is_near, make_cage, most_cage_faces
+from ..scan_fit import Fit, FitJob
 from ..settings import Settings
 from ..ui.layout import amount_names
 from ..words import counted
@@ -92,9 +93,10 @@ class OBJECT_OT_fairing_fit(Shown, WholeFairing, FitAmount, bpy.types.Operator):
     def make_jobs(self, context: Context) -> list[Job]:
         cage, scans = _chosen(context)
         scan = read_scans(context, scans)
-        fewer = cage is None and self.cage_faces > most_cage_faces(scan)
+        note = ""
         if cage is None:
             cage = make_cage(context, scans, self.cage_faces)
+            note = self._note_of(cage, scan)
         elif 0 < len(scan.points) < len(cage.data.polygons):
             raise JobError(
                 f"{cage.name}: Select the scan first and the cage last, or make the cage coarser. It has"
@@ -104,10 +106,21 @@ class OBJECT_OT_fairing_fit(Shown, WholeFairing, FitAmount, bpy.types.Operator):
         tolerance = self.tolerance if self.amount == "TOLERANCE" else None
         fit = Fit(scan, tolerance, objects=scans)
         job = FitJob(context, cage, fit, settings)
-        if fewer:
-            made = counted(len(cage.data.polygons), "face")
-            job.notes.append(f"The scan has few points: its cage has {made}, and not more.")
+        if note:
+            job.notes.append(note)
         return [job]
+
+    def _note_of(self, cage: Object, scan: Scan) -> str:
+        """What a cage that was made leaves out, or why it has another number of faces than was asked for."""
+        made = len(cage.data.polygons)
+        faces = counted(made, "face")
+        if not is_near(cage, scan):
+            return f"The cage leaves out a part of the scan: draw one over it. It has {faces}."
+        if self.cage_faces > most_cage_faces(scan):
+            return f"The scan has few points: its cage has {faces}, and not more."
+        if made > 1.5 * self.cage_faces:
+            return f"With {self.cage_faces} faces the cage left out a part of the scan: it has {faces}."
+        return ""
 
 
 register, unregister = registration(OBJECT_OT_fairing_fit)

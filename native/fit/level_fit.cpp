@@ -58,9 +58,8 @@ void LevelFit::compute_forces(double weight, bool robust) {
   robust_weight_.resize(feet_.size());
   for_each_index(workers, feet_.size(), [&](std::size_t s) {
     const bool counts = trained_.empty() || trained_[s];
-    const double share = share_.empty() || !feet_[s].is_used()
-                             ? 1
-                             : share_[std::size_t(cells_.face(feet_[s].cell))];
+    const double share =
+        share_.empty() || !feet_[s].is_used() ? 1 : share_[std::size_t(cells_.face(feet_[s].cell))];
     // where points act less the surface leaves them: they are not outliers
     const bool doubted = robust && share == 1;
     robust_weight_[s] =

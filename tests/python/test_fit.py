@@ -337,6 +337,32 @@ def test_a_cage_that_is_too_coarse_says_where(scan):
     assert len(fine.too_coarse) == 0
 
 
+def largest_turn(result):
+    """Between the normals of two quads that share an edge, in a surface of quads; radians."""
+    quads = result.faces[1]
+    corner = result.vertices[quads]
+    normal = np.cross(corner[:, 2] - corner[:, 0], corner[:, 3] - corner[:, 1])
+    normal /= np.linalg.norm(normal, axis=1)[:, None]
+    edges = np.sort(np.stack([quads, np.roll(quads, -1, axis=1)], axis=2).reshape(-1, 2), axis=1)
+    order = np.lexsort(edges.T)
+    shared = np.flatnonzero((edges[order][1:] == edges[order][:-1]).all(axis=1))
+    a, b = order[shared] // 4, order[shared + 1] // 4
+    return np.arccos(np.clip((normal[a] * normal[b]).sum(axis=1), -1, 1)).max()
+
+
+def test_what_turns_within_a_tenth_of_a_control_edge_is_rounded_off():
+    """A ridge that is a fifth of the cage's edges wide and half of one high."""
+    fine = np.linspace(-1, 1, 161)
+    points, quads = sheet(
+        fine, fine, lambda x, y: 0.25 * np.clip(1 - np.abs(x - 0.1) / 0.05, 0, None)
+    )
+    coarse = np.linspace(-1, 1, 5)
+    cage = sheet(coarse, coarse, lambda x, y: 0 * x)
+    triangles = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    found = df.fit(*cage, points, triangles=triangles, levels=4)
+    assert largest_turn(found) < 10 / 2**4
+
+
 @pytest.mark.parametrize("change", [lambda v: 3 * v, lambda v: v + [3, 0, 0]])
 def test_a_cage_that_the_scan_hardly_covers_is_said(cage, scan, change):
     fitted = df.fit(change(cage[0]), cage[1], scan[::5])

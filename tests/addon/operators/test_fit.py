@@ -102,6 +102,21 @@ def test_a_scan_alone_gets_a_cage():
     assert np.abs(np.linalg.norm(world(made), axis=1) - 1).max() < 0.01
 
 
+def test_a_cage_reaches_into_every_part_of_a_scan(capsys):
+    """A ball with a rod, which a cage of forty faces leaves out."""
+    scan = ball("Scan", 5)
+    bpy.ops.mesh.primitive_cylinder_add(radius=0.15, depth=3, location=(0, 0, 1.5))
+    select(bpy.context.object, scan)
+    bpy.ops.object.join()
+    scan.data.remesh_voxel_size = 0.04
+    bpy.ops.object.voxel_remesh()
+    assert bpy.ops.object.fairing_fit(levels=2, cage_faces=40) == {"FINISHED"}
+    assert "With 40 faces the cage left out a part of the scan" in capsys.readouterr().out
+    assert positions(bpy.data.objects["Scan Cage"].data)[:, 2].max() > 2.5
+    assert world(bpy.context.active_object)[:, 2].max() == pytest.approx(3, abs=0.05)
+    assert len([mesh for mesh in bpy.data.meshes if "Cage" in mesh.name]) == 2  # and the surface's
+
+
 def part(name, keep, **place):
     """A ball's vertices that `keep` takes, in an object that stands and is scaled somehow."""
     made = ball(name, 5, noise=0.003)
