@@ -2,7 +2,7 @@
 """Cages over scans, by QuadriFlow."""
 
 from collections.abc import Sequence
-from typing import cast
+from typing import Any, cast
 
 import bmesh
 import bpy
@@ -121,8 +121,8 @@ def _make_quads(mesh: Mesh, faces: int) -> bool:
     apart = 1e-6 * _mean_edge(mesh, len(mesh.polygons))
     edit = bmesh.new()
     edit.from_mesh(mesh)
-    bmesh.ops.remove_doubles(edit, verts=edit.verts, dist=apart)
-    bmesh.ops.dissolve_degenerate(edit, dist=apart, edges=edit.edges)
+    bmesh.ops.remove_doubles(edit, verts=list(edit.verts), dist=apart)
+    bmesh.ops.dissolve_degenerate(edit, dist=apart, edges=list(edit.edges))
     open_edges = [edge for edge in edit.edges if edge.is_boundary]
     bmesh.ops.holes_fill(edit, edges=open_edges, sides=4)
     edit.to_mesh(mesh)
@@ -136,7 +136,8 @@ def is_near(cage: Object, scan: Scan) -> bool:
     points = transformed(column(mesh.vertices, "co", width=3), np.array(world_matrix(cage)))
     ends = points[column(mesh.edges, "vertices", np.int32, 2)]
     edge = float(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).mean())
-    tree = BVHTree.FromPolygons(points.tolist(), [face.vertices[:] for face in mesh.polygons])
+    polygons = [face.vertices[:] for face in mesh.polygons]
+    tree: Any = BVHTree.FromPolygons(points.tolist(), polygons)
     asked = scan.points[:: -(-len(scan.points) // POINTS_ASKED)].tolist()
     left_out = sum(tree.find_nearest(point, edge)[0] is None for point in asked)
     return left_out <= LEFT_OUT * len(asked)
