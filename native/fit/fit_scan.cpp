@@ -189,9 +189,9 @@ class ScanFit {
     }
   }
 
-  // The surface bends about no radius below a tenth of a control edge: patches of one face cannot
-  // follow that, and where points ask for less it folds. Points there act less, by the stiffness
-  // that the longer wave has.
+  // The surface bends about no radius below a tenth of a control edge: a patch of one face cannot
+  // follow that, and where points ask for less the surface folds. Points over such faces act less,
+  // pass by pass.
   void calm(LevelFit& fit) {
     constexpr int most_passes = 12;
     const double limit = std::min(std::numbers::pi / 2, 10.0 / fit.cells().grid().n());
