@@ -15,6 +15,7 @@
 #include "fit/curves.h"
 #include "fit/level_fit.h"
 #include "fit/measure.h"
+#include "fit/round_off.h"
 #include "fit/weight_choice.h"
 #include "grid/linear.h"
 #include "parallel/cancel.h"
@@ -129,7 +130,7 @@ class ScanFit {
       monitor_.report(Phase::solve, 1 - std::pow(2, level - levels_.top() - 3));
     }
     keep_tolerance(*fit);
-    calm(*fit);
+    round_off(*fit, weight_);
     report.iterations += fit->iterations();
     report.weight = weight_;
     surface = fit->surface();
@@ -185,27 +186,6 @@ class ScanFit {
     while (covered_within(fit.feet()) * problem_.frame.scale > settings_.tolerance &&
            weight_ < fit.stiffest()) {
       weight_ *= std::sqrt(std::numbers::sqrt2);
-      fit.iterate(weight_, 2, true);
-    }
-  }
-
-  // The surface bends about no radius below a tenth of a control edge: a patch of one face cannot
-  // follow that, and where points ask for less the surface folds. Points over such faces act less,
-  // pass by pass.
-  void calm(LevelFit& fit) {
-    constexpr int most_passes = 12;
-    const double limit = std::min(std::numbers::pi / 2, 10.0 / fit.cells().grid().n());
-    std::vector<double> share(fit.cells().grid().mesh().faces.size(), 1.0);
-    for (int pass = 0; pass < most_passes; ++pass) {
-      const std::vector<double> turn = fit.finder().turns();
-      bool any = false;
-      for (std::size_t f = 0; f < share.size(); ++f) {
-        if (!(turn[f] > limit)) continue;
-        any = true;
-        share[f] *= std::pow(limit / turn[f], 2);
-      }
-      if (!any) return;
-      fit.set_shares(share);
       fit.iterate(weight_, 2, true);
     }
   }

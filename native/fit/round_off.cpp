@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fit/round_off.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace fairing {
+namespace {
+
+// Makes the shares of faces that turn by more than the limit smaller, as a plate is stiffer against
+// the shorter wave.
+void lessen(const ControlMesh& mesh, const std::vector<double>& turn, double limit,
+            std::vector<double>& share) {
+  const auto factor = [&](std::size_t f) { return std::pow(limit / std::max(turn[f], limit), 4); };
+  std::vector<double> around(std::size_t(mesh.vertex_count()), 1.0);
+  const auto for_vertices = [&](std::size_t f, auto&& visit) {
+    const Face& face = mesh.faces[f];
+    for (int k = 0; k < face.size; ++k) visit(around[std::size_t(face.vertex[std::size_t(k)])]);
+  };
+  for (std::size_t f = 0; f < share.size(); ++f)
+    if (share[f] < 0.125) for_vertices(f, [&](double& at) { at = std::min(at, factor(f)); });
+  for (std::size_t f = 0; f < share.size(); ++f) {
+    double own = factor(f);
+    for_vertices(f, [&](double at) { own = std::min(own, at); });
+    share[f] *= own;
+  }
+}
+
+}  // namespace
+
+void round_off(LevelFit& fit, double weight) {
+  const GridLevel& grid = fit.cells().grid();
+  const double limit = std::min(std::numbers::pi / 2, 10.0 / grid.n());
+  std::vector<double> share(grid.mesh().faces.size(), 1.0);
+  for (int pass = 0; pass < 9; ++pass) {
+    const std::vector<double> turn = fit.finder().turns();
+    if (*std::max_element(turn.begin(), turn.end()) <= limit) return;
+    lessen(grid.mesh(), turn, limit, share);
+    fit.set_shares(share);
+    fit.iterate(weight, 2, true);
+  }
+}
+
+}  // namespace fairing
