@@ -149,11 +149,17 @@ def run_suite(wanted: str = "", everything: bool = False) -> dict[str, Tally]:
     folders.
     """
 
+    def prepare(blender: RealBlender) -> Tally:
+        install(blender)
+        return Tally()
+
     def work(blender: RealBlender) -> Tally:
-        with alone("installation"):  # compilers use all cores
-            install(blender)
+        if prepared[blender.root.suite].failed:
+            return prepared[blender.root.suite]
         all_scripts = wanted or everything
         return try_all(blender, wanted, set() if all_scripts else left_to_others(blender.root))
 
     with alone("blender"):
+        # all before the first test: compilers use all cores, and scripts in windows would run out of time
+        prepared = in_each(prepare, workers=1)
         return in_each(work)
