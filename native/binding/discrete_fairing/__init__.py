@@ -6,7 +6,7 @@
 >>> result.vertices, result.triangles, result.report["energy"]
 """
 
-from . import whole_files as whole_files  # through which the add-on writes, too
+from . import whole_files as whole_files  # the add-on uses it too
 from ._native import FairingError, Monitor, __version__
 from .borders import Joint, joint
 from .checking import Defect, check, predicted_size

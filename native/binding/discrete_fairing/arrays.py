@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Arrays as callers pass them, turned into those that the core reads.
+"""Converts the callers' arrays to arrays that the core reads.
 
 Callers may pass any memory layout, any integer or float type, and read-only arrays. The core reads
 C-contiguous, aligned float64 and int64.
@@ -72,7 +72,7 @@ def is_flat_pair(faces: object) -> bool:
 
 
 def uniform_faces(array: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Of an (m, k) array, k >= 3."""
+    """Corners and offsets of an (m, k) array, k >= 3."""
     if array.size == 0:
         return np.empty(0, np.int64), np.zeros(1, np.int64)
     if array.ndim != 2 or array.shape[1] < 3:
@@ -85,7 +85,7 @@ def uniform_faces(array: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def polygon_list(faces: Sequence[Sequence[int]]) -> tuple[np.ndarray, np.ndarray]:
-    """Of a list of polygons, each a sequence of vertex ids."""
+    """Corners and offsets of a list of polygons, each a sequence of vertex ids."""
     try:
         sizes = np.fromiter((len(face) for face in faces), np.int64, len(faces))
     except TypeError:
@@ -98,7 +98,7 @@ def polygon_list(faces: Sequence[Sequence[int]]) -> tuple[np.ndarray, np.ndarray
 
 
 def following(offsets: np.ndarray) -> np.ndarray:
-    """(c,) of each corner the next one around its face; faces have corners."""
+    """(c,) the next corner around the face, for each corner. No face may be empty."""
     after = np.arange(1, int(offsets[-1]) + 1)
     after[offsets[1:] - 1] = offsets[:-1]
     return after
@@ -125,13 +125,13 @@ def has_masked(values: object) -> bool:
 
 
 def plain(array: np.ndarray, dtype: type) -> np.ndarray:
-    """C-contiguous, aligned and of a NumPy type; the same memory where it is that already."""
+    """The array as C-contiguous, aligned and of a NumPy type; a copy only if it is not so already."""
     return np.require(array, dtype, ["C", "A"])
 
 
 def holds_bool(values: object) -> bool:
-    """Whether this is True or False, or an array or list with one in it. Python and NumPy would make
-    numbers of them.
+    """Whether `values` is a bool, or an array or list that contains one. Python and NumPy would convert
+    it to a number.
     """
     if isinstance(values, list | tuple):
         return any(map(holds_bool, values))
@@ -156,7 +156,7 @@ def numbers(values: ArrayLike, name: str, kinds: str) -> np.ndarray:
 
 
 def fixed_flags(fixed: ArrayLike | None, count: int) -> np.ndarray:
-    """(count,) uint8, 1 for vertices that stay; empty where none are given."""
+    """(count,) uint8, 1 for fixed vertices; empty if none are given."""
     if fixed is None:
         return np.empty(0, dtype=np.uint8)
     stays = np.asarray(fixed)

@@ -16,9 +16,9 @@ from .piecewise.cutting import ranges
 # (vertices, faces)
 Mesh = tuple[ArrayLike, Any]
 
-# Rings of faces around a border vertex to which a polynomial is fitted, and its degree: on two halves
-# of an analytic sheet with 16 faces a side the kink found is 0.001 degrees (triangles 0.007), where three
-# rings and cubics find 0.03.
+# The polynomial at a border vertex: rings of faces that it is fitted to, and its degree. On two halves of
+# an analytic sheet with 16 faces a side the measured kink is 0.001 degrees (triangles 0.007); with three
+# rings and cubics it is 0.03.
 RINGS, DEGREE = 5, 5
 
 
@@ -41,7 +41,7 @@ class Border:
     slot: np.ndarray  # (n,): the row of each vertex of the mesh; -1 off the border
 
     def at(self, points: np.ndarray) -> Foot:
-        """The nearest places on the border, between its vertices."""
+        """The nearest points on the border curve, which lie between its vertices too."""
         start, end = self.slot[self.edge[:, 0]], self.slot[self.edge[:, 1]]
         first, along = self.point[start], self.point[end] - self.point[start]
         length2 = np.maximum(np.einsum("ij,ij->i", along, along), 1e-300)
@@ -69,7 +69,7 @@ class Border:
 
 @dataclass(frozen=True)
 class Foot:
-    """A border at some places: (p, 3) and (p, 3, 3), as Border has them at vertices."""
+    """A border at p points: the quantities that Border has at vertices, (p, 3) and (p, 3, 3)."""
 
     point: np.ndarray
     normal: np.ndarray
@@ -94,8 +94,8 @@ def border_of(
     rings: int = RINGS,
     only: np.ndarray | None = None,
 ) -> Border:
-    """The border of a mesh; where two borders meet in a vertex, its rows are those of one of them.
-    `only`: (j,) vertices, of which alone the border is wanted.
+    """The border of a mesh. A vertex where two borders meet has the values of one of them. `only`: (j,)
+    the border vertices to return; None: all.
     """
     edge, face = border_edges(corners, offsets)
     vertex = np.unique(edge)
@@ -124,7 +124,7 @@ def border_of(
 def _tangents(
     points: np.ndarray, vertex: np.ndarray, before: np.ndarray, after: np.ndarray
 ) -> np.ndarray:
-    """Of the border at its vertices, by the parabola through three of them."""
+    """Tangents of the border at its vertices, by the parabola through three vertices."""
     back, on = points[vertex] - points[before], points[after] - points[vertex]
     p, q = (np.linalg.norm(side, axis=1, keepdims=True) for side in (back, on))
     return _unit(back * q / p + on * p / q)
@@ -141,7 +141,7 @@ class _Around:
         self.begin = np.searchsorted(corners[order], np.arange(int(corners.max(initial=0)) + 2))
 
     def rings(self, vertex: np.ndarray, count: int) -> list[np.ndarray]:
-        """Of each vertex those around it, through so many faces, and itself."""
+        """For each vertex: the vertices within `count` rings of faces around it, and itself."""
         rows, found = np.arange(len(vertex)), vertex
         size = len(self.begin)
         for _ in range(count):
@@ -153,12 +153,12 @@ class _Around:
         return np.split(found, np.searchsorted(rows, np.arange(1, len(vertex))))
 
     def normals(self, points: np.ndarray, vertex: np.ndarray) -> np.ndarray:
-        """Of each vertex the sum of the faces around, twice their areas long."""
+        """For each vertex: the sum of the normals of its faces, weighted by twice their areas."""
         of_vertex, place = _ranges(self.begin[vertex], self.begin[vertex + 1])
         face = self.face[place]
         of_face, corner = _ranges(self.offsets[face], self.offsets[face + 1])
         after = following(self.offsets)
-        origin = points[vertex][of_vertex[of_face]]  # far from zero rounding would count
+        origin = points[vertex][of_vertex[of_face]]  # rounding would matter far from zero
         cross = np.cross(
             points[self.corners[corner]] - origin, points[self.corners[after[corner]]] - origin
         )
@@ -168,12 +168,12 @@ class _Around:
 
 
 def _ranges(begin: np.ndarray, end: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Of which range each number is, and all numbers from each begin to before its end."""
+    """All numbers of the ranges [begin, end), one range after another, and the range of each number."""
     return np.repeat(np.arange(len(begin)), end - begin), ranges(begin, end)
 
 
 def _fitted(near: np.ndarray, along: np.ndarray, up: np.ndarray) -> tuple[Any, Any, Any]:
-    """Normal, inward direction and second fundamental form of the polynomial through the origin."""
+    """Normal, inward direction and second fundamental form, at the origin, of the fitted polynomial."""
     size = np.linalg.norm(near, axis=1).max()
     bend = np.zeros((2, 2))
     for _ in range(3):
@@ -203,7 +203,7 @@ def _unit(vectors: np.ndarray) -> np.ndarray:
 
 @dataclass(frozen=True)
 class Joint:
-    """Where two surfaces meet along their borders: k places.
+    """A joint of two surfaces along their borders, measured at k places.
 
     vertex: (k,) border vertices of the first mesh. gap: (k,) the distance to the other's border, mesh
     units. kink: (k,) the angle between the tangent planes, radians. bend: (k, 2) the normal curvatures
@@ -224,11 +224,11 @@ class Joint:
 
 
 def joint(first: Mesh, other: Mesh, reach: float | None = None) -> Joint:
-    """How two surfaces meet, at the border vertices of the first.
+    """Measures gap, kink and curvatures of two surfaces at the border vertices of the first.
 
-    first, other: (vertices, faces), as fair() takes them, or with Result.faces. reach: mesh units, how far
-    a border vertex of the first may be from the other's border; None: a mean border edge of the first.
-    Ends of the joint, and corners, which have no one tangent, do not count.
+    first, other: (vertices, faces), as fair() takes them, or with Result.faces. reach: mesh units, the
+    largest distance of a border vertex of the first from the other's border; None: the mean border edge
+    of the first. Ends of the joint and corners, which have no unique tangent, do not count.
 
     Raises FairingError BAD_SHAPE, and BAD_OPTION for a mesh without a border.
     """
@@ -255,8 +255,8 @@ def mesh_arrays(mesh: Mesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def joint_of(first: Border, other: Border, reach: float) -> Joint:
-    """Where the first border is within `reach` of the other; corners, which have no one tangent, and
-    ends do not count."""
+    """The joint where the first border is within `reach` of the other, without ends and corners, which
+    have no unique tangent."""
     foot = other.at(first.point)
     gap = np.linalg.norm(foot.point - first.point, axis=1)
     near = gap <= reach
@@ -266,7 +266,7 @@ def joint_of(first: Border, other: Border, reach: float) -> Joint:
     middle = (first.point[a] + first.point[b]) / 2
     aside = np.einsum("kj,kj->k", other.at(middle).point - middle, step)
     length2 = np.einsum("kj,kj->k", step, step)
-    both = near[a] & near[b] & (np.abs(aside) < length2 / 4)  # not past its end
+    both = near[a] & near[b] & (np.abs(aside) < length2 / 4)  # not beyond the end
     np.add.at(inside, a, both)
     np.add.at(inside, b, both)
     turn = np.zeros((2, len(near), 3))

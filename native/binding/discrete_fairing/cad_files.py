@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What all files for CAD share: units, and parts with names and colours."""
+"""Units, and parts with names and colours, for all CAD files."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from .errors import fairing_error
 from .options import real
 from .patches import SplinePatches
 
-# how many metres each has
+# metres in each unit
 UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "in": 0.0254, "ft": 0.3048}
 
 
 @dataclass(frozen=True)
 class Part:
-    """What becomes a part of its own in a file."""
+    """One part of a CAD file."""
 
     patches: SplinePatches
     name: str
@@ -34,7 +34,7 @@ def cad_parts(
     names: str | Sequence[str] | None,
     colours: ArrayLike | Sequence[ArrayLike | None] | None,
 ) -> list[Part]:
-    """The parts of a file, times `scale`; raises FairingError BAD_OPTION for what cannot be written."""
+    """The parts of a file, scaled. Raises FairingError BAD_OPTION for values that cannot be written."""
     factor = _positive(scale)
     single = isinstance(patches, SplinePatches)
     found = [patches] if single else _listed("patches", patches)
@@ -61,7 +61,7 @@ def _positive(scale: object) -> float:
 
 
 def _scaled(patches: object, factor: float, k: int) -> SplinePatches:
-    """Times `factor`; no reader takes numbers that are not finite."""
+    """The patches times `factor`. Refuses numbers that are not finite, which no program reads."""
     if not isinstance(patches, SplinePatches):
         raise fairing_error(
             "BAD_OPTION", f"patches has {patches!r}; it must be the result of fit_patches()."
@@ -95,7 +95,7 @@ def _one_a_part(name: str, values: object, count: int, single: bool) -> list:
 
 
 def _name(title: object, k: int) -> str:
-    """Any text; what is no character, as the half of one, is marked as unknown."""
+    """The title as text; halves of characters become the mark of an unknown one."""
     if title is not None and not isinstance(title, str):
         raise fairing_error("BAD_OPTION", f"names has {title!r} for part {k}; it must be text.")
     whole = (title or "").encode("utf-16", "surrogatepass").decode("utf-16", "replace")

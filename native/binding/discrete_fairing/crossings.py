@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fillings that pass through the mesh, through each other or through themselves."""
+"""Finds and avoids fillings that cross the mesh, each other or themselves."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .watching import SeveralRuns
 
 
 def in_whole(whole: MeshPart, part: MeshPart, fillings: Sequence[Filling]) -> list[Filling]:
-    """With the ids of the whole mesh, of which `part` has the rims; new ids follow on one another."""
+    """The fillings of `part` with ids of the whole mesh; new vertices are numbered consecutively."""
     numbered = numbered_on(fillings, len(part.points))
     fresh = len(whole.points) + np.arange(sum(len(f.own) for f in numbered))
     places = np.concatenate([part.vertex_ids, fresh])
@@ -23,14 +23,14 @@ def in_whole(whole: MeshPart, part: MeshPart, fillings: Sequence[Filling]) -> li
 
 
 class Surroundings:
-    """What fillings may pass through, of a mesh: the whole is asked once, for what is around all."""
+    """The faces of a mesh that fillings may cross. The whole mesh is searched once, for all fillings."""
 
     def __init__(self, whole: MeshPart) -> None:
         self.whole = whole
         self._low = self._high = np.full(3, np.nan)
 
     def near(self, boxes: np.ndarray) -> np.ndarray:
-        """(t, 3) triangles of all faces that may come into one of the boxes (k, 2, 3)."""
+        """(t, 3) triangles of all faces that may intersect one of the boxes (k, 2, 3)."""
         low, high = boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)
         if not ((self._low <= low).all() and (high <= self._high).all()):
             margin = np.linalg.norm(high - low) / 2.0
@@ -40,7 +40,7 @@ class Surroundings:
         return self._triangles[np.unique(self._order[found])]
 
     def _sort(self, faces: np.ndarray) -> None:
-        """By where they begin along x: a box asks those of one slab."""
+        """Sorts faces by their least x, so that a box is compared with the faces of one slab."""
         self._triangles = self.whole.corner_fans(faces)
         a, b, c = np.ascontiguousarray(self._triangles.T)
         begins: list[np.ndarray] = []
@@ -53,7 +53,7 @@ class Surroundings:
         self._widest = float((self._ends[0] - self._begins[0]).max(initial=0.0))
 
     def _inside(self, low: np.ndarray, high: np.ndarray) -> np.ndarray:
-        """Places in the order of triangles that may come into a box."""
+        """Positions, in the sorted order, of triangles that may intersect a box."""
         first = np.searchsorted(self._begins[0], low[0] - self._widest, "left")
         found = np.arange(first, np.searchsorted(self._begins[0], high[0], "right"))
         for axis in range(3):
@@ -63,7 +63,7 @@ class Surroundings:
 
 
 def _overlapping(mesh: MeshPart, low: np.ndarray, high: np.ndarray) -> np.ndarray:
-    """Ids of the faces that are not all on one side of a box."""
+    """Ids of the faces whose bounding boxes overlap a box."""
     sides = np.concatenate([mesh.points < low, mesh.points > high], axis=1)
     beyond = np.packbits(sides, axis=1)[:, 0]
     all_beyond = np.bitwise_and.reduceat(beyond[mesh.corners], mesh.offsets[:-1])
@@ -73,8 +73,8 @@ def _overlapping(mesh: MeshPart, low: np.ndarray, high: np.ndarray) -> np.ndarra
 def crossing_faces(
     around: Surroundings, fillings: Sequence[Filling], boxes: np.ndarray, watched: SeveralRuns
 ) -> list[np.ndarray]:
-    """Which faces of each of the fillings in the `boxes` (k, 2, 3), the first ones, with ids as in_whole()
-    has them, pass through a face of the mesh or of a filling. Faces that share a vertex do not.
+    """The faces of each of the first k `fillings` that cross a face of the mesh or of a filling. `boxes`
+    (k, 2, 3) contain these fillings; ids are those of in_whole(). Faces that share a vertex do not count.
     """
     asked, count = len(boxes), len(around.whole.points)
     split = [_split(f.faces) for f in fillings]
@@ -96,13 +96,13 @@ def crossing_faces(
 
 
 def _split(faces: np.ndarray) -> np.ndarray:
-    """(t, 3) triangles of (f, 3) or of (f, 4), in their order."""
+    """(t, 3) triangles of faces (f, 3) or (f, 4), in the same order."""
     corners = [[0, k, k + 1] for k in range(1, faces.shape[1] - 1)]
     return faces[:, corners].reshape(-1, 3)
 
 
 class _Chosen:
-    """Fillings of all holes, of which one after another may change: what they pass through."""
+    """Fillings of all holes and their crossings; single fillings may be replaced."""
 
     def __init__(
         self, whole: MeshPart, part: MeshPart, fillings: Sequence[Filling], watched: SeveralRuns
@@ -113,7 +113,7 @@ class _Chosen:
         self._boxes = np.array([self._box(f) for f in fillings]).reshape(-1, 2, 3)
 
     def counts(self) -> list[int]:
-        """How many faces of each cross."""
+        """Number of crossing faces of each filling."""
         if not self.fillings:
             return []
         return list(map(len, self._crossing(self.fillings, self._boxes)))
@@ -123,7 +123,7 @@ class _Chosen:
         self._boxes[row] = self._box(filling)
 
     def crossing(self, row: int) -> np.ndarray:
-        """Which faces of a filling cross."""
+        """The faces of a filling that cross."""
         low, high = self._boxes[row]
         beside = (self._boxes[:, 0] <= high) & (self._boxes[:, 1] >= low)
         others = np.setdiff1d(np.flatnonzero(beside.all(axis=1)), row)
@@ -148,10 +148,10 @@ def with_less_crossing(
     wanted: Wanted,
     watched: SeveralRuns,
 ) -> tuple[list[Filling], list[int]]:
-    """`fillings`, with ids of `part`, and how many faces of each cross. In the place of what crosses the
-    first other way that neither crosses nor folds, or that with the fewest faces and edges that do, on the
-    triangles of the first round, as `nears` has them: what was wanted, but for the places where it crosses
-    or folds, which stay as they were triangulated; and flatter ones.
+    """The `fillings`, with ids of `part`, and the number of crossing faces of each. A filling that crosses
+    is replaced by the first alternative without crossings and folds, or by the one with the fewest.
+    Alternatives use the triangles of the first round, kept in `nears`: first the requested energy with
+    the crossing or folding places fixed at their triangulation, then flatter surfaces.
     """
     chosen = _Chosen(whole, part, fillings, watched)
     edges = RimEdges(len(part.points), {row: f.faces for row, f in enumerate(fillings)})

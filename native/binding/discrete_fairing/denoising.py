@@ -21,20 +21,20 @@ from .errors import fairing_error
 from .options import whole
 from .stars import Stars
 
-# Amounts beside none: from half of the noise to what is smooth over six edges. And the degree of
-# polynomials. Errors of a sphere with it, and with 28: 0.000887, 0.000877; of bust and casting the same.
+# Amounts besides zero, from half of the noise to smoothing over six edges, and the polynomials' degree.
+# A sphere's error with this degree and with 28: 0.000887, 0.000877; bust and casting have equal errors.
 _AMOUNTS, _DEGREE = 4.0 ** np.arange(6), 16
-_DEGREE_OF_FIRST = 6  # the smallest amount's
-# How often means over neighbours are taken of the risk: that around a vertex is then of 66 vertices of
-# a mesh of triangles. Errors with 5, 8 and 12: bust 0.0544, 0.0529, 0.0522; casting 0.0701, 0.0692, 0.0692.
+_DEGREE_OF_FIRST = 6  # for the smallest amount
+# How often the risk is averaged over neighbours; 8 times covers 66 vertices of a triangle mesh. Errors
+# with 5, 8 and 12 times: bust 0.0544, 0.0529, 0.0522; casting 0.0701, 0.0692, 0.0692.
 _AVERAGES = 8
-# A spike: off what is around it by more standard deviations than chance makes in a million vertices,
-# and by four times what its neighbours are. Of 60 spikes of 1.5 mm in noise of 0.15 it finds 58, on casting and bust.
+# A spike deviates by more standard deviations than chance causes in a million vertices, and by four
+# times as much as its neighbours. Of 60 spikes of 1.5 mm in noise of 0.15 mm 58 are found, on both scans.
 _SPIKE, _OVER_NEIGHBOURS = 5.0, 4.0
-_OF_MEDIAN = 1.4826022185056018  # a normal deviation, over the median of its size
-_FARTHEST = 1e15  # of heights in noises; its square, summed over neighbours, is a float32 still
-# Shares of the way to the mean of the neighbours, there and back again: what is longer than some seven
-# edges keeps its size [Taubin 1995: a pass band of 0.1].
+_OF_MEDIAN = 1.4826022185056018  # standard deviation over median of absolute values, if normal
+_FARTHEST = 1e15  # largest height over the noise; sums of squares still fit into float32
+# Taubin's two factors, forth and back; waves longer than about seven edges keep their size
+# [Taubin 1995: a pass band of 0.1].
 _THERE, _BACK = 0.6307, -0.6732
 
 
@@ -115,7 +115,7 @@ def denoised(
     amount: float | None,
     passes: int,
 ) -> Denoised:
-    """denoise() of arrays that are known to be good."""
+    """denoise() for checked arrays."""
     none = np.empty(0, np.int64)
     if not len(corners):
         return Denoised(points, np.zeros_like(points), 0.0, none)
@@ -150,15 +150,17 @@ def _passed(stars: Stars, points: np.ndarray, held: np.ndarray, passes: int) -> 
 
 
 class _Heights:
-    """Heights along the normals of vertices that are `off` the mean of their neighbours."""
+    """Filtered heights of vertices along their normals, from the differences `off` from the mean of their
+    neighbours.
+    """
 
     def __init__(self, stars: Stars, off: np.ndarray, held: np.ndarray) -> None:
         self._stars, self._off, self._free = stars, off, ~held
         self._signs = np.random.default_rng(0).choice([-1.0, 1.0], len(off))  # [Hutchinson 1990]
 
     def noise(self) -> float:
-        """By the median of what is off twice and thrice, over what a unit of noise would be off: details
-        and spikes are in few vertices, and a shape adds to both.
+        """Noise from the medians of second and third differences, over those of unit noise. The median
+        ignores details and spikes, which concern few vertices; a smooth shape adds to both differences.
         """
         free = self._free
         if not free.any():
@@ -173,9 +175,9 @@ class _Heights:
     def _filtered(
         self, off: np.ndarray, amounts: np.ndarray, degree: int
     ) -> tuple[np.ndarray, np.ndarray]:
-        """(n, amounts) heights, and how much of its own noise each vertex keeps. Both are -t K / (1 + t K²)
-        of what is off: by Chebyshev's polynomials, for K is from 0 to 2. In half the width, as noise has no
-        seven digits: nearly all of the time is for reading what neighbours have.
+        """(n, amounts) heights, and the share of its own noise that each vertex keeps. Both are
+        -t K / (1 + t K²) times `off`, as Chebyshev polynomials, since K is from 0 to 2. Single precision
+        suffices for noise, and halves the time, most of which is spent on reading neighbours.
         """
         free = self._free[:, None].astype(np.float32)
         both = np.stack([off, self._stars.off_mean(self._signs)], axis=1)
@@ -193,7 +195,9 @@ class _Heights:
         return -found[:, :, 0].T, np.ascontiguousarray(kept.T)
 
     def _spikes(self, heights: np.ndarray, kept: np.ndarray) -> np.ndarray:
-        """The worst first, of heights in noises. None on a border, where two neighbours tell too little."""
+        """Spikes, the worst first, from heights in units of the noise. None on borders, where two
+        neighbours are too few.
+        """
         chosen = self._free & ~self._stars.on_border
         share = float(kept[chosen].mean()) if chosen.any() else 0.0
         sizes = np.abs(heights) / max(1.0 - share, 1e-9)
@@ -202,10 +206,10 @@ class _Heights:
         return spikes[np.argsort(-sizes[spikes], kind="stable")]
 
     def weighed(self, noise: float) -> tuple[np.ndarray, np.ndarray]:
-        """(n,): the heights of all amounts, each by how near it is to the truth around a vertex. And the
-        spikes, which go to the mean of their neighbours first, and are no data.
+        """(n,) heights: the average over all amounts, weighted by the estimated risk around a vertex. And
+        the spikes, which are moved to the mean of their neighbours before and do not count as data.
         """
-        given = self._off / noise  # what follows is in noises
+        given = self._off / noise  # from here on in units of the noise
         heights, kept = self._filtered(given, _AMOUNTS[:1], _DEGREE_OF_FIRST)
         spikes = self._spikes(heights[:, 0], kept[:, 0])
         off, placed = given, np.zeros(len(heights))
@@ -218,10 +222,10 @@ class _Heights:
         risk = counted[:, None] * (heights**2 - 1 + 2 * kept)
         signs = self._signs.astype(np.float32)
         risk = self._averaged(np.column_stack([risk, counted, signs]))
-        # what the averages make of noise of one, as so many independent vertices would
+        # independent vertices in an average, from the averages of random signs
         vertices = 1.0 / np.mean(risk[:, -1] ** 2, dtype=float)
         risk = risk[:, :-2] / np.maximum(risk[:, -2:-1], np.float32(1e-30))
-        # no amount leaves all the noise
+        # the amount zero leaves all the noise
         least = np.minimum(risk.min(axis=1, keepdims=True), 1)
         trust = np.exp(-vertices * (risk - least) / 4)
         of_none = np.exp(-vertices * (1 - least[:, 0]) / 4)
@@ -229,19 +233,20 @@ class _Heights:
         return noise * taken, spikes
 
     def _averaged(self, values: np.ndarray) -> np.ndarray:
-        """The last mean is with a vertex' own: on quads the neighbours of neighbours are only every other."""
+        """Means over neighbours. The last one includes the vertex itself, since on quads the neighbours
+        of neighbours are only every other vertex."""
         for _ in range(_AVERAGES):
             values = self._stars.mean(values)
         return 0.5 * (values + self._stars.mean(values))
 
 
 def _spline(x: np.ndarray, amount: float) -> np.ndarray:
-    """What a smoothing spline takes off, over K = 1 + x."""
+    """The share that a smoothing spline removes, divided by K = 1 + x."""
     return amount * (1 + x) / (1 + amount * (1 + x) ** 2)
 
 
 def _normals(points: np.ndarray, corners: np.ndarray, offsets: np.ndarray) -> np.ndarray:
-    """(n, 3) unit normals of the vertices, each face by its area."""
+    """(n, 3) unit normals of the vertices, weighted by the faces' areas."""
     here, there = points[corners], points[corners[following(offsets)]]
     areas = np.add.reduceat(np.cross(here, there), offsets[:-1], axis=0)
     total = np.zeros_like(points)

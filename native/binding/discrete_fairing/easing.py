@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""ease(): control vertices put where the surface is fair, the least bit away from where they are."""
+"""ease(): moves control vertices as little as possible so that the surface becomes fair."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Eased:
     strain_before, strain_after: (n,) float64, mesh units, as Strain.excess; NaN at corners and
     outside a region, where vertices stay.
     floor, wrong: of strain_before, as of Strain.
-    amount: float without a unit, how much has been eased; 0 with `most`.
+    amount: float without a unit, the strength of easing; 0 with `most`.
     noise: float, mesh units: an estimate of the scatter, the root mean square distance of a vertex
     from where it belongs; 0 with `most`.
     iterations: int, solves of the surface, all in all.

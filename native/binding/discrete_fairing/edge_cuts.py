@@ -11,14 +11,14 @@ from .arrays import following
 from .rounds import SLIVER
 
 Cuts = dict[tuple[int, int], list[int]]  # by the ends of a face's side, in its direction
-Corner = tuple[int, int]  # a vertex, and the corner that it comes from
+Corner = tuple[int, int]  # a vertex, and the input corner from which it is copied
 
 
 def cuts_for(
     points: np.ndarray, corners: np.ndarray, offsets: np.ndarray, loops: Iterable[Sequence[int]]
 ) -> Cuts:
-    """For border loops whose vertices lie on one another's sides, or so near that only slivers would fit between:
-    these sides. Other loops are passed over.
+    """The sides to cut of border loops without area: loops whose vertices lie on their own sides, or so
+    near that only slivers would fit between. Other loops are ignored.
     """
     found = [ids for loop in loops for ids in _on_sides(points, np.asarray(loop))]
     if not found:
@@ -30,7 +30,7 @@ def cuts_for(
 
 
 def _on_sides(points: np.ndarray, loop: np.ndarray) -> list[list[int]]:
-    """Sides of a loop with the vertices on them between their ends, if the loop leads to and fro along a line."""
+    """Sides of a loop with the vertices on them, if the loop runs to and fro along a line."""
     away = points[loop] - points[loop[0]]
     loop = np.roll(loop, -np.argmax((away * away).sum(axis=1)))
     way = points[loop] - points[loop[0]]
@@ -53,7 +53,7 @@ def _on_sides(points: np.ndarray, loop: np.ndarray) -> list[list[int]]:
 
 
 def _lie_on(points: np.ndarray) -> bool:
-    """Whether points (k, 3) lie along the side from the first to the last, with no more than slivers beside."""
+    """Whether points (k, 3) lie on the side from the first to the last, up to slivers."""
     side = points[-1] - points[0]
     along = (points - points[0]) @ side / (side @ side)
     off = np.linalg.norm(points - points[0] - along[:, None] * side, axis=1)
@@ -62,14 +62,14 @@ def _lie_on(points: np.ndarray) -> bool:
 
 
 def sides_of(loop: Sequence[int]) -> set[tuple[int, int]]:
-    """Its sides in both directions."""
+    """The sides of a loop, in both directions."""
     ids = list(map(int, loop))
     sides = list(zip(ids, ids[1:] + ids[:1]))
     return {*sides, *(side[::-1] for side in sides)}
 
 
 def pieces(corners: np.ndarray, offsets: np.ndarray, cuts: Cuts) -> dict[int, list[list[Corner]]]:
-    """What the faces with these sides become, by their ids."""
+    """The pieces of the faces with these sides, by face id."""
     begins = np.flatnonzero(np.isin(corners, [begin for begin, _ in cuts]))
     found = {}
     for face in np.unique(np.searchsorted(offsets, begins, side="right") - 1).tolist():

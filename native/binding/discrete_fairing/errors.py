@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Errors and warnings: data until somebody reads them, with places in their sentences for the elements."""
+"""Errors and warnings as data; their sentences, with places for elements, are written at the end."""
 
 from __future__ import annotations
 
@@ -28,13 +28,13 @@ def fairing_error(
 
 
 def about(error: FairingError, elements: Sequence[int], prefix: str = "") -> FairingError:
-    """The same error of other elements of its kind; `prefix`: of its first sentence."""
+    """The same error for other elements of its kind; `prefix` starts its first sentence."""
     cause, cure = error._sentences
     return fairing_error(error.code, prefix + cause, elements, error.kind, cure)
 
 
 def written(entry: Mapping[str, Any]) -> dict[str, Any]:
-    """A warning or repair of the core's report as callers see it: its sentences, and both as "message"."""
+    """A warning or repair of the core's report for callers: its sentences, and both as "message"."""
     kind, elements = entry["kind"], entry["elements"]
     cause, cure = (_native.text(entry[name], kind, elements) for name in ("cause", "cure"))
     message = f"{cause} {cure}".rstrip()
@@ -42,7 +42,7 @@ def written(entry: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def written_report(found: dict[str, Any]) -> dict[str, Any]:
-    """What the core returns, with its report as callers see it."""
+    """The core's result with the report as callers read it."""
     report = found["report"]
     lists = {name: [written(entry) for entry in report[name]] for name in ("warnings", "repairs")}
     return {**found, "report": {**report, **lists}}

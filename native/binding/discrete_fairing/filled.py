@@ -56,7 +56,7 @@ class FilledHole:
     ignored: list[int] = field(default_factory=list)
 
 
-# By code: what mends a mesh so that a hole can be filled.
+# The command, by error code, that mends a mesh so that a hole can be filled.
 _CURES = {
     "COINCIDENT_VERTICES": "merge",
     "DEGENERATE_FACE": "cut",
@@ -81,7 +81,7 @@ class SkippedHole:
 
     @classmethod
     def of(cls, loops: list[np.ndarray], why: dict[str, Any], ids: np.ndarray) -> SkippedHole:
-        """From what the core says of a part of the mesh with these `ids` (n,) of vertices."""
+        """From the core's error about a part of the mesh whose vertices have these `ids` (n,)."""
         found = ids[np.array(why["elements"], np.int64)].tolist()
         return cls(loops, fairing_error(**{**why, "elements": found}))
 
@@ -95,7 +95,7 @@ class SkippedHole:
 
     @property
     def kind(self) -> str:
-        """What the elements are: "vertex", "edge", or "mesh" where there are none."""
+        """The kind of the elements: "vertex", "edge", or "mesh" if there are none."""
         return self.error.kind
 
     @property
@@ -106,21 +106,21 @@ class SkippedHole:
 
     @property
     def cure(self) -> str:
-        """What makes it a hole that can be filled: "merge" the vertices by distance; "cut" an edge at the
-        vertex that lies on it; "flip" the faces that look the other way; "delete" the faces that are too
-        many; empty where there is no such command.
+        """The command after which the hole can be filled: "merge" vertices by distance; "cut" an edge at
+        the vertex on it; "flip" faces of opposite orientation; "delete" surplus faces; empty if there is
+        no such command.
         """
         return _CURES.get(self.code, "")
 
 
 @dataclass(frozen=True)
 class Filled:
-    """What fills the holes of a mesh.
+    """The fillings of a mesh's holes.
 
     holes: list of FilledHole
-        What closes each hole, in the order of the holes, but for those that are skipped.
+        The filling of each hole, in the order of the holes, without skipped ones.
     skipped: list of SkippedHole
-        What could not be filled. It is as it was.
+        The holes that could not be filled; they are unchanged.
     cuts: dict
         Of holes without area: the sides of faces that were cut at the vertices on them in place of a
         filling, as (begin, end): list of vertices between.
@@ -133,13 +133,13 @@ class Filled:
 
     @cached_property
     def vertices(self) -> np.ndarray:
-        """(N, 3) float64 of the filled mesh. The n old ones first, to the last bit."""
+        """(N, 3) float64 vertices of the filled mesh; the n old ones come first, to the last bit."""
         return np.concatenate([self._mesh.points, *(hole.vertices for hole in self.holes)])
 
     @cached_property
     def faces(self) -> Any:
-        """(M, 3) int64 of the filled mesh, or the pair (corners, offsets) where not all are triangles. The m
-        old ones first; of a triangle that is cut the first piece, the others come last.
+        """(M, 3) int64 faces of the filled mesh, or the pair (corners, offsets) if not all are triangles.
+        The m old ones come first; the first piece of a cut triangle keeps its place, the others come last.
         """
         corners, offsets = self.uncut
         if self.cuts:
@@ -157,7 +157,7 @@ class Filled:
 
     @property
     def reasons(self) -> list[str]:
-        """Why holes are skipped: each reason once, with the elements of all, the most frequent first."""
+        """Why holes are skipped: each reason once, with the elements of all its holes; most frequent first."""
         alike: dict[tuple[str, ...], list[FairingError]] = {}
         for hole in self.skipped:
             key = hole.code, hole.kind, *hole.error._sentences
@@ -167,7 +167,7 @@ class Filled:
 
     @property
     def new_faces(self) -> np.ndarray:
-        """(M - m,) int64 ids of the new ones: triangles, or on request quads."""
+        """(M - m,) int64 ids of the new faces: triangles, or quads if requested."""
         count = len(self.faces if isinstance(self.faces, np.ndarray) else self.faces[1][1:])
         return np.arange(len(self._mesh.offsets) - 1, count)
 
@@ -180,8 +180,8 @@ def put_together(
     skipped: list[SkippedHole],
     cuts: Cuts,
 ) -> Filled:
-    """These fillings of the holes with these loops, in a mesh; of each is `told` how many of its faces
-    cross, and why it has no quads.
+    """Adds the fillings of holes with these loops to a mesh. `told` has for each filling the number of
+    its crossing faces, and why it has no quads.
     """
     holes = []
     for rims, f, (crossings, why) in zip(loops, fillings, told, strict=True):

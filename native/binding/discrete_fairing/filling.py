@@ -180,7 +180,7 @@ def fill_holes(
     return put_together(whole, loops_asked, in_whole(whole, mesh, fillings), told, skipped, cuts)
 
 
-_Triangulated = tuple[np.ndarray, np.ndarray]  # own vertices, triangles
+_Triangulated = tuple[np.ndarray, np.ndarray]  # new vertices, triangles
 
 
 def _triangulated(
@@ -189,7 +189,7 @@ def _triangulated(
     triangles: tuple[float, bool],
     watchers: Sequence[Any],
 ) -> tuple[dict[int, _Triangulated], dict[int, dict[str, Any]]]:
-    """By the number of each hole what fills it, or why nothing does."""
+    """The triangulation of each hole, or the reason why there is none; both by the hole's number."""
     found, why = filler.fill(holes, *triangles, *watchers)
     filled = [row for row, reason in enumerate(why) if reason is None]
     refused = {row: reason for row, reason in enumerate(why) if reason is not None}
@@ -197,7 +197,7 @@ def _triangulated(
 
 
 def _running_as(hole: list[list[int]], triangles: np.ndarray) -> list[list[int]]:
-    """The loops of a hole, the first in the direction in which the `triangles` that fill it run."""
+    """The loops of a hole; the first one is turned to run in the direction of its `triangles`."""
     loop = hole[0]
     sides = np.stack([triangles, np.roll(triangles, -1, axis=1)], -1).reshape(-1, 2)
     same = (sides == loop[:2]).all(axis=1).any()
@@ -212,9 +212,9 @@ def _with_triangles(
     wanted: Wanted,
     watched: SeveralRuns,
 ) -> tuple[list[Filling], list[NearHole]]:
-    """The fillings of all holes: `grids`, where there is one, else triangles; and what fills all of them
-    before it is faired. A grid that would have an edge of another filling once more becomes a reason, and
-    triangles.
+    """The fillings of all holes, by grids of quads where there are any and by triangles elsewhere; and the
+    fillings before fairing. If a grid repeats an edge of another filling, triangles replace it, with the
+    reason in `grids`.
     """
     loops, found = triangulated
     while True:
@@ -256,7 +256,9 @@ def asked_holes(holes: Sequence[Any]) -> list[list[list[int]]]:
 
 
 def _around(whole: MeshPart, holes: list[list[list[int]]], rings: int) -> MeshPart:
-    """The faces around these holes: so many rings. Two are all that the filling itself looks at. Arrays and loops that the core will refuse stay whole, for it to say why."""
+    """The faces within `rings` around these holes; the filling itself reads two rings. Arrays and loops
+    that the core will refuse are passed on whole, so that the core's error names the cause.
+    """
     flat = [v for hole in holes for loop in hole for v in loop]
     count = len(whole.points)
     if not flat or min(flat) < 0 or max(flat) >= count or not len(whole.corners):

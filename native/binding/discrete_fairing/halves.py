@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Half a mesh that meets its mirror image: the whole is faired, and the half of it is given back.
+"""Half of a symmetric mesh: the whole mesh is faired, and the half of the surface is returned.
 
-The surface crosses the plane without a joint, since there is none: what is one surface is computed
-as one.
+So the surface is smooth across the plane of symmetry, like anywhere else inside the whole.
 """
 
 from __future__ import annotations
@@ -22,8 +21,8 @@ from .options import ONE_A_VERTEX, edges_with_values, native_options
 
 PLANES = {"x": 0, "y": 1, "z": 2}
 SNAP = 1e-6  # share of the mesh's size: border vertices nearer to the plane lie in it
-FAR = 1e100  # beyond it, and where there is NaN, the core refuses
-# settings that name elements, and what of
+FAR = 1e100  # the core refuses larger coordinates, and NaN
+# settings that name elements, and the kind of these
 _IDS = {
     "crease_edges": "vertex",
     "corner_vertices": "vertex",
@@ -33,7 +32,7 @@ _IDS = {
 
 
 class Control:
-    """A control mesh as the core takes it: the caller's or, with a `symmetry_plane`, the double of it."""
+    """The control mesh for the core: the caller's or, with a `symmetry_plane`, its double."""
 
     def __init__(
         self,
@@ -44,7 +43,7 @@ class Control:
     ):
         self.points, self.settings = vertex_array(vertices), settings
         self.corners, self.offsets = face_arrays(faces)
-        self.count = len(self.points)  # of the caller's vertices
+        self.count = len(self.points)  # number of the caller's vertices
         self.half: Half | None = None
         self.options = native_options(settings)  # refuses settings as the caller has given them
         if symmetry_plane is not None:
@@ -58,20 +57,20 @@ class Control:
         return self.points, self.corners, self.offsets
 
     def values(self, values: np.ndarray) -> np.ndarray:
-        """(n,) of the caller's vertices, or empty → of the core's, or empty."""
+        """Converts values (n,) of the caller's vertices, or empty, to those of the core's mesh."""
         return self.half.values(values) if self.half else values
 
     def named(self) -> AbstractContextManager[None]:
-        """Inside the `with` errors of the core name the caller's elements."""
+        """A context in which the core's errors name the caller's elements."""
         return self.half.named() if self.half else nullcontext()
 
     def cut(self, found: dict[str, Any]) -> dict[str, Any]:
-        """What the core found → of the caller's mesh."""
+        """Converts the core's result to one of the caller's mesh."""
         return self.half.cut(found) if self.half else found
 
 
 class Half:
-    """The mesh given, n vertices, m faces, c corners, and its double.
+    """The given mesh, with n vertices, m faces and c corners, and its double.
 
     In the double the caller's vertices, faces and corners come first, then their images; vertices
     of border edges in the plane are their own.
@@ -104,7 +103,7 @@ class Half:
         self._in_plane = shared
 
     def _shared(self, points: np.ndarray, corners: np.ndarray, offsets: np.ndarray) -> np.ndarray:
-        """Ids of the ends of border edges in the plane. Faces that mending drops have no edges."""
+        """Ids of the ends of border edges in the plane, without faces that mending drops."""
         flat = np.abs(points[:, self.axis]) <= self._reach(points)
         following = np.roll(corners, -1)
         last = offsets[1:][offsets[1:] > offsets[:-1]] - 1
@@ -127,12 +126,12 @@ class Half:
         return found
 
     def _reach(self, points: np.ndarray) -> float:
-        """How far from the plane vertices may be and lie in it, mesh units."""
+        """The largest distance of vertices that count as in the plane, mesh units."""
         with np.errstate(invalid="ignore", over="ignore"):
             return SNAP * np.ptp(points[self._used], axis=0).max() if len(self._used) else 0.0
 
     def _refuse_gap(self, points: np.ndarray, where: str) -> None:
-        """An error for vertices that have left the plane: there the mesh would part from its image."""
+        """Raises an error for vertices that have left the plane, where the halves would separate."""
         height = np.abs(points[self._in_plane, self.axis])
         away = self._in_plane[(height > self._reach(points)) & (height <= FAR)].tolist()
         if away:
@@ -146,27 +145,27 @@ class Half:
             )
 
     def shapes(self, shapes: np.ndarray) -> np.ndarray:
-        """(k, n, 3) → of the double; refuses those that are not in the plane where the mesh is."""
+        """Converts shapes (k, n, 3) to the double's. Refuses vertices that have left the plane."""
         for k, shape in enumerate(shapes):
             self._refuse_gap(shape, f" in shape {k}")
         return self._doubled(shapes)
 
     def points(self, points: np.ndarray) -> np.ndarray:
-        """(n, 3) → of the double; refuses those that are not in the plane where the mesh is."""
+        """Converts points (n, 3) to the double's. Refuses vertices that have left the plane."""
         self._refuse_gap(points, "")
         return self._doubled(points)
 
     @property
     def in_plane(self) -> np.ndarray:
-        """(k,) int64: the vertices of the mesh given that are their own images."""
+        """(k,) int64: the vertices of the given mesh that are their own images."""
         return self._in_plane
 
     def values(self, values: np.ndarray) -> np.ndarray:
-        """(n,), one a vertex, or empty → of the double, or empty."""
+        """Converts values (n,), or empty, to the double's."""
         return np.concatenate([values, values[self._copied]]) if len(values) else values
 
     def _doubled(self, points: np.ndarray) -> np.ndarray:
-        """(…, n, 3) → of the double; border vertices next to the plane are put into it."""
+        """Points (…, n, 3) of the double; border vertices near the plane are moved into it."""
         own = points.copy()
         height = own[..., self._in_plane, self.axis]
         own[..., self._in_plane, self.axis] = np.where(np.abs(height) <= FAR, 0.0, height)
@@ -177,7 +176,7 @@ class Half:
     def beside(
         self, points: np.ndarray, corners: np.ndarray, offsets: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """A neighbour of the half → with its mirror image, of the double."""
+        """The neighbour of the double: the half's neighbour and its mirror image."""
         images = points.copy()
         images[:, self.axis] *= -1.0
         sizes = np.diff(offsets)
@@ -190,8 +189,8 @@ class Half:
         )
 
     def faces(self, corners: np.ndarray, offsets: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Corners and offsets of the double; images run the other way round. An id that the mesh does
-        not have would be that of an image: it becomes -1.
+        """Corners and offsets of the double, where images are reversed. An id that is not in the mesh
+        becomes -1, since it could be an image's id.
         """
         sizes = np.diff(offsets)
         place = np.arange(len(corners)) - np.repeat(offsets[:-1], sizes)
@@ -201,7 +200,7 @@ class Half:
         return np.concatenate([own, images]), np.concatenate([offsets, offsets[-1] + offsets[1:]])
 
     def settings(self, settings: dict[str, Any]) -> dict[str, Any]:
-        """Those that name vertices, edges or faces, for the double."""
+        """Converts the settings that name vertices, edges or faces to the double's."""
         given = dict(settings)
         for name in ("tolerance", *ONE_A_VERTEX):
             values = given.get(name)
@@ -226,7 +225,7 @@ class Half:
         return given
 
     def _normals(self, normals: Any) -> np.ndarray:
-        """Of the double; in the plane only what a symmetric surface can have."""
+        """Normals of the double; in the plane without the part that no symmetric surface has."""
         own = np.array(normals, float)
         own[self._in_plane, self.axis] *= 0.0  # NaN stays NaN
         images = own[self._copied].copy()
@@ -234,7 +233,7 @@ class Half:
         return np.concatenate([own, images])
 
     def with_images(self, name: str, kind: str, ids: Any) -> np.ndarray:
-        """Elements, and what they are in the other half. Refuses those that only the other half has."""
+        """Elements and their images. Refuses ids that only the other half has."""
         ids = np.asarray(ids)
         if not ids.size:
             return ids
@@ -244,7 +243,7 @@ class Half:
 
     @contextmanager
     def named(self) -> Iterator[None]:
-        """Inside the `with` errors of the core name elements of the half."""
+        """A context in which the core's errors name elements of the half."""
         try:
             yield
         except FairingError as error:
@@ -253,7 +252,7 @@ class Half:
             raise about(error, own, both) from None
 
     def _own(self, elements: Sequence[int], kind: str) -> list[int]:
-        """The elements of the half that these of the double are, or are images of; each once."""
+        """The half's elements for elements of the double or their images; each once."""
         if kind == "face":
             return list(dict.fromkeys(face % self.face_count for face in elements))
         origin = np.concatenate([np.arange(self.vertex_count), self._copied])
@@ -264,7 +263,7 @@ class Half:
         return [vertex for pair in reversed(pairs.values()) for vertex in pair]
 
     def cut(self, whole: dict[str, Any]) -> dict[str, Any]:
-        """What the core made of the double → of the half."""
+        """Converts the core's result for the double to one for the half."""
         given = dict(whole)
         kinds = ("triangle", "quad")
         kept = {kind: whole[f"{kind}_polygon"] < self.face_count for kind in kinds}
@@ -314,7 +313,7 @@ class Half:
         }
 
     def _cut_report(self, report: dict[str, Any]) -> dict[str, Any]:
-        """What names elements, and lists of values a vertex; all other numbers are the double's."""
+        """The half's report: element ids and values per vertex are converted, other numbers kept."""
         given = dict(report)
         for name in ("warnings", "repairs"):
             given[name] = [self._cut_entry(entry) for entry in report[name]]
@@ -328,7 +327,7 @@ class Half:
 
 
 def _refuse_unknown(name: str, kind: str, ids: np.ndarray, count: int) -> None:
-    """An error for ids that the mesh does not have; other faults of a setting are for the core."""
+    """Raises an error for ids that are not in the mesh; the core checks all else."""
     if ids.dtype.kind not in "iu" or not ids.size:
         return
     unknown = np.unique(ids[(ids < 0) | (ids >= count)]).tolist()
@@ -343,7 +342,7 @@ def _refuse_unknown(name: str, kind: str, ids: np.ndarray, count: int) -> None:
 
 
 def _first_of_their_kind(corners: np.ndarray, offsets: np.ndarray) -> np.ndarray:
-    """(m,) bool: false for faces that have the same vertices as one before them, which mending drops."""
+    """(m,) bool: false for faces with the vertices of an earlier face, which mending drops."""
     sizes, first = np.diff(offsets), np.zeros(len(offsets) - 1, bool)
     for size in np.unique(sizes):
         faces = np.flatnonzero(sizes == size)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What fills one hole, faired with the faces around it."""
+"""The filling of one hole, faired together with the faces around the hole."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ import numpy as np
 from . import _native
 from .fairing import fair
 
-# Rings of faces around a hole whose vertices say how the surface goes on.
+# Rings of faces around a hole whose vertices determine how the surface continues.
 RINGS = {"position": 0, "tangent": 1, "curvature": 2}
 
-# Of a noisy rim: so many, of whose vertices the two outermost rows are held, and the others weigh so
-# much. Chosen of 4 and 6 rings on spheres, and of weights from 0.3 to 10 on seven surfaces, with a noise
-# of 0.02 and 0.1 edges (docs/developers/notes/filling.md).
+# At a noisy rim: the number of rings; the two outermost rows of vertices are held, the others have this
+# weight. Chosen from 4 and 6 rings on spheres, and from weights of 0.3 to 10 on seven surfaces, with a
+# noise of 0.02 and 0.1 edges (docs/developers/notes/filling.md).
 NOISY_RINGS, HELD_ROWS, NOISY_WEIGHT = 6, 2, 1.0
 
 RIMS = ("exact", "noisy")
@@ -26,28 +26,28 @@ RIMS = ("exact", "noisy")
 
 @dataclass(frozen=True, slots=True)
 class Made:
-    """By what the surface of a filling was found."""
+    """How the surface of a filling was computed."""
 
     energy: str  # "none": as it was triangulated
     joint: str
     converged: bool
     folds: int
-    folds_inside: int  # of these between its own faces
-    ignored: tuple[int, ...] = ()  # faces around, of the whole mesh
+    folds_inside: int  # folds between two faces of the filling
+    ignored: tuple[int, ...] = ()  # ids in the whole mesh of faces around the hole
 
     @property
     def stands_in(self) -> bool:
-        """Whether it is the triangulation, for a surface that was asked for."""
+        """Whether the triangulation replaces a requested surface."""
         return self.energy == "none" and not self.converged
 
 
-# Codes of fair() that say nothing of a hole.
+# Codes of fair() that do not concern a hole.
 _NOT_OF_A_HOLE = ("CANCELLED", "OUT_OF_MEMORY", "FORKED")
 
 
 class NearHole:
-    """What fills one hole, and the faces around. `own` (k, 3) are its vertices, whose ids begin with
-    `first`; `faces` (t, 3), or (t, 4) of quads, are ids.
+    """The filling of one hole and the faces around the hole. `own` (k, 3) are the filling's new vertices,
+    with ids from `first` on; `faces` (t, 3), or (t, 4) for quads, contain vertex ids.
     """
 
     def __init__(self, mesh: MeshPart, own: np.ndarray, faces: np.ndarray, first: int) -> None:
@@ -55,8 +55,10 @@ class NearHole:
         self._mesh = mesh
         self._rim = np.unique(faces[faces < len(mesh.points)])
         self._ignored = np.empty(0, np.int64)  # faces around that fair() has refused
-        self._held = np.zeros(len(own), bool)  # which of its own vertices stay
-        self._known: dict[tuple[str, str], tuple[np.ndarray, Made] | None] = {}  # while none stays
+        self._held = np.zeros(len(own), bool)  # new vertices that must not move
+        self._known: dict[
+            tuple[str, str], tuple[np.ndarray, Made] | None
+        ] = {}  # while none is held
 
     @cached_property
     def _beside(self) -> _SidesBehind:
@@ -65,10 +67,10 @@ class NearHole:
     def faired(
         self, energy: str, joint: str, noisy: bool, watchers: dict[str, Any], stands_in: bool = True
     ) -> tuple[np.ndarray, Made, np.ndarray]:
-        """The places of its own vertices, how these were found, and the places to go on from on better
-        triangles: what was asked for has made them, even where it folds. `noisy`: whether more of the
-        faces around say how it goes on, and none of them exactly. `stands_in`: whether another way is
-        tried where this folds: the first that does not, else that with the fewest folds.
+        """Positions of the new vertices, how they were computed, and the positions from which a run on
+        better triangles starts: those of the requested energy, even if they fold. `noisy`: whether more
+        rings determine the continuation, none of them exactly. `stands_in`: whether other energies are
+        tried if the requested one folds; the first without folds is taken, or the one with the fewest.
         """
         if not len(self.own):
             return self.own, self.as_triangulated(), self.own
@@ -91,8 +93,8 @@ class NearHole:
     def other_ways(
         self, energy: str, joint: str, noisy: bool, watchers: dict[str, Any]
     ) -> Iterator[tuple[np.ndarray, Made]]:
-        """The places of its own vertices by the way that was asked for, again and again while hold() gets
-        more of them, and by each other way, if it is faired.
+        """Positions of the new vertices: by the requested energy, repeated while hold() fixes more of
+        them, then by each other energy that gives a surface.
         """
         for functional, meeting in list(_ways(energy, joint))[: 1 if len(self.own) else 0]:
             known = -1
@@ -111,22 +113,22 @@ class NearHole:
             yield self.own, self.as_triangulated(True)
 
     def hold(self, faces: np.ndarray, own: np.ndarray) -> None:
-        """Keeps the vertices of these faces, and of those that fold with its vertices at `own`, and of all
-        faces beside, where they are."""
+        """Fixes the vertices of `faces`, of faces that fold while the new vertices are at `own`, and of
+        the neighbours of both."""
         bad = np.union1d(faces, self._beside.folding(self._normals(own)))
         beside = np.isin(self.faces, self.faces[bad]).any(axis=1)
         mine = self.faces[beside] - self.first
         self._held[mine[mine >= 0]] = True
 
     def as_triangulated(self, stands_in: bool = False) -> Made:
-        """Not faired; `stands_in`: for a surface that was asked for."""
+        """The triangulation without fairing; `stands_in`: it replaces a requested surface."""
         return Made("none", "position", not stands_in, *self._folds(self.own))
 
     def _solved(
         self, energy: str, joint: str, noisy: bool, watchers: dict[str, Any]
     ) -> tuple[np.ndarray, Made] | None:
-        """None where fair() refuses the filling itself. Faces around that it refuses are ignored from
-        then on: they say nothing of how the surface goes on.
+        """None if fair() refuses the filling itself. If fair() refuses faces around the hole, they are
+        ignored from then on and do not determine the continuation.
         """
         if self._held.any():
             return self._solve(energy, joint, noisy, watchers)
@@ -156,7 +158,7 @@ class NearHole:
             return moved, Made(energy, joint, converged, *self._folds(moved), ignored)
 
     def _around(self, rings: int) -> tuple[list[np.ndarray], np.ndarray]:
-        """Vertices of the rim, and of it and each ring of faces around; and the faces."""
+        """The rim's vertices, then the vertices after each ring of faces is added; and these faces."""
         rows, touching = [self._rim], np.empty(0, np.int64)
         for _ in range(rings):
             touching = np.setdiff1d(self._mesh.faces_at(rows[-1]), self._ignored)
@@ -171,8 +173,8 @@ class NearHole:
         energy: str,
         watchers: dict[str, Any],
     ) -> tuple[np.ndarray, bool]:
-        """The places of its own vertices with these faces around, whose vertices `ids` have `weights`,
-        and whether the steps have converged.
+        """Positions of the new vertices, faired with the faces `touching`, whose vertices `ids` have
+        `weights`; and whether the steps have converged.
         """
         mesh = self._mesh
         known = np.concatenate([ids, np.arange(self.first, self.first + len(self.own))])
@@ -196,18 +198,18 @@ class NearHole:
     def _refused(
         self, ids: np.ndarray, touching: np.ndarray, error: _native.FairingError
     ) -> np.ndarray:
-        """Which of the faces `touching` the error is about, of a run of _fair()."""
+        """The faces of `touching` that an error of _fair() names."""
         named = np.ravel(error.elements).astype(np.int64)
         if error.kind != "face":
             at = self._mesh.faces_at(ids[named[named < len(ids)]])
             return np.intersect1d(at, touching)
         found = touching[named[named < len(touching)]]
         if error.code == "INCONSISTENT_ORIENTATION" and (named >= len(touching)).any():
-            return np.setdiff1d(touching, found)  # the others disagree with the filling
+            return np.setdiff1d(touching, found)  # the others are oriented against the filling
         return found
 
     def corners(self, own: np.ndarray) -> np.ndarray:
-        """(t, 3 or 4, 3) of its faces, its own vertices at `own`."""
+        """(t, 3 or 4, 3) corner positions of the filling's faces, with the new vertices at `own`."""
         rows = np.where(
             self.faces < len(self._mesh.points),
             np.searchsorted(self._rim, self.faces),
@@ -216,21 +218,21 @@ class NearHole:
         return np.concatenate([self._mesh.points[self._rim], own])[rows]
 
     def _normals(self, own: np.ndarray) -> np.ndarray:
-        """(t, 3) of its faces, twice as long as their areas."""
+        """(t, 3) normals of the filling's faces; the length is twice the area."""
         corner = self.corners(own)
         return np.cross(corner[:, 2] - corner[:, 0], corner[:, -1] - corner[:, 1])
 
     def area(self, own: np.ndarray) -> float:
-        """Of its faces."""
+        """The area of the filling."""
         return float(np.linalg.norm(self._normals(own), axis=1).sum())
 
     def _folds(self, own: np.ndarray) -> tuple[int, int]:
-        """Edges of its faces that turn by more than a right angle: with those of the rim, and without."""
+        """Edges of the filling that turn by more than a right angle: all edges, and without the rim."""
         return self._beside.folds(self._normals(own))
 
 
 class _SidesBehind:
-    """Which faces of a filling share an edge, and what is behind the others."""
+    """Pairs of a filling's faces that share an edge, and the mesh faces behind the rim's edges."""
 
     def __init__(self, mesh: MeshPart, rim: np.ndarray, own: np.ndarray) -> None:
         sides = np.sort(np.stack([own, np.roll(own, -1, axis=1)], -1).reshape(-1, 2), axis=1)
@@ -260,14 +262,14 @@ class _SidesBehind:
         self._behind = normals[np.repeat(np.arange(len(faces)), sizes)[at]]
 
     def folding(self, normals: np.ndarray) -> np.ndarray:
-        """Faces with an edge that turns by more than a right angle, of faces with these `normals`."""
+        """Faces at edges that turn by more than a right angle if the faces have these `normals`."""
         inside = (normals[self._pairs[0]] * normals[self._pairs[1]]).sum(axis=1) < 0.0
         at_rim = (normals[self._at_rim] * self._behind).sum(axis=1) < 0.0
         return np.union1d(self._pairs[:, inside], self._at_rim[at_rim])
 
     def folds(self, normals: np.ndarray) -> tuple[int, int]:
-        """How many edges turn by more than a right angle, of faces with these `normals` (t, 3): all, and
-        those between two of the faces.
+        """Number of edges that turn by more than a right angle if the filling's faces have the `normals`
+        (t, 3): of all edges, and of edges between two of these faces.
         """
         inside = int(((normals[self._pairs[0]] * normals[self._pairs[1]]).sum(axis=1) < 0.0).sum())
         at_rim = int(((normals[self._at_rim] * self._behind).sum(axis=1) < 0.0).sum())
@@ -275,9 +277,8 @@ class _SidesBehind:
 
 
 def _ways(energy: str, joint: str) -> Iterator[tuple[str, str]]:
-    """Energies and joints in the order in which they are tried: what is asked for, the thin plate,
-    which needs no steps, and this without the curvature of the faces around, which the noise of two
-    rings may spoil.
+    """Pairs (energy, joint) in the order of trial: the requested pair; the thin plate, which needs no
+    steps; the thin plate with joint "tangent", since noise in two rings may spoil their curvature.
     """
     if joint == "position":
         return
@@ -295,22 +296,22 @@ class MeshPart:
     points: np.ndarray  # (n, 3)
     corners: np.ndarray  # (c,)
     offsets: np.ndarray  # (m + 1,)
-    vertex_ids: np.ndarray  # (n,) what the whole calls its vertices, rising
-    face_ids: np.ndarray  # (m,)
+    vertex_ids: np.ndarray  # (n,) ids in the whole mesh, ascending
+    face_ids: np.ndarray  # (m,) ids in the whole mesh
 
     @classmethod
     def of(cls, points: np.ndarray, corners: np.ndarray, offsets: np.ndarray) -> MeshPart:
         return cls(points, corners, offsets, np.arange(len(points)), np.arange(len(offsets) - 1))
 
     def part(self, faces: np.ndarray) -> MeshPart:
-        """Some faces, and the vertices that they have, in their old order."""
+        """A part with these faces and their vertices, which keep their order."""
         sizes = self.offsets[faces + 1] - self.offsets[faces]
         ids, corners = np.unique(self.corners_at(faces), return_inverse=True)
         offsets = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64)
         return MeshPart(self.points[ids], corners.astype(np.int64), offsets, ids, faces)
 
     def renumbered(self, loop: Sequence[int]) -> list[int]:
-        """A loop of the whole mesh, all of whose vertices are here."""
+        """A loop of the whole mesh in this part's ids; the part must have all its vertices."""
         return np.searchsorted(self.vertex_ids, loop).tolist()
 
     def touching(self, vertices: np.ndarray) -> np.ndarray:
@@ -321,7 +322,7 @@ class MeshPart:
         return np.unique(np.searchsorted(self.offsets, at, side="right") - 1)
 
     def faces_at(self, vertices: np.ndarray) -> np.ndarray:
-        """The same, for many who ask for few vertices each."""
+        """The same as touching(); faster for many calls with few vertices each."""
         faces, ends = self._faces_by_vertex
         sizes = ends[vertices + 1] - ends[vertices]
         return np.unique(faces[_runs(ends[vertices], sizes)])
@@ -333,7 +334,7 @@ class MeshPart:
         return faces[np.argsort(self.corners, kind="stable")], ends
 
     def corner_fans(self, faces: np.ndarray) -> np.ndarray:
-        """(t, 3) triangles of these faces: each from its first corner."""
+        """(t, 3) triangles of these faces, as fans from their first corners."""
         starts = np.repeat(self.offsets[faces], self.offsets[faces + 1] - self.offsets[faces] - 2)
         sizes = self.offsets[faces + 1] - self.offsets[faces] - 2
         second = _runs(self.offsets[faces] + 1, sizes)
@@ -346,10 +347,10 @@ class MeshPart:
 
 
 def angles_between(u: np.ndarray, v: np.ndarray) -> np.ndarray:
-    """(…) radians, of vectors (…, 3)."""
+    """(…) angles between vectors (…, 3), radians."""
     return np.arctan2(np.linalg.norm(np.cross(u, v), axis=-1), (u * v).sum(axis=-1))
 
 
 def _runs(starts: np.ndarray, sizes: np.ndarray) -> np.ndarray:
-    """start, start + 1, … of each, `size` of them, one after another."""
+    """The numbers start … start + size - 1 of every pair, one run after another."""
     return np.arange(sizes.sum()) + np.repeat(starts - np.cumsum(sizes) + sizes, sizes)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Settings as callers write them, turned into the core's.
+"""Converts the callers' settings to the core's.
 
-AllSettings is the one table: of each setting the type, what checks and converts it, and its meaning.
+AllSettings is the one table, with each setting's type, its converter and its meaning.
 Defaults and ranges are the core's (native/fairing/settings.h).
 """
 
@@ -23,9 +23,9 @@ from .errors import fairing_error
 def native_options(settings: Mapping[str, Any]) -> _native.Options:
     """The core's options; settings that are not given keep their defaults.
 
-    Those of OPTIONAL may be None, which means the default too; of `interpolation` it is "approximate"
-    where there is a tolerance or weights. Raises FairingError BAD_OPTION and BAD_SHAPE, and TypeError
-    for a name that is no setting.
+    Settings in OPTIONAL may be None, which means the default too. The default of `interpolation` is
+    "approximate" if there is a tolerance or weights. Raises FairingError BAD_OPTION and BAD_SHAPE, and
+    TypeError for a name that is no setting.
     """
     options, given = _native.Options(), {}
     for name, value in settings.items():
@@ -46,7 +46,7 @@ def native_options(settings: Mapping[str, Any]) -> _native.Options:
     return options
 
 
-# Each converter takes the setting's name, for messages, and the caller's value.
+# A converter's arguments: the setting's name, for messages, and the caller's value.
 
 
 def vertex_pairs(name: str, edges: ArrayLike) -> np.ndarray:
@@ -109,7 +109,7 @@ def weight_array(name: str, weights: ArrayLike) -> np.ndarray:
 def edges_with_values(
     name: str, given: tuple[ArrayLike, ArrayLike]
 ) -> tuple[np.ndarray, np.ndarray]:
-    """(k, 2) int64 and (k,) float64; one number serves for all edges."""
+    """(k, 2) int64 and (k,) float64; a single number is repeated for all edges."""
     if not isinstance(given, (tuple, list)) or len(given) != 2:
         raise fairing_error("BAD_OPTION", f"{name} is {given!r}; it must be (edges, values).")
     pairs = vertex_pairs(name, given[0])
@@ -124,7 +124,7 @@ def edges_with_values(
 
 
 def normal_rows(name: str, normals: ArrayLike) -> np.ndarray:
-    """(3 n,) float64, of (n, 3)."""
+    """(3 n,) float64, from normals (n, 3)."""
     array = numbers(normals, name, "iuf").astype(float)
     if array.ndim != 2 or array.shape[1] != 3:
         raise fairing_error(
@@ -148,7 +148,7 @@ def choice(enum: type[Enum]) -> Callable[[str, object], Any]:
 
 
 def whole(name: str, value: object) -> int:
-    """An integer of any type, from 0 to what the core's holds."""
+    """An integer of any type, from 0 to the largest that the core stores."""
     try:
         number = _number(value).__index__()
     except (AttributeError, TypeError):
@@ -165,7 +165,7 @@ def whole(name: str, value: object) -> int:
 
 
 def _number(value: object) -> Any:
-    """The value; TypeError for True and False, which would pass for 1 and 0: weld=True is no length."""
+    """The value; TypeError for True and False, which Python converts to 1 and 0: weld=True is no length."""
     if holds_bool(value):
         raise TypeError
     return value
@@ -350,7 +350,7 @@ class Settings(TypedDict, total=False):
 
 
 class AllSettings(Settings, total=False):
-    """With those that fair() and Solver also take by their place."""
+    """All settings: also those that fair() and Solver take as positional arguments."""
 
     levels: Annotated[int, whole]
     """3: how often every face is refined: a triangle gives 4**levels triangles, a quad 4**levels
@@ -367,11 +367,11 @@ class AllSettings(Settings, total=False):
 
 
 _HINTS = get_type_hints(AllSettings, include_extras=True)
-# of each setting what checks and converts it
+# the converter of each setting
 SETTINGS: dict[str, Callable[[str, Any], Any]] = {
     name: hint.__metadata__[0] for name, hint in _HINTS.items()
 }
-# those of one number a vertex
+# settings of one number a vertex
 ONE_A_VERTEX = tuple(name for name, check in SETTINGS.items() if check is weight_array)
-# those that may be None
+# settings that may be None
 OPTIONAL = {name for name, hint in _HINTS.items() if type(None) in get_args(hint.__origin__)}

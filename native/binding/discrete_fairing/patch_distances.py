@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How far points are from spline patches: each from the patches of the face that it lies over."""
+"""Distances of points from spline patches, each from the patches of the face below the point."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ import numpy as np
 
 from .patches import SplinePatches
 
-_SAMPLES = 8  # a side of a patch at least, and two a span, to begin with; then Newton's steps
+_SAMPLES = 8  # least samples a side of a patch (two a span), from which Newton's steps start
 _STEPS = 5
 _AT_ONCE = 1 << 15  # points: 16 control points each
 
 
 def distances_from(patches: SplinePatches, points: np.ndarray, polygons: np.ndarray) -> np.ndarray:
-    """(S,) float64, positive outside: from the nearest point of the patches of the input face
-    `polygons` (S,) along the patch's normal; NaN where that is -1. `points` (S, 3).
+    """(S,) float64 distances of `points` (S, 3), positive outside, along the patch's normal at the nearest
+    point of the patches that cover the input faces `polygons` (S,); NaN where a polygon is -1.
     """
     found = np.full(len(points), np.nan)
     patch, places = _begin(patches, points, polygons)
@@ -28,7 +28,7 @@ def distances_from(patches: SplinePatches, points: np.ndarray, polygons: np.ndar
 def _begin(
     patches: SplinePatches, points: np.ndarray, polygons: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """The patch of each point, -1 for none, and where on it the sample lies that is nearest."""
+    """The patch of each point, -1 for none, and the parameters of its nearest sample."""
     patch, places = np.full(len(points), -1), np.zeros((len(points), 2))
     order = np.argsort(polygons, kind="stable")
     samples, grids = zip(*(_samples(patches, p) for p in range(len(patches))), strict=True)
@@ -41,9 +41,11 @@ def _begin(
         ids = np.repeat(own, [len(samples[p]) for p in own])
         grid = np.concatenate([grids[p] for p in own])
         square = (near**2).sum(axis=1)
-        # farther than this from the middle lies no point's nearest sample: triangle inequality
+        # no nearest sample is farther from the middle than this, by the triangle inequality
         away, across = np.sqrt(square), np.linalg.norm(points[here] - middle, axis=1).max()
-        kept = away <= 2.0 * across + away.min()  # lengths: squared, rounding may leave none
+        kept = (
+            away <= 2.0 * across + away.min()
+        )  # lengths, since rounding of squares may leave none
         near, ids, grid, square = near[kept], ids[kept], grid[kept], square[kept]
         for rows in np.array_split(here, len(here) * len(near) // 2**22 + 1):
             nearest = (square - 2.0 * (points[rows] - middle) @ near.T).argmin(axis=1)
@@ -52,7 +54,7 @@ def _begin(
 
 
 def _samples(patches: SplinePatches, p: int) -> tuple[np.ndarray, np.ndarray]:
-    """(k, 3) points of patch p, and where they lie on it, (k, 2) in [0, 1]²."""
+    """(k, 3) sample points of patch p, and their parameters, (k, 2) in [0, 1]²."""
     sides = [
         np.linspace(0.0, 1.0, max(_SAMPLES, 2 * n) + 1) for n in patches.patch_spans[p].tolist()
     ]
@@ -61,7 +63,7 @@ def _samples(patches: SplinePatches, p: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _patches_of(patches: SplinePatches) -> dict[int, list[int]]:
-    """By input face: the patches that cover it."""
+    """The patches that cover each input face."""
     found: dict[int, list[int]] = {}
     for p in range(len(patches)):
         for polygon in patches.polygons(p).tolist():
@@ -70,7 +72,7 @@ def _patches_of(patches: SplinePatches) -> dict[int, list[int]]:
 
 
 def _with(order: np.ndarray, values: np.ndarray, value: int) -> np.ndarray:
-    """Where `values` are `value`; `order` sorts them."""
+    """Positions at which `values` equal `value`; `order` sorts `values`."""
     begin, end = np.searchsorted(values, [value, value + 1], sorter=order)
     return order[begin:end]
 
@@ -95,8 +97,8 @@ def _along_normals(
 def evaluate(
     patches: SplinePatches, patch: np.ndarray, places: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """(k, 3) points of the patches `patch` (k,) at `places` (k, 2) in [0, 1]², and the derivatives
-    along u and v.
+    """(k, 3) points of the patches `patch` (k,) at the parameters `places` (k, 2) in [0, 1]², and their
+    derivatives along u and v.
     """
     spans = patches.patch_spans[patch].astype(np.int64)
     (row, u, du), (column, v, dv) = (_basis(places[:, k], spans[:, k]) for k in (0, 1))
@@ -114,8 +116,8 @@ def evaluate(
 
 
 def _basis(x: np.ndarray, spans: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The first of the four cubics that are not zero at x (k,), their values and slopes (k, 4); knots as
-    of spline_knots [Piegl and Tiller 1997, A2.2].
+    """The index of the first of four nonzero cubics at x (k,), their values and slopes (k, 4), on the
+    knots of spline_knots() [Piegl and Tiller 1997, A2.2].
     """
     n = spans.astype(np.float64)
     first = np.minimum((x * n).astype(np.int64), spans - 1)

@@ -20,9 +20,7 @@ SMOOTH, CREASE, BOUNDARY = range(3)
 
 
 def spline_knots(spans: int) -> np.ndarray:
-    """(spans + 7,) float64: the knots of a cubic with so many spans, uniform on [0, 1] and clamped
-    at both ends.
-    """
+    """(spans + 7,) float64: the knots of a cubic, uniform on [0, 1] and clamped at both ends."""
     inside = np.linspace(0.0, 1.0, spans + 1)
     return np.concatenate([[0.0] * 3, inside, [1.0] * 3])
 
@@ -124,7 +122,7 @@ class SplinePatches:
         return np.unique(self._control_polygons[self.patch_faces[part]])
 
     def covering(self, polygons: ArrayLike) -> np.ndarray:
-        """(P,) bool: which patches have one of these input faces."""
+        """(P,) bool: whether a patch covers one of these input faces."""
         found = np.zeros(len(self), bool)
         own = np.isin(self._control_polygons[self.patch_faces], polygons)
         found[self._patch_of_faces[own]] = True
@@ -135,14 +133,14 @@ class SplinePatches:
         return self.edge_points[self.edge_offsets[e] : self.edge_offsets[e + 1]]
 
     def loop(self, p: int) -> list[tuple[int, bool]]:
-        """The edges around patch p, counter-clockwise, each with whether it runs forward."""
+        """The edges around patch p, counter-clockwise, and whether each runs forward."""
         part = slice(self.loop_offsets[p], self.loop_offsets[p + 1])
         return list(zip(self.loop_edges[part].tolist(), self.loop_forward[part].tolist()))
 
     def transformed(self, matrix: ArrayLike) -> SplinePatches:
-        """A copy of the patches, at matrix @ (x, y, z, 1); a mirrored one turns them, so that they
-        still look outward. Errors stay in the old mesh units; result stays where it is. Raises
-        FairingError BAD_SHAPE for what is no matrix of finite numbers.
+        """A copy of the patches at matrix @ (x, y, z, 1). A mirror image is reversed, so that normals
+        still point outwards. Errors stay in the old mesh units; `result` is not transformed. Raises
+        FairingError BAD_SHAPE for anything but a matrix of finite numbers.
         """
         given = numbers(matrix, "matrix", "iuf").astype(float)
         if given.shape not in ((3, 4), (4, 4)) or not np.isfinite(given).all():
@@ -157,9 +155,9 @@ class SplinePatches:
         return moved
 
     def scaled(self, factor: float) -> SplinePatches:
-        """A copy of the patches, larger by this factor, and their size with them."""
+        """A copy of the patches, scaled by this factor together with their size."""
         larger = self._with_points(lambda points: points * factor)
-        larger.size = self.size * factor  # which readers' own tolerance follows
+        larger.size = self.size * factor  # it determines the tolerance of programs that read a file
         return larger
 
     def _with_points(self, moved: Callable[[np.ndarray], np.ndarray]) -> SplinePatches:
@@ -180,7 +178,7 @@ class SplinePatches:
 
     @property
     def off(self) -> np.ndarray:
-        """(P,) float64, mesh units: how far each patch is from the fair surface at most."""
+        """(P,) float64, mesh units: the largest distance of each patch from the fair surface."""
         return self._fit + self.refinement_error
 
     @cached_property
@@ -190,13 +188,13 @@ class SplinePatches:
 
     @property
     def unmet_by_fit(self) -> np.ndarray:
-        """(k,) int64: those of `unmet` that miss it from the refined surface, too."""
+        """(k,) int64: faces of `unmet` whose patches miss the tolerance from the refined surface too."""
         return self._missing(self.face_off)
 
     @property
     def unmet_by_surface(self) -> np.ndarray:
-        """(k,) int64: the others of `unmet`: their patches meet it, but the refined surface itself
-        still moves from level to level. Finer patches do not cure that.
+        """(k,) int64: the other faces of `unmet`, whose patches meet the tolerance, but whose refined
+        surface still changes from level to level. Finer patches do not cure this.
         """
         return np.setdiff1d(self.unmet, self.unmet_by_fit)
 
@@ -206,19 +204,19 @@ class SplinePatches:
 
     @cached_property
     def _fit(self) -> np.ndarray:
-        """(P,) how far each patch, or an edge of it, is from the refined surface."""
+        """(P,) the largest distance of each patch and its edges from the refined surface."""
         fit = self.residual.copy()
         np.maximum.at(fit, self._patch_of_steps, self.edge_error[self.loop_edges])
         return fit
 
     @property
     def largest_off(self) -> float:
-        """The farthest that a patch is from the fair surface, mesh units: what `tolerance` bounds."""
+        """The largest distance of a patch from the fair surface, mesh units; `tolerance` bounds it."""
         return float(self.off.max(initial=0))
 
     @property
     def scan_within(self) -> tuple[float, float]:
-        """What 95 % of scan_distances are within, and all but those of outliers; (0, 0) without a scan."""
+        """The 95th percentile of |scan_distances|, and the largest without outliers; (0, 0) if no scan."""
         if self.scan_distances is None:
             return 0.0, 0.0
         far = np.abs(self.scan_distances)
@@ -236,7 +234,7 @@ class SplinePatches:
 
     @property
     def largest_residual(self) -> float:
-        """The farthest that a point of the refined surface is from its patch or edge, mesh units."""
+        """The largest distance of a point of the refined surface from its patch or edge, mesh units."""
         return float(max(self.residual.max(initial=0), self.edge_error.max(initial=0)))
 
     @property
@@ -249,7 +247,7 @@ class SplinePatches:
         patch = np.repeat(np.arange(len(self)), np.diff(self.loop_offsets))
         order = np.argsort(self.loop_edges, kind="stable")
         shared = order[count[self.loop_edges[order]] == 2].reshape(-1, 2)
-        # faces on both sides look the same way where they run against each other
+        # the faces at an edge agree in orientation if they run along it in opposite directions
         agree = self.loop_forward[shared[:, 0]] != self.loop_forward[shared[:, 1]]
         shell = connected_parts(len(self), patch[shared[agree]])
         closed = np.ones(shell.max(initial=-1) + 1, bool)
@@ -273,9 +271,9 @@ def control_polygons(result: Result, levels: int) -> np.ndarray:
 
 
 def connected_parts(count: int, pairs: np.ndarray) -> np.ndarray:
-    """(count,) int32: which connected part each of `count` things is in; `pairs` (k, 2) connect.
+    """(count,) int32: the connected part of each of `count` nodes; `pairs` (k, 2) connect them.
 
-    Parts are numbered in the order of their first things.
+    Parts are numbered in the order of their first nodes.
     """
     leads = _native.joined(count, np.ascontiguousarray(pairs, np.int64).reshape(-1, 2))
     return np.unique(leads, return_inverse=True)[1].reshape(-1).astype(np.int32)

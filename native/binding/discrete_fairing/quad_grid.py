@@ -10,7 +10,7 @@ import numpy as np
 from .near_hole import MeshPart, NearHole, angles_between
 from .rounds import Filling, Wanted
 
-# Sums of four angles that differ by less are one: among such corners the sides decide.
+# Sums of four angles that differ by less are equal: the sides then decide between the corners.
 _SAME_ANGLE = 1e-6
 
 # Degrees. A grid with an angle out of these is no better than triangles: a quad that far from a
@@ -19,12 +19,11 @@ _LEAST_ANGLE, _MOST_ANGLE = 15.0, 165.0
 
 
 def four_corners(mesh: MeshPart, loop: np.ndarray) -> tuple[int, int]:
-    """Where in a loop of 2 (a + b) vertices a grid has its first corner, and a, the number of edges
-    from there to the second.
+    """The position of a grid's first corner in a loop of 2 (a + b) vertices, and a, the number of edges
+    from there to the second corner.
 
-    The four corners whose angles in the hole are smallest together: to have right angles there and
-    straight ones elsewhere, in least squares, is to minimize their sum. Of equal ones those with the
-    sides most alike.
+    The four corners have the smallest sum of angles in the hole. This is the least-squares fit of right
+    angles at the corners and straight angles elsewhere. Among equal sums the most similar sides win.
     """
     n, half = len(loop), len(loop) // 2
     angle = _hole_angles(mesh, loop)
@@ -36,7 +35,7 @@ def four_corners(mesh: MeshPart, loop: np.ndarray) -> tuple[int, int]:
 
 
 def _hole_angles(mesh: MeshPart, loop: np.ndarray) -> np.ndarray:
-    """(n,) at each vertex: what the faces there leave of a full turn."""
+    """(n,) the angle of the hole at each vertex: a full turn less the angles of the faces there."""
     faces = mesh.touching(loop)
     corners = mesh.corners_at(faces)
     sizes = mesh.offsets[faces + 1] - mesh.offsets[faces]
@@ -51,7 +50,7 @@ def _hole_angles(mesh: MeshPart, loop: np.ndarray) -> np.ndarray:
 
 
 def grid_of(loop: np.ndarray, points: np.ndarray, start: int, a: int, first: int) -> Any:
-    """New vertices and quads between a loop (2 (a + b),) of ids in `points`: bilinearly blended from its
+    """New vertices and quads inside a loop (2 (a + b),) of ids in `points`, blended bilinearly from its
     sides [Coons 1967]. New ids begin with `first`.
     """
     b = len(loop) // 2 - a
@@ -74,8 +73,8 @@ def grid_of(loop: np.ndarray, points: np.ndarray, start: int, a: int, first: int
 def quad_filling(
     mesh: MeshPart, hole: list[list[int]], wanted: Wanted, watchers: dict[str, Any]
 ) -> Filling | str:
-    """A faired grid over the hole, whose rim runs as a face that fills it; or why there is none, as the
-    end of a sentence.
+    """A faired grid over the hole, whose rim runs in the direction of a face that fills it. If there is
+    none, the reason as the end of a sentence.
     """
     if len(hole) > 1:
         return "it has islands"
@@ -111,7 +110,7 @@ def _joins_again(mesh: MeshPart, loop: np.ndarray, quads: np.ndarray) -> bool:
 
 
 def _angles(corner: np.ndarray) -> tuple[float, float]:
-    """The least and the largest of quads (q, 4, 3), in degrees; those that turn in count as such."""
+    """The least and the largest angle of quads (q, 4, 3), in degrees; reflex angles count as such."""
     after, before = np.roll(corner, -1, axis=1) - corner, np.roll(corner, 1, axis=1) - corner
     found = np.degrees(angles_between(after, before)).ravel()
     normal = np.cross(corner[:, 2] - corner[:, 0], corner[:, 3] - corner[:, 1])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What fills holes, faired in rounds: the triangles of each fit the shape that the one before has made."""
+"""Fairs fillings in rounds: the triangles of each round fit the shape of the previous one."""
 
 from __future__ import annotations
 
@@ -13,29 +13,28 @@ from . import _native
 from .near_hole import Made, MeshPart, NearHole, angles_between
 from .watching import SeveralRuns
 
-# A filling is remeshed where fairing has made its area so many times as large: up to there its edges
-# are within a tenth of the length wanted, and to fair it twice only costs as much again.
+# A filling is remeshed if fairing has enlarged its area by this factor. Below it the edges are within a
+# tenth of the wanted length, and a second round only doubles the cost.
 _GROWN = 1.2
 
-# The flat filling of half a sphere has half the sphere's area: faired once, it gets new triangles of
-# the density wanted, and is faired again. Where the flat filling folds at a ragged rim, the steps of
-# an energy end early, in triangles that are stretched too far; on new ones they go on. Of 20 such
-# fillings of a torus and of machine parts 5 unfold in the second round, 3 in the third, none later. A
-# round that mends nothing is the last: of 39 holes in a noisy scan 27 fold, with five rounds or two.
+# The flat filling of half a sphere has half the sphere's area: after fairing it gets new triangles of
+# the wanted density and is faired again. If the flat filling folds at a ragged rim, the steps of an
+# energy end early because triangles are stretched too far; new triangles let them continue. Of 20 such
+# fillings on a torus and on machine parts 5 unfold in the second round, 3 in the third, none later. A
+# round that mends nothing is the last: in a noisy scan 27 of 39 holes fold, after five rounds or two.
 _MOST_ROUNDS = 5
 
-# Nine tenths of a sphere have 20 times the area of its flat filling: steps that make more have gone
-# astray.
+# Nine tenths of a sphere have 20 times the area of the flat filling: steps that exceed it diverge.
 _MOST_GROWN = 20.0
 
-# Degrees: a triangle with a smaller angle is a sliver. New triangles on the faired shape have fewer; a
-# rim that forces some has as many in each round.
+# Degrees: a triangle with a smaller angle is a sliver. New triangles on the faired shape have fewer
+# slivers, unless the rim forces them.
 SLIVER = 15.0
 
 
 @dataclass(frozen=True, slots=True)
 class Wanted:
-    """How holes shall be filled: as the arguments of fill_holes() have it."""
+    """The settings of fill_holes()."""
 
     energy: str
     joint: str
@@ -44,13 +43,13 @@ class Wanted:
 
     @property
     def triangles(self) -> tuple[float, bool]:
-        """Their density, and whether they bend as the faces around do."""
+        """The density of new triangles, and whether remeshing follows the normals of the faces around."""
         return self.density, self.joint != "position"
 
 
 @dataclass(frozen=True, slots=True)
 class Filling:
-    """Of one hole: its own vertices (k, 3), whose ids begin with `first`; faces (t, 3 or 4) of ids."""
+    """The filling of one hole: new vertices (k, 3), with ids from `first` on; faces (t, 3 or 4) of ids."""
 
     own: np.ndarray
     faces: np.ndarray
@@ -59,7 +58,7 @@ class Filling:
 
 
 def near_holes(mesh: MeshPart, found: Sequence[tuple[np.ndarray, np.ndarray]]) -> list[NearHole]:
-    """What fills all holes: own vertices and triangles of each, whose ids follow on one another."""
+    """The fillings of all holes, from the new vertices and triangles of each; ids are consecutive."""
     first, nears = len(mesh.points), []
     for own, triangles in found:
         nears.append(NearHole(mesh, own, triangles, first))
@@ -75,15 +74,15 @@ def faired_in_rounds(
     watched: SeveralRuns,
     rows: list[int],
 ) -> dict[int, Filling]:
-    """The best that each of the holes `rows` got. `nears`: of all holes, as `filler` has them."""
+    """The best filling of each of the holes `rows`. `nears` has all holes, in the order of `filler`."""
     best: dict[int, Filling] = {}
     last: dict[int, Filling] = {}
     ranks: dict[int, _Rank] = {}
-    flat: dict[int, float] = {}  # area of each before it was faired
+    flat: dict[int, float] = {}  # area of each filling before fairing
     for turn in range(_MOST_ROUNDS):
         shares = 1.0 - 0.9 * np.linspace(0.5**turn, 0.5 ** (turn + 1), len(rows) + 1)
         left, onward = [], [near.own for near in nears]
-        fair = []  # those of `left` whose steps have come to their end
+        fair = []  # rows of `left` whose steps have converged
         for at, row in enumerate(rows):
             near = nears[row]
             run = watched.run(*shares[at : at + 2].tolist())
@@ -113,8 +112,8 @@ def faired_in_rounds(
 
 
 def _apart(last: dict[int, Filling], best: dict[int, Filling], count: int) -> dict[int, Filling]:
-    """The best of each hole; the last of one that would have an edge between vertices of the mesh, which
-    has `count`, that another has: those of the last round have none.
+    """The best filling of each hole. If two fillings share an edge between vertices of the mesh (ids below
+    `count`), the second one is replaced by that of the last round, where no fillings share edges.
     """
     chosen = dict(last)
     edges = RimEdges(count, {row: filling.faces for row, filling in last.items()})
@@ -130,14 +129,14 @@ _FLAWLESS: _Rank = (0, False, False, 0)
 
 
 def _is_mendable(made: Made, rank: _Rank) -> bool:
-    """Whether new triangles may be better. Where all is found and only the rim folds, which stays, they fold
-    there again (of 13 such holes in a noisy scan none had fewer folds, six had more)."""
+    """Whether new triangles may be better. If the steps have converged and only the fixed rim folds, they
+    fold there again (of 13 such holes in a noisy scan none had fewer folds, six had more)."""
     only_the_rim = made.converged and made.folds > 0 and not made.folds_inside
     return rank > _FLAWLESS and not only_the_rim
 
 
 def _rank(made: Made, corners: np.ndarray, wanted: Wanted) -> _Rank:
-    """The less the better; of triangles with these `corners` (t, 3, 3)."""
+    """The rank of a filling with these triangles (t, 3, 3); a smaller rank is better."""
     after, before = np.roll(corners, -1, axis=1) - corners, np.roll(corners, 1, axis=1) - corners
     slivers = (angles_between(after, before).min(axis=1) < np.radians(SLIVER)).sum()
     return made.folds, made.energy != wanted.energy, not made.converged, int(slivers)
@@ -150,8 +149,8 @@ def _may_go_on(own: np.ndarray, wanted: Wanted) -> bool:
 def without_folds(
     mesh: MeshPart, fillings: dict[int, Filling], bare: dict[int, tuple[np.ndarray, np.ndarray]]
 ) -> dict[int, Filling]:
-    """`fillings`, and in the place of some that fold the `bare` triangles between the vertices of the rim,
-    where these do not: only what any such triangles would have is left to fold.
+    """The `fillings`; one that folds is replaced by the `bare` triangles between the rim's vertices if
+    these have no folds.
     """
     chosen = dict(fillings)
     edges = RimEdges(len(mesh.points), {row: filling.faces for row, filling in fillings.items()})
@@ -164,7 +163,7 @@ def without_folds(
 
 
 def numbered_on(fillings: Sequence[Filling], count: int) -> list[Filling]:
-    """The same, whose own vertices follow on one another from `count` on."""
+    """The same fillings with new vertices numbered consecutively from `count`."""
     fresh, found = count, []
     for f in fillings:
         faces = np.where(f.faces < count, f.faces, f.faces - f.first + fresh)
@@ -174,9 +173,7 @@ def numbered_on(fillings: Sequence[Filling], count: int) -> list[Filling]:
 
 
 class RimEdges:
-    """Edges between two vertices of the mesh, which has `count`, that fillings have: faces of each by its
-    row.
-    """
+    """The fillings' edges between two vertices of the mesh (ids below `count`), by filling."""
 
     def __init__(self, count: int, faces: Mapping[int, np.ndarray]) -> None:
         self._count = count
@@ -186,7 +183,7 @@ class RimEdges:
             self.put(row, its)
 
     def put(self, row: int, faces: np.ndarray) -> None:
-        """The filling `row` has these `faces` from now on."""
+        """Replaces the faces of the filling `row`."""
         self._uses.subtract(self._of.get(row, ()))
         self._of[row] = self._keys(faces)
         self._uses.update(self._of[row])

@@ -75,7 +75,7 @@ class Solver:
 
     @property
     def bytes(self) -> int:
-        """The memory of the long arrays and factorizations that are kept from call to call."""
+        """Bytes of the long arrays and factorizations that are kept from call to call."""
         return self._native.bytes
 
     @property
@@ -93,7 +93,7 @@ class Solver:
         progress: Progress | None = None,
         monitor: _native.Monitor | None = None,
     ) -> Result:
-        """The surface of these positions (n, 3) of the control vertices; None: those given last.
+        """The surface through control vertices at these positions (n, 3); None: the last positions.
 
         Charts, stencils, the curves' parameters and split polygons stay those of the vertices at
         construction, or of the last rebase. The first call's surface is that of fair(), to the last
@@ -112,7 +112,7 @@ class Solver:
             return Result(written_report(self._control.cut(found)))
 
     def rebase(self, vertices: ArrayLike) -> None:
-        """Take charts, stencils and curves from these positions (n, 3) from now on.
+        """Recompute charts, stencils and curves from these positions (n, 3).
 
         Creases chosen by an angle, and the splits of polygons, stay. The next solve starts afresh.
         Raises FairingError as fair() does for bad geometry, and then changes nothing.
@@ -134,7 +134,7 @@ class Solver:
     @contextmanager
     def _alone(self) -> Iterator[None]:
         if not self._busy.acquire(blocking=False):
-            self._native.require_own_process()  # a fork keeps the lock of whoever was at work
+            self._native.require_own_process()  # a forked process inherits a lock that nobody releases
             raise fairing_error(
                 "BUSY",
                 "The solver is running another call.",

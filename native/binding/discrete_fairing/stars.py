@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Means over the neighbours of all vertices at once, as filters of whole meshes need them."""
+"""Means over the neighbours of all vertices, for filters of whole meshes."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ import numpy as np
 
 from .arrays import following
 
-_CORNER = 2 * np.sin(np.pi / 8)  # two sides that turn by 45° are so far apart, over their length
+_CORNER = 2 * np.sin(np.pi / 8)  # distance of two unit vectors that turn by 45°
 
 
 class Stars:
-    """The neighbours of each vertex: all of them; of a vertex on a border those along it.
+    """The neighbours of each vertex; at a border only those along it.
 
-    Arrays are in an order of their own, vertices of many neighbours first: the k-th neighbours of all that
-    have so many are then one array. That is eleven times as fast as sums over a list.
+    Arrays are sorted by valence, largest first, so that the k-th neighbours of all vertices that have k
+    form one array. This is eleven times as fast as sums over a list.
     """
 
     def __init__(self, count: int, corners: np.ndarray, offsets: np.ndarray) -> None:
@@ -40,7 +40,7 @@ class Stars:
         ends = self._rank[end[by_row]]
         begins = np.cumsum(self.counts) - self.counts
         having = np.searchsorted(-self.counts, -np.arange(self.counts.max(initial=0)), "left")
-        # the k-th neighbour of the first so many vertices
+        # the k-th neighbours of the first vertices, those with at least k neighbours
         self._ranks = [ends[begins[:some] + k] for k, some in enumerate(having.tolist())]
 
     def ordered(self, values: np.ndarray) -> np.ndarray:
@@ -50,7 +50,8 @@ class Stars:
         return values[self._rank]
 
     def mean(self, values: np.ndarray) -> np.ndarray:
-        """Of the neighbours; (n,) or (n, k), in the precision of `values`. Its own where a vertex has none."""
+        """Means of `values` (n,) or (n, k) over the neighbours, in their precision; a vertex without
+        neighbours keeps its own value."""
         found = values.copy()
         if self._ranks:
             found[: len(self._ranks[0])] = values.take(self._ranks[0], axis=0)
@@ -61,16 +62,16 @@ class Stars:
         return found
 
     def off_mean(self, values: np.ndarray) -> np.ndarray:
-        """What values are off the mean of their neighbours."""
+        """Differences of `values` from the means over the neighbours."""
         return values - self.mean(values)
 
     def corners(self, points: np.ndarray) -> np.ndarray:
-        """(n,) bool: where borders meet, or one turns by more than a right angle's half."""
+        """(n,) bool: vertices where borders meet, or where a border turns by more than 45 degrees."""
         found = self.on_border & (self.counts != 2)
         two = np.flatnonzero(self.on_border & (self.counts == 2))
         if len(two):
             ends = [points[ranks[two]] - points[two] for ranks in self._ranks[:2]]
             lengths = sum(np.linalg.norm(end, axis=1) for end in ends)
-            # of two sides of equal length
+            # the turn of two sides of equal length
             found[two] = np.linalg.norm(ends[0] + ends[1], axis=1) > _CORNER * lengths / 2
         return found

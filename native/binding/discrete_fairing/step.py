@@ -17,7 +17,7 @@ from .cad_files import UNITS, Part, cad_parts, require_unit
 from .patches import SplinePatches
 from .whole_files import file_name, whole_file
 
-# How a unit is written.
+# Units as entities of the file.
 _WRITTEN = {"m": "$", "cm": ".CENTI.", "mm": ".MILLI.", "in": "INCH", "ft": "FOOT"}
 
 
@@ -64,8 +64,8 @@ def write_step(
 
 
 def step_text(text: str) -> str:
-    """A string as STEP writes it, in ASCII. Apostrophes too are written by their number: readers
-    take a doubled one before a bracket or a comma for the end.
+    """A string of a STEP file, in ASCII. Apostrophes are encoded too, since some programs take a doubled
+    one before a bracket or a comma for the end.
     """
     out = []
     for character in text:
@@ -99,7 +99,7 @@ def _flag(value: bool) -> str:
 
 
 class _Writer:
-    """Writes entities one after another; nothing but their numbers is kept."""
+    """Writes entities one after another, and keeps only their numbers."""
 
     def __init__(self, file: IO[str], unit: str):
         self._file = file
@@ -179,7 +179,7 @@ class _Writer:
         )
 
     def _context(self, patches: SplinePatches) -> int:
-        # edges and patches agree to rounding; readers take this for their own tolerance
+        # edges and patches agree to rounding; programs that read the file use this as their tolerance
         accuracy = min(max(1e-9 * patches.size, 1e-300), 1e300)
         uncertainty = self._add(
             f"UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE({step_real(accuracy)}),#{self._length},"
@@ -272,11 +272,13 @@ class _Writer:
 
 
 def _outward(patches: SplinePatches) -> np.ndarray:
-    """(S,) bool: False for closed shells that look inward; a solid's faces look outward."""
+    """(S,) bool: false for closed shells oriented inwards; a solid's faces must be oriented outwards."""
     volume = np.zeros(len(patches.shell_closed))
     extent = np.abs(patches.vertices - patches.vertices[:1]).max(initial=0) or 1.0
     for p in range(len(patches)):
-        net = (patches.net(p) - patches.vertices[0]) / extent  # no power of it overflows
+        net = (
+            patches.net(p) - patches.vertices[0]
+        ) / extent  # scaled, so that cubes do not overflow
         a, b, c, d = net[:-1, :-1], net[1:, :-1], net[1:, 1:], net[:-1, 1:]
         cells = np.cross(a, b) * c + np.cross(a, c) * d
         volume[patches.patch_shell[p]] += cells.sum()

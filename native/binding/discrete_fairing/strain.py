@@ -14,8 +14,8 @@ from .halves import Control
 from .options import AllSettings, native_options
 from .watching import Progress, check_watchers
 
-# What a scatter of one makes of strain away from curves, root mean square: 1.31 to 1.40 on grids of
-# quads and of triangles with 9 x 9 and 21 x 21 vertices. And a normal deviation over its median size.
+# Root mean square strain, away from curves, caused by unit scatter: 1.31 to 1.40 on grids of quads and of
+# triangles with 9 x 9 and 21 x 21 vertices; times the standard deviation over the median of its size.
 OF_SCATTER, OF_MEDIAN = 1.35, 1.4826
 
 
@@ -114,12 +114,12 @@ def strain(
 
 
 def strain_of(control: Control, monitor: _native.Monitor) -> Strain:
-    """The same for fair(), of the plate that total curvature starts from, too."""
+    """strain() for fair(); under total curvature the strain of the thin plate it starts from."""
     return _measured(control, native_options(_of_plate(control.settings)), monitor, None)
 
 
 def require_strain(settings: dict[str, Any]) -> None:
-    """Raises what strain_of() would for these settings."""
+    """Raises the errors that strain_of() raises for these settings."""
     _native.require_strain(native_options(_of_plate(settings)))
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Who watches a run, as callers pass them: checked before it begins."""
+"""Progress callbacks and monitors: checked before a run, and shared by several runs."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ Progress = Callable[[float, str], bool | None]
 
 
 def check_watchers(progress: Progress | None, monitor: _native.Monitor | None) -> None:
-    """Raises FairingError BAD_OPTION for what can neither be called nor watch; None is nobody."""
+    """Raises FairingError BAD_OPTION unless `progress` is callable and `monitor` is one, or None."""
     if progress is not None and not callable(progress):
         raise fairing_error(
             "BAD_OPTION",
@@ -26,8 +26,8 @@ def check_watchers(progress: Progress | None, monitor: _native.Monitor | None) -
 
 
 class SeveralRuns:
-    """Who watches a call of several runs hears of them as of one: progress never goes back, and
-    nothing is done before the last run is.
+    """Combines the progress of several runs into one: it never decreases, and is complete only after the
+    last run.
     """
 
     def __init__(self, progress: Progress | None, monitor: _native.Monitor | None, threads: int):
@@ -36,7 +36,7 @@ class SeveralRuns:
         self._monitor = monitor if monitor is not None else _native.Monitor()
 
     def run(self, begin: float, end: float) -> dict[str, Any]:
-        """Watchers and threads of the run that is [begin, end] of the whole."""
+        """The watching arguments and threads for a run that covers [begin, end] of the progress."""
 
         def told(fraction: float, phase: str) -> bool | None:
             whole = begin + (end - begin) * fraction

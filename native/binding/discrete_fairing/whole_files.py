@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Files that are whole or not there: the one place through which everything here writes files.
+"""Writes files that are complete or absent; all writing in the package and the add-on goes through here.
 
-What is written lies in a folder of its own beside the file, which nobody else may enter, so that no
-planted link can lead it astray. At the end it takes the file's place.
+Data are written to a private folder beside the file, so that no planted link can redirect them. At the
+end the new file replaces the old one.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from .errors import fairing_error
 
 
 def file_name(path: object) -> str:
-    """`path` as text; raises FairingError BAD_OPTION for what names no file."""
+    """`path` as text; raises FairingError BAD_OPTION if it names no file."""
     try:
         name = os.fsdecode(path)  # type: ignore[arg-type]
         os.fsencode(name)
@@ -35,12 +35,11 @@ def file_name(path: object) -> str:
 def whole_file(
     path: str | os.PathLike, suffix: str | None = None, stem: str | None = None
 ) -> Iterator[Path]:
-    """A name to write to inside the `with`, alone in its folder: the file's own, unless another
+    """A path to write to inside the `with`, in a private folder. Its name is that of the file, unless
     `suffix` or `stem` is given.
 
-    What is written takes the place of the file at the end, with the permissions of the file that was
-    there; a link stays one. After an error nothing has changed, and an OSError names `path`. What is
-    no file, such as a pipe, gets the bytes at the end.
+    At the end the new file replaces the old one and keeps its permissions; a link stays a link. After an
+    error nothing has changed, and an OSError names `path`. Pipes and devices get the bytes at the end.
     """
     name = file_name(path)
     try:
@@ -67,7 +66,7 @@ def whole_file(
 
 
 def real_place(path: str | os.PathLike) -> Path:
-    """Where a name leads; raises OSError where links lead in a circle."""
+    """The file that a path leads to; raises OSError for circular links."""
     target = Path(os.path.realpath(path))
     if target.is_symlink():
         raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
@@ -75,7 +74,7 @@ def real_place(path: str | os.PathLike) -> Path:
 
 
 def put(place: Path, target: Path) -> None:
-    """Moves a complete file to the place of another, whose permissions it takes over."""
+    """Replaces the file `target` by a complete file, which takes over its permissions."""
     mode = _mode(target)
     mask = os.umask(0)
     os.umask(mask)
@@ -91,6 +90,6 @@ def _mode(target: Path) -> int | None:
 
 
 def _copy(place: Path, target: Path) -> None:
-    """Into what is no file: a pipe, a device."""
+    """Copies the bytes into a pipe or a device."""
     with place.open("rb") as source, target.open("wb") as out:
         shutil.copyfileobj(source, out)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A scan as it comes, made into a closed surface: one step a file."""
+"""The steps by which clean() makes a closed surface of a raw scan."""
 
 from .holes import hole_width, holes_to_fill
 from .run import Act, Cleaned, clean

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which holes are closed, and what is cut back around those that cannot be."""
+"""Chooses and fills holes, and removes faces around those that cannot be filled."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ from .state import State, diagonals, numbered_parts, of_parts
 from .topology import cut, vertices_split
 
 BLOCK = 64  # rows of distances at a time: 25 MB for the longest rim
-CUTS = 3  # times that the faces around a bad rim are taken away, a ring at a time
+CUTS = 3  # rings of faces that may be removed around a bad rim, one ring a trial
 
 
 def hole_width(rim: ArrayLike) -> float:
-    """The largest distance between two of the points (k, 3) of a hole's `rim`: its diameter, whichever way
-    it is turned. `largest` of clean() and holes_to_fill() is this length.
+    """The diameter of a hole: the largest distance between two points (k, 3) of its `rim`. `largest` of
+    clean() and holes_to_fill() limits this length.
     """
     points = np.asarray(rim, float).reshape(-1, 3)
     if not len(points):
@@ -31,7 +31,7 @@ def hole_width(rim: ArrayLike) -> float:
     points = points - (points.min(axis=0) + points.max(axis=0)) / 2
     radii = np.linalg.norm(points, axis=1)
     width = float(np.linalg.norm(points - points[np.argmax(radii)], axis=1).max())
-    # no pair with another point is as far apart
+    # pairs with other points are nearer to each other
     ends = points[radii >= width - radii.max()]
     for first in range(0, len(ends), BLOCK):
         away = ends[first : first + BLOCK, None] - ends
@@ -45,26 +45,26 @@ def holes_to_fill(
     holes: Sequence[Any] | None = None,
     largest: float = 0.0,
 ) -> list[list[np.ndarray]]:
-    """Those of `holes`, as fill_holes() takes them, that are no wider than `largest`, a length as
-    hole_width() has it. 0: those that are not the border of a sheet, whose flat area within the rim is less
-    than half of the area of their part. `holes` None: all, as with_islands() has them. What clean() fills.
-    Raises FairingError BAD_OPTION for a `largest` below 0, and what with_islands() raises.
+    """The holes that clean() fills, for fill_holes(): those whose hole_width() is at most `largest`. With
+    `largest` 0: holes whose flat area within the rim is less than half of the area of their part, so that
+    borders of sheets stay open. `holes` None: all holes of with_islands().
+    Raises FairingError BAD_OPTION for a `largest` below 0, and the errors of with_islands().
     """
     most, points = distance("largest", largest), vertex_array(vertices)
     asked = asked_holes(with_islands(vertices, faces) if holes is None else holes)
     for hole in asked:
         if len(hole) > 1:
-            hole.sort(key=lambda loop: -hole_width(points[loop]))  # the rim first
+            hole.sort(key=lambda loop: -hole_width(points[loop]))  # the rim becomes the first loop
     narrow, wide = wanted_holes(State.of(points, *face_arrays(faces)), asked, most)
     chosen = {id(hole) for hole in narrow + wide}
     return [list(map(np.array, hole)) for hole in asked if id(hole) in chosen]
 
 
 def wanted_holes(state: State, holes: list[Any], largest: float) -> tuple[list[Any], list[Any]]:
-    """Of holes, each a rim and those of islands in it, the ones to be closed: those across which the
-    surface goes on, and those wider than half of the part that they are in, where nobody knows how.
-    `largest`: the width of the widest; 0: what is flat within the rim has less than half of the area of
-    the part: the border of a sheet has all of it, that of half a ball just half.
+    """The holes to close, and those left open because they are wider than half of their part, so that the
+    surface across them is unknown. A hole is a rim and the rims of its islands. `largest`: the largest
+    width to close; 0: holes whose flat area within the rim is less than half of the area of their part
+    (the border of a sheet has all of it, the border of half a ball just half).
     """
     if largest > 0.0:
         holes = [hole for hole in holes if hole_width(state.points[hole[0]]) <= largest]
@@ -87,7 +87,7 @@ def wanted_holes(state: State, holes: list[Any], largest: float) -> tuple[list[A
 
 
 def _flat_area(points: np.ndarray) -> float:
-    """Twice the area that a closed polygon has, seen from where it is largest."""
+    """Twice the area of a closed polygon, projected along the direction in which it is largest."""
     centred = points - points.mean(axis=0)
     return float(np.linalg.norm(np.cross(centred, np.roll(centred, -1, axis=0)).sum(axis=0)))
 
@@ -95,8 +95,8 @@ def _flat_area(points: np.ndarray) -> float:
 def closed(
     state: State, largest: float, settings: dict[str, Any], watched: SeveralRuns
 ) -> tuple[State, int, int, list[Any]]:
-    """With its holes filled; how many holes and new faces, and what could not be filled (SkippedHole).
-    Where that is so, the faces around are taken away, and what is left is tried again.
+    """The state with its holes filled, the numbers of holes and of new faces, and the skipped holes
+    (SkippedHole). Around a skipped hole the faces are removed and the larger hole is tried again.
     """
     holes = faces = 0
     skipped: list[Any] = []
@@ -133,7 +133,7 @@ def closed(
 
 
 def _cut_back(state: State, vertices: np.ndarray) -> State:
-    """Without the faces at these `vertices`, (n,) bool, and what then hangs by nothing."""
+    """The state without the faces at these `vertices`, (n,) bool, and without parts that this detaches."""
     gone = np.logical_or.reduceat(vertices[state.corners], state.offsets[:-1])
     state = state.without(gone)
     uses = state.sides.uses[state.sides.edge]

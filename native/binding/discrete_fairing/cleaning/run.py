@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A scan as it comes, made into a closed surface."""
+"""clean(): makes a closed surface of a raw scan."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ from .state import State, all_pairs, diagonals, numbered_parts
 
 @dataclass(frozen=True, slots=True)
 class Act:
-    """What one step of clean() has done.
+    """The report of one step of clean().
 
     step: str
-        Its name, that of the argument of clean() which turns it off.
+        The name of the step, which is the argument of clean() that turns it off.
     count: int
-        How many elements it concerned.
+        The number of elements concerned.
     text: str
-        Both in words, as "3 spikes flattened".
+        The result in words, such as "3 spikes flattened".
     """
 
     step: str
@@ -257,7 +257,7 @@ def _dropped(one: str, several: str) -> tuple[str, str]:
 
 
 def _passes(noise: int | str) -> int | None:
-    """Of denoise(); None: not at all."""
+    """The argument `passes` of denoise(); None: no denoising."""
     if isinstance(noise, str):
         if noise != "auto":
             raise fairing_error(
@@ -300,12 +300,12 @@ def _without_islands(state: State, share: float) -> tuple[State, int]:
 
 
 class _Run:
-    """The state from step to step, and what was done."""
+    """The current state of the mesh, and the reports of the steps so far."""
 
     def __init__(self, state: State, watched: SeveralRuns) -> None:
         self.state, self._watched = state, watched
         self.done: list[Act] = []
-        self.count = 0  # of the last step
+        self.count = 0  # elements that the last step concerned
         self._at = 0.0
         self._loose_told = False
 
@@ -317,7 +317,7 @@ class _Run:
     def watched(
         self, call: Callable[..., tuple[State, int]]
     ) -> Callable[[State], tuple[State, int]]:
-        """A step that also takes the watchers of its own time."""
+        """A step that is called with the watchers for its share of the progress."""
         return lambda state: call(state, self.watchers)
 
     def note(self, step: str, count: int, one: str, several: str) -> None:
@@ -342,7 +342,7 @@ class _Run:
         self.note(name, count, one, several)
 
     def mend(self, wanted: bool) -> None:
-        """What no step could read is refused whether it is wanted or not."""
+        """Mends if `wanted`; meshes that no step could read are refused in any case."""
         mended, acts = topology.mended(self.state, self.watchers)
         if not wanted and acts:
             first = check(self.state.points, (self.state.corners, self.state.offsets))[0]
@@ -358,7 +358,7 @@ class _Run:
             self.note("mend", count, *_CODES[code])
 
     def held(self, fixed: np.ndarray) -> np.ndarray:
-        """(n,) bool: of the vertices now, which were `fixed` in the input."""
+        """(n,) bool: present vertices that come from `fixed` vertices of the input."""
         origin = self.state.vertex_origin
         return fixed[origin] & (origin >= 0)
 
@@ -399,14 +399,14 @@ class _Run:
 
 
 def is_watertight(state: State) -> bool:
-    """Whether every edge has two faces that run it in opposite directions."""
+    """Whether every edge has two faces, which run along it in opposite directions."""
     sides = state.sides
     a, b = sides.pairs.T
     return bool((sides.uses == 2).all() and (sides.forward[a] != sides.forward[b]).all())
 
 
 def _defects(state: State) -> list[Defect]:
-    """What check() finds; points at one place only where a border is: elsewhere parts just touch."""
+    """The defects that check() finds. Coincident points count only at borders; elsewhere parts touch."""
     found = check(state.points, (state.corners, state.offsets))
     sides = state.sides
     border = np.zeros(len(state.points), bool)
@@ -420,7 +420,7 @@ def _defects(state: State) -> list[Defect]:
 
 
 def open_holes(state: State, skipped: Sequence[Exception]) -> list[Defect]:
-    """The border edges, as one defect; `skipped`: why holes were left."""
+    """The border edges as one defect; `skipped`: the errors of holes that were left open."""
     sides = state.sides
     rows = np.flatnonzero(sides.at_border)
     if not len(rows):
@@ -436,7 +436,7 @@ def open_holes(state: State, skipped: Sequence[Exception]) -> list[Defect]:
 
 
 def crossing(state: State, watchers: tuple[Any, Any]) -> list[Defect]:
-    """The faces that pass through others, as one defect."""
+    """The faces that cross other faces, as one defect."""
     rows = state.triangle_corners
     found = _native._crossings(state.points, state.triangles().astype(np.int32), 0, *watchers)
     if not len(found):

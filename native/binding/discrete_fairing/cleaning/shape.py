@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Steps that move vertices: spikes and faces that are folded over."""
+"""Steps that move vertices: they flatten spikes and folded faces."""
 
 from __future__ import annotations
 
@@ -7,16 +7,18 @@ import numpy as np
 
 from .state import State
 
-ROUNDS = 10  # of vertices moved to the middle of their neighbours; a spike of several vertices takes some
+ROUNDS = (
+    10  # times that vertices move to their neighbours' mean; spikes of several vertices need more
+)
 
 
 def flattened(
     state: State, fixed: np.ndarray, spikes: bool, folds: bool, filled: bool = False
 ) -> tuple[State, int, int]:
-    """With vertices moved to the middle of their neighbours: tips of spikes, where the faces around
-    have less than half of the angle around a point of a plane, and corners of faces that look away from
-    all that is around. Those that are `fixed`, (n,) bool, stay. Also how many spikes and faces there
-    were. `filled`: it is done again, at the rims of holes that have been filled.
+    """The state with spikes and folded faces flattened, and the numbers of both. Tips of spikes, where the
+    angles of the faces sum to less than half a turn, and corners of faces whose normals are opposite to
+    all faces around move to the mean of their neighbours. Vertices `fixed`, (n,) bool, stay. `filled`:
+    only the rims of filled holes are examined again.
     """
     rim = np.zeros(len(state.points), bool)
     lone = state.sides.uses[state.sides.edge] != 2
@@ -57,9 +59,7 @@ def flattened(
 
 
 class _Fans:
-    """Angles and normals around vertices, of some faces; of the vertices that have others too nothing
-    is told.
-    """
+    """Angles and normals around vertices, from a subset of faces; valid for vertices with no others."""
 
     def __init__(self, state: State, points: np.ndarray, faces: np.ndarray) -> None:
         sizes = state.offsets[faces + 1] - state.offsets[faces]
@@ -85,12 +85,12 @@ class _Fans:
             self._complete = np.bincount(self._corner, minlength=len(points)) == uses
 
     def sharp(self, free: np.ndarray) -> np.ndarray:
-        """(n,) which vertices are tips."""
+        """(n,) whether a vertex is a tip."""
         total = np.bincount(self._corner, self._angles, self._count)
         return (total > 0.0) & (total < np.pi) & self._complete & free
 
     def folded(self) -> np.ndarray:
-        """Ids of the faces that look away from the other faces at each of their corners."""
+        """Ids of the faces whose normals are opposite to those of the other faces at every corner."""
         rows = np.repeat(self._normals, self._sizes, axis=0)
         around = np.stack(
             [np.bincount(self._corner, rows[:, k], self._count) for k in range(3)], axis=1
@@ -116,7 +116,7 @@ def _around(state: State, vertices: np.ndarray) -> np.ndarray:
 
 
 def _in_the_middle(state: State, points: np.ndarray, bad: np.ndarray) -> np.ndarray:
-    """`points` with the `bad` ones in the middle of their neighbours: of those that are not bad, if any."""
+    """The `points`, with `bad` ones at the mean of their neighbours that are not bad, or of all."""
     begin, end = state.corners, state.corners[state.sides.next]
     begin, end = np.concatenate([begin, end]), np.concatenate([end, begin])
     at = np.flatnonzero(bad[begin])

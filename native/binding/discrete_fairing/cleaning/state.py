@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A mesh on its way through clean(), and where its elements come from."""
+"""The mesh between two steps of clean(), and the origin of its elements."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from ..patches import connected_parts
 
 @dataclass(frozen=True)
 class State:
-    """Steps return a new one; arrays are shared and never written to."""
+    """The mesh between two steps. Steps return a new State; arrays are shared and never written to."""
 
     points: np.ndarray  # (n, 3)
     corners: np.ndarray  # (c,) int64
@@ -38,7 +38,7 @@ class State:
         return np.repeat(np.arange(len(self.face_origin)), np.diff(self.offsets))
 
     def without(self, gone: np.ndarray) -> State:
-        """Without the faces that are `gone`, (m,) bool. Vertices stay."""
+        """The state without the faces `gone`, (m,) bool. Vertices stay."""
         sizes = np.diff(self.offsets)
         kept = np.repeat(~gone, sizes)
         return State(
@@ -51,7 +51,7 @@ class State:
         )
 
     def in_pieces(self, pieces: dict[int, list[list[tuple[int, int]]]]) -> State:
-        """With these faces (ids) in pieces, each of vertices and the corners that these come from."""
+        """The state with faces (ids) replaced by pieces: lists of (vertex, corner that it comes from)."""
         whole = np.ones(len(self.face_origin), bool)
         whole[list(pieces)] = False
         rest = self.without(~whole)
@@ -73,7 +73,7 @@ class State:
         )
 
     def turned(self, faces: np.ndarray) -> State:
-        """With these faces (ids) turned over; their first corners stay the first."""
+        """The state with these faces (ids) reversed; their first corners stay first."""
         at = np.arange(len(self.corners))
         chosen = np.zeros(len(self.face_origin), bool)
         chosen[faces] = True
@@ -88,7 +88,7 @@ class State:
         return State(**{name: arrays.get(name, getattr(self, name)) for name in names})
 
     def with_split(self, corners: np.ndarray, vertices: np.ndarray) -> State:
-        """With vertices added at the places of `vertices` (ids), and `corners` in the place of the old."""
+        """The state with new `corners`, and with copies of `vertices` (ids) added at the end."""
         return self.replaced(
             points=np.concatenate([self.points, self.points[vertices]]),
             corners=corners,
@@ -96,7 +96,7 @@ class State:
         )
 
     def extended(self, points: np.ndarray, corners: np.ndarray, offsets: np.ndarray) -> State:
-        """A filled mesh: all that was there first."""
+        """The state of a filled mesh, whose first elements are those of this state."""
 
         def longer(origin: np.ndarray, count: int) -> np.ndarray:
             return np.concatenate([origin, np.full(count - len(origin), -1)])
@@ -111,7 +111,7 @@ class State:
         )
 
     def compact(self) -> tuple[State, np.ndarray]:
-        """Without vertices that have no face; new ones come last. And (n,) the ids that vertices then have."""
+        """The state without vertices that have no face, new vertices last; and (n,) the new ids."""
         used = np.zeros(len(self.points), bool)
         used[self.corners] = True
         order = np.flatnonzero(used)
@@ -126,7 +126,7 @@ class State:
         return compact, number
 
     def face_vectors(self) -> np.ndarray:
-        """(m, 3) normals, twice as long as the areas."""
+        """(m, 3) normals, whose lengths are twice the areas."""
         sizes = np.diff(self.offsets)
         # from the first corner, so that rounding is that of the face's size
         if (sizes == 3).all():
@@ -137,12 +137,12 @@ class State:
         return np.add.reduceat(np.cross(points, points[self.sides.next]), self.offsets[:-1])
 
     def triangles(self) -> np.ndarray:
-        """(t, 3) ids: each face cut from its first corner."""
+        """(t, 3) vertex ids: each face as a fan from its first corner."""
         return self.corners[self.triangle_corners]
 
     @cached_property
     def triangle_corners(self) -> np.ndarray:
-        """(t, 3) the corners of those."""
+        """(t, 3) the corners of triangles()."""
         sizes = np.diff(self.offsets) - 2
         first = np.repeat(self.offsets[:-1], sizes)
         second = np.arange(len(first)) - np.repeat(np.cumsum(sizes) - sizes, sizes) + first + 1
@@ -150,7 +150,7 @@ class State:
 
 
 class Sides:
-    """Which faces meet at each edge. Side k runs from corner k to the next of its face."""
+    """The faces at each edge. Side k runs from corner k to the next corner of its face."""
 
     def __init__(self, state: State) -> None:
         count = len(state.corners)
@@ -163,14 +163,14 @@ class Sides:
         ranked = keys[self.order]
         first = np.ones(count, bool)
         first[1:] = ranked[1:] != ranked[:-1]
-        self.starts = np.flatnonzero(first)  # of each edge, in `order`
+        self.starts = np.flatnonzero(first)  # position of each edge in `order`
         self.uses = np.diff(np.append(self.starts, count))  # (e,) faces at each edge
         self.edge = np.empty(count, np.int64)  # (c,)
         self.edge[self.order] = np.cumsum(first) - 1
 
     @cached_property
     def at_border(self) -> np.ndarray:
-        """(c,) whether a side has no other face."""
+        """(c,) whether no other face is at a side."""
         return self.uses[self.edge] == 1
 
     @cached_property
@@ -181,7 +181,7 @@ class Sides:
 
     @cached_property
     def crowded(self) -> np.ndarray:
-        """Ids of edges of more than two faces."""
+        """Ids of edges with more than two faces."""
         return np.flatnonzero(self.uses > 2)
 
     def around(self, edge: int) -> np.ndarray:
@@ -190,8 +190,8 @@ class Sides:
 
 
 def numbered_parts(state: State, pairs: np.ndarray) -> tuple[np.ndarray, int]:
-    """(m,) the part of each face, from 0 on, where faces hang together by `pairs` (k, 2) of sides; and
-    how many parts there are.
+    """(m,) the part of each face, from 0 on, and the number of parts. The `pairs` (k, 2) of sides connect
+    faces.
     """
     faces = state.face_of[pairs]
     part = connected_parts(len(state.face_origin), faces)
@@ -199,7 +199,7 @@ def numbered_parts(state: State, pairs: np.ndarray) -> tuple[np.ndarray, int]:
 
 
 def all_pairs(state: State) -> np.ndarray:
-    """(k, 2) neighbouring sides at every edge, whatever the number of its faces."""
+    """(k, 2) pairs of successive sides at every edge, for any number of faces."""
     sides = state.sides
     same = sides.edge[sides.order[1:]] == sides.edge[sides.order[:-1]]
     at = np.flatnonzero(same)
@@ -207,12 +207,12 @@ def all_pairs(state: State) -> np.ndarray:
 
 
 def of_parts(part: np.ndarray, values: np.ndarray, count: int) -> np.ndarray:
-    """(count,) sums of `values` (m,)."""
+    """(count,) sums of `values` (m,) over each part."""
     return np.bincount(part, values, count)
 
 
 def diagonals(state: State, part: np.ndarray, count: int) -> np.ndarray:
-    """(count,) of the boxes around the parts."""
+    """(count,) diagonals of the bounding boxes of the parts."""
     of_corner = np.repeat(part, np.diff(state.offsets))
     order = np.argsort(of_corner, kind="stable")
     starts = np.searchsorted(of_corner[order], np.arange(count))

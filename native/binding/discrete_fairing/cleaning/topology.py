@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Steps that change which faces hang together: borders joined, fins, crowded edges, pinched vertices,
-faces turned over.
+"""Steps that change connectivity: they join borders, remove fins, split crowded edges and pinched
+vertices, and reverse faces.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from .state import State, numbered_parts, of_parts
 
 
 def mended(state: State, watchers: tuple[Any, Any]) -> tuple[State, dict[str, int]]:
-    """Without what the core mends; by code how many elements were concerned."""
+    """The state after the core's mending, and the number of elements concerned by code."""
     found = _native.mended(state.points, state.corners, state.offsets, *watchers)
     if found is None:
         return state, {}
@@ -33,8 +33,8 @@ def mended(state: State, watchers: tuple[Any, Any]) -> tuple[State, dict[str, in
 
 
 def borders_joined(state: State) -> tuple[State, int]:
-    """With border edges that lie on one another, end on end, made one; how many vertices went. Borders
-    that only touch in a point stay apart.
+    """The state with coincident border edges joined, and the number of vertices removed. Borders that
+    only touch in a point stay apart.
     """
     border = np.flatnonzero(state.sides.at_border)
     if not len(border):
@@ -59,8 +59,8 @@ def borders_joined(state: State) -> tuple[State, int]:
 
 
 def edges_cut(state: State, watchers: tuple[Any, Any]) -> tuple[State, int]:
-    """With border edges cut at the vertices that lie on them, or so near that only slivers would fit between;
-    how many vertices these are. Triangles become triangles.
+    """The state with border edges cut at vertices that lie on them, up to slivers; and the number of these
+    vertices. Triangles become triangles.
     """
     filler = _native.Filler(state.points, state.corners, state.offsets)
     loops = filler.find(*watchers)[0]
@@ -69,12 +69,12 @@ def edges_cut(state: State, watchers: tuple[Any, Any]) -> tuple[State, int]:
 
 
 def cut(state: State, cuts: Cuts) -> State:
-    """With these sides of faces cut at the vertices on them."""
+    """The state with these sides of faces cut at the vertices on them."""
     return state.in_pieces(pieces(state.corners, state.offsets, cuts)) if cuts else state
 
 
 def _places(points: np.ndarray) -> np.ndarray:
-    """(k,) a number for each place, of points (k, 3)."""
+    """(k,) numbers of points (k, 3); equal points have equal numbers."""
     order = np.lexsort(points.T)
     fresh = np.ones(len(points), bool)
     fresh[1:] = (points[order[1:]] != points[order[:-1]]).any(axis=1)
@@ -84,9 +84,9 @@ def _places(points: np.ndarray) -> np.ndarray:
 
 
 def without_fins(state: State) -> tuple[State, int]:
-    """Without the sheets that hang on a surface: where more than two faces meet at an edge, the part of
-    least area that ends in a border goes, then the next, until two faces are left there or no part ends.
-    Also how many faces went.
+    """The state without fins, sheets attached to a surface, and the number of faces removed. At an edge
+    with more than two faces the smallest part that ends in a border is removed, then the next, until two
+    faces are left or no part ends in a border.
     """
     sides = state.sides
     if not len(sides.crowded):
@@ -114,13 +114,13 @@ def without_fins(state: State) -> tuple[State, int]:
 
 
 def turned_alike(state: State, watchers: tuple[Any, Any]) -> tuple[State, int]:
-    """With faces that look another way than their neighbours turned over: the fewer of each part."""
+    """The state with consistently oriented parts: in each part the minority of faces is reversed."""
     faces = _native.to_flip(state.points, state.corners, state.offsets, *watchers)
     return (state.turned(faces), len(faces)) if len(faces) else (state, 0)
 
 
 def turned_out(state: State) -> tuple[State, int]:
-    """With closed parts that look inwards turned over, but for hollows: those that lie in another."""
+    """The state with inward closed parts reversed, except hollows, which lie inside another part."""
     part, volume, closed = closed_parts(state)
     wrong = closed & (volume < 0.0)
     if not wrong.any():
@@ -132,7 +132,7 @@ def turned_out(state: State) -> tuple[State, int]:
 
 
 def closed_parts(state: State) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """(m,) the part of each face, (p,) what the parts enclose, and whether they have no border."""
+    """(m,) the part of each face, (p,) the volumes of the parts, and (p,) whether they are closed."""
     part, count = numbered_parts(state, state.sides.pairs)
     closed = np.ones(count, bool)
     alone = state.sides.uses[state.sides.edge] != 2
@@ -141,19 +141,19 @@ def closed_parts(state: State) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def volumes(state: State, part: np.ndarray, count: int) -> np.ndarray:
-    """(count,) what the parts enclose; of open ones it has no meaning."""
+    """(count,) volumes of the parts; meaningless for open ones."""
     rows = state.triangle_corners
     centred = state.points - state.points[state.corners].mean(axis=0)
     a, b, c = centred[state.corners[rows]].swapaxes(0, 1)
     return of_parts(part[state.face_of[rows[:, 0]]], (a * np.cross(b, c)).sum(axis=1), count) / 6.0
 
 
-SAMPLES = 8  # faces of a part from which it is looked whether that lies inside of others
+SAMPLES = 8  # faces of a part that are tested for lying inside others
 
 
 def is_inside(state: State, chosen: np.ndarray) -> bool:
-    """Whether the faces `chosen`, (m,) bool, lie inside of what the others enclose, by the winding number
-    of these [Jacobson, Kavan and Sorkine-Hornung 2013]: also where they have holes.
+    """Whether the faces `chosen`, (m,) bool, lie inside the others, by the winding number, which also
+    works if the others have holes [Jacobson, Kavan and Sorkine-Hornung 2013].
     """
     faces = np.flatnonzero(chosen)
     faces = faces[np.linspace(0, len(faces) - 1, min(SAMPLES, len(faces))).astype(int)]
@@ -173,7 +173,7 @@ def is_inside(state: State, chosen: np.ndarray) -> bool:
 
 
 def _winding(triangles: np.ndarray) -> float:
-    """How often triangles (t, 3, 3) go around the origin [van Oosterom and Strackee 1983]."""
+    """Winding number of triangles (t, 3, 3) about the origin [van Oosterom and Strackee 1983]."""
     a, b, c = triangles.swapaxes(0, 1)
     x, y, z = (np.sqrt((v * v).sum(axis=1)) for v in (a, b, c))
     above = (a * np.cross(b, c)).sum(axis=1)
@@ -182,8 +182,8 @@ def _winding(triangles: np.ndarray) -> float:
 
 
 def without_inner(state: State) -> tuple[State, int]:
-    """Without parts that lie inside of others, walls among them; hollows stay, closed parts that look
-    into themselves. How many faces went.
+    """The state without parts inside others, including walls, and the number of faces removed. Hollows,
+    closed parts that are oriented inwards, stay.
     """
     part, volume, closed = closed_parts(state)
     area = of_parts(part, np.linalg.norm(state.face_vectors(), axis=1), len(volume))
@@ -199,10 +199,10 @@ def without_inner(state: State) -> tuple[State, int]:
 
 
 def vertices_split(state: State, every: bool) -> tuple[State, int]:
-    """With a vertex of its own for each fan of faces: where parts touch in a point, or more than two
-    faces at an edge, of which those are neighbours that bound one wedge. Where all fans at a vertex end
-    in borders of one part, only if `every` one is meant: to fill the holes between them joins them.
-    Also how many vertices there are more.
+    """The state with a vertex for each fan of faces, and the number of vertices added. Fans meet where
+    parts touch in a point, or where an edge has more than two faces; there the faces that bound one wedge
+    are neighbours. A vertex all of whose fans end in borders of one part is split only with `every`,
+    since filling the holes between the fans joins them.
     """
     sides = state.sides
     pairs = np.concatenate([sides.pairs, _wedges(state)])
@@ -230,7 +230,7 @@ def vertices_split(state: State, every: bool) -> tuple[State, int]:
 
 
 def _heals(state: State, pairs: np.ndarray, fan: np.ndarray, leads: np.ndarray) -> np.ndarray:
-    """(n,) whether all fans at a vertex end in borders, and are of one part."""
+    """(n,) whether all fans at a vertex end in borders and belong to one part."""
     sides = state.sides
     paired = np.zeros(len(fan), bool)
     paired[pairs] = True
@@ -252,13 +252,13 @@ def _heals(state: State, pairs: np.ndarray, fan: np.ndarray, leads: np.ndarray) 
 
 
 def _wedges(state: State) -> np.ndarray:
-    """(k, 2) of the sides at crowded edges those that bound one wedge of what is inside."""
+    """(k, 2) pairs of sides at crowded edges that bound one wedge of the inside."""
     sides, found = state.sides, []
     for edge in sides.crowded.tolist():
         rows = sides.around(edge)
         angles, along = _angles_around(state, rows), sides.forward[rows]
-        # seen along the edge, what is inside lies behind each face: before one that runs along it,
-        # after one that runs against it
+        # The inside is behind each face: in order around the edge, before a face that runs along the
+        # edge and after one that runs against it.
         ranked = [
             (angle, not way, row) for angle, way, row in zip(angles, along, rows, strict=True)
         ]
@@ -279,7 +279,7 @@ def _wedges(state: State) -> np.ndarray:
 
 
 def _angles_around(state: State, rows: np.ndarray) -> list[float]:
-    """Where the faces of these sides lie around their common edge, in radians, from any of them on."""
+    """Angles of the faces of these sides around their common edge, radians, from the first one."""
     sides = state.sides
     begin, end = state.corners[rows[0]], state.corners[sides.next[rows[0]]]
     begin, end = min(begin, end), max(begin, end)

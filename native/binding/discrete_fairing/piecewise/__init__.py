@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A surface of any size, piece by piece.
 
-Interpolation makes a surface local: what happens at one control vertex is felt some 2.6 times less
-with every ring of control faces. So a piece with a few rings around it, faired alone, is the whole's
-surface there, and pieces know nothing of each other.
+Interpolation makes a surface local: the effect of a control vertex decreases by a factor of about 2.6
+with every ring of control faces. So a piece with a few rings around it, faired alone, has the surface of
+the whole mesh there, and pieces are independent.
 
-In the order of the data: `outline` asks the core what is one for the whole; `partition` says which
-piece a face belongs to; `cutting` cuts out pieces, with their `settings`; a `piece` fairs itself;
-its `part` is what it owns of the surface, whose points a `lattice` numbers; `joining` puts parts
-together.
+In the order of the data: `outline` asks the core for the decisions about the whole mesh; `partition`
+assigns faces to pieces; `cutting` cuts out pieces with their `settings`; a `piece` is faired alone and
+returns its `part` of the surface, whose points a `lattice` numbers; `joining` joins the parts.
 """
 
 from .cutting import pieces

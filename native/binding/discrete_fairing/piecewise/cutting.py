@@ -36,7 +36,7 @@ def pieces(
     symmetry_plane: str | None = None,
     **settings: Unpack[Settings],
 ) -> list[Piece]:
-    """Cut a control mesh into pieces whose surfaces together are the whole's.
+    """Cut a control mesh into pieces whose surfaces together form that of the whole mesh.
 
     Each piece knows its own faces and some rings around them, and can be pickled, saved and faired
     anywhere. What concerns the whole is decided here, once: what is mended, which way faces run,
@@ -84,7 +84,7 @@ def pieces(
 
 
 class Cutter:
-    """Cuts one mesh; `labels` are the pieces of its faces."""
+    """Cuts one mesh into pieces; `labels` has the piece of each face."""
 
     def __init__(self, outline: Outline, labels: np.ndarray, rings: int, settings: PieceSettings):
         self.outline, self.labels, self.rings, self.settings = outline, labels, rings, settings
@@ -107,7 +107,7 @@ class Cutter:
         return [self.piece(index) for index in range(self.count)]
 
     def with_rings(self, polygons: np.ndarray) -> np.ndarray:
-        """These faces and those in the rings around them, ascending."""
+        """These faces and the rings of faces around them, ascending."""
         outline, found, front = self.outline, [polygons], polygons
         self.reached[polygons] = True
         for _ in range(self.rings):
@@ -157,7 +157,7 @@ class Cutter:
         )
 
     def edges_of(self, side_edge: np.ndarray) -> dict[str, Any]:
-        """Creases, boundaries and the cut of a piece, and the curves that are handed down to it."""
+        """Creases, boundaries and cut edges of a piece, and the curves of the whole mesh on them."""
         outline = self.outline
         edges, uses = np.unique(side_edge[side_edge >= 0], return_counts=True)
         kind = outline.edge_kind[edges]
@@ -188,7 +188,7 @@ class Cutter:
         return self.local[self.outline.edge[edges]].reshape(-1, 2)
 
     def surface(self, index: int) -> dict[str, Any]:
-        """What all parts of a surface agree on; the first tells what belongs to no piece."""
+        """The data that all parts of a surface share; the first part has the points of no piece."""
         outline, numbering = self.outline, self.outline.numbering
         same: dict[str, Any] = {
             "fingerprint": outline.fingerprint,
@@ -218,7 +218,7 @@ class Cutter:
 
 
 def ranges(starts: np.ndarray, ends: np.ndarray) -> np.ndarray:
-    """start, start + 1, ..., end - 1 of every pair, one after the other."""
+    """The numbers start … end - 1 of every pair, one range after another."""
     sizes = ends - starts
     before = np.cumsum(sizes) - sizes
     return np.arange(int(sizes.sum())) + np.repeat(starts - before, sizes)

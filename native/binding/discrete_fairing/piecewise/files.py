@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Records of arrays as files, one array a field, without pickles: .npz, or Zarr groups."""
+"""Saves records of arrays, one array a field, without pickles: .npz files or Zarr groups."""
 
 from __future__ import annotations
 
@@ -17,14 +17,13 @@ from ..whole_files import whole_file
 
 
 class Record:
-    """A dataclass of NumPy arrays and of what JSON can hold, dicts of both among them."""
+    """A dataclass of NumPy arrays and JSON values, or dicts of these."""
 
     def save(self, path: str | PathLike) -> None:
-        """Writes a file (.npz) that is whole or not there: one process may write while others read.
+        """Writes a file (.npz) that is complete or absent: one process may write while others read.
 
-        A name that ends in .zarr is a Zarr group instead, with its arrays compressed, in a folder or,
-        as s3://… and the like, wherever fsspec reaches; it cannot be read before it is whole. Raises
-        OSError.
+        For a name that ends in .zarr it writes a Zarr group with compressed arrays, in a folder or at any
+        address of fsspec, such as s3://…; the group cannot be read before it is complete. Raises OSError.
         """
         arrays: dict[str, np.ndarray] = {}
         plain: dict[str, Any] = {"record": type(self).__name__}
@@ -37,7 +36,7 @@ class Record:
 
     @classmethod
     def load(cls, path: str | PathLike) -> Self:
-        """Reads what save() has written. Raises OSError, and FairingError BAD_OPTION for other files."""
+        """Reads a file of save(). Raises OSError, and FairingError BAD_OPTION for other files."""
         wrong = fairing_error(
             "BAD_OPTION", f"{path} does not hold a {cls.__name__} of discrete_fairing."
         )
@@ -52,7 +51,7 @@ class Record:
 
 
 def is_group(path: str | PathLike) -> bool:
-    """Whether this names a Zarr group."""
+    """Whether the path names a Zarr group."""
     return str(path).rstrip("/").endswith(".zarr")
 
 
@@ -68,7 +67,7 @@ def _zarr() -> Any:
 
 
 def _write_group(name: str, arrays: dict[str, np.ndarray], text: str) -> None:
-    """The text comes last: without it the group is no record yet."""
+    """Writes the arrays, then the text, without which a group is no complete record."""
     group = _zarr().open_group(name, mode="w")
     for key, array in arrays.items():
         group.create_array(key, data=array)
@@ -87,7 +86,7 @@ def _opened(path: str | PathLike) -> Iterator[Mapping[str, Any]]:
 
 
 class _Group(dict):
-    """Reads arrays when they are asked for."""
+    """A mapping that reads each array on access."""
 
     def __init__(self, group: Any) -> None:
         super().__init__(json=group.attrs["json"])

@@ -17,10 +17,10 @@ Parts = Iterable[Part | str | PathLike]
 
 
 def join(parts: Parts) -> Result:
-    """The whole surface, as fair() returns it, for those who have room for it.
+    """The whole surface as one Result, in memory.
 
-    `parts`: of all pieces, in any order; or the names of files that Part.save() has written. Points
-    on a seam are their owner's, to the last bit. report["pieces"] says how well neighbours agree.
+    `parts`: the parts of all pieces, in any order, or the names of files of Part.save(). Points on a seam
+    are those of their owner, to the last bit. report["pieces"] says how well neighbours agree.
     Raises FairingError BAD_OPTION for parts that do not belong together or are missing, TOO_LARGE
     for more than 2**31 points.
     """
@@ -34,12 +34,12 @@ def join(parts: Parts) -> Result:
 
 
 def largest_jump(parts: Parts) -> dict[str, Any]:
-    """How far apart two neighbours have a point that both have, without joining them.
+    """Distances between the positions of shared points in neighbouring parts, without joining them.
 
-    An estimate of how far the surface is from one that was faired as a whole. `parts` are gone
-    through twice, as a list of parts or of names of files; only seams are kept in memory. Returns
-    "largest" (mesh units), "median", "points" (how many are shared), "part" (where the largest is)
-    and "share" (the largest of the mesh's size).
+    They estimate the distance of the surface from one faired as a whole. `parts`, a list of parts or of
+    file names, is read twice; only seams are kept in memory. Returns "largest" (mesh units), "median",
+    "points" (number of shared points), "part" (the part with the largest) and "share" (the largest over
+    the mesh's size).
     """
     listed = list(parts)
     seams = [(part.index, part.seam_ids(), part.seam_points()) for part in loaded(listed)]
@@ -58,7 +58,7 @@ def largest_jump(parts: Parts) -> dict[str, Any]:
 
 
 def jumps(seams: list[tuple[int, np.ndarray, np.ndarray]], owner: Any, size: float) -> dict:
-    """Of seams (part, ids, points), with owner(ids) -> points."""
+    """The distances for seams (part, ids, points), with owner(ids) -> points."""
     gaps = [np.linalg.norm(points - owner(ids), axis=1) for _, ids, points in seams]
     largest = [float(gap.max(initial=0.0)) for gap in gaps]
     every = np.concatenate(gaps) if gaps else np.empty(0)
@@ -73,13 +73,13 @@ def jumps(seams: list[tuple[int, np.ndarray, np.ndarray]], owner: Any, size: flo
 
 
 def loaded(parts: Parts) -> Iterable[Part]:
-    """Each part in memory, one after the other."""
+    """Loads the parts, one after another."""
     for part in parts:
         yield part if isinstance(part, Part) else Part.load(part)
 
 
 class Whole:
-    """A surface that grows by a part at a time."""
+    """The whole surface while parts are added to it."""
 
     def __init__(self, first: Part):
         numbering = first.numbering
@@ -161,7 +161,7 @@ class Whole:
         return Result(arrays)
 
     def _restore(self, arrays: dict[str, Any]) -> None:
-        """Back from the mended mesh, as native/fairing/mending.cpp does."""
+        """Converts ids back from the mended mesh, like native/fairing/mending.cpp."""
         origin, count = arrays["mended"]["vertex_origin"], self.surface["input_vertices"]
         for vertices in (self.vertices, *self.shapes):
             vertices[:count] = vertices[origin]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Points of a refined surface by arithmetic, as native/grid/grid_level.h numbers them.
+"""Numbers the points of a refined surface in the order of native/grid/grid_level.h.
 
 [control vertices | edge interiors, edge by edge | face interiors, face by face, row by row]
 """
@@ -29,7 +29,7 @@ class Lattice:
         self.j = np.repeat(np.arange(n + 1), [last + 1 for last in rows])
 
     def at(self, i: Any, j: Any) -> Any:
-        """Where points (i, j) are among the closed lattice's; numbers or arrays."""
+        """Positions of points (i, j) in the closed lattice, for numbers or arrays."""
         return j * (self.n + 1) + i - (0 if self.quad else (j * j - j) // 2)
 
     @cached_property
@@ -56,7 +56,7 @@ class Lattice:
 
     @cached_property
     def mirrored(self) -> np.ndarray:
-        """(interior,): interior points of the face turned over, its first corner kept: (j, i)."""
+        """(interior,): interior points (j, i) of the reversed face, which keeps its first corner."""
         rank = np.empty(len(self.i), np.int64)
         rank[self.interior] = np.arange(self.interior_count)
         return rank[self.at(self.j[self.interior], self.i[self.interior])]
@@ -80,7 +80,7 @@ class Lattice:
         return np.concatenate(out)
 
     def weights(self) -> np.ndarray:
-        """(closed, corners): what is linear on the face, by its corners."""
+        """(closed, corners): weights of the corners that interpolate linearly on the face."""
         n, i, j = self.n, self.i, self.j
         if self.quad:
             return np.stack([(n - i) * (n - j), i * (n - j), i * j, (n - i) * j], 1) / n**2
@@ -89,7 +89,7 @@ class Lattice:
 
 @dataclass(frozen=True)
 class Numbering:
-    """How many control elements a surface has, and so where its points are."""
+    """The numbers of control elements, which determine the ids of a surface's points."""
 
     levels: int
     vertices: int
@@ -121,7 +121,7 @@ class Numbering:
         return self.first_edge_point + edges.astype(np.int64) * (self.n - 1)
 
     def face_bases(self, faces: np.ndarray, quads_before: np.ndarray) -> np.ndarray:
-        """`quads_before`: how many of the faces before each are quads."""
+        """The first interior point of each face. `quads_before`: the number of quads before it."""
         inside = [self.lattice(quad).interior_count for quad in (False, True)]
         before = quads_before.astype(np.int64)
         return self.first_face_point + (faces - before) * inside[0] + before * inside[1]
@@ -135,9 +135,9 @@ def closed_ids(
     base: np.ndarray,
     lattice: Lattice,
 ) -> np.ndarray:
-    """(f, closed) int64: all points of these faces of one kind.
+    """(f, closed) int64: all points of these faces, which are all triangles or all quads.
 
-    corner, edge, reversed_side: (f, 3 or 4), of their sides; base: (f,), of their interiors.
+    corner, edge, reversed_side: (f, 3 or 4), for their sides; base: (f,), their first interior points.
     """
     n = numbering.n
     ids = np.empty((len(corner), len(lattice.i)), np.int64)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is decided once for a whole mesh (native/fairing/outline.h), with who owns what."""
+"""The decisions for a whole mesh (native/fairing/outline.h), and which piece owns an element."""
 
 from __future__ import annotations
 
@@ -17,9 +17,10 @@ from .lattice import Numbering
 class Outline:
     """The control mesh with its faces split and turned, its edges numbered and its curves refined.
 
-        Ids are those of the result. face, side_edge, side_reversed: (F, 4), -1 behind a triangle's
-        three; polygon: (F,), the face of the mended mesh; edge: (E, 2) vertices. curve_points: (1 + k, c,
-    n - 1, 3), and centres: (1 + k, p, 3), of the mesh and its k shapes. shapes: (k, V, 3), of the mended mesh.
+    Ids are those of the result. face, side_edge, side_reversed: (F, 4), -1 in the fourth column of
+    triangles; polygon: (F,), the face of the mended mesh; edge: (E, 2) vertices. curve_points:
+    (1 + k, c, n - 1, 3), and centres: (1 + k, p, 3), of the mesh and its k shapes. shapes: (k, V, 3), of the
+    mended mesh.
     """
 
     def __init__(
@@ -70,23 +71,23 @@ class Outline:
 
     @cached_property
     def fingerprint(self) -> str:
-        """Of the mesh and how it is refined: parts of one surface have it in common."""
+        """A hash of the mesh and its refinement, equal for all parts of one surface."""
         digest = hashlib.sha256(repr(self.numbering).encode())
         for array in (self.vertices, self.corners, self.offsets):
             digest.update(np.ascontiguousarray(array).data)
         return digest.hexdigest()[:16]
 
     def is_(self, bit: int) -> np.ndarray:
-        """(E,) bool: the edges that are of this kind, a bit of _native's."""
+        """(E,) bool: whether an edge is of this kind, a bit defined in _native."""
         return (self.edge_kind & bit) != 0
 
     def crease_edges(self) -> np.ndarray:
-        """(k, 2) int32: as Result has them."""
+        """(k, 2) int32: Result.crease_edges."""
         inside = self.is_(_native.curve_edge) & ~self.is_(_native.boundary_edge)
         return self.edge[inside].astype(np.int32)
 
     def on_edges(self, pairs: Any, values: Any) -> np.ndarray:
-        """(E,): the values of these vertex pairs, (k, 2), zero on all other edges."""
+        """(E,): `values` on the edges `pairs` (k, 2), zero on all other edges."""
         named = np.sort(np.asarray(pairs, np.int64).reshape(-1, 2), axis=1)
         size = int(self.edge.max(initial=0)) + 1
         keys = np.sort(self.edge.astype(np.int64), axis=1) @ [size, 1]
@@ -98,7 +99,7 @@ class Outline:
 
     @cached_property
     def edge_uses(self) -> np.ndarray:
-        """(E,): in how many faces each edge is."""
+        """(E,): the number of faces at each edge."""
         return np.bincount(self.side_edge[self.side_edge >= 0], minlength=len(self.edge))
 
     def vertex_owner(self, labels: np.ndarray) -> np.ndarray:

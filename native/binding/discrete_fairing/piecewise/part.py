@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a piece owns of the surface."""
+"""The part of a surface that a piece owns."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Part(Record):
-    """What one piece owns of a surface: its faces, and the points that no lower piece has.
+    """The part of a surface that one piece owns: its faces, and the points in no lower piece.
 
     Can be pickled, saved (.npz, .zarr) and loaded. Faces take no room: they are arithmetic on the few
     numbers that each control face has.
@@ -70,7 +70,7 @@ class Part(Record):
 
     @property
     def ids(self) -> np.ndarray:
-        """(N,) int64: the rows of the whole surface's vertices that `vertices` are."""
+        """(N,) int64: the ids of `vertices` in the whole surface."""
         runs = (*self._edge_rows(), *self._face_rows())
         return np.concatenate([self.vertex_id.astype(np.int64), *(rows.ravel() for rows in runs)])
 
@@ -79,7 +79,7 @@ class Part(Record):
         return [self.numbering.edge_bases(self.edge_id)[:, None] + inside]
 
     def _face_rows(self) -> list[np.ndarray]:
-        """Of triangles, and of quads: (f, inside)."""
+        """Rows of the points inside triangles and inside quads: (f, inside) each."""
         out = []
         for kind in (False, True):
             which = self.is_quad == kind
@@ -94,8 +94,8 @@ class Part(Record):
 
     @property
     def faces(self) -> tuple[np.ndarray, np.ndarray]:
-        """(triangles (T, 3), quads (Q, 4)) int64, in ids of the whole surface's vertices; some of
-        these are of other parts.
+        """(triangles (T, 3), quads (Q, 4)) int64, with vertex ids of the whole surface; other parts own
+        some of these vertices.
         """
         made = []
         for kind in (False, True):
@@ -114,29 +114,29 @@ class Part(Record):
         return made[0], made[1]
 
     def write_into(self, vertices: np.ndarray) -> None:
-        """Puts the owned points into the whole's vertices (N, 3), be it an array on disk."""
+        """Writes the owned points into the vertices (N, 3) of the whole, in memory or on disk."""
         vertices[self.vertex_id] = self.vertex_points
         vertices[self._edge_rows()[0]] = self.edge_points
         for rows, points in zip(self._face_rows(), (self.triangle_points, self.quad_points)):
             vertices[rows] = points
 
     def of_shape(self, shape: int) -> Part:
-        """The same part of the surface that this shape has."""
+        """The same part of a shape's surface."""
         of_shape: dict[str, Any] = dict(self.shapes[str(shape)])
         return replace(self, shapes={}, **of_shape)
 
     def seam_ids(self) -> np.ndarray:
-        """(s,) int64: rows of the points that this part shares and others own."""
+        """(s,) int64: ids of the points of this part that other parts own."""
         inside = np.arange(self.numbering.n - 1)
         rows = self.numbering.edge_bases(self.seam_edge_id)[:, None] + inside
         return np.concatenate([self.seam_vertex_id.astype(np.int64), rows.ravel()])
 
     def seam_points(self) -> np.ndarray:
-        """(s, 3): where this part has them."""
+        """(s, 3): this part's positions of these points."""
         return np.concatenate([self.seam_vertex_points, self.seam_edge_points.reshape(-1, 3)])
 
     def save(self, path: str | PathLike, dtype: DTypeLike = np.float64) -> None:
-        """Writes a file (.npz, or .zarr) that is whole or not there; with points rounded to `dtype`.
+        """Writes a file (.npz, or .zarr) that is complete or absent, with points rounded to `dtype`.
 
         Raises OSError.
         """
@@ -173,9 +173,9 @@ NUMBERS = (
 def report_of(
     piece: Piece, report: dict[str, Any] | None, vertex_id: np.ndarray, surfaces: list[np.ndarray]
 ) -> dict[str, Any]:
-    """A part's report: the run's numbers, and what it says of vertices that the piece owns.
+    """A part's report: the run's numbers, and the values at vertices that the piece owns.
 
-    `surfaces`: of the mesh and of each shape, the points (a, 3) at these vertices.
+    `surfaces`: for the mesh and each shape, the points (a, 3) at these vertices.
     """
     count = piece.surface["input_vertices"]
     own = vertex_id < count
@@ -208,11 +208,11 @@ def report_of(
 def _in_whole(
     piece: Piece, warning: dict[str, Any], vertex_id: np.ndarray
 ) -> dict[str, Any] | None:
-    """A warning in ids of the whole; None where it is about what others own, or about the cut."""
+    """A warning with ids of the whole; None if it concerns the cut, or elements of other pieces."""
     if not warning["elements"]:
         return written({**warning, "cause": f"Piece {piece.index}: {warning['cause']}"})
     if warning["kind"] != "vertex":
-        return None  # of the mesh itself, which the whole's outline has warned of
+        return None  # it concerns the mesh, and the whole's outline has it already
     ids = piece.vertex_id[np.asarray(warning["elements"])]
     ids = ids[np.isin(ids, vertex_id)].tolist()
     if not ids:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which piece each face belongs to: METIS finds pieces of like size with short seams."""
+"""Assigns faces to pieces: METIS finds pieces of similar size with short seams."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from ..errors import fairing_error
 
 
 def neighbours(side_edge: np.ndarray, polygon: np.ndarray) -> np.ndarray:
-    """(k, 2): faces of the mesh that have an edge in common, each pair once.
+    """(k, 2): pairs of faces of the mesh that share an edge, each pair once.
 
     side_edge: (F, 4), the edges of control faces, -1 for none; polygon: (F,), their faces.
     """
@@ -26,7 +26,7 @@ def neighbours(side_edge: np.ndarray, polygon: np.ndarray) -> np.ndarray:
 def partition(pairs: np.ndarray, weights: np.ndarray, count: int) -> np.ndarray:
     """(m,) int32: the piece of each face, from 0 to count - 1 or less; the same on every call.
 
-    pairs: (k, 2), faces that touch; weights: (m,), how many small faces each becomes.
+    pairs: (k, 2), neighbouring faces; weights: (m,), the number of refined faces of each.
     """
     if count == 1:
         return np.zeros(len(weights), np.int32)
@@ -47,7 +47,7 @@ def partition(pairs: np.ndarray, weights: np.ndarray, count: int) -> np.ndarray:
 
 
 def in_order(labels: np.ndarray) -> np.ndarray:
-    """Pieces numbered by their first face, without empty ones."""
+    """Renumbers pieces by their first face, without empty ones."""
     _, first, place = np.unique(labels, return_index=True, return_inverse=True)
     rank = np.empty(len(first), np.int32)
     rank[np.argsort(first)] = np.arange(len(first))

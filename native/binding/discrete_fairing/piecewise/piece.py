@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A piece of a control mesh, and how it is faired."""
+"""A piece of a control mesh, which can be faired alone."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ class Piece(Record):
         progress: Progress | None = None,
         monitor: _native.Monitor | None = None,
     ) -> Part:
-        """The surface of this piece, without what others own.
+        """The part of the surface that this piece owns.
 
         The arguments are fair()'s. The result is the same, to the last bit, on any machine and for
         any number of threads. Raises FairingError as fair() does, with ids of the piece.
@@ -99,7 +99,7 @@ class Piece(Record):
     def _part(
         self, own: Outline, surfaces: list[np.ndarray], report: dict[str, Any] | None
     ) -> Part:
-        """`surfaces`: of the mesh, then of each shape."""
+        """The owned part of `surfaces`, of the mesh and then of each shape."""
         mirrored = self._mirrored(own)
         mine, quad = np.flatnonzero(self.owned), self.face[:, 3] >= 0
         vertex_id, vertex_row = self._vertices(own, mirrored, self.corner_owned)
@@ -144,8 +144,8 @@ class Piece(Record):
         )
 
     def _mirrored(self, own: Outline) -> np.ndarray:
-        """(F,) bool: faces that run the other way here, as those of a one-sided sheet may."""
-        ids = np.full(own.numbering.vertices + 1, -1, np.int64)  # the last: of no vertex
+        """(F,) bool: faces that are reversed in this piece, as on one-sided sheets."""
+        ids = np.full(own.numbering.vertices + 1, -1, np.int64)  # the last one is for no vertex
         ids[: len(self.vertex_id)] = self.vertex_id
         here = ids[own.face]
         there = np.where(np.isin(self.face, self.vertex_id), self.face, -1)
@@ -204,14 +204,14 @@ class Piece(Record):
 
 
 def turned_corners(size: np.ndarray) -> np.ndarray:
-    """(F, 4): of faces that run the other way, with the same first corner, which corner is where."""
+    """(F, 4): the corners of reversed faces, in the order of the original ones; the first one stays."""
     rows = np.array([[0, 2, 1, 3], [0, 3, 2, 1]])
     return rows[size - 3]
 
 
 def linear_surface(own: Outline, control: np.ndarray) -> np.ndarray:
-    """(N, 3): a piece with these control vertices, centres of polygons too, that lies outside the
-    region, as the core leaves it.
+    """(N, 3): the linear surface of a piece outside the region, like the core's; `control` has its control
+    vertices and the centres of its polygons.
     """
     numbering = own.numbering
     points = np.empty((numbering.size, 3))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The settings of a whole mesh, and those of a piece: elements by their numbers in the piece."""
+"""Checks the settings of a whole mesh and converts them to those of its pieces."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from ..errors import fairing_error
 from ..options import ONE_A_VERTEX, SETTINGS, native_options, whole
 from .outline import Outline
 
-# fair()'s arguments that pieces exclude, and what to do instead.
+# Arguments of fair() that pieces exclude, and the alternative.
 EXCLUDED = {
     "symmetry_plane": "Mirror the mesh first, or fair the half as it is.",
     "measure": "No piece has an energy of its own. Measure the surface when it is whole.",
 }
-OF_RUN = ("threads", "memory_limit", "progress", "monitor")  # piece.fair() takes them
-# Decided for the whole, and handed down as elements.
+OF_RUN = ("threads", "memory_limit", "progress", "monitor")  # arguments of Piece.fair()
+# Decided for the whole mesh and passed to pieces as elements.
 DECIDED = (
     "crease_edges",
     "soft_creases",
@@ -34,9 +34,9 @@ BY_ID = ("region", "flat_faces", "corner_vertices", "edge_sharpness")
 
 
 def checked(given: dict[str, Any], levels: int) -> tuple[dict[str, Any], _native.Options]:
-    """All settings of the whole as the caller has written them, and the core's.
+    """All settings of the whole: the caller's, and the core's.
 
-    Raises FairingError BAD_OPTION for what excludes pieces, TypeError for what is no setting.
+    Raises FairingError BAD_OPTION for settings that exclude pieces, TypeError for unknown names.
     """
     settings = {name: value for name, value in given.items() if value is not None}
     for name in [name for name in settings if name in EXCLUDED]:
@@ -55,7 +55,7 @@ def checked(given: dict[str, Any], levels: int) -> tuple[dict[str, Any], _native
 
 
 class PieceSettings:
-    """Cuts settings out with a piece; everything of the whole is prepared once."""
+    """Makes the settings of pieces from those of the whole, which are prepared once."""
 
     def __init__(self, settings: dict[str, Any], outline: Outline):
         self.common = {
@@ -63,7 +63,7 @@ class PieceSettings:
             for name, value in settings.items()
             if name in SETTINGS and name not in (*DECIDED, *PER_VERTEX, *BY_ID)
         }
-        # One-sided sheets are cut into pieces with two sides, whose faces may not agree yet.
+        # One-sided sheets become pieces with two sides, whose faces may still disagree in orientation.
         self.common["repair"] = "mend" if outline.report["sheets"]["one_sided"] else "refuse"
         options, count = outline.options, outline.input_vertices
         self.per_vertex: dict[str, np.ndarray] = {}
@@ -90,7 +90,7 @@ class PieceSettings:
                 self.of_faces[name][np.asarray(getattr(options, name), np.int64)] = True
 
     def of(self, vertex_id: np.ndarray, polygon: np.ndarray) -> dict[str, Any]:
-        """Of the piece with these vertices and faces of the whole, but for its edges."""
+        """Settings of the piece with these vertices and faces of the whole, without those of edges."""
         settings = dict(self.common)
         for name, values in self.per_vertex.items():
             settings[name] = values[vertex_id]
@@ -102,7 +102,7 @@ class PieceSettings:
         return settings
 
     def _sharpness_in(self, vertex_id: np.ndarray) -> dict[str, np.ndarray]:
-        """Of the edges with both ends in a piece; some may be no edges of its faces."""
+        """Sharpness of the edges with both ends in the piece; some may not be edges of its faces."""
         self.local[vertex_id] = np.arange(len(vertex_id))
         ends = self.local[self.sharp_edges]
         self.local[vertex_id] = -1
