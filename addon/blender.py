@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Blender's types as the add-on meets them: with its properties, and what is always there."""
+"""Blender's types with the add-on's properties, for annotations; and registration."""
 
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any, TypeAlias, cast
@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 from bpy.props import PointerProperty
 
-Answer: TypeAlias = set[Any]  # of an operator: {"FINISHED"} and the like
+Answer: TypeAlias = set[Any]  # returned by operators: {"FINISHED"} or {"CANCELLED"}
 
 if TYPE_CHECKING:
     from .curve_cage import FAIRING_PG_curves
@@ -19,13 +19,13 @@ if TYPE_CHECKING:
     from .strain.settings import FAIRING_PG_strain, FAIRING_PG_strain_drawing
 
     class Mesh(bpy.types.Mesh):
-        """A mesh with what is kept beside its curvature colours."""
+        """A mesh with the properties stored beside its curvature colours."""
 
-        attributes: Any  # each kind has its own type of values
+        attributes: Any  # each kind of attribute has values of its own type
         discrete_fairing: FAIRING_PG_mesh
 
     class Object(bpy.types.Object):
-        """A mesh object: no other is ever worked on."""
+        """A mesh object; the add-on works on no others."""
 
         data: Mesh
         discrete_fairing: FAIRING_PG_surface
@@ -44,7 +44,7 @@ if TYPE_CHECKING:
         discrete_fairing_strain: FAIRING_PG_strain_drawing
 
     class Context(bpy.types.Context):
-        """A context with a scene, as in any file that is open."""
+        """A context with a scene, as in every open file."""
 
         scene: Scene
         collection: bpy.types.Collection
@@ -59,18 +59,18 @@ if TYPE_CHECKING:
 
     OperatorBase = bpy.types.Operator
 else:
-    OperatorBase = object  # mixins are no operators: they only rely on what operators have
+    OperatorBase = object  # mixins are no operators, but use their attributes
     Mesh, Object, Scene = bpy.types.Mesh, bpy.types.Object, bpy.types.Scene
     Context = bpy.types.Context
 
 
 def current_context() -> Context:
-    """Where no context is handed over."""
+    """The context, for code that is not given one."""
     return cast(Context, bpy.context)
 
 
 def all_objects() -> Iterable[Object]:
-    """Every object of the file. Ask for its type before its mesh."""
+    """Every object of the file, of any type; check the type before the mesh."""
     return cast(Iterable[Object], bpy.data.objects)
 
 
@@ -80,15 +80,15 @@ def all_scenes() -> Iterable[Scene]:
 
 
 def scene_of(target: Object) -> Scene:
-    """The scene whose settings count for `target`: that of the current window if it has the object, else
-    another one that has. Handlers and timers may be called with any window's.
+    """The scene whose settings apply to `target`: that of the current window if it has the object, else
+    another one with it. Handlers and timers may run in the context of any window.
     """
     here, owners = current_context().scene, cast(Any, target).users_scene
     return here if here in owners or not owners else owners[0]
 
 
 def column(elements: Any, name: str, dtype: Any = np.float32, width: int = 1) -> np.ndarray:
-    """(k,) or (k, width): the property `name` of all `elements` of a mesh."""
+    """(k,) or (k, width): the property `name` of all mesh `elements`."""
     values = np.empty(len(elements) * width, dtype)
     elements.foreach_get(name, values)
     return values.reshape(-1, width) if width > 1 else values
@@ -98,15 +98,17 @@ Registration: TypeAlias = tuple[Callable[[], None], Callable[[], None]]  # regis
 
 
 def registration(*classes: type) -> Registration:
-    """Of `classes`."""
-    factory: Any = bpy.utils.register_classes_factory  # whose stub says None
+    """Registration of `classes`."""
+    factory: Any = bpy.utils.register_classes_factory  # its stub returns None
     register, unregister = factory(classes)
     return register, unregister
 
 
 def attached(*groups: tuple[type, str, type]) -> Registration:
-    """Of property groups (owner, name, group): all data-blocks of the type `owner` get one by that name."""
-    make_property: Any = PointerProperty  # whose stub says None
+    """Registration of property groups (owner, name, group): every data-block of the type `owner` gets a
+    group by that name.
+    """
+    make_property: Any = PointerProperty  # its stub returns None
 
     def register() -> None:
         for owner, name, group in groups:
@@ -122,7 +124,7 @@ def attached(*groups: tuple[type, str, type]) -> Registration:
 
 
 def in_order(*parts: Registration) -> Registration:
-    """Of all of them, taken back from the last to the first."""
+    """Registration of all `parts`; unregistration runs in reverse order."""
 
     def register() -> None:
         for begin, _ in parts:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the settings with a choice offer: identifier, name in the interface, description."""
+"""The options of settings with a choice: identifier, name in the interface, description."""
 
-# of the operator, the panel and the command line alike
+# for the operator, the panel and the command line
 DEFAULT_ENERGY = "THIN_PLATE"
 ENERGY_MEANING = "What is minimized: bending, total curvature, or the change of curvature"
 
@@ -29,7 +29,7 @@ ENERGIES = (
 
 ENERGY_NAMES = {key: name for key, name, *_ in ENERGIES}
 
-# what the panel has room for. What they cost is said once, by the prediction
+# short enough for the panel; the prediction states the cost
 ENERGY_MEANINGS = {
     "THIN_PLATE": "A little flat between vertices",
     "TOTAL_CURVATURE": "Roundest: spheres stay spheres",
@@ -44,7 +44,7 @@ SHORT_INTERPOLATIONS = {
     "LIMIT": "Limit",
 }
 
-# numbered as files from before the third have them
+# numbered like files from before the third option existed
 INTERPOLATIONS = (
     (
         "AUTO",
@@ -87,7 +87,7 @@ REPAIRS = (
     ("REFUSE", "Refuse", "Fairs no mesh that has such defects, and says where they are"),
 )
 
-# numbered as files from before the first have them
+# numbered like files from before the first option existed
 BOUNDARIES = (
     (
         "CORNERS",
@@ -110,7 +110,7 @@ BOUNDARIES = (
     ),
 )
 
-# of single border edges, numbered as their attribute has them (mesh/boundary_marks.py)
+# of single border edges, numbered like their attribute (mesh/boundary_marks.py)
 EDGE_BOUNDARIES = (
     ("CURVE", "Smooth", "Part of a smooth curve through the vertices of the border", 1),
     ("LINEAR", "Straight", "The edge stays straight", 2),
@@ -118,7 +118,7 @@ EDGE_BOUNDARIES = (
     ("SURFACE", "As the Surface", "As the setting Boundary of the whole surface", 0),
 )
 
-# what the mesh is half of; its mirror image lies across the object's own plane
+# the plane of symmetry of half a mesh, in the object's coordinates
 SYMMETRY_PLANES = (
     ("NONE", "None", "The mesh is complete"),
     ("X", "X", "The border in the plane x = 0 meets the mirror image of the mesh without a joint"),

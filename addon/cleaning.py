@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A scan made into a closed surface, in its own mesh."""
+"""Cleans a scan in its own mesh, to a closed surface."""
 
 from dataclasses import dataclass
 from typing import Any, cast
@@ -15,7 +15,7 @@ from .mesh.timed_run import TimedRun
 from .mesh.write_cleaned import Cleaned, write_cleaned
 from .units import Units
 
-# what can be turned off: name, label, what it does
+# steps that can be turned off: name, label, description
 STEPS = (
     (
         "mend",
@@ -56,7 +56,7 @@ class CleanOptions:
 
 
 class CleanJob(TimedRun):
-    """One object: read, cleaned on any thread, then written."""
+    """The cleaning of one object: read, computed on any thread, then written."""
 
     kind, again = "CLEAN", "Run Clean Scan"
 
@@ -81,7 +81,7 @@ class CleanJob(TimedRun):
             )
 
     def apply(self, context: Context) -> list[str]:
-        """Writes the mesh; what was done, a sentence each, the last of which says how it ended."""
+        """Writes the mesh. Returns sentences on what was done; the last one describes the result."""
         target, found = cast(Object, self.reference.find()), self.result
         origin = found.vertex_origin[found.vertex_origin >= 0]
         sent = self.shape.of(self.arrays.positions)[origin]
@@ -117,7 +117,7 @@ class CleanJob(TimedRun):
         return f"{begin}; left: {left or 'nothing'}"
 
     def _left(self, arrays: core.ControlArrays, made: Cleaned) -> list[dict[str, Any]]:
-        """What is left, its elements as the mesh numbers them now."""
+        """The remaining defects, with element ids of the written mesh."""
         found = as_dicts(self.result.left)
         corners: list[list[Any]] = [
             [_corners(made, f) for f in defect["elements"]]
@@ -144,8 +144,9 @@ def _corners(made: Cleaned, face: int) -> list[int]:
 def _numbers(
     arrays: core.ControlArrays, made: Cleaned, elements: list[Any]
 ) -> tuple[dict[int, int], dict[frozenset[int], int]]:
-    """The vertex of the mesh now that each one of the `elements` is, lists of vertices as they were made; and by
-    its vertices the face that it is. Places tell: BMesh numbers what it makes on its own.
+    """Maps lists of vertices in `elements`, with ids of the computed mesh, to ids of the written mesh:
+    each vertex, and each face by its vertices. Found by position, since BMesh numbers new elements
+    itself.
     """
     wanted = np.unique([v for its in elements for each in its for v in np.ravel(each)]).astype(int)
     places = made.positions[wanted].astype(np.float32)
@@ -163,7 +164,9 @@ def _numbers(
 
 
 def _marked(arrays: core.ControlArrays) -> np.ndarray:
-    """(n,) vertices with a crease, or on edges with one, or on sharp ones: these are meant."""
+    """(n,) vertices that the user has marked: with a crease, or at an edge with a crease or marked
+    sharp.
+    """
     found = np.zeros(len(arrays.positions), bool)
     if arrays.vertex_crease is not None:
         found |= arrays.vertex_crease > 0.0

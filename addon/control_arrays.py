@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A control mesh as plain arrays, and what they say of its edges, vertices and creases. No Blender."""
+"""A control mesh as plain arrays, and its creases, corners and marked borders. No Blender."""
 
 from dataclasses import dataclass
 
@@ -23,30 +23,30 @@ class ControlArrays:
     edge_crease: np.ndarray | None  # (e,) float32
     vertex_crease: np.ndarray | None  # (n,) float32
     sharp_edge: np.ndarray | None  # (e,) bool
-    # (e,) int32, what an edge of the border is: by the numbers of choices.EDGE_BOUNDARIES
+    # (e,) int32, the boundary of each border edge, numbered as in choices.EDGE_BOUNDARIES
     boundary_edge: np.ndarray | None = None
-    normals: np.ndarray | None = None  # (n, 3), that the surface is to have; zero: none
-    flat_face: np.ndarray | None = None  # (m,) bool: meant flat
+    normals: np.ndarray | None = None  # (n, 3) fixed normals of the surface; zero: none
+    flat_face: np.ndarray | None = None  # (m,) bool: faces to keep flat
 
     @property
     def face_sizes(self) -> np.ndarray:
-        """(m,) int32: corners of each face."""
+        """(m,) int32: number of corners of each face."""
         return self.offsets[1:] - self.offsets[:-1]
 
     @property
     def edge_uses(self) -> np.ndarray:
-        """(e,) int: how many faces each edge has."""
+        """(e,) int: number of faces at each edge."""
         return np.bincount(self.corner_edges, minlength=len(self.edges))
 
     @property
     def mean_edge_length(self) -> float:
-        """Of the edges that belong to faces; 0 if there are none."""
+        """Mean length of the edges with faces; 0 if there are none."""
         ends = self.positions[self.edges[self.edge_uses > 0]]
         lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
         return float(lengths.mean()) if len(lengths) else 0.0
 
     def has_faces_of(self, other: "ControlArrays | None") -> bool:
-        """Whether the two differ in positions at the most."""
+        """Whether the two meshes differ in vertex positions only."""
         return (
             other is not None
             and np.array_equal(self.corners, other.corners)
@@ -54,11 +54,11 @@ class ControlArrays:
         )
 
     def crease_edges(self, threshold: float | None = None, use_sharp: bool = False) -> np.ndarray:
-        """Vertex pairs (k, 2) int32 of the edges that are creased by `threshold` at least or, with
+        """Vertex pairs (k, 2) int32 of edges with a crease of at least `threshold` or, with
         `use_sharp`, marked sharp.
 
-        `threshold` None ignores creases. A weight of 0 is never a crease, whatever the threshold. Edges
-        without a face are left out: they carry no surface.
+        `threshold` None ignores creases. A weight of 0 is never a crease. Edges without a face are left
+        out, since they carry no surface.
         """
         chosen = np.zeros(len(self.edges), bool)
         if threshold is not None and self.edge_crease is not None:
@@ -68,8 +68,8 @@ class ControlArrays:
         return self.edges[chosen & (self.edge_uses > 0)]
 
     def soft_creases(self, threshold: float) -> tuple[np.ndarray, np.ndarray]:
-        """Vertex pairs (k, 2) int32 of the edges whose crease weighs less than `threshold`, and these
-        weights (k,). Limit positions have them already, as Subdivision Surface does.
+        """Vertex pairs (k, 2) int32 and weights (k,) of edges with a crease below `threshold`. Not for
+        limit positions, which follow these creases already, like Subdivision Surface.
         """
         if self.edge_crease is None:
             return np.empty((0, 2), np.int32), np.empty(0)
@@ -85,8 +85,8 @@ class ControlArrays:
         return self.edges[creased], _sharpness(self.edge_crease[creased])
 
     def vertex_sharpness(self) -> np.ndarray:
-        """(n,) As Blender has it: a vertex with two edges, as at the corner of a sheet, is as sharp as the
-        softer of them, beside what it is itself.
+        """(n,) sharpness as in Blender: a vertex with two edges, such as the corner of a sheet, is as
+        sharp as the softer of them, or as its own crease if that is sharper.
         """
         count = len(self.positions)
         own = np.zeros(count) if self.vertex_crease is None else _sharpness(self.vertex_crease)
@@ -99,8 +99,8 @@ class ControlArrays:
         return np.where(two, np.minimum(own + np.where(two, softer, 0.0), 10.0), own)
 
     def boundary_edges(self) -> dict[str, np.ndarray]:
-        """Vertex pairs (k, 2) int32 of the edges that are marked with a boundary of their own, by its
-        name. Edges without a face are left out.
+        """Vertex pairs (k, 2) int32 of edges that are marked with a boundary, by its name. Edges
+        without a face are left out.
         """
         if self.boundary_edge is None:
             return {}
@@ -113,9 +113,8 @@ class ControlArrays:
         return {name: edges for name, edges in marked.items() if len(edges)}
 
     def corner_vertices(self, threshold: float | None = None) -> np.ndarray:
-        """Vertices (c,) int32 with a vertex crease of `threshold` at least; None ignores them.
-
-        Loose ones are left out.
+        """Vertices (c,) int32 with a vertex crease of at least `threshold`; None ignores creases.
+        Vertices without a face are left out.
         """
         if threshold is None or self.vertex_crease is None:
             return np.empty(0, np.int32)
@@ -128,9 +127,9 @@ class ControlArrays:
         return np.bincount(self.corners, minlength=len(self.positions)) > 0
 
     def border_corners(self) -> np.ndarray:
-        """Vertices (c,) int32 of the border where the sheet's own angle, however many faces it has, is so
-        narrow that the border turns by more than 60°, and neither of its edges there has a boundary of
-        its own; and vertices of a single face where that turns as much the other way.
+        """Corners (c,) int32 of the border. Here the angle of the sheet, over all its faces, is so
+        small that the border turns by more than 60°, and neither border edge has a boundary of its own;
+        or the vertex has a single face and turns as much the other way.
         """
         count, corners = len(self.positions), self.corners
         before = np.arange(len(corners)) - 1
@@ -150,7 +149,7 @@ class ControlArrays:
         angles = np.where(single, np.abs(angles), angles % (2 * np.pi))
         angle = np.bincount(corners, angles, minlength=count)
         is_border = self.edge_uses == 1
-        # at 120° themselves rounding would decide
+        # at 120° exactly, rounding would decide
         turns = (angle < np.arccos(-_COSINE_OF_CORNER) - 1e-9) & np.isin(
             np.arange(count), self.edges[is_border]
         )
@@ -161,7 +160,7 @@ class ControlArrays:
 
 
 def _sharpness(creases: np.ndarray) -> np.ndarray:
-    """Blender's creases, 0 to 1, as the steps of subdivision for which they are sharp."""
+    """Blender's creases, from 0 to 1, as the number of subdivision steps during which they are sharp."""
     return 10.0 * creases.astype(np.float64) ** 2
 
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The native core: loaded on first use, so that a missing wheel never keeps Blender from starting.
+"""The native core: imported on first use, so that Blender starts even without its wheel.
 
-The one place that knows both spellings of a setting, Blender's and that of `discrete_fairing.fair`.
-Plain arrays, no Blender.
+The only place that knows both names of a setting, Blender's and that of `discrete_fairing.fair`. Plain
+arrays, no Blender.
 """
 
 import re
@@ -19,7 +19,7 @@ from .settings import AnySettings, PatchOptions, Settings, is_limit, is_near
 MISSING = "The native module 'discrete_fairing' could not be loaded: reinstall the extension for this Blender version"
 
 _OF_LIMIT = ("limit", "edge_sharpness", "vertex_sharpness")
-_AT = 0.99  # of its tolerance: what a vertex has used up that is held by it
+_AT = 0.99  # share of its tolerance from which a vertex counts as at the tolerance
 
 
 @cache
@@ -33,8 +33,8 @@ def _load() -> tuple[Any, str]:
 
 
 def _hush(module: Any) -> None:
-    """What our runs say of memory while they go on is for callers in Python: Blender would only print
-    it on its console. Users read it in the run's report; their own scripts are still told.
+    """Silences memory warnings of the add-on's own runs, which Blender would print on its console; the
+    run's report has them. Runs of users' scripts still warn.
     """
     ours = rf"({re.escape(__package__)}|{re.escape(module.__name__)})\."
     warnings.filterwarnings("ignore", category=module.MemoryWarning, module=ours)
@@ -54,7 +54,7 @@ def lattice(n: int, quad: bool) -> Any:
 
 
 def why_missing() -> str:
-    """Why the core cannot be used, in one sentence; empty when it can."""
+    """Why the core cannot be used, in one sentence; empty if it can."""
     return _load()[1]
 
 
@@ -68,13 +68,13 @@ def fair_arguments(
     pulls: np.ndarray | None = None,
     edge_length: float = 0.0,
 ) -> dict[str, Any]:
-    """Keyword arguments for `discrete_fairing.fair`, `vertices` and `faces` included.
+    """Keyword arguments for `discrete_fairing.fair`, with `vertices` and `faces`.
 
-    `region`: (r,) ids of the faces to fair, None for all. `shapes`: (k, n, 3) further positions,
-    such as shape keys. `tolerance_factors`: (n,) of the tolerance at each vertex, None for all of it.
-    `pulls`: (n,) weights, None for none. `edge_length`: what a relative tolerance is a share of.
+    `region`: (r,) ids of the faces to fair, None for all. `shapes`: (k, n, 3) further positions, such
+    as shape keys. `tolerance_factors`: (n,) shares of the tolerance at each vertex, None for the whole.
+    `pulls`: (n,) weights, None for none. `edge_length`: the reference of a relative tolerance.
 
-    Nothing is measured: who shows a number asks for it.
+    Nothing is measured; callers that show a measured number request it.
     """
     threshold = settings.crease_threshold if settings.use_crease_attribute else None
     allowed = tolerance(settings, edge_length)
@@ -84,11 +84,11 @@ def fair_arguments(
         "levels": settings.levels,
         "energy": settings.energy.lower(),
         "metric_exponent": settings.metric_exponent,
-        # what Automatic means is known where the source is
+        # AUTO is resolved where the source is known
         "interpolation": settings.interpolation.lower().replace("auto", "exact"),
         "tolerance": allowed if tolerance_factors is None else allowed * tolerance_factors,
         "pad_size": settings.pad_size,
-        # the steps of minimum variation would burst under it
+        # the steps of minimum variation fail under it
         "tension": 0.0 if settings.energy == "MINIMUM_VARIATION" else settings.tension,
         "crease_edges": arrays.crease_edges(threshold, settings.use_sharp_edges),
         "corner_vertices": _corners(arrays, settings, threshold),
@@ -123,7 +123,7 @@ def fair_arguments(
 
 
 def _limit(arrays: ControlArrays, settings: Settings) -> dict[str, Any]:
-    """How far vertices go to their limit positions, and how sharp Subdivision Surface has creases."""
+    """The arguments for limit positions, and the sharpness of creases as in Subdivision Surface."""
     found: dict[str, Any] = {"limit": settings.limit}
     if not settings.use_crease_attribute:
         return found
@@ -136,11 +136,11 @@ def _limit(arrays: ControlArrays, settings: Settings) -> dict[str, Any]:
 
 
 def keeps_marks(settings: AnySettings) -> bool:
-    """Whether fixed normals and flat faces count: the other energies have nothing that would hold them."""
+    """Whether fixed normals and flat faces apply; the other energies cannot hold them."""
     return settings.energy == "THIN_PLATE"
 
 
-# From pieces, and memory_limit (bytes) of each, to their parts.
+# Computes pieces with a memory_limit (bytes) each; returns their parts.
 Spread = Callable[[Sequence[Any], int], Iterable[Any]]
 
 
@@ -151,9 +151,9 @@ def faired(
     progress: Callable[[float, str], bool | None] | None = None,
     **monitor: Any,
 ) -> Any:
-    """discrete_fairing's Result for `fair_arguments`; with `pieces`, of so many, one after another:
-    then the run takes the memory of one, and nothing is measured. `spread` fairs them otherwise, and
-    `progress` then hears of parts that are done.
+    """The Result of discrete_fairing for `fair_arguments`. With `pieces`, the mesh is faired in so many
+    pieces, one after another: memory for one suffices, and nothing is measured. `spread` computes them
+    in another way; then `progress` counts finished parts.
     """
     if pieces is None:
         return module().fair(**arguments, progress=progress, **monitor)
@@ -182,8 +182,8 @@ def _counted(
 
 
 def patch_arguments(fairing: Mapping[str, Any], options: PatchOptions) -> dict[str, Any]:
-    """Keyword arguments for `discrete_fairing.fit_patches`: those of `fair_arguments`, and the
-    patches' own.
+    """Keyword arguments for `discrete_fairing.fit_patches`: those of `fair_arguments`, and those of the
+    patches.
     """
     left_out = ("levels", "tolerance", "measure")
     return {name: value for name, value in fairing.items() if name not in left_out} | {
@@ -195,24 +195,24 @@ def patch_arguments(fairing: Mapping[str, Any], options: PatchOptions) -> dict[s
     }
 
 
-# of the surface itself, or of vertices that a fit moves by itself
+# settings of the surface itself, or for vertices that a fit moves anyway
 _NOT_OF_FITS = {"energy", "interpolation", "tolerance", "fair_tolerance", "weights", "normals"}
 _NOT_OF_FITS |= {"pad_size", "measure"}
 
 
 def of_fits(fairing: Mapping[str, Any]) -> dict[str, Any]:
-    """Those of `fair_arguments` or `patch_arguments` that a fit to a scan has too."""
+    """The arguments of `fair_arguments` or `patch_arguments` that a fit to a scan takes too."""
     return {name: value for name, value in fairing.items() if name not in _NOT_OF_FITS}
 
 
 def patches_on_scan(arguments: Mapping[str, Any], scan: Mapping[str, Any]) -> dict[str, Any]:
-    """`patch_arguments` for the surface near a scan, given by arguments of `discrete_fairing.fit`."""
-    kept = ("tolerance",)  # of the patches
+    """`patch_arguments` for the surface near a scan; `scan` has arguments of `discrete_fairing.fit`."""
+    kept = ("tolerance",)  # the tolerance of the patches
     return of_fits(arguments) | {name: arguments[name] for name in kept} | {"scan": scan}
 
 
 class SolverFromStart:
-    """As discrete_fairing.Solver, for surfaces that are each made from the start, by `make`."""
+    """Like discrete_fairing.Solver, for surfaces that `make` computes from scratch each time."""
 
     vertex_origin = None
 
@@ -227,8 +227,8 @@ class SolverFromStart:
 
 
 def solver(arguments: Mapping[str, Any]) -> Any:
-    """What makes surfaces again and again while vertices move; with a `scan` among the arguments, near it,
-    with a weight that is known; with a `neighbour`, meeting it.
+    """A solver for repeated runs while vertices move. With a `scan` among the arguments it fits the
+    surface with a known weight; with a `neighbour` the border meets it.
     """
     own = dict(arguments)
     if "neighbour" in own:
@@ -240,8 +240,8 @@ def solver(arguments: Mapping[str, Any]) -> Any:
 
 
 def plate_arguments(fairing: Mapping[str, Any]) -> dict[str, Any]:
-    """Keyword arguments for `discrete_fairing.strain` and `ease`: those of `fair_arguments`, for the
-    thin plate on pads through all vertices. Levels above the second change nothing.
+    """Keyword arguments for `discrete_fairing.strain` and `ease`, from `fair_arguments`: for the thin
+    plate on pads at all vertices. Levels above the second change nothing.
     """
     left_out = {"shapes", "measure", "weights", "tolerance", *_OF_LIMIT}
     return {name: value for name, value in fairing.items() if name not in left_out} | {
@@ -253,8 +253,8 @@ def plate_arguments(fairing: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def released_arguments(fairing: Mapping[str, Any], free: np.ndarray) -> dict[str, Any]:
-    """Keyword arguments for `discrete_fairing.fair`: its surface's first points are those of the
-    vertices, of which the ones that are `free` (n,) bool stand where the thin plate wants them.
+    """Keyword arguments for `discrete_fairing.fair` by which the first points of the surface are the
+    vertices, with the `free` ones, (n,) bool, at the positions that the thin plate prefers.
     """
     return plate_arguments(fairing) | {
         "interpolation": "approximate",
@@ -265,14 +265,16 @@ def released_arguments(fairing: Mapping[str, Any], free: np.ndarray) -> dict[str
 
 
 def tolerance(settings: AnySettings, edge_length: float) -> float:
-    """The farthest that a vertex may be missed, a length; 0 where the surface passes through all."""
+    """The largest allowed distance of a vertex from the surface; 0 if the surface passes through all
+    vertices.
+    """
     unit = edge_length if settings.tolerance_unit == "RELATIVE" else 1.0
     return settings.tolerance * unit if is_near(settings) else 0.0
 
 
 def at_tolerance(arguments: Mapping[str, Any], surface: np.ndarray) -> list[int]:
-    """How many vertices are as far from the surface as they may be, and how many are off at all: those
-    on curves stay. `surface` (N, 3): its points, the vertices' first.
+    """How many vertices are as far from the surface as they may be, and how many are off it at all;
+    vertices on curves never are. `surface` (N, 3): its points, the vertices' first.
     """
     points = arguments["vertices"]
     allowed = np.broadcast_to(arguments["tolerance"], len(points))
@@ -285,12 +287,13 @@ def at_tolerance(arguments: Mapping[str, Any], surface: np.ndarray) -> list[int]
 def _corners(
     arrays: ControlArrays, settings: Settings, crease_threshold: float | None
 ) -> np.ndarray:
-    """All vertices where curves end by request."""
+    """All vertices at which the settings let curves end."""
     found = arrays.corner_vertices(crease_threshold)
     if settings.boundary != "CORNERS":
         return found
     ends = arrays.border_corners()
-    if settings.symmetry_plane != "NONE" and len(ends):  # where the border does not end
+    # the border does not end at the plane of symmetry
+    if settings.symmetry_plane != "NONE" and len(ends):
         near = module().halves.SNAP * np.ptp(arrays.positions, axis=0).max()
         off = np.abs(arrays.positions[ends, "XYZ".index(settings.symmetry_plane)])
         ends = ends[off > near]
@@ -298,16 +301,14 @@ def _corners(
 
 
 def without_vertices(arguments: dict[str, Any]) -> dict[str, Any]:
-    """The arguments of `discrete_fairing.fair` but the vertices: while they stay, one solver will
-    do.
+    """The arguments of `discrete_fairing.fair` without vertices; one solver serves while they are
+    equal.
     """
     return {name: value for name, value in arguments.items() if name != "vertices"}
 
 
 def are_equal(a: Any, b: Any) -> bool:
-    """Whether two values are equal: dictionaries and tuples by their parts, arrays by their
-    elements.
-    """
+    """Whether two values are equal: dictionaries and tuples by their parts, arrays by their elements."""
     if isinstance(a, dict) and isinstance(b, dict):
         return a.keys() == b.keys() and all(are_equal(a[name], b[name]) for name in a)
     if isinstance(a, tuple) and isinstance(b, tuple):
@@ -318,7 +319,7 @@ def are_equal(a: Any, b: Any) -> bool:
 
 
 def are_together(positions: np.ndarray, origin: np.ndarray | None) -> bool:
-    """Whether vertices that a solver has merged, each into its `origin` (n,), are still at one place;
+    """Whether vertices that a solver has merged, each into its `origin` (n,), still coincide;
     `positions` (n, 3).
     """
     if origin is None:
@@ -329,7 +330,7 @@ def are_together(positions: np.ndarray, origin: np.ndarray | None) -> bool:
 
 
 def _finest_level(report: Mapping[str, Any]) -> dict[str, Any] | None:
-    """The report's last entry on the energies that take several steps; None for the thin plate,
+    """The report's entry for the finest level of an energy with several steps; None for the thin plate,
     which takes one solve.
     """
     levels = report.get("curvature") or [None]
@@ -337,28 +338,24 @@ def _finest_level(report: Mapping[str, Any]) -> dict[str, Any] | None:
 
 
 def has_converged(report: Mapping[str, Any]) -> bool:
-    """Whether the steps came to their end; the one solve of the thin plate has a warning of its
-    own.
-    """
+    """Whether the steps have converged; the thin plate's single solve has a warning of its own."""
     level = _finest_level(report)
     return level is None or level["converged"]
 
 
 def folds(report: Mapping[str, Any]) -> int:
-    """How many edges of the finest level are folded; 0 where nobody has looked."""
+    """Number of folded edges on the finest level; 0 if they were not counted."""
     level = _finest_level(report)
     return 0 if level is None else level["folds"]
 
 
 def step_count(report: Mapping[str, Any]) -> int | None:
-    """How many steps the finest level took, None for the thin plate."""
+    """Number of steps on the finest level, None for the thin plate."""
     level = _finest_level(report)
     return None if level is None else len(level["steps"])
 
 
 def last_decrement(report: Mapping[str, Any]) -> float | None:
-    """What the last step still found to gain, None where there was none: its square is a share of
-    the energy.
-    """
+    """The decrement of the last step, None without steps; its square is a share of the energy."""
     level = _finest_level(report)
     return level["steps"][-1]["decrement"] if level and level["steps"] else None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The control mesh of a surface from curves: an object that remembers its curves and follows them."""
+"""The control mesh of a surface from curves: an object that keeps its curves and follows them."""
 
 from collections.abc import Hashable, Sequence
 from typing import Any, cast
@@ -34,11 +34,11 @@ from .mesh.read_curves import read_curves
 from .settings import values_of
 from .units import Text, Units
 
-HOLD = "On Curves"  # a vertex group: strength 1, which holds, on curves, nothing between them
+HOLD = "On Curves"  # a vertex group: strength 1, which fixes vertices, on curves; 0 elsewhere
 
 
 def _look_again(settings: Any, _context: Context) -> None:
-    """Live follows what its curves do: they get the change."""
+    """An update callback by which Live notices the change of a curve's settings."""
     for curve in (
         curves_of(cast(Any, settings).id_data) if isinstance(settings, FAIRING_PG_curves) else ()
     ):
@@ -86,7 +86,7 @@ def _told(group: Any, _context: Context) -> None:
 
 
 class FAIRING_PG_curves(CageSettings, bpy.types.PropertyGroup):
-    """Of a control mesh: the curves that it is made from. Of a curve: how the surface crosses it."""
+    """For a control mesh: the curves that it is made from. For a curve: how surfaces cross it."""
 
     curves: CollectionProperty(type=FAIRING_PG_curve)
     remarks: StringProperty(
@@ -108,7 +108,7 @@ class FAIRING_PG_curves(CageSettings, bpy.types.PropertyGroup):
 
 
 def curves_of(cage: Object) -> list[Object]:
-    """The curve objects that `cage` is made from and that are still there; none: it is no such mesh."""
+    """The curve objects of `cage` that still exist; empty for other objects."""
     found = (cast(Object | None, one.source) for one in cage.discrete_fairing_curves.curves)
     return [one for one in found if one is not None and one.users_scene]
 
@@ -118,12 +118,12 @@ def is_cage(cage: Object | None) -> bool:
 
 
 def watched(cage: Object) -> list[Any]:
-    """Data-blocks whose changes concern `cage`."""
+    """Data-blocks whose changes affect `cage`."""
     return [block for one in curves_of(cage) for block in (one, one.data)]
 
 
 def made_of(cage: Object) -> tuple[list[np.ndarray], Hashable]:
-    """All that its mesh depends on: to see whether that has changed."""
+    """All data that its mesh depends on, for comparison after a change."""
     curves = _read(curves_of(cage))
     return [curve.pieces for curve in curves], (
         _options(cage.discrete_fairing_curves),
@@ -134,8 +134,8 @@ def made_of(cage: Object) -> tuple[list[np.ndarray], Hashable]:
 def new_cage(
     context: Context, name: str, sources: Sequence[Object], settings: Any
 ) -> tuple[Object, Covered]:
-    """A new object, linked beside the curves, and what it was made from; JobError says why there is
-    none.
+    """A new object, linked beside the curves, and the network it was made from. Raises JobError with
+    the reason if there is none.
     """
     curves = _read(sources)
     found = covered(curves, _options(settings), text=_text(curves))
@@ -150,7 +150,9 @@ def new_cage(
 
 
 def follow(cage: Object) -> Covered:
-    """Brings its mesh up to date with its curves; JobError says why that cannot be."""
+    """Updates its mesh after a change of its curves. Raises JobError with the reason if that is
+    impossible.
+    """
     sources = curves_of(cage)
     if not sources:
         raise JobError(f"Undo, or choose another source. The curves of '{cage.name}' were deleted.")
@@ -165,7 +167,7 @@ def follow(cage: Object) -> Covered:
 
 
 def _text(curves: Sequence[Curve]) -> Text:
-    """What writes lengths in the unit that suits the farthest of the curves' points."""
+    """A function that writes lengths in the unit that suits the most distant point of the curves."""
     far = max((float(np.abs(curve.pieces).max(initial=0.0)) for curve in curves), default=0.0)
     return Units.of(current_context().scene).lengths(far, digits=4)
 
@@ -179,12 +181,12 @@ def _options(settings: Any) -> CoverOptions:
 
 
 def remarks_of(cage: Object) -> list[str]:
-    """What did not take part when its mesh was made, a sentence each."""
+    """Curves and parts that were ignored when the mesh was made, a sentence each."""
     return cage.discrete_fairing_curves.remarks.splitlines()
 
 
 def _counts(group: FAIRING_PG_curves) -> np.ndarray | None:
-    """None where a file has what is none."""
+    """The counts, or None if the file has invalid ones."""
     words = group.counts.split()
     if not all(word.isascii() and word.isdecimal() and len(word) < 6 for word in words):
         return None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Why there is no surface: what to do about it in Blender, and then the core's own sentence."""
+"""The texts of errors: what to do in Blender, and then the core's own sentence."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
@@ -10,10 +10,11 @@ from .settings import AnySettings
 from .words import counted, listed
 
 VERTEX_ON_EDGE = (
-    "VERTEX_ON_EDGE"  # the core says DEGENERATE_FACE, of a hole whose rim has no width there
+    "VERTEX_ON_EDGE"  # the core calls a hole whose rim has no width there DEGENERATE_FACE
 )
 _OR_MEND = ", or set Defects to Mend"
-# Of every code that a user of Blender can meet; an order first, as refusals begin with it.
+# One sentence for every code that a user of Blender can meet; it begins with an instruction, like all
+# refusals.
 REMEDIES = {
     "EMPTY_MESH": "Add a mesh with faces",
     "NO_FACES": "Fill the edges with faces (F in Edit Mode)",
@@ -46,7 +47,7 @@ REMEDIES = {
     "NOT_CONVERGED": "Set Spacing to ½ or lower, or use fewer levels",
 }
 _UNRESOLVED_TAUTER = "Move or add vertices there, crease the edges where it turns, or raise Tension"
-# Where there is no setting Defects; where scans are near; and where holes are filled.
+# The same where there is no setting Defects, for scans, and for holes.
 WITHOUT_MENDING = {code: text.removesuffix(_OR_MEND) for code, text in REMEDIES.items()}
 OF_FITS = REMEDIES | {
     "INCONSISTENT_ORIENTATION": "Recalculate the normals of cage and scan (Shift N in Edit Mode)",
@@ -58,7 +59,7 @@ OF_HOLES = WITHOUT_MENDING | {
     "REPEATED_VERTEX": "Cut it there into two holes",
     "TOO_LARGE": "Lower Density, or fill it in parts",
 }
-# code: what is wrong with one, with several
+# code: sentence for one element, for several
 _WHAT = {
     "NON_FINITE": ("vertex has no finite position", "vertices have no finite position"),
     "REPEATED_VERTEX": ("face uses a vertex twice", "faces use a vertex twice"),
@@ -116,8 +117,7 @@ _WHOLE = {
 class JobError(Exception):
     """Why an object cannot be faired, as a sentence for its user.
 
-    `code`, `kind`, `elements`: of the core's error, where it was the core that refused; else "",
-    "mesh", ().
+    `code`, `kind`, `elements`: those of the core's error; "", "mesh", () if the core did not raise it.
     """
 
     def __init__(
@@ -130,11 +130,11 @@ class JobError(Exception):
 
 
 class JobCancelled(JobError):
-    """The user did not want it any more."""
+    """The user has cancelled."""
 
 
 def what(defect: dict[str, Any]) -> str:
-    """What is wrong, with the number of elements, in one sentence.
+    """A defect with the number of its elements, in one sentence.
 
     `defect`: a dict of defects.check_object.
     """
@@ -145,8 +145,8 @@ def what(defect: dict[str, Any]) -> str:
 
 
 def remedy(code: str, settings: AnySettings | None = None) -> str:
-    """What to do about it, in one sentence; empty where nobody knows. `settings`: those of the surface, if
-    they are known.
+    """What to do about an error, in one sentence; empty if nothing is known. `settings`: those of the
+    surface, if known.
     """
     if code not in REMEDIES:
         return ""
@@ -155,22 +155,22 @@ def remedy(code: str, settings: AnySettings | None = None) -> str:
 
 
 def _may_be_tauter(settings: AnySettings) -> bool:
-    """Whether there is more Tension than the `settings` have: Flow Lines have none."""
+    """Whether the `settings` allow more Tension; Flow Lines have none."""
     return settings.energy != "MINIMUM_VARIATION" and settings.tension < 1.0
 
 
 def error_text(object_name: str, error: Any, remedies: Mapping[str, str] = REMEDIES) -> str:
-    """One paragraph for a FairingError: which object, what to do, what is wrong where."""
-    # ours knows Blender: what the core says to do is for callers in Python
+    """One paragraph for a FairingError: the object, what to do, and the cause with its place."""
+    # The core's cure is for callers in Python; this module has one for Blender.
     cause, cure = error.cause, remedies.get(error.code, error.cure)
-    if cure and "_" not in cause.partition(" ")[0]:  # no name of Python's
+    if cure and "_" not in cause.partition(" ")[0]:  # without names of Python's parameters
         cause = cause[:1].upper() + cause[1:]
     return f"{object_name}: {' '.join(_sentence(part) for part in (cure, cause) if part)}"
 
 
 @contextmanager
 def explained(object_name: str, remedies: Mapping[str, str] = REMEDIES) -> Iterator[None]:
-    """Inside the `with` an error of the core becomes a JobError, in words for the user."""
+    """A context in which an error of the core becomes a JobError with a text for the user."""
     fairing_error = core.module().FairingError
     try:
         yield
@@ -181,7 +181,7 @@ def explained(object_name: str, remedies: Mapping[str, str] = REMEDIES) -> Itera
         ) from error
 
 
-# Of a surface that is usable but not exact, by the core's code: what to do, what is so.
+# For surfaces that are usable but not exact, by the core's code: what to do, and the cause.
 _UNFINISHED = {
     "NOT_CONVERGED": (
         "Use fewer levels, or set Fairness to Bending, for an exact answer",
@@ -219,7 +219,7 @@ def is_unfinished(warning: Mapping[str, Any]) -> bool:
     return warning["code"] in _UNFINISHED
 
 
-# The core's cures for another thickness, by the setting that it names, as the panel has them.
+# The core's cures for a change of thickness: its name of a setting, and the panel's.
 _CURES = {
     "energy": "set Fairness to Bending",
     "tension": "raise Tension",
@@ -231,13 +231,13 @@ _CURES = {
 
 
 def _thickness_text(warning: Mapping[str, Any]) -> tuple[str, str]:
-    """What to do, and what is so: for the core's warning of another thickness."""
+    """What to do and the cause, for the core's warning of a change of thickness."""
     words = listed([words for setting, words in _CURES.items() if setting in warning["cure"]], "or")
     return words[0].upper() + words[1:], warning["cause"]
 
 
 def warning_text(object_name: str, warning: Mapping[str, Any]) -> str:
-    """One of the core's warnings, in words for the user."""
+    """A warning of the core as a text for the user."""
     if warning["code"] == "THICKNESS_CHANGED":
         return f"{object_name}: {' '.join(map(_sentence, _thickness_text(warning)))}"
     sentences = _UNFINISHED.get(warning["code"], (warning["message"],))
@@ -245,8 +245,9 @@ def warning_text(object_name: str, warning: Mapping[str, Any]) -> str:
 
 
 def unfinished_text(object_name: str, energy: str, face: int, ratio: float, fold: float) -> str:
-    """For a surface whose steps ended early; `energy`: its name in the interface. Of the source:
-    `face`, the thinnest, that is `ratio` times as long as high, and its sharpest `fold` in degrees.
+    """The text for a surface whose steps ended early; `energy`: its name in the interface. For the
+    source: `face`, the thinnest face, whose length over its height is `ratio`, and the sharpest `fold`,
+    in degrees.
     """
     return (
         f"{object_name}: Even out the thinnest faces of the source, or set Fairness to Bending, for an exact answer. "
@@ -264,24 +265,24 @@ FAULT_KINDS = frozenset(_FAULTS)
 
 
 def faults_text(object_name: str, counts: Mapping[str, int], settings: AnySettings) -> str:
-    """What is wrong with a surface, from the number of points at which it is, and what helps."""
+    """The faults of a surface, from the number of points at each, and what helps."""
     summary = faults_summary(counts)
     return f"{object_name}: {faults_remedy(settings)} T{summary[1:]}: Select Places in the panel shows where."
 
 
 def faults_in_place_text(object_name: str, counts: Mapping[str, int], settings: AnySettings) -> str:
-    """The same for faces faired in their own mesh, which has no panel of theirs."""
+    """The same for faces faired in their own mesh, which have no panel."""
     reasons = listed([f"{_FAULTS[kind]} ({count:,} points)" for kind, count in counts.items()])
     return f"{object_name}: {faults_remedy(settings)} Ctrl Z undoes it. What was faired {reasons}."
 
 
 def faults_summary(counts: Mapping[str, int]) -> str:
-    """`the surface crosses itself and is folded`, by kinds of faults."""
+    """For example `the surface crosses itself and is folded`, from counts by kind of fault."""
     return f"the surface {listed([_FAULTS[kind] for kind in counts])}"
 
 
 def faults_remedy(settings: AnySettings) -> str:
-    """What to do about it, in one sentence; `settings`: those that the surface was made with."""
+    """What to do about faults, in one sentence; `settings`: those of the surface."""
     if settings.energy == "MINIMUM_VARIATION":
         return "Set Fairness to Bending, or to Curvature with Tension."
     help_by = [] if settings.energy == "THIN_PLATE" else ["set Fairness to Bending"]
@@ -295,14 +296,16 @@ def faults_remedy(settings: AnySettings) -> str:
 
 
 def pads_text(pads: Mapping[str, Any]) -> str:
-    """Where vertices are not held softly, in one sentence, from the report's `pads`; empty if none did."""
+    """How many vertices are held by points instead of pads, in one sentence from the report's `pads`;
+    empty if none.
+    """
     gone = pads.get("gone", 0)
     if not gone:
         return ""
     return f"Not held softly at {counted(gone, 'vertex', 'vertices')}, where faces turn sharply."
 
 
-# of repairs: of one element, of several
+# repairs of one element, and of several
 _DONE = {
     "BAD_SHAPE": (
         "face of fewer than three corners dropped",
@@ -326,7 +329,7 @@ REPAIR_CODES = frozenset(_DONE)
 
 
 def repairs_text(repairs: Iterable[Mapping[str, Any]]) -> str:
-    """What was mended, in one sentence, from the report's `repairs`; empty if nothing was."""
+    """The repairs, in one sentence from the report's `repairs`; empty if there were none."""
     done = [counted(len(act["elements"]), *_DONE[act["code"]]) for act in repairs]
     return f"{', '.join(done)}; Check Mesh shows them." if done else ""
 

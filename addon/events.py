@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What Blender tells of: one handler for each of its events, whoever of us listens; and timers.
+"""One handler for each of Blender's events, with any number of listeners in the add-on; and timers.
 
-They stay while the add-on is on, other files are opened included: taking a handler away from within
-another would make Blender skip one of somebody else's.
+Handlers stay while the add-on is enabled, even when other files are opened: if a handler removed one
+inside another handler, Blender would skip an unrelated one.
 """
 
 import traceback
@@ -22,7 +22,9 @@ _handlers: dict[str, Listener] = {}
 
 
 def listen(wanted: Mapping[str, Listener]) -> None:
-    """From now on the events by these names, of bpy.app.handlers, are told; in the order of calls."""
+    """Starts listening to these events, by their names in bpy.app.handlers; listeners run in the order
+    of registration.
+    """
     for name, listener in wanted.items():
         if name not in _handlers:
             _handlers[name] = _relay(name)
@@ -31,7 +33,7 @@ def listen(wanted: Mapping[str, Listener]) -> None:
 
 
 def ignore(wanted: Mapping[str, Listener]) -> None:
-    """Ends that; the last one of an event takes its handler along."""
+    """Stops listening; an event's handler is removed with its last listener."""
     for name, listener in wanted.items():
         _listeners[name].remove(listener)
         if not _listeners[name]:
@@ -39,18 +41,18 @@ def ignore(wanted: Mapping[str, Listener]) -> None:
 
 
 def listening(wanted: Mapping[str, Listener]) -> Registration:
-    """Of a module that does nothing but listen."""
+    """Registration of a module that only listens."""
     return partial(listen, wanted), partial(ignore, wanted)
 
 
 def start_timer(function: Callable[[], float | None], seconds: float) -> None:
-    """`function` is called in so many seconds, if it does not wait for a call already."""
+    """Calls `function` after so many seconds, unless a call is pending already."""
     if not bpy.app.timers.is_registered(function):
         bpy.app.timers.register(function, first_interval=seconds)
 
 
 def stop_timer(function: Callable[[], float | None]) -> None:
-    """It waits no longer, if it did."""
+    """Cancels a pending call."""
     if bpy.app.timers.is_registered(function):
         bpy.app.timers.unregister(function)
 
@@ -61,7 +63,7 @@ def _relay(name: str) -> Listener:
         for listener in tuple(_listeners[name]):
             try:
                 listener(*arguments)
-            except Exception:  # as Blender does: the others still run
+            except Exception:  # like Blender: an error in one does not stop the others
                 traceback.print_exc()
 
     return tell

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether a surface is still that of its source and settings: what it was made of is kept with it.
+"""Whether a surface corresponds to its source and settings, whose state is stored with it.
 
-Panels only look it up. After a change a timer reads the source again; without a window that is
-done when somebody asks. What is only carried, such as UV maps, does not count.
+Panels only look up the result. After a change a timer reads the source again; without a window that is
+done on request. Data that are only carried along, such as UV maps, do not count.
 """
 
 import zlib
@@ -41,25 +41,25 @@ SCAN_MOVED = "Scan moved"
 NEIGHBOUR_CHANGED = "Neighbour changed"
 NEIGHBOUR_MOVED = "Neighbour moved"
 UNFINISHED = "Shown with fewer levels"
-# settings that change nothing about a surface that is there
+# settings that do not change an existing surface
 _ELSEWHERE = {"hide_source", "copy_modifiers", "memory_limit"}
 _SOON = 0.3  # seconds
 
-_surfaces: dict[int | str, Reference] = {}  # those that are known
-# surface: checksum of its source, and what its scans and its neighbour are, as of the last look
+_surfaces: dict[int | str, Reference] = {}  # known surfaces
+# surface: checksum of its source, and state of its scans and neighbour, when last read
 _seen: dict[int | str, tuple[int, dict[str, Any] | None, dict[str, Any] | None]] = {}
-_unread: set[int | str] = set()  # surfaces whose source may have changed since
-_watched: dict[int | str, set[int | str]] = {}  # source or its mesh: surfaces
+_unread: set[int | str] = set()  # surfaces whose sources may have changed since
+_watched: dict[int | str, set[int | str]] = {}  # source or its mesh: surfaces made from it
 
 
 @dataclass(frozen=True)
 class OwnMesh:
-    """What of a source's own mesh, as modelled, goes into a surface."""
+    """The data of a source's own mesh, without modifiers, that affect a surface."""
 
     arrays: ControlArrays
-    selection: np.ndarray | None  # (m,) bool, where the settings ask for it
-    values: tuple[np.ndarray | None, ...]  # those of groups; without those that are not there
-    keys: ShapeKeys | None  # where the settings ask for them
+    selection: np.ndarray | None  # (m,) bool, if the settings use the selection
+    values: tuple[np.ndarray | None, ...]  # values of groups; None for missing ones
+    keys: ShapeKeys | None  # if the settings use shape keys
 
     @classmethod
     def read(cls, context: Context, source: Object, settings: AnySettings) -> "OwnMesh":
@@ -83,20 +83,20 @@ class OwnMesh:
 def made_of(
     context: Context, source: Object, settings: AnySettings, read: OwnMesh | None
 ) -> dict[str, Any]:
-    """What a surface is made of at this moment, to be kept with it by `note`. `read`: None: to be read."""
+    """The present state of everything a surface depends on, for `note`. `read`: None: read it now."""
     total = _checksum(context, source, settings, read)
     return {"settings": _that_count(settings), "source": total}
 
 
 def note(target: Object, made: dict[str, Any]) -> None:
-    """Keeps with `target` what it was made of."""
+    """Stores the state that `target` was made from."""
     memory.keep(target, "made", made)
     _unread.add(session_key(target))
     know(target)
 
 
 def know(target: Object) -> None:
-    """From now on changes of its source are heard of."""
+    """Starts tracking changes of the source of `target`."""
     key, source = session_key(target), source_of(target)
     _surfaces.setdefault(key, Reference(target))
     if source is not None:
@@ -107,7 +107,7 @@ def know(target: Object) -> None:
 
 
 def known_surfaces() -> Iterator[Object]:
-    """Those that are there."""
+    """The known surfaces that still exist."""
     for reference in list(_surfaces.values()):
         target = reference.find()
         if target is not None and target.users_scene and is_own(target):
@@ -115,7 +115,7 @@ def known_surfaces() -> Iterator[Object]:
 
 
 def why_stale(target: Object) -> str:
-    """Why `target` is out of date, in a few words; empty if it is not, or nobody can tell."""
+    """Why `target` is out of date, in a few words; empty if it is not, or if that is unknown."""
     made = memory.recall(target, "made")
     if not made or source_of(target) is None:
         return ""
@@ -146,7 +146,7 @@ def why_stale(target: Object) -> str:
 def _why_off(
     made: dict[str, Any] | None, now: dict[str, Any] | None, changed: str, moved: str
 ) -> str:
-    """Other objects, of before and of now."""
+    """Why another object has made a surface out of date, from its states before and now."""
     if not made or now is None:
         return ""
     if (made["shape"], len(made["places"])) != (now["shape"], len(now["places"])):
@@ -155,14 +155,14 @@ def _why_off(
 
 
 def stale_surfaces(source: Object | None = None) -> Iterator[Object]:
-    """The known surfaces in the file that are out of date; those made from `source` alone."""
+    """The known surfaces in the file that are out of date; with `source`, only those made from it."""
     for target in known_surfaces():
         if (source is None or target.discrete_fairing.source == source) and why_stale(target):
             yield target
 
 
 def is_own(target: Object) -> bool:
-    """Whether its mesh can be made again: not of linked data, which overrides have too."""
+    """Whether its mesh can be recomputed: not for linked data and overrides."""
     return not (target.library or target.data.library)
 
 
@@ -171,8 +171,8 @@ def _that_count(settings: AnySettings) -> dict[str, Any]:
 
 
 def _differ(made: dict[str, Any], settings: FAIRING_PG_surface) -> bool:
-    """Of what a surface was `made` with: a setting that it does not know, as it is newer than the
-    surface, counts as one that nobody has chosen.
+    """Whether the settings that a surface was `made` with differ. A setting added later, which the
+    surface does not have, counts as unset.
     """
     properties: Any = settings.bl_rna.properties
     return any(
@@ -202,7 +202,7 @@ def _look() -> None:
 def _checksum(
     context: Context, source: Object, settings: AnySettings, read: OwnMesh | None = None
 ) -> int:
-    """Of all of the source that goes into a surface."""
+    """A checksum of all data of the source that affect a surface."""
     parts = (read or OwnMesh.read(context, source, settings)).parts
     words: list[Any] = [world_shape(source).rows]
     if curve_cage.is_cage(source):
@@ -218,7 +218,7 @@ def _checksum(
 
 
 def _values(modifier: Any) -> list[Any]:
-    """What the modifier's properties are, as far as they are plain."""
+    """The modifier's properties with plain values."""
     plain = (bool, int, float, str)
     found = [getattr(modifier, p.identifier) for p in modifier.bl_rna.properties]
     return [value for value in found if isinstance(value, plain)]
@@ -232,12 +232,12 @@ def _note_changes(_scene: Scene, depsgraph: bpy.types.Depsgraph) -> None:
 
 
 def _mark_all_unread(*_: Any) -> None:
-    """After undo anything may have changed."""
+    """Marks all surfaces for reading: undo may have changed anything."""
     _unread.update(_surfaces)
 
 
 def _begin(*_: Any) -> None:
-    """With the surfaces of the file that was just opened."""
+    """Starts with the surfaces of the file that was just opened."""
     for known in (_surfaces, _seen, _unread, _watched):
         known.clear()
     for target in all_objects():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Holes of a mesh closed in place by the fairest surface: which they are, and the faces that fill them."""
+"""Fills holes in their own mesh with the fairest surface: finds the holes, makes the faces."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -28,7 +28,7 @@ from .transfer.hole_loops import (
 from .units import Units
 from .words import counted
 
-# codes of a JobError: there is nothing to fill; or only what Largest Hole leaves open
+# codes of a JobError: nothing to fill, or nothing below Largest Hole
 NO_HOLE, LARGER_HOLES = "NO_HOLE", "LARGER_HOLES"
 
 
@@ -37,14 +37,13 @@ class FillOptions:
     joint: str  # POSITION, TANGENT, CURVATURE; FLAT: no new vertices, and a sharp rim
     energy: str
     density: float
-    # in Object Mode: wider holes stay open, in scene units; 0: the borders of sheets stay open
+    # in Object Mode: wider holes stay open, in scene units; 0: borders of sheets stay open
     largest: float
-    replaces: (
-        bool  # in Edit Mode: whether the selected faces are erased, or border edges name holes
-    )
+    # in Edit Mode: whether to replace the selected faces, or to fill holes at selected border edges
+    replaces: bool
     noisy: bool = False  # whether the faces around are measured, with noise
-    quads: bool = False  # whether grids of quads are wanted where the rim allows
-    edge: tuple[int, int] | None = None  # the hole with this edge, whatever else is said
+    quads: bool = False  # whether to make grids of quads if the rim allows it
+    edge: tuple[int, int] | None = None  # only the hole with this edge, whatever else is selected
 
 
 @dataclass(frozen=True)
@@ -52,31 +51,32 @@ class Filling:
     """What has been done to a mesh."""
 
     holes: int = 0
-    faces: int = 0  # new ones
-    plates: int = 0  # holes that the thin plate fills in place of another energy
-    plain: int = 0  # that the first triangulation fills
+    faces: int = 0  # new faces
+    plates: int = 0  # holes filled by the thin plate instead of the requested energy
+    plain: int = 0  # holes filled by the first triangulation
     folded: int = 0
-    crossing: int = 0  # holes whose filling passes through the mesh, or through itself
-    unclear: int = 0  # border edges around what is no hole
-    triangles: Sequence[str] = ()  # why holes have triangles where quads were wanted, one for each
+    crossing: int = 0  # holes whose filling crosses the mesh or itself
+    unclear: int = 0  # border edges around ambiguous holes
+    # why holes have triangles instead of requested quads, one reason each
+    triangles: Sequence[str] = ()
     cut: int = 0  # edges that were cut at the vertices on them
 
 
 @dataclass(frozen=True)
 class Filled:
-    """What `apply` needs."""
+    """The result of the core, for `apply`."""
 
     patches: list[Patch]
-    places: np.ndarray  # (k, 3) of all new vertices, in the object's coordinates
+    places: np.ndarray  # (k, 3) all new vertices, in the object's coordinates
     holes: list[Any]  # the core's reports
-    cuts: dict[tuple[int, int], list[int]]  # the core's
-    # what could not be filled, as Check Mesh keeps it, a dict each
+    cuts: dict[tuple[int, int], list[int]]  # the core's cuts
+    # the skipped holes, a dict each, like the defects of Check Mesh
     skipped: list[dict[str, Any]]
-    reasons: list[str]  # why, each once, with all elements
+    reasons: list[str]  # the reasons, each once, with all elements
 
     @classmethod
     def of(cls, found: Any, points: np.ndarray, shape: WorldShape) -> "Filled":
-        """From what the core found of a mesh at `points` (n, 3), in the world's `shape`."""
+        """From the core's result for a mesh at `points` (n, 3), in the world's `shape`."""
         new, none = (
             np.concatenate([np.empty((0, 3)), *(h.vertices for h in found.holes)]),
             np.empty((0, 3)),
@@ -92,7 +92,7 @@ class Filled:
 
 
 def _skipped(hole: Any) -> dict[str, Any]:
-    """A hole that the core has left."""
+    """A hole that the core has skipped."""
     return {
         "code": errors.VERTEX_ON_EDGE if hole.cure == "cut" else hole.code,
         "message": hole.message,
@@ -103,14 +103,14 @@ def _skipped(hole: Any) -> dict[str, Any]:
 
 
 class HoleJob(TimedRun):
-    """The holes of one object: read, filled on any thread, then applied. What keeps them from being
-    filled becomes `error`, so that other objects need not suffer.
+    """The holes of one object: read, filled on any thread, then applied. An error of this object
+    becomes `error`, so that other objects are still filled.
     """
 
     again = "Fill"
 
     def __init__(self, context: Context, target: Object, options: FillOptions) -> None:
-        """Reads; JobError says why that cannot be."""
+        """Reads the holes; raises JobError if that is impossible."""
         self._options, self.kind = options, options.energy
         self.error: JobError | None = None  # why nothing can be filled
         with self._reading(context, target) as mesh:
@@ -129,7 +129,7 @@ class HoleJob(TimedRun):
             holes = holes_in(self._points, self._faces)
         loops = [loop for hole in holes for loop in hole]
         unclear = unclear_edges(arrays, gone, loops)
-        if self._editing and not options.replaces:  # those that somebody has selected
+        if self._editing and not options.replaces:  # those that the user has selected
             chosen = set(map(frozenset, arrays.edges[edges].tolist()))
             unclear = [side for side in unclear if side in chosen]
         self._unclear, units = len(unclear), Units.of(context.scene)
@@ -153,8 +153,9 @@ class HoleJob(TimedRun):
 
     @property
     def closes_caps(self) -> bool:
-        """Whether the holes lie each in a plane, and the faces around stand across it: caps and transoms, no repairs. In
-        Object Mode, where nobody has named them, small rims may be in a plane by chance.
+        """Whether each hole lies in a plane and the faces around stand across it, as at caps and
+        transoms. Only in Edit Mode, where the user has chosen the holes: small rims may be planar by
+        chance.
         """
         if self._editing and self._options.replaces:
             return False
@@ -165,7 +166,7 @@ class HoleJob(TimedRun):
         )
 
     def flatten(self) -> None:
-        """Whatever the joint was."""
+        """Fills with flat faces, whatever the joint."""
         self._options = replace(self._options, joint="FLAT")
 
     @property
@@ -227,20 +228,20 @@ class HoleJob(TimedRun):
 
     @property
     def skipped(self) -> list[dict[str, Any]]:
-        """Of a finished job, what could not be filled, as Check Mesh keeps it."""
+        """The skipped holes of a finished job, like the defects of Check Mesh."""
         return [] if self.result is None else self.result.skipped
 
     @property
     def left_text(self) -> str:
-        """Which holes could not be filled, and why, as a sentence; empty where all are."""
+        """Which holes could not be filled, and why, as a sentence; empty if all are filled."""
         if not self.skipped:
             return ""
         why = _listed(self.result.reasons).rstrip(".")
         return f"{counted(len(self.skipped), 'hole')} left, listed in the panel Check: {why}"
 
     def check_again(self, context: Context) -> None:
-        """Keeps the list of holes true, where one of them was filled from it, and lists what could not be
-        filled, and edges around no hole, with buttons that select and mend them.
+        """Updates the list of holes if one was filled from it; lists skipped holes and ambiguous border
+        edges, with buttons that select and mend them.
         """
         target = self.reference.find()
         if target is None or not (self.skipped or self._unclear or self._options.edge is not None):
@@ -252,12 +253,12 @@ class HoleJob(TimedRun):
             store_defects(context, target, known + new)
 
 
-_BY_CHANCE = 6  # vertices of a rim: twice as many as a plane has
-_PLANAR = 1e-3  # of a rim's width: as far from its plane as its vertices may be
+_BY_CHANCE = 6  # vertices of a rim that may be planar by chance: twice as many as determine a plane
+_PLANAR = 1e-3  # largest distance of a rim's vertices from its plane, relative to its width
 
 
 def _is_cap(points: np.ndarray, arrays: core.ControlArrays, hole: list[list[int]]) -> bool:
-    """Whether the rim lies in a plane that the faces around stand across, by more than half a right angle in the mean."""
+    """Whether the rim lies in a plane that the faces around cross at more than 45 degrees on average."""
     rim = points[[v for loop in hole for v in loop]]
     away = rim - rim.mean(axis=0)
     _, sizes, ways = np.linalg.svd(away, full_matrices=False)
@@ -271,7 +272,7 @@ def _is_cap(points: np.ndarray, arrays: core.ControlArrays, hole: list[list[int]
 
 
 def _triangles_in(edges: int, density: float) -> int:
-    """Of a round flat hole with so many edges around, in equilateral triangles."""
+    """Number of equilateral triangles in a round flat hole with so many edges."""
     return edges + round((edges * density) ** 2 / (np.sqrt(3.0) * np.pi))
 
 
@@ -288,7 +289,7 @@ def _no_wider(
 def _why_none(
     options: FillOptions, editing: bool, unclear: int, loops: int, units: Units
 ) -> tuple[str, str]:
-    """The code, and a sentence."""
+    """The error's code, and a sentence."""
     if options.edge is not None:
         return NO_HOLE, "Press Check Mesh again: this hole is no longer there"
     if unclear:
@@ -318,7 +319,7 @@ def _unclear_text(count: int) -> str:
 def _write(
     bm: Any, gone: np.ndarray, patches: list[Patch], places: np.ndarray, flat: bool = False
 ) -> None:
-    """The filling, selected, in the place of the faces `gone` (ids). `flat`: its rim is sharp."""
+    """Makes the filling, selected, in place of the faces `gone` (ids). `flat`: its rim becomes sharp."""
     bm.verts.ensure_lookup_table()
     rims = [[bm.verts[v] for v in patch.rim.tolist()] for patch in patches]
     if len(gone):
@@ -341,7 +342,7 @@ def _write(
 
 
 def fill_warnings(done: list[Filling]) -> list[str]:
-    """What their user should know of fillings, a sentence each."""
+    """Warnings about fillings, a sentence each."""
     plates, folded = sum(f.plates for f in done), sum(f.folded for f in done)
     unclear = sum(f.unclear for f in done)
     said = [_unclear_text(unclear)] if unclear else []
@@ -370,6 +371,6 @@ def fill_warnings(done: list[Filling]) -> list[str]:
 
 
 def _listed(reasons: list[str]) -> str:
-    """Each once, the most frequent first; no more than are read."""
+    """The reasons, each once, the most frequent first; no more than users read."""
     ranked = sorted(set(reasons), key=lambda reason: (-reasons.count(reason), reason))
     return "; ".join(ranked[:3]) + ("; …" if len(ranked) > 3 else "")

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Selected faces faired in their own mesh: its vertices moved, or the faces refined as well.
+"""Fairs selected faces in their own mesh: moves its vertices, or refines the faces too.
 
-Only what is near takes part: the selection and the faces around it.
+Only the selection and the faces near it are computed.
 """
 
 from dataclasses import dataclass, replace
@@ -26,24 +26,25 @@ from .transfer.attributes import AttributeTransfer
 from .transfer.cut_out import CutOut, cut_out, grown, inside
 from .units import Units
 
-# levels that stand in for the surface of which only the control vertices are wanted
+# levels of the surface if only its control vertices are needed
 _UNSEEN_LEVELS = 2
-# rings of faces whose vertices say how the surface goes on, where it is not refined
+# rings of faces that determine the continuation if the selection is not refined
 _RINGS = {"POSITION": 0, "TANGENT": 1, "CURVATURE": 2}
-# where it is, the faces around count as they are: those that touch the rim, and their neighbours
+# the same if it is refined: the faces at the rim and their neighbours
 _RINGS_REFINED = 2
 
 
 @dataclass(frozen=True)
 class InPlaceOptions:
-    levels: int  # 0: vertices move, the faces stay
+    levels: int  # 0: vertices move, faces stay
     joint: str  # POSITION, TANGENT, CURVATURE
     energy: str
     tension: float
-    release: bool  # whether the vertices of the selection move; unless the caller passes others
-    factor: float = 1.0  # how far they go
-    measured: bool = False  # whether they are data, and the surface passes near them
-    noise: float = 0.0  # of these, rms along the normals, a length; 0: found out
+    release: bool  # whether vertices of the selection move; callers may pass others
+    factor: float = 1.0  # the share of the way that they move
+    # whether the vertices are measured, so that the surface passes near them
+    measured: bool = False
+    noise: float = 0.0  # their noise, rms along the normals, a length; 0: estimated
 
     @property
     def moves(self) -> bool:
@@ -52,18 +53,19 @@ class InPlaceOptions:
 
 @dataclass(frozen=True)
 class Faired:
-    """What `apply` needs."""
+    """The result of a run, for `apply`."""
 
     part: CutOut
-    chosen: np.ndarray  # (r,) ids of the faces that were selected
+    chosen: np.ndarray  # (r,) ids of the selected faces
     points: np.ndarray  # (N, 3) in the object's coordinates, the vertices of `part` first
-    # by selected face that was split: the points that all its triangles have, a centre or a diagonal
+    # for each selected face that was split: the points common to all its triangles, a centre or a
+    # diagonal
     splits: dict[int, list[int]]
-    # (N, 3) float32, no two alike; linear between those of the vertices; none where faces stay
+    # (N, 3) float32, labels: all different, linear between those of the vertices; None if faces stay
     labels: np.ndarray
     levels: int
     faults: Faults
-    noise: float = 0.0  # of measured vertices, a length
+    noise: float = 0.0  # noise of measured vertices, a length
 
 
 class InPlaceJob(TimedRun):
@@ -74,12 +76,12 @@ class InPlaceJob(TimedRun):
     def __init__(
         self, context: Context, source: Object, settings: Settings, options: InPlaceOptions
     ) -> None:
-        """Reads; JobError says why that cannot be. In Object Mode all faces are meant. `settings`: what counts as a crease, and the rest
-        that `options` does not say.
+        """Reads the faces; raises JobError if that is impossible. In Object Mode all faces are used.
+        `settings`: creases and everything else that `options` does not have.
         """
         self._options, self.kind = options, options.energy
         self._units = Units.of(context.scene)
-        self._preferences = of_runs()  # arguments are also made on the thread that computes
+        self._preferences = of_runs()  # arguments are also made on the computing thread
         with self._reading(context, source) as mesh:
             chosen = np.full(len(self.arrays.face_sizes), source.mode != "EDIT")
             if source.mode == "EDIT":
@@ -94,7 +96,8 @@ class InPlaceJob(TimedRun):
         self._asked = asked = _settings(settings, options)
         self.triangles = size.triangle_count(part.arrays.face_sizes, asked.levels)
         self._arguments = self._arguments_of(part.arrays, region)
-        if settings.boundary == "CORNERS":  # those of the mesh: the selection's own are none
+        # CORNERS means corners of the mesh; the selection's own do not count
+        if settings.boundary == "CORNERS":
             whole = self.shape.of_arrays(self.arrays).border_corners()
             corners = np.isin(part.vertices, whole)
             given = self._arguments["corner_vertices"]
@@ -113,8 +116,8 @@ class InPlaceJob(TimedRun):
         return _RINGS_REFINED if self._options.levels else _RINGS[self._options.joint]
 
     def _smoothed(self, watchers: dict[str, Any]) -> tuple[Any, float]:
-        """What was measured, without its noise, at level 0; and how large that was. The amount is
-        found on a part of large patches.
+        """The measured vertices without noise, at level 0, and the noise. The amount is found on a part
+        of large patches.
         """
         part, arguments = self._part.arrays, self._arguments
         theirs = self._chosen[self._part.faces]
@@ -162,8 +165,8 @@ class InPlaceJob(TimedRun):
         self.result = Faired(part, chosen, points, splits, spread, levels, faults, noise)
 
     def _part_of_the_way(self, vertices: np.ndarray, before: np.ndarray) -> np.ndarray:
-        """`vertices` with the first of them, those of the part, between where they were `before` and
-        where they are fairest; to the bit where they stay.
+        """`vertices` with those of the part interpolated between their positions `before` and the
+        fairest ones; unmoved vertices stay to the bit.
         """
         if self._options.factor == 1.0:
             return vertices
@@ -172,14 +175,14 @@ class InPlaceJob(TimedRun):
         return vertices
 
     def warnings(self) -> list[str]:
-        """What the user should know of a finished job, a sentence each."""
+        """Warnings of a finished job, a sentence each."""
         world = self.shape.of_arrays(self._part.arrays)
         sentences = run_warnings(
             self.name, self._report, self._options.energy, world, self._part.faces
         )
         counts = self.result.faults.counts
         if counts:
-            # Near is no choice here, nor are Fairness and Tension where noise alone is taken off
+            # Near is no option here, and removing noise has neither Fairness nor Tension
             settings = replace(self._asked, interpolation="APPROXIMATE")
             if self._options.measured and not self._options.levels:
                 settings = replace(settings, energy="THIN_PLATE", tension=1.0)
@@ -188,20 +191,22 @@ class InPlaceJob(TimedRun):
 
     @property
     def notes(self) -> list[str]:
-        """What the user may want to know of a finished job, a sentence each."""
+        """Remarks of a finished job, a sentence each."""
         if not self._options.measured:
             return []
         noise = self.result.noise
         return [f"{self.name}: noise of {self._units.lengths(noise)(noise)} (rms) removed."]
 
     def apply(self) -> None:
-        """Moves, and with levels refines, the faces."""
+        """Moves the faces, and with levels refines them."""
         apply(cast(Object, self.reference.find()), self.result)
         self.note()
 
 
 def _split_faces(transfer: AttributeTransfer, part: CutOut) -> dict[int, list[int]]:
-    """The core splits polygons of five corners and more, and quads that are warped too much."""
+    """The selected faces that the core splits: polygons of five corners and more, and quads that are
+    too warped.
+    """
     found: dict[int, list[int]] = {}
     for patch in transfer.patches:
         if patch.faces.size == 3:
@@ -228,7 +233,7 @@ def _refuse(
 
 
 def floats(arrays: Any, free: np.ndarray) -> bool:
-    """Whether some connected part of the mesh `arrays` has `free` vertices (n,) bool only."""
+    """Whether some connected part of the mesh `arrays` has only `free` vertices, (n,) bool."""
     part = core.module().patches.connected_parts(len(free), arrays.edges)
     return bool((np.bincount(part, ~free) == 0).any())
 
@@ -238,7 +243,7 @@ def _settings(settings: Settings, options: InPlaceOptions) -> Settings:
     return replace(
         settings,
         levels=options.levels or unseen,
-        # a scan has no creases but those that somebody has marked
+        # a scan has only the creases that the user has marked
         use_sharp_edges=settings.use_sharp_edges or options.measured,
         joint=options.joint,
         energy=options.energy,
@@ -251,9 +256,9 @@ def _settings(settings: Settings, options: InPlaceOptions) -> Settings:
 
 
 def apply(source: Object, faired: Faired) -> None:
-    """Moves, and with levels refines, the faces that were read."""
+    """Moves the faces that were read, and with levels refines them."""
     mesh = source.data
-    if source.mode != "EDIT" and not faired.levels:  # without a copy: scans are large
+    if source.mode != "EDIT" and not faired.levels:  # without a copy, since scans are large
         points = column(mesh.vertices, "co", width=3)
         points[faired.part.vertices] = faired.points[: len(faired.part.vertices)]
         mesh.vertices.foreach_set("co", points.ravel())
@@ -270,7 +275,7 @@ def apply(source: Object, faired: Faired) -> None:
 
 
 def _split(bm: bmesh.types.BMesh, faired: Faired, label: Any, chosen: Any) -> None:
-    """The faces that are to be refined, as the core has split them."""
+    """Splits the faces to be refined like the core."""
     bm.faces.ensure_lookup_table()
     faces = [(bm.faces[index], common) for index, common in faired.splits.items()]
     known = [bm.verts[index] for index in faired.part.vertices.tolist()]
@@ -285,8 +290,8 @@ def _split(bm: bmesh.types.BMesh, faired: Faired, label: Any, chosen: Any) -> No
 
 
 def _refine(bm: bmesh.types.BMesh, faired: Faired, keys: tuple[str, list[str]]) -> None:
-    """Blender's own subdivision makes the faces, with all that lies on them, and mixes the labels of
-    the vertices; these say which point each new vertex is. `keys`: as `dependent_keys` has them.
+    """Refines by Blender's own subdivision, which interpolates all data on the faces and the labels of
+    the vertices; a label identifies the point of a new vertex. `keys`: as returned by `dependent_keys`.
     """
     of_vertices: Any = bm.verts.layers.float_vector
     of_faces: Any = bm.faces.layers.int
@@ -314,7 +319,7 @@ def _refine(bm: bmesh.types.BMesh, faired: Faired, keys: tuple[str, list[str]]) 
     for vertex in {v for face in bm.faces if face[chosen] for v in face.verts}:
         row = tree.find(vertex[label])[1]
         vertex.co = faired.points[row].tolist()
-        if vertex in old:  # whose move Blender itself hands on
+        if vertex in old:  # Blender itself passes on the move of these
             continue
         for other in others:
             vertex[other] += vertex.co - vertex[edited_key]

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One object's way from its mesh to the new object, in three steps: read, compute, write.
 
-Reading and writing belong to Blender's main thread. Computing touches nothing of Blender and may
-run on any thread.
+Reading and writing belong to Blender's main thread. Computing uses nothing of Blender and may run on
+any thread.
 """
 
 from collections.abc import Iterator, Mapping
@@ -38,13 +38,13 @@ from .transfer.lattice import edge_table, fine_edges
 from .transfer.mirror import find_mirrors, symmetrize, uneven_axes
 from .transfer.seams import seam_pairs
 
-NOTICED_MEMORY = 2**28  # bytes: less than this is nothing beside Blender itself
+NOTICED_MEMORY = 2**28  # bytes: less is negligible beside Blender itself
 
 
 class Job(TimedRun):
-    """The fairing of one object. A failed or cancelled job leaves everything as it was."""
+    """The fairing of one object. A failed or cancelled job changes nothing."""
 
-    made_name = "Fair"  # of a new object, behind its source's
+    made_name = "Fair"  # of a new object, after its source's name
     remedies = errors.REMEDIES
 
     def __init__(
@@ -57,12 +57,12 @@ class Job(TimedRun):
         neighbour: Object | None = None,
         surface: Object | None = None,
     ) -> None:
-        """Reads all that will be needed.
+        """Reads all data that the run needs.
 
-        `target`: an object that gets the surface as its mesh; None: a new one is made. `region`:
-        (r,) ids of the faces to fair with `use_selection`; None: those that are selected now.
-        `neighbour`: which the border meets, None: that of the target, if it has one; it does so where
-        `surface` stands, None: the target.
+        `target`: the object whose mesh the surface becomes; None: a new object. `region`: (r,) ids of
+        the faces to fair with `use_selection`; None: the current selection. `neighbour`: the object
+        that the border meets, None: that of the target, if any; it is placed relative to `surface`,
+        None: the target.
         """
         self._target = None if target is None else Reference(target)
         self.settings = settings.for_source(source)
@@ -101,15 +101,16 @@ class Job(TimedRun):
         )
         stands = surface or place.next_of(source, target)
         self._meet(context, source, neighbour or neighbours.neighbour_of(target), stands)
-        # what the user may want to know, a sentence each
+        # remarks for the user, a sentence each
         self.notes = [*self.data.notes, *self._not_done()]
-        self.pieces: int | None = None  # faired one after another; None: as a whole
-        self.spread: core.Spread | None = None  # how pieces are faired otherwise
+        # number of pieces, faired one after another; None: faired as a whole
+        self.pieces: int | None = None
+        self.spread: core.Spread | None = None  # another way to fair pieces
 
     def _meet(
         self, context: Context, source: Object, neighbour: Object | None, surface: Object
     ) -> None:
-        """Has the border meet a neighbour's, if there is one, where `surface` stands."""
+        """Sets the neighbour that the border meets, if there is one, relative to `surface`."""
         self._neighbour = None if neighbour is None else Reference(neighbour)
         self._made["neighbour"] = "" if neighbour is None else neighbour.name
         if neighbour is not None:
@@ -119,7 +120,7 @@ class Job(TimedRun):
             )
 
     def _not_done(self) -> Iterator[str]:
-        """What the energy leaves out, a sentence each."""
+        """Settings that the energy ignores, a sentence each."""
         if "shapes" in self.arguments and self.settings.energy != "THIN_PLATE":
             yield "Each shape key is faired separately. Mixtures of them are fair with Bending only."
         if core.keeps_marks(self.settings):
@@ -152,7 +153,7 @@ class Job(TimedRun):
         return core.faired(self.arguments, self.pieces, self.spread, **watchers)
 
     def control(self) -> core.ControlArrays:
-        """The mesh that the surface is compared with, as the core has it."""
+        """The mesh with which the surface is compared, as arrays."""
         return self.shape.of_arrays(self.arrays)
 
     @property
@@ -161,22 +162,22 @@ class Job(TimedRun):
 
     @property
     def predicted_seconds(self) -> float:
-        """On a new machine rather too short, so that it is tried."""
+        """Rather too short on a new machine, so that the run is tried."""
         return prediction.hoped_seconds(self.kind, self._work(), self._key)
 
     def predict(self, energy: str, levels: int) -> float:
-        """How long it would take by another energy, with other levels."""
+        """The predicted time with another energy and number of levels."""
         return prediction.seconds(energy, self._work(levels), self._key)
 
     def _work(self, levels: int | None = None) -> int:
-        """Of the surface and of each shape, mirror images too."""
+        """Triangles of the surface and of each shape, with mirror images."""
         shapes = len(self.arguments.get("shapes", ()))
         levels = self.settings.levels if levels is None else levels
         one = size.triangle_count(self.arrays.face_sizes, levels)
         return one * (1 + shapes) * halves(self.settings)
 
     def _to_object(self) -> None:
-        """The core's surfaces from the world's shape to the coordinates of the object."""
+        """Transforms the core's surfaces from the world's shape to the object's coordinates."""
         result, sent = self.result, self.arguments
         result.vertices = self.shape.back(result.vertices, sent["vertices"], self.arrays.positions)
         result.shapes = [
@@ -185,7 +186,7 @@ class Job(TimedRun):
         ]
 
     def _own_shapes(self) -> np.ndarray | tuple[()]:
-        """(k, n, 3): the shape keys but the first, in the coordinates of the object."""
+        """(k, n, 3): the shape keys without the first, in the object's coordinates."""
         return self.keys.shapes if self.keys else ()
 
     def _symmetrize(self) -> None:
@@ -210,26 +211,26 @@ class Job(TimedRun):
 
     @property
     def source(self) -> Object | None:
-        """Found again each time: a long run leaves time for undo, and to delete it; None then."""
+        """Found anew at each call, since it may have been deleted or replaced by undo; None if so."""
         return self.reference.find()
 
     @property
     def target(self) -> Object | None:
-        """What gets the surface; None: a new object, or it is gone."""
+        """The object that gets the surface; None: a new one, or it was deleted."""
         return None if self._target is None else self._target.find()
 
     def is_writable(self) -> bool:
-        """Whether all objects that writing needs still exist."""
+        """Whether all objects needed for writing still exist."""
         return all(r.find() is not None for r in (self.reference, self._target) if r is not None)
 
     def write(self, context: Context, own: OwnData | None = None) -> Object:
         """Makes the object, or gives `target` its new mesh, and returns it.
 
-        `own`: what `target` has of its own; None: what it has at this moment.
+        `own`: the data on `target` to keep; None: its present data.
         """
         result, settings, source = self.result, self.settings, self.source
         old = self.target
-        assert source is not None  # as is_writable has seen
+        assert source is not None  # is_writable has checked it
         creases = fine_edges(result.faces, result.crease_edges, settings.levels)
         sharp_pairs = np.concatenate([creases, self._seams])
         carried = carried_names(self.data, self.keys)
@@ -270,11 +271,11 @@ class Job(TimedRun):
         return target
 
     def mark(self, mesh: Mesh) -> None:
-        """Gives the surface, in `mesh`, the attributes that say where something is wrong with it."""
+        """Adds attributes to `mesh` that mark the surface's faults."""
         self.faults.write(mesh)
 
     def warnings(self) -> list[str]:
-        """What the user should know of a finished job, a sentence each."""
+        """Warnings of a finished job, a sentence each."""
         world = self.shape.of_arrays(self.arrays)
         sentences = run_warnings(self.name, self.result.report, self.settings.energy, world)
         if self.faults.counts:
@@ -289,8 +290,8 @@ def run_warnings(
     control: core.ControlArrays,
     ids: np.ndarray | None = None,
 ) -> list[str]:
-    """What the core's `report` on the mesh `control` warns of, a sentence each; `ids` (m,): what its
-    faces are called, None: by their places.
+    """The warnings of the core's `report` on the mesh `control`, a sentence each. `ids` (m,): names of
+    its faces; None: their positions.
     """
     sentences = [
         errors.warning_text(name, warning)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A measured patch: its vertices are data, not obstacles. The surface passes near them, drawn by a
-weight that the noise decides, and they go to it along its normals.
+"""Smooths a measured patch: the surface passes near its vertices, with a weight that depends on their
+noise, and the vertices move to it along their normals.
 
-A smoothing spline [Reinsch 1967] on the mesh itself, its amount by generalized cross-validation
+A smoothing spline [Reinsch 1967] on the mesh itself, with its amount by generalized cross-validation
 [Craven, Wahba 1979; Golub, Heath, Wahba 1979]. Plain arrays, no Blender.
 """
 
@@ -17,32 +17,34 @@ from .transfer.blocks import blocks
 from .transfer.cut_out import grown
 from .triangles import fans, normals
 
-# Weights that are tried, from strong to weak: 10 hardly smooths, 1e-4 leaves a plate. Between
-# neighbours the error of a noisy sphere differs by a fifth at its least.
+# Weights to try, from strong to weak: 10 hardly smooths, 1e-4 leaves a plate. Between neighbouring
+# weights the least error of a noisy sphere differs by at most a fifth.
 _WEIGHTS = 10.0 ** np.arange(1.0, -4.1, -0.5)
-# for the normals along which noise is measured: between the extremes of what noise asks for
+# the weight for the normals along which noise is measured: between the extremes
 _FIRST = 10.0**-0.5
-# faces on which the amount is found; more would find the same one
+# faces on which the amount is found; more give the same amount
 SAMPLE = 8_000
-# Faces that are smoothed at a time. One solve is direct, and its time grows with the power 1.5: processor
-# time a vertex is 16 µs for 4,000 of them, 25 for 23,000 and 68 for 90,000; smaller blocks are mostly border.
+# Faces that are smoothed at a time. One solve is direct, and its time grows with the power 1.5:
+# processor time a vertex is 16 µs for 4,000 of them, 25 for 23,000 and 68 for 90,000; smaller blocks
+# consist mostly of borders.
 BLOCK = 10_000
-# Mean edges around a block, times the weight to the power -¼, which is how far the fit reaches in edges: six
-# times as far the border of a block is felt by at most 0.017 of the noise, by 0.002 of it rms.
+# Width of the overlap around a block in mean edges, times the weight to the power -¼, which is the
+# reach of the fit in edges. At six times the reach the block's border changes a vertex by at most 0.017
+# of the noise, 0.002 rms.
 _AROUND = 6.0
-_SOUGHT = 0.2  # of the progress: until the amount is known
+_SOUGHT = 0.2  # share of the progress until the amount is known
 
 
 def sample(arrays: core.ControlArrays, chosen: np.ndarray) -> np.ndarray:
-    """(m,) bool: of the faces that are `chosen`, (m,) bool, so many that touch each other that the
-    amount is found on them.
+    """(m,) bool: a connected subset of the faces `chosen`, (m,) bool, large enough to find the amount
+    on it.
     """
     found = np.zeros(len(chosen), bool)
     found[np.flatnonzero(chosen)[:1]] = True
     while found.sum() < SAMPLE:
         more = grown(arrays, found, 1) & chosen
         if (more == found).all():
-            # a part with all its neighbours: another one
+            # another part, with all its neighbours
             rest = np.flatnonzero(chosen & ~found)[:1]
             if not len(rest):
                 break
@@ -58,10 +60,10 @@ class Amount:
 
 
 def amount(arguments: Mapping[str, Any], free: np.ndarray, noise: float, runs: Any) -> Amount:
-    """How strongly the vertices that are `free`, (n,) bool, are to draw the surface. `arguments`:
-    those of discrete_fairing.fair; all other vertices stay.
+    """How strongly the vertices `free`, (n,) bool, are to attract the surface. `arguments`: those of
+    discrete_fairing.fair; all other vertices stay.
 
-    `noise`: how far the free ones are off, rms, a length; 0: found out.
+    `noise`: rms distance of the free vertices from the true surface, a length; 0: estimated.
     """
     trial = _Trial(_Fit(arguments, free, runs.run(0.0, _SOUGHT)), free)
     weight = trial.for_noise(noise) if noise > 0 else trial.by_validation()
@@ -75,11 +77,12 @@ def smoothed(
     weight: float,
     runs: Any,
 ) -> Any:
-    """The Result at level 0 for `arrays`, its vertices, where they are `free`, (n,) bool, moved along the
-    normals to the surface that is drawn by `weight`. Those on creases stay.
+    """The Result at level 0 for `arrays`, whose `free` vertices, (n,) bool, move along the normals to
+    the surface attracted with `weight`. Vertices on creases stay.
 
-    In blocks, since the surface near a vertex is that of the data around it. `arguments_of`: those of
-    discrete_fairing.fair for a part; `runs`: SeveralRuns of the package.
+    Computed in blocks, since the surface near a vertex depends on the data around it only.
+    `arguments_of`: makes the arguments of discrete_fairing.fair for a part; `runs`: SeveralRuns of the
+    package.
     """
     whole = dict(arguments_of(arrays)) | {"levels": 0, "interpolation": "exact"}
     for name in ("region", "joint", "shapes", "normals", "weights"):
@@ -122,7 +125,7 @@ class _Fit:
         return core.module().fair(**self._arguments | more | self._watchers, weights=weights)
 
     def own(self, points: np.ndarray) -> np.ndarray:
-        """Those of the vertices, without the centres of polygons that the core has split."""
+        """The points of the vertices, without the centres of polygons that the core has split."""
         return points[: len(self.points)]
 
     def normals(self, points: np.ndarray) -> np.ndarray:
@@ -131,21 +134,22 @@ class _Fit:
 
 
 class _Trial:
-    """What a weight leaves of the noise."""
+    """The noise that remains with one weight."""
 
     def __init__(self, fit: _Fit, free: np.ndarray):
         first = fit.own(fit.run(_FIRST).vertices)
         self._fit, self._normals = fit, fit.normals(first)
-        self._free = free & (first != fit.points).any(axis=1)  # those on creases stay
+        # without vertices on creases, which stay
+        self._free = free & (first != fit.points).any(axis=1)
         signs = np.random.default_rng(0).choice([-1.0, 1.0], len(free)) * self._free
-        # a probe of any size: the fit is linear
+        # a probe of any size, since the fit is linear
         size = 1e-3 * float(np.ptp(fit.points, axis=0).max(initial=0.0)) or 1.0
         self._probe = size * signs[:, None] * self._normals
         self._known: dict[float, tuple[float, float]] = {}
 
     def _measured(self, weight: float) -> tuple[float, float]:
-        """The mean square that the fit is off along the normals, and the share of the data that it
-        uses up: the trace of its influence, by one random probe [Hutchinson 1990].
+        """The mean square distance from the fit along the normals, and the share of the data that it
+        uses: the trace of its influence matrix, by one random probe [Hutchinson 1990].
         """
         if weight not in self._known:
             found = self._fit.run(weight, shapes=(self._fit.points + self._probe)[None])
@@ -175,7 +179,7 @@ class _Trial:
         return float(_WEIGHTS[int(np.argmin(scores))])
 
     def for_noise(self, noise: float) -> float:
-        """The strongest weight that takes so much off [Morozov 1966]."""
+        """The strongest weight that removes so much noise [Morozov 1966]."""
         tried = [*(10.0 ** np.arange(3.0, 1.0, -0.5)).tolist(), *_WEIGHTS.tolist()]
         low = next((w for w in tried if self._off(w) >= noise), tried[-1])
         high = low * 10.0**0.5

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a faired object remembers, and what was found on any mesh: hidden properties in the file.
+"""The data that a faired object keeps, and the results of checks on any mesh: hidden properties in the
+file.
 
-Records are JSON in text properties. Settings in a file may be what no field takes; those count as
-unset when the file is opened or objects are appended from it.
+Records are JSON in text properties. Settings in a file may be invalid; these count as unset when the
+file is opened or objects are appended from it.
 """
 
 import json
@@ -25,7 +26,7 @@ from .blender import Context, Object, all_objects, all_scenes, attached, in_orde
 from .properties import FairingSettings, FitAmount, copy_settings
 from .settings import Settings
 
-# by the names of object and record: panels ask at every redraw, and records are long
+# by object and record: panels read them at every redraw, and records are long
 _parsed: dict[tuple[str, str], tuple[str, dict[str, Any] | None]] = {}
 
 
@@ -51,7 +52,7 @@ def _may_meet(group: Any, other: Object) -> bool:
 
 
 class FAIRING_PG_surface(FairingSettings, bpy.types.PropertyGroup):
-    """What a faired object remembers: where it comes from, and how it was made."""
+    """The source of a faired object, and how it was made."""
 
     source: PointerProperty(
         name="Source",
@@ -112,7 +113,7 @@ class FAIRING_PG_scan(bpy.types.PropertyGroup):
 
 
 class FAIRING_PG_fit(FitAmount, bpy.types.PropertyGroup):
-    """What a surface near scans remembers of them; empty for other surfaces."""
+    """The scans of a surface near scans; empty for other surfaces."""
 
     scans: CollectionProperty(type=FAIRING_PG_scan)
     weight: FloatProperty(name="Weight", description="How strongly points pull", options={"HIDDEN"})
@@ -120,7 +121,7 @@ class FAIRING_PG_fit(FitAmount, bpy.types.PropertyGroup):
 
 
 class FAIRING_PG_mesh(bpy.types.PropertyGroup):
-    """What goes with the curvature colours of a mesh."""
+    """Properties that belong to a mesh's curvature colours."""
 
     curvature_range: FloatVectorProperty(
         name="Curvature Range",
@@ -136,9 +137,7 @@ def remember(
     settings: Settings,
     report: Mapping[str, Any],
 ) -> None:
-    """Notes on `target` where it comes from, so that it can be computed again, and what the core
-    reported.
-    """
+    """Stores on `target` its source and settings, so that it can be recomputed, and the core's report."""
     target.discrete_fairing.source = source
     target.discrete_fairing.unfinished = False
     copy_settings(settings, target.discrete_fairing)
@@ -148,7 +147,7 @@ def remember(
 def remember_fit(
     target: Object, scans: Sequence[Object], tolerance: float | None, weight: float, said: str
 ) -> None:
-    """Notes on `target` which scans it is near, and how. `tolerance`: None: as near as noise allows."""
+    """Stores on `target` its scans and amount. `tolerance`: None: as near as the noise allows."""
     kept = target.discrete_fairing_fit
     kept.scans.clear()
     for scan in scans:
@@ -160,20 +159,18 @@ def remember_fit(
 
 
 def scans_of(target: Object) -> list[Object]:
-    """The scans that a surface is near, those that are still there."""
+    """The scans of a surface that still exist."""
     kept: Any = target.discrete_fairing_fit.scans
     return [each.target for each in kept if each.target is not None]
 
 
 def keep(target: Object, name: str, record: Mapping[str, Any]) -> None:
-    """Keeps a dict with the object `target`. `name`: one of those in records.py."""
+    """Stores a dict with the object `target`. `name`: one of the records in records.py."""
     setattr(target.discrete_fairing, name, json.dumps(record, default=_plain))
 
 
 def recall(target: Object, name: str) -> dict[str, Any] | None:
-    """What `keep` has kept, not to be changed; None if there is nothing, or nothing that can be
-    read.
-    """
+    """The record stored by `keep`, which must not be changed; None if there is none, or an invalid one."""
     text = getattr(target.discrete_fairing, name)
     known = _parsed.get((target.name_full, name))
     if known is None or known[0] != text:
@@ -189,7 +186,7 @@ def source_of(target: Object) -> Object | None:
 
 
 def active_source(context: Context) -> Object | None:
-    """The mesh that the active object is, or is made from."""
+    """The active object, or the source of the active surface."""
     active = context.active_object
     if active is None or active.type != "MESH":
         return None
@@ -197,21 +194,21 @@ def active_source(context: Context) -> Object | None:
 
 
 def source_problem(target: Object) -> str:
-    """Why `target` cannot be made from the source that it names, in one sentence; empty if it can,
-    or names none. Scripts may name any object.
+    """Why `target` cannot be made from its source, in one sentence; empty if it can, or has none.
+    Scripts may set any object as the source.
     """
     source = target.discrete_fairing.source
     return "" if source is None else why_unfit(target, source)
 
 
 def no_source_reason(target: Object | None) -> str:
-    """Why `target`, which `source_of` knows nothing of, cannot be computed again, in one sentence."""
+    """Why `target`, for which `source_of` is None, cannot be recomputed, in one sentence."""
     problem = source_problem(target) if target is not None and target.type == "MESH" else ""
     return problem or "Select a faired surface whose source still exists"
 
 
 def _plain(value: Any) -> Any:
-    """NumPy scalars and arrays, and mappings that are no dict, for JSON."""
+    """NumPy scalars and arrays, and other mappings, as JSON values."""
     if hasattr(value, "tolist"):
         return value.tolist()
     if hasattr(value, "items"):
@@ -230,9 +227,7 @@ _GROUPS = (
 
 
 def unset_unsound_settings(*_: Any) -> None:
-    """Settings without a meaning become those that nobody has set, of linked data too: panels show
-    these as well.
-    """
+    """Unsets invalid settings, of linked data too, since panels show these as well."""
     for owner in cast(Iterable[Any], (*all_objects(), *all_scenes())):
         for group in _GROUPS:
             _unset_unsound(getattr(owner, group, None))
@@ -241,8 +236,8 @@ def unset_unsound_settings(*_: Any) -> None:
 
 
 def _unset_unsound(group: Any) -> None:
-    """Files may hold what no field takes: numbers that are none or beyond all limits, choices that
-    this version does not offer, which read as empty.
+    """Unsets invalid values of a file: numbers that are not finite or out of range, and choices unknown
+    to this version, which read as empty.
     """
     if group is None:
         return
@@ -253,7 +248,7 @@ def _unset_unsound(group: Any) -> None:
 
 
 def _is_sound(known: Any, value: Any) -> bool:
-    """Whether `value` is one that the property `known` may have."""
+    """Whether `value` is a valid value of the property `known`."""
     if known.type == "ENUM":
         return value != ""
     if known.type not in {"INT", "FLOAT"}:
@@ -271,7 +266,7 @@ _HANDLERS = {
 
 
 def _look_now() -> None:
-    """At the file that is open, as in preferences.py."""
+    """Checks the open file, as in preferences.py."""
     if not bpy.app.background:
         events.start_timer(unset_unsound_settings, 0.0)
 

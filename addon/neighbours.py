@@ -21,15 +21,15 @@ def neighbour_of(target: Object | None) -> Object | None:
 
 
 def watched(target: Object) -> Object | None:
-    """The neighbour whose changes leave `target` out of date: of two surfaces that meet each other, each
-    would do so to the other without end.
+    """The neighbour whose changes make `target` out of date. None for two surfaces that meet each
+    other: each would make the other out of date without end.
     """
     neighbour = neighbour_of(target)
     return None if neighbour is None or neighbour_of(neighbour) == target else neighbour
 
 
 def with_scans(target: Object) -> list[Object]:
-    """The other objects whose changes leave the surface out of date."""
+    """The other objects whose changes make the surface out of date."""
     neighbour = watched(target)
     return memory.scans_of(target) + ([] if neighbour is None else [neighbour])
 
@@ -37,8 +37,8 @@ def with_scans(target: Object) -> list[Object]:
 def arguments(
     context: Context, neighbour: Object, surface: Object, source: Object, settings: AnySettings
 ) -> dict[str, Any]:
-    """Of `discrete_fairing.fair`: the neighbour as the window shows it, where the own coordinates of the
-    `surface` are, in the size that its source has in the world.
+    """The neighbour for `discrete_fairing.fair`: as shown in the window, in the coordinates of the
+    `surface`, scaled like its source in the world.
     """
     stretch = np.linalg.inv(world_shape(source).way_back)
     way = stretch @ np.linalg.inv(np.array(world_matrix(surface), np.float64))
@@ -48,14 +48,14 @@ def arguments(
 def shown_in_world(
     context: Context, target: Object
 ) -> tuple[np.ndarray, tuple[np.ndarray, np.ndarray]]:
-    """Points and faces (corners, offsets) of `target` as the window shows it, in the world."""
+    """Points and faces (corners, offsets) of `target` as shown in the window, in the world."""
     return _shown(context, target, np.eye(4))
 
 
 def _shown(
     context: Context, target: Object, way: np.ndarray
 ) -> tuple[np.ndarray, tuple[np.ndarray, np.ndarray]]:
-    """The same, moved by a (4, 4) matrix from the world."""
+    """The same, transformed by a (4, 4) matrix from the world."""
     with control_mesh(context, target, evaluated=True) as mesh:
         arrays = read_mesh(mesh)
     matrix = way @ np.array(world_matrix(target), np.float64)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where a surface stands: where its source does, until somebody moves the surface itself.
+"""The transform of a surface: that of its source, until the user moves the surface.
 
-What the source's place was is kept with the surface: a part of it, location, rotation or scale, goes on
-following as long as the surface has that part as it got it.
+The source's transform is stored with the surface. Location, rotation and scale each follow as long as
+the surface still has the stored value.
 """
 
 from collections.abc import Mapping
@@ -16,18 +16,18 @@ _PARTS = (("location", "delta_location"), TURN, ("scale", "delta_scale"))
 
 
 def note(source: Object, target: Object) -> None:
-    """Of a surface that has just got the place of its source."""
+    """Stores the transform that a surface has just got from its source."""
     _keep(source, target, PLACE)
 
 
 def moved(target: Object) -> bool:
-    """Whether the source of a surface has moved since, and the surface is to follow."""
+    """Whether the source of a surface has moved since, and the surface must follow."""
     return bool(_due(target))
 
 
 def next_of(source: Object, target: Object | None) -> Object:
-    """The object that stands where the next surface will: the source of a new one, and of one that follows
-    it in all parts.
+    """The object that has the transform of the next surface: the source, for a new surface and for one
+    that follows in all parts; else the surface.
     """
     if target is None:
         return source
@@ -37,8 +37,8 @@ def next_of(source: Object, target: Object | None) -> Object:
 
 
 def follow(context: Context | None, target: Object) -> bool:
-    """Lets the surface stand where its source does, as far as it follows; whether it had moved.
-    `context`: as `copy_place` takes it.
+    """Gives the surface the transform of its source, as far as it follows. Returns whether it had
+    moved. `context`: as for `copy_place`.
     """
     source, due = memory.source_of(target), _due(target)
     if source is None:
@@ -55,7 +55,7 @@ def follow(context: Context | None, target: Object) -> bool:
 
 
 def _keep(source: Object, target: Object, follows: Any) -> None:
-    """What constraints do is no value of the source's own: there the surface's are kept."""
+    """Parts that constraints change are not values of the source; the surface keeps its own there."""
     if source.constraints:
         known = _values(target)
         stood = {name: known[name] if name in follows else None for name in PLACE}
@@ -84,14 +84,16 @@ def _due(target: Object) -> bool:
 
 
 def _hangs_on(source: Any, target: Object) -> bool:
-    """Whether the source moves with the surface itself, as its child."""
+    """Whether the source moves with the surface, as its child."""
     while source is not None and source != target:
         source = source.parent
     return source is not None
 
 
 def _following(target: Object, stood: Mapping[str, Any]) -> set[str]:
-    """Names of what the surface still has as its source had it; none where its parent is another."""
+    """The parts of the transform that the surface still has from its source; none if their parents
+    differ.
+    """
     now = _values(target)
     if any(now[name] != stood.get(name) for name in PARENT):
         return set()
@@ -104,7 +106,7 @@ def _values(one: Object) -> dict[str, Any]:
 
 
 def _plain(value: Any) -> Any:
-    """As JSON has it."""
+    """The value as in JSON."""
     if value is None or isinstance(value, (str, int, float)):
         return value
     return value.name_full if hasattr(value, "name_full") else [_plain(part) for part in value]

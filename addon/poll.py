@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Operators that say why they are grey."""
+"""Operators whose grey buttons state the reason."""
 
 from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-# of a context: why an operator cannot run there, in one sentence; empty where it can
+# why an operator cannot run in a context, in one sentence; empty if it can
 Reason: TypeAlias = Callable[[Any], str]
 
 LINKED = (
@@ -16,13 +16,13 @@ LINKED_SURFACE = (
 
 
 class ExplainedPoll:
-    """Mixin of operators that can run where none of their `reasons` says anything; the first that does
-    becomes the tooltip.
+    """Mixin of operators that can run if none of their `reasons` applies; the first that does becomes
+    the tooltip.
     """
 
     reasons: tuple[Reason, ...]
 
-    if TYPE_CHECKING:  # what Blender has
+    if TYPE_CHECKING:  # Blender's own method
 
         @classmethod
         def poll_message_set(cls, message: str) -> None: ...
@@ -36,27 +36,27 @@ class ExplainedPoll:
 
 
 def first_reason(context: Any, reasons: Iterable[Reason]) -> str:
-    """The sentence of the first that has one; empty where none has."""
+    """The sentence of the first reason that applies; empty if none does."""
     return next(filter(None, (reason(context) for reason in reasons)), "")
 
 
 def needs(found: Callable[[Any], object], sentence: str) -> Reason:
-    """`sentence` where `found(context)` is nothing."""
+    """A reason with this `sentence` that applies if `found(context)` is empty."""
     return lambda context: "" if found(context) else sentence
 
 
 def in_mode(sentence: str, *modes: str) -> Reason:
-    """`sentence` in other `modes` than these."""
+    """A reason with this `sentence` that applies in other modes than `modes`."""
     return lambda context: "" if context.mode in modes else sentence
 
 
 def of_meshes(targets: Callable[[Any], Sequence[Any]]) -> Reason:
-    """Why the mesh objects `targets(context)` cannot be worked on."""
+    """A reason that applies if the mesh objects `targets(context)` cannot be worked on."""
     return lambda context: mesh_reason(targets(context))
 
 
 def mesh_reason(targets: Sequence[Any]) -> str:
-    """Why mesh objects cannot be worked on, in one sentence; empty when they can."""
+    """Why mesh objects cannot be worked on, in one sentence; empty if they can."""
     if not targets:
         return "Select a mesh object first"
     return LINKED if any(t.library or t.data.library for t in targets) else ""
@@ -67,7 +67,7 @@ IN_EITHER_MODE = in_mode("Go to Object Mode or Edit Mode first", "OBJECT", "EDIT
 
 
 def in_edit_mode(chosen: str) -> tuple[Reason, ...]:
-    """Of meshes in Edit Mode; `chosen`: what is selected there, in the plural."""
+    """Reasons that require meshes in Edit Mode; `chosen`: the plural of what must be selected."""
     return (
         in_mode(f"Press Tab first: {chosen} are chosen in Edit Mode", "EDIT_MESH"),
         of_meshes(lambda context: context.objects_in_mode_unique_data),

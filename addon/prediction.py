@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How long a run will take: by what this machine's last runs took, of the same mesh if there were any.
+"""Predicts the time of a run from the last runs on this machine, of the same mesh if possible.
 
-The last few of each energy are kept in the preferences, not in files.
+The last few runs of each energy are stored in the preferences, not in files.
 """
 
 import json
@@ -10,43 +10,44 @@ from collections.abc import Hashable
 from .preferences import preferences
 
 PATIENCE = 0.5  # seconds; a run that is predicted to take longer never stops the window
-_KEPT = 5  # runs of an energy
-_BRIEF = (
-    0.1  # seconds; a shorter run is hardly spent on triangles, and tells the most that one takes
-)
+_KEPT = 5  # runs of each energy
+# seconds; shorter runs are dominated by other costs, and bound the time a triangle from above
+_BRIEF = 0.1
 _TRIED = (
-    1e5  # triangles; so few are tried at first, since what takes longer than PATIENCE is broken off
+    1e5  # triangles; small runs are tried at first, since a run that exceeds PATIENCE is stopped
 )
-# seconds a triangle on a machine of two cores, until it has runs of its own
+# seconds a triangle on a machine of two cores, until runs are known
 _AT_FIRST = {
     "THIN_PLATE": 2e-5,
     "TOTAL_CURVATURE": 6e-4,
     "MINIMUM_VARIATION": 1e-3,
-    "STRAIN": 6e-5,  # some eight thin plates
+    "STRAIN": 6e-5,  # about eight thin plates
     "EASE": 1.2e-4,
     "CLEAN": 4e-5,
-    "FIT": 4e-5,  # and a point of the scan
+    "FIT": 4e-5,  # a triangle and a point of the scan
 }
 
 _of_mesh: dict[tuple[Hashable, str], float] = {}  # (mesh, energy): seconds a triangle
 
 
 def seconds(energy: str, triangles: int, mesh: Hashable = None) -> float:
-    """What a run will take; `mesh`: what `note` was told of an earlier run, None for any mesh."""
+    """The predicted time of a run; `mesh`: the key given to `note` for an earlier run, None for any
+    mesh.
+    """
     known = _of_mesh.get((mesh, energy))
-    if known is None:  # rather too long than too short: meshes differ by a factor of ten
+    if known is None:  # rather too long than too short, since meshes differ by a factor of ten
         known = max(_speeds().get(energy) or [_AT_FIRST[energy]])
     return triangles * known
 
 
 def hoped_seconds(energy: str, triangles: int, mesh: Hashable) -> float:
-    """As `seconds`, but rather too short on a machine that has no runs of its own yet."""
+    """Like `seconds`, but rather too short on a machine without runs."""
     expected = seconds(energy, triangles, mesh)
     return expected if _speeds().get(energy) else min(expected, PATIENCE * triangles / _TRIED)
 
 
 def note(energy: str, triangles: int, taken: float, mesh: Hashable) -> None:
-    """Learns that a run has taken so many seconds."""
+    """Records that a run took so many seconds."""
     if not triangles:
         return
     speed = taken / triangles
@@ -59,7 +60,7 @@ def note(energy: str, triangles: int, taken: float, mesh: Hashable) -> None:
 
 
 def forget() -> None:
-    """As on a machine that has done nothing yet."""
+    """Forgets all runs."""
     _of_mesh.clear()
     preferences().speeds = "{}"
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The add-on's preferences: what holds for all files of a user."""
+"""The add-on's preferences, which apply to all files of a user."""
 
 from dataclasses import dataclass
 from typing import Any, TypeAlias
@@ -12,7 +12,7 @@ from .blender import Context, Scene, all_scenes, current_context
 
 
 class Defaults:
-    """What holds where the add-on is imported without being installed, as in tests."""
+    """The values if the add-on is imported without being installed, as in tests."""
 
     levels = 3
     memory_limit = 0
@@ -71,26 +71,26 @@ def preferences() -> Preferences:
 
 @dataclass(frozen=True)
 class OfRuns:
-    """What runs ask of them: for threads, where Blender may not be asked."""
+    """The preferences that runs need, as a value that other threads may read."""
 
     memory_limit: int  # megabytes
     threads: int
 
 
 def of_runs() -> OfRuns:
-    """As they are now."""
+    """The present values."""
     now = preferences()
     return OfRuns(memory_limit=now.memory_limit, threads=now.threads)
 
 
 def give_scenes_default_levels(*_: Any) -> None:
-    """Scenes whose levels nobody has chosen get the user's default."""
+    """Gives scenes whose levels are unset the user's default."""
     for scene in all_scenes():
         _give_default_levels(scene)
 
 
 def _give_default_levels(scene: Scene, _depsgraph: Any = None) -> None:
-    """Of a scene that was added meanwhile Blender tells by its first update."""
+    """The same for a scene that was added later, at its first update."""
     settings, levels = scene.discrete_fairing, preferences().levels
     chosen = settings.is_property_set("levels") or settings.levels == levels
     if scene.library is None and not chosen:
@@ -103,8 +103,8 @@ _HANDLERS = {"load_post": give_scenes_default_levels, "depsgraph_update_post": _
 def register() -> None:
     bpy.utils.register_class(DiscreteFairingPreferences)
     events.listen(_HANDLERS)
-    # the file that is open now: bpy.data may not be touched while add-ons are being enabled.
-    # Without a window no timer ever runs, and one that waits would keep the bpy module from ending.
+    # The file that is open now: bpy.data must not be used while add-ons are being enabled. Without a
+    # window no timer ever runs, and a pending one would keep the bpy module from ending.
     if not bpy.app.background:
         events.start_timer(give_scenes_default_levels, 0.0)
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every setting once, for operator, panel, command line and a surface's memory: Blender's properties.
+"""Every setting once, as Blender's property, for operator, panel, command line and stored surfaces.
 
-A new setting goes here, into `Settings` (settings.py), core.fair_arguments and ui/layout.py; the
+A new setting is added here, to `Settings` (settings.py), core.fair_arguments and ui/layout.py; the
 command line follows by itself.
 """
 
@@ -29,7 +29,7 @@ from .settings import NAMES, OF_NEAR, Settings
 
 
 def _vertex_values(settings: Any, context: Context, _typed: str) -> list[tuple[str, str]]:
-    """What a field for the name of a vertex group offers: (name, kind)."""
+    """Suggestions for the name of a vertex group: (name, kind)."""
     offered = dict(
         pair for source in _sources(settings, context) for pair in vertex_values.names(source)
     )
@@ -37,8 +37,8 @@ def _vertex_values(settings: Any, context: Context, _typed: str) -> list[tuple[s
 
 
 def _sources(settings: Any, context: Context) -> list[Object]:
-    """The objects whose groups the names refer to: the source of the surface that has these
-    `settings`, or of the active one, else the selected mesh objects.
+    """The objects whose groups the names refer to: the source of the surface with these `settings` or
+    of the active one, else the selected mesh objects.
     """
     active = context.active_object
     owner = getattr(settings, "source", None)
@@ -98,7 +98,7 @@ class FairingSettings:
         name="Tolerance Group",
         description="Vertex group or float attribute that multiplies the tolerance: where it is 0, the surface passes through the vertex",
         search=_vertex_values,
-        search_options={"SUGGESTION"},  # modifiers may make what is not there yet
+        search_options={"SUGGESTION"},  # modifiers may create groups that do not exist yet
     )
     pull_group: StringProperty(
         name="Pull Group",
@@ -279,23 +279,21 @@ class FitAmount:
 
 
 def copy_settings(source: Settings, target: Any) -> None:
-    """Every setting of `source` onto `target` (operator properties or property group)."""
+    """Copies every setting of `source` to `target` (operator properties or property group)."""
     for name in NAMES:
         setattr(target, name, getattr(source, name))
 
 
 def fill_in(settings: FairingSettings, target: Any) -> None:
-    """`settings` onto operator properties where nobody has set them; those of the last run do not
-    count.
-    """
+    """Copies `settings` to operator properties that are unset; values of the last run count as unset."""
     for name in NAMES:
         if not target.is_property_set(name):
             setattr(target, name, getattr(settings, name))
 
 
 def take_near(given: Any) -> None:
-    """Of operator properties: a tolerance that somebody gives means Near, and how far to follow Limit, where
-    `interpolation` is not given. Those of the last run do not count.
+    """Completes operator properties: a given tolerance implies Near, and a given limit amount implies
+    Limit, unless `interpolation` is given. Values of the last run count as unset.
     """
     if given.is_property_set("interpolation"):
         return
@@ -305,7 +303,7 @@ def take_near(given: Any) -> None:
 
 
 class FAIRING_PG_settings(FairingSettings, bpy.types.PropertyGroup):
-    """What the panel shows; kept with the scene."""
+    """The settings that the panel shows; stored with the scene."""
 
 
 register, unregister = attached((bpy.types.Scene, "discrete_fairing", FAIRING_PG_settings))

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a surface is for: each purpose is a shipped preset, or an operator with settings of its own.
+"""The jobs of Fair for …: each is a shipped preset, or an operator with its own settings.
 
-Which energy, borders and tolerance a purpose has is decided by benchmarks (jobs, drawn, limits,
-machine_parts and measured_points in benchmarks/), and told in docs/developers/notes/figures.md.
+Benchmarks (jobs, drawn, limits, machine_parts and measured_points in benchmarks/) decide the energy,
+borders and tolerance of a job; docs/developers/notes/figures.md has their results.
 """
 
 import ast
@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 FOLDER = Path(__file__).resolve().parent / "presets"
-# where Blender looks for the presets of the operator, which are those of the panel
+# the folder of Blender's presets for the operator, which the panel uses too
 PRESET_FOLDER = "operator/object.fairing_surface"
 
 # identifier, name, description, number in files
@@ -73,22 +73,22 @@ TRADES = {
     "SCAN_SURFACE": "reverse engineering, CAD",
 }
 EASED_FIRST = {"POINTS"}
-# which are no settings of Fair Surface but operators of their own
+# jobs that are operators of their own, not settings of Fair Surface
 OPERATORS = {"SCAN_SURFACE": "fairing_fit"}
-# what the panel shows of a job, to be changed at will
+# settings that may be changed without changing the job
 OFFERED = {"levels", "limit", "tolerance", "tolerance_unit"}
-_DIGITS = 1e-6  # of Blender's numbers, which are in single precision
+_DIGITS = 1e-6  # precision of Blender's numbers, which are single
 
 
 def preset_file(purpose: str) -> Path | None:
-    """The script with the settings of a purpose; None for the one that is no new surface."""
+    """The preset of a job; None for operators."""
     path = FOLDER / PRESET_FOLDER / f"{stem(purpose)}.py"
     return path if path.is_file() else None
 
 
 @cache
 def preset_values(path: Path) -> dict[str, Any]:
-    """What a preset sets, {setting: value}; read, not run."""
+    """The values that a preset sets, {setting: value}; the file is parsed, not run."""
     tree = ast.parse(path.read_text(encoding="utf-8"))
     return {
         node.targets[0].attr: ast.literal_eval(node.value)
@@ -98,8 +98,8 @@ def preset_values(path: Path) -> dict[str, Any]:
 
 
 def job_of(settings: Any) -> str:
-    """The purpose that `settings` serve, all but what the panel offers; empty if none. One that eases the
-    source first is not told by them: its surface has the settings of any other.
+    """The job whose values the `settings` have, apart from those that may change; empty if none. A job
+    that eases the source first cannot be recognized, since its surface has the settings of another one.
     """
     for purpose, *_ in PURPOSES:
         path = preset_file(purpose)
@@ -127,10 +127,10 @@ def name_of_purpose(purpose: str) -> str:
 
 
 def stem(purpose: str) -> str:
-    """`Scan_Patch` for SCAN_PATCH: of its script and its picture."""
+    """`Scan_Patch` for SCAN_PATCH, the name of its script and its picture."""
     return purpose.title()
 
 
 def is_shipped(folder: str) -> bool:
-    """Whether the presets in a folder come with the extension."""
+    """Whether the presets in a folder are part of the extension."""
     return Path(folder).is_relative_to(FOLDER)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Jobs one after another on a thread of their own, watched from the main thread. No Blender."""
+"""Runs jobs one after another on a thread, watched from the main thread. No Blender."""
 
 import atexit
 import os
@@ -23,48 +23,48 @@ _PHASES = {
     "patches": "Fitting patches",
     "done": "Done",
 }
-_NICENESS = 5  # of the threads that compute, above that of the window's
+_NICENESS = 5  # added to the niceness of computing threads
 _running = None  # the queue in progress
 _started: "WeakSet[Queue]" = WeakSet()
 
 
 class Runnable(Protocol):
-    """What a queue runs: read on the main thread when it is made, computed on any."""
+    """A job of a queue: read on the main thread by its constructor, computed on any thread."""
 
-    name: str  # what sentences call it
+    name: str  # for sentences
 
     @property
     def triangles(self) -> int:
-        """How large it is, for the bar."""
+        """Its size, for the progress bar."""
 
     def compute(self, **watchers: Any) -> None:
-        """Runs the core, whose `monitor` and `progress` the `watchers` are; raises JobError."""
+        """Runs the core with the `monitor` and `progress` in `watchers`; raises JobError."""
 
 
 class TimedJob(Runnable, Protocol):
-    """One for an object of the user, who may wait for it."""
+    """A job for one object of the user, with a predicted time."""
 
-    result: Any  # what was computed; None before
+    result: Any  # the computed result; None before
 
     @property
     def predicted_seconds(self) -> float:
-        """How long `compute` will take."""
+        """The predicted time of `compute`."""
 
 
 class MeshJob(TimedJob, Protocol):
-    """One that changes a mesh which others may have changed meanwhile."""
+    """A job that changes a mesh, which may have changed since it was read."""
 
     def why_outdated(self, context: Any) -> str:
-        """Why what was computed does not fit any more, in one sentence; empty if it does."""
+        """Why the result no longer fits the mesh, in one sentence; empty if it does."""
 
 
 class Queue:
-    """A row of jobs. Nothing of Blender is touched on the thread: all that it runs is `compute`."""
+    """A sequence of jobs. Its thread runs only `compute`, and uses nothing of Blender."""
 
     def __init__(self, jobs: Sequence[Runnable], make_monitor: Callable[[], Any]) -> None:
-        """`make_monitor()` gives the core's Monitor, one a job."""
+        """`make_monitor()` returns a Monitor of the core, one for each job."""
         self.jobs = jobs
-        self.error: str | None = None  # a sentence, once a job has failed
+        self.error: str | None = None  # a sentence, if a job has failed
         self.cancelled = False
         self._monitors = [make_monitor() for _ in jobs]
         self._index = 0
@@ -76,7 +76,7 @@ class Queue:
 
     @property
     def finished(self) -> bool:
-        """Whether the thread has ended, by success or not."""
+        """Whether the thread has ended, successfully or not."""
         return not self._thread.is_alive()
 
     @property
@@ -90,7 +90,7 @@ class Queue:
 
     @property
     def phase(self) -> str:
-        """The core's name of what it is doing."""
+        """The core's name of the current phase."""
         return self._monitors[self._current].phase
 
     @property
@@ -99,7 +99,7 @@ class Queue:
 
     @property
     def position(self) -> tuple[int, int]:
-        """`(2, 5)`: the second of five."""
+        """Number of the current job and number of jobs, such as `(2, 5)`."""
         return self._current + 1, len(self.jobs)
 
     def cancel(self) -> None:
@@ -109,7 +109,7 @@ class Queue:
             monitor.cancel()
 
     def join(self) -> None:
-        """Waits for the thread's end."""
+        """Waits until the thread has ended."""
         self._thread.join()
 
     @property
@@ -126,12 +126,12 @@ class Queue:
             self.cancelled = True
         except JobError as error:
             self.error = str(error)
-        except Exception as error:  # an error on a thread would be lost without a word
+        except Exception as error:  # an error on a thread would be lost otherwise
             self.error = f"{self.job_name}: an unexpected error, please report it: {error!r}"
 
 
 def _let_the_window_go_first() -> None:
-    """Of this thread and those that it starts: on Linux each has a priority of its own."""
+    """Lowers the priority of this thread and of those that it starts; on Linux each has its own."""
     if sys.platform == "linux":
         with suppress(OSError):
             now = os.getpriority(os.PRIO_PROCESS, get_native_id())
@@ -140,9 +140,7 @@ def _let_the_window_go_first() -> None:
 
 @atexit.register
 def end_all() -> None:
-    """Cancels all queues and waits for their threads: before Blender quits, and before the add-on
-    goes.
-    """
+    """Cancels all queues and waits for their threads, before Blender quits or the add-on is disabled."""
     queues = [queue for queue in _started if not queue.finished]
     for queue in queues:
         queue.cancel()
@@ -156,7 +154,7 @@ def running() -> Queue | None:
 
 
 def set_running(queue: Queue | None) -> None:
-    """Notes that `queue` is in progress; None: that none is."""
+    """Sets the queue in progress; None: there is none."""
     global _running
     _running = queue
 
@@ -170,12 +168,12 @@ def status_text(queue: Queue) -> str:
 
 
 def phase_text(phase: str) -> str:
-    """The core's name of a phase as a user would say it."""
+    """The name of a phase for users."""
     return _PHASES.get(phase, phase.capitalize())
 
 
 class ConsoleProgress:
-    """Prints a line whenever another tenth of a job is done.
+    """Prints a line after every tenth of a job.
 
     An instance is the core's `progress`.
     """

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the records look like that objects keep as JSON. Files come from anywhere, and panels read
-records at every redraw: one that the add-on cannot have written counts as none. No Blender.
+"""The format of the records that objects keep as JSON. Files may come from anywhere, and panels read
+records at every redraw: records that the add-on cannot have written count as missing. No Blender.
 """
 
 import json
@@ -9,9 +9,9 @@ from typing import Any, TypeAlias
 
 from .errors import FAULT_KINDS, REPAIR_CODES
 
-Form: TypeAlias = Callable[[Any], bool]  # whether a value has it
+Form: TypeAlias = Callable[[Any], bool]  # whether a value has this format
 
-# what a read-out may have, of a surface and of its control mesh
+# the keys of a read-out, for a surface and for its control mesh
 FIGURES = (
     "total_curvature",
     "largest_curvature",
@@ -30,7 +30,7 @@ _MOST = (
 
 
 def parse(name: str, text: str) -> dict[str, Any] | None:
-    """The record `name` from its JSON; None where it is none."""
+    """The record `name` from its JSON; None if it is invalid."""
     try:
         record = json.loads(text)
     except (ValueError, RecursionError):
@@ -83,7 +83,7 @@ def _all(form: Form) -> Form:
 
 
 def _dict(needed: dict[str, Form], others: dict[str, Form] | None = None) -> Form:
-    """With the `needed` keys; of `others` those that are there have their form too."""
+    """A dict with the `needed` keys in their formats, and any of the `others` in theirs."""
     known = needed | (others or {})
 
     def fits(value: Any) -> bool:

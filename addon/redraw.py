@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is drawn again when something has changed that Blender does not know of."""
+"""Redraws parts of the window after changes that Blender does not notice."""
 
 from collections.abc import Hashable
 from time import monotonic
 
 from .blender import Context
 
-INTERVAL = 0.2  # seconds between two drawings of something that goes on
+INTERVAL = 0.2  # least seconds between two redraws during a run
 
 
 def tag_sidebars(context: Context) -> None:
-    """The sidebars of all viewports; not the viewports themselves, which may be slow."""
+    """Redraws the sidebars of all viewports, but not the viewports, which may be slow."""
     for window in context.window_manager.windows:
         for area in window.screen.areas:
             if area.type == "VIEW_3D":
@@ -20,7 +20,7 @@ def tag_sidebars(context: Context) -> None:
 
 
 def tag_outliners(context: Context) -> None:
-    """Their headers, where surfaces that are out of date are counted."""
+    """Redraws the headers of outliners, which count surfaces that are out of date."""
     for window in context.window_manager.windows:
         for area in window.screen.areas:
             if area.type == "OUTLINER":
@@ -28,14 +28,14 @@ def tag_outliners(context: Context) -> None:
 
 
 class Progress:
-    """When to draw what changes all the time: not too often."""
+    """Limits how often a changing value is redrawn."""
 
     def __init__(self) -> None:
         self._shown: Hashable = None
         self._at = 0.0
 
     def is_due(self, now: Hashable) -> bool:
-        """Whether `now` is to be drawn: it is new, and the last drawing is a while ago."""
+        """Whether to redraw for the value `now`: it is new, and the last redraw was some time ago."""
         if now == self._shown or monotonic() - self._at < INTERVAL:
             return False
         self._shown, self._at = now, monotonic()

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is asked of a run: one value, made once from Blender's properties, a surface's memory or the
-command line, and handed down. No Blender.
+"""The settings of a run: one value, made once from Blender's properties, a stored surface or the
+command line. No Blender.
 
-What each setting means stands in properties.py.
+properties.py explains each setting.
 """
 
 from __future__ import annotations
@@ -19,20 +19,20 @@ _Values = TypeVar("_Values")
 
 
 def values_of(kind: type[_Values], properties: Any, **others: Any) -> _Values:
-    """The dataclass `kind`, each field from the property by its name, but for the `others`."""
+    """A dataclass `kind` with the properties of the same names, except for the `others`."""
     names = [field.name for field in fields(kind) if field.name not in others]  # type: ignore[arg-type]
     return kind(**{name: getattr(properties, name) for name in names}, **others)
 
 
 @dataclass(frozen=True)
 class Settings:
-    """Lengths are in scene units, angles in radians; choices by the identifiers of choices.py."""
+    """Lengths are in scene units, angles in radians, choices are identifiers of choices.py."""
 
     levels: int
     energy: str
     interpolation: str
     limit: float
-    tolerance: float  # in its unit
+    tolerance: float  # in its own unit
     tolerance_unit: str
     tolerance_group: str
     pull_group: str
@@ -62,12 +62,12 @@ class Settings:
 
     @classmethod
     def of(cls, properties: FairingSettings) -> Settings:
-        """Those of an operator or a property group, as they are now."""
+        """The present settings of an operator or a property group."""
         return values_of(cls, properties)
 
     def for_source(self, source: Object) -> Settings:
-        """The same with what AUTO comes to for `source`; a Subdivision Surface modifier that is in the
-        faired mesh already is not followed a second time.
+        """The same with AUTO resolved for `source`. A Subdivision Surface modifier that is part of the
+        faired mesh is not followed a second time.
         """
         subdivided = subdivision(source) is not None
         if subdivided and is_evaluated(self) and self.interpolation in ("AUTO", "LIMIT"):
@@ -79,28 +79,28 @@ class Settings:
 
 @dataclass(frozen=True)
 class PatchOptions:
-    """Of spline patches, and of a file of them."""
+    """Settings of spline patches and of their file."""
 
-    fit_tolerance: float  # share of the surface's size
+    fit_tolerance: float  # relative to the surface's size
     fit_angle: float
     fit_levels: int  # 0: as many as the tolerance needs
-    # whether faces that fold or turn too sharply get patches: what is shown and not written is never refused
+    # whether faces that fold or turn too sharply get patches; a display without a file always has them
     force: bool = True
-    unit: str = "MM"  # of the file
+    unit: str = "MM"  # unit of the file
 
 
 NAMES = tuple(field.name for field in fields(Settings))
-# which say that vertices may be missed, where nobody says what they are
+# choices by which vertices may be missed, unless they are given otherwise
 OF_NEAR = ("tolerance", "tolerance_group", "pull_group")
 if TYPE_CHECKING:
-    # questions that panels ask of Blender's properties too
+    # functions that panels call with Blender's properties too
     AnySettings: TypeAlias = Settings | FairingSettings
 else:
     AnySettings = Settings
 
 
 def is_near(settings: AnySettings) -> bool:
-    """Whether the surface may miss vertices: only then does a tolerance mean anything."""
+    """Whether the surface may miss vertices, so that a tolerance applies."""
     return settings.interpolation == "APPROXIMATE"
 
 
@@ -110,26 +110,26 @@ def is_limit(settings: AnySettings) -> bool:
 
 
 def subdivision(source: Object) -> Any:
-    """The modifier by which `source` is looked at as a Catmull-Clark surface; None if there is none."""
+    """The modifier by which `source` is shown as a Catmull-Clark surface; None if there is none."""
     modifiers: Any = source.modifiers
     shown = (m for m in modifiers if m.type == "SUBSURF" and m.show_viewport)
     return next((m for m in shown if m.subdivision_type == "CATMULL_CLARK"), None)
 
 
 def is_evaluated(settings: AnySettings) -> bool:
-    """Whether the source is faired with its modifiers; never where faces are selected, on the mesh
-    as modelled.
+    """Whether the source is faired with its modifiers; never if faces are selected, which are those of
+    the original mesh.
     """
     return settings.mesh_source == "EVALUATED" and not settings.use_selection
 
 
 def halves(settings: AnySettings) -> int:
-    """How many times as large as the mesh what is computed is: with its mirror image, twice."""
+    """How many times larger than the mesh the computed one is: twice with its mirror image."""
     return 1 if settings.symmetry_plane == "NONE" else 2
 
 
 def wants_modifiers(settings: Settings) -> bool:
-    """Whether a new surface gets the modifiers of its source: not what is in the faired mesh
-    already.
+    """Whether a new surface gets the modifiers of its source; not if they are applied in the faired
+    mesh.
     """
     return settings.copy_modifiers and settings.mesh_source == "ORIGINAL"

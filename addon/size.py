@@ -1,24 +1,24 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How large a result will be, from the face sizes of the control mesh alone."""
+"""The size of a result, from the face sizes of the control mesh alone."""
 
 from typing import Any
 
 import numpy as np
 
-LARGE = 4_000_000  # triangles; from here on the user is asked first
+LARGE = 4_000_000  # triangles; above this the user is asked first
 MOST_CORNERS = 2**31 - 1  # Blender counts face corners in 32 bits
 
 
 def face_sizes(mesh: Any) -> np.ndarray:
-    """Corners of each face of a bpy.types.Mesh: (m,) int32. In Edit Mode as of the last update."""
+    """(m,) int32: corners of each face of a bpy.types.Mesh, in Edit Mode at its last update."""
     sizes = np.empty(len(mesh.polygons), np.int32)
     mesh.polygons.foreach_get("loop_total", sizes)
     return sizes
 
 
 def coarse_triangles(face_sizes: np.ndarray) -> int:
-    """Triangles that the control mesh stands for: 1 per triangle, 2 per quad, n per larger n-gon
-    (split from its centre).
+    """Triangles equivalent to the control mesh: 1 per triangle, 2 per quad, n per larger n-gon (split
+    from its centre).
     """
     sizes = np.asarray(face_sizes, np.int64)
     return int(np.where(sizes > 4, sizes, sizes - 2).sum())
@@ -30,7 +30,7 @@ def triangle_count(face_sizes: np.ndarray, levels: int) -> int:
 
 
 def count_text(triangles: int) -> str:
-    """`12,345 triangles`, shortened where nobody reads the digits."""
+    """For example `12,345 triangles`; rounded if large."""
     if triangles >= 100_000_000:
         return f"{triangles / 1e6:,.0f} M triangles"
     if triangles >= 1_000_000:
@@ -39,7 +39,7 @@ def count_text(triangles: int) -> str:
 
 
 def why_too_large(triangles: int) -> str:
-    """A sentence if Blender itself could not hold that many faces; else empty."""
+    """A sentence if Blender itself cannot store that many faces; else empty."""
     if 3 * triangles > MOST_CORNERS:
         return f"Use fewer levels: {count_text(triangles)} are more than a Blender mesh can hold"
     return ""

@@ -5,8 +5,8 @@ import numpy as np
 
 
 def fans(first: np.ndarray, sizes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Polygons cut into triangles from their first corners: (t, 3) ids of corners, and (t,) of which
-    polygon. Of each its `first` corner (m,), and how many it has.
+    """Triangles of polygons as fans from their first corners: (t, 3) ids of corners, and (t,) the
+    polygon of each. `first`: (m,) the first corner of each polygon; `sizes`: (m,) number of corners.
     """
     each = np.maximum(sizes - 2, 0)
     polygons = np.repeat(np.arange(len(each)), each)
@@ -15,7 +15,7 @@ def fans(first: np.ndarray, sizes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def normals(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """(n, 3) at each of the `points`: the sum of the normals of its `triangles` (t, 3), by twice their
+    """(n, 3) normals at the `points`: the sum over their `triangles` (t, 3), weighted by twice the
     areas.
     """
     a, b, c = points[triangles].swapaxes(0, 1)

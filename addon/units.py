@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Lengths and curvatures as the scene says them. No Blender."""
+"""Formats lengths and curvatures in scene units. No Blender."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -7,11 +7,11 @@ from functools import partial
 from math import floor, isfinite, log10
 from typing import Any, TypeAlias
 
-Text: TypeAlias = Callable[[float], str]  # of a length in scene units, as the scene says it
+Text: TypeAlias = Callable[[float], str]  # formats a length in scene units
 
 DIGITS = 3  # of lengths
 
-# by the name that a scene has for it: the symbol, and metres in each; the longest first
+# by the scene's name of a unit: the symbol, and metres in it; the longest first
 _METRIC = {
     "KILOMETERS": ("km", 1e3),
     "METERS": ("m", 1.0),
@@ -29,9 +29,9 @@ _IMPERIAL = {
 
 @dataclass(frozen=True)
 class Units:
-    """How a scene says lengths, at the time of asking: a run outlives scenes."""
+    """The units of a scene when they were read, since runs outlive scenes."""
 
-    known: tuple[tuple[str, float], ...]  # symbols, and metres in each; none: it says plain numbers
+    known: tuple[tuple[str, float], ...]  # symbols, and metres in each; empty: plain numbers
     scale: float  # metres in a scene unit
 
     @classmethod
@@ -40,11 +40,12 @@ class Units:
         if settings.system == "NONE":
             return cls((), 1.0)
         named = _METRIC if settings.system == "METRIC" else _IMPERIAL
-        chosen = named.get(settings.length_unit)  # none where the scene leaves it open: ADAPTIVE
+        # None if the scene chooses automatically: ADAPTIVE
+        chosen = named.get(settings.length_unit)
         return cls((chosen,) if chosen else tuple(named.values()), settings.scale_length)
 
     def lengths(self, longest: float, digits: int = DIGITS) -> Text:
-        """What writes lengths in scene units, all of a list in the one unit that suits its `longest`."""
+        """A function that formats lengths in scene units, all in the one unit that suits the `longest`."""
         if not self.known:
             return partial(digits_of, digits=digits)
         metres = abs(longest) * self.scale or 1.0
@@ -61,12 +62,12 @@ class Units:
 
 
 def length_text(scene: Any, length: float, digits: int = DIGITS) -> str:
-    """`4.2 mm`: one `length` in scene units. Those of a list have one unit: `Units.lengths`."""
+    """For example `4.2 mm`: one `length` in scene units. For a list, use `Units.lengths`."""
     return Units.of(scene).lengths(length, digits)(length)
 
 
 def digits_of(value: float, digits: int = DIGITS) -> str:
-    """`0.000153`, `15.3`, `15321`: so many digits that say something, and no exponent."""
+    """For example `0.000153`, `15.3`, `15321`: so many significant digits, and no exponent."""
     if not isfinite(value) or value == 0.0:
         return f"{value:g}"
     places = max(0, digits - 1 - floor(log10(abs(value))))
@@ -75,7 +76,9 @@ def digits_of(value: float, digits: int = DIGITS) -> str:
 
 
 def curvature_text(scene: Any, curvature: float, power: int = 1) -> str:
-    """`2.5 /m`: a `curvature`, one over a length in scene units; `power` 2: over its square, `/m²`."""
+    """For example `2.5 /m`: a `curvature`, one over a length in scene units; `power` 2: over its
+    square, `/m²`.
+    """
     units = scene.unit_settings
     if units.system == "NONE":
         return f"{curvature:.3g}"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One number a vertex, by its name: a vertex group, or else a float attribute on points."""
+"""One number a vertex by name: a vertex group, or else a float attribute on points."""
 
 from collections.abc import Iterator
 
@@ -8,14 +8,13 @@ import numpy as np
 from .blender import Mesh, Object, column
 from .errors import JobError
 
-# The weight that a strength of one half stands for: vertices then give way by about a twentieth of
-# an edge.
+# The weight for a strength of one half, with which vertices move by about a twentieth of an edge.
 _PULL_OF_HALF = 100.0
 
 
 def names(source: Object) -> Iterator[tuple[str, str]]:
-    """(name, kind) of all that the mesh object `source` has; of two with one name the one that is
-    read comes last.
+    """(name, kind) of all values of the mesh object `source`; of two with one name the one that is read
+    comes last.
     """
     for attribute in source.data.attributes:
         if _is_float(attribute) and not attribute.name.startswith("."):
@@ -25,24 +24,24 @@ def names(source: Object) -> Iterator[tuple[str, str]]:
 
 
 def exists(source: Object, mesh: Mesh, name: str) -> bool:
-    """Whether `read` finds something."""
+    """Whether `source` has values by this `name`."""
     return name in source.vertex_groups or _is_float(mesh.attributes.get(name))
 
 
 def factors(source: Object, mesh: Mesh, name: str) -> np.ndarray:
-    """(n,) float64, from 0 to 1: what is called `name` on `mesh`, which is that of the object
-    `source` or what its modifiers make of it. 0 outside of a group.
+    """(n,) float64 from 0 to 1: the values `name` on `mesh`, which is the mesh of the object `source`
+    or the result of its modifiers. 0 outside of a group.
 
-    JobError if nothing is called so.
+    Raises JobError if there are none by this name.
     """
     return np.clip(_read(source, mesh, name, "Tolerance Group"), 0.0, 1.0)
 
 
 def pulls(source: Object, mesh: Mesh, name: str) -> np.ndarray:
-    """(n,) float64 from 0, infinity included: weights of the core. An attribute has them as they
-    are; a group has strengths from 0, nothing, to 1, which holds the vertex.
+    """(n,) float64 from 0, infinity included: weights of the core. An attribute has weights; a group
+    has strengths from 0, no weight, to 1, which fixes the vertex.
 
-    JobError if nothing is called `name`, or an attribute has what is no weight.
+    Raises JobError if there are none by this name, or invalid weights.
     """
     values = _read(source, mesh, name, "Pull Group")
     if name in source.vertex_groups:
