@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which colour each face has in CAD: that of its material."""
+"""The colour of each face in CAD files, from its material."""
 
 from typing import Any
 
@@ -9,12 +9,12 @@ from mathutils import Color
 from ..blender import Object
 from ..mesh.layers import SurfaceData
 
-PLAIN = (0.8, 0.8, 0.8)  # of faces without a material
+PLAIN = (0.8, 0.8, 0.8)  # for faces without a material
 FAULTY = (1.0, 0.0, 0.0)
 
 
 def materials(shown: Object, source: Object) -> list[Any]:
-    """Those of the surface, which may have others than its source, as its slots show them."""
+    """The surface's materials, from its slots; they may differ from its source's."""
     owner = shown if len(shown.material_slots) else source
     return [slot.material for slot in owner.material_slots]
 
@@ -22,8 +22,8 @@ def materials(shown: Object, source: Object) -> list[Any]:
 def of_faces(
     shown: Object, source: Object, data: SurfaceData
 ) -> tuple[np.ndarray | None, np.ndarray]:
-    """(m, 3) red, green and blue of each face of the source, None where there is no material; and
-    (m,) the slot of each, empty where all are in the first.
+    """(m, 3) red, green and blue of each face of the source, None without materials; and (m,) the slot
+    of each face, empty if all use the first.
     """
     found = [a.values for a in data.attributes if (a.name, a.domain) == ("material_index", "FACE")]
     slots = np.maximum(found[0], 0) if found else np.empty(0, np.int32)
@@ -36,8 +36,8 @@ def of_faces(
 
 
 def of_patches(faces: np.ndarray | None, patches: Any) -> np.ndarray | None:
-    """(3,) or (P, 3) for `write_step`, from what `of_faces` has found; the patches of faces that are
-    not resolved are marked.
+    """(3,) or (P, 3) for `write_step`, from the result of `of_faces`; patches of unresolved faces are
+    marked.
     """
     count = len(patches)
     if faces is None or len(faces) == 1:
@@ -53,7 +53,7 @@ def of_patches(faces: np.ndarray | None, patches: Any) -> np.ndarray | None:
 
 
 def _colour(material: Any) -> tuple[float, float, float]:
-    """What a material looks like, as screens have it; CAD has no lights."""
+    """The colour of a material as displayed on screens; CAD files have no lights."""
     if material is None:
         return PLAIN
     shown = Color(_base(material)[:3]).from_scene_linear_to_srgb()
@@ -62,9 +62,7 @@ def _colour(material: Any) -> tuple[float, float, float]:
 
 
 def _base(material: Any) -> Any:
-    """Its Principled BSDF's base colour, unless that comes from a texture; else what the viewport
-    shows.
-    """
+    """The base colour of its Principled BSDF, unless a texture provides it; else the viewport's colour."""
     for node in material.node_tree.nodes if material.use_nodes and material.node_tree else ():
         if node.type == "BSDF_PRINCIPLED" and not node.inputs["Base Color"].is_linked:
             return node.inputs["Base Color"].default_value

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A job whose outcome is spline patches in the place of a surface's mesh."""
+"""The job that fits spline patches to a surface."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -22,7 +22,7 @@ from . import colours, words
 from .nurbs import surface_of
 from .shown import Blend, distance, shares_of, shown_mesh
 
-_USUAL_LEVELS = 5  # those of the lattice that patches are fitted to, for predictions
+_USUAL_LEVELS = 5  # levels of the lattice that patches are usually fitted to, for predictions
 _KINDS = (
     ("UNRESOLVED", "unresolved"),
     ("PATCH_TOLERANCE", "unmet_by_fit"),
@@ -31,7 +31,7 @@ _KINDS = (
 
 
 class PatchJob(Job):
-    """Fits patches to the fair surface of one object; `patches` has them once computed."""
+    """Fits patches to the fair surface of one object; the result is `patches`."""
 
     def __init__(
         self,
@@ -41,9 +41,9 @@ class PatchJob(Job):
         settings: Settings | None = None,
         fit: Fit | None = None,
     ) -> None:
-        """`shown`: a surface, made again from its source by its own settings, or a mesh to be faired
-        with `settings`; None: those of the scene. `options`: of the patches. `fit`: what a mesh is to be
-        fitted to; a surface knows its own.
+        """`shown`: a surface, which is recomputed from its source with its own settings, or a mesh to
+        be faired with `settings`; None: those of the scene. `options`: of the patches. `fit`: the scan
+        for a mesh; a surface knows its own.
         """
         source = source_of(shown)
         if source is not None:
@@ -51,7 +51,7 @@ class PatchJob(Job):
             fit = Fit.of(context, shown, again=False)
         settings = settings or Settings.of(context.scene.discrete_fairing)
         settings = settings if fit is None else settings_of_fit(settings, fit.scan)
-        # the lattice has levels of its own
+        # the lattice has its own number of levels
         super().__init__(
             context,
             source or shown,
@@ -65,7 +65,7 @@ class PatchJob(Job):
         self.placement = np.array(world_matrix(shown), float) @ self._way_back
         if abs(np.linalg.det(self.placement[:3, :3])) < 1e-18:
             raise JobError(f"{self.name}: Give it a thickness. Its scale is 0 along an axis.")
-        self.notes = []  # all are of what only meshes carry
+        self.notes = []  # they concern data that only meshes carry
         self.colours, self.slots = colours.of_faces(shown, source or shown, self.data)
         self.arguments = core.patch_arguments(self.arguments, options)
         if fit is not None:
@@ -76,13 +76,13 @@ class PatchJob(Job):
         self._blend(shown)
         self._mesh = None if source is None else shown_mesh(context, shown)
         self._stands = np.array(world_matrix(shown), float)
-        # of the mesh shown; None: it is the control mesh
+        # the control mesh of the mesh shown; None: it is the same
         self.levels_shown = None if source is None else int(shown.discrete_fairing.levels)
-        self.apart: float | None = None  # as `distance` says, in Blender units of the world
-        self.refused: list[int] = []  # faces because of which no patches are fitted
+        self.apart: float | None = None  # as returned by `distance`, in Blender units of the world
+        self.refused: list[int] = []  # faces that prevent the fit of patches
 
     def _blend(self, shown: Object) -> None:
-        """Has patches fitted to what the sliders of `shown` make of the shape keys."""
+        """Fits patches to the mix of shape keys that the sliders of `shown` make."""
         keys = self.keys or ShapeKeys((), np.empty((0, 0, 3)), True, 0.0, 0, False)
         count = len(self.arrays.positions)
         used: dict[int, Any] = shares_of(shown, keys, self.data.groups, count)
@@ -117,8 +117,8 @@ class PatchJob(Job):
         return super().is_writable() and self._shown.find() is not None
 
     def write(self, context: Context, _own: Any = None) -> Object:
-        """The patches as a new object beside the surface."""
-        shown = cast(Object, self._shown.find())  # there, as is_writable has seen
+        """Makes a new object of the patches, beside the surface."""
+        shown = cast(Object, self._shown.find())  # is_writable has checked it
         patches = self.patches.transformed(self._way_back)
         slots = self.slots[patches.patch_polygon] if len(self.slots) else None
         paints = colours.materials(shown, self.source or shown)
@@ -127,21 +127,21 @@ class PatchJob(Job):
 
     @property
     def off(self) -> float:
-        """How far patches are from the fair surface, in Blender units of the world."""
+        """The largest distance of patches from the fair surface, in Blender units of the world."""
         return float(self._stretch.max() * self.patches.largest_off)
 
     @property
     def from_scan(self) -> tuple[float, float]:
-        """What 95 % of a scan's points are from the patches, and the farthest that is no stray, in Blender
-        units of the world; (0, 0) without a scan.
+        """The distance within which 95 % of a scan's points are from the patches, and the largest
+        without strays, in Blender units of the world; (0, 0) without a scan.
         """
         within, largest = self.patches.scan_within
         return within * float(self._stretch.max()), largest * float(self._stretch.max())
 
     @property
     def angle(self) -> float:
-        """The sharpest angle at smooth edges; a surface stretched otherwise than its source has no
-        sharper one than this.
+        """The largest angle at smooth edges. If the surface is scaled unevenly against its source, an
+        upper bound.
         """
         return float(self.patches.largest_angle * self._stretch.max() / self._stretch.min())
 
@@ -151,7 +151,7 @@ class PatchJob(Job):
 
     @property
     def defects(self) -> list[dict[str, Any]]:
-        """What is wrong with the patches, by the faces of the source, as Check Mesh keeps it."""
+        """The faults of the patches, by faces of the source, like the defects of Check Mesh."""
         found = []
         for code, name in _KINDS:
             faces = self._faulty(name)
@@ -168,7 +168,7 @@ class PatchJob(Job):
         return cast(list[int], getattr(self.patches, name).tolist())
 
     def warnings(self) -> list[str]:
-        """What to do about the patches, and what is wrong with them, for each kind of fault."""
+        """For each kind of fault, what to do and what is wrong."""
         return [
             words.together(
                 (
@@ -181,7 +181,7 @@ class PatchJob(Job):
         ]
 
     def note_defects(self, context: Context) -> None:
-        """Lists them in the panel Check of the source, whose buttons select them."""
+        """Lists the faults in the panel Check of the source, whose buttons select them."""
         source = self.source
         if source is not None and self.defects and not is_evaluated(self.settings):
             store_defects(context, source, self.defects)
@@ -192,5 +192,5 @@ def _moved(points: np.ndarray, matrix: np.ndarray) -> np.ndarray:
 
 
 def refused(jobs: Sequence[PatchJob]) -> list[PatchJob]:
-    """The jobs that have no patches, because their surface folds or is not resolved."""
+    """The jobs without patches, because their surface folds or is not resolved."""
     return [job for job in jobs if job.refused]

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Patches as Blender's own NURBS surfaces: the same control points, the same knots.
+"""Patches as Blender's own NURBS surfaces, with the same control points and knots.
 
-They show what CAD will get. Each stands alone: moving a control point opens its edges.
+They show what CAD programs will get. Each patch is separate: moving a control point opens its edges.
 """
 
 from typing import Any, cast
@@ -12,14 +12,14 @@ import numpy as np
 from ..blender import Context, Object
 
 _DEGREE = 3
-_RESOLUTION = 4  # steps a span, when drawn
+_RESOLUTION = 4  # steps a span, for display
 
 
 def surface_of(
     context: Context, name: str, patches: Any, materials: list[Any], slots: np.ndarray | None
 ) -> Any:
-    """New surface data (bpy.types.Curve) in the coordinates of `patches`; `slots` (P,): which of the
-    `materials` each has. In Object Mode.
+    """New surface data (bpy.types.Curve) in the coordinates of `patches`; `slots` (P,): the index in
+    `materials` of each patch. In Object Mode.
     """
     nets = [patches.net(p) for p in range(len(patches))]
     surface: Any = bpy.data.curves.new(name, "SURFACE")
@@ -43,13 +43,15 @@ def surface_of(
 
 
 def _with_weights(points: np.ndarray) -> np.ndarray:
-    """x, y, z and a weight of 1, one point after another."""
+    """x, y, z and a weight of 1 for each point."""
     rows = points.reshape(-1, 3)
     return np.column_stack([rows, np.ones(len(rows))]).astype(np.float32).ravel()
 
 
 def _add_rows(context: Context, surface: Any, rows: list[int]) -> None:
-    """Makes `rows` of each spline's one: scripts cannot ask for a grid of points, Extrude can."""
+    """Extrudes the single row of each spline to `rows` rows, since scripts cannot create a grid of
+    points.
+    """
     stand_in = cast(Object, bpy.data.objects.new(surface.name, surface))
     before = context.view_layer.objects.active
     context.scene.collection.objects.link(stand_in)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is asked of spline patches, and of a file of them; on the command line too."""
+"""The settings of spline patches and of their files, for operators and the command line."""
 
 from math import radians
 from typing import Any
@@ -49,7 +49,7 @@ class PatchSettings:
 
 
 class StepSettings(PatchSettings):
-    """Of a file."""
+    """Settings of a file."""
 
     unit: EnumProperty(
         name="Unit", description="The unit of lengths in the file", items=UNITS, default="MM"
@@ -62,6 +62,6 @@ class StepSettings(PatchSettings):
 
 
 def scale_to(unit: str, scene: Scene) -> float:
-    """How many of a file's units a Blender unit has; 1 in scenes without units."""
+    """Units of the file in a Blender unit; 1 in scenes without units."""
     known: Any = scene.unit_settings
     return 1.0 if known.system == "NONE" else known.scale_length / METRES[unit]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The surface as the window shows it, beside that which becomes patches: the same mix of shape keys, and
-how far the two are apart.
+"""The surface as shown in the window, compared with the surface that patches are fitted to: the same
+mix of shape keys, and the distance between the two.
 """
 
 from collections.abc import Sequence
@@ -23,7 +23,7 @@ Share = float | np.ndarray  # of a shape: one number, or one a control vertex
 
 
 def shown_mesh(context: Context, shown: Object) -> core.ControlArrays:
-    """The mesh of `shown` as its shape keys mix it, without modifiers, in its own coordinates."""
+    """The mesh of `shown` with its mix of shape keys, without modifiers, in its own coordinates."""
     with control_mesh(context, shown) as mesh:
         arrays = read_mesh(mesh)
         keys = read_shape_keys(shown, len(arrays.positions))
@@ -44,9 +44,9 @@ def shown_mesh(context: Context, shown: Object) -> core.ControlArrays:
 def shares_of(
     shown: Object, keys: ShapeKeys, groups: Sequence[Any], vertex_count: int
 ) -> dict[int, Share]:
-    """As `influences` has them: how much of each of the source's `keys` the sliders of `shown`, by the same
-    names, mix. `groups`: the vertex groups of the source. Raises JobError where keys of `shown` itself
-    take part: the surface that is fitted knows nothing of them.
+    """Shares of the source's `keys` in the mix, by the sliders of `shown` with the same names; the
+    result of `influences`. `groups`: the vertex groups of the source. Raises JobError if keys of
+    `shown` itself take part, which the fitted surface does not have.
     """
     its = read_shape_keys(shown, len(shown.data.vertices))
     if its is None:
@@ -70,8 +70,8 @@ def own_keys_text(name: str, own: Sequence[str]) -> str:
 
 
 class Blend:
-    """For `discrete_fairing.fit_patches`: the surface and its shapes, mixed by `of_shapes`, one for each
-    shape; `arrays`: the control mesh.
+    """The `blend` of `discrete_fairing.fit_patches`: mixes the surface and its shapes with one share
+    `of_shapes` for each shape; `arrays`: the control mesh.
     """
 
     def __init__(self, arrays: core.ControlArrays, of_shapes: Sequence[Share]) -> None:
@@ -94,8 +94,8 @@ def distance(
     mesh: core.ControlArrays,
 ) -> float | None:
     """The largest distance, along normals, between the surface `result` of `levels` for the mesh
-    `control`, with its `vertices` (N, 3), and the `mesh` shown, in the same coordinates, at the points
-    of both. None where the mesh has other faces than such a surface.
+    `control`, with its `vertices` (N, 3), and the `mesh` shown, in the same coordinates, at common
+    points. None if the mesh has other faces than such a surface.
     """
     transfer = AttributeTransfer(result, control, levels)
     pairs = _same_points(transfer, levels, mesh.corners)
@@ -110,8 +110,8 @@ def distance(
 def _same_points(
     transfer: AttributeTransfer, levels: int, corners: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray] | None:
-    """Ids of the vertices of a refined mesh with the `corners` (c,), of any level, and of the vertices
-    of `transfer` at the same places of the control mesh; None where it has other faces.
+    """Ids of the vertices of a refined mesh with the `corners` (c,), of any level, and ids of the
+    vertices of `transfer` at the same places of the control mesh; None if it has other faces.
     """
     at_level_0 = sum(patch.fine.size for patch in transfer.patches) >> 2 * levels
     own = next((k for k in range(levels + 9) if at_level_0 << 2 * k == len(corners)), None)
@@ -136,5 +136,5 @@ def _same_points(
 
 
 def _points_of(cells: Cells, finer: int) -> np.ndarray:
-    """Those of the points that a face has with so many levels less, in their order."""
+    """Rows of the points of a face that exist with `finer` levels less, in their order."""
     return np.flatnonzero((cells.points % 2**finer == 0).all(axis=1))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Finished jobs as one file for CAD, and what is said about it."""
+"""Writes finished jobs to one CAD file, and summarizes them."""
 
 from collections.abc import Sequence
 
@@ -8,12 +8,14 @@ from . import colours, words
 from .fit import PatchJob
 from .settings import METRES
 
-# errors are told in millimetres where the file is metric
+# errors are stated in millimetres if the file is metric
 _SYMBOLS = {"IN": ("in", "IN"), "FT": ("in", "IN")}
 
 
 def write_jobs(path: str, jobs: Sequence[PatchJob], unit: str, scale: float) -> None:
-    """The file, a part an object, whole or not at all; raises OSError. `scale`: units of the file in a Blender unit."""
+    """Writes a complete file, with a part for each object, or none; raises OSError. `scale`: units of
+    the file in a Blender unit.
+    """
     core.module().write_step(
         path,
         [job.patches.transformed(job.placement) for job in jobs],
@@ -25,8 +27,9 @@ def write_jobs(path: str, jobs: Sequence[PatchJob], unit: str, scale: float) -> 
 
 
 def summary(jobs: Sequence[PatchJob], unit: str, scale: float) -> str:
-    """`96 patches, 0.008 mm off, 0.02° at edges, 0.2 mm from the mesh shown`, of all jobs, the worst of
-    them; the last where a surface is fitted, and at which levels the mesh would show it, where it has fewer.
+    """For example `96 patches, 0.008 mm off, 0.02° at edges, 0.2 mm from the mesh shown`: the worst
+    values of all jobs. If the mesh shown has fewer levels than the fitted surface, also the level that
+    shows it.
     """
     symbol, each = _SYMBOLS.get(unit, ("mm", "MM"))
     factor = scale * METRES[unit] / METRES[each]
@@ -46,7 +49,7 @@ def summary(jobs: Sequence[PatchJob], unit: str, scale: float) -> str:
 
 
 def _scan_text(jobs: Sequence[PatchJob], factor: float, symbol: str) -> str:
-    """How far the patches are from the scans that they are near."""
+    """The distances of the patches from their scans."""
     near = [job.from_scan for job in jobs if job.patches.scan_distances is not None]
     if not near:
         return ""
@@ -55,7 +58,7 @@ def _scan_text(jobs: Sequence[PatchJob], factor: float, symbol: str) -> str:
 
 
 def _finer_text(job: PatchJob) -> str:
-    """Where the mesh shown is coarser than the surface that patches were fitted to, what shows that one."""
+    """The setting that shows the fitted surface, if the mesh shown is coarser."""
     has, needs = job.levels_shown, job.patches.levels
     if has is None or has >= needs or (job.apart or 0.0) <= job.off:
         return ""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How patches came out, in words. No Blender."""
+"""The quality of patches in words. No Blender."""
 
 from collections.abc import Iterable, Sequence
 from math import degrees
@@ -10,27 +10,27 @@ _LISTED = 8  # faces
 
 
 def summary(patches: int, off: float, unit: str, angle: float, apart: float | None = None) -> str:
-    """`96 patches, 0.008 mm off, 0.02° at edges, 0.2 mm from the mesh shown`; `off` and `apart`, which
-    may be unknown, in `unit`, `angle` in radians.
+    """For example `96 patches, 0.008 mm off, 0.02° at edges, 0.2 mm from the mesh shown`; `off` and
+    `apart`, which may be unknown, in `unit`, `angle` in radians.
     """
     text = f"{counted(patches, 'patch', 'patches')}, {short(off)} {unit} off, {short(degrees(angle))}° at edges"
     return text if apart is None else f"{text}, {short(apart)} {unit} from the mesh shown"
 
 
 def short(value: float) -> str:
-    """Two digits that say something, without an exponent: 0.0082, 12, 3,400."""
+    """Two significant digits, without an exponent: 0.0082, 12, 3,400."""
     digits = float(f"{value:.1e}")
     text = f"{digits:,.12f}".rstrip("0").rstrip(".")
     return text if digits == 0.0 or text not in ("0", "-0") else f"{digits:g}"
 
 
 def faces_text(faces: Sequence[int]) -> str:
-    """`Faces 4, 7 and 9`, of many the first few and `…`."""
+    """For example `Faces 4, 7 and 9`; of many faces the first few and `…`."""
     shown = [str(face) for face in faces[:_LISTED]]
     noun = "Face" if len(faces) == 1 else "Faces"
     return f"{noun} {', '.join(shown)}, …" if len(faces) > _LISTED else f"{noun} {listed(shown)}"
 
 
 def together(sentences: Iterable[str]) -> str:
-    """Sentences one after another, without those that are empty."""
+    """The sentences joined, without empty ones."""
     return " ".join(filter(None, sentences))

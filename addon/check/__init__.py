@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is wrong with a mesh, and how to mend it."""
+"""Finds defects of meshes and faults of surfaces, and mends them."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a check found: kept with the object, and selected in Edit Mode."""
+"""The results of a check: stored with the object, and selected in Edit Mode."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -18,8 +18,7 @@ _RANK = {"vertex": 0, "edge": 1, "face": 2}
 
 
 def check_object(context: Context, target: Object) -> list[dict[str, Any]]:
-    """Runs the core's check on the mesh of `target`, in whatever mode, and remembers what it found,
-    and the holes.
+    """Runs the core's check on the mesh of `target`, in any mode, and stores the defects and holes.
 
     Returns the defects as dicts.
     """
@@ -32,7 +31,7 @@ def check_object(context: Context, target: Object) -> list[dict[str, Any]]:
 
 
 def as_dicts(found: Sequence[Any]) -> list[dict[str, Any]]:
-    """The core's defects as they are remembered."""
+    """The core's defects as dicts, for storage."""
     return [
         {
             "code": defect.code,
@@ -52,8 +51,8 @@ def store_defects(
     holes: list[dict[str, Any]] | None = None,
     cleaned: Sequence[str] = (),
 ) -> None:
-    """Remembers what a check of `target`, as it is now, has found. `holes`: None: those known.
-    `cleaned`: what Clean Scan has done to it just before, a sentence each.
+    """Stores the result of a check of `target` in its present state. `holes`: None: keep the known
+    ones. `cleaned`: sentences on a Clean Scan just before.
     """
     if holes is None:
         holes, cleaned = recall_holes(target), recall_cleaned(target)
@@ -63,12 +62,14 @@ def store_defects(
 
 
 def recall_holes(target: Object) -> list[dict[str, Any]]:
-    """The holes that the last check listed: for each its `width`, how many `edges`, and one of them, `at`."""
+    """The holes listed by the last check: for each its `width`, the number of its `edges`, and one of
+    them, `at`.
+    """
     return (memory.recall(target, "defects") or {}).get("holes", [])
 
 
 def recall_cleaned(target: Object) -> list[str]:
-    """What Clean Scan has done since the last check, a sentence each."""
+    """Sentences on what Clean Scan has done since the last check."""
     return (memory.recall(target, "defects") or {}).get("cleaned", [])
 
 
@@ -81,9 +82,9 @@ def recall_defects(target: Object) -> tuple[list[dict[str, Any]], bool] | None:
 
 
 def enter_edit_mode(context: Context, targets: list[Object]) -> None:
-    """Puts the mesh objects `targets`, and no other, into Edit Mode; the last one is active.
+    """Puts exactly the mesh objects `targets` into Edit Mode; the last one becomes active.
 
-    Raises RuntimeError if Blender will not.
+    Raises RuntimeError if Blender refuses.
     """
     if context.mode == "EDIT_MESH" and all(t.mode == "EDIT" for t in targets):
         context.view_layer.objects.active = targets[-1]
@@ -104,7 +105,7 @@ def select_defects(context: Context, target: Object, kind: str, elements: Sequen
     their `kind`.
 
     `kind`: "vertex", "edge" (elements are vertex pairs), "face" or "mesh", for which nothing can be
-    selected. Returns how many were selected.
+    selected. Returns the number of selected elements.
     """
     return select_in_all(context, [(target, [(kind, elements)])])
 
@@ -115,8 +116,8 @@ def select_in_all(
 ) -> int:
     """The same for several objects: `wanted` has (object, [(kind, elements), …]) pairs.
 
-    The first kind gives the select mode; of lower kinds nothing can be selected in it, of higher
-    ones all parts are.
+    The first kind determines the select mode, in which elements of lower kinds cannot be selected, and
+    of higher kinds all parts are.
     """
     targets = [target for target, _ in wanted]
     enter_edit_mode(context, targets)
@@ -127,7 +128,7 @@ def select_in_all(
 
 
 def elements_of(bm: bmesh.types.BMesh, kind: str, elements: Sequence[Any]) -> list[Any]:
-    """BMesh elements for ids of the core; those that are gone are left out."""
+    """BMesh elements for ids of the core, without deleted ones."""
     vertices, faces = bm.verts, bm.faces
     vertices.ensure_lookup_table()
     faces.ensure_lookup_table()

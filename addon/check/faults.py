@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is wrong with a surface that came out: it crosses itself, runs away, or folds.
+"""Faults of a new surface: it crosses itself, departs far from the control mesh, or folds.
 
-Steps that have converged may have ended in such a surface all the same. Computed with the job, on
-any thread; `mathutils` is not part of Blender's data.
+Even converged steps may end in such a surface. Computed with the job, on any thread, which `mathutils`
+allows.
 """
 
 from dataclasses import dataclass
@@ -20,37 +20,38 @@ from ..transfer.attributes import AttributeTransfer
 from ..transfer.coarse import coarse_triangles
 from .folds import folded, folded_in_place
 
-# triangles that are searched for crossings at a time, some 0.3 seconds; a finer surface is looked at
-# by fewer of its points first
+# triangles that are searched for crossings at a time, about 0.3 seconds; of a finer surface fewer
+# points are tested first
 MOST = 40_000
-# times the length of the edges around: spheres from the vertices of a cube or tetrahedron are at 0.4,
-# inner walls that have broken through the outer ones at 1.5 and more
+# in lengths of the edges around: spheres from the vertices of a cube or tetrahedron reach 0.4, inner
+# walls that have broken through the outer ones 1.5 and more
 FAR = 1.0
 _SHARP = -0.5  # cosine of 120 degrees
 
 
 @dataclass(frozen=True)
 class Faults:
-    """(N,) bool: at which vertices of a surface something is wrong."""
+    """(N,) bool for each fault: the vertices of a surface that have it."""
 
-    crossing: np.ndarray  # through another part of the surface, where the control mesh does not
-    far: np.ndarray  # farther from the control mesh than its edges are long there
-    folded: np.ndarray  # at edges where the surface turns back
+    # at crossings with another part of the surface, if the control mesh does not cross itself there
+    crossing: np.ndarray
+    far: np.ndarray  # farther from the control mesh than the length of its edges there
+    folded: np.ndarray  # at edges where the surface folds back
 
     @property
     def counts(self) -> dict[str, int]:
-        """By kind, those that there are any of."""
+        """Number of vertices by fault, without zeros."""
         all_of_them = {name: int(getattr(self, name).sum()) for name in FAULTS}
         return {name: count for name, count in all_of_them.items() if count}
 
     def write(self, mesh: Mesh) -> None:
-        """As attributes of the vertices, one a kind."""
+        """Writes the faults as attributes of the vertices, one for each fault."""
         for name in self.counts:
             fill_layer(make_layer(mesh, FAULTS[name], "BOOLEAN", "POINT"), getattr(self, name))
 
 
 def faulty_vertices(mesh: Mesh) -> np.ndarray:
-    """Ids of the vertices of `mesh` that `write` has marked."""
+    """Ids of the vertices of `mesh` marked by `write`."""
     marked = np.zeros(len(mesh.vertices), bool)
     for name in FAULTS.values():
         if name in mesh.attributes:
@@ -59,7 +60,7 @@ def faulty_vertices(mesh: Mesh) -> np.ndarray:
 
 
 def find_faults(result: Any, transfer: AttributeTransfer, control: ControlArrays) -> Faults:
-    """Of the core's `result` for the mesh `control`, both in the same coordinates."""
+    """The faults of the core's `result` for the mesh `control`, in the same coordinates."""
     none = np.zeros(len(result.vertices), bool)
     before = transfer.point(control.positions)
     return Faults(
@@ -76,10 +77,11 @@ def find_faults_in_place(
     chosen: np.ndarray,
     options: Any,
 ) -> Faults:
-    """The same of the `chosen` (m,) bool faces of a part of a mesh, faired by `options` (in_place.InPlaceOptions).
+    """The same for the `chosen` faces, (m,) bool, of a part of a mesh, faired by `options`
+    (in_place.InPlaceOptions).
 
-    With no levels only the part's own vertices count. Where these move, they go as far as they may,
-    which is no fault.
+    Without levels only the part's own vertices count. If vertices move, any distance within the
+    tolerance is right.
     """
     before, vertices = transfer.point(control.positions), result.vertices
     if not options.levels:
@@ -96,7 +98,9 @@ def find_faults_in_place(
 def _departure(
     vertices: np.ndarray, transfer: AttributeTransfer, control: ControlArrays
 ) -> np.ndarray:
-    """(N,) from each vertex to its place on the control mesh, in lengths of the edges around."""
+    """(N,) the distance of each vertex from its place on the control mesh, in lengths of the edges
+    around.
+    """
     ends = control.positions[control.edges]
     length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
     count = len(control.positions)
@@ -108,7 +112,7 @@ def _departure(
 
 
 def _crossing(vertices: np.ndarray, before: np.ndarray, transfer: AttributeTransfer) -> np.ndarray:
-    """(N,) bool: where the surface at `vertices` crosses itself and the control mesh, `before`, does
+    """(N,) bool: where the surface at `vertices` crosses itself and the control mesh, at `before`, does
     not.
     """
     marked = np.zeros(len(vertices), bool)
@@ -121,7 +125,7 @@ def _crossing(vertices: np.ndarray, before: np.ndarray, transfer: AttributeTrans
         excused = _Excused(before, coarsest, owner)
         pairs = excused.leave_out(pairs, faces)
     if len(pairs) and len(triangles) < transfer.triangle_count:
-        # two close walls may seem to cross by few points only: a second look, nearer
+        # with few points two close walls may seem to cross: test again with more
         involved = np.zeros_like(everywhere)
         involved[faces[pairs]] = True
         count = int(involved[owner].sum())
@@ -134,8 +138,8 @@ def _crossing(vertices: np.ndarray, before: np.ndarray, transfer: AttributeTrans
 def _look(
     vertices: np.ndarray, transfer: AttributeTransfer, count: int, chosen: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Triangles (t, 3) over the `chosen` control faces, which are `count` triangles, as fine as may
-    be; pairs (p, 2) of those that cross; and (t,) the control face of each.
+    """Triangles (t, 3) over the `chosen` control faces, which have `count` control triangles, as fine
+    as the limit allows; pairs (p, 2) of crossing triangles; and (t,) the control face of each.
     """
     levels = 0
     while levels < transfer.levels and count * 4 ** (levels + 1) <= MOST:
@@ -147,8 +151,8 @@ def _look(
 
 
 def _pairs(vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """(p, 2) triangles that cross, but for those that share an edge, each pair once. (The tree, in
-    single precision, also takes some for crossing that touch in a vertex of both.)
+    """(p, 2) crossing triangles without a common edge, each pair once. (The tree, in single precision,
+    also finds some that only share a vertex.)
     """
     used, local = np.unique(triangles, return_inverse=True)
     tree: Any = BVHTree.FromPolygons(
@@ -169,15 +173,15 @@ def _pairs(vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:
 
 
 def _turned(triangles: np.ndarray, chosen: np.ndarray) -> np.ndarray:
-    """The `triangles` (t, 3), the one corner `chosen` (t, 3) of each in front."""
+    """The `triangles` (t, 3), rotated so that the corner `chosen` (t, 3) comes first."""
     return np.take_along_axis(
         triangles, (chosen.argmax(axis=1)[:, None] + np.arange(3)) % 3, axis=1
     )
 
 
 def _pierced(triangles: np.ndarray, others: np.ndarray) -> np.ndarray:
-    """(t,) bool: whether the last sides of `others` pass through `triangles`, both (t, 3, 3), with
-    the same first corner [Möller and Trumbore 1997].
+    """(t,) bool: whether the last side of `others` crosses `triangles`, both (t, 3, 3), with the same
+    first corner [Möller and Trumbore 1997].
     """
     u, v = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
     start = others[:, 1] - triangles[:, 0]
@@ -193,17 +197,17 @@ def _pierced(triangles: np.ndarray, others: np.ndarray) -> np.ndarray:
 
 
 class _Excused:
-    """Where the control mesh crosses itself, is folded sharply, or is open between vertices that lie
-    on one another, its surface may well cross itself too: eyes in a head, the rim of a nostril.
+    """Places where a surface may cross itself, because the control mesh crosses itself, folds sharply,
+    or is open between coincident vertices: eyes in a head, the rim of a nostril.
     """
 
     def __init__(self, vertices: np.ndarray, triangles: np.ndarray, faces: np.ndarray) -> None:
-        """`triangles` (t, 3) of the control mesh, of its `faces` (t,)."""
+        """`triangles` (t, 3) of the control mesh, and the face (t,) of each."""
         count = int(faces.max()) + 1
         self._part = _parts(triangles, faces, count)
         crossing = faces[_pairs(vertices, triangles)]
         self._parts = {_ordered(a, b) for a, b in self._part[crossing].tolist() if a != b}
-        # within a part: faces that do, and their neighbours
+        # within a connected part: crossing faces and their neighbours
         self._near = np.zeros(count, bool)
         at = _on_others(vertices, triangles) | folded(vertices, triangles, _SHARP)
         own = crossing[self._part[crossing[:, 0]] == self._part[crossing[:, 1]]]
@@ -211,7 +215,7 @@ class _Excused:
         self._near[faces[at[triangles].any(axis=1)]] = True
 
     def leave_out(self, pairs: np.ndarray, faces: np.ndarray) -> np.ndarray:
-        """The `pairs` (p, 2) of triangles, of control `faces` (t,), that are to be told."""
+        """The `pairs` (p, 2) of triangles, of control `faces` (t,), that count as faults."""
         ends = faces[pairs]
         parts = self._part[ends]
         crossing = [_ordered(a, b) not in self._parts for a, b in parts.tolist()]
@@ -220,7 +224,7 @@ class _Excused:
 
 
 def _on_others(vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """(N,) bool: vertices of the `triangles` that lie on others."""
+    """(N,) bool: vertices of the `triangles` that coincide with others."""
     used = np.unique(triangles)
     _, place, count = np.unique(vertices[used], axis=0, return_inverse=True, return_counts=True)
     on = np.zeros(len(vertices), bool)
@@ -233,7 +237,7 @@ def _ordered(a: int, b: int) -> tuple[int, int]:
 
 
 def _parts(triangles: np.ndarray, faces: np.ndarray, count: int) -> np.ndarray:
-    """(count,) a number for each control face, the same within a connected part."""
+    """(count,) numbers of control faces, equal within a connected part."""
     pairs = triangles[:, [[0, 1], [1, 2]]].reshape(-1, 2)
     label = module().patches.connected_parts(int(triangles.max()) + 1, pairs)
     part = np.zeros(count, np.int64)

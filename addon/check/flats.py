@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Faces of a control mesh that its shape says are meant flat: large ones between tight rims."""
+"""Finds the faces of a control mesh that are meant to be flat: large ones between tight rims."""
 
 import numpy as np
 
@@ -7,16 +7,18 @@ from .. import core
 from ..inspection.curvature import face_areas, face_normals, faces_of_edges
 from ..inspection.measures import fold_angles
 
-_IN_PLANE = 1e-3  # of its size: how far a flat's corners may be off; files have some six digits
+# largest distance of a flat's corners from its plane, relative to its size; files have about six digits
+_IN_PLANE = 1e-3
 
 
 def find_flats(arrays: core.ControlArrays, angle: float) -> np.ndarray:
     """(m,) bool: the faces of flats.
 
-    Faces that are joined within `angle` (degrees) and lie in one plane are one part. A part is a flat if, at all
-    of its borders but open ones, it turns away, is at least as wide as the part beside it, and turns at most
-    half as much per width. An arc from a plane turns at its first edge half as much as at the next, so this
-    holds from flats on that are as wide as the chords beside them; on spheres both turn alike.
+    Faces that are joined within `angle` (degrees) and lie in one plane form a part. A part is a flat if
+    at each of its borders, except open ones, the mesh turns away, the part is at least as wide as the
+    part beside it, and it turns at most half as much per width. Where an arc joins a plane, the first
+    edge turns half as much as the next, so flats at least as wide as the adjacent chords qualify; on
+    spheres both turn alike.
     """
     if not len(arrays.face_sizes):
         return np.zeros(0, bool)
@@ -35,7 +37,7 @@ def find_flats(arrays: core.ControlArrays, angle: float) -> np.ndarray:
     joined = twin >= 0
     here, there = np.flatnonzero(joined), twin[joined]
     turns = (turn[here] > angle) & (width[here] >= width[there])
-    # that is turn / width <= 0.5 * beyond / width, without a division by none
+    # turn / width <= 0.5 * beyond / width, without a division by zero
     turns &= 2.0 * turn[here] * width[there] <= beyond[there] * width[here]
     some = np.zeros(len(plane), bool)
     some[owner[here]] = True
@@ -44,8 +46,8 @@ def find_flats(arrays: core.ControlArrays, angle: float) -> np.ndarray:
 
 
 def _parts(arrays: core.ControlArrays, joined: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """(m,) the part of each face, and (parts,) bool whether it lies in a plane; faces that are joined,
-    but not in a plane, are parts by themselves. `joined` (e,) bool: edges inside of parts.
+    """(m,) the part of each face, and (parts,) bool whether it is planar. Faces that are joined but not
+    coplanar are separate parts. `joined` (e,) bool: edges inside parts.
     """
     count = len(arrays.face_sizes)
     connected = core.module().patches.connected_parts
@@ -57,14 +59,15 @@ def _parts(arrays: core.ControlArrays, joined: np.ndarray) -> tuple[np.ndarray, 
 
 
 def _in_plane(arrays: core.ControlArrays, part: np.ndarray) -> np.ndarray:
-    """(parts,) bool: whether the corners of all faces of a part are in the plane of its first face
-    that has an area. Three points always are in one, so a triangle alone does not count.
+    """(parts,) bool: whether the corners of all faces of a part are in the plane of its first face with
+    an area. Three points are always coplanar, so a single triangle does not count.
     """
     normals = face_normals(arrays.positions, arrays.corners, arrays.offsets)
     has_area = np.flatnonzero((normals != 0.0).any(axis=1))
     count = int(part.max()) + 1
     normal = np.zeros((count, 3))
-    normal[part[has_area[::-1]]] = normals[has_area[::-1]]  # the first one, written last
+    # the last write is that of the first face
+    normal[part[has_area[::-1]]] = normals[has_area[::-1]]
     owner = np.repeat(part, arrays.face_sizes)
     points = arrays.positions[arrays.corners]
     origin = np.zeros((count, 3))
@@ -79,8 +82,8 @@ def _in_plane(arrays: core.ControlArrays, part: np.ndarray) -> np.ndarray:
 def _widths(
     arrays: core.ControlArrays, part: np.ndarray, edge: np.ndarray, owner: np.ndarray
 ) -> np.ndarray:
-    """(parts,) twice the area by the length of the border, the edges `edge` (b,) of the parts `owner`: the
-    width of a strip or ring, half the width of a square or disc.
+    """(parts,) twice the area over the length of the border, the edges `edge` (b,) of the parts
+    `owner`: the width of a strip or ring, half the width of a square or disc.
     """
     ends = arrays.positions[arrays.edges[edge]]
     border = np.bincount(owner, np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1), len(part))
@@ -93,8 +96,8 @@ def _widths(
 def _turns_beyond(
     arrays: core.ControlArrays, edge: np.ndarray, owner: np.ndarray, turn: np.ndarray
 ) -> np.ndarray:
-    """(b,) the largest `turn` at edges of the part of each border edge that share no vertex with it, and at
-    itself. `owner` ascends.
+    """(b,) for each border edge, the largest `turn` at its part's edges that share no vertex with it,
+    or at the edge itself. `owner` ascends.
     """
     sizes = np.bincount(owner)
     own = sizes[owner]
@@ -107,7 +110,7 @@ def _turns_beyond(
 
 
 def _twins(edge: np.ndarray) -> np.ndarray:
-    """(b,) the other place of the same edge; -1 where there is none, or there are several."""
+    """(b,) the other row with the same edge; -1 if there is none, or more than one."""
     uses = np.bincount(edge)
     order = np.argsort(edge, kind="stable")
     two = order[uses[edge[order]] == 2].reshape(-1, 2)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Edges of a surface where it turns back: by more than a right angle, or by what is asked for."""
+"""Edges at which a surface folds back: it turns by more than a right angle, or another limit."""
 
 from typing import Any
 
@@ -12,7 +12,7 @@ from ..transfer.lattice import fine_edges, pair_keys
 
 
 def folded(vertices: np.ndarray, triangles: np.ndarray, cosine: float = 0.0) -> np.ndarray:
-    """(N,) bool: the ends of edges whose two triangles have normals with a `cosine` below this."""
+    """(N,) bool: the ends of edges whose two triangles have normals with a cosine below `cosine`."""
     return _at(vertices, _folds(vertices, triangles, cosine)[0])
 
 
@@ -25,12 +25,12 @@ def folded_in_place(
     levels: int,
     joined: bool,
 ) -> np.ndarray:
-    """(N,) bool: at folds of the `chosen` (m,) bool control faces of the core's `result`, after
-    `levels` refinements and with its points at `vertices` (N, 3).
+    """(N,) bool: vertices at folds of the `chosen` control faces, (m,) bool, of the core's `result`,
+    after `levels` refinements and with its points at `vertices` (N, 3).
 
-    `joined`: whether they are to meet the faces around smoothly; otherwise any angle is right there.
-    Creases are folds by choice, and inside of the chosen faces those of the control mesh, which is at
-    `before`, and of the faces at them are none of the surface's doing.
+    `joined`: whether the faces must meet those around smoothly; otherwise any angle is right there.
+    Creases do not count, nor do folds of the control mesh, which is at `before`, and of the faces at
+    them.
     """
     polygon = np.concatenate([patch.faces.polygon for patch in transfer.patches])
     coarsest, owner = coarse_triangles(transfer, 0)
@@ -59,7 +59,7 @@ def _at(vertices: np.ndarray, edges: np.ndarray) -> np.ndarray:
 def _folds(
     vertices: np.ndarray, triangles: np.ndarray, cosine: float = 0.0
 ) -> tuple[np.ndarray, np.ndarray]:
-    """(k, 2) the ends of the edges, and (k, 2) their triangles."""
+    """(k, 2) the ends of the folded edges, and (k, 2) their triangles."""
     a, b, c = (vertices[triangles[:, i]] for i in range(3))
     normals = unit(cross(b - a, c - a))
     edges = triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)

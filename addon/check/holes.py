@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The holes that a check lists: how long each is, and where."""
+"""The holes that a check lists: their widths and places."""
 
 from typing import Any
 
@@ -9,11 +9,11 @@ from ..mesh.read import control_mesh, read_mesh
 from ..mesh.world_shape import WorldShape
 from ..transfer.hole_loops import flat_faces, holes_in, sides_of
 
-MOST = 50  # that are kept, the widest; a list of more helps nobody
+MOST = 50  # the widest holes, which are kept; longer lists are of no use
 
 
 def loops_of(arrays: core.ControlArrays) -> list[list[int]]:
-    """The loops of a mesh; none where the core makes no mesh of it."""
+    """The border loops of a mesh; none if the core refuses the mesh."""
     if not (arrays.edge_uses == 1).any():
         return []
     try:
@@ -24,7 +24,7 @@ def loops_of(arrays: core.ControlArrays) -> list[list[int]]:
 
 
 def listed(arrays: core.ControlArrays, shape: WorldShape) -> list[dict[str, Any]]:
-    """Of each hole its `width` in scene units, the widest first; the number of its `edges`, and one of
+    """For each hole its `width` in scene units, the widest first, the number of its `edges`, and one of
     them, `at`, as a pair of vertices. `shape`: of the object in the world.
     """
     points, width_of = shape.of(arrays.positions), core.module().hole_width
@@ -36,7 +36,7 @@ def listed(arrays: core.ControlArrays, shape: WorldShape) -> list[dict[str, Any]
 
 
 def edges_of(context: Context, target: Object, at: list[int]) -> list[list[int]]:
-    """The edges of the hole that has the edge `at`, as pairs of vertices; none where it is gone."""
+    """The edges of the hole with the edge `at`, as pairs of vertices; none if it no longer exists."""
     with control_mesh(context, target) as mesh:
         arrays = read_mesh(mesh)
     side = frozenset(at)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The joints between objects whose borders meet, worst first. Kept until the file is closed."""
+"""The joints between objects whose borders meet, worst first. Not stored in files."""
 
 from dataclasses import dataclass
 from itertools import permutations
@@ -15,8 +15,8 @@ from ..neighbours import shown_in_world
 
 @dataclass(frozen=True)
 class Row:
-    """One joint: of which objects, and its largest gap (scene units), kink (radians) and jump (a share of the
-    largest curvature across it); `worst`: the vertex of the first with that kink.
+    """One joint of two objects: its largest gap (scene units), kink (radians) and jump (a share of the
+    largest curvature across it); `worst`: the vertex of the first object with that kink.
     """
 
     first: Reference
@@ -34,17 +34,17 @@ _rows: list[Row] = []
 
 
 def rows() -> list[Row]:
-    """What `measure` found last, of objects that are still there."""
+    """The result of the last `measure`, without deleted objects."""
     return [row for row in _rows if row.first.find() is not None]
 
 
 def chosen(context: Context) -> list[Object]:
-    """The selected meshes."""
+    """The selected mesh objects."""
     return [o for o in context.selected_objects if o.type == "MESH"]
 
 
 def measure(context: Context) -> list[Row]:
-    """Every pair of the selected objects whose borders meet, as the window shows them."""
+    """Measures all pairs of selected objects whose borders meet, as shown in the window."""
     objects = chosen(context)
     meshes = [shown_in_world(context, target) for target in objects]
     found: dict[tuple[int, int], Row] = {}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Repairs of the user's own mesh, each on a button, by BMesh: UV maps and weights stay."""
+"""Repairs of the user's own mesh, one for each button, by BMesh: UV maps and weights stay."""
 
 from collections.abc import Callable
 from typing import Any
@@ -26,12 +26,12 @@ def repair(target: Object, defect: dict[str, Any]) -> None:
 
 
 def label(code: str) -> str | None:
-    """What the button says, or None if no command truly mends this."""
+    """The text of the button, or None if no command mends this."""
     return _REPAIRS[code][0] if code in _REPAIRS else None
 
 
 def _flip(bm: bmesh.types.BMesh, faces: list[bmesh.types.BMFace]) -> None:
-    # those that the core would turn over: the fewer ones of each part
+    # the faces that the core would reverse: the minority of each part
     bmesh.ops.reverse_faces(bm, faces=faces)
 
 
@@ -58,7 +58,7 @@ def _delete_duplicates(bm: bmesh.types.BMesh, faces: list[bmesh.types.BMFace]) -
 
 
 def _cut(bm: bmesh.types.BMesh, vertices: list[bmesh.types.BMVert]) -> None:
-    """The border edge on which each of these lies, at that place: then both are joined there."""
+    """Cuts the border edge on which each vertex lies, so that both can be merged there."""
     for vertex in vertices:
         found = [
             (away, edge, share)
@@ -73,7 +73,7 @@ def _cut(bm: bmesh.types.BMesh, vertices: list[bmesh.types.BMVert]) -> None:
 
 
 def _away(vertex: bmesh.types.BMVert, edge: bmesh.types.BMEdge) -> tuple[float, float]:
-    """The distance from an edge's line, and the place along the edge, from 0 to 1."""
+    """Distance from an edge's line, and the parameter along the edge, from 0 to 1."""
     begin, end = (v.co for v in edge.verts)
     way = end - begin
     share = float((vertex.co - begin) @ way) / (way.length_squared or 1.0)
@@ -81,7 +81,9 @@ def _away(vertex: bmesh.types.BMVert, edge: bmesh.types.BMEdge) -> tuple[float, 
 
 
 def _delete_surplus(bm: bmesh.types.BMesh, edges: list[bmesh.types.BMEdge]) -> None:
-    """Where more than two faces meet, the smaller sheets that end in a border, as Clean Scan does."""
+    """At edges with more than two faces, deletes the smaller sheets that end in a border, like Clean
+    Scan.
+    """
     faces = list(bm.faces)
     bm.verts.index_update()
     corners = np.array([v.index for face in faces for v in face.verts], np.int64)
@@ -100,7 +102,7 @@ def _delete_surplus(bm: bmesh.types.BMesh, edges: list[bmesh.types.BMEdge]) -> N
 
 
 def _tiny(bm: bmesh.types.BMesh) -> float:
-    """A distance that no one can see: a millionth of the mesh's size."""
+    """An invisible distance: a millionth of the mesh's size."""
     points: list[Any] = [v.co for v in bm.verts if all(abs(x) < 1e30 for x in v.co[:])]
     if not points:
         return 1e-6

@@ -11,14 +11,14 @@ _handles: list[Any] = []
 
 
 def _command(argv: list[str]) -> int:
-    from .main import main  # argparse and all: only for those who call it
+    from .main import main  # with argparse: imported on first use
 
     return main(argv)
 
 
 def register() -> None:
-    if hasattr(bpy.utils, "register_cli_command"):  # from Blender 4.2 on
-        tell: Any = bpy.utils.register_cli_command  # whose stub says None
+    if hasattr(bpy.utils, "register_cli_command"):  # Blender 4.2 and later
+        tell: Any = bpy.utils.register_cli_command  # its stub returns None
         _handles.append(tell(NAME, _command))
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`--clean` on the command line: its options, scans made into closed surfaces, what the report says."""
+"""`--clean` on the command line: its options, the run, and the entries of the report."""
 
 import argparse
 from math import isfinite
@@ -42,13 +42,13 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def options_of(said: dict[str, Any]) -> CleanOptions:
-    """From the options that were said, or their defaults."""
+    """From the given options and defaults."""
     steps = {name: name not in said["clean_without"] for name in _NAMES}
     return CleanOptions(steps, said["clean_islands"], said["largest_hole"], said["clean_noise"])
 
 
 def shown(options: CleanOptions) -> dict[str, Any]:
-    """For the report."""
+    """The options for the report."""
     return {
         "clean_without": [name for name in _NAMES if not options.steps[name]],
         "clean_islands": options.islands,
@@ -58,7 +58,9 @@ def shown(options: CleanOptions) -> dict[str, Any]:
 
 
 def run(source: Object, options: CleanOptions, **watchers: Any) -> tuple[dict[str, Any], list[str]]:
-    """Cleans the mesh of an object; its entry for the report, and what is left as a warning."""
+    """Cleans the mesh of an object. Returns its entry for the report, and the remaining defects as a
+    warning.
+    """
     entry: dict[str, Any] = {"name": source.name, "control": counts(source.data)}
     job = CleanJob(current_context(), source, options)
     job.compute(**watchers)
@@ -79,7 +81,7 @@ COLUMNS = {"watertight": 11, "left": 7}
 
 
 def cells(objects: list[dict[str, Any]], _record: dict[str, Any]) -> tuple[str, ...]:
-    """Of a finished input's line in the table: sums over its objects."""
+    """Cells of a finished input's row in the table: sums over its objects."""
     closed = all(item["report"]["watertight"] for item in objects)
     left = sum(part["count"] for item in objects for part in item["report"]["left"])
     return "yes" if closed else "no", f"{left:,}"

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`--ease` and `--strain` on the command line: control meshes put right before they are faired, and
-the table of their vertices.
+"""`--ease` and `--strain` on the command line: ease control meshes before they are faired, and write
+tables of their vertices' strain.
 """
 
 import argparse
@@ -30,14 +30,14 @@ _LENGTH = number("a length above 0", lambda value: 0.0 < value < inf)
 
 @dataclass(frozen=True)
 class PrepareOptions:
-    """What is asked of the control meshes of each input."""
+    """The preparation of the control meshes of each input."""
 
-    options: EaseOptions | None  # None: they stay as they are
-    tables: tuple[Path, ...] | None  # one an input: of strain; None: none is written
+    options: EaseOptions | None  # None: no easing
+    tables: tuple[Path, ...] | None  # tables of strain, one an input; None: none are written
 
     @property
     def runs(self) -> int:
-        """Of each mesh, beside fairing it."""
+        """Number of runs for each mesh, without fairing it."""
         return (self.options is not None) + (self.tables is not None)
 
 
@@ -69,7 +69,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def options_of(arguments: argparse.Namespace, files: Sequence[Place]) -> PrepareOptions:
-    """What was said. Raises ValueError where options contradict, and BadPlaces."""
+    """From the arguments. Raises ValueError for contradictory options, and BadPlaces."""
     bound, stiffness = arguments.ease_tolerance, arguments.ease_stiffness
     if bound is not None and stiffness is not None:
         raise ValueError("--ease-tolerance and --ease-stiffness are two amounts: give one")
@@ -89,7 +89,7 @@ def options_of(arguments: argparse.Namespace, files: Sequence[Place]) -> Prepare
 
 
 def shown(prepare: PrepareOptions) -> dict[str, Any]:
-    """For the report: nothing, unless the mesh is eased."""
+    """The options for the report; empty without easing."""
     if prepare.options is None:
         return {}
     options = prepare.options
@@ -101,17 +101,17 @@ def shown(prepare: PrepareOptions) -> dict[str, Any]:
 
 
 class Preparing:
-    """The meshes of one file, before they are faired."""
+    """Prepares the meshes of one file before they are faired."""
 
     def __init__(self, prepare: PrepareOptions, settings: Settings, asked: dict[str, Any]) -> None:
-        """`asked`: arguments of the core in the place of those that the settings make."""
+        """`asked`: arguments of the core that replace those made from the settings."""
         self._asked_for, self._settings, self._asked = prepare, settings, asked
 
     def run(
         self, sources: Sequence[Object], done: Callable[[], None], **watchers: Any
     ) -> tuple[list[dict[str, Any]], list[table.Table]]:
-        """Eases the meshes if that is asked for, and measures their strain if that is. Calls `done` after
-        each run. Of each source what the report says, and of each its table.
+        """Eases the meshes and measures their strain, if requested. Calls `done` after each run.
+        Returns the entry of each source for the report, and its table.
         """
         entries: list[dict[str, Any]] = []
         found: list[table.Table] = []
@@ -157,7 +157,7 @@ class Preparing:
 
 
 def require_one(sources: Sequence[Object], prepare: PrepareOptions) -> None:
-    """Raises JobError where a table would have the vertices of several meshes."""
+    """Raises JobError if one table would contain the vertices of several meshes."""
     if prepare.tables is not None and len(sources) > 1:
         raise JobError(
             f"--strain: Give each mesh a file of its own. The table is of one, and this file has {len(sources)}: "

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where the work of a call is done: here, in processes of this machine, or on a Dask cluster.
+"""Executes a call's work in this process, in several processes of this machine, or on a Dask cluster.
 
-With --pieces the pieces of a mesh are spread, and otherwise the files: each task then is this very
-command again, for some of its inputs.
+With --pieces the pieces of a mesh are distributed, otherwise the files: each task is this command
+again, for some of its inputs.
 """
 
 import json
@@ -22,44 +22,44 @@ from typing import Any
 
 import bpy
 
-_MORE_TRIES = 3  # of a task whose worker died
+_MORE_TRIES = 3  # for a task whose worker died
 _MOST_FILES = (
-    16  # of one task: a new Blender takes a second, and a task is what an interruption loses
+    16  # inputs of a task: starting Blender takes a second, and an interruption loses one task
 )
 _TASKS_A_WORKER = 4  # so that no worker waits long for the last one
-_LAST_WORDS = 2000  # characters of what a process has said that left no report
+_LAST_WORDS = 2000  # characters of the output of a process that left no report
 
 
 class NoExecutor(Exception):
-    """Why there is none, as a sentence."""
+    """Why there is no executor, as a sentence."""
 
 
-# A worker of a cluster runs subprocess.run itself: it needs Blender and this extension, and no code
-# of ours beside.
+# A worker of a cluster calls subprocess.run itself: it needs Blender and this extension, but no other
+# code of ours.
 @dataclass(frozen=True)
 class TaskExecutor:
-    """Where tasks run. `run_words`: as subprocess.run, of what a worker is to start."""
+    """Runs tasks. `run_words`: like subprocess.run, for a command on a worker."""
 
     executor: Executor
-    workers: int  # tasks at once
-    threads: int  # of each
+    workers: int  # simultaneous tasks
+    threads: int  # threads of each task
     run_words: Callable[..., Any] = subprocess.run
 
     def faired(self, pieces: Sequence[Any], memory_limit: int) -> Iterator[Any]:
-        """The pieces' parts, in their order. `memory_limit`: bytes, of each."""
+        """The parts of the pieces, in order. `memory_limit`: bytes, for each piece."""
         fair = methodcaller("fair", threads=self.threads, memory_limit=memory_limit)
         return self.executor.map(fair, pieces)
 
 
 def is_spread(arguments: Namespace) -> bool:
-    """Whether work leaves this process."""
+    """Whether work is distributed to other processes."""
     is_share = arguments.only is not None
     return not is_share and (arguments.scheduler is not None or arguments.jobs > 1)
 
 
 @contextmanager
 def executor(arguments: Namespace) -> Iterator[TaskExecutor]:
-    """The one that was asked for. An error ends what runs, and what has not begun is left."""
+    """The requested executor. After an error running tasks are ended, and others not started."""
     with _dask(arguments) if arguments.scheduler else _local(arguments) as found:
         try:
             yield found
@@ -79,7 +79,7 @@ def _local(arguments: Namespace) -> Iterator[TaskExecutor]:
             yield TaskExecutor(pool, count, _threads(arguments))
         return
     running: set[subprocess.Popen] = set()
-    with ThreadPoolExecutor(count) as pool:  # each waits for a process of its own
+    with ThreadPoolExecutor(count) as pool:  # each thread waits for its own process
         try:
             yield TaskExecutor(
                 pool, count, _threads(arguments), lambda *a, **k: _run(running, *a, **k)
@@ -92,7 +92,7 @@ def _local(arguments: Namespace) -> Iterator[TaskExecutor]:
 def _run(
     running: set[subprocess.Popen], words: Sequence[str], *, capture_output: bool, **how: Any
 ) -> subprocess.CompletedProcess:
-    """As subprocess.run, with the process among those that are running."""
+    """Like subprocess.run, and lists the process among the running ones."""
     pipe = subprocess.PIPE if capture_output else None
     with subprocess.Popen(words, stdout=pipe, stderr=pipe, **how) as process:
         running.add(process)
@@ -130,20 +130,20 @@ def _dask(arguments: Namespace) -> Iterator[TaskExecutor]:
 
 
 def _threads(arguments: Namespace) -> int:
-    """Of one task, where the user has not said: all tasks together use the cores once."""
+    """Threads of a task if the user has not set them: all tasks together use each core once."""
     if arguments.threads is not None:
         return arguments.threads
     return 1 if arguments.scheduler else max(1, (os.cpu_count() or 1) // arguments.jobs)
 
 
 def batches(count: int, workers: int) -> list[range]:
-    """`count` inputs as tasks of neighbours."""
+    """`count` inputs as tasks of consecutive ones."""
     size = min(_MOST_FILES, max(1, count // (_TASKS_A_WORKER * workers)))
     return [range(first, min(first + size, count)) for first in range(0, count, size)]
 
 
 def blender_again() -> list[str]:
-    """The words that start this command once more, before its own arguments."""
+    """The command line that starts this command again, without its arguments."""
     after = sys.argv.index("--command") if "--command" in sys.argv else len(sys.argv)
     flags = sys.argv[1:after] if "--background" in sys.argv[1:after] else ["--background"]
     return [bpy.app.binary_path, *flags, "--command", "discrete_fairing"]
@@ -152,10 +152,10 @@ def blender_again() -> list[str]:
 def run_files(
     made: TaskExecutor, words: Sequence[str], count: int
 ) -> Iterator[tuple[range, list[dict[str, Any]] | str]]:
-    """Runs this command, given as `words`, for all of `count` inputs, a share a task.
+    """Runs this command, given as `words`, for all of `count` inputs, distributed over tasks.
 
-    Yields, as tasks end, the inputs' numbers and their records, or what a process has said that left
-    none. Files are read and written by who runs the task, in the folder of this process.
+    As tasks end, yields the inputs' numbers, and their records or, if a process left none, its output.
+    Files are read and written by the worker, relative to the folder of this process.
     """
     tasks: dict[Future, range] = {}
     for share in batches(count, made.workers):
@@ -179,7 +179,7 @@ def _records(task: Future, count: int) -> list[dict[str, Any]] | str:
         done = task.result()
     except (
         Exception
-    ) as error:  # the executor's: no such program there, a worker that dies each time
+    ) as error:  # an error of the executor: no such program there, or a worker that dies each time
         return f"{type(error).__name__}: {error}"
     found: list[dict[str, Any]] = []
     with suppress(ValueError, KeyError):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Files in and out with Blender's own importers and exporters, in the files' own coordinates."""
+"""Reads and writes files with Blender's own importers and exporters, in the files' coordinates."""
 
 import re
 from collections.abc import Callable, Iterator
@@ -18,13 +18,13 @@ from .materials import free_stem
 from .places import FORMATS, file_format
 from .whole import why_incomplete
 
-# Named alike both ways, no axis moves: the numbers in a file are those of the mesh.
+# With the same axes for reading and writing, coordinates in the file are those of the mesh.
 _AXES = {"forward_axis": "Y", "up_axis": "Z"}
 
 
 def _append_meshes(filepath: str) -> None:
-    """The mesh objects of a .blend file, as they stand there."""
-    libraries: Any = bpy.data.libraries  # whose stub knows of no context
+    """The mesh objects of a .blend file, as stored."""
+    libraries: Any = bpy.data.libraries  # its stub has no context manager
     with libraries.load(filepath, link=False) as (there, here):
         here.objects = there.objects
     for found in here.objects:
@@ -35,7 +35,7 @@ def _append_meshes(filepath: str) -> None:
 
 
 def _import_usd(filepath: str) -> None:
-    importer: Any = bpy.ops.wm.usd_import  # whose stub says None
+    importer: Any = bpy.ops.wm.usd_import  # its stub returns None
     importer(filepath=filepath, import_materials=False, import_cameras=False, import_lights=False)
 
 
@@ -54,7 +54,7 @@ _IMPORTERS: dict[str, Any] = {
 
 
 class FileError(Exception):
-    """Why a file cannot be read or written, as a sentence; `code` for programs."""
+    """Why a file cannot be read or written, as a sentence; `code` is for programs."""
 
     def __init__(self, code: str, message: str) -> None:
         super().__init__(message)
@@ -62,11 +62,11 @@ class FileError(Exception):
 
 
 def read_file(path: Path, merge: bool = False) -> list[Object]:
-    """The mesh objects of a file, alone in an empty scene; the user's startup file stays out of it."""
+    """The mesh objects of a file, alone in an empty scene without the user's startup file."""
     _readable(path)
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     scene: Any = current_context().scene
-    scene.unit_settings.system = "NONE"  # numbers are those of the file, whatever it means by them
+    scene.unit_settings.system = "NONE"  # coordinates are those of the file, in any unit
     kind = file_format(path)
     axes = _AXES if kind in FORMATS else {}
     try:
@@ -85,8 +85,9 @@ def read_file(path: Path, merge: bool = False) -> list[Object]:
 
 
 def _crease(found: list[Object], path: Path) -> None:
-    """Creases of an OBJ as OpenSubdiv writes them, which Blender's importer drops: `t crease 2/1/0 v w sharpness`,
-    vertices counted from 0 over the whole file. FileError where the objects do not have all vertices in order.
+    """Reads the creases of an OBJ in OpenSubdiv's format, which Blender's importer ignores: `t crease
+    2/1/0 v w sharpness`, with vertices counted from 0 over the whole file. FileError if the objects do
+    not have all vertices in order.
     """
     text = path.read_text("utf-8", "replace")
     tags = [
@@ -96,7 +97,7 @@ def _crease(found: list[Object], path: Path) -> None:
         return
     mesh, count = found[0].data, len(re.findall(r"^v[ \t]", text, re.MULTILINE))
     try:
-        # Blender's crease c is sharp for 10 c² steps
+        # Blender's crease c is sharp during 10 c² steps
         weights = {
             frozenset((int(v), int(w))): min(max(float(s), 0.0) / 10.0, 1.0) ** 0.5
             for v, w, s in tags
@@ -113,15 +114,15 @@ def _crease(found: list[Object], path: Path) -> None:
 
 
 def write_file(path: Path) -> None:
-    """All objects of the scene as one file, and the materials of an OBJ as another. After a failure
-    the files that were there are as they were.
+    """Writes all objects of the scene to one file, and the materials of an OBJ to another. After a
+    failure existing files are unchanged.
     """
     with _explained(path):
         path.parent.mkdir(parents=True, exist_ok=True)
         target = _whole_files().real_place(path)
         stem = free_stem(target) if file_format(path) == "obj" else None
         with _whole_files().whole_file(path, path.suffix, stem) as part:
-            part.write_bytes(b"")  # says why not better than the exporters do
+            part.write_bytes(b"")  # its error is clearer than those of the exporters
             _export(part)
             materials = part.with_suffix(".mtl")
             if stem is not None and materials.exists():
@@ -129,25 +130,25 @@ def write_file(path: Path) -> None:
 
 
 def write_whole(path: Path, write: Callable[[str], None]) -> None:
-    """For what `write` writes whole or not at all, where it is told."""
+    """Lets `write` write a complete file or none."""
     with _explained(path):
         path.parent.mkdir(parents=True, exist_ok=True)
         write(str(path))
 
 
 def write_text(path: str, text: str, newline: str | None = None) -> None:
-    """For the report, and tables. `newline`: as of open()."""
+    """Writes the report or a table. `newline`: as for open()."""
     with _explained(path), _whole_files().whole_file(path) as part:
         part.write_text(text, encoding="utf-8", newline=newline)
 
 
 class _NotWritten(Exception):
-    """Why an exporter has made no whole file."""
+    """Why an exporter has not written a complete file."""
 
 
 @contextmanager
 def _explained(path: Path | str) -> Iterator[None]:
-    """Inside the `with` what keeps a file from being written is a FileError."""
+    """A context in which errors of writing become a FileError."""
     try:
         yield
     except (OSError, _NotWritten) as error:
@@ -179,13 +180,14 @@ def _export(path: Path) -> None:
 
 
 def _write_obj(**arguments: Any) -> set[Any]:
-    materials = any(mesh.materials for mesh in bpy.data.meshes)  # else no .mtl is left beside
-    export: Any = bpy.ops.wm.obj_export  # whose stub says None
+    # without materials, no .mtl file remains
+    materials = any(mesh.materials for mesh in bpy.data.meshes)
+    export: Any = bpy.ops.wm.obj_export  # its stub returns None
     return export(export_materials=materials, export_colors=True, **arguments)
 
 
 def _readable(path: Path) -> None:
-    """What the importers do not say, or say to the console only."""
+    """Raises the errors that importers hide or print to the console only."""
     try:
         with path.open("rb") as stream:
             if not stream.read(1):
@@ -195,12 +197,12 @@ def _readable(path: Path) -> None:
 
 
 def _merge(mesh: Mesh) -> None:
-    """Joins vertices at the very same place.
+    """Merges vertices with equal coordinates.
 
-    (`remove_doubles` joins none within a distance of 0.)
+    (`remove_doubles` merges none at a distance of 0.)
     """
     positions = column(mesh.vertices, "co", width=3)
-    # + 0: a negative zero is at the same place
+    # + 0 turns a negative zero into zero
     _, first, group = np.unique(positions + 0, axis=0, return_index=True, return_inverse=True)
     target = first[group.reshape(-1)]
     doubles = np.flatnonzero(target != np.arange(len(target)))
@@ -214,5 +216,5 @@ def _merge(mesh: Mesh) -> None:
 
 
 def _reason(error: Exception) -> str:
-    """The sentence in an operator's RuntimeError."""
+    """The message of an operator's RuntimeError."""
     return str(error).strip().removeprefix("Error: ")

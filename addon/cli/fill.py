@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`--fill` on the command line: its options, holes closed in the meshes of a file, what the report says."""
+"""`--fill` on the command line: its options, the run, and the entries of the report."""
 
 import argparse
 from typing import Any
@@ -33,7 +33,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def options_of(said: dict[str, Any]) -> FillOptions:
-    """From the options that were said, or their defaults."""
+    """From the given options and defaults."""
     return FillOptions(
         said["fill_joint"],
         said["energy"],
@@ -46,7 +46,7 @@ def options_of(said: dict[str, Any]) -> FillOptions:
 
 
 def shown(options: FillOptions) -> dict[str, Any]:
-    """For the report."""
+    """The options for the report."""
     return {
         "energy": options.energy,
         "fill_joint": options.joint,
@@ -58,8 +58,8 @@ def shown(options: FillOptions) -> dict[str, Any]:
 
 
 def run(source: Object, options: FillOptions, **watchers: Any) -> tuple[dict[str, Any], list[str]]:
-    """Closes the holes of an object; its entry for the report, and warnings. Raises JobError where
-    they cannot be closed; to have none is no error.
+    """Fills the holes of an object. Returns its entry for the report, and warnings. Raises JobError if
+    holes cannot be filled; a mesh without holes is no error.
     """
     entry: dict[str, Any] = {"name": source.name, "control": counts(source.data)}
     try:
@@ -94,6 +94,6 @@ COLUMNS = {"holes": 7, "folded": 7}
 
 
 def cells(objects: list[dict[str, Any]], _record: dict[str, Any]) -> tuple[str, ...]:
-    """Of a finished input's line in the table: sums over its objects."""
+    """Cells of a finished input's row in the table: sums over its objects."""
     holes = [hole for item in objects for hole in item["report"]["holes"]]
     return f"{len(holes):,}", f"{sum(hole['folds'] > 0 for hole in holes):,}"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`--fit` on the command line: its options, scans and cages read, what is said of the surfaces near them."""
+"""`--fit` on the command line: its options, reading of scans and cages, and the entries of the report."""
 
 import argparse
 from dataclasses import dataclass
@@ -21,21 +21,21 @@ from .places import FORMATS, Place, file_format
 from .rna import option
 
 _CAGE_FACES = 300
-# what a fit does by itself, or has another meaning for
+# options that a fit decides itself, or that have another meaning there
 _NOT_HERE = ("energy", "interpolation", "limit", "tolerance_group", "pull_group", "pad_size")
 
 
 @dataclass(frozen=True)
 class FitOptions:
-    """What scans are drawn to, and how closely."""
+    """The settings of a fit to scans."""
 
-    cage: Path | None  # None: one is made
+    cage: Path | None  # None: a cage is made
     cage_faces: int
     tolerance: float | None
-    is_share: bool  # of the mean edge of the cage
+    is_share: bool  # relative to the mean edge of the cage
 
     def fit(self, cage: Object, scan: Any) -> Fit:
-        """Of a cage that has been read."""
+        """The Fit for a cage that has been read."""
         tolerance = self.tolerance
         if tolerance is not None and self.is_share:
             tolerance *= read_mesh(cage.data).mean_edge_length
@@ -64,7 +64,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def options_of(arguments: argparse.Namespace, settings: Settings) -> FitOptions | None:
-    """None where meshes are faired. Raises ValueError where options contradict."""
+    """From the arguments; None without `--fit`. Raises ValueError for contradictory options."""
     if not arguments.fit:
         for name in ("cage", "cage_faces"):
             if getattr(arguments, name) is not None:
@@ -93,7 +93,7 @@ def options_of(arguments: argparse.Namespace, settings: Settings) -> FitOptions 
 
 
 def shown(options: FitOptions | None) -> dict[str, Any]:
-    """For the report."""
+    """The options for the report."""
     if options is None:
         return {}
     return {
@@ -104,7 +104,7 @@ def shown(options: FitOptions | None) -> dict[str, Any]:
 
 
 def read(file: Place, options: FitOptions, merge: bool) -> tuple[list[Object], Fit]:
-    """The cage, alone in the scene, and what it is drawn to."""
+    """The cage, alone in the scene, and its Fit."""
     scans, context = read_file(file.source, merge), current_context()
     scan = read_scans(context, scans)
     if options.cage is not None:
@@ -128,7 +128,7 @@ def read(file: Place, options: FitOptions, merge: bool) -> tuple[list[Object], F
 
 
 def entry(job: FitJob | PatchJob) -> dict[str, Any]:
-    """How near a finished job's surface is to its scan; of patches, how near these are."""
+    """Distances between the scan and a finished job's surface or patches."""
     found = job.result
     near = job.from_scan if isinstance(job, PatchJob) else found.within
     return {
@@ -143,7 +143,7 @@ def entry(job: FitJob | PatchJob) -> dict[str, Any]:
 
 
 def said(told: dict[str, Any]) -> str:
-    """`within 0.42 of 95 % of 26,000 points, largest 0.9; noise about 0.4`."""
+    """For example `within 0.42 of 95 % of 26,000 points, largest 0.9; noise about 0.4`."""
     text = (
         f"within {words.short(told['within'])} of 95 % of {told['points']:,} points, "
         f"largest {words.short(told['largest'])}; noise about {words.short(told['noise'])}"
@@ -156,7 +156,7 @@ COLUMNS = {"within": 10, "noise": 10}
 
 
 def cells(objects: list[dict[str, Any]], _record: dict[str, Any]) -> tuple[str, ...]:
-    """Of a finished input's line in the table."""
+    """Cells of a finished input's row in the table."""
     told = objects[0]["fit"]
     return words.short(told["within"]), words.short(told["noise"])
 

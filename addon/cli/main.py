@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The command: runs one input after another; says how it went by text, JSON and exit code."""
+"""The command: runs one input after another and reports by text, JSON and exit code."""
 
 import argparse
 import os
@@ -31,10 +31,10 @@ ALL_DONE, SOME_FAILED, WRONG_USAGE, NO_NATIVE_MODULE, INTERRUPTED = 0, 1, 2, 3, 
 
 
 def main(argv: list[str]) -> int:
-    """The exit code. `argv`: what follows the command's name."""
+    """Returns the exit code. `argv`: the arguments after the command's name."""
     try:
         arguments, settings, files = _understand(argv)
-    except SystemExit as end:  # argparse's, after --help, --version and errors
+    except SystemExit as end:  # raised by argparse after --help, --version and errors
         return int(end.code or ALL_DONE)
     if core.why_missing():
         _say(core.why_missing())
@@ -45,7 +45,7 @@ def main(argv: list[str]) -> int:
 
 
 def _understand(argv: list[str]) -> tuple[argparse.Namespace, Settings, list[Place]]:
-    """Options, settings and places; leaves by SystemExit if there is nothing to run."""
+    """Options, settings and places; raises SystemExit if there is nothing to run."""
     made = parser(" ".join(f"{name} {number}" for name, number in _versions().items()))
     arguments = made.parse_intermixed_args(argv)
     try:
@@ -71,7 +71,7 @@ def _run_all(
     files: list[Place],
     argv: Sequence[str],
 ) -> tuple[list[dict[str, Any]], int]:
-    """Records of all inputs, also of those that an interruption left, and the exit code."""
+    """Records of all inputs, including those not reached after an interruption, and the exit code."""
     reported = shown(settings) | ease.shown(arguments.prepared) | fit.shown(arguments.drawn)
     if arguments.mending is not None:
         reported = arguments.mending.module.shown(arguments.mending.options)
@@ -101,7 +101,9 @@ def _run_all(
 
 
 def _note_interruption(records: list[dict[str, Any]], all_of_them: bool) -> None:
-    """In the record of the input whose turn it was; or of all that were not done, side by side."""
+    """Notes an interruption in the record of the current input, or of all unfinished inputs of parallel
+    tasks.
+    """
     waiting = [record for record in records if record["status"] == report.NOT_RUN]
     for record in waiting if all_of_them else waiting[:1]:
         record["status"] = report.CANCELLED
@@ -111,7 +113,7 @@ def _note_interruption(records: list[dict[str, Any]], all_of_them: bool) -> None
 
 
 class _Table:
-    """A line for each input that is done, for people, if they want any."""
+    """Prints a row for each finished input, unless the user has turned that off."""
 
     def __init__(
         self,
@@ -124,7 +126,7 @@ class _Table:
         meshes = report if arguments.drawn is None else fit
         self._of_meshes: Any = arguments.mending.module if arguments.mending else meshes
         self._files, self._records = files, records
-        # processes that share the work leave it to the one that began them
+        # processes of an executor leave this to the process that started them
         self._log = Path(arguments.log) if arguments.log and arguments.only is None else None
         self._width = max((len(record["input"]) for record in records), default=0)
         if self.is_wanted:
@@ -132,7 +134,7 @@ class _Table:
             _say(report.table_head(self._width, module, energy))
 
     def why_no_log(self) -> str:
-        """A sentence; empty where lines can be appended."""
+        """A sentence; empty if rows can be appended."""
         try:
             if self._log is not None:
                 self._log.open("a").close()
@@ -146,7 +148,7 @@ class _Table:
             with self._log.open("a", encoding="utf-8") as log:
                 log.write(report.log_line(record))
         if record["status"] == report.DONE and self.is_wanted:
-            is_step = is_cad(self._files[index].target)  # which no mending writes
+            is_step = is_cad(self._files[index].target)  # STEP files contain no mended mesh
             module = step if is_step else self._of_meshes
             _say(report.table_line(record, self._width, module))
 
@@ -157,7 +159,7 @@ def _run_batches(
     records: list[dict[str, Any]],
     table: _Table,
 ) -> None:
-    """All files, side by side; says of each what this process would have said."""
+    """Runs all files in parallel, and prints what this process would have printed for each."""
     for share, found in executors.run_files(executor, argv, len(records)):
         for k, index in enumerate(share):
             record = records[index]
@@ -189,7 +191,7 @@ def _say_eased(name: object, entry: dict[str, Any]) -> None:
 def _run_one(
     file: Place, record: dict[str, Any], arguments: argparse.Namespace, settings: Settings
 ) -> None:
-    """Fairs one file, and notes in its record how that went."""
+    """Fairs one file, and notes the outcome in its record."""
     start = time.perf_counter()
     try:
         for path in (file.target, arguments.tables.get(file)):
@@ -206,7 +208,7 @@ def _run_one(
             *_code_and_elements(error),
             f"{file.source}: {error}" if isinstance(error, JobError) else str(error),
         )
-    except Exception as error:  # a fault of ours: the other inputs need not suffer
+    except Exception as error:  # an error in the add-on must not stop the other inputs
         traceback.print_exc()
         _fail(record, "INTERNAL", (), f"{file.source}: {type(error).__name__}: {error}")
     finally:
@@ -237,7 +239,7 @@ def _fair_file(
         entries, tables = preparing.run(sources, progress.next_run, **watchers)
         jobs = [_job(source, settings, patches, near) for source in sources]
         for job in jobs:
-            # the table and the report have energies
+            # the table and the report contain energies
             job.arguments |= asked | {"measure": is_read and patches is None}
             job.pieces, job.spread = arguments.pieces, arguments.spread
             job.compute(**watchers)
@@ -300,9 +302,7 @@ def _job(source: Object, settings: Settings, patches: PatchOptions | None, near:
 
 
 def _replace(job: Job, source: Object) -> dict[str, Any]:
-    """Puts a job's result in the place of its source, under its name, and returns the entry for the
-    report.
-    """
+    """Replaces a job's source by its result, under the same name. Returns the entry for the report."""
     entry: dict[str, Any] = {"name": source.name, "control": report.counts(source.data)}
     target = job.write(current_context())
     bpy.data.objects.remove(source)
@@ -311,7 +311,7 @@ def _replace(job: Job, source: Object) -> dict[str, Any]:
 
 
 def _code_and_elements(error: Any) -> tuple[str, Sequence[Any]]:
-    """From the error itself, or from the core's below it."""
+    """From the error itself, or from the core's error that caused it."""
     for part in (error, error.__cause__):
         if getattr(part, "code", None):
             return part.code, getattr(part, "elements", ())
@@ -328,7 +328,9 @@ def _fail(record: dict[str, Any], code: str, elements: Sequence[Any], message: s
 def _write_report(
     where: str | None, output: TextIO | None, exit_code: int, records: list[dict[str, Any]]
 ) -> int:
-    """The final exit code: a report that cannot be written is a failure too."""
+    """Writes the report and returns the final exit code: a report that cannot be written is a failure
+    too.
+    """
     if not where:
         return exit_code
     text = report.document(_versions(), exit_code, records)
@@ -351,11 +353,10 @@ def _versions() -> dict[str, str]:
 
 @contextmanager
 def _standard_output(where: str | None) -> Iterator[TextIO | None]:
-    """For `--json -` a stream to standard output that Blender's own messages do not reach.
+    """For `--json -`: a stream to standard output without Blender's own messages.
 
-    They go to standard error from now on, to the very end: the line that Blender writes at its
-    start is still in a buffer if standard output is no terminal, and would come out after the
-    report.
+    They are redirected to standard error until the process ends: if standard output is no terminal,
+    Blender's first line is still in a buffer, and would appear after the report.
     """
     if where != "-":
         yield None
@@ -369,12 +370,12 @@ def _standard_output(where: str | None) -> Iterator[TextIO | None]:
 
 @contextmanager
 def _interruptible() -> Iterator[None]:
-    """Ctrl-C as KeyboardInterrupt, which the core lets through; Blender would only take note of it."""
+    """Lets Ctrl-C raise KeyboardInterrupt, which the core passes on; Blender would only set a flag."""
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
         yield
     finally:
-        if before is not None:  # None: Blender's own, which Python cannot name
+        if before is not None:  # None: Blender's own handler, which Python cannot restore
             signal.signal(signal.SIGINT, before)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The file of materials beside an OBJ: named so that none is lost that belongs to another file."""
+"""The file of materials beside an OBJ: its name must not overwrite a file of another OBJ."""
 
 import os
 from collections.abc import Iterable
@@ -8,8 +8,8 @@ from pathlib import Path
 
 
 def free_stem(target: Path) -> str:
-    """What the materials of the OBJ `target` may be called: as itself, or with a number where that
-    is a file that `target`, as it is now, does not name.
+    """A name for the materials of the OBJ `target`: its own, or with a number if a file of that name
+    exists that the present `target` does not use.
     """
     own = _named_in(target)
     names = chain([target.stem], (f"{target.stem}-{number}" for number in count(1)))
@@ -21,8 +21,8 @@ def free_stem(target: Path) -> str:
 
 
 def _named_in(target: Path) -> set[str]:
-    """The files of materials that an OBJ names before its first vertex, where exporters do; a device
-    has none, and may never end.
+    """The files of materials that an OBJ names before its first vertex, where exporters write them. A
+    device has none, and reading it may never end.
     """
     if not target.is_file():
         return set()

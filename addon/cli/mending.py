@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is done with meshes instead of fairing: `--fill` or `--clean`, and what goes with which."""
+"""`--fill` and `--clean`, which replace fairing, and the options that they exclude."""
 
 import argparse
 from collections.abc import Sequence
@@ -11,14 +11,14 @@ from . import clean, fill
 from .places import Place, is_cad
 from .rna import OfOperator, option
 
-_OTHERS = ("pieces", "weld")  # that mean nothing here, beside settings
+_OTHERS = ("pieces", "weld")  # options without effect here, beside settings
 _OF_BOTH = OfOperator("object.fairing_fill", {}, largest_hole="largest")
 _MODULES: dict[str, Any] = {"fill": fill, "clean": clean}
 
 
 @dataclass(frozen=True)
 class Mending:
-    """One of them: the `module` that knows its words, and what it is asked for."""
+    """One of the two: its `module`, and its options."""
 
     module: Any
     options: Any
@@ -32,7 +32,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def asked_of(arguments: argparse.Namespace, files: Sequence[Place]) -> Mending | None:
-    """What is asked for; None where meshes are faired. Raises ValueError where options contradict."""
+    """The requested one; None if meshes are faired. Raises ValueError for contradictory options."""
     names = [name for name in _MODULES if getattr(arguments, name)]
     if len(names) > 1:
         raise ValueError("give one of --fill and --clean: cleaning fills holes, too")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Numbers on the command line: one reader, which says what it takes."""
+"""A parser of numbers for the command line whose errors say what is accepted."""
 
 import argparse
 from collections.abc import Callable
@@ -7,7 +7,9 @@ from math import nan
 
 
 def number(what: str, accepts: Callable[[float], bool]) -> Callable[[str], float]:
-    """The `type` of an argument that is a number; `what`: "a length, 0 or more". NaN is to be refused."""
+    """The `type` of a numeric argument; `what`: its description, such as "a length, 0 or more". Refuses
+    NaN.
+    """
 
     def read(text: str) -> float:
         try:

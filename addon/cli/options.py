@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What can be said on the command line: the list of settings, and what goes with files."""
+"""The options of the command line: settings, and options for files."""
 
 import argparse
 from dataclasses import asdict
@@ -13,7 +13,7 @@ from .numbers import number
 from .places import FORMATS
 from .rna import add, default, option
 
-# Settings that mean something beside an open scene only, or for what no OBJ, PLY or STL file holds.
+# Settings that apply only in an open scene, or to data that OBJ, PLY and STL files do not have.
 NOT_HERE = frozenset(
     (
         "mesh_source",
@@ -74,14 +74,14 @@ _DISTANCE = number("a distance, 0 or more", lambda value: 0.0 <= value < inf)
 
 
 def add_settings(parser: argparse.ArgumentParser) -> None:
-    """An option for every setting that the command line has."""
+    """Adds an option for every setting of the command line."""
     groups = {name: parser.add_argument_group(name) for name in (*_GROUPS, "advanced")}
     for name in NAMES:
         # 0 is a distance for --weld
         if name in NOT_HERE or name in ("weld", "tolerance") or _said_by_value(name):
             continue
         group = next((group for group, members in _GROUPS.items() if name in members), "advanced")
-        # SUPPRESS: what is not said is absent, so that saying a default still counts as said
+        # SUPPRESS: options that are not given are absent, so that a given default counts as given
         add(groups[group], name, _property(name), argparse.SUPPRESS, "use_" + name in NAMES)
     groups["shape"].add_argument(
         "--tolerance",
@@ -94,7 +94,7 @@ def add_settings(parser: argparse.ArgumentParser) -> None:
 
 
 def settings_of(arguments: argparse.Namespace) -> Settings:
-    """The parsed options as settings, with defaults for all that was not said.
+    """The parsed options as settings, with defaults for options that are not given.
 
     Raises ValueError if they contradict.
     """
@@ -118,13 +118,13 @@ def settings_of(arguments: argparse.Namespace) -> Settings:
         settings["interpolation"] = "LIMIT"
     if getattr(arguments, "weld", None) is not None and settings["repair"] != "MEND":
         raise ValueError("--weld needs --repair mend")
-    if settings["interpolation"] == "AUTO":  # no file has modifiers
+    if settings["interpolation"] == "AUTO":  # files have no modifiers
         settings["interpolation"] = "EXACT"
     return Settings(**settings)
 
 
 def shown(settings: Settings) -> dict[str, Any]:
-    """The settings that the command line has, as a dict."""
+    """The settings of the command line, as a dict."""
     return {name: value for name, value in asdict(settings).items() if name not in NOT_HERE}
 
 
@@ -136,9 +136,7 @@ def _tolerance(text: str) -> tuple[float, str]:
 
 
 def _said_by_value(name: str) -> bool:
-    """Whether giving another option says all: `--x` what the switch `use_x` could say, a tolerance
-    its unit.
-    """
+    """Whether another option implies this one: `--x` implies the switch `use_x`, a tolerance its unit."""
     return name == "tolerance_unit" or (
         name.startswith("use_") and name.removeprefix("use_") in NAMES
     )
@@ -149,9 +147,9 @@ def _property(name: str) -> Any:
 
 
 def parser(version: str) -> argparse.ArgumentParser:
-    """The parser, which prints the text `version`.
+    """The parser, with the text `version`.
 
-    Needs the add-on registered: its settings become options.
+    Needs the add-on registered, since its settings become options.
     """
     made = argparse.ArgumentParser(
         prog=_PROGRAM,
@@ -159,7 +157,7 @@ def parser(version: str) -> argparse.ArgumentParser:
         description=_DESCRIPTION,
         epilog=_EXAMPLES,
         formatter_class=_Formatter,
-        allow_abbrev=False,  # a script must not change its meaning when an option is added
+        allow_abbrev=False,  # the meaning of a script must not change when an option is added
     )
     made.add_argument(
         "inputs",
@@ -248,14 +246,14 @@ def parser(version: str) -> argparse.ArgumentParser:
 
 
 class _Formatter(argparse.RawDescriptionHelpFormatter):
-    """Texts as they are written; options in a column of their own."""
+    """Keeps texts as they are written; options have a column of their own."""
 
     def __init__(self, prog: str) -> None:
         super().__init__(prog, max_help_position=32, width=110)
 
 
 def _share(text: str) -> slice:
-    """Of the inputs, for one task of an executor."""
+    """A range of the inputs, for one task of an executor."""
     first, end = map(int, text.split(":"))
     return slice(first, end)
 

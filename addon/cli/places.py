@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which file each input goes to: paths only, no file is read or written."""
+"""Input and output paths; reads and writes no file."""
 
 import os
 from collections.abc import Sequence
@@ -7,27 +7,27 @@ from dataclasses import dataclass
 from pathlib import Path
 
 FORMATS = ("obj", "ply", "stl")
-CAD_FORMATS = ("step", "stp")  # for outputs only
-# for inputs only: by Blender's own importers, which turn the axes of some, and tables of offsets
+CAD_FORMATS = ("step", "stp")  # outputs only
+# inputs only: Blender's importers of these turn axes; and tables of offsets
 MORE_INPUTS = ("blend", "csv", "glb", "gltf", "tsv", "usd", "usda", "usdc", "usdz")
 _NAME = "{name}"
 _TABLE = "csv"
 
 
 class BadPlaces(Exception):
-    """Wrong usage, as a sentence."""
+    """A usage error, as a sentence."""
 
 
 @dataclass(frozen=True)
 class Place:
-    """One file's way."""
+    """An input and its output."""
 
     source: Path
     target: Path
 
 
 def places(inputs: Sequence[str], output: str, chosen_format: str | None = None) -> list[Place]:
-    """A Place for each input. Raises BadPlaces before anything is touched."""
+    """A Place for each input. Raises BadPlaces before any file is touched."""
     sources = [Path(name) for pattern in inputs for name in _expanded(pattern)]
     for source in sources:
         _supported(source, (*FORMATS, *MORE_INPUTS))
@@ -39,17 +39,17 @@ def places(inputs: Sequence[str], output: str, chosen_format: str | None = None)
 
 
 def file_format(path: Path) -> str:
-    """`obj`, `ply`, `stl`, `step` and so on, by the name alone."""
+    """`obj`, `ply`, `stl`, `step` and so on, from the name alone."""
     return Path(path).suffix.lower().removeprefix(".")
 
 
 def is_cad(path: Path) -> bool:
-    """Whether spline patches are written there."""
+    """Whether spline patches are written to this file."""
     return file_format(path) in CAD_FORMATS
 
 
 def _expanded(name: str) -> list[str]:
-    """What a pattern stands for, where no shell has seen to that: `*.obj`."""
+    """The files that match a pattern such as `*.obj`, for systems whose shell does not expand it."""
     if not any(sign in name for sign in "*?[") or Path(name).exists():
         return [name]
     root = Path(Path(name).anchor)
@@ -82,7 +82,7 @@ def _supported(path: Path, formats: Sequence[str] = FORMATS) -> None:
 
 
 def no_report_over(report: str | None, found: Sequence[Place]) -> None:
-    """Raises BadPlaces where the report would destroy an input, an output or their materials."""
+    """Raises BadPlaces if the report would overwrite an input, an output or their materials."""
     if report is None or report == "-":
         return
     for place in found:
@@ -93,7 +93,7 @@ def no_report_over(report: str | None, found: Sequence[Place]) -> None:
 
 
 def tables(pattern: str, found: Sequence[Place], report: str | None) -> tuple[Path, ...]:
-    """A table for each Place. Raises BadPlaces where one would take the place of another file."""
+    """A table for each Place. Raises BadPlaces if one would overwrite another file."""
     if file_format(Path(pattern)) != _TABLE:
         raise BadPlaces(f"{pattern} is no table: its name must end in .{_TABLE}.")
     if len(found) > 1 and _NAME not in pattern:
@@ -109,10 +109,10 @@ def tables(pattern: str, found: Sequence[Place], report: str | None) -> tuple[Pa
 
 
 def is_there(path: Path) -> bool:
-    """Whether there is such a file, as far as one can see."""
+    """Whether the file exists, as far as can be known."""
     try:
         return path.exists()
-    except OSError:  # a name that is too long, a folder that is closed
+    except OSError:  # a name that is too long, or a folder without access
         return False
 
 
@@ -130,8 +130,8 @@ def _no_clash(found: list[Place]) -> None:
 
 
 def _same(one: Path, other: Path) -> bool:
-    """By the file, not its name: links, and names that differ in case only where that makes no
-    difference.
+    """Whether two paths are the same file: through links, and for names that differ in case only if the
+    file system ignores case.
     """
     if os.path.realpath(one) == os.path.realpath(other):
         return True

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a call did: a line of progress, a table for people, JSON for programs."""
+"""Reports of a call: a progress line, a table for people, JSON for programs."""
 
 import json
 from collections.abc import Iterable, Mapping
@@ -14,12 +14,12 @@ DONE, FAILED, CANCELLED, NOT_RUN = "done", "failed", "cancelled", "not_run"
 
 
 def counts(mesh: Any) -> dict[str, int]:
-    """Of a mesh of Blender."""
+    """Numbers of elements of a bpy mesh."""
     return {"vertices": len(mesh.vertices), "faces": len(mesh.polygons)}
 
 
 class Progress:
-    """Shows the runs of one file's objects, one after another, as one."""
+    """Shows the runs of one file's objects as one progress."""
 
     def __init__(self, stream: TextIO, file_name: str, runs: int) -> None:
         self._stream = stream
@@ -30,7 +30,7 @@ class Progress:
         self._over = stream.isatty()
 
     def __call__(self, fraction: float, phase: str) -> None:
-        """What `discrete_fairing.fair` wants as its `progress`."""
+        """The `progress` of `discrete_fairing.fair`."""
         percent = int(100 * (self._done + fraction) / self._runs)
         state = (percent, phase) if self._over else (self._done, phase)
         if state == self._shown:
@@ -44,14 +44,14 @@ class Progress:
         self._done += 1
 
     def clear(self) -> None:
-        """Leaves the line to whoever writes next."""
+        """Clears the line for other output."""
         if self._over and self._shown is not None:
             self._stream.write("\r" + " " * 79 + "\r")
             self._shown = None
 
 
 def new_record(place: Place, settings: dict[str, Any]) -> dict[str, Any]:
-    """One input's entry, as if its turn never came. `settings`: a dict."""
+    """The entry of an input that has not been run yet. `settings`: a dict."""
     return {
         "input": str(place.source),
         "output": str(place.target),
@@ -65,7 +65,9 @@ def new_record(place: Place, settings: dict[str, Any]) -> dict[str, Any]:
 
 
 def log_line(record: dict[str, Any]) -> str:
-    """Fields between tabs: status, seconds, input, output, and the error or how many warnings there are."""
+    """Fields separated by tabs: status, seconds, input, output, and the error or the number of
+    warnings.
+    """
     error, count = record["error"], len(record["warnings"])
     said = error["message"] if error else f"{count} warnings" if count else ""
     fields = (record["status"], f"{record['seconds']:.3f}", record["input"], record["output"], said)
@@ -77,7 +79,7 @@ def error_entry(code: str, message: str, elements: Iterable[int] = ()) -> dict[s
 
 
 def document(versions: dict[str, str], exit_code: int, records: list[dict[str, Any]]) -> str:
-    """The whole report as JSON text, without the NaN that JSON does not know."""
+    """The whole report as JSON text; NaN, which JSON does not have, becomes null."""
     whole = {"schema": SCHEMA, **versions, "exit_code": exit_code, "inputs": records}
     return json.dumps(_finite(whole), indent=2, allow_nan=False, default=str) + "\n"
 
@@ -86,7 +88,7 @@ _SHARED = {"faces in": 10, "faces out": 11, "seconds": 8}
 
 
 def cells(objects: list[dict[str, Any]], record: dict[str, Any]) -> tuple[str, ...]:
-    """Of a finished input's line in the table: sums over its objects, and the accuracy of the worst one."""
+    """Cells of a finished input's row in the table: sums over its objects, and the worst accuracy."""
     before, after = (
         sum(_energy(item["report"], record, state) for item in objects)
         for state in ("polyhedron", "result")
@@ -101,7 +103,7 @@ def cells(objects: list[dict[str, Any]], record: dict[str, Any]) -> tuple[str, .
 
 
 def _columns(module: Any, energy: str) -> dict[str, int]:
-    """Titles and widths; `module`: that which knows the `cells`, of faired meshes this one."""
+    """Titles and widths of columns; `module`: the module that has `cells`, this one for faired meshes."""
     if hasattr(module, "COLUMNS"):
         return _SHARED | module.COLUMNS
     accuracy = {"residual": 9} if energy == "THIN_PLATE" else {"steps": 6, "decrement": 9}
@@ -114,7 +116,7 @@ def table_head(width: int, module: Any, energy: str) -> str:
 
 
 def table_line(record: dict[str, Any], width: int, module: Any) -> str:
-    """A finished input's line."""
+    """The row of a finished input."""
     objects = record["objects"]
     faces = sum(item["control"]["faces"] for item in objects)
     out = sum(item["result"].get("faces") or item["result"].get("patches", 0) for item in objects)
@@ -130,13 +132,13 @@ def _row(name: str, width: int, columns: dict[str, int], cells: Iterable[str]) -
 
 
 def _energy(report: Mapping[str, Any], record: dict[str, Any], state: str) -> float:
-    # before and after are reported for two energies; the third makes little of the total curvature too
+    # energies before and after are reported for two energies; the third may increase total curvature
     energy = "thin_plate" if record["settings"]["energy"] == "THIN_PLATE" else "total_curvature"
     return _number(report.get("energy", {}).get(state, {}).get(energy, nan))
 
 
 def _number(value: float | None) -> float:
-    """What another process has told by JSON, which knows no NaN."""
+    """A number from another process's JSON, which has no NaN."""
     return nan if value is None else value
 
 

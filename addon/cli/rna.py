@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Options that are Blender's properties: each has its description, default and range in one place."""
+"""Options from Blender's properties, which have the description, default and range of each."""
 
 import argparse
 from collections.abc import Callable
@@ -10,20 +10,20 @@ import bpy
 
 
 def default(prop: Any) -> Any:
-    # Blender keeps single precision: 0.01 would come out as 0.0099999998
+    # Blender's single precision would print 0.01 as 0.0099999998
     return float(f"{prop.default:.7g}") if prop.type == "FLOAT" else prop.default
 
 
 def option(name: str) -> str:
-    """`--crease-angle` for crease_angle; the word "use" says nothing beside --x and --no-x."""
+    """`--crease-angle` for crease_angle; the word "use" is dropped for --x and --no-x."""
     return "--" + name.removeprefix("use_").replace("_", "-")
 
 
 def add(
     group: argparse._ArgumentGroup, name: str, prop: Any, absent: Any = None, is_off: bool = False
 ) -> None:
-    """An option for the setting `name`, which is the property; `absent`: where it is not said. `is_off`:
-    whether it is then without effect.
+    """Adds an option for the setting `name` with the property `prop`; `absent`: its value if not given.
+    `is_off`: whether it then has no effect.
     """
     kind = _KINDS.get(prop.type)
     if kind is None or getattr(prop, "is_array", False):
@@ -32,8 +32,8 @@ def add(
 
 
 class OfOperator:
-    """Options that are an operator's properties, by their names on the command line, and `others` with
-    their defaults.
+    """Options from an operator's properties, by their names on the command line, and `others` with
+    defaults.
     """
 
     def __init__(self, operator: str, others: dict[str, Any], **properties: str) -> None:
@@ -41,7 +41,7 @@ class OfOperator:
         self.names = (*properties, *others)
 
     def _all(self) -> dict[str, Any]:
-        """Each property; only once the add-on is registered."""
+        """All properties; available once the add-on is registered."""
         module, _, function = self._operator.partition(".")
         found = getattr(getattr(bpy.ops, module), function).get_rna_type().properties
         return {option: found[name] for option, name in self._properties.items()}
@@ -51,7 +51,7 @@ class OfOperator:
             add(group, name, prop)
 
     def said(self, arguments: argparse.Namespace) -> dict[str, Any]:
-        """What was said, and defaults for all that was not."""
+        """The given options, and defaults for the others."""
         values = {name: default(prop) for name, prop in self._all().items()} | self._others
         given = {name: getattr(arguments, name) for name in self.names}
         return values | {name: value for name, value in given.items() if value is not None}
@@ -78,7 +78,7 @@ def _choice(prop: Any, _is_off: bool) -> dict[str, Any]:
     shown = prop.default.lower()
 
     def parse(text: str) -> str:
-        word = text.replace("-", "_")  # as options themselves are spelled
+        word = text.replace("-", "_")  # spelled like the options themselves
         if word not in spelled:
             raise argparse.ArgumentTypeError(f"{text!r} is not one of {', '.join(spelled)}")
         return spelled[word].identifier
@@ -94,7 +94,7 @@ _KINDS = {"BOOLEAN": _boolean, "INT": _number, "FLOAT": _number, "ENUM": _choice
 
 
 def _bounded(prop: Any, number: type, angle: bool) -> Callable[[str], float]:
-    """A parser of numbers that keeps Blender's own limits; in degrees for angles."""
+    """A parser of numbers within Blender's limits; in degrees for angles."""
     lowest, highest = (degrees(x) if angle else x for x in (prop.hard_min, prop.hard_max))
 
     def parse(text: str) -> float:
@@ -102,7 +102,7 @@ def _bounded(prop: Any, number: type, angle: bool) -> Callable[[str], float]:
             value = number(text)
         except ValueError:
             value = None
-        # the limits of angles went through radians in single precision
+        # the limits of angles were converted to radians in single precision
         if value is None or not lowest - 1e-4 * angle <= value <= highest + 1e-4 * angle:
             span = f"from {lowest:g}" + (f" to {highest:g}" if highest < 2**30 else "")
             whole = "a whole number " if number is int else "a number "
@@ -113,7 +113,7 @@ def _bounded(prop: Any, number: type, angle: bool) -> Callable[[str], float]:
 
 
 def _help(prop: Any, shown: str, more: str = "") -> str:
-    # argparse reads % as a format
+    # argparse formats %
     return (
         ". ".join(part for part in (prop.description, more) if part).replace("%", "%%")
         + f" [{shown}]"

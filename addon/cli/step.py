@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Files for CAD of the command line: its options, the jobs' file, what the report says of them."""
+"""CAD files on the command line: their options, writing, and the entries of the report."""
 
 import argparse
 from collections.abc import Sequence
@@ -33,9 +33,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def options_of(
     arguments: argparse.Namespace, settings: Settings, files: Sequence[Place]
 ) -> PatchOptions | None:
-    """What is asked of files for CAD; None where none is written. Raises ValueError if that is said
-    all the same.
-    """
+    """The options for CAD files; None if none is written. Raises ValueError for options that need one."""
     if not any(is_cad(file.target) for file in files):
         for name in _OPTIONS.names:
             if getattr(arguments, name) is not None:
@@ -48,7 +46,7 @@ def options_of(
 
 
 def require_patches(jobs: Sequence[PatchJob]) -> None:
-    """Raises JobError where a surface is refused."""
+    """Raises JobError if a surface is refused."""
     faulty = refused(jobs)
     if faulty:
         raise JobError(
@@ -60,12 +58,12 @@ def require_patches(jobs: Sequence[PatchJob]) -> None:
 
 
 def write_step_file(file: Place, jobs: Sequence[PatchJob], options: PatchOptions) -> None:
-    """All parts as one file, coordinates as they are."""
+    """Writes all parts to one file, with unchanged coordinates."""
     write_whole(file.target, lambda path: write_jobs(path, jobs, options.unit, 1.0))
 
 
 def object_entry(job: PatchJob) -> dict[str, Any]:
-    """One object for the report."""
+    """The entry of one object in the report."""
     patches = job.patches
     closed = int(patches.shell_closed.sum())
     return {
@@ -95,7 +93,7 @@ COLUMNS = {"off": 10, "angle": 9}
 
 
 def cells(objects: list[dict[str, Any]], _record: dict[str, Any]) -> tuple[str, ...]:
-    """Of a finished input's line in the table: the accuracy of the worst object."""
+    """Cells of a finished input's row in the table: the accuracy of the worst object."""
     off = max(item["report"]["off"] for item in objects)
     angle = degrees(max(item["report"]["largest_angle"] for item in objects))
     return words.short(off), words.short(angle) + "°"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether an exporter has written all of a file: they do not tell a full disk."""
+"""Checks whether an exporter has written a complete file, since exporters ignore a full disk."""
 
 from pathlib import Path
 
@@ -7,7 +7,7 @@ _BLOCK = 1 << 20
 
 
 def why_incomplete(path: Path, faces: int, corners: int) -> str:
-    """What is missing of an OBJ, PLY or STL file with so many faces and corners of them, in a few
+    """What is missing in an OBJ, PLY or STL file with these numbers of faces and corners, in a few
     words; else empty.
     """
     size = path.stat().st_size if path.exists() else 0
@@ -22,14 +22,14 @@ def _obj_has_all(path: Path, _size: int, faces: int, _corners: int) -> bool:
     found, before = 0, b"\n"
     with path.open("rb") as stream:
         while block := stream.read(_BLOCK):
-            text = before + block  # a line may begin in the block before
+            text = before + block  # a line may begin in the previous block
             found += text.count(b"\nf ")
             before = text[-2:]
     return found == faces and before.endswith(b"\n")
 
 
 def _ply_has_all(path: Path, size: int, faces: int, corners: int) -> bool:
-    """Of a binary one as Blender writes it: a byte for the size of each face, then 4 a corner."""
+    """Checks a binary file of Blender: one byte for the size of each face, then 4 a corner."""
     with path.open("rb") as stream:
         header, vertex_bytes, vertices = 0, 0, 0
         element = b""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the arcs of a network enclose: walks that turn left as far as they can at every node."""
+"""The cells of a network: closed walks that take the leftmost arc at every node."""
 
 from dataclasses import dataclass
 
@@ -8,17 +8,18 @@ import numpy as np
 from .network import Arc, Loose, Network, without_loose
 from .tangent_planes import TangentPlanes
 
-# A cell in the plane turns by 360° around it, the outside of a sheet by -360°, a cap like half a sphere by
-# nothing: what turns by less is open.
+# Around a planar cell the walk turns by 360°, around the outside of a sheet by -360°, around a cap such
+# as half a sphere by zero: walks that turn by less are open.
 _LEAST_TURN = np.pi / 2
-_CORNER = np.radians(30.0)  # a side ends where a cell turns by more
-_OF_FOUR = np.radians(8.0)  # of four arcs each is a side, unless two go on this straight
+_CORNER = np.radians(30.0)  # a cell that turns by more has a corner there
+# each of four arcs is a side, unless two continue each other within this angle
+_OF_FOUR = np.radians(8.0)
 
 
 @dataclass(frozen=True)
 class Cell:
-    """`sides`: each the half-edges along it, counter-clockwise: 2 k along the arc k, 2 k + 1 against
-    it. Fewer than two sides: it has less than two corners.
+    """`sides`: the half-edges along each, counter-clockwise: 2 k along the arc k, 2 k + 1 against it.
+    With fewer than two corners there are fewer than two sides.
     """
 
     sides: list[list[int]]
@@ -36,7 +37,7 @@ class Cells:
 
 
 def find_cells(network: Network, closed: bool = False) -> Cells:
-    """The cells of a network; `closed`: what looks like the outside of a sheet is one, too."""
+    """The cells of a network; `closed`: the walk around the outside of a sheet is a cell too."""
     arcs, loose = list(network.arcs), list(network.loose)
     while True:
         found = Network(
@@ -72,7 +73,7 @@ def _walks(planes: TangentPlanes, count: int) -> list[list[int]]:
     for node in range(len(planes.leaving)):
         order = planes.in_order(node)
         for place, half in enumerate(order):
-            after[half ^ 1] = order[place - 1]  # the next clockwise from where one comes from
+            after[half ^ 1] = order[place - 1]  # the next one clockwise from the incoming one
     walks, seen = [], [False] * count
     for first in range(count):
         walk, half = [], first
@@ -86,7 +87,7 @@ def _walks(planes: TangentPlanes, count: int) -> list[list[int]]:
 
 
 def _sides(walk: list[int], turns: list[float]) -> list[list[int]]:
-    """The walk cut at its corners; `turns` (k,): at the end of each half-edge."""
+    """Cuts a walk at its corners; `turns` (k,): at the end of each half-edge."""
     least = _OF_FOUR if len(walk) == 4 and min(turns) > _OF_FOUR else _CORNER
     ends = [k for k, turn in enumerate(turns) if turn > least]
     if not ends:

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The control mesh over a network: vertices on the curves, which hold, and free ones in the cells.
+"""The control mesh over a network: fixed vertices on the curves, and free ones in the cells.
 
-Four sides: a grid, by transfinite interpolation [Coons 1967; Gordon and Hall 1973]. Other numbers: a quad
-of such grids at each corner, around a vertex in the middle.
+A cell of four sides gets a grid, by transfinite interpolation [Coons 1967; Gordon and Hall 1973]; any
+other cell gets a grid at each corner, around a vertex in the middle.
 """
 
 from dataclasses import dataclass, replace
@@ -13,22 +13,22 @@ from .cells import Cell, Cells, border_arcs
 from .counts import edge_counts
 from .network import Network
 
-_CALM = 0.05  # a loop without corners: its inner square is so far drawn to where its sides would be straight
+_CALM = 0.05  # the inner square of a loop without corners: share of the way to straight sides
 
 
 @dataclass(frozen=True)
 class ControlMesh:
-    points: np.ndarray  # (n, 3), those on curves first
+    points: np.ndarray  # (n, 3), vertices on curves first
     faces: np.ndarray  # (m, 4)
     held: np.ndarray  # (n,) bool: on a curve
-    sharp: np.ndarray  # (k, 2) int: edges of sharp curves inside of the surface
+    sharp: np.ndarray  # (k, 2) int: edges of sharp curves inside the surface
     cell_of_face: np.ndarray  # (m,) int
     counts: np.ndarray  # (e,) int: edges on each arc of the network
 
 
 def control_mesh(found: Cells, per_side: int, before: np.ndarray | None = None) -> ControlMesh:
     """`per_side`: edges on the shorter sides of cells. `before`: the `counts` of an earlier mesh over
-    these curves.
+    the same curves.
     """
     network = found.network
     lengths = np.array([arc.length for arc in network.arcs])
@@ -52,7 +52,7 @@ def control_mesh(found: Cells, per_side: int, before: np.ndarray | None = None) 
 
 
 def _looking_up(mesh: ControlMesh) -> ControlMesh:
-    """Turned over where it is closed and looks inwards, or open and looks down."""
+    """The mesh, reversed if it is closed and oriented inwards, or open and oriented downwards."""
     a, b, c, d = mesh.points[mesh.faces].swapaxes(0, 1)
     areas = np.cross(c - a, d - b)
     pairs = np.sort(np.stack([mesh.faces, np.roll(mesh.faces, -1, axis=1)], axis=-1).reshape(-1, 2))
@@ -63,7 +63,7 @@ def _looking_up(mesh: ControlMesh) -> ControlMesh:
 
 
 def _without_idle(mesh: ControlMesh) -> ControlMesh:
-    """Without nodes that no cell has."""
+    """The mesh without nodes that are in no cell."""
     ids, faces = np.unique(mesh.faces, return_inverse=True)
     new = np.zeros(len(mesh.points), np.int64)
     new[ids] = np.arange(len(ids))
@@ -74,8 +74,8 @@ def _without_idle(mesh: ControlMesh) -> ControlMesh:
 
 
 def _short_side(cells: list[Cell], lengths: np.ndarray) -> float:
-    """The length that three sides of four exceed: the frames of a hull are much longer than its rails
-    between them.
+    """The length that three of four sides exceed, since the frames of a hull are much longer than the
+    rails between them.
     """
     sides = [
         lengths[[half // 2 for half in side]].sum() / (4 if len(cell.sides) == 1 else 1)
@@ -124,7 +124,7 @@ class _Builder:
     def _grid(
         self, bottom: np.ndarray, right: np.ndarray, top: np.ndarray, left: np.ndarray
     ) -> None:
-        """Sides of ids, one after another around."""
+        """Sides are ids, in order around the cell."""
         top, left = top[::-1], left[::-1]
         inner = coons(*(self._at(ids) for ids in (bottom, right, top, left)))[1:-1, 1:-1]
         grid = np.empty((len(left), len(bottom)), np.int64)
@@ -134,11 +134,11 @@ class _Builder:
         self.faces += quads.reshape(-1, 4).tolist()
 
     def _around(self, sides: list[np.ndarray]) -> None:
-        """A grid at each corner, between the middles of its sides and the middle of the cell."""
+        """A grid at each corner, between the midpoints of its sides and the centre of the cell."""
         half = (len(sides[0]) - 1) // 2
         middles = np.array([side[half] for side in sides])
         corners = np.array([side[0] for side in sides])
-        # as a Coons patch has it for four sides
+        # the centre of a Coons patch, for four sides
         centre = 2 * self._at(middles).mean(axis=0) - self._at(corners).mean(axis=0)
         middle = self._add(centre[None])[0]
         spokes = []
@@ -150,7 +150,7 @@ class _Builder:
             self._grid(side[: half + 1], spokes[k], spokes[k - 1][::-1], before[half:])
 
     def _round(self, sides: list[np.ndarray]) -> None:
-        """A loop without corners: a square in the middle, and a grid to each of its sides."""
+        """A loop without corners: a square in the middle, and a grid at each of its sides."""
         rim = self._at(np.array([side[0] for side in sides]))
         centre = self._at(np.concatenate([side[:-1] for side in sides])).mean(axis=0)
         count = len(sides[0]) - 1
@@ -178,8 +178,8 @@ def _in_four(side: np.ndarray) -> list[np.ndarray]:
 
 
 def coons(bottom: np.ndarray, right: np.ndarray, top: np.ndarray, left: np.ndarray) -> np.ndarray:
-    """(v, u, 3): between four rows of points; `bottom` and `top` (u, 3) run alike, as do `left` and
-    `right` (v, 3).
+    """(v, u, 3): blends four rows of points; `bottom` and `top` (u, 3) have the same direction, so have
+    `left` and `right` (v, 3).
     """
     u = np.linspace(0, 1, len(bottom))[None, :, None]
     v = np.linspace(0, 1, len(left))[:, None, None]

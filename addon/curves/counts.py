@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How many edges of the control mesh each arc gets, so that every cell can be filled with quads."""
+"""Number of control mesh edges on each arc, such that every cell can be filled with quads."""
 
 from collections.abc import Sequence
 
@@ -8,19 +8,21 @@ import numpy as np
 from .cells import Cell
 
 _ROUNDS = 200
-_KEPT = 2.5  # between the arcs that have become longest and shortest by their numbers of before
-_MOST = 16  # times as many as wanted: what raising counts may cost
+# earlier counts are kept while edge lengths, relative to the wanted ones, differ by at most this factor
+_KEPT = 2.5
+_MOST = 16  # times the wanted number of edges: the limit for raising counts
 
 
 def edge_counts(
     cells: Sequence[Cell], lengths: np.ndarray, edge: float, before: np.ndarray | None = None
 ) -> tuple[np.ndarray, bool]:
-    """((e,) int, whether sides are as `cells` has them): edges of about the length `edge` on arcs of
-    `lengths` (e,). Opposite sides of four have as many; those of other cells all the same even number.
+    """((e,) int, whether sides are as in `cells`): edges of about the length `edge` on arcs of
+    `lengths` (e,). Opposite sides of four have equal numbers; all sides of other cells have the same
+    even number.
 
-    Where no such numbers are found, all arcs have the same even one, and each arc of a cell that
-    needs it is to be a side. `before` (e,): numbers that stay, where they are still about as wanted, so
-    that a mesh keeps its faces while curves are drawn about.
+    If there is no such solution, all arcs get the same even number, and each arc of a cell concerned
+    must be a side. `before` (e,): numbers to keep while they still fit, so that a mesh keeps its faces
+    while curves are edited.
     """
     wanted = np.maximum(np.rint(lengths / edge).astype(int), 2)
     if before is not None and len(before) == len(wanted):
@@ -49,10 +51,10 @@ def _equal(sides: list[list[int]]) -> list[list[int]]:
 
 
 def _raise(counts: np.ndarray, lengths: np.ndarray, sides: list[list[int]], even: bool) -> None:
-    """The sides with fewer edges get more, on their arcs with the longest ones."""
+    """Adds edges to the sides with fewer, on their arcs with the longest edges."""
     goal = max(int(counts[side].sum()) for side in sides)
     if len(sides) == 1:
-        goal += -goal % 4  # a loop without corners is cut in four
+        goal += -goal % 4  # a loop without corners is divided into four sides
     elif even:
         goal += goal % 2
     for side in sides:

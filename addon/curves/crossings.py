@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where two curves meet, or nearly do: the local minima of their distance."""
+"""Points where two curves meet or nearly meet: local minima of their distance."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -8,24 +8,24 @@ import numpy as np
 
 from .cubics import Curve, points_at, points_on, tangents_on
 
-STEPS = 16  # chords that stand for a piece while minima are looked for
-_ROUNDS = 12  # of Gauss–Newton; crossings at right angles take four
+STEPS = 16  # chords of a piece for the search of minima
+_ROUNDS = 12  # Gauss–Newton iterations; crossings at right angles take four
 
 
 @dataclass(frozen=True)
 class Meeting:
-    """The curve `a` at its parameter `ta` is as close to `b` at `tb` as it gets."""
+    """A local minimum of distance: the curve `a` at its parameter `ta`, the curve `b` at `tb`."""
 
     a: int
     ta: float
     b: int
     tb: float
     distance: float
-    place: np.ndarray  # (3,) in the middle
+    place: np.ndarray  # (3,) the midpoint
 
 
 def meetings(curves: Sequence[Curve], reach: float) -> list[Meeting]:
-    """All of distances up to `reach`, by pairs of curves and by parameters."""
+    """All meetings with distances up to `reach`, by pairs of curves and by parameters."""
     chords = [_chords(curve) for curve in curves]
     found: list[tuple[int, float, int, float]] = []
     for a in range(len(curves)):
@@ -62,11 +62,11 @@ def _apart(p: np.ndarray, q: np.ndarray, reach: float) -> bool:
 def _minima(
     p: np.ndarray, q: np.ndarray, reach: float, closed_p: bool, closed_q: bool
 ) -> list[tuple[int, int]]:
-    """Pairs of chords that are no farther apart than any of their neighbours."""
+    """Pairs of chords whose distance is at most that of all neighbouring pairs."""
     middles = [(x[:-1] + x[1:]) / 2 for x in (p, q)]
     halves = [np.linalg.norm(np.diff(x, axis=0), axis=1) / 2 for x in (p, q)]
     most = (reach + halves[0][:, None] + halves[1][None]) ** 2
-    start = middles[0][0]  # squares of differences by products: near the origin these lose nothing
+    start = middles[0][0]  # expanded squares of differences lose no digits near the origin
     a, b = middles[0] - start, middles[1] - start
     far = (a**2).sum(axis=1)[:, None] + (b**2).sum(axis=1)[None] - 2.0 * (a @ b.T)
     rows, columns = np.nonzero(far <= most + 1e-12 * np.abs(far).max())
@@ -103,7 +103,9 @@ def _between(p: np.ndarray, q: np.ndarray, r: np.ndarray, s: np.ndarray) -> np.n
 def _refined(
     curves: Sequence[Curve], a: np.ndarray, ta: np.ndarray, b: np.ndarray, tb: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Parameters and points of least distance, all at once: Gauss–Newton on the cubics, ends held."""
+    """Parameters and points of least distance, for all pairs at once: Gauss–Newton on the cubics, with
+    parameters clamped to the ends.
+    """
     starts = np.concatenate([[0], np.cumsum([len(c.pieces) for c in curves])]).astype(float)
     pieces = np.concatenate([curve.pieces for curve in curves])
     closed = np.array([curve.closed for curve in curves])
@@ -124,14 +126,14 @@ def _refined(
         damp = 1e-9 * (dd + ee) + 1e-300
         det = (dd + damp) * (ee + damp) - de * de
         ta = clamped(ta + np.clip((de * er - (ee + damp) * dr) / det, -0.5, 0.5), a)
-        # with this one where it now is: the end of a curve may have stopped it
+        # solved again, since the other parameter may have been clamped
         r = points_on(*on(ta, a)) - points_on(*on(tb, b))
         tb = clamped(tb + np.clip(np.einsum("ij,ij->i", e, r) / (ee + damp), -0.5, 0.5), b)
     return ta, tb, points_on(*on(ta, a)), points_on(*on(tb, b))
 
 
 def _once(curves: Sequence[Curve], found: list[Meeting]) -> list[Meeting]:
-    """Without those that two neighbouring chords have led to."""
+    """The meetings without duplicates from neighbouring chords."""
     kept: list[Meeting] = []
     for one in sorted(found, key=lambda m: (m.a, m.b, m.distance)):
         others = (m for m in kept if (m.a, m.b) == (one.a, one.b))
@@ -145,6 +147,6 @@ def _once(curves: Sequence[Curve], found: list[Meeting]) -> list[Meeting]:
 
 
 def _span(curve: Curve, t: float, u: float) -> float:
-    """Between two parameters, the shorter way."""
+    """The difference of two parameters, the shorter way around."""
     gap = abs(t - u)
     return min(gap, curve.end - gap) if curve.closed else gap

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A curve as cubic pieces, whatever it was drawn as: Bézier, NURBS, or points to pass through."""
+"""Curves as cubic pieces, from Bézier or NURBS splines or from points."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
-# half: the cosine of a turn of 60°, above which a polygon has a corner; as on borders (core.py)
+# half: the cosine of a turn of 60°, above which a polygon has a corner, like borders (core.py)
 _COSINE_OF_CORNER = 0.5
-# pieces that stand for one span of a NURBS curve: a rational quarter of a circle is off by 1.4e-5 of its radius
+# pieces for one span of a NURBS curve: a rational quarter of a circle is off by 1.4e-5 of its radius
 _PIECES_OF_SPAN = 8
-# points that a closed curve is continued by: a spline forgets 0.27 of what it knew with each
+# points that extend a closed curve: the effect of a spline's end falls to 0.27 with each
 _OVERLAP = 12
 
 
@@ -22,7 +22,7 @@ class Curve:
     name: str
     pieces: np.ndarray
     closed: bool = False
-    sharp: bool = False  # the surface has an edge there
+    sharp: bool = False  # whether the surface has a crease there
 
     @property
     def end(self) -> float:
@@ -30,20 +30,20 @@ class Curve:
 
 
 def points_at(pieces: np.ndarray, t: np.ndarray) -> np.ndarray:
-    """(k, 3): where the parameters `t` (k,) are."""
+    """(k, 3): points at the parameters `t` (k,)."""
     part, u = _split(pieces, t)
     return points_on(pieces[part], u)
 
 
 def points_on(pieces: np.ndarray, u: np.ndarray) -> np.ndarray:
-    """(k, 3): a point on each of the `pieces` (k, 4, 3), at `u` (k,), 0 to 1."""
+    """(k, 3): a point on each of the `pieces` (k, 4, 3), at `u` (k,), from 0 to 1."""
     v = 1.0 - u
     weights = np.stack([v**3, 3 * u * v**2, 3 * u**2 * v, u**3], axis=-1)
     return np.einsum("ki,kij->kj", weights, pieces)
 
 
 def tangents_on(pieces: np.ndarray, u: np.ndarray) -> np.ndarray:
-    """(k, 3): derivatives there, zero where handles have no length."""
+    """(k, 3): derivatives at these points; zero if handles have no length."""
     v = 1.0 - u
     steps = 3.0 * np.diff(pieces, axis=1)
     return np.einsum("ki,kij->kj", np.stack([v**2, 2 * u * v, u**2], axis=-1), steps)
@@ -57,15 +57,15 @@ def _split(pieces: np.ndarray, t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 def from_bezier(
     points: np.ndarray, left: np.ndarray, right: np.ndarray, closed: bool
 ) -> np.ndarray:
-    """Pieces of a Bézier spline: its points and their handles, (k, 3) each."""
+    """Pieces of a Bézier spline, from its points and their handles, (k, 3) each."""
     after = np.roll(np.arange(len(points)), -1)
     pieces = np.stack([points, right, left[after], points[after]], axis=1)
     return pieces if closed else pieces[:-1]
 
 
 def through(points: np.ndarray, closed: bool) -> np.ndarray:
-    """Pieces of the cubic spline by chord length through `points` (k, 3), with corners where these
-    turn by more than 60°.
+    """Pieces of the cubic spline by chord length through `points` (k, 3), with corners where the
+    polygon turns by more than 60°.
     """
     points = np.asarray(points, float)
     ahead = np.linalg.norm(np.roll(points, -1, axis=0) - points, axis=1)
@@ -103,7 +103,7 @@ def _corners(points: np.ndarray, closed: bool) -> list[int]:
 
 
 def _spline(points: np.ndarray) -> np.ndarray:
-    """Second derivatives by Thomas's algorithm; at the ends they go on as they are next to them."""
+    """Second derivatives by Thomas's algorithm; at the ends they equal those of the neighbours."""
     h = np.linalg.norm(np.diff(points, axis=0), axis=1)
     slopes = np.diff(points, axis=0) / h[:, None]
     count = len(points)
@@ -133,8 +133,8 @@ def _hermite(a: np.ndarray, b: np.ndarray, start: np.ndarray, end: np.ndarray) -
 def from_nurbs(
     points: np.ndarray, order: int, closed: bool, clamped: bool, bezier: bool
 ) -> np.ndarray:
-    """Pieces of a NURBS spline as Blender has it: `points` (k, 4) with weights, its order, and
-    whether Cyclic, Endpoint and Bézier are on.
+    """Pieces of a NURBS spline of Blender: `points` (k, 4) with weights, its order, and whether Cyclic,
+    Endpoint and Bézier are on.
     """
     count = len(points)
     order = min(order, count)
@@ -154,7 +154,7 @@ def from_nurbs(
 
 
 def _knots(count: int, order: int, closed: bool, clamped: bool, bezier: bool) -> np.ndarray:
-    """Blender's: [curve_nurbs.cc, calculate_knots]."""
+    """Blender's knots [curve_nurbs.cc, calculate_knots]."""
     repeat = order - 1 if bezier else 1
     first = (order - (1 if closed else 0)) if clamped else (min(2, repeat) if bezier else 1)
     tail = 2 * order - 1 if closed else (order if clamped else 0)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Nodes, where curves meet or turn, and the arcs between them; what hangs loose is named, not lost."""
+"""Nodes, where curves meet or turn, and the arcs between them; loose parts are removed and reported."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -9,11 +9,11 @@ import numpy as np
 from .crossings import STEPS, Meeting, meetings
 from .cubics import Curve, points_at, tangents_on
 
-CHORDS = 32  # of an arc, evenly spaced: what its direction and turns are measured on
-# a miss of so many tolerances is told; farther apart, curves are taken to be meant so
+CHORDS = 32  # evenly spaced chords of an arc, for its direction and turns
+# near misses up to so many tolerances are reported; a larger distance is taken as intended
 _NEAR = 4.0
-_SHARE = 0.01  # tolerance where none is given: of the usual curve's size
-_CORNER = np.cos(np.radians(30.0))  # of a curve that turns at once by more
+_SHARE = 0.01  # default tolerance, relative to the median size of curves
+_CORNER = np.cos(np.radians(30.0))  # a curve that turns at once by more has a corner
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,7 @@ class Arc:
         return float(np.linalg.norm(np.diff(self.points, axis=0), axis=1).sum())
 
     def even(self, count: int) -> np.ndarray:
-        """(count + 1, 3): evenly spaced on the curve, which is drawn to the nodes at its ends."""
+        """(count + 1, 3): evenly spaced points on the curve, which is moved to the nodes at its ends."""
         t, u = self.span
         fine = np.linspace(t, u, max(4 * count, int(np.ceil(STEPS * (u - t)))) + 1)
         steps = np.linalg.norm(np.diff(self._at(fine), axis=0), axis=1)
@@ -53,7 +53,7 @@ class Arc:
 
 @dataclass(frozen=True)
 class Loose:
-    """A part of a curve that encloses nothing, left out from `place` to its end there."""
+    """A part of a curve that encloses nothing and is left out, from `place` to its end there."""
 
     curve: int
     place: np.ndarray
@@ -68,23 +68,23 @@ class Network:
     tolerance: float
     crossings: int
     loose: list[Loose] = field(default_factory=list)
-    misses: list[Meeting] = field(default_factory=list)  # nearer than four tolerances, and no node
+    misses: list[Meeting] = field(default_factory=list)  # nearer than four tolerances, but no nodes
 
     def degrees(self) -> np.ndarray:
-        """(n,) int: ends of arcs at each node."""
+        """(n,) int: number of arc ends at each node."""
         ends = [node for arc in self.arcs for node in (arc.a, arc.b)]
         return np.bincount(ends, minlength=len(self.nodes))
 
 
 def usual_size(curves: Sequence[Curve]) -> float:
-    """The median of the diagonals of the boxes around each."""
+    """The median diagonal of the curves' bounding boxes."""
     boxes = [np.ptp(curve.pieces.reshape(-1, 3), axis=0) for curve in curves]
     return float(np.median(np.linalg.norm(boxes, axis=1)))
 
 
 def network(curves: Sequence[Curve], tolerance: float = 0.0) -> Network:
-    """Of curves with at least a piece each. Those no farther apart than `tolerance`, a length, meet;
-    0: a hundredth of the usual curve's size.
+    """The network of curves with at least one piece each. Curves meet where their distance is at most
+    `tolerance`, a length; 0: a hundredth of the median size of curves.
     """
     tolerance = tolerance or _SHARE * usual_size(curves)
     found = meetings(curves, _NEAR * tolerance)
@@ -105,7 +105,7 @@ def network(curves: Sequence[Curve], tolerance: float = 0.0) -> Network:
 
 
 class _Stops:
-    """Places on curves, those that are one node joined. Union–find."""
+    """Places on curves; places of one node are joined by union-find."""
 
     def __init__(self, curves: Sequence[Curve], tolerance: float) -> None:
         self._curves, self._tolerance = curves, tolerance
@@ -114,7 +114,7 @@ class _Stops:
         self._lengths = [_lengths(curve) for curve in curves]
 
     def at(self, curve: int, t: float) -> int:
-        """The number of a place, its own where the curve has none so near."""
+        """The number of a place, new if the curve has none near it."""
         for known, number in self._ids[curve].items():
             if self._way(curve, known, t) <= self._tolerance:
                 return number
@@ -127,7 +127,7 @@ class _Stops:
         return number
 
     def _way(self, curve: int, t: float, u: float) -> float:
-        """Along the curve."""
+        """Distance along the curve."""
         table = self._lengths[curve]
         way = abs(float(np.interp(t, table[0], table[1]) - np.interp(u, table[0], table[1])))
         return min(way, table[1][-1] - way) if self._curves[curve].closed else way
@@ -141,8 +141,8 @@ class _Stops:
         return number
 
     def settled(self) -> tuple[np.ndarray, list[list[tuple[float, int]]]]:
-        """(nodes (n, 3), by curve (parameter, node) in order): with ends and corners of curves, too,
-        each node in the middle of its places.
+        """(nodes (n, 3), for each curve (parameter, node) in order): includes ends and corners of
+        curves; each node is the mean of its places.
         """
         for i, curve in enumerate(self._curves):
             for t in _own_stops(curve):
@@ -163,7 +163,7 @@ class _Stops:
         return sums / np.maximum(counts, 1)[:, None], visits
 
     def _close(self, i: int, curve: Curve) -> None:
-        """The two ends of one curve at one place."""
+        """Joins the two ends of one curve if they coincide."""
         if curve.closed:
             return
         ends = points_at(curve.pieces, np.array([0.0, curve.end]))
@@ -172,16 +172,17 @@ class _Stops:
 
 
 def _lengths(curve: Curve) -> tuple[np.ndarray, np.ndarray]:
-    """Parameters, and the way to each."""
+    """Parameters, and the length of the curve up to each."""
     t = np.arange(STEPS * len(curve.pieces) + 1) / STEPS
     steps = np.linalg.norm(np.diff(points_at(curve.pieces, t), axis=0), axis=1)
     return t, np.concatenate([[0.0], np.cumsum(steps)])
 
 
 def _own_stops(curve: Curve) -> list[float]:
-    """Ends, and where one piece goes on in another direction."""
+    """Ends, and parameters where two pieces join at an angle."""
     count = len(curve.pieces)
-    start, end = np.full(count, 1e-4), np.full(count, 1 - 1e-4)  # handles may have no length
+    # not at the ends, where handles may have no length
+    start, end = np.full(count, 1e-4), np.full(count, 1 - 1e-4)
     before = tangents_on(np.roll(curve.pieces, 1, axis=0), end)
     after = tangents_on(curve.pieces, start)
     size = np.linalg.norm(before, axis=1) * np.linalg.norm(after, axis=1)
@@ -200,10 +201,12 @@ def _arcs(i: int, curve: Curve, visits: list[tuple[float, int]], nodes: np.ndarr
 
 
 def without_loose(arcs: list[Arc], count: int) -> tuple[list[Arc], list[Loose]]:
-    """Without what ends at a node where nothing goes on, over and over; and that, by loose end."""
+    """Removes, repeatedly, arcs that end at a node without another arc. Returns the other arcs, and the
+    removed parts by loose end.
+    """
     arcs = list(arcs)
     loose: list[Loose] = []
-    gone: dict[int, tuple[np.ndarray, float, int]] = {}  # node: loose end beyond it, way, curve
+    gone: dict[int, tuple[np.ndarray, float, int]] = {}  # node: loose end beyond it, length, curve
     while True:
         degrees = np.bincount([n for arc in arcs for n in (arc.a, arc.b)], minlength=count)
         dangling = [arc for arc in arcs if degrees[arc.a] == 1 or degrees[arc.b] == 1]
@@ -225,7 +228,7 @@ def without_loose(arcs: list[Arc], count: int) -> tuple[list[Arc], list[Loose]]:
 
 
 def _is_met(miss: Meeting, shared: np.ndarray, tolerance: float) -> bool:
-    """Whether the two curves are as near as this only because they meet beside it, in a node that they
-    share (k, 3).
+    """Whether two curves are near each other only because they meet nearby, in a node that they share;
+    `shared` (k, 3).
     """
     return bool((np.linalg.norm(shared - miss.place, axis=1) <= 2 * _NEAR * tolerance).any())

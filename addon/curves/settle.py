@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Curves in, the control mesh out, its free vertices where a first fairing takes them: the charts of
-the surface are measured on this mesh, and a patch that knows its rim alone is a poor one there.
+"""Makes the control mesh from curves, and moves its free vertices by a first fairing: the surface's
+charts are measured on this mesh, and interpolation from the rim alone is a poor start.
 """
 
 from collections.abc import Sequence
@@ -17,23 +17,24 @@ from .cubics import Curve
 from .network import network
 from .words import Text, none_text, plain, remarks
 
-# The second moves vertices by a third of what the first has, a third round by a tenth.
+# The second round moves vertices by a third of the first round's distance, a third round by a tenth.
 _ROUNDS = 2
-MOST_FACES = 50_000  # of the control mesh: more are a slip in Edges
+MOST_FACES = 50_000  # of the control mesh; more are a mistake in Edges
 
 
 @dataclass(frozen=True)
 class CoverOptions:
-    snap: float = 0.0  # the distance at which curves meet; 0: a hundredth of the usual curve's size
-    per_side: int = 4  # edges on the shorter sides of cells; longer ones have more
-    closed: bool = False  # whether what looks like the outside of a sheet is a cell, too
+    # the distance at which curves meet; 0: a hundredth of the median size of curves
+    snap: float = 0.0
+    per_side: int = 4  # edges on the shorter sides of cells; longer sides have more
+    closed: bool = False  # whether the walk around the outside of a sheet is a cell too
 
 
 @dataclass(frozen=True)
 class Covered:
     mesh: ControlMesh
     cells: Cells
-    remarks: list[str]  # what did not take part, and where
+    remarks: list[str]  # the parts that were left out, and where
 
     @property
     def summary(self) -> str:
@@ -53,8 +54,8 @@ def covered(
     before: np.ndarray | None = None,
     text: Text = plain,
 ) -> Covered:
-    """The control mesh over the network of `curves`; JobError says why there is none. `before`: the
-    numbers of edges that an earlier one had on its arcs. `text` says lengths.
+    """The control mesh over the network of `curves`; raises JobError with the reason if there is none.
+    `before`: the numbers of edges on the arcs of an earlier mesh. `text` formats lengths.
     """
     curves = [curve for curve in curves if len(curve.pieces)]
     if not curves:
@@ -94,15 +95,15 @@ def _settled(mesh: ControlMesh) -> ControlMesh:
                 crease_edges=mesh.sharp,
                 measure=False,
             )
-        except fairing.FairingError:  # the run to come will say why
+        except fairing.FairingError:  # the run itself will report it
             break
         points = np.where(mesh.held[:, None], mesh.points, surface.vertices[: len(points)])
     return replace(mesh, points=points)
 
 
 def _in_caps(mesh: ControlMesh, found: Cells) -> np.ndarray:
-    """(n,) bool: in cells whose rim has no corner and goes on into other cells, such as the closed
-    end of a tube. They stay where least bending has taken them: other energies swell them.
+    """(n,) bool: vertices in cells whose rim has no corner and continues into other cells, such as the
+    closed end of a tube. They stay at the positions of least bending, since other energies swell them.
     """
     borders = border_arcs(found.cells, found.network.arcs)
     caps = [

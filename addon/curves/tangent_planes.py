@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which way the surface looks at each node, and how far arcs and nodes turn in it."""
+"""The surface's normal at each node, and how far arcs and nodes turn in its tangent plane."""
 
 import heapq
 
@@ -8,7 +8,7 @@ import numpy as np
 from .network import CHORDS, Network
 
 _FLAT = 0.1  # sine of 6°: directions closer to one line span no plane
-_CARRIED = 0.7  # of a normal that only comes along an arc: how far it is trusted, a cosine
+_CARRIED = 0.7  # a cosine: how far a normal carried along an arc is trusted
 
 
 class TangentPlanes:
@@ -44,7 +44,7 @@ class TangentPlanes:
         return -self._along[half // 2, -1] if half % 2 else self._along[half // 2, 0]
 
     def in_order(self, node: int) -> list[int]:
-        """The half-edges that leave, counter-clockwise as seen from outside."""
+        """The half-edges that leave a node, counter-clockwise seen from outside."""
         normal = self.normals[node]
         first = _cross(normal, _sideways(normal))
         second = _cross(normal, first)
@@ -55,19 +55,21 @@ class TangentPlanes:
         return sorted(angles, key=lambda half: angles[half])
 
     def turn_along(self, half: int) -> float:
-        """How far a half-edge turns to the left, in radians: its geodesic curvature."""
+        """The turn of a half-edge to the left, in radians: its geodesic curvature."""
         turn = float(self._turns[half // 2])
         return -turn if half % 2 else turn
 
     def turn_between(self, half: int, after: int) -> float:
-        """How far one turns to the left from the end of `half` into `after`."""
+        """The turn to the left from the end of `half` into `after`."""
         arriving, leaving = -self.out(half ^ 1), self.out(after)
         normal = self.normals[self.from_node(after)]
         flat = [d - (d @ normal) * normal for d in (arriving, leaving)]
         return float(np.arctan2(normal @ _cross(*flat), flat[0] @ flat[1]))
 
     def _look_one_way(self) -> None:
-        """From node to node, first along the arcs whose ends agree best [Hoppe and others 1992]."""
+        """Orients the normals consistently from node to node, first along the arcs whose ends agree
+        best [Hoppe and others 1992].
+        """
         known = np.zeros(len(self.normals), bool)
         planes = [self._plane(node) for node in range(len(known))]
         by_degree = sorted(range(len(known)), key=lambda node: -len(self.leaving[node]))
@@ -75,7 +77,8 @@ class TangentPlanes:
             if known[seed] or not self.leaving[seed]:
                 continue
             normal = planes[seed]
-            if not normal.any() and len(self.leaving[seed]) == 2:  # by degree: a loop by itself
+            # the degree shows a separate loop
+            if not normal.any() and len(self.leaving[seed]) == 2:
                 normal = self._of(seed)
             self.normals[seed] = (
                 normal if normal.any() else _sideways(self.out(self.leaving[seed][0]))
@@ -106,8 +109,8 @@ class TangentPlanes:
                 heapq.heappush(heap, (-abs(agreement), other, tuple(normal.tolist())))
 
     def _plane(self, node: int) -> np.ndarray:
-        """Its normal, of either sign: of the plane through the tips of the directions; zero where all
-        lie on a line.
+        """The normal, of either sign, of the plane through the tips of a node's directions; zero if
+        they lie on a line.
         """
         out = np.array([self.out(half) for half in self.leaving[node]]).reshape(-1, 3)
         if len(out) == 2:
@@ -120,7 +123,7 @@ class TangentPlanes:
         return axes[2] if widths[1] > _FLAT else np.zeros(3)
 
     def _of(self, node: int) -> np.ndarray:
-        """For a single loop: the normal of the area that it encloses."""
+        """For a separate loop: the normal of the area that it encloses."""
         loop, half = [], self.leaving[node][0]
         while True:
             arc = self._arcs[half // 2]
@@ -135,7 +138,7 @@ class TangentPlanes:
         return area / max(float(np.linalg.norm(area)), 1e-300)
 
     def _arc_turns(self) -> np.ndarray:
-        """(e,): about normals that go evenly from those of one end to those of the other."""
+        """(e,): turns about normals that change evenly from one end to the other."""
         if not len(self._arcs):
             return np.zeros(0)
         start = self.normals[[arc.a for arc in self._arcs]]
@@ -155,7 +158,7 @@ class TangentPlanes:
 
 
 def _transport(along: np.ndarray) -> np.ndarray:
-    """(e, k, 3, 3): the rotations without twist from the first of the directions (e, k, 3) to each."""
+    """(e, k, 3, 3): rotations without twist from the first of the directions (e, k, 3) to each."""
     found = np.empty((*along.shape, 3))
     found[:, 0] = np.eye(3)
     for k in range(1, along.shape[1]):
@@ -180,7 +183,7 @@ def _sideways(a: np.ndarray) -> np.ndarray:
 
 
 def _cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Of two vectors; NumPy's own takes ten times as long for these."""
+    """Cross product of two vectors; NumPy's own takes ten times as long for these."""
     return np.array(
         [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
     )

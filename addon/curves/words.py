@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What of the curves did not take part, and where: a sentence each, the cure in it."""
+"""Which parts of the curves were left out, and where: a sentence each, with the cure."""
 
 from collections.abc import Sequence
 
@@ -14,7 +14,7 @@ _SHOWN = 8
 
 
 def plain(length: float) -> str:
-    """Where nobody knows of a scene."""
+    """The length without a unit, if there is no scene."""
     return f"{length:.4g}"
 
 
@@ -23,7 +23,7 @@ def place_text(place: np.ndarray, text: Text) -> str:
 
 
 def remarks(network: Network, text: Text = plain) -> list[str]:
-    """On loose ends and near misses, and curves without any part in the surface."""
+    """Remarks on loose ends, near misses, and curves that are no part of the surface."""
     used = {arc.curve for arc in network.arcs}
     said = [_miss(network, miss, text) for miss in network.misses]
     for i, curve in enumerate(network.curves):
@@ -54,7 +54,7 @@ def _loose(network: Network, one: Loose, text: Text) -> str:
 
 
 def _nearest(curves: Sequence[Curve], i: int, place: np.ndarray | None, text: Text) -> str:
-    """What is next to a place, or to the ends of a curve."""
+    """The nearest curve to a place, or to the ends of a curve."""
     others = [(k, _samples(curve)) for k, curve in enumerate(curves) if k != i]
     if not others:
         return "There is no other curve."
@@ -74,7 +74,7 @@ def _samples(curve: Curve) -> np.ndarray:
 
 
 def none_text(network: Network, text: Text = plain) -> str:
-    """Why there is no surface, after what to do."""
+    """Why there is no surface; begins with what to do."""
     said = remarks(network, text)
     start = "Draw curves across one another, whose ends lie on others: these enclose nothing. "
     if not network.crossings and len(network.curves) > 1:
