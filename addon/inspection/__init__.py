@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How fair a surface is: stripes, curvature colours, numbers."""
+"""Inspects the fairness of a surface: stripes, curvature colours, numbers."""

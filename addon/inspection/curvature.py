@@ -2,7 +2,7 @@
 """Curvature at the vertices of a polygon mesh: plain arrays, no Blender, no loop over faces.
 
 Cotangent Laplacian and angle defect over mixed Voronoi areas (Meyer, Desbrun, Schröder, Barr 2003).
-Of ControlArrays only positions, edges, corners, corner_edges, offsets and sharp_edge are needed.
+Uses only positions, edges, corners, corner_edges, offsets and sharp_edge of ControlArrays.
 """
 
 from dataclasses import dataclass
@@ -15,11 +15,12 @@ from ..triangles import fans
 
 @dataclass(frozen=True)
 class Curvature:
-    """At n vertices; lengths in mesh units."""
+    """Curvature at n vertices; lengths in mesh units."""
 
-    mean: np.ndarray  # (n,) float64, (κ₁ + κ₂) / 2, positive where the side of the normals bulges
+    # (n,) float64, (κ₁ + κ₂) / 2, positive if the surface bulges to the side of the normals
+    mean: np.ndarray
     gauss: np.ndarray  # (n,) float64, κ₁ κ₂
-    area: np.ndarray  # (n,) float64, of the surface that belongs to each vertex
+    area: np.ndarray  # (n,) float64, area of the surface at each vertex
     inner: (
         np.ndarray
     )  # (n,) bool: measured there. Elsewhere the mean of the measured neighbours, or 0 without any
@@ -27,8 +28,7 @@ class Curvature:
     @property
     def total(self) -> np.ndarray:
         """(n,) float64, κ₁² + κ₂²."""
-        # never below 2 H² or 2 |K| on a smooth surface; the discrete H and K may disagree by
-        # rounding
+        # at least 2 H² and 2 |K| on a smooth surface; the discrete H and K may violate this by rounding
         return np.maximum(4.0 * self.mean**2 - 2.0 * self.gauss, 0.0)
 
     @property
@@ -54,11 +54,11 @@ def triangle_curvature(
     rim: np.ndarray,
     edges: np.ndarray,
 ) -> Curvature:
-    """`positions` (n, 3) float64, `triangles` (t, 3) int, each counting `weights` (t,) times.
+    """Curvature of triangles: `positions` (n, 3) float64, `triangles` (t, 3) int with `weights` (t,).
 
-    `rim` (n,) bool: vertices where curvature makes no sense.
+    `rim` (n,) bool: vertices at which curvature is undefined.
 
-    Those take the mean of their neighbours along `edges` (e, 2).
+    These get the mean of their neighbours along `edges` (e, 2).
     """
     count = len(positions)
     corners = [triangles[:, i] for i in range(3)]
@@ -69,7 +69,7 @@ def triangle_curvature(
     twice_area = np.sqrt(np.einsum("ij,ij->i", normal, normal))
     sound = twice_area > 1e-14 * (
         square[0] + square[1] + square[2]
-    )  # slivers have no cotangent worth adding
+    )  # slivers have no useful cotangent
     safe = np.where(sound, twice_area, 1.0)
 
     cosine = [-np.einsum("ij,ij->i", side[(i + 1) % 3], side[(i + 2) % 3]) for i in range(3)]
@@ -94,8 +94,8 @@ def triangle_curvature(
 
     inner = (area > 0.0) & ~rim
     safe_area = np.where(area > 0.0, area, 1.0)
-    # the length of the Laplacian would be the same on a smooth surface; along the normal it keeps
-    # the sign
+    # the length of the Laplacian would be equal on a smooth surface; the component along the normal has
+    # a sign
     mean = np.einsum("ij,ij->i", laplacian, unit(normals)) / (4.0 * safe_area)
     gauss = defect / safe_area
     return Curvature(_filled(mean, inner, edges), _filled(gauss, inner, edges), area, inner)
@@ -108,8 +108,8 @@ def _share(
     cosine: list[np.ndarray],
     twice_area: np.ndarray,
 ) -> np.ndarray:
-    """(t,) the part of each triangle that belongs to corner i: its Voronoi region, cut off where
-    the triangle is obtuse.
+    """(t,) the part of each triangle that belongs to corner i: its Voronoi region, cut off in obtuse
+    triangles.
     """
     j, k = (i + 1) % 3, (i + 2) % 3
     voronoi = (square[j] * cotangent[j] + square[k] * cotangent[k]) / 8.0
@@ -119,7 +119,7 @@ def _share(
 
 
 def _filled(values: np.ndarray, inner: np.ndarray, edges: np.ndarray) -> np.ndarray:
-    """`values` where `inner`; elsewhere the mean of the inner neighbours, or 0 without any."""
+    """`values` where `inner`; elsewhere the mean of the inner neighbours, or 0 if there are none."""
     a, b = edges[:, 0], edges[:, 1]
     outward = np.concatenate([edges[inner[b] & ~inner[a]], edges[inner[a] & ~inner[b]][:, ::-1]])
     total = np.bincount(outward[:, 0], weights=values[outward[:, 1]], minlength=len(values))
@@ -130,12 +130,12 @@ def _filled(values: np.ndarray, inner: np.ndarray, edges: np.ndarray) -> np.ndar
 def triangulate(
     positions: np.ndarray, corners: np.ndarray, offsets: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """((t, 3) int32 triangles, (t,) float64 weights). Polygons under 3 corners are left out, large
-    ones become fans.
+    """((t, 3) int32 triangles, (t,) float64 weights). Polygons with fewer than 3 corners are left out,
+    large ones become fans.
 
-    A quad is halved along its shorter diagonal; where both are about as long, it gives both
-    halvings, weighted. Else curvature would hang on the order of the corners, lose the mesh's
-    symmetry, and converge a whole order slower.
+    A quad is cut along its shorter diagonal; if both are similar, it is cut both ways with weights.
+    Otherwise curvature would depend on the order of corners, lose the mesh's symmetry, and converge one
+    order slower.
     """
     sizes, first = np.diff(offsets), offsets[:-1]
     plain = corners[first[sizes == 3, None] + np.arange(3)]
@@ -147,8 +147,8 @@ def triangulate(
 
 
 def rim_edges(arrays: ControlArrays) -> np.ndarray:
-    """(e,) bool: edges where the surface stops being one smooth piece: borders, three faces and
-    more, marked sharp.
+    """(e,) bool: edges at which the surface is not smooth: borders, edges with three faces or more,
+    edges marked sharp.
     """
     count = arrays.edge_uses
     rim = (count == 1) | (count > 2)
@@ -163,17 +163,17 @@ def marked_vertices(edges: np.ndarray, marked: np.ndarray, count: int) -> np.nda
 
 
 def faces_of_edges(arrays: ControlArrays) -> np.ndarray:
-    """(e, 2) int32: the two faces of each edge. Only meaningful where `edge_uses` is 2."""
+    """(e, 2) int32: the two faces of each edge. Only meaningful if `edge_uses` is 2."""
     sizes = np.diff(arrays.offsets)
     face = np.repeat(np.arange(len(sizes), dtype=np.int32), sizes)
     pair = np.zeros((len(arrays.edges), 2), np.int32)
-    pair[arrays.corner_edges, 1] = face  # the last one written stays
+    pair[arrays.corner_edges, 1] = face  # the last assignment wins
     pair[arrays.corner_edges[::-1], 0] = face[::-1]
     return pair
 
 
 def face_normals(positions: np.ndarray, corners: np.ndarray, offsets: np.ndarray) -> np.ndarray:
-    """(m, 3) unit normals by Newell's sum, which for a quad is that of its diagonals; zero for
+    """(m, 3) unit normals by Newell's sum, which for a quad equals that of its diagonals; zero for
     faces without area.
     """
     return unit(_newell_sums(positions, corners, offsets))
@@ -185,14 +185,14 @@ def face_areas(positions: np.ndarray, corners: np.ndarray, offsets: np.ndarray) 
 
 
 def _newell_sums(positions: np.ndarray, corners: np.ndarray, offsets: np.ndarray) -> np.ndarray:
-    """(m, 3) along the normals, as long as twice the areas."""
+    """(m, 3) vectors along the normals, with twice the areas as lengths."""
     sums = np.zeros((len(offsets) - 1, 3))
     if not len(corners):
         return sums
     sizes = np.diff(offsets)
     following = np.arange(1, len(corners) + 1, dtype=np.int32)
     following[offsets[1:][sizes > 0] - 1] = offsets[:-1][sizes > 0]
-    # about the first corner of each face: far from the origin the sum would lose its digits
+    # relative to the first corner of each face, since the sum would lose digits far from the origin
     local = positions[corners] - np.repeat(
         positions[corners[offsets[:-1][sizes > 0]]], sizes[sizes > 0], axis=0
     )
@@ -203,7 +203,7 @@ def _newell_sums(positions: np.ndarray, corners: np.ndarray, offsets: np.ndarray
 
 
 def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Row by row; several times as fast as np.cross."""
+    """Cross products of rows; several times as fast as np.cross."""
     out = np.empty_like(a)
     for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
         out[:, i] = a[:, j] * b[:, k] - a[:, k] * b[:, j]
@@ -219,7 +219,7 @@ def unit(vectors: np.ndarray) -> np.ndarray:
 def _halve(positions: np.ndarray, quads: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Triangles (t, 3) and weights (t,) of (q, 4) quads.
 
-    The halving that is not inside a quad with a dent has no weight.
+    A cut outside a concave quad has weight zero.
     """
     a, b, c, d = (positions[quads[:, i]] for i in range(4))
     ac, bd = c - a, d - b
@@ -230,7 +230,7 @@ def _halve(positions: np.ndarray, quads: np.ndarray) -> tuple[np.ndarray, np.nda
     share = square_bd / np.maximum(square_ac + square_bd, np.finfo(float).tiny)
     weight = np.clip(
         0.5 + 5.0 * (share - 0.5), 0.0, 1.0
-    )  # of ac: from 0 to 1 while the lengths change places
+    )  # weight of ac: from 0 to 1 while the lengths exchange their order
     weight = np.where(inside_ac == inside_bd, weight, inside_ac)
     along_ac, along_bd = weight > 0.0, weight < 1.0
     triangles = [quads[along_ac][:, half] for half in ([0, 1, 2], [0, 2, 3])]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How far a surface is from its control vertices, or from another object, at each of its vertices."""
+"""The distance of a surface from its control vertices, or from another object, at each of its vertices."""
 
 from typing import Any
 
@@ -12,12 +12,12 @@ from ..mesh.read import control_mesh
 from ..mesh.scans import Scan
 from ..mesh.world_shape import transformed, world_matrix, world_shape
 
-_ROUNDING = 1e-4  # share of a distance: Blender's trees are in single precision
+_ROUNDING = 1e-4  # relative to a distance, since Blender's trees are single precision
 
 
 def from_vertices(target: Object, positions: np.ndarray, control: np.ndarray) -> np.ndarray:
-    """(n,) at each of the surface's `positions` (n, 3) how far the surface misses the nearest of
-    the `control` vertices (k, 3); positive where it passes on its outer side. Both in the
+    """(n,) at each of the surface's `positions` (n, 3) the distance of the surface from the nearest of
+    the `control` vertices (k, 3); positive if the surface is on their outer side. Both in the
     coordinates of `target`, whose mesh the surface is; lengths in scene units.
     """
     shape = world_shape(target)
@@ -33,8 +33,8 @@ def from_vertices(target: Object, positions: np.ndarray, control: np.ndarray) ->
 def from_object(
     context: Context, target: Object, positions: np.ndarray, other: Object
 ) -> np.ndarray:
-    """(n,) at each of the surface's `positions` (n, 3) the distance to the mesh of `other` as it is
-    seen, in scene units; positive on the outer side of its faces.
+    """(n,) at each of the surface's `positions` (n, 3) the distance from the mesh of `other` as
+    displayed, in scene units; positive on the outer side of its faces.
     """
     with control_mesh(context, other, evaluated=True) as mesh:
         tree = _tree(mesh, world_matrix(other))
@@ -43,7 +43,7 @@ def from_object(
 
 def from_scan(target: Object, positions: np.ndarray, scan: Scan) -> np.ndarray:
     """(n,) at each of the surface's `positions` (n, 3) the distance from a scan in the world, in scene
-    units; positive outside of it. Points without triangles have no side: there along the surface's normals.
+    units; positive outside. For points without triangles, the side is that of the surface's normals.
     """
     surface = _in_world(target, positions)
     if len(scan.triangles):
@@ -59,15 +59,15 @@ def from_scan(target: Object, positions: np.ndarray, scan: Scan) -> np.ndarray:
 
 
 def signed_distances(tree: Any, points: np.ndarray) -> np.ndarray:
-    """(n,) of `points` (n, 3) to the surface in the BVH `tree`, positive on its outer side; 0 where
-    there is none.
+    """(n,) distances of `points` (n, 3) from the surface in the BVH `tree`, positive on its outer side;
+    0 for an empty tree.
     """
     find, out = tree.find_nearest, []
     place: Any = find(points[0].tolist())[0] if len(points) else None
     if place is None:
         return np.zeros(len(points))
     for point in map(Vector, points.tolist()):
-        # points mostly follow one another: the last one's place is near, and makes the search short
+        # points mostly follow one another: the last foot is near and shortens the search
         within = (1.0 + _ROUNDING) * (point - place).length + _ROUNDING * point.length
         place, normal, _, distance = find(point, within)
         if place is None:
@@ -77,9 +77,7 @@ def signed_distances(tree: Any, points: np.ndarray) -> np.ndarray:
 
 
 def _nearest(control: np.ndarray, surface: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """(n,) of the `control` vertices that which is nearest to each point of the `surface`, and how
-    far it is.
-    """
+    """(n,) the nearest of the `control` vertices for each point of the `surface`, and its distance."""
     tree: Any = kdtree.KDTree(len(control))
     for index, point in enumerate(control.tolist()):
         tree.insert(point, index)
@@ -90,7 +88,7 @@ def _nearest(control: np.ndarray, surface: np.ndarray) -> tuple[np.ndarray, np.n
 
 
 def _tree(mesh: Mesh, matrix: Any) -> Any:
-    """Of all faces of `mesh`, moved by a (4, 4) matrix."""
+    """A tree of all faces of `mesh`, transformed by a (4, 4) matrix."""
     there = bmesh.new(use_operators=False)
     there.from_mesh(mesh, face_normals=False, vertex_normals=False)
     there.transform(matrix)

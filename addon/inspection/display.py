@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Switches what an object shows: itself, stripes, or numbers at its vertices as colours."""
+"""Switches the display of an object: itself, stripes, or values at its vertices as colours."""
 
 from typing import Any
 
@@ -24,16 +24,16 @@ CURVATURES = {
     "GAUSS": "fair_gauss_curvature",
     "TOTAL": "fair_total_curvature",
 }
-# what is shown in colours, and the attribute that has the numbers
+# modes that show colours, and the attributes with their values
 VALUES = {**CURVATURES, "DEVIATION": "fair_deviation"}
-QUICK = 10_000  # vertices whose deviation takes no longer than a redraw
-# false at borders and sharp edges, whose curvature comes from the neighbours
+QUICK = 10_000  # vertices whose deviation is computed within a redraw
+# false at borders and sharp edges, whose curvature is that of the neighbours
 INNER = "fair_curvature_measured"
 
 
 def write_values(target: Object, mode: str, settings: Any) -> None:
-    """Measures `target`, not in Edit Mode, and stores what `mode` shows at the vertices of its
-    mesh: all three curvatures, or the deviation.
+    """Measures `target`, not in Edit Mode, and stores the values of `mode` at the vertices of its mesh:
+    all three curvatures, or the deviation.
     """
     if mode == "DEVIATION":
         _write_deviation(current_context(), target, settings.deviation_object)
@@ -46,9 +46,7 @@ def write_values(target: Object, mode: str, settings: Any) -> None:
 
 
 def _write_deviation(context: Context, target: Object, other: Object | None) -> None:
-    """From `other`; None: from its scans, or from the control vertices, of which a mesh without a source
-    has none.
-    """
+    """Deviation from `other`; None: from its scans, or from the control vertices, if it has a source."""
     positions = read_mesh(target.data).positions
     source = source_of(target)
     if other is not None:
@@ -65,13 +63,13 @@ def _write_deviation(context: Context, target: Object, other: Object | None) -> 
 
 
 def have_values(mesh: Mesh, mode: str) -> bool:
-    """Whether write_values ran on this mesh, for `mode`."""
+    """Whether the mesh has values for `mode`."""
     names = (VALUES[mode],) if mode == "DEVIATION" else (*CURVATURES.values(), INNER)
     return all(name in mesh.attributes for name in names)
 
 
 def write_colours(mesh: Mesh, mode: str, settings: Any) -> None:
-    """Colours of stored numbers.
+    """Writes the colours of stored values.
 
     `settings`: range_low, range_high, use_fixed_range, fixed_range.
     """
@@ -103,8 +101,8 @@ def write_colours(mesh: Mesh, mode: str, settings: Any) -> None:
 
 
 def _corners_without_points(mesh: Mesh, mode: str, settings: Any) -> np.ndarray | None:
-    """(c,) bool: corners of faces whose deviation from scans means nothing, as these have no points there;
-    None where there are none.
+    """(c,) bool: corners of faces without points of scans, where deviation is undefined; None if all
+    have points.
     """
     if (
         mode != "DEVIATION"
@@ -118,13 +116,13 @@ def _corners_without_points(mesh: Mesh, mode: str, settings: Any) -> np.ndarray 
 
 
 def shows_uncovered(mesh: Mesh) -> bool:
-    """Whether faces without points have a colour of their own: those have borders, vertices do not."""
+    """Whether faces without points have their own colour: by corners, since their borders are sharp."""
     layer = mesh.attributes.get(COLOUR)
     return layer is not None and layer.domain == "CORNER"
 
 
 def remove_values(mesh: Mesh) -> None:
-    """Takes all of it off the mesh again."""
+    """Removes all values and colours from the mesh."""
     for name in (*VALUES.values(), INNER, COLOUR):
         attribute = mesh.attributes.get(name)
         if attribute is not None:
@@ -133,21 +131,21 @@ def remove_values(mesh: Mesh) -> None:
 
 
 def legend(mesh: Mesh) -> tuple[float, ...] | None:
-    """(lowest, highest) of the measures, or None."""
+    """(lowest, highest) value of the colours, or None."""
     known = mesh.discrete_fairing
     return tuple(known.curvature_range) if known.is_property_set("curvature_range") else None
 
 
 def value_text(scene: Scene, mode: str, value: float) -> str:
-    """A number of `mode`, one of VALUES, with its unit."""
+    """A value of `mode`, one of VALUES, with its unit."""
     if mode == "DEVIATION":
         return length_text(scene, value)
     return curvature_text(scene, value, 1 if mode == "MEAN" else 2)
 
 
 def show(target: Object, mode: str, settings: Any) -> None:
-    """Makes `target` (a mesh object) show `mode`: NONE, one of STRIPES or of VALUES. Its own
-    materials are not touched.
+    """Makes `target` (a mesh object) show `mode`: NONE, one of STRIPES or of VALUES. Its own materials
+    stay unchanged.
 
     In Edit Mode nothing is measured: call `refresh` afterwards.
     """
@@ -165,9 +163,9 @@ def show(target: Object, mode: str, settings: Any) -> None:
 
 
 def refresh(target: Object, settings: Any) -> None:
-    """Measures again what `target` shows; for after its mesh was changed or replaced.
+    """Measures the values shown on `target` again, after its mesh was changed or replaced.
 
-    Nothing to do if it shows itself.
+    Does nothing if it shows none.
     """
     mode = target.discrete_fairing_inspection.mode
     if mode != "NONE":
@@ -175,10 +173,10 @@ def refresh(target: Object, settings: Any) -> None:
 
 
 def remeasure(target: Object, settings: Any) -> None:
-    """Measures again what `target` shows in colours, after its points have moved and where that is
-    quick: during a drag. `refresh` does the rest afterwards.
+    """Measures the colours shown on `target` again after its points have moved, if that is quick:
+    during a drag. `refresh` does the rest afterwards.
 
-    Nothing to do if it shows none.
+    Does nothing if it shows none.
     """
     mode = target.discrete_fairing_inspection.mode
     if mode not in VALUES:
@@ -192,7 +190,9 @@ def remeasure(target: Object, settings: Any) -> None:
 
 
 def _is_quick(target: Object, mode: str, settings: Any) -> bool:
-    """Distances are looked for point by point; from another object also face by face."""
+    """Whether a measurement is quick: distances take a search for each point, from another object also
+    for each face.
+    """
     if mode != "DEVIATION":
         return True
     other = settings.deviation_object is not None or scans_of(target)
@@ -200,7 +200,7 @@ def _is_quick(target: Object, mode: str, settings: Any) -> bool:
 
 
 def recolour(target: Object, settings: Any) -> None:
-    """Colours by other limits what was measured before."""
+    """Colours the stored values with new limits."""
     mode = target.discrete_fairing_inspection.mode
     if mode in VALUES and target.mode != "EDIT":
         if not have_values(target.data, mode):
@@ -209,8 +209,8 @@ def recolour(target: Object, settings: Any) -> None:
 
 
 def redraw(target: Object, settings: Any) -> None:
-    """Shows what `target` shows as `settings`, of a scene that it is in, have it by now: stripes,
-    smooth or not. Nothing is measured.
+    """Updates the display of `target` to the `settings` of its scene: stripes, smooth or not. Measures
+    nothing.
     """
     mode = target.discrete_fairing_inspection.mode
     if mode in STRIPES:
@@ -225,7 +225,7 @@ def _clear_attributes(target: Object) -> None:
 
 
 def _shared_with_others(target: Object) -> bool:
-    """Whether another object shows numbers of the same mesh."""
+    """Whether another object shows values of the same mesh."""
     return target.data.users > 1 and any(
         other.discrete_fairing_inspection.mode in VALUES
         for other in all_objects()

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A mesh as a graphics card draws it: plain arrays, no Blender."""
+"""A mesh as arrays for a graphics card. No Blender."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
-_SAME = 1e-4  # of a unit normal: corners that differ by less share a point
+_SAME = 1e-4  # relative to a unit normal: corners with a smaller difference share a point
 
 
 @dataclass(frozen=True)
@@ -20,14 +20,14 @@ class Drawn:
 def drawn(
     positions: np.ndarray, corners: np.ndarray, corner_normals: np.ndarray, triangles: np.ndarray
 ) -> Drawn:
-    """`positions` (n, 3), `corners` (c,) the vertex of each corner, `corner_normals` (c, 3),
-    `triangles` (t, 3) corners.
+    """Arrays from `positions` (n, 3), `corners` (c,) the vertex of each corner, `corner_normals` (c,
+    3), and `triangles` (t, 3) of corners.
 
-    The corners at a vertex share one point if they have the same normal; across a sharp edge each
-    has its own.
+    Corners at a vertex share a point if they have the same normal; across a sharp edge each has its
+    own.
     """
     normals = np.zeros((len(positions), 3), np.float32)
-    normals[corners[::-1]] = corner_normals[::-1]  # the last one written stays
+    normals[corners[::-1]] = corner_normals[::-1]  # the last assignment wins
     own = np.flatnonzero((np.abs(corner_normals - normals[corners]) > _SAME).any(axis=1))
     point_of = corners.astype(np.int32)
     point_of[own] = len(positions) + np.arange(len(own), dtype=np.int32)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Stripes and colours of numbers as node materials."""
+"""Node materials for stripes and for colours of values."""
 
 from typing import Any
 
@@ -9,10 +9,10 @@ from ..blender import all_scenes
 from ..mesh.modifiers import INSPECTION_TAG
 from .stripes import DARK, LIGHT, stripes_of
 
-# which scene's, as zebra and smooth are settings of scenes; none: of the first, and of older files
+# the scene whose settings zebra and smooth it has; none: the first one's, and in older files
 SCENE_TAG = "fairing_inspection_scene"
 
-# the colour attribute that the curvature material shows
+# the colour attribute that the curvature material reads
 COLOUR = "Fairing Curvature"
 
 STRIPES_NAMES = {
@@ -24,14 +24,14 @@ CURVATURE_NAME, CURVATURE_MODE = "Fairing Curvature", "CURVATURE"
 
 
 class Graph:
-    """Adds nodes to a tree; inputs may be sockets to link or plain values."""
+    """Adds nodes to a tree; inputs are sockets to link or plain values."""
 
     def __init__(self, tree: Any) -> None:
         self.tree = tree
         tree.nodes.clear()
 
     def node(self, kind: str, name: str = "", inputs: Any = (), **settings: Any) -> Any:
-        """A node with its properties `settings` and `inputs`: a dict by socket name or position."""
+        """A node with the properties `settings` and the `inputs`: a dict by socket name or position."""
         node = self.tree.nodes.new(kind)
         if name:
             node.name = node.label = name
@@ -51,8 +51,8 @@ class Graph:
 
 
 def scene_key(settings: Any) -> int:
-    """A number that no other scene has, for what is made by the `settings` of one. A scene that was
-    copied, or is new, gets its own on first use.
+    """A number that identifies the scene of `settings`. A new or copied scene gets its own on first
+    use.
     """
     others = {
         scene.discrete_fairing_inspection.key
@@ -65,7 +65,7 @@ def scene_key(settings: Any) -> int:
 
 
 def tagged(collection: Any, mode: str, key: int = 0) -> Any:
-    """The member of a bpy.data collection that was made for `mode` in the scene of `key`, or None."""
+    """The member of a bpy.data collection that was made for `mode` in the scene with `key`, or None."""
     return next(
         (
             item
@@ -79,14 +79,14 @@ def tagged(collection: Any, mode: str, key: int = 0) -> Any:
 
 
 def tag(item: Any, mode: str, key: int) -> None:
-    """Lets `tagged` find a material or node group."""
+    """Marks a material or node group for `tagged`."""
     item[INSPECTION_TAG] = mode
     if key:
         item[SCENE_TAG] = key
 
 
 def lay_out(tree: Any) -> None:
-    """Nodes in columns by how far they are from the output, for those who look inside."""
+    """Arranges nodes in columns by distance from the output, for users who open the tree."""
     depth: dict[str, int] = {}
 
     def visit(node: Any, at: int) -> None:
@@ -107,7 +107,7 @@ def lay_out(tree: Any) -> None:
 
 
 def stripes_material(mode: str, settings: Any) -> bpy.types.Material:
-    """The material of the scene whose `settings` these are, for one of STRIPES; made if need be."""
+    """The material for one of STRIPES in the scene with these `settings`; created if missing."""
     key = scene_key(settings)
     material: Any = tagged(bpy.data.materials, mode, key) or _build_stripes(mode, key)
     nodes, stripes = material.node_tree.nodes, stripes_of(mode, settings)
@@ -120,16 +120,16 @@ def stripes_material(mode: str, settings: Any) -> bpy.types.Material:
 
 
 def _begin(name: str, mode: str, key: int = 0) -> tuple[bpy.types.Material, Graph]:
-    """A new material that shows a mode of inspection, and its empty graph."""
+    """A new material for a mode of inspection, and its empty graph."""
     material = bpy.data.materials.new(name)
     tag(material, mode, key)
-    if not material.use_nodes:  # since 5.0 always on, and setting it is deprecated
+    if not material.use_nodes:  # always on since 5.0, where setting it is deprecated
         material.use_nodes = True
     return material, Graph(material.node_tree)
 
 
 def _finish(graph: Graph, emission: bpy.types.Node) -> None:
-    """What the camera sees shines; other objects see grey, so that it does not light the scene."""
+    """Emission towards the camera; for other rays grey, so that it does not light the scene."""
     grey = graph.node("ShaderNodeBsdfDiffuse")
     seen = graph.node("ShaderNodeLightPath")
     mix = graph.node(
@@ -141,7 +141,7 @@ def _finish(graph: Graph, emission: bpy.types.Node) -> None:
 
 
 def _seen_direction(graph: Graph, mode: str) -> bpy.types.NodeSocket:
-    """That of the mirrored ray, or for isophotes of the normal."""
+    """The direction of the mirrored ray, or for isophotes that of the normal."""
     geometry = graph.node("ShaderNodeNewGeometry")
     if mode == "ISOPHOTES":
         return geometry.outputs["Normal"]
@@ -187,14 +187,14 @@ def _build_stripes(mode: str, key: int) -> bpy.types.Material:
 
 
 def _set_colours(graph: Graph, mix: Any, factor: bpy.types.NodeSocket) -> None:
-    """The Mix node has sockets of the same name for every type: find those for colours."""
+    """Sets the colour sockets of the Mix node, which has sockets of the same name for every type."""
     colours = [socket for socket in mix.inputs if socket.type == "RGBA"]
     colours[0].default_value, colours[1].default_value = (*DARK, 1.0), (*LIGHT, 1.0)
     graph.tree.links.new(factor, mix.inputs[0])
 
 
 def curvature_material() -> bpy.types.Material:
-    """The one curvature material of the file, made if need be."""
+    """The single curvature material of the file; created if missing."""
     return tagged(bpy.data.materials, CURVATURE_MODE) or _build_curvature()
 
 
@@ -207,7 +207,7 @@ def _build_curvature() -> bpy.types.Material:
         inputs={0: geometry.outputs["Incoming"], 1: geometry.outputs["Normal"]},
         operation="DOT_PRODUCT",
     )
-    # enough shade to see the shape, too little to change what the colour says; no lamp is needed
+    # enough shade to show the shape, but too little to change the colours; needs no lamp
     shade = graph.node(
         "ShaderNodeMapRange",
         "Shade",

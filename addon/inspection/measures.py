@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The numbers of the read-out, and the colours of curvature: plain arrays, no Blender."""
+"""The numbers of the read-out, and the colours of curvature. Plain arrays, no Blender."""
 
 from typing import Any
 
@@ -28,14 +28,13 @@ _AMOUNT = (
     (96, 8, 54),
 )
 
-NEUTRAL = (0.15, 0.15, 0.15)  # linear: where there is nothing to measure
+NEUTRAL = (0.15, 0.15, 0.15)  # linear; the colour of missing values
 
 
 def measure(arrays: ControlArrays) -> dict[str, Any]:
-    """What can be said of one mesh in numbers, as plain floats and ints; angles in
-    degrees.
+    """The measures of one mesh, as plain floats and ints; angles in degrees.
 
-    Curvature is left out at borders and edges marked sharp, where it is not defined.
+    Excludes the curvature at borders and edges marked sharp, where it is undefined.
     """
     bent = curvature(arrays)
     worst, worst_any = worst_folds(arrays)
@@ -52,7 +51,7 @@ def measure(arrays: ControlArrays) -> dict[str, Any]:
 
 
 def total_curvature(bent: Curvature) -> float:
-    """∫ κ₁² + κ₂² as a sum over the vertices where it is measured."""
+    """∫ κ₁² + κ₂² as a sum over the measured vertices."""
     return float((bent.total * bent.area)[bent.inner].sum())
 
 
@@ -66,10 +65,10 @@ def worst_folds(arrays: ControlArrays) -> tuple[float, float]:
 
 
 def fold_angles(arrays: ControlArrays) -> tuple[np.ndarray, np.ndarray]:
-    """(e,) angles in degrees between the normals of each edge's two faces, and (e,) bool where
-    there are two.
+    """(e,) angles in degrees between the normals of each edge's two faces, and (e,) bool: whether it
+    has two.
 
-    Two faces that run the wrong way round along their edge are compared as if one were turned over.
+    Two faces of opposite orientation are compared as if one were reversed.
     """
     normals = face_normals(arrays.positions, arrays.corners, arrays.offsets)
     pair = faces_of_edges(arrays)
@@ -77,7 +76,7 @@ def fold_angles(arrays: ControlArrays) -> tuple[np.ndarray, np.ndarray]:
         return np.zeros(len(pair)), np.zeros(len(pair), bool)
     first, second = normals[pair[:, 0]], normals[pair[:, 1]]
     second = second * np.where(_same_way(arrays), -1.0, 1.0)[:, None]
-    # from the lengths of sum and difference: arccos would lose half its digits near 0°
+    # from the lengths of sum and difference, since arccos would lose half of its digits near 0°
     apart = np.linalg.norm(first - second, axis=1)
     together = np.linalg.norm(first + second, axis=1)
     has_area = (normals != 0.0).any(axis=1)
@@ -86,8 +85,8 @@ def fold_angles(arrays: ControlArrays) -> tuple[np.ndarray, np.ndarray]:
 
 
 def thinnest_face(arrays: ControlArrays) -> tuple[int, float]:
-    """(id, ratio) of the face that is the most times as long as high: by its longest side and its
-    area. Those without area are left out; (-1, 0) if there are no others.
+    """(id, ratio) of the face with the largest ratio of length to height, from its longest side and its
+    area. Ignores faces without area; (-1, 0) if there are no others.
     """
     area = face_areas(arrays.positions, arrays.corners, arrays.offsets)
     if not (area > 0.0).any():
@@ -107,8 +106,8 @@ def percentiles(values: np.ndarray, *ranks: float) -> list[float]:
 
 
 def largest_deviation(control: np.ndarray, result: np.ndarray) -> float | None:
-    """How far the first vertices of `result` (N, 3), which stand for those of `control` (n, 3), are
-    from them; None if fewer.
+    """The largest distance between `control` (n, 3) and the first n vertices of `result` (N, 3), which
+    correspond; None if there are fewer.
     """
     if len(result) < len(control) or not len(control):
         return None
@@ -116,7 +115,7 @@ def largest_deviation(control: np.ndarray, result: np.ndarray) -> float | None:
 
 
 def _same_way(arrays: ControlArrays) -> np.ndarray:
-    """(e,) bool: edges that their faces run along in the same direction."""
+    """(e,) bool: edges along which both faces run in the same direction."""
     forward = arrays.edges[arrays.corner_edges, 0] == arrays.corners
     total = np.bincount(arrays.corner_edges, weights=forward, minlength=len(arrays.edges))
     return total != 1
@@ -125,10 +124,10 @@ def _same_way(arrays: ControlArrays) -> np.ndarray:
 def value_range(
     values: np.ndarray, inner: np.ndarray, signed: bool, low: float, high: float
 ) -> tuple[float, float]:
-    """(lowest, highest) value that gets a colour of its own: the percentiles `low` and `high` of
-    `values` where `inner`.
+    """(lowest, highest) value of the colour scale: the percentiles `low` and `high` of `values` where
+    `inner`.
 
-    `signed`: as far below zero as above, so that flat is always the middle colour.
+    `signed`: symmetric about zero, so that flat always has the middle colour.
     """
     below, above = percentiles(values[inner], low, high)
     if signed:
@@ -140,7 +139,7 @@ def value_range(
 
 
 def colours_of(values: np.ndarray, limits: tuple[float, float], signed: bool) -> np.ndarray:
-    """(n, 4) float32 linear RGBA for (n,) `values` between the two `limits`; beyond them the end
+    """(n, 4) float32 linear RGBA for (n,) `values` between the two `limits`; values beyond get the end
     colours.
     """
     rgba = shades_of(values, limits, signed)
@@ -149,11 +148,11 @@ def colours_of(values: np.ndarray, limits: tuple[float, float], signed: bool) ->
 
 
 def shades_of(values: np.ndarray, limits: tuple[float, float], signed: bool) -> np.ndarray:
-    """The same as a screen takes it: (n, 4) float32 sRGBA."""
+    """The same for screens: (n, 4) float32 sRGBA."""
     stops = np.array(_SIGNED if signed else _AMOUNT) / 255.0
     low, high = limits
     at = np.clip((values - low) / (high - low), 0.0, 1.0)
-    if not signed:  # a sum of squares: its root has even steps
+    if not signed:  # the root of a sum of squares has even steps
         at = np.sqrt(at)
     at *= len(stops) - 1
     rgba = np.ones((len(values), 4), np.float32)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Section curves and their combs: drawn over the viewport.
+"""Section curves and their combs, drawn over the viewport.
 
-What is drawn hangs on the object's settings alone. Points on the graphics card are a cache: every
-change of a mesh, undo and a new file throw it away, and the next drawing makes it again.
+The drawing depends on the object's settings only. Points on the graphics card are a cache: any change
+of a mesh, undo or a new file clears it, and the next drawing fills it.
 """
 
 from dataclasses import dataclass, field
@@ -20,13 +20,13 @@ from ..mesh.object import Showing, changed_keys, session_key
 from .drawn import Drawn
 from .overlay_arrays import lines_of, pulled, surface_of
 
-gpu: Any = _gpu  # whose stubs say little of it
+gpu: Any = _gpu  # its stubs are incomplete
 batch_for_shader: Any = _batch.batch_for_shader
 
 
 @dataclass
 class _Entry:
-    """What the graphics card keeps of one object."""
+    """The data of one object on the graphics card."""
 
     surface: Drawn
     smooth: bool
@@ -39,23 +39,23 @@ _handle: Any = None
 
 
 def is_on() -> bool:
-    """Whether anything is ever drawn: in a window."""
+    """Whether drawing is possible: in a window."""
     return _handle is not None
 
 
 def shown_changed() -> None:
-    """To be called when an object has been told to show something else."""
+    """Call this when an object's displayed values change."""
     _shown.forget()
     redraw()
 
 
 def moved(target: Object) -> None:
-    """To be called when a handler has written its mesh: Blender tells no handler of that."""
+    """Call this when a handler has written its mesh, which Blender does not report to handlers."""
     _entries.pop(session_key(target), None)
 
 
 def redraw() -> None:
-    """All viewports, after settings have changed."""
+    """Redraws all viewports after settings have changed."""
     for window in current_context().window_manager.windows:
         for area in window.screen.areas:
             if area.type == "VIEW_3D":
@@ -118,7 +118,7 @@ def _draw_lines(entry: _Entry, target: Object, settings: Any, projection: np.nda
 
 
 def _note_changes(_scene: Any, depsgraph: bpy.types.Depsgraph) -> None:
-    """Throws away what no longer fits, also where a modifier has looked at another object."""
+    """Drops entries that changes make invalid, including modifiers that read another object."""
     if not _entries:
         return
     changed = changed_keys(depsgraph, moved=False)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the overlay gives to the graphics card, as arrays: testable without one."""
+"""The arrays of the overlay for the graphics card, which can be tested without one."""
 
 from typing import Any
 
@@ -11,15 +11,15 @@ from .drawn import Drawn, drawn
 from .sections import combs, sections, segments, teeth
 
 CURVE = (0.02, 0.02, 0.02, 1.0)
-# of planes across X, Y, Z: combs over one another are told apart
+# for planes across X, Y, Z: distinguishable if combs overlap
 COMBS = ((0.85, 0.3, 0.05), (0.15, 0.55, 0.1), (0.1, 0.35, 0.85))
 
-_PULL = 1e-3  # towards the eye, a share of the distance: else surface and lines would mix
+_PULL = 1e-3  # relative offset towards the eye, without which surface and lines would mix
 
 
 def surface_of(target: Object, depsgraph: bpy.types.Depsgraph, smooth: bool = False) -> Drawn:
-    """The mesh object `target` as it is seen, modifiers, edits and all; `smooth`: a mesh with flat
-    faces as if it had none, and no sharp edges.
+    """The mesh object `target` as displayed, with modifiers and edits; `smooth`: as if it had no flat
+    faces and no sharp edges.
     """
     evaluated = target.evaluated_get(depsgraph)
     mesh: Any = evaluated.to_mesh()
@@ -42,8 +42,8 @@ def _corner_normals(mesh: Any, corners: np.ndarray, smooth: bool) -> np.ndarray:
 
 
 def lines_of(surface: Drawn, settings: Any) -> list[tuple[np.ndarray, tuple[float, ...]]]:
-    """Points (s, 3) float32, two a line, and their colour: section curves and their combs, whose scale and colour are
-    those of the axis: a hull bends along its length far less than across.
+    """Points (s, 3) float32, two a line, and their colour: section curves and combs. Each axis has its
+    own scale and colour, since a hull bends much less along its length than across.
     """
     low, high = (getattr(surface.points, end)(axis=0, initial=0.0) for end in ("min", "max"))
     diagonal = float(np.linalg.norm(high - low))
@@ -63,8 +63,8 @@ def lines_of(surface: Drawn, settings: Any) -> list[tuple[np.ndarray, tuple[floa
 
 
 def pulled(projection: np.ndarray, distance: float) -> np.ndarray:
-    """The projection that moves what it draws a little towards the eye, in depth alone; `distance`
-    of the eye from what it looks at.
+    """The projection with a small offset in depth towards the eye; `distance`: from the eye to its
+    target.
     """
     pull = np.eye(4)
     if projection[3, 3] == 0.0:  # perspective: along the ray

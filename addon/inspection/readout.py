@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The numbers before and after: of the control mesh and of what became of it.
+"""The numbers before and after: of the control mesh and of its surface.
 
-Kept with the object.
+Stored with the object.
 """
 
 from collections.abc import Callable
@@ -17,9 +17,9 @@ from ..mesh.world_shape import world_shape
 from ..units import curvature_text, length_text
 from .measures import largest_deviation, measure
 
-# (label, key, how to write it: a format, or what knows the units of a scene)
+# (label, key, format: a string, or a function that knows the scene's units)
 ROWS: tuple[tuple[str, str, str | Callable[[Scene, float], str]], ...] = (
-    ("Total curvature", "total_curvature", "{:.4g}"),  # has no unit
+    ("Total curvature", "total_curvature", "{:.4g}"),  # without a unit
     ("Largest curvature", "largest_curvature", curvature_text),
     ("98 % lie below", "curvature_98", curvature_text),
     ("Worst fold", "worst_fold", "{:.2f}°"),
@@ -30,17 +30,17 @@ ROWS: tuple[tuple[str, str, str | Callable[[Scene, float], str]], ...] = (
     ("Faces", "faces", "{:,}"),
 )
 _FORMS = {key: form for _, key, form in ROWS}
-# said wherever there is a column Before
+# shown if there is a column Before
 NO_SURFACE = "Before is the control mesh: too coarse for curvature, and its folds are those between flat faces."
 _OF_SURFACES = {"total_curvature", "largest_curvature", "curvature_98"}
 
 
 def take(context: Context, target: Object, source: Object | None = None) -> dict[str, Any]:
-    """Measures `target` and, if there is one, the mesh object `source` that it was made from;
-    remembers and returns both.
+    """Measures `target` and, if given, the mesh object `source` that it was made from; stores and
+    returns both.
 
-    {"after": numbers, "before": numbers or None}; see measures.measure, with `deviation` where
-    known, and what the core has reported: steps, and what one more might gain, in percent.
+    {"after": numbers, "before": numbers or None}; see measures.measure, with `deviation` if known, and
+    the core's report: steps, and the possible gain of another step, in percent.
     """
     after, positions = _measured(context, target)
     before = None
@@ -60,13 +60,13 @@ def take(context: Context, target: Object, source: Object | None = None) -> dict
 
 
 def is_stale(target: Object, record: dict[str, Any]) -> bool:
-    """Whether the mesh of `target` was changed since `record` was taken."""
+    """Whether the mesh of `target` has changed since `record` was made."""
     return mesh_changes.is_stale(target.data, record["counts"])
 
 
 def table(record: dict[str, Any], scene: Scene) -> list[tuple[str, str, str]]:
-    """Rows (label, before, after) of texts; lines that nobody knows anything about are left out."""
-    before = dict(record["before"] or {}) | dict.fromkeys(_OF_SURFACES)  # older files have them
+    """Rows (label, before, after) of texts, without unknown values."""
+    before = dict(record["before"] or {}) | dict.fromkeys(_OF_SURFACES)  # older files have these
     rows = [
         (label, text(before, key, scene), text(record["after"], key, scene))
         for label, key, _ in ROWS
@@ -81,7 +81,7 @@ def _measured(context: Context, target: Object) -> tuple[dict[str, Any], np.ndar
 
 
 def text(figures: dict[str, Any], key: str, scene: Scene) -> str:
-    """One of the ROWS as it is shown; empty where nobody knows it."""
+    """The text of one of the ROWS; empty if unknown."""
     value, form = figures.get(key), _FORMS[key]
     if value is None:
         return ""

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Planar sections of a surface, and how they bend: plain arrays, no Blender.
+"""Planar sections of a surface and their curvature. Plain arrays, no Blender.
 
-On a smooth surface a section's normal is the surface's, projected to the plane. So its curvature is
-how fast that turns along the section: a first difference of normals, where the polyline itself would
-need a second one, of points that lie on chords.
+On a smooth surface a section's normal is the surface's, projected to the plane. So its curvature is the
+rate at which this normal turns along the section: a first difference of normals, while the polyline
+would need a second difference of points on chords.
 """
 
 from dataclasses import dataclass
@@ -12,17 +12,17 @@ import numpy as np
 
 from .drawn import Drawn
 
-_TOOTH = 0.12  # of the surface's diagonal: a tooth of the comb that few exceed
+_TOOTH = 0.12  # relative to the surface's diagonal: a tooth of the comb that few exceed
 
 
 @dataclass(frozen=True)
 class Section:
-    """One curve, and k points on it, evenly spaced; the last is the first again if it is closed."""
+    """One curve, and k points on it, evenly spaced; a closed curve repeats the first point."""
 
-    curve: np.ndarray  # (l, 3) where the edges of the mesh cross the plane
+    curve: np.ndarray  # (l, 3) where edges of the mesh cross the plane
     points: np.ndarray  # (k, 3)
     normals: np.ndarray  # (k, 3) unit, in the plane
-    curvature: np.ndarray  # (k,) positive where the side of the normals bulges
+    curvature: np.ndarray  # (k,) positive if the curve bulges to the side of the normals
     closed: bool
 
     @property
@@ -31,13 +31,15 @@ class Section:
 
 
 def heights(points: np.ndarray, axis: int, count: int) -> np.ndarray:
-    """(count,) where planes across `axis` (0 to 2) cut (n, 3) points: in the middles of even parts."""
+    """(count,) positions of planes across `axis` (0 to 2) through (n, 3) points: the midpoints of equal
+    parts.
+    """
     low, high = points[:, axis].min(), points[:, axis].max()
     return low + (high - low) * (np.arange(count) + 0.5) / count
 
 
 def sections(surface: Drawn, axis: int, count: int) -> list[Section]:
-    """The curves in which `count` even planes across `axis` cut the surface; broken at sharp edges."""
+    """The curves in which `count` even planes across `axis` cut the surface; they end at sharp edges."""
     if not len(surface.triangles) or not count:
         return []
     spacing = _mean_edge(surface)
@@ -48,8 +50,8 @@ def sections(surface: Drawn, axis: int, count: int) -> list[Section]:
 
 
 def cut(surface: Drawn, normal: np.ndarray, place: float) -> list[np.ndarray]:
-    """Curves (k, 3) float64 in which the plane `normal` · p = `place` cuts the surface; closed ones end where they
-    begin. `normal` (3,) unit.
+    """Curves (k, 3) float64 in which the plane `normal` · p = `place` cuts the surface; closed ones end
+    at their first point. `normal` (3,) unit.
     """
     if not len(surface.triangles):
         return []
@@ -61,15 +63,15 @@ def cut(surface: Drawn, normal: np.ndarray, place: float) -> list[np.ndarray]:
 
 
 def combs(found: list[Section], diagonal: float, scale: float = 1.0) -> list[np.ndarray]:
-    """(k, 3) the ends of the teeth of each section, on the side that bulges.
+    """(k, 3) the ends of the teeth of each section, on the convex side.
 
-    All have one scale: the usual curvature makes a tooth of a share of `diagonal`.
+    All sections have one scale: a typical curvature makes a tooth of a fixed share of `diagonal`.
     """
     usual = _usual_curvature(found)
     if usual <= 0.0:
         return [section.points for section in found]
     length = scale * _TOOTH * diagonal / usual
-    limit = 4.0 * usual  # what bends more, as over an edge, would fill the view
+    limit = 4.0 * usual  # higher curvature, such as at an edge, would fill the view
     return [
         s.points + s.normals * (length * np.clip(s.curvature, -limit, limit))[:, None]
         for s in found
@@ -77,8 +79,8 @@ def combs(found: list[Section], diagonal: float, scale: float = 1.0) -> list[np.
 
 
 def _usual_curvature(found: list[Section]) -> float:
-    """What 95 % of a section stay under, in the middle of all sections by their lengths: short ones
-    that bend tightly, as at a bow, do not flatten the combs of the long ones.
+    """The median over all sections, weighted by length, of each section's 95th percentile, so that
+    short tight sections, such as at a bow, do not flatten the combs of long ones.
     """
     if not found:
         return 0.0
@@ -89,13 +91,13 @@ def _usual_curvature(found: list[Section]) -> float:
 
 
 def segments(lines: list[np.ndarray]) -> np.ndarray:
-    """(s, 3) float32 points, two for each piece of the polylines (k, 3), as lines are drawn."""
+    """(s, 3) float32 points, two for each segment of the polylines (k, 3), for drawing lines."""
     pieces = [np.stack([line[:-1], line[1:]], axis=1).reshape(-1, 3) for line in lines]
     return np.concatenate(pieces).astype(np.float32) if pieces else np.empty((0, 3), np.float32)
 
 
 def teeth(found: list[Section], ends: list[np.ndarray]) -> np.ndarray:
-    """(s, 3) float32 points, two a tooth, as lines are drawn."""
+    """(s, 3) float32 points, two for each tooth, for drawing lines."""
     pieces = [
         np.stack([s.points, end], axis=1).reshape(-1, 3) for s, end in zip(found, ends, strict=True)
     ]
@@ -112,7 +114,7 @@ def _sections_at(surface: Drawn, axis: int, height: float, spacing: float) -> li
     crossed = surface.triangles[above[surface.triangles].sum(axis=1) % 3 > 0]
     if not len(crossed):
         return []
-    # of the three edges of each, those two with one end above
+    # the two of its three edges with one end above
     edges = np.stack([crossed, np.roll(crossed, -1, axis=1)], axis=2)
     cut = above[edges[:, :, 0]] != above[edges[:, :, 1]]
     ends = np.sort(edges[cut], axis=1)
@@ -141,7 +143,7 @@ def _crossings(
 
 
 def _chains(links: np.ndarray, count: int) -> list[tuple[np.ndarray, bool]]:
-    """Walks along `links` (l, 2) of `count` nodes, each taken once, and whether they are closed."""
+    """Walks along `links` (l, 2) of `count` nodes, each used once, and whether they are closed."""
     at = np.concatenate([links[:, 0], links[:, 1]])
     order = np.argsort(at, kind="stable")
     begin = np.searchsorted(at[order], np.arange(count + 1)).tolist()
@@ -161,7 +163,7 @@ def _chains(links: np.ndarray, count: int) -> list[tuple[np.ndarray, bool]]:
             chain.append(node)
 
     degree = np.diff(begin)
-    for node in (*np.flatnonzero(degree % 2).tolist(), *range(count)):  # ends of open ones first
+    for node in (*np.flatnonzero(degree % 2).tolist(), *range(count)):  # ends of open walks first
         chain = walk(node)
         if len(chain) > 1:
             found.append((np.array(chain), chain[0] == chain[-1]))
@@ -188,7 +190,7 @@ def _resampled(
 
 
 def _rate(path: np.ndarray, angle: np.ndarray, axis: int, closed: bool) -> np.ndarray:
-    """(k,) how far the normal at `angle` (k,) turns for each length of the `path` (k, 3), towards it."""
+    """(k,) the rate at which the normal at `angle` (k,) turns towards the `path` (k, 3), per length."""
     if closed:
         around = angle[-1] - angle[0]
         angles = np.concatenate([[angle[-2] - around], angle, [angle[1] + around]])
@@ -197,6 +199,6 @@ def _rate(path: np.ndarray, angle: np.ndarray, axis: int, closed: bool) -> np.nd
     else:
         turn, way = np.gradient(angle), np.gradient(path, axis=0)
     u, v = way[:, (axis + 1) % 3], way[:, (axis + 2) % 3]
-    # a unit normal's derivative by its angle is the normal turned by a right angle
+    # the derivative of a unit normal by its angle is the normal rotated by 90 degrees
     ahead = np.cos(angle) * v - np.sin(angle) * u
     return turn * np.sign(ahead) / np.maximum(np.hypot(u, v), np.finfo(float).tiny)

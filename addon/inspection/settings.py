@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What each object shows; and, for the whole scene so that objects compare, how it is drawn."""
+"""The display of each object; and settings of a scene, so that its objects are comparable."""
 
 from math import radians
 from typing import Any
@@ -93,7 +93,7 @@ def _range_changed(group: Any, _context: Context) -> None:
 
 
 def _drawing_changed(group: Any, _context: Context) -> None:
-    """Of all objects of this scene; an object in two scenes shows the last choice."""
+    """Updates all objects of this scene; an object in two scenes shows the last change."""
     for target in group.id_data.objects:
         if target.type == "MESH":
             display.redraw(target, group)
@@ -105,7 +105,7 @@ def _lines_changed(_group: Any, _context: Context) -> None:
 
 
 class FAIRING_PG_display(bpy.types.PropertyGroup):
-    """What an object shows; kept with the object."""
+    """The display of an object; stored with the object."""
 
     mode: EnumProperty(
         name="Show",
@@ -123,7 +123,7 @@ class FAIRING_PG_display(bpy.types.PropertyGroup):
 
 
 class FAIRING_PG_inspection(bpy.types.PropertyGroup):
-    """How it is drawn; kept with the scene."""
+    """Settings of the display; stored with the scene."""
 
     key: IntProperty(
         name="Key",

@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""An object in another material, without a hand on its own: a geometry-nodes modifier that sets one
+"""Shows an object in another material without changing its own: a geometry-nodes modifier sets one
 material at the end.
 
-Swapping the material slots instead would have to put back slots of object and mesh, also of other
-objects with the same mesh, through undo, saving, and a recompute that brings a new mesh. The
-modifier is plain Blender data: without the add-on it still shows the material, and deleting it ends
-the matter.
+Exchanging material slots would require restoring the slots of object and mesh, and of other objects
+with the same mesh, through undo, saving, and a recompute that brings a new mesh. The modifier is plain
+Blender data: it shows the material without the add-on, and can simply be deleted.
 """
 
 from typing import Any
@@ -22,7 +21,7 @@ NAME = "Fairing Inspection"
 def put_on(target: Object, mode: str, material: bpy.types.Material, settings: Any) -> None:
     """Shows `target` in `material`, shaded smooth if the scene's `settings` say so.
 
-    `mode` names what is shown, one node group for each in a scene.
+    `mode`: the mode shown; each has one node group in a scene.
     """
     modifier: Any = inspection_modifier(target) or target.modifiers.new(NAME, "NODES")
     modifier.node_group = _group(mode, material, settings)
@@ -31,9 +30,7 @@ def put_on(target: Object, mode: str, material: bpy.types.Material, settings: An
 
 
 def take_off(target: Object) -> None:
-    """Shows `target` in its own materials again, and removes what showed it so if nobody else needs
-    it.
-    """
+    """Shows `target` in its own materials again, and removes unused data."""
     modifier = inspection_modifier(target)
     if modifier is not None:
         target.modifiers.remove(modifier)

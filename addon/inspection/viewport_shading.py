@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The shading of a viewport that shows what is inspected, and the way back.
+"""Switches the shading of a viewport for inspection, and back.
 
-What it was before is kept with the viewport itself: it goes with it, and files have it.
+The previous shading is stored with the viewport, so that it is saved and deleted with it.
 """
 
 from contextlib import suppress
@@ -10,17 +10,19 @@ from typing import Any
 import bpy
 from bpy.props import StringProperty
 
-_BEFORE = "discrete_fairing_before"  # of a viewport's shading: its type
+_BEFORE = "discrete_fairing_before"  # custom property of a viewport's shading: its previous type
 
 
 def shows(space: Any, mode: str) -> bool:
-    """Whether the viewport `space` shows objects in a `mode` of inspection; others have no shading."""
+    """Whether the viewport `space` shows objects in a `mode` of inspection; other spaces have no
+    shading.
+    """
     shading = getattr(space, "shading", None)
     return mode == "NONE" or shading is None or shading.type in {"MATERIAL", "RENDERED"}
 
 
 def show(space: Any, mode: str) -> None:
-    """Switches the viewport `space` if it does not show `mode`; back, if that is NONE."""
+    """Switches the viewport `space` if it does not show `mode`; for NONE, switches back."""
     if mode == "NONE":
         _restore(space)
     elif not shows(space, mode):
@@ -34,12 +36,12 @@ def _restore(space: Any) -> None:
     if shading is None or not before:
         return
     setattr(shading, _BEFORE, "")
-    with suppress(TypeError):  # files may hold any text
+    with suppress(TypeError):  # files may contain any text
         shading.type = before[0]
 
 
 def register() -> None:
-    make_property: Any = StringProperty  # whose stub says None
+    make_property: Any = StringProperty  # its stub returns None
     setattr(bpy.types.View3DShading, _BEFORE, make_property(options={"HIDDEN"}))
 
 

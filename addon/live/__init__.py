@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Surfaces that follow their sources while these are edited."""
+"""Surfaces that follow their sources during edits."""

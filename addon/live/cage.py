@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The control mesh of a live surface: shown as wire, so that the surface is seen through it."""
+"""Shows the control mesh of a live surface as wire, so that the surface is visible through it."""
 
 from collections.abc import Iterable
 from typing import Any, Literal, cast
@@ -14,7 +14,7 @@ _KINDS = cast(Any, bpy.types.Object.bl_rna.properties["display_type"]).enum_item
 
 
 def show(target: Object) -> None:
-    """From now on as wire; how it was shown is kept with `target`."""
+    """Shows it as wire; its previous display is stored with `target`."""
     source, live = source_of(target), target.discrete_fairing_live
     if source is None or not live.cage_as_wire or _is_linked(source, target):
         return
@@ -24,7 +24,9 @@ def show(target: Object) -> None:
 
 
 def restore(target: Object, others: Iterable[Object] = ()) -> None:
-    """As it was, unless the user has changed it meanwhile; `others`: surfaces that are still live."""
+    """Restores its display, unless the user has changed it since; `others`: surfaces that are still
+    live.
+    """
     source, live = source_of(target), target.discrete_fairing_live
     if source is None or not live.cage_display or _is_linked(source, target):
         return
@@ -32,7 +34,7 @@ def restore(target: Object, others: Iterable[Object] = ()) -> None:
     heir = next((o for o in others if o != target and source_of(o) == source), None)
     if heir is not None and heir.discrete_fairing_live.cage_as_wire:
         heir.discrete_fairing_live.cage_display = before
-    elif source.display_type == _WIRE and before in _KINDS:  # files may hold any text
+    elif source.display_type == _WIRE and before in _KINDS:  # files may contain any text
         source.display_type = cast(Any, before)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Live surfaces over curves: their control meshes are made again before the surfaces are."""
+"""Live surfaces over curves: their control meshes are updated before the surfaces."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ if TYPE_CHECKING:
 
 
 def refreshed(sessions: Iterable[Session], changed: Collection[int | str]) -> set[int | str]:
-    """Keys of the control meshes that were made again, since one of their curves is among the `changed`
+    """Keys of the control meshes that were updated because one of their curves is among the `changed`
     data-blocks.
     """
-    found: dict[int | str, str] = {}  # control mesh: why it could not be
+    found: dict[int | str, str] = {}  # control mesh: why it could not be updated
     for session in sessions:
         source = session.objects()[0]
         if source is None or not curve_cage.is_cage(source):

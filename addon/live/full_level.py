@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The surface at all its levels, once edits pause: on a thread, so that the next edit can begin."""
+"""Computes the surface at all its levels once edits pause, on a thread, so that the next edit can
+begin.
+"""
 
 from time import monotonic
 from typing import Any
@@ -13,18 +15,18 @@ from ..scan_fit import job_of
 from ..settings import Settings
 
 PAUSE = 0.3  # seconds without an edit
-# modal operators of these are edits
+# modal operators in these modes are edits
 _EDITING = ("TRANSFORM_OT_", "MESH_OT_", "SCULPT_OT_", "VIEW3D_OT_edit_mesh_")
 
 
 class FreshSolver:
-    """A solver about the shape that the mesh has now, with its first surface: what the next edit
-    starts from.
+    """A solver for the present shape of the mesh, with its first surface, as the start of the next
+    edit.
 
-    The one in use keeps the charts of the shape that it was made for, and may be needed meanwhile.
+    The solver in use keeps the charts of the shape it was made for, and may be needed meanwhile.
     """
 
-    triangles = 0  # for the bar: little beside the full level
+    triangles = 0  # for the progress bar: negligible beside the full level
 
     def __init__(self, name: str, arguments: dict[str, Any]) -> None:
         self.name = name
@@ -39,7 +41,7 @@ class FreshSolver:
 
 
 class FullLevel:
-    """A run of the job that Recompute does, and then of a fresh solver."""
+    """A run of the job of Recompute, and then of a fresh solver."""
 
     def __init__(
         self,
@@ -49,15 +51,15 @@ class FullLevel:
         region: np.ndarray | None,
         arguments: dict[str, Any],
     ) -> None:
-        """Reads; raises JobError. Then `start` or `compute`.
+        """Reads the mesh; raises JobError. Then call `start` or `compute`.
 
-        `arguments`: of the live solver, for `region` or all faces.
+        `arguments`: those of the live solver, for `region` or all faces.
         """
         settings = Settings.of(target.discrete_fairing)
         self.job = job_of(context, source, settings, target, region, again=False)
         now = ("vertices", "tolerance", "weights")
         its = {name: self.job.arguments[name] for name in now if name in self.job.arguments}
-        self.arguments = {**arguments, **its}  # of the fresh solver
+        self.arguments = {**arguments, **its}  # arguments of the fresh solver
         self._fresh = FreshSolver(source.name, self.arguments)
         self._queue = Queue([self.job, self._fresh], core.module().Monitor)
 
@@ -66,7 +68,7 @@ class FullLevel:
         self._queue.start()
 
     def compute(self) -> None:
-        """The surface alone, at once; raises JobError."""
+        """Computes the surface alone, at once; raises JobError."""
         self.job.compute()
 
     @property
@@ -80,12 +82,12 @@ class FullLevel:
 
     @property
     def error(self) -> str | None:
-        """Why there is no surface, a sentence; None if there is one."""
+        """Why there is no surface, as a sentence; None if there is one."""
         return self._queue.error
 
     @property
     def text(self) -> str:
-        """How far it is: `Fairing, 45 %`."""
+        """Its progress, such as `Fairing, 45 %`."""
         return f"{phase_text(self._queue.phase)}, {100 * self._queue.fraction:.0f} %"
 
     def cancel(self, wait: bool = False) -> None:
@@ -95,7 +97,7 @@ class FullLevel:
 
 
 class Schedule:
-    """When the full level begins; then its `run`, None while there is none."""
+    """Schedules the full level; `run` is the FullLevel in progress, or None."""
 
     def __init__(self) -> None:
         self._begins: float | None = None
@@ -106,15 +108,15 @@ class Schedule:
         return self._begins is not None
 
     def plan(self) -> None:
-        """It begins once edits have paused."""
+        """Plans the run for when edits have paused."""
         self._begins = monotonic() + PAUSE
 
     def drop(self) -> None:
-        """It does not begin."""
+        """Cancels the plan."""
         self._begins = None
 
     def is_due(self, context: Context, at_once: bool) -> bool:
-        """Whether it is to begin now; `at_once`: without a pause."""
+        """Whether the run must begin now; `at_once`: without a pause."""
         return (
             self._begins is not None
             and (at_once or monotonic() >= self._begins)
@@ -122,7 +124,7 @@ class Schedule:
         )
 
     def cancel(self, wait: bool = False) -> None:
-        """Of a run that has become worthless; the next is planned."""
+        """Cancels a run whose source has changed, and plans the next."""
         if self.run is not None:
             self.run.cancel(wait)
             self.run = None
@@ -130,7 +132,7 @@ class Schedule:
 
 
 def is_dragging(context: Context) -> bool:
-    """Whether a mouse drags something that is being edited."""
+    """Whether the mouse drags an edited element."""
     return any(
         operator.bl_idname.startswith(_EDITING)
         for window in context.window_manager.windows
@@ -139,6 +141,6 @@ def is_dragging(context: Context) -> bool:
 
 
 def is_editing(context: Context) -> bool:
-    """Whether an edit is still going on: a mouse that drags, an animation that plays."""
+    """Whether an edit is in progress: a dragging mouse, or a playing animation."""
     windows = context.window_manager.windows
     return is_dragging(context) or any(w.screen.is_animation_playing for w in windows)

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Handlers and the timer: the only place where Blender calls live surfaces.
 
-All are registered with the add-on and return at once while nothing is live: taking a handler away
-from within another would make Blender skip one of somebody else's. Without a window no timer ever
-runs, so there is none.
+All are registered with the add-on and return at once if nothing is live: if a handler removed one
+inside another handler, Blender would skip an unrelated one. Without a window no timer ever runs, so
+there is none.
 """
 
 from __future__ import annotations
@@ -23,10 +23,10 @@ if TYPE_CHECKING:
     from .session import Session
 
 
-INTERVAL = 0.1  # seconds between two looks at what waits
+INTERVAL = 0.1  # seconds between two checks
 
 _rendering = False
-_locked = False  # whether no window draws meanwhile
+_locked = False  # whether windows do not draw during renders
 _progress = Progress()
 
 
@@ -37,10 +37,10 @@ def start_timer() -> None:
 
 
 def on_timer() -> float | None:
-    """Ends what has lost its objects, follows settings, whose change Blender does not announce, and
-    sees to full levels.
+    """Ends sessions that have lost their objects, follows settings, whose changes Blender does not
+    report, and advances full levels.
 
-    As a timer: the seconds until the next look.
+    As a timer: returns the seconds until the next call.
     """
     if _rendering:
         return INTERVAL
@@ -52,17 +52,17 @@ def on_timer() -> float | None:
 
 
 def _shown(session: Session) -> tuple[Hashable, ...]:
-    """What the panel shows of it, to see whether that has changed."""
+    """The text that the panel shows, to detect changes."""
     return session.key, session.updates, session.level, session.full_text, session.trouble
 
 
 def look_at(session: Session) -> None:
-    """The first surface of a session, without waiting for a change."""
+    """Makes the first surface of a session, without waiting for a change."""
     guarded(session, lambda it: it.follow())
 
 
 def complete(session: Session, context: Context) -> None:
-    """The full level now if it is due, and the end."""
+    """Computes the full level now if it is due, and ends the session if it is to end."""
     guarded(session, lambda it: it.complete(context))
     if session in registry.sessions():
         registry.remove(session)
@@ -78,8 +78,8 @@ def _advance(session: Session) -> None:
 
 
 def guarded(session: Session, step: Callable[[Session], object]) -> None:
-    """An error must not stop Blender's timer, nor come again with each redraw: it ends the session
-    and is told.
+    """Runs a step. An error must neither stop Blender's timer nor repeat with each redraw: it ends the
+    session and is reported.
     """
     gone = session.why_gone()
     if gone:
@@ -113,8 +113,8 @@ def _follow(_scene: Scene, depsgraph: bpy.types.Depsgraph) -> None:
 
 
 def _follow_frame(_scene: Scene, depsgraph: bpy.types.Depsgraph) -> None:
-    """Shape keys, armatures and drivers of another frame: Blender does not name all that they
-    change.
+    """Follows shape keys, armatures and drivers of another frame, whose changes Blender does not all
+    report.
     """
     if registry.ignores_updates():
         return
@@ -122,7 +122,7 @@ def _follow_frame(_scene: Scene, depsgraph: bpy.types.Depsgraph) -> None:
     def step(session: Session) -> None:
         session.stand()
         session.follow(depsgraph)
-        if bpy.app.background and not _rendering:  # no timer looks later
+        if bpy.app.background and not _rendering:  # no timer runs later
             session.follow_unseen()
 
     for session in registry.sessions():
@@ -131,8 +131,8 @@ def _follow_frame(_scene: Scene, depsgraph: bpy.types.Depsgraph) -> None:
 
 
 def _is_awake(session: Session) -> bool:
-    """During a render only those are that the user wants there, and only where no window draws: it may
-    crash over a mesh that is being written.
+    """Whether a session follows changes. During a render only those do for which the user wants it, and
+    only if no window draws, since drawing a mesh that is being written may crash.
     """
     target = session.objects()[1]
     wanted = target is not None and target.discrete_fairing_live.in_renders
@@ -156,14 +156,14 @@ def _render_begins(scene: Scene | None = None, *_: Any) -> None:
 
 
 def _render_ends(*_: Any) -> None:
-    """May come on another thread: the timer does the rest."""
+    """May be called on another thread; the timer does the rest."""
     global _rendering
     _rendering = False
     _mark_all_stale()
 
 
 def _end_all(*_: Any) -> None:
-    """Before another file is loaded: nothing of this one may be touched any more."""
+    """Before another file is loaded: data of this one must not be used any more."""
     global _rendering
     _rendering = False
     registry.clear()

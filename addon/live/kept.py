@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Live that stays on in the file: noted when it is saved, switched on again when it is opened."""
+"""Live stored in the file: noted when it is saved, switched on when it is opened."""
 
 from typing import Any
 
@@ -11,7 +11,9 @@ from . import cage, registry, switch
 
 
 def _note(*_: Any) -> None:
-    """Which surfaces are live, before the file is written; it gets their own shape keys too."""
+    """Notes which surfaces are live before the file is written, and returns their own shape keys to
+    them.
+    """
     for session in registry.sessions():
         session.lend()
     for target in _surfaces():
@@ -19,8 +21,8 @@ def _note(*_: Any) -> None:
 
 
 def _restore(*_: Any) -> None:
-    """Of the file that was opened. Objects that cannot be live any more stay as they are, and so
-    does everything where there is no window, but for renders.
+    """Switches on the live surfaces of the opened file. Objects that cannot be live stay unchanged;
+    without a window all do, except for renders.
     """
     for target in _surfaces():
         live = target.discrete_fairing_live

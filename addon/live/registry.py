@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The surfaces that are live. It exists while Blender runs: files do not keep it."""
+"""The live surfaces. They exist while Blender runs and are not stored in files."""
 
 from __future__ import annotations
 
@@ -20,17 +20,19 @@ if TYPE_CHECKING:
 
 _sessions: dict[int | str, Session] = {}  # target key: Session
 _endings: dict[int | str, str] = {}  # target key: why it ended by itself, a sentence
-_known: dict[int | str, Reference] = {}  # those that are or were live since the file was opened
+_known: dict[int | str, Reference] = {}  # surfaces that are or were live since the file was opened
 _ignoring = 0
 
 
 def is_in_a_scene(target: Object) -> bool:
-    """Deleting takes an object out of its scenes; it goes itself only if nobody else refers to it."""
+    """Whether the object is in a scene. Deleting takes an object out of its scenes; it remains while
+    other data refer to it.
+    """
     return any(scene.objects.get(target.name) == target for scene in bpy.data.scenes)
 
 
 def why_gone(source: Object | None, target: Object | None) -> str:
-    """Why a surface and its source are not to be followed any more, a sentence; empty if they are."""
+    """Why a surface can no longer follow its source, a sentence; empty if it can."""
     if target is None or not is_in_a_scene(target):
         return "The surface was deleted: Live has ended"
     if source_problem(target):
@@ -40,7 +42,7 @@ def why_gone(source: Object | None, target: Object | None) -> str:
 
 
 def sessions() -> list[Session]:
-    """All of them, as a list that may be changed behind."""
+    """All sessions, as a list that stays valid while sessions end."""
     return list(_sessions.values())
 
 
@@ -50,7 +52,7 @@ def session_of(target: Object) -> Session | None:
 
 
 def known() -> list[Object]:
-    """The surfaces that are or were live since the file was opened, and are there."""
+    """The existing surfaces that are or were live since the file was opened."""
     return [target for one in _known.values() if (target := one.find()) is not None]
 
 
@@ -65,14 +67,14 @@ def add(session: Session) -> None:
 
 
 def note(target: Object, on: bool) -> None:
-    """Notes in the file, and so in the steps of undo, whether `target` is live."""
+    """Stores in the file, and so in undo steps, whether `target` is live."""
     if target.discrete_fairing_live.was_on != on:
         target.discrete_fairing_live.was_on = on
 
 
 def remove(session: Session, reason: str = "", hand_back: bool = True) -> None:
-    """Ends a session; `reason` if it was not switched off. `hand_back`: whether the surface is still what
-    the session has made of it.
+    """Ends a session; `reason` if it was not switched off. `hand_back`: whether the surface still has
+    the mesh that the session wrote.
     """
     session.cancel_full(wait=True)
     session.release(hand_back)
@@ -87,13 +89,13 @@ def remove(session: Session, reason: str = "", hand_back: bool = True) -> None:
 
 
 def give_up(session: Session, reason: str) -> None:
-    """Ends it for good: undo does not bring it back."""
+    """Ends the session finally: undo does not restore it."""
     remove(session, reason)
     _known.pop(session.key, None)
 
 
 def clear() -> None:
-    """Ends all."""
+    """Ends all sessions."""
     for session in sessions():
         remove(session, hand_back=False)
     _endings.clear()
@@ -101,13 +103,13 @@ def clear() -> None:
 
 
 def why_ended(target: Object) -> str:
-    """Why the surface is not live any more, a sentence; empty if it never was or was switched off."""
+    """Why the surface is no longer live, a sentence; empty if it never was or was switched off."""
     return _endings.get(session_key(target), "")
 
 
 @contextmanager
 def ignoring_updates() -> Iterator[None]:
-    """Inside the `with`, what changes is our own doing."""
+    """A context for the add-on's own changes, which handlers must ignore."""
     global _ignoring
     _ignoring += 1
     try:

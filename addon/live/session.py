@@ -31,12 +31,12 @@ from .full_level import FullLevel, Schedule, is_dragging
 from .pace import Clock, Deadline, Pace
 from .registry import why_gone
 
-# what is enough to look at, and mostly one step an update; the full level has the core's own
+# accurate enough for display, and usually one step an update; the full level has the core's default
 # accuracy
 _RESIDUAL = 1e-3
 _STEP = 1e-2
 
-# of Blender's dependency graph, that calls; None: nothing of Blender's is under way
+# the dependency graph of the current update; None outside an update
 Update: TypeAlias = bpy.types.Depsgraph | None
 
 SURFACE_EDITED = "The surface itself is being edited: Live waits"
@@ -45,7 +45,7 @@ SURFACE_EDITED = "The surface itself is being edited: Live waits"
 class Session:
     """Follows the source of one faired object.
 
-    `trouble`: why it cannot at this moment, a sentence; empty if it can.
+    `trouble`: why this is impossible at the moment, a sentence; empty if it is possible.
     """
 
     def __init__(self, target: Object) -> None:
@@ -53,60 +53,63 @@ class Session:
         self.key = self._target.key
         self.ending = False  # switched off, but the full level is still to come
         self.trouble = ""
-        self.level = 0  # of the surface shown last
+        self.level = 0  # level of the surface shown last
         self.triangles = 0
-        self.parts: dict[str, float] = {}  # ms of the last update: read, build, solve, write
+        # milliseconds of the last update: read, build, solve, write
+        self.parts: dict[str, float] = {}
         self.updates = 0
-        self._stale = True  # the mesh may not be what was written
-        self._unseen = False  # whether the timer is to look, as Blender's update did not
-        self._mesh: int | str | None = None  # key of the mesh that was built
+        self._stale = True  # whether the mesh may differ from the one written
+        # whether the timer must check, because Blender's update did not show a change
+        self._unseen = False
+        self._mesh: int | str | None = None  # key of the mesh for which the solver was built
         self._schedule = Schedule()  # of the full level
-        self._own: OwnData | None = None  # of the surface at its full level
+        self._own: OwnData | None = None  # the surface's own data, for its full level
         self._forget()
 
     def _forget(self) -> None:
-        """Everything that was made for other settings."""
+        """Drops everything that was made for other settings."""
         self.solver: Any = None
         self._arguments: Any = None
         self._arrays: Any = None
         self._settings: Any = None
         self._shape = WorldShape(None)
-        self._scan: Any = None  # as core.solver takes it
+        self._scan: Any = None  # for core.solver
         self._neighbour: int | str | None = None  # its key
-        self._beside: dict[str, Any] = {}  # of it, for the core
+        self._beside: dict[str, Any] = {}  # the neighbour's arguments for the core
         # of scans and neighbour:
-        self._other_blocks: set[int | str] = set()  # keys of what they are read from
-        self._others_seen: Any = None  # the places of source and surface that they were read for
-        self._others_due = False  # whether they may be others by now
+        # keys of the data-blocks that they were read from
+        self._other_blocks: set[int | str] = set()
+        self._others_seen: Any = None  # the transforms of source and surface when they were read
+        self._others_due = False  # whether they may have changed since
         self._region: np.ndarray | None = None
         self._tolerance_factors: np.ndarray | None = None
         self._pulls: np.ndarray | None = None
-        # of the mesh that the solver was made for: a drag does not change it
+        # of the mesh that the solver was made for, which a drag does not change
         self._edge_length = 0.0
         self._chosen = 0
         self._pace = Pace()
 
     def objects(self) -> tuple[Object | None, Object | None]:
-        """(source, target), None for what is gone."""
+        """(source, target), None for deleted ones."""
         target = self._target.find()
         return (source_of(target) if target is not None else None), target
 
     def _present(self) -> tuple[Object, Object]:
-        """(source, target), which are there: nothing is asked of a session before `why_gone`."""
+        """(source, target), which must exist: `why_gone` is called before."""
         source, target = self.objects()
         assert source is not None and target is not None
         return source, target
 
     def why_gone(self) -> str:
-        """Why there is nothing to follow any more, a sentence; empty if there is."""
+        """Why the surface can no longer be followed, a sentence; empty if it can."""
         return why_gone(*self.objects())
 
     def needs_look(
         self, reshaped: Collection[int | str] = (), moved: Collection[int | str] = ()
     ) -> bool:
-        """Whether the surface may be out of date; `reshaped`: keys of the data-blocks whose
-        geometry has changed, `moved`: of those whose place has, too. Scans and neighbours are read again by
-        the timer, once nothing is dragged: they may be large.
+        """Whether the surface may be out of date; `reshaped`: keys of the data-blocks with changed
+        geometry, `moved`: with a changed transform. The timer reads scans and neighbours again, once
+        nothing is dragged, since they may be large.
         """
         source, target = self._present()
         its = {session_key(source), session_key(source.data)}
@@ -119,18 +122,18 @@ class Session:
         return not self._has_settings_of(source, target)
 
     def mark_stale(self) -> None:
-        """Anything may have changed unseen, as by undo. Only notes it: for any thread."""
+        """Notes that anything may have changed, as by undo. May be called on any thread."""
         self._stale, self._mesh = True, None
 
     def stand(self) -> None:
-        """Where its source does."""
+        """Gives the surface the transform of its source."""
         place.follow(None, self._present()[1])
 
     def follow(self, depsgraph: Update = None) -> bool:
-        """Brings the surface up to date with source and settings, at the live level.
+        """Updates the surface for changes of source and settings, at the live level.
 
-        Within an update nothing can stand in for a source that is hidden: that is looked at later.
-        True if anything had changed.
+        A hidden source cannot be read within an update; the timer does it later. True if anything has
+        changed.
         """
         source, target = self._present()
         self._unseen = False
@@ -199,15 +202,11 @@ class Session:
         self._others_due = False
 
     def _mesh_now(self, source: Object, depsgraph: Update) -> AbstractContextManager[Mesh]:
-        """The control mesh of this moment, from Object Mode, Sculpt Mode or during an
-        edit; it is only read.
-        """
+        """The present control mesh, from Object Mode, Sculpt Mode or during an edit; read only."""
         return control_mesh(current_context(), source, is_evaluated(self._settings), depsgraph)
 
     def _solve(self, source: Object, arrays: ControlArrays, depsgraph: Update) -> Any:
-        """The surface at a level and by an energy that can be kept up with; found out by trying,
-        where need be.
-        """
+        """The surface at a level and by an energy that are fast enough; finds these by trial if needed."""
         while True:
             deadline = Deadline()
             try:
@@ -223,7 +222,9 @@ class Session:
             self._prepare(source, arrays, depsgraph)
 
     def _prepare(self, source: Object, arrays: ControlArrays, depsgraph: Update) -> bool:
-        """Makes a solver unless the present one is for the same mesh and settings; whether it did."""
+        """Makes a solver, unless the present one is for the same mesh and settings. Returns whether it
+        did.
+        """
         if self._settings.use_selection and (
             self._region is None or not arrays.has_faces_of(self._arrays)
         ):
@@ -287,18 +288,18 @@ class Session:
         self._stale = False
 
     def wait(self, sentence: str) -> None:
-        """Until the source is fine again: `sentence` says what is wrong with it."""
+        """Waits until the source is valid again: `sentence` describes its fault."""
         self._fail(sentence)
 
     def _fail(self, sentence: str) -> None:
-        """The last good surface stays, until the source is fine again."""
+        """Keeps the last good surface until the source is valid again."""
         self.cancel_full()
         self.trouble = sentence
         self._stale = False
         self._schedule.drop()
 
     def _has_settings_of(self, source: Object, target: Object) -> bool:
-        """The scale of the source counts as one."""
+        """The scale of the source counts as a setting."""
         return (
             self._settings == Settings.of(target.discrete_fairing)
             and self._chosen == _chosen_level(target)
@@ -307,8 +308,8 @@ class Session:
         )
 
     def _has_values_of(self, arrays: ControlArrays) -> bool:
-        """Whether vertices have in groups what they had: a mouse that drags changes places alone, and
-        Blender gives weights one by one, which takes long.
+        """Whether values from groups are unchanged. Not read during a drag, which changes positions
+        only, since Blender returns weights one by one, which is slow.
         """
         return (
             self._arrays is not None
@@ -325,11 +326,11 @@ class Session:
         return self._schedule.is_planned or self._schedule.run is not None
 
     def cancel_full(self, wait: bool = False) -> None:
-        """An edit makes the run worthless; the full level is due again."""
+        """Cancels the full level after an edit, and plans it again."""
         self._schedule.cancel(wait)
 
     def advance(self, context: Context) -> None:
-        """Begins the full level when edits have paused, and writes it when it is there."""
+        """Starts the full level when edits have paused, and writes it when it is complete."""
         run = self._schedule.run
         if run is not None and run.finished:
             self._finish(context)
@@ -339,12 +340,14 @@ class Session:
                 full.start()
 
     def follow_unseen(self) -> None:
-        """What Blender's update did not see, scans and neighbours. Not within one."""
+        """Follows changes that Blender's update does not show, and scans and neighbours. Not within an
+        update.
+        """
         if self._unseen or self._others_due:
             self.follow()
 
     def complete(self, context: Context) -> None:
-        """The full level now, if it is due: for scripts, and where there is no window."""
+        """Computes the full level now, if it is due: for scripts, and without a window."""
         self.follow_unseen()
         full = self._begin(context) if self._schedule.is_planned else None
         if full is None:
@@ -383,22 +386,22 @@ class Session:
         target = job.write(context, self._own)
         self._own = None
         self.level, self.triangles = job.settings.levels, job.triangles
-        # the same faces: the next edit need only move them
+        # the same faces: the next edit only moves them
         self._mesh = session_key(target.data) if job.settings.levels == self._level else None
         if full.solver is not None:
             self.solver, self._arguments = full.solver, full.arguments
             self._edge_length = job.edge_length
 
     def lend(self) -> None:
-        """What the surface has of its own comes back to it until the next edit: for a file that is saved."""
+        """Returns its own data to the surface until the next edit: for a file that is saved."""
         own, target = self._own, self._target.find()
         if own is not None and target is not None and target.mode != "EDIT":
             self._mesh = None
             own.write_keys(target, last=False)
 
     def release(self, hand_back: bool = True) -> None:
-        """What the surface has of its own comes back to it, on the level that it has; or is dropped, where
-        its mesh is not what was written. Handlers write all of that but shape keys.
+        """Returns its own data to the surface, on its present level; drops them if its mesh is not the
+        one written. Handlers write all except shape keys.
         """
         own, self._own = self._own, None
         target = self._target.find()
@@ -412,13 +415,13 @@ class Session:
 
     @property
     def full_text(self) -> str:
-        """How far the full level is, in words; empty while none is computed."""
+        """Progress of the full level, in words; empty if none is computed."""
         run = self._schedule.run
         return run.text if run is not None else ""
 
     @property
     def slower(self) -> list[str]:
-        """What is less than chosen during edits, a line each."""
+        """Settings that are reduced during edits, a line each."""
         if self._settings is None or not self.updates:
             return []
         less = ["Bending while editing"] if self._pace.is_plain else []

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Live on and off for button and scripts, which surfaces are meant, and what is said of them."""
+"""Switches Live on and off, for button and scripts, and describes its state."""
 
 from typing import Any
 
@@ -44,7 +44,7 @@ def is_seen_to(target: Object) -> bool:
 
 
 def switch_on(target: Object) -> None:
-    """Makes a faired object follow its source; nothing happens if it does, or cannot."""
+    """Makes a faired object follow its source; does nothing if it does already, or cannot."""
     session = registry.session_of(target)
     if session is not None:
         session.ending = False
@@ -59,7 +59,7 @@ def switch_on(target: Object) -> None:
 
 
 def switch_off(target: Object, context: Context) -> None:
-    """Ends it once the full level is there: in a window that comes by itself, otherwise at once."""
+    """Ends it once the full level is complete: in a window that happens later, otherwise at once."""
     session = registry.session_of(target)
     if session is None:
         return
@@ -70,8 +70,8 @@ def switch_off(target: Object, context: Context) -> None:
 
 
 def active_surfaces(context: Context) -> list[Object]:
-    """The faired objects that the active object stands for: itself, or what is made of it (all live
-    ones, else the last).
+    """The faired objects for the active object: itself, or the surfaces made from it (all live ones,
+    else the last).
     """
     active = context.active_object
     if active is None or active.type != "MESH":
@@ -88,7 +88,7 @@ def live_surfaces_of(source: Object) -> list[Object]:
 
 
 def look_again(source: Object) -> None:
-    """Live surfaces of `source` are made again with what Blender does not say has changed, such as new
+    """Updates the live surfaces of `source` after changes that Blender does not report, such as new
     shape keys.
     """
     for target in live_surfaces_of(source):
@@ -98,7 +98,7 @@ def look_again(source: Object) -> None:
 
 
 def surfaces_of(source: Object) -> list[Object]:
-    """What is made of `source` and can be made again, the newest last."""
+    """Surfaces made from `source` that can be recomputed, the newest last."""
     made = [o for o in all_objects() if o.type == "MESH" and o.discrete_fairing.source == source]
     return sorted(
         (o for o in made if not why_not(o) and is_in_a_scene(o)),
@@ -112,7 +112,7 @@ def _age(identity: int | str) -> int:
 
 
 def lines(target: Object) -> list[str]:
-    """A few short lines; empty if `target` is not live."""
+    """Short lines on its state; empty if `target` is not live."""
     session = registry.session_of(target)
     if session is None:
         return []
@@ -127,7 +127,7 @@ def lines(target: Object) -> list[str]:
 
 
 def problem(target: Object) -> str:
-    """Why `target` does not follow, or does not any more, a sentence; empty if all is well."""
+    """Why `target` does not follow its source, or no longer does, a sentence; empty if it does."""
     session = registry.session_of(target)
     return session.trouble if session is not None else registry.why_ended(target)
 
@@ -159,7 +159,7 @@ def _cage_changed(group: Any, _context: Context) -> None:
 
 
 def _in_renders_changed(group: Any, _context: Context) -> None:
-    """A window that draws a mesh while a render writes it may crash: it is to wait meanwhile."""
+    """Locks the interface during renders, since drawing a mesh while a render writes it may crash."""
     for scene in group.id_data.users_scene if group.in_renders else ():
         if scene.library is None and not scene.render.use_lock_interface:
             scene.render.use_lock_interface = True
@@ -171,7 +171,7 @@ def _milliseconds(group: Any) -> float:
 
 
 class FAIRING_PG_live(bpy.types.PropertyGroup):
-    """How a faired object follows its source. Files keep all but `on`."""
+    """How a faired object follows its source. Files store all except `on`."""
 
     on: BoolProperty(
         name="Live",

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Undo takes Live along: what is undone with the click that switched it on is Live too.
+"""Undo includes Live: if the click that switched it on is undone, so is Live.
 
-A step of Blender's undo holds `was_on`, which follows the switch, but no session.
+An undo step contains `was_on`, which follows the switch, but no session.
 """
 
 from typing import Any
@@ -9,11 +9,11 @@ from typing import Any
 from .. import events
 from . import registry, switch
 
-_SOON = 0.0  # seconds; not from within undo, whose objects Blender has not looked at yet
+_SOON = 0.0  # seconds; not within undo, before Blender has updated its objects
 
 
 def _agree(*_: Any) -> None:
-    """Ends what is not to be on any more. Nothing is written: its mesh is what it was before."""
+    """Ends sessions that undo has switched off. Writes nothing, since undo has restored the mesh."""
     for target in registry.known():
         session, was_on = registry.session_of(target), target.discrete_fairing_live.was_on
         if session is not None and not was_on and not session.ending:
@@ -23,7 +23,7 @@ def _agree(*_: Any) -> None:
 
 
 def resume() -> None:
-    """Switches on what is to be on again."""
+    """Starts sessions that undo or redo has switched on."""
     for target in registry.known():
         if target.discrete_fairing_live.was_on and registry.is_in_a_scene(target):
             switch.switch_on(target)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Dots, needles and labels, as the graphics card takes them. Plain arrays, no Blender."""
+"""Dots, needles and labels as arrays for the graphics card. No Blender."""
 
 from collections.abc import Callable
 
@@ -8,15 +8,15 @@ import numpy as np
 from ..inspection.measures import shades_of
 from .strained import Strained
 
-# needles are drawn so many times as long at most: what is shorter still is rounding
+# the largest magnification of needles; shorter ones are rounding
 _MOST = 1000.0
-_VIVID = 1.5  # the ends of the scale are too dark for lines on a grey surface
+_VIVID = 1.5  # brightness, since the ends of the scale are too dark for lines on a grey surface
 _CORNERS = np.array([(-1, -1), (1, -1), (1, 1), (-1, -1), (1, 1), (-1, 1)], np.float32)
 
 
 def magnification(strained: Strained, length: float = 1.0) -> float:
-    """How many times as long needles are drawn: 1, 2, 5, 10, 20 … 1000, so that the longest is no
-    longer than `length` mean edges, if it can be.
+    """The magnification of needles: 1, 2, 5, 10, 20 … 1000, such that the longest is at most `length`
+    mean edges, if possible.
     """
     longest = strained.largest
     if longest <= 0.0:
@@ -28,19 +28,19 @@ def magnification(strained: Strained, length: float = 1.0) -> float:
 
 
 def colours(strained: Strained, ids: np.ndarray) -> np.ndarray:
-    """(k, 4) float32 sRGBA: red where the surface wants to be outside of a vertex, blue inside."""
+    """(k, 4) float32 sRGBA: red if the surface would move outwards at the vertex, blue if inwards."""
     limit = _VIVID * strained.largest or 1.0
     return shades_of(strained.lengths[ids], (-limit, limit), signed=True)
 
 
 def tips(strained: Strained, ids: np.ndarray, times: float) -> np.ndarray:
-    """(k, 3) float32: where the needles of the vertices `ids` end, `times` as long as they are."""
+    """(k, 3) float32: ends of the needles of the vertices `ids`, magnified by `times`."""
     return (strained.positions[ids] + times * strained.directions[ids]).astype(np.float32)
 
 
 def needles(strained: Strained, times: float) -> tuple[np.ndarray, np.ndarray]:
-    """Points (2 h, 3) float32, two a needle, and their colours (2 h, 4): one for each held vertex,
-    from where it is to where the surface wants to be.
+    """Points (2 h, 3) float32, two a needle, and their colours (2 h, 4): for each held vertex a needle
+    from its position to that of the released surface.
     """
     ids = strained.held
     begin = strained.positions[ids].astype(np.float32)
@@ -49,9 +49,9 @@ def needles(strained: Strained, times: float) -> tuple[np.ndarray, np.ndarray]:
 
 
 def dots(strained: Strained) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Two triangles a held vertex, all six corners at its place: places (6 h, 3) float32, how far
-    each goes from there (6 h, 2) in radii of the dot, colours (6 h, 4). What strains most comes last,
-    and lies on top.
+    """Two triangles for each held vertex, with all six corners at its position: positions (6 h, 3)
+    float32, offsets (6 h, 2) in radii of the dot, colours (6 h, 4). The most strained ones come last,
+    on top.
     """
     ids = strained.worst(len(strained.held))[::-1]
     places = np.repeat(strained.positions[ids].astype(np.float32), 6, axis=0)
@@ -61,8 +61,9 @@ def dots(strained: Strained) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 def labels(
     strained: Strained, count: int, times: float, text: Callable[[float], str]
 ) -> list[tuple[np.ndarray, str, bool]]:
-    """Where each of the `count` worst has its label (3,), what that says: `31: 4.2 mm`, or its name in a table of offsets, and whether
-    the vertex is an outlier; `text` says a length.
+    """For each of the `count` worst vertices: the position (3,) of its label, the text, such as `31:
+    4.2 mm` or its name in a table of offsets, and whether the vertex is an outlier; `text` formats a
+    length.
     """
     ids, wrong = strained.worst(count), set(strained.wrong.tolist())
     places = tips(strained, ids, times)

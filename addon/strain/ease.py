@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Control vertices put where the surface is fair: all a little, the worst, or those selected."""
+"""Eases control vertices: all a little, the worst, or the selected ones."""
 
 from dataclasses import dataclass, replace
 from typing import Any, cast
@@ -21,7 +21,7 @@ from ..settings import Settings, halves
 from . import words
 from .measure import knuckle_of, plate_settings, settings_for
 
-_LEVELS = 2  # that the core computes on
+_LEVELS = 2  # on which the core computes
 
 
 @dataclass(frozen=True)
@@ -30,12 +30,12 @@ class EaseOptions:
     tolerance: float = 0.0  # in scene units
     count: int = 1
     use_selection: bool = False  # whether vertices that are not selected stay
-    go_on: bool = False  # whether from the shape key that an earlier run has written
-    stiffness: float = 0.0  # how much to ease, as df.ease has it
+    go_on: bool = False  # whether to start from the shape key of an earlier run
+    stiffness: float = 0.0  # the amount of df.ease
 
 
 class _Moving(TimedRun):
-    """New places of the vertices of one source: read, computed on any thread, then written."""
+    """New positions of the vertices of one source: read, computed on any thread, then written."""
 
     kind, again = "EASE", "Ease"
 
@@ -46,8 +46,8 @@ class _Moving(TimedRun):
         go_on: bool = False,
         settings: Settings | None = None,
     ) -> None:
-        """Reads; JobError says why that cannot be. `go_on`: from what was eased before, if anything
-        was. `settings`: in the place of those of the source's surface.
+        """Reads the mesh; raises JobError if that is impossible. `go_on`: start from an earlier result,
+        if any. `settings`: replace those of the source's surface.
         """
         settings = plate_settings(settings or settings_for(context, source))
         with self._reading(context, source) as mesh:
@@ -73,17 +73,17 @@ class _Moving(TimedRun):
         raise NotImplementedError
 
     def _places(self) -> np.ndarray:
-        """(n, 3) in the world's shape, once it has run."""
+        """(n, 3) in the world's shape, after the run."""
         raise NotImplementedError
 
     @property
     def longest(self) -> float:
-        """Of the lengths that are said of a finished job, in scene units."""
+        """The longest length reported by a finished job, in scene units."""
         return float(self.moves.max(initial=0.0))
 
 
 class EaseJob(_Moving):
-    """As `options` says, of the mesh itself, whatever its shape keys make of it."""
+    """Eases the mesh itself, without its shape keys, by `options`."""
 
     def __init__(
         self,
@@ -122,9 +122,7 @@ class EaseJob(_Moving):
         )
 
     def _on_knuckle(self, watchers: dict[str, Any]) -> np.ndarray:
-        """(n,) bool: vertices in a row that look like a knuckle. They stay until somebody has said that they are none:
-        by selecting them.
-        """
+        """(n,) bool: vertices in a row that look like a knuckle. They stay until the user selects them."""
         watch = {name: value for name, value in watchers.items() if name == "monitor"}
         arguments = core.plate_arguments(self.arguments)
         found = core.module().strain(**arguments, **watch)
@@ -137,7 +135,7 @@ class EaseJob(_Moving):
         return self.result.vertices
 
     def said(self, text: words.Text) -> str:
-        """What was done, in words."""
+        """The result in words."""
         eased, options = self.result, self._options
         before = eased.strain_before
         if options.amount == "WORST":
@@ -155,13 +153,13 @@ class EaseJob(_Moving):
         )
 
     def write_key(self) -> None:
-        """As a shape key of the source, whose mesh stays, and so of its live surfaces."""
+        """Writes a shape key of the source, so that its mesh and its live surfaces stay."""
         source = cast(Object, self.reference.find())
         put_key(source, EASED, self.positions)
         look_again(source)
 
     def write_copy(self) -> Object:
-        """As the mesh of a new object beside the source."""
+        """Writes the mesh of a new object beside the source."""
         source = cast(Object, self.reference.find())
         target = source.copy()
         target.data = source.data.copy()
@@ -176,8 +174,8 @@ class EaseJob(_Moving):
 
 
 class EaseSelectedJob(_Moving):
-    """The selected vertices of one mesh in Edit Mode, where the surface through all others wants
-    them; `factor`: how far they go there.
+    """Moves the selected vertices of one mesh in Edit Mode to the surface through all others; `factor`:
+    the share of the way.
     """
 
     kind = "THIN_PLATE"
@@ -204,11 +202,11 @@ class EaseSelectedJob(_Moving):
         return np.where(self._free[:, None], sent + self._factor * (found - sent), sent)
 
     def said(self, text: words.Text) -> str:
-        """What was done, in words."""
+        """The result in words."""
         return words.moved(self.moves, text, self.names)
 
     def write(self) -> None:
-        """Into the mesh that is edited."""
+        """Writes to the edited mesh."""
         mesh = cast(Object, self.reference.find()).data
         edited = bmesh.from_edit_mesh(mesh)
         edited.verts.ensure_lookup_table()
@@ -219,7 +217,7 @@ class EaseSelectedJob(_Moving):
 
 
 def _inner(arrays: core.ControlArrays) -> np.ndarray:
-    """(n,) bool: vertices with faces and on no open border."""
+    """(n,) bool: vertices with faces that are not on an open border."""
     inner = np.zeros(len(arrays.positions), bool)
     inner[arrays.corners] = True
     inner[arrays.edges[arrays.edge_uses == 1].ravel()] = False

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What was measured last of each source, and the timer that measures again what is shown.
+"""The last measured strain of each source, and a timer that updates shown ones.
 
-It exists while Blender runs. Nothing runs while nothing is shown; without a window, operators alone
-measure.
+It exists while Blender runs. Nothing runs if nothing is shown; without a window only operators measure.
 """
 
 from collections.abc import Iterator
@@ -24,18 +23,18 @@ from ..settings import Settings
 from .measure import StrainJob, settings_for
 from .strained import Strained
 
-INTERVAL = 0.1  # seconds between two looks at what is shown
-BRIEF = 0.3  # seconds; what takes longer waits until nobody drags, and ends where an edit begins
+INTERVAL = 0.1  # seconds between two checks of shown sources
+BRIEF = 0.3  # seconds; longer runs wait until nobody drags, and are cancelled by an edit
 
 
 class _Watch:
-    """The strain of one source: measured, and perhaps being measured again."""
+    """The strain of one source, and a run that updates it."""
 
     def __init__(self, reference: Reference) -> None:
         self.reference = reference
         self.stale = True  # whether anything may have changed since
         self.error = ""
-        self.job: StrainJob | None = None  # that of the present result
+        self.job: StrainJob | None = None  # the job of the present result
         self._settings: Settings | None = None
         self._next: StrainJob | None = None
         self._queue: Queue | None = None
@@ -47,11 +46,11 @@ class _Watch:
 
     @property
     def is_measured(self) -> bool:
-        """Whether a result is on its way."""
+        """Whether a run is in progress."""
         return self._queue is not None
 
     def advance(self, context: Context) -> bool:
-        """A step of the timer; whether there is something new to show."""
+        """A step of the timer. Returns whether there is something new to show."""
         source = self.reference.find()
         if source is None:
             return False
@@ -98,7 +97,7 @@ class _Watch:
         return False
 
     def keep(self, job: StrainJob) -> None:
-        """A finished job is what is known from now on."""
+        """Makes a finished job the present result."""
         job.note()
         self.job, self.error, self.stale = job, "", False
 
@@ -111,31 +110,31 @@ class _Watch:
 
 _watches: dict[int | str, _Watch] = {}
 shown_sources = Showing(lambda target: bool(target.discrete_fairing_strain.show))
-_reading = False  # whether changes that Blender tells of are our own reading
+_reading = False  # whether changes reported by Blender are caused by our own reading
 
 
 def job_for(context: Context, source: Object) -> StrainJob:
-    """A job that has its result already where nothing has changed since the last one; JobError.
-    `keep` it when it is done.
+    """A job for the source; it has its result already if nothing has changed since the last one. Raises
+    JobError. Call `keep` when it is done.
     """
     return StrainJob(context, source, _watch(source).job)
 
 
 def keep(job: StrainJob) -> None:
-    """What a finished `job` has found is what is known of its source."""
+    """Makes the result of a finished `job` the known one for its source."""
     source = job.reference.find()
     if source is not None:
         _watch(source).keep(job)
 
 
 def found_of(source: Object) -> Strained | None:
-    """What was measured last, perhaps of an earlier shape; None if nothing was."""
+    """The last result, perhaps for an earlier shape; None if there is none."""
     watch = _watches.get(session_key(source))
     return None if watch is None else watch.result
 
 
 def is_behind(source: Object) -> bool:
-    """Whether what is known is being measured again."""
+    """Whether the result is being updated."""
     watch = _watches.get(session_key(source))
     return watch is not None and (watch.is_measured or watch.stale)
 
@@ -147,7 +146,7 @@ def trouble(source: Object) -> str:
 
 
 def shown_changed() -> None:
-    """To be called when an object has been told to show its strain, or not to."""
+    """Call this when an object's display of strain is switched on or off."""
     shown_sources.forget()
     _start_timer()
 
@@ -176,7 +175,7 @@ def _on_timer() -> float | None:
 
 @contextmanager
 def _unnoticed(context: Context, source: Object) -> Iterator[None]:
-    """To read a mesh in Edit Mode tells Blender that it has changed, which is no edit."""
+    """Reading a mesh in Edit Mode makes Blender report a change, which is no edit."""
     global _reading
     _reading = True
     try:
@@ -203,7 +202,7 @@ def _mark_stale(*_: Any) -> None:
 
 
 def _mark_all_stale(*_: Any) -> None:
-    """What is shown, too."""
+    """Marks all results as out of date, shown ones too."""
     shown_changed()
     _mark_stale()
 
@@ -216,7 +215,7 @@ def _forget(*_: Any) -> None:
 
 
 def _resume(*_: Any) -> None:
-    """A file may have been saved while strain was shown."""
+    """Starts again if a file was saved with strain shown."""
     shown_changed()
 
 

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Strained vertices that look like a knuckle without a crease. Plain arrays, no Blender.
+"""Finds strained vertices that look like a knuckle without a crease. Plain arrays, no Blender.
 
-A wrong offset strains alone. Along a knuckle that is not creased the surface wants to go to one side at vertex after
-vertex: the most strained ones of that side are a chain of edges, or go on from where a crease ends.
+A wrong offset is strained alone. Along a knuckle without a crease the surface would move to one side at
+vertex after vertex: the most strained ones on that side form a chain of edges, or continue a crease.
 """
 
 import numpy as np
 
-_LEAST = 3  # vertices in a row that are no coincidence
+_LEAST = 3  # vertices in a row that are not a coincidence
 
 
 def knuckle(
@@ -17,10 +17,11 @@ def knuckle(
     border: np.ndarray,
     points: np.ndarray,
 ) -> list[int]:
-    """Ids along the longest chain, with the ends of creases and the border vertices that it runs into; none found: empty.
+    """Ids along the longest chain, with the ends of creases and the border vertices that it reaches;
+    empty if there is none.
 
-    `lengths` (n,) strain, above zero outwards, NaN where a vertex is not held; `edges` (e, 2); `creased`, `border`
-    (e,) bool; `points` (n, 3).
+    `lengths` (n,) strain, above zero outwards, NaN if a vertex is not held; `edges` (e, 2); `creased`,
+    `border` (e,) bool; `points` (n, 3).
     """
     beside: dict[int, list[int]] = {}
     for v, w in edges[~creased].tolist():
@@ -44,10 +45,10 @@ def knuckle(
 
 
 def _worst_in_a_row(lengths: np.ndarray, beside: dict[int, list[int]]) -> list[int]:
-    """As many of the vertices of the largest `lengths` above zero as are together one chain, in its order."""
+    """The vertices of largest positive `lengths`, as many as form a single chain, in its order."""
     order = np.argsort(-np.nan_to_num(lengths, nan=-np.inf), kind="stable")
     chain: list[int] = []
-    near: dict[int, list[int]] = {}  # of those taken, in both directions
+    near: dict[int, list[int]] = {}  # neighbours among the chosen vertices
     for v in order.tolist():
         if not lengths[v] > 0.0:
             break
@@ -55,13 +56,13 @@ def _worst_in_a_row(lengths: np.ndarray, beside: dict[int, list[int]]) -> list[i
         for w in near[v]:
             near[w].append(v)
         if max(map(len, (near[w] for w in (v, *near[v])))) > 2:
-            break  # and stays so
+            break  # later vertices cannot repair it
         chain = _walked(near) or chain
     return chain
 
 
 def _walked(near: dict[int, list[int]]) -> list[int]:
-    """From the end with the lower id to the other; empty if these are more than one chain, or closed."""
+    """The chain from the end with the lower id; empty if there are several chains, or a closed one."""
     walk = sorted(v for v, ways in near.items() if len(ways) < 2)[:1]
     while walk:
         ahead = [w for w in near[walk[-1]] if w not in walk[-2:]]
@@ -74,8 +75,8 @@ def _walked(near: dict[int, list[int]]) -> list[int]:
 def _run_into(
     chain: list[int], beside: dict[int, list[int]], stops: np.ndarray, points: np.ndarray
 ) -> list[int]:
-    """Where the chain goes on straightest at both ends, if that is one of the `stops`; else -1. A chain of one vertex goes
-    on to the two that are most nearly opposite.
+    """At both ends of the chain, the vertex that continues it most nearly straight, if it is one of the
+    `stops`; else -1. A chain of one vertex continues to its two most nearly opposite neighbours.
     """
     if len(chain) == 1:
         near = beside.get(chain[0], [])
@@ -90,6 +91,6 @@ def _run_into(
 
 
 def _cosine(points: np.ndarray, a: int, at: int, b: int) -> float:
-    """Of the angle at a vertex: -1 where it goes straight on."""
+    """Cosine of the angle at a vertex: -1 if straight."""
     there, back = points[a] - points[at], points[b] - points[at]
     return float(there @ back / max(np.linalg.norm(there) * np.linalg.norm(back), 1e-300))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One source's way from its mesh to its strain: read on Blender's main thread, computed on any."""
+"""Measures the strain of a source: read on Blender's main thread, computed on any."""
 
 from dataclasses import replace
 from typing import Any
@@ -17,24 +17,24 @@ from ..settings import Settings, halves
 from .knuckle import knuckle
 from .strained import Strained
 
-_LEVELS = 2  # on which the core asks
+_LEVELS = 2  # on which the core computes
 
 
 def settings_for(context: Context, source: Object) -> Settings:
-    """Those of the surface that follows `source`, else of the last one made of it, else those for the
-    next one: its borders, creases and symmetry plane.
+    """Settings of the live surface of `source`, else of the last surface made from it, else those of
+    the next one: its borders, creases and symmetry plane.
     """
     made = live_surfaces_of(source) or surfaces_of(source)[-1:]
     return Settings.of(made[-1].discrete_fairing if made else scene_of(source).discrete_fairing)
 
 
 def plate_settings(settings: Settings) -> Settings:
-    """The same for the whole mesh as modelled, and a surface through all vertices."""
+    """The same for the whole original mesh, and for a surface through all vertices."""
     return replace(settings, use_selection=False, interpolation="EXACT", use_shape_keys=False)
 
 
 class StrainJob(TimedRun):
-    """The strain of one source, with the edits of this moment."""
+    """The strain of one source, with its present edits."""
 
     kind = "STRAIN"
     result: Strained | None
@@ -47,9 +47,9 @@ class StrainJob(TimedRun):
         as_mixed: bool = True,
         settings: Settings | None = None,
     ) -> None:
-        """Reads; JobError says why that cannot be. `known`: an earlier one, whose result holds where
-        nothing has changed since. `as_mixed`: as the shape keys of the source mix, not the mesh.
-        `settings`: in the place of those of its surface.
+        """Reads the mesh; raises JobError if that is impossible. `known`: an earlier job, whose result
+        is used if nothing has changed since. `as_mixed`: with the mix of shape keys, not the mesh
+        alone. `settings`: replace those of its surface.
         """
         settings = plate_settings(settings or settings_for(context, source))
         with self._reading(context, source) as mesh:
@@ -67,16 +67,16 @@ class StrainJob(TimedRun):
             self.result = known.result
 
     def is_that_of(self, other: "StrainJob") -> bool:
-        """Whether both ask the same."""
+        """Whether both jobs have the same input."""
         return self.shape == other.shape and core.are_equal(self.arguments, other.arguments)
 
     @property
     def predicted_seconds(self) -> float:
-        """How long `compute` will take."""
+        """The predicted time of `compute`."""
         return super().predicted_seconds if self.result is None else 0.0
 
     def compute(self, **watchers: Any) -> None:
-        """Where that has not been done."""
+        """Measures, unless there is a result already."""
         if self.result is None:
             super().compute(**watchers)
 
@@ -96,22 +96,20 @@ class StrainJob(TimedRun):
         )
 
     def note(self) -> None:
-        """For predictions, on the main thread."""
+        """Records the time for predictions, on the main thread."""
         if self._taken:
             super().note()
 
 
 def knuckle_of(lengths: np.ndarray, arrays: core.ControlArrays, positions: np.ndarray) -> list[int]:
-    """Ids along a chain of strained vertices that wants a crease; `lengths` (n,)."""
+    """Ids along a chain of strained vertices that suggests a missing crease; `lengths` (n,)."""
     crease = arrays.edge_crease
     creased = np.zeros(len(arrays.edges), bool) if crease is None else crease > 0.0
     return knuckle(lengths, arrays.edges, creased, arrays.edge_uses == 1, positions)
 
 
 def mixed_positions(source: Object, mesh: Mesh, positions: np.ndarray) -> np.ndarray:
-    """(n, 3): `positions` of the `mesh` of `source`, or in Object Mode what its shape keys make of
-    them.
-    """
+    """(n, 3): `positions` of the `mesh` of `source` or, in Object Mode, those of its mix of shape keys."""
     keys = None if source.mode == "EDIT" else read_shape_keys(source, len(positions))
     if keys is None:
         return positions

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Dots, needles and labels over the viewport, at the vertices of sources whose strain is shown.
 
-What lies behind the surface shines through. Points on the graphics card are a cache.
+Hidden ones are drawn faintly. Points on the graphics card are a cache.
 """
 
 from dataclasses import dataclass
@@ -26,15 +26,15 @@ from . import known
 from .drawn import dots, labels, magnification, needles
 from .strained import Strained
 
-gpu: Any = _gpu  # whose stubs say little of it
+gpu: Any = _gpu  # its stubs are incomplete
 batch_for_shader: Any = _batch.batch_for_shader
 
 _RADIUS = 5.0  # pixels, of a dot
 _LINE = 2.5  # pixels, of a needle
 _TEXT = 12.0  # points
-_BEHIND = 0.25  # opacity of dots that the surface hides
-_INWARDS = 0.65  # and of needles: those inwards all are, among them perhaps the worst
-_FAINT = 0.4  # and of what is being measured again, and of labels of vertices that are not outliers
+_BEHIND = 0.25  # opacity of dots behind the surface
+_INWARDS = 0.65  # opacity of needles behind it: all inward ones are, perhaps with the worst
+_FAINT = 0.4  # opacity during an update, and of labels of vertices that are not outliers
 _AWAY = 8  # pixels from a needle to its label
 
 _VERTEX = """
@@ -59,7 +59,7 @@ void main() {
 
 @dataclass
 class _Entry:
-    """What the graphics card keeps of one source."""
+    """The data of one source on the graphics card."""
 
     strained: Strained
     dots: Any
@@ -73,12 +73,12 @@ _handles: list[Any] = []
 
 
 def is_on() -> bool:
-    """Whether anything is ever drawn: in a window."""
+    """Whether drawing is possible: in a window."""
     return bool(_handles)
 
 
 def _seen(space: Any) -> list[tuple[Object, Strained]]:
-    """Sources that are to be drawn in this viewport: they or what is made of them can be seen."""
+    """Sources to draw in this viewport: they or surfaces made from them are visible."""
     return [
         (source, strained)
         for source in known.shown_sources
@@ -89,7 +89,7 @@ def _seen(space: Any) -> list[tuple[Object, Strained]]:
 
 
 def _viewport(context: Context) -> tuple[Any, Any] | None:
-    """The space and the view that are drawn now; None where overlays are off."""
+    """The space and the view being drawn; None if overlays are off."""
     space, view = cast(Any, context.space_data), cast(Any, context.region_data)
     if space is None or space.type != "VIEW_3D" or view is None:
         return None
@@ -116,7 +116,7 @@ def _draw_source(source: Object, strained: Strained, length: float, view: Any) -
     if entry.times != times:
         entry.times, entry.needles = times, _needle_batch(strained, times)
     projection = np.array(view.window_matrix)
-    for _ in range(2):  # over section curves, which are pulled by one of these
+    for _ in range(2):  # once more over section curves, one of which is offset towards the eye
         projection = pulled(projection, view.view_distance)
     opacity = _FAINT if known.is_behind(source) else 1.0
     gpu.state.blend_set("ALPHA")
@@ -167,7 +167,7 @@ def _dot_batch(strained: Strained) -> Any:
 
 
 def _needle_batch(strained: Strained, times: float) -> tuple[Any, Any]:
-    """Solid, and pale: the shader takes its opacity from the colours."""
+    """Solid and pale: the shader takes its opacity from the colours."""
     shader = gpu.shader.from_builtin("POLYLINE_FLAT_COLOR")
     points, solid = needles(strained, times)
     pale = solid * np.array((1.0, 1.0, 1.0, _INWARDS), np.float32)
@@ -198,7 +198,7 @@ def _draw_labels() -> None:
 
 
 def _draw_label(label: str, x: float, y: float, opacity: float) -> None:
-    """White with a dark outline: stripes behind it are white, too."""
+    """White with a dark outline, since stripes behind it are white too."""
     outline = ((-1, 0), (1, 0), (0, -1), (0, 1))
     for right, up, grey in (*((*way, 0.0) for way in outline), (0, 0, 1.0)):
         blf.color(0, grey, grey, grey, opacity)
@@ -232,7 +232,7 @@ _HANDLERS = {"load_pre": _forget}
 
 
 def _start() -> None:
-    """From a timer: while Blender starts there is no graphics card yet."""
+    """From a timer, since there is no graphics card while Blender starts."""
     global _shader
     _shader = _make_shader()
     add = bpy.types.SpaceView3D.draw_handler_add
@@ -243,7 +243,7 @@ def _start() -> None:
 def register() -> None:
     if bpy.app.background:
         return
-    # persistent: Blender may be about to open a file, which ends other timers
+    # persistent, since opening a file ends other timers
     bpy.app.timers.register(_start, first_interval=0.0, persistent=True)
     events.listen(_HANDLERS)
 

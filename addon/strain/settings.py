@@ -21,7 +21,7 @@ def _drawing_changed(_group: Any, _context: Context) -> None:
 
 
 class FAIRING_PG_strain(bpy.types.PropertyGroup):
-    """Kept with the object."""
+    """Stored with the object."""
 
     show: BoolProperty(
         name="Show Strain",
@@ -32,7 +32,7 @@ class FAIRING_PG_strain(bpy.types.PropertyGroup):
 
 
 class FAIRING_PG_strain_drawing(bpy.types.PropertyGroup):
-    """Kept with the scene."""
+    """Stored with the scene."""
 
     needle_length: FloatProperty(
         name="Longest Line",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The strain of one control mesh, and what of it counts as wrong. Plain arrays, no Blender."""
+"""The strain of one control mesh, and its outliers. Plain arrays, no Blender."""
 
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -11,36 +11,36 @@ from . import words
 
 @dataclass(frozen=True)
 class Strained:
-    """A control mesh of n vertices, and how far the surface would move at each of them if
-    that vertex were released: less what a fair shape strains beside its borders, and what worse neighbours do.
+    """A control mesh of n vertices, and the distance that the surface would move at each vertex if it
+    were released, without the effects of borders on fair shapes and of worse neighbours.
     """
 
     positions: np.ndarray  # (n, 3) in the coordinates of the object
-    directions: np.ndarray  # (n, 3) of the surface, in the same
+    directions: np.ndarray  # (n, 3) directions of these moves
     # (n,) in scene units, above zero outwards; NaN at corners and on straight borders
     lengths: np.ndarray
-    # In scene units: strains that are nothing but scatter, or a fair shape between its vertices, are
-    # below it
+    # In scene units: strains of mere scatter, or of a fair shape between its vertices, are smaller.
     floor: float
-    edge_length: float  # the mean one, in scene units
+    edge_length: float  # the mean, in scene units
     # (k,) ids of the outliers, the worst first; None: all above the floor
     standing_out: np.ndarray | None = None
-    names: list[str] = field(default_factory=list)  # (n,) of a table of offsets; or none
+    names: list[str] = field(default_factory=list)  # (n,) from a table of offsets; or empty
 
-    knuckle: list[int] = field(default_factory=list)  # ids along a chain that wants a crease
+    # ids along a chain that suggests a missing crease
+    knuckle: list[int] = field(default_factory=list)
 
     def name(self, index: int) -> str:
-        """`station 4, WL 300`, or `vertex 31`."""
+        """For example `station 4, WL 300`, or `vertex 31`."""
         return words.name(index, self.names)
 
     @cached_property
     def held(self) -> np.ndarray:
-        """(h,) ids of the vertices that strain at all."""
+        """(h,) ids of the vertices with a strain."""
         return np.flatnonzero(~np.isnan(self.lengths))
 
     @cached_property
     def largest(self) -> float:
-        """0 where no vertex is held."""
+        """0 if no vertex is held."""
         return float(np.abs(self.lengths[self.held]).max(initial=0.0))
 
     @cached_property
@@ -54,8 +54,8 @@ class Strained:
 
 
 def above(lengths: np.ndarray, threshold: float) -> np.ndarray:
-    """(k,) ids of the vertices that strain by more, the largest of the `lengths` (n,) first; NaN does
-    not count.
+    """(k,) ids of the vertices with a larger strain, the largest of the `lengths` (n,) first, without
+    NaN.
     """
     sizes = np.where(np.isnan(lengths), -np.inf, np.abs(lengths))
     order = np.argsort(-sizes, kind="stable")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Vertices, their strain and their moves as a table for a yard or a spreadsheet. No Blender."""
+"""A table of vertices, their strain and their moves, for a yard or a spreadsheet. No Blender."""
 
 from collections.abc import Iterable, Sequence
 
@@ -7,7 +7,7 @@ import numpy as np
 
 Table = list[list[str]]  # rows of fields
 
-_DIGITS = 9  # significant ones: a hundredth of a millimetre on a kilometre
+_DIGITS = 9  # significant digits: a hundredth of a millimetre on a kilometre
 
 
 def rows(
@@ -16,9 +16,9 @@ def rows(
     eased: np.ndarray | None = None,
     names: Sequence[str] = (),
 ) -> Table:
-    """The table, its head first. `positions` (n, 3) and strain `lengths` (n,), NaN where there is
-    none; `eased` (n, 3): where the vertices have been moved to, None: nowhere. `names` (n,) of a table
-    of offsets become the columns station and line.
+    """The table with its header. `positions` (n, 3) and strain `lengths` (n,), NaN if there is none;
+    `eased` (n, 3): positions after easing, None without it. `names` (n,) of a table of offsets become
+    the columns station and line.
     """
     head = ["vertex", *(["station", "line"] if names else []), "x", "y", "z"]
     columns: list[Iterable[float]] = [*positions.T]
@@ -46,7 +46,7 @@ def _parts(name: str) -> list[str]:
 
 
 def _field(text: str) -> str:
-    """In quotes where it would fall apart without."""
+    """In quotes if needed."""
     quoted = text.replace('"', '""')
     return f'"{quoted}"' if any(sign in text for sign in ',"\r\n') else text
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is said of strain and of easing, in words. No Blender."""
+"""Sentences on strain and easing. No Blender."""
 
 from collections.abc import Sequence
 
@@ -8,23 +8,23 @@ import numpy as np
 from ..units import Text
 from ..words import counted, listed
 
-_NAMED = 5  # vertices that a sentence names
+_NAMED = 5  # vertices named in a sentence
 
 
 def count(number: int) -> str:
-    """`1 vertex`, `63 vertices`."""
+    """For example `1 vertex`, `63 vertices`."""
     return counted(number, "vertex", "vertices")
 
 
 def name(index: int, names: Sequence[str]) -> str:
-    """Of a vertex: as a table of offsets names it, else `vertex 31`."""
+    """The name of a vertex: that of a table of offsets, else `vertex 31`."""
     return (names[index] if names else "") or f"vertex {index}"
 
 
 def offs(
     ids: Sequence[int] | np.ndarray, lengths: np.ndarray, text: Text, names: Sequence[str] = ()
 ) -> str:
-    """`31 by 4.2 mm, 7 by 3 mm and 4 more`; `lengths`: (n,) by vertex. With `names` (n,):
+    """For example `31 by 4.2 mm, 7 by 3 mm and 4 more`; `lengths`: (n,) by vertex. With `names` (n,):
     `station 4, WL 300: 4.2 mm; station 5, WL 600: 3 mm`.
     """
     named = {i: text(abs(float(lengths[i]))) for i in list(ids)[:_NAMED]}
@@ -35,13 +35,13 @@ def offs(
 
 
 def found(chosen: np.ndarray, lengths: np.ndarray, text: Text, names: Sequence[str] = ()) -> str:
-    """Of a selection by strain; `lengths`: (n,), NaN where the surface holds no vertex."""
+    """The result of selecting strained vertices; `lengths`: (n,), NaN if a vertex is not held."""
     held = int((~np.isnan(lengths)).sum())
     return f"{len(chosen):,} of {count(held)} selected: {offs(chosen, lengths, text, names)}"
 
 
 def looks_like_knuckle(chain: Sequence[int], names: Sequence[str]) -> str:
-    """A question; `chain`: ids in a row."""
+    """A question to the user; `chain`: ids in a row."""
     ends = f"{name(chain[0], names)} to {name(chain[-1], names)}"
     return f"These look like a knuckle: {ends}. Crease them?"
 
@@ -53,7 +53,7 @@ def none_above(threshold: float, largest: float, text: Text) -> str:
 
 
 def moved(moves: np.ndarray, text: Text, names: Sequence[str] = ()) -> str:
-    """`2 vertices moved: 31 by 4.2 mm and 7 by 3 mm`; `moves`: (n,) lengths."""
+    """For example `2 vertices moved: 31 by 4.2 mm and 7 by 3 mm`; `moves`: (n,) lengths."""
     order = np.argsort(-moves, kind="stable")
     order = order[moves[order] > 0]
     if not len(order):
@@ -70,8 +70,8 @@ def eased(
     text: Text,
     names: Sequence[str] = (),
 ) -> str:
-    """Of easing by itself. `noise`: the scatter, a length; `strain`: (n,) before; `wrong`: (k,) ids of
-    outliers, the worst first; `floor`: what is scatter.
+    """The result of automatic easing. `noise`: the scatter, a length; `strain`: (n,) before; `wrong`:
+    (k,) ids of outliers, the worst first; `floor`: the limit of scatter.
     """
     if not moves.any():
         return "No vertex moved: scatter cannot be distinguished from the shape"
@@ -91,7 +91,7 @@ def eased(
 def moved_within(
     moves: np.ndarray, tolerance: float, strain: np.ndarray, text: Text, names: Sequence[str] = ()
 ) -> str:
-    """Of easing within a `tolerance`; `strain`: (n,) before."""
+    """The result of easing within a `tolerance`; `strain`: (n,) before."""
     if not moves.any():
         return (
             f"No vertex moved: none may move, or there is nothing to ease within {text(tolerance)}"
