@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Blender meshes and objects, read as arrays and written from them."""
+"""Reads Blender's meshes and objects as arrays and writes them."""

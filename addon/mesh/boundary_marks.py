@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Border edges with a boundary of their own: an integer attribute on edges, numbered as
-choices.EDGE_BOUNDARIES is. 0, and no attribute: as the surface's setting says.
+"""Boundaries of single border edges: an integer attribute on edges, numbered as in
+choices.EDGE_BOUNDARIES. 0, or no attribute: the surface's setting applies.
 """
 
 from collections.abc import Iterable
@@ -19,15 +19,15 @@ _NUMBERS = {key: number for key, _, _, number in EDGE_BOUNDARIES}
 
 
 def mark_selected(mesh: Mesh, boundary: str) -> int:
-    """Gives the selected border edges of `mesh`, which is in Edit Mode, a boundary of
-    EDGE_BOUNDARIES; returns how many there are.
+    """Gives the selected border edges of `mesh`, which is in Edit Mode, a boundary of EDGE_BOUNDARIES;
+    returns their number.
     """
     edit = bmesh.from_edit_mesh(mesh)
     layer = edit.edges.layers.int.get(BOUNDARY)
     chosen = _selected(edit)
     if layer is None and _NUMBERS[boundary] and chosen:
         layer = edit.edges.layers.int.new(BOUNDARY)
-        chosen = _selected(edit)  # a new layer makes edges from before invalid
+        chosen = _selected(edit)  # a new layer invalidates references to edges
     if layer is not None:
         for edge in chosen:
             edge[layer] = _NUMBERS[boundary]
@@ -36,13 +36,13 @@ def mark_selected(mesh: Mesh, boundary: str) -> int:
 
 
 def _selected(edit: bmesh.types.BMesh) -> list[bmesh.types.BMEdge]:
-    """Its border edges that are selected."""
+    """The selected border edges."""
     return [edge for edge in edit.edges if edge.select and edge.is_boundary]
 
 
 def select_marked(mesh: Mesh, boundary: str) -> int:
-    """Adds the border edges of `mesh`, which is in Edit Mode, that are marked so to the selection;
-    returns how many there are.
+    """Adds the border edges of `mesh` with this boundary to the selection in Edit Mode; returns their
+    number.
     """
     edit = bmesh.from_edit_mesh(mesh)
     layer = edit.edges.layers.int.get(BOUNDARY)
@@ -58,7 +58,7 @@ def select_marked(mesh: Mesh, boundary: str) -> int:
 
 
 def summary(sources: Iterable[Object]) -> str:
-    """`Edges: 8 Straight, 4 Free`; empty where no border edge has a boundary of its own."""
+    """For example `Edges: 8 Straight, 4 Free`; empty if no border edge has its own boundary."""
     none = np.zeros(len(_NUMBERS), int)
     total = sum((shown(source.data, BOUNDARY, _counts, none) for source in sources), none)
     parts = [
@@ -70,13 +70,13 @@ def summary(sources: Iterable[Object]) -> str:
 
 
 def _counts(mesh: Mesh) -> np.ndarray:
-    """How many border edges have each number."""
+    """Number of border edges with each boundary."""
     marks = _border_marks(mesh)
     return np.bincount(marks[(marks >= 0) & (marks < len(_NUMBERS))], minlength=len(_NUMBERS))
 
 
 def _border_marks(mesh: Mesh) -> np.ndarray:
-    if mesh.is_editmode:  # then the mesh lists no values
+    if mesh.is_editmode:  # the mesh lists no values in Edit Mode
         edit = bmesh.from_edit_mesh(mesh)
         layer = edit.edges.layers.int.get(BOUNDARY)
         found = [] if layer is None else [e[layer] for e in edit.edges if e.is_boundary]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A mesh that has elements is changed by BMesh alone: to lengthen its arrays crashes Blender 5.2."""
+"""Changes a mesh with elements by BMesh only, since extending its arrays crashes Blender 5.2."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -11,8 +11,8 @@ from ..blender import Object
 
 @contextmanager
 def edited(target: Object) -> Iterator[bmesh.types.BMesh]:
-    """The mesh of `target`, to be changed inside of the `with`, in Edit Mode and Object Mode. In Object Mode
-    its normals are not computed: they take longer than all else, and go with it.
+    """A context in which the mesh of `target` is changed, in Edit Mode and Object Mode. In Object Mode
+    normals are not recomputed here: that takes longer than all else, and Blender does it when needed.
     """
     mesh = target.data
     if target.mode == "EDIT":
@@ -30,7 +30,7 @@ def edited(target: Object) -> Iterator[bmesh.types.BMesh]:
 
 
 def select_nothing(target: Object) -> None:
-    """In Object Mode: what is selected is a list that the mesh may do without."""
+    """In Object Mode, deselects everything; the mesh may have no selection attributes."""
     attributes = target.data.attributes
     for name in (".select_vert", ".select_edge", ".select_poly"):
         if name in attributes:

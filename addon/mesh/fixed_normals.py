@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Vertices where the surface has a normal that somebody chose: a vector on points, of length one and
-in the coordinates of the object. Shorter ones, and no attribute: the surface finds its own. So those
-that Blender mixes on new vertices, of one that is fixed and one that is not, fix nothing.
+"""Fixed normals of the surface at vertices: a vector attribute on points, of unit length, in the
+coordinates of the object. Shorter vectors, and no attribute, fix nothing; so on new vertices Blender's
+mix of a fixed normal and none fixes nothing.
 """
 
 from collections.abc import Callable, Iterable
@@ -17,13 +17,11 @@ from .world_shape import world_matrix
 
 NORMAL = "fair_normal"
 
-_LEAST = 0.999  # of lengths: single precision and mixing of equal ones leave a little less than one
+_LEAST = 0.999  # least length: single precision and mixing of equal normals reduce it slightly
 
 
 def read_normals(mesh: Mesh) -> np.ndarray | None:
-    """(n, 3) float32, zero where the surface is free; None where it is so everywhere. `mesh` is not
-    in Edit Mode.
-    """
+    """(n, 3) float32, zero at free vertices; None if all are free. `mesh` is not in Edit Mode."""
     layer = find_layer(mesh, NORMAL, "FLOAT_VECTOR", "POINT")
     if layer is None:
         return None
@@ -33,16 +31,14 @@ def read_normals(mesh: Mesh) -> np.ndarray | None:
 
 
 def fix(mesh: Mesh, normals: np.ndarray) -> int:
-    """Fixes `normals` (n, 3), of length one, at the selected vertices of `mesh`, in Edit Mode; returns
-    how many.
+    """Fixes `normals` (n, 3), of unit length, at the selected vertices of `mesh`, in Edit Mode; returns
+    their number.
     """
     return _mark(mesh, lambda vertex: Vector(normals[vertex.index]))
 
 
 def fix_along(source: Object, axis: Vector) -> int:
-    """The same of the mesh of `source` along `axis`, in the world, to that side to which the mesh
-    looks.
-    """
+    """The same for the mesh of `source` along `axis`, in the world, on the outer side of the mesh."""
     matrix = np.array(world_matrix(source))[:3, :3]
     along = Vector(matrix.T @ np.array(axis)).normalized()
 
@@ -53,9 +49,7 @@ def fix_along(source: Object, axis: Vector) -> int:
 
 
 def free(mesh: Mesh) -> int:
-    """Leaves the surface free at the selected vertices of `mesh`, in Edit Mode; returns at how many
-    of them it was not.
-    """
+    """Removes the fixed normals at the selected vertices of `mesh`, in Edit Mode; returns their number."""
     edit = bmesh.from_edit_mesh(mesh)
     layer = edit.verts.layers.float_vector.get(NORMAL)
     if layer is None:
@@ -68,12 +62,12 @@ def free(mesh: Mesh) -> int:
 
 
 def count(sources: Iterable[Object]) -> int:
-    """How many normals are fixed, of vertices with faces or without."""
+    """Number of fixed normals, at vertices with or without faces."""
     return sum(shown(source.data, NORMAL, _count, 0) for source in sources)
 
 
 def _count(mesh: Mesh) -> int:
-    if mesh.is_editmode:  # then the mesh lists no values
+    if mesh.is_editmode:  # the mesh lists no values in Edit Mode
         edit = bmesh.from_edit_mesh(mesh)
         layer = edit.verts.layers.float_vector.get(NORMAL)
         return 0 if layer is None else sum(v[layer].length >= _LEAST for v in edit.verts)
@@ -82,8 +76,8 @@ def _count(mesh: Mesh) -> int:
 
 
 def own_normals(mesh: Mesh) -> np.ndarray:
-    """(n, 3) float64 of length one, of a `mesh` that is not in Edit Mode: the mean of those of the
-    corners, where somebody chose these.
+    """(n, 3) float64 unit normals of a `mesh` that is not in Edit Mode: the mean of the corner normals,
+    which may be custom ones.
     """
     if not mesh.has_custom_normals:
         return column(mesh.vertex_normals, "vector", width=3).astype(float)
@@ -99,7 +93,7 @@ def _mark(mesh: Mesh, normal_of: Callable[[bmesh.types.BMVert], Vector]) -> int:
     if not any(v.select for v in edit.verts):
         return 0
     layer = edit.verts.layers.float_vector.get(NORMAL)
-    if layer is None:  # makes all vertices from before invalid
+    if layer is None:  # this invalidates references to vertices
         layer = edit.verts.layers.float_vector.new(NORMAL)
     edit.normal_update()
     edit.verts.index_update()

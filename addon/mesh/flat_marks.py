@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Faces that are meant flat: a Boolean attribute on faces."""
+"""Faces to keep flat: a Boolean attribute on faces."""
 
 from collections.abc import Iterable
 from typing import Any
@@ -15,7 +15,9 @@ FLAT = "fair_flat"
 
 
 def mark_selected(mesh: Mesh, flat: bool) -> int:
-    """Marks the selected faces of `mesh`, which is in Object Mode, or unmarks them; returns how many there are."""
+    """Marks the selected faces of `mesh`, which is in Object Mode, or unmarks them; returns their
+    number.
+    """
     chosen = column(mesh.polygons, "select", bool)
     if flat:
         mark(mesh, chosen)
@@ -25,7 +27,7 @@ def mark_selected(mesh: Mesh, flat: bool) -> int:
 
 
 def mark(mesh: Mesh, faces: np.ndarray) -> None:
-    """Marks the `faces` (m,) bool of `mesh`, which is in Object Mode, beside those that are marked."""
+    """Marks the `faces` (m,) bool of `mesh`, which is in Object Mode, in addition to marked ones."""
     if faces.any():
         layer = make_layer(mesh, FLAT, "BOOLEAN", "FACE")
         fill_layer(layer, faces | layer_values(layer))
@@ -33,7 +35,7 @@ def mark(mesh: Mesh, faces: np.ndarray) -> None:
 
 
 def clear(mesh: Mesh) -> int:
-    """Unmarks all faces of `mesh`, which is in Object Mode; returns how many were marked."""
+    """Unmarks all faces of `mesh`, which is in Object Mode; returns the number of marked ones."""
     layer = find_layer(mesh, FLAT, "BOOLEAN", "FACE")
     if layer is None:
         return 0
@@ -44,12 +46,14 @@ def clear(mesh: Mesh) -> int:
 
 
 def count(sources: Iterable[Object]) -> int:
-    """How many faces are marked; none in the Edit Mode of a Blender that does not show it."""
+    """Number of marked faces; 0 in Edit Mode in versions of Blender that do not show the attribute
+    there.
+    """
     return sum(shown(source.data, FLAT, _count, 0) for source in sources)
 
 
 def _count(mesh: Mesh) -> int:
-    if mesh.is_editmode:  # then the mesh lists no values
+    if mesh.is_editmode:  # the mesh lists no values in Edit Mode
         edit = bmesh.from_edit_mesh(mesh)
         marked = None if (flags := _flags(edit)) is None else flags.get(FLAT)
         return 0 if marked is None else sum(face[marked] for face in edit.faces)
@@ -58,5 +62,5 @@ def _count(mesh: Mesh) -> int:
 
 
 def _flags(edit: bmesh.types.BMesh) -> Any:
-    """The Boolean layers of faces; None in Blender 4.3 and 4.4, which do not show them."""
+    """The Boolean layers of faces; None in Blender 4.3 and 4.4, which do not provide them."""
     return getattr(edit.faces.layers, "bool", None)

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Vertex groups as arrays, read and written.
 
-Blender gives and takes weights one by one: reading takes a second for a million of them. For
-writing there is an operator that makes a whole attribute a group: 30 ms for half a million weights
-instead of a second.
+Blender reads and writes weights one by one: reading a million takes a second. For writing there is an
+operator that converts an attribute to a group: 30 ms for half a million weights instead of a second.
 """
 
 from dataclasses import dataclass
@@ -28,16 +27,14 @@ class VertexGroup:
     weights: np.ndarray  # (g,) float32
 
     def dense(self, count: int) -> np.ndarray:
-        """(count,) float32: the weight of every vertex, 0 outside of the group."""
+        """(count,) float32: the weight of every vertex, 0 outside the group."""
         weights = np.zeros(count, np.float32)
         weights[self.vertices] = self.weights
         return weights
 
 
 def read_groups(source: Object, mesh: Mesh) -> list[VertexGroup]:
-    """The vertex groups of the object `source`, with the members that they have in `mesh`: a list
-    of VertexGroup.
-    """
+    """The vertex groups of the object `source`, with their members in `mesh`."""
     groups = source.vertex_groups
     if not len(groups):
         return []
@@ -65,10 +62,9 @@ def write_groups(
     transfer: AttributeTransfer,
     operators: bool = True,
 ) -> None:
-    """Gives the object `target`, itself in Object Mode, the vertex `groups` (list of VertexGroup)
-    with carried weights.
+    """Gives the object `target`, in Object Mode, the vertex `groups` with transferred weights.
 
-    `operators`: whether Blender's may be called, which they may not from its handlers.
+    `operators`: whether Blender's operators may be called; handlers must not call them.
     """
     target.vertex_groups.clear()
     for group in groups:
@@ -85,19 +81,19 @@ def write_group(
     zero: np.ndarray,
     operators: bool = True,
 ) -> None:
-    """Gives `target` one more group, named and locked as `group`: with `weights` (N,) that are not
-    0, and the members `zero` (k,) of weight 0.
+    """Gives `target` another group with the name and lock of `group`: with the `weights` (N,) other
+    than 0, and the members `zero` (k,) of weight 0.
     """
     make = _convert if operators and weights.any() else _add
     made = make(target, weights)
     made.name = group.name
-    if len(zero):  # the operator leaves them out; membership counts even so
+    if len(zero):  # the operator drops them, but they are members
         made.add(zero.tolist(), 0.0, "REPLACE")
     made.lock_weight = group.lock_weight
 
 
 def _add(target: Object, weights: np.ndarray) -> bpy.types.VertexGroup:
-    """A new vertex group of the `weights` (N,) that are not 0, those of one weight at a time."""
+    """A new vertex group of the `weights` (N,) other than 0, added by equal weight."""
     made = target.vertex_groups.new()
     members = np.flatnonzero(weights)
     members = members[np.argsort(weights[members], kind="stable")]
@@ -108,9 +104,9 @@ def _add(target: Object, weights: np.ndarray) -> bpy.types.VertexGroup:
 
 
 def _convert(target: Object, weights: np.ndarray) -> bpy.types.VertexGroup:
-    """A new vertex group of the `weights` (N,) float32 that are not 0.
+    """A new vertex group of the `weights` (N,) float32 other than 0.
 
-    The operator only asks whether anything is being edited, which may be another object.
+    The operator's poll fails if any object is being edited.
     """
     attribute = target.data.attributes.new(_PASSING, "FLOAT", "POINT")
     attribute.data.foreach_set("value", np.clip(weights, 0.0, 1.0))

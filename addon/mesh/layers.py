@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a mesh carries beside shape and topology: read as arrays, written to the refined mesh."""
+"""The data of a mesh besides shape and topology: read as arrays, written to the refined mesh."""
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
@@ -12,22 +12,22 @@ from ..transfer.attributes import AttributeTransfer
 from .groups import VertexGroup, read_groups, write_groups
 from .shape_keys import ShapeKeys, read_shape_keys
 
-# properties: the names of their attributes differ by version
+# properties, since the names of their attributes differ by version
 EDGE_MARKS = ("use_seam", "use_freestyle_mark")
 FACE_MARKS = ("use_freestyle_mark",)
-# A crease or bevel weight says what to do at one vertex. Spread over the faces around it, it would
-# say it everywhere.
+# A crease or bevel weight applies to one vertex; interpolated over the faces around it, it would apply
+# everywhere.
 OWN_VERTICES_ONLY = {"crease_vert", "bevel_weight_vert"}
 
 
 @dataclass(frozen=True)
 class Storage:
-    """How Blender hands out one element of a data type."""
+    """How Blender stores an element of a data type."""
 
     field: str  # its name in foreach_get and foreach_set
     dtype: Any
     width: int
-    mixable: bool  # numbers that a mean makes sense of
+    mixable: bool  # whether a mean of values makes sense
 
 
 STORAGE = {
@@ -35,7 +35,7 @@ STORAGE = {
     "FLOAT2": Storage("vector", np.float32, 2, True),
     "FLOAT_VECTOR": Storage("vector", np.float32, 3, True),
     "FLOAT_COLOR": Storage("color", np.float32, 4, True),
-    "BYTE_COLOR": Storage("color", np.float32, 4, True),  # linear colours, which mix as light does
+    "BYTE_COLOR": Storage("color", np.float32, 4, True),  # linear colours, which mix like light
     "INT": Storage("value", np.int32, 1, False),
     "INT8": Storage("value", np.int32, 1, False),
     "INT16_2D": Storage("value", np.int32, 2, False),
@@ -46,17 +46,17 @@ STORAGE = {
     "STRING": Storage("value", object, 1, False),
 }
 
-# positions and topology, which the refined mesh has of its own; seams have another name in each
-# Blender version
-OFFSET_NAMES = "fair_offset"  # of vertices that a table of offsets has named
+# positions and topology, which the refined mesh has itself; seams have another name in each version of
+# Blender
+OFFSET_NAMES = "fair_offset"  # of vertices named by a table of offsets
 _NOT_CARRIED = {"position", "custom_normal", "uv_seam", OFFSET_NAMES}
-# all other names that begin with a dot are Blender's own: topology, selection, what is hidden, pins
+# other names that begin with a dot are Blender's own: topology, selection, visibility, pins
 _INTERNAL_CARRIED = {".sculpt_mask", ".sculpt_face_set"}
 
 
 @dataclass(frozen=True)
 class Attribute:
-    """One attribute: `values` (size,) or (size, width), of the elements of `domain`."""
+    """One attribute: `values` (size,) or (size, width) on the elements of `domain`."""
 
     name: str
     data_type: str
@@ -67,7 +67,7 @@ class Attribute:
 def find_layer(mesh: Mesh, name: str, data_type: str, domain: str) -> Any:
     """The named attribute, or None.
 
-    Blender accepts any domain and type under any name, so both are checked.
+    Checks domain and type, since Blender accepts any under any name.
     """
     layer = mesh.attributes.get(name)
     if layer is None or (layer.data_type, layer.domain) != (data_type, domain):
@@ -76,7 +76,7 @@ def find_layer(mesh: Mesh, name: str, data_type: str, domain: str) -> Any:
 
 
 def make_layer(mesh: Mesh, name: str, data_type: str, domain: str) -> Any:
-    """The named attribute; a new one, in the place of another by that name, if it is not there."""
+    """The named attribute; created, in place of another of that name, if missing."""
     layer = find_layer(mesh, name, data_type, domain)
     if layer is not None:
         return layer
@@ -99,7 +99,7 @@ def layer_values(layer: Any) -> np.ndarray:
 
 
 def fill_layer(layer: Any, values: np.ndarray) -> None:
-    """Writes what `layer_values` reads."""
+    """Writes values in the format of `layer_values`."""
     storage = STORAGE[layer.data_type]
     if storage.dtype is object:
         for i in np.flatnonzero(values.astype(bool)).tolist():
@@ -109,15 +109,13 @@ def fill_layer(layer: Any, values: np.ndarray) -> None:
 
 
 def write_creases(mesh: Mesh, weights: Mapping[frozenset[int], float]) -> None:
-    """Of edges by their two vertices; all others have none."""
+    """Sets the creases of edges, given by their two vertices; all others get none."""
     values = [weights.get(frozenset(edge.vertices), 0.0) for edge in mesh.edges]
     fill_layer(make_layer(mesh, "crease_edge", "FLOAT", "EDGE"), np.array(values))
 
 
 def read_attributes(mesh: Mesh) -> tuple[list[Attribute], list[str]]:
-    """The attributes of `mesh` that are carried: (list of Attribute, list of names of unknown data
-    types).
-    """
+    """The attributes of `mesh` to transfer, and the names of those with unknown data types."""
     chosen = [attribute for attribute in mesh.attributes if _is_carried(attribute.name)]
     known = [attribute for attribute in chosen if attribute.data_type in STORAGE]
     return [Attribute(a.name, a.data_type, a.domain, layer_values(a)) for a in known], [
@@ -131,10 +129,10 @@ def _is_carried(name: str) -> bool:
 
 @dataclass(frozen=True)
 class SurfaceData:
-    """What can be carried over from a control mesh of n vertices, e edges, m faces and c corners."""
+    """The transferable data of a control mesh with n vertices, e edges, m faces and c corners."""
 
     attributes: list[Attribute]
-    edge_marks: dict[str, np.ndarray]  # property → (e,) bool; only those that mark any
+    edge_marks: dict[str, np.ndarray]  # property → (e,) bool; only properties that mark an edge
     face_marks: dict[str, np.ndarray]  # property → (m,) bool
     active_uv: str  # names; empty: none
     render_uv: str
@@ -147,9 +145,8 @@ class SurfaceData:
 
 
 def read_data(source: Object, mesh: Mesh, evaluated: bool = False) -> SurfaceData:
-    """SurfaceData of `mesh` (bpy.types.Mesh), which is that of the object `source`, a copy of it
-    from Edit Mode, or, `evaluated`, what its modifiers make of it: then its shape keys are in the
-    shape already.
+    """SurfaceData of `mesh` (bpy.types.Mesh): the mesh of the object `source`, a copy of it from Edit
+    Mode, or, `evaluated`, the result of its modifiers, whose shape contains the shape keys already.
     """
     attributes, unknown = read_attributes(mesh)
     shape_keys = None if evaluated else read_shape_keys(source, len(mesh.vertices))
@@ -169,7 +166,7 @@ def read_data(source: Object, mesh: Mesh, evaluated: bool = False) -> SurfaceDat
 
 
 def read_marks(elements: Any, names: tuple[str, ...]) -> dict[str, np.ndarray]:
-    """(size,) bool by the `names` of properties, of `elements` of a mesh; those that mark any."""
+    """(size,) bool for the properties `names` of `elements` of a mesh, without those that mark none."""
     found = {}
     for name in names:
         # Blender may be built without Freestyle
@@ -213,7 +210,7 @@ def write_attributes(
     origin: np.ndarray,
     leave_out: Collection[str] = (),
 ) -> None:
-    """Gives `mesh` all `attributes` (list of Attribute) but those named in `leave_out`.
+    """Gives `mesh` all `attributes` except those named in `leave_out`.
 
     `origin` (refined edges,): the control edge of each, or -1.
     """
@@ -223,9 +220,7 @@ def write_attributes(
 
 
 def inherit(values: np.ndarray, origin: np.ndarray) -> np.ndarray:
-    """(e, …) values of control edges → those of their pieces; 0 or False on all other refined
-    edges.
-    """
+    """(e, …) values of control edges → values of their pieces; 0 or False on all other refined edges."""
     found = origin >= 0
     out = np.zeros((len(origin), *values.shape[1:]), values.dtype)
     out[found] = values[origin[found]]
@@ -247,7 +242,7 @@ def _carried(attribute: Attribute, transfer: AttributeTransfer, origin: np.ndarr
 
 def _write_attribute(mesh: Mesh, attribute: Attribute, values: np.ndarray) -> None:
     layer = make_layer(mesh, attribute.name, attribute.data_type, attribute.domain)
-    if attribute.name == "sharp_edge":  # beside the surface's own creases
+    if attribute.name == "sharp_edge":  # in addition to the surface's own creases
         values = values | layer_values(layer)
     fill_layer(layer, values)
 
@@ -259,15 +254,14 @@ def write_data(
     leave_out: Collection[str] = (),
     operators: bool = True,
 ) -> None:
-    """Gives the object `target`, in Object Mode with the refined mesh, what `data` (SurfaceData)
-    holds; `transfer`: AttributeTransfer.
+    """Gives the object `target`, in Object Mode with the refined mesh, the `data`.
 
-    `operators`: see groups.py. Attributes named in `leave_out` are not written. Sharp edges add up with those that are there.
-    Shape keys: see shape_keys.py; they come last, since attributes of a mesh that has them are
-    harder to change.
+    `operators`: see groups.py. Attributes named in `leave_out` are not written. Sharp edges are added
+    to existing ones. Shape keys: see shape_keys.py; they come last, since attributes of a mesh with
+    shape keys are harder to change.
     """
     mesh = target.data
-    # as an attribute, which is read as a block, and not listed where there is none
+    # an attribute is written as a block, and is not listed if missing
     corners = len(mesh.loops)
     edges = layer_values(mesh.attributes[".corner_edge"]) if corners else np.empty(0, np.int32)
     origin = transfer.edge_origin(edges, len(mesh.edges))
@@ -282,9 +276,9 @@ def write_data(
 
 
 def _choose_active(mesh: Mesh, data: SurfaceData) -> None:
-    """Which UV map and which colours are shown and rendered.
+    """Sets the UV map and colours for display and rendering.
 
-    New ones push themselves forward, so this comes last.
+    Called last, since new ones become active.
     """
     if data.active_uv in mesh.uv_layers:
         mesh.uv_layers.active = mesh.uv_layers[data.active_uv]

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether what was measured still fits the mesh.
+"""Tracks whether measurements still apply to a mesh.
 
-Drawing only looks it up; the work is done when a mesh changes.
+Drawing only looks up the result; the work is done when a mesh changes.
 """
 
 import zlib
@@ -21,29 +21,27 @@ _watched: dict[
 ] = {}  # mesh key: checksum of its positions when it was measured
 _triangles: dict[int | str, tuple[tuple[int, int], int]] = {}  # mesh key: its size, and triangles
 _changed: set[int | str] = set()  # keys of meshes that have changed since
-_seen: dict[int | str, dict[Hashable, Any]] = {}  # mesh key: what panels show of it, by name
-_unseen: dict[
-    tuple[int | str, Hashable], Callable[[Mesh], Any]
-] = {}  # what is still to be measured
+_seen: dict[int | str, dict[Hashable, Any]] = {}  # mesh key: the values that panels show, by name
+_unseen: dict[tuple[int | str, Hashable], Callable[[Mesh], Any]] = {}  # values still to be measured
 
-# edges; what is shown of larger meshes is measured once changes pause
+# edges; values of larger meshes are measured once changes pause
 MEASURED_WHILE_DRAWING = 10_000
 
 
 def watch(context: Context, mesh: Mesh) -> list[int]:
-    """What was measured of `mesh` fits from now on.
+    """Notes that a measurement of `mesh` applies from now on.
 
-    Returns its element counts, to be kept with the numbers.
+    Returns its element counts, to be stored with the measurement.
     """
-    context.view_layer.update()  # so that what we did ourselves does not come in as a change later
+    context.view_layer.update()  # so that our own changes are not reported later
     _watched[session_key(mesh)] = None if mesh.is_editmode else _checksum(mesh)
     _changed.discard(session_key(mesh))
     return counts(mesh)
 
 
 def coarse_triangles(mesh: Mesh) -> int:
-    """Triangles that `mesh` stands for, for drawing: counted again when its numbers of faces or
-    corners are others. In Edit Mode as of the last update.
+    """Triangles equivalent to `mesh`, for drawing: counted again if its numbers of faces or corners
+    change. In Edit Mode at the last update.
     """
     now = (len(mesh.loops), len(mesh.polygons))
     known = _triangles.get(session_key(mesh))
@@ -54,8 +52,8 @@ def coarse_triangles(mesh: Mesh) -> int:
 
 
 def shown(mesh: Mesh, name: Hashable, measure: Callable[[Mesh], Any], nothing: Any) -> Any:
-    """What `measure(mesh)` gives, for drawing: as of the last change, and of a large mesh `nothing` until
-    that has been measured. Without a window it is measured each time, as nobody waits for drawing.
+    """The result of `measure(mesh)` at the last change, for drawing; `nothing` until a large mesh has
+    been measured. Without a window it is measured at each call.
     """
     key = session_key(mesh)
     known = _seen.setdefault(key, {})
@@ -71,7 +69,7 @@ def shown(mesh: Mesh, name: Hashable, measure: Callable[[Mesh], Any], nothing: A
 
 
 def measure_unseen() -> None:
-    """What panels have asked for in vain."""
+    """Measures the values that panels have requested."""
     meshes = {session_key(mesh): mesh for mesh in bpy.data.meshes}
     for (key, name), measure in list(_unseen.items()):
         if key in meshes:
@@ -81,12 +79,12 @@ def measure_unseen() -> None:
 
 
 def counts(mesh: Mesh) -> list[int]:
-    """Vertices, edges, faces, as plain ints; in Edit Mode as of the last update."""
+    """Numbers of vertices, edges, faces; in Edit Mode at the last update."""
     return [len(mesh.vertices), len(mesh.edges), len(mesh.polygons)]
 
 
 def is_stale(mesh: Mesh, counts_then: Sequence[int]) -> bool:
-    """Whether `mesh` was changed since `watch` returned `counts_then`.
+    """Whether `mesh` has changed since `watch` returned `counts_then`.
 
     After loading a file only counts are compared.
     """
@@ -106,11 +104,11 @@ def _note_changes(_scene: Scene, depsgraph: bpy.types.Depsgraph) -> None:
         _seen.pop(key, None)
         if key not in _watched:
             continue
-        # new attributes are no change of shape, and leaving Edit Mode is none either
+        # new attributes and leaving Edit Mode do not change the shape
         if mesh.is_editmode or (_watched[key] is not None and _watched[key] != _checksum(mesh)):
             _changed.add(key)
         elif _watched[key] is not None:
-            _changed.discard(key)  # undone
+            _changed.discard(key)  # the change was undone
 
 
 def _forget(*_: Any) -> None:
@@ -121,7 +119,7 @@ def _forget(*_: Any) -> None:
 
 
 def _look_again(*_: Any) -> None:
-    """After undo any mesh may be another."""
+    """Undo may have changed any mesh."""
     _seen.clear()
     _unseen.clear()
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The modifiers of the source, copied to the refined object by Blender itself."""
+"""Copies the modifiers of the source to the refined object, by Blender itself."""
 
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
@@ -10,11 +10,11 @@ import bpy
 from ..blender import Context, Object
 from .object import copy_drivers
 
-# custom property of what shows an inspected object in another material; none of its source's own
-# modifiers
+# custom property of the modifier that shows an inspected object in another material, which is not
+# copied
 INSPECTION_TAG = "fairing_inspection"
 
-# type: the operator that binds and unbinds, the property that says which
+# type: the operator that binds and unbinds, and the property that tells which
 _BOUND = {
     "SURFACE_DEFORM": ("surfacedeform_bind", "is_bound"),
     "MESH_DEFORM": ("meshdeform_bind", "is_bound"),
@@ -27,12 +27,11 @@ _USELESS = {"MULTIRES": "its sculpted detail belongs to the faces of the control
 def copy_modifiers(
     context: Context, source: Object, target: Object, subdivided: bool = False
 ) -> list[str]:
-    """Replaces the modifiers of the object `target` with those of `source`, with their settings,
-    targets and drivers. `subdivided`: the surface passes where Subdivision Surface would, and gets
-    none.
+    """Replaces the modifiers of the object `target` by those of `source`, with their settings, targets
+    and drivers. `subdivided`: without Subdivision Surface, since the surface follows it already.
 
-    Both objects have to be in the view layer. Returns what could not be copied, a sentence each;
-    nothing can where Blender is not in Object Mode.
+    Both objects must be in the view layer. Returns sentences on what could not be copied, which is
+    everything if Blender is not in Object Mode.
     """
     if not len(source.modifiers):
         return []
@@ -48,13 +47,13 @@ def copy_modifiers(
         notes += _drop_subdivision(target)
     copy_drivers(source, target, "modifiers[")
     inspection = inspection_modifier(target)
-    if inspection is not None:  # how the source is looked at
+    if inspection is not None:  # the inspection display of the source
         target.modifiers.remove(inspection)
     return notes
 
 
 def inspection_modifier(target: Object) -> Any:
-    """The modifier that shows `target` in another material, or None."""
+    """The inspection modifier of `target`, or None."""
     return next(
         (
             m
@@ -67,7 +66,7 @@ def inspection_modifier(target: Object) -> Any:
 
 @contextmanager
 def without_inspection(context: Context, *targets: Object) -> Iterator[None]:
-    """Inside the `with` the evaluated meshes of `targets` are what they are without inspection, for
+    """A context in which the evaluated meshes of `targets` are free of the inspection modifier, for
     reading or export.
     """
     found = [inspection_modifier(target) for target in targets]
@@ -111,7 +110,7 @@ def _drop_subdivision(target: Object) -> list[str]:
 
 
 def _unbind(context: Context, target: Object) -> list[str]:
-    """Bindings are lists of the control mesh's vertices: on another mesh they only raise errors."""
+    """Bindings list vertices of the control mesh: on another mesh they only raise errors."""
     notes = []
     for modifier in target.modifiers:
         operator, bound = _BOUND.get(modifier.type, ("", ""))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The new object beside its source: same place, same collections, same materials."""
+"""The new object beside its source: same transform, same collections, same materials."""
 
 from collections.abc import Callable, Collection, Iterable, Iterator
 from contextlib import contextmanager
@@ -10,7 +10,7 @@ import bpy
 from ..blender import Context, Mesh, Object, all_objects
 
 TURN = (
-    "rotation_mode",  # first: the others are read by it
+    "rotation_mode",  # first, since the others depend on it
     "rotation_euler",
     "rotation_quaternion",
     "rotation_axis_angle",
@@ -22,12 +22,12 @@ PARENT = ("parent", "parent_type", "parent_bone", "parent_vertices", "matrix_par
 
 
 def session_key(block: bpy.types.ID) -> int | str:
-    """What a data-block is known by until its file is closed, undo or not."""
+    """A key of a data-block that stays valid through undo until its file is closed."""
     return getattr(block, "session_uid", None) or block.name_full
 
 
 def changed_keys(depsgraph: bpy.types.Depsgraph, *, moved: bool) -> set[int | str]:
-    """Keys of the data that an update has reshaped, or also `moved`."""
+    """Keys of the data-blocks that an update has reshaped or, with `moved`, also moved."""
     return {
         session_key(cast(Any, update.id).original)
         for update in depsgraph.updates
@@ -36,9 +36,7 @@ def changed_keys(depsgraph: bpy.types.Depsgraph, *, moved: bool) -> set[int | st
 
 
 class Reference:
-    """Finds its object again, after undo and deleting too, which leave pointers to nowhere; None
-    once the object is gone.
-    """
+    """Finds its object again after undo and deletion, which invalidate pointers; None if it is gone."""
 
     def __init__(self, target: Object) -> None:
         self.key = session_key(target)
@@ -54,8 +52,8 @@ class Reference:
 
 
 class Showing:
-    """The mesh objects of which something is `wanted` in viewports: looked for again once the file has another
-    number of objects, or after `forget`.
+    """The mesh objects for which viewports show something, by `wanted`: found again when the number of
+    objects changes, or after `forget`.
     """
 
     def __init__(self, wanted: Callable[[Object], bool]) -> None:
@@ -77,7 +75,7 @@ class Showing:
 
 
 def new_object(context: Context, source: Object, mesh: Mesh) -> Object:
-    """Links a new object for `mesh` beside `source` and returns it. The source is only read."""
+    """Links a new object with `mesh` beside `source` and returns it. Does not change the source."""
     target = linked_object(context, mesh, source)
     copy_place(context, source, target)
     _copy_object_materials(source, target)
@@ -85,7 +83,9 @@ def new_object(context: Context, source: Object, mesh: Mesh) -> Object:
 
 
 def linked_object(context: Context, data: Any, source: Object | None = None) -> Object:
-    """A new object for `data`, by its name, in the collections of its `source` or the present one."""
+    """A new object with `data`, of the same name, in the collections of its `source` or the current
+    one.
+    """
     target = cast(Object, bpy.data.objects.new(data.name, data))
     for collection in collections_for(context, source):
         collection.objects.link(target)
@@ -94,7 +94,7 @@ def linked_object(context: Context, data: Any, source: Object | None = None) -> 
 
 @contextmanager
 def nothing_left_behind() -> Iterator[None]:
-    """What an error ends inside the `with` leaves no new object and no new mesh."""
+    """A context that removes new objects and meshes if an error ends it."""
     kinds: tuple[Any, ...] = (bpy.data.objects, bpy.data.meshes)
     before = [set(map(session_key, blocks)) for blocks in kinds]
     try:
@@ -107,9 +107,11 @@ def nothing_left_behind() -> Iterator[None]:
 
 
 def is_in_view_layer(context: Context, target: Object) -> bool:
-    """Whether it can be selected and hidden there: not in an excluded collection, nor in another scene alone."""
+    """Whether the object is in the view layer, so that it can be selected and hidden: not in an
+    excluded collection, nor only in another scene.
+    """
     objects = context.view_layer.objects
-    _ = objects.active  # lets Blender list those that are new
+    _ = objects.active  # makes Blender update the list
     return objects.get(target.name) == target
 
 
@@ -120,8 +122,8 @@ def why_not_here(context: Context, targets: Iterable[Object]) -> str:
 
 
 def select_only(context: Context, objects: list[Object]) -> None:
-    """Selects `objects` and nothing else; the last one becomes active. Those that are not in the view
-    layer, as in an excluded collection, stay as they are.
+    """Selects exactly `objects`; the last one becomes active. Objects outside the view layer, such as
+    in an excluded collection, stay unselected.
     """
     here = [one for one in objects if is_in_view_layer(context, one)]
     if not here:
@@ -134,7 +136,9 @@ def select_only(context: Context, objects: list[Object]) -> None:
 
 
 def collections_for(context: Context, source: Object | None = None) -> list[bpy.types.Collection]:
-    """Those for a new object, beside its `source` if there is one; linked and overridden ones take none."""
+    """The collections for a new object: those of its `source`, if any; linked and overridden ones
+    cannot be used.
+    """
     beside = [] if source is None else source.users_collection
     for found in (beside, [context.collection], [context.scene.collection]):
         own = [each for each in found if not (each.library or each.override_library)]
@@ -144,22 +148,22 @@ def collections_for(context: Context, source: Object | None = None) -> list[bpy.
 
 
 def copy_place(context: Context | None, source: Object, target: Object) -> None:
-    """Lets `target` stand where `source` does, with the same parent. `context`: None within Blender's
-    own update, which has done what constraints do.
+    """Gives `target` the transform and parent of `source`. `context`: None within Blender's own update,
+    which has evaluated constraints.
     """
     if source.parent is not None or target.parent is not None:
         for name in PARENT:
             setattr(target, name, getattr(source, name))
     for name in PLACE:
         setattr(target, name, getattr(source, name))
-    if source.constraints:  # not copied, what they did is
+    if source.constraints:  # the constraints are not copied, but their effect is
         if context is not None:
             context.view_layer.update()
         target.matrix_world = source.matrix_world
 
 
 def _copy_object_materials(source: Object, target: Object) -> None:
-    """Slots that hold their material in the object, not in the mesh."""
+    """Copies slots whose material is linked to the object instead of the mesh."""
     for own, theirs in zip(target.material_slots, source.material_slots):
         if theirs.link == "OBJECT":
             own.link = "OBJECT"
@@ -169,8 +173,8 @@ def _copy_object_materials(source: Object, target: Object) -> None:
 def copy_drivers(
     source: Any, target: Any, prefix: str = "", leave_out: Collection[str] = ()
 ) -> None:
-    """Gives `target` the drivers of `source`, a data-block of the same kind, whose path begins with
-    `prefix` and is none to `leave_out`.
+    """Copies to `target` the drivers of `source`, a data-block of the same kind, whose paths begin with
+    `prefix`, except those to `leave_out`.
     """
     if source.animation_data is None:
         return

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Vertices named by station and line, as a table of offsets has named them."""
+"""Names of vertices by station and line, from a table of offsets."""
 
 from collections.abc import Sequence
 
@@ -10,13 +10,13 @@ from .layers import OFFSET_NAMES, fill_layer, find_layer, layer_values, make_lay
 
 
 def write_names(mesh: Mesh, names: Sequence[str]) -> None:
-    """(n,) `station 4, WL 300`; empty where a vertex has none."""
-    stored = np.array([name.encode() for name in names], object)  # Blender has bytes there
+    """(n,) names such as `station 4, WL 300`; empty for vertices without one."""
+    stored = np.array([name.encode() for name in names], object)  # Blender stores bytes here
     fill_layer(make_layer(mesh, OFFSET_NAMES, "STRING", "POINT"), stored)
 
 
 def read_names(mesh: Mesh) -> list[str]:
-    """(n,), or none where the mesh is of no table. Not in Edit Mode."""
+    """(n,), or empty for meshes without a table. Not in Edit Mode."""
     layer = find_layer(mesh, OFFSET_NAMES, "STRING", "POINT")
     if layer is None:
         return []
@@ -24,7 +24,7 @@ def read_names(mesh: Mesh) -> list[str]:
 
 
 def stations(names: Sequence[str], x: np.ndarray) -> list[tuple[str, float]]:
-    """Of vertices (n,) with these `names` and `x`: each station's name and mean place, in order."""
+    """Each station's name and mean place, in order, from the `names` (n,) and `x` (n,) of vertices."""
     places: dict[str, list[float]] = {}
     for name, place in zip(names, x.tolist()):
         if name:

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a faired surface has of its own: it stays while the surface is computed again.
+"""The data of a faired surface that stay when it is recomputed.
 
-Its own are the vertex groups, attributes, UV maps, colours, marks and shape keys that do not bear
-the name of one of the source. Materials, custom properties and modifiers stay where they are.
+Its own data are the vertex groups, attributes, UV maps, colours, marks and shape keys that do not have
+a name from the source. Materials, custom properties and modifiers stay anyway.
 """
 
 from dataclasses import dataclass
@@ -28,15 +28,15 @@ from .read import read_mesh
 from .samples import Samples
 from .shape_keys import KeyAnimation, ShapeKey, ShapeKeys, add_shape_key, read_shape_keys
 
-# what the surface has from its creases and settings, whatever it was before
+# from its creases and settings, always replaced
 _MADE_ANEW = {"sharp_edge", "sharp_face"}
-_OURS = ("fair_", "Fairing ")  # how the names of the add-on's attributes begin
+_OURS = ("fair_", "Fairing ")  # prefixes of the add-on's attributes
 
-Names = dict[str, list[str]]  # kind: names
+Names = dict[str, list[str]]  # names by kind
 
 
 def carried_names(data: SurfaceData, keys: ShapeKeys | None) -> Names:
-    """What a surface has from its source, by name."""
+    """The names of data that a surface has from its source."""
     return {
         "attributes": [attribute.name for attribute in data.attributes],
         "groups": [group.name for group in data.groups],
@@ -47,22 +47,23 @@ def carried_names(data: SurfaceData, keys: ShapeKeys | None) -> Names:
 
 @dataclass(frozen=True)
 class OwnData:
-    """Read before the mesh of a surface is made again."""
+    """The surface's own data, read before its mesh is replaced."""
 
-    mesh: Any  # ControlArrays
+    mesh: Any  # its ControlArrays
     attributes: list[Attribute]
     marks: dict[str, np.ndarray]
     groups: list[VertexGroup]
     active_group: str
     active_uv: str
     active_color: str
-    keys: list[tuple[ShapeKey, str, np.ndarray]]  # key, its relative key, (n, 3) away from that
+    # key, its relative key, (n, 3) difference from that
+    keys: list[tuple[ShapeKey, str, np.ndarray]]
     animation: KeyAnimation | None
     notes: list[str]
 
     def write_keys(self, target: Object, last: bool = True) -> list[str]:
-        """Gives `target` the shape keys, and lets them be animated as they were; what is lost, a
-        sentence each. `last`: whether nobody else will get them.
+        """Gives `target` the shape keys and their animation; returns what is lost, a sentence each.
+        `last`: whether no other call follows.
         """
         samples = Samples(self.mesh, read_mesh(target.data)) if self.keys else None
         for key, relative, away in self.keys:
@@ -71,14 +72,14 @@ class OwnData:
         return self.animation.give(target, last) if self.animation else []
 
     def drop(self) -> None:
-        """Where nothing gets it any more."""
+        """Frees the data without writing them."""
         if self.animation:
             self.animation.drop()
 
 
 def read_own(target: Object, *carried: Names) -> OwnData | None:
-    """What the surface `target`, in Object Mode, has beside what is `carried` from its source, now
-    or before; None if there is nothing.
+    """The data of the surface `target`, in Object Mode, besides those `carried` from its source, now or
+    before; None if there are none.
     """
     mesh = target.data
     taken = {
@@ -112,8 +113,8 @@ def read_own(target: Object, *carried: Names) -> OwnData | None:
 
 
 def write_own(target: Object, own: OwnData, in_handler: bool = False) -> list[str]:
-    """Gives `target`, with its new mesh, what it had of its own; what could not be kept as it was, a
-    sentence each. Shape keys, and what animates them, not where one of Blender's handlers calls.
+    """Gives `target`, with its new mesh, its own data; returns what is lost, a sentence each. Within
+    Blender's handlers without shape keys and their animation.
     """
     mesh = target.data
     samples = Samples(own.mesh, read_mesh(mesh))
@@ -163,7 +164,7 @@ def _write_marks(mesh: Mesh, own: OwnData, samples: Samples) -> list[str]:
 
 
 def _choose_active(target: Object, own: OwnData) -> None:
-    """What was active goes on being it, where it is the surface's own."""
+    """Keeps the active elements active, if they are the surface's own."""
     mesh, names = target.data, {attribute.name for attribute in own.attributes}
     if own.active_uv in names:
         mesh.uv_layers.active = mesh.uv_layers[own.active_uv]
@@ -178,6 +179,6 @@ def _name(item: bpy.types.bpy_struct | None) -> str:
 
 
 def _listed(names: list[str]) -> str:
-    """`'A' and 'B' are`."""
+    """For example `'A' and 'B' are`."""
     quoted = listed([f"'{name}'" for name in names])
     return f"{quoted} are" if len(names) > 1 else f"{quoted} is"

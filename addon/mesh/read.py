@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The control mesh: which objects are faired, the mesh of each at this moment, and its arrays."""
+"""Reads control meshes: the objects to fair, and their present meshes as arrays."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager, nullcontext
@@ -20,8 +20,8 @@ from .layers import STORAGE, find_layer, layer_values
 
 
 def source_objects(context: Context) -> list[Object]:
-    """The meshes to fair: the selected ones in Object Mode, those being edited in Edit Mode; the
-    active one alone if none.
+    """The meshes to fair: the selected ones in Object Mode, the edited ones in Edit Mode; the active
+    one alone if there are none.
     """
     active = context.active_object
     if context.mode == "EDIT_MESH":
@@ -34,7 +34,7 @@ def source_objects(context: Context) -> list[Object]:
 
 
 def active_mesh(context: Context) -> list[Object]:
-    """It alone; none where the active object is none."""
+    """The active object alone; empty if it is not a mesh."""
     active = context.active_object
     return [active] if active is not None and active.type == "MESH" else []
 
@@ -46,10 +46,9 @@ def control_mesh(
     evaluated: bool = False,
     depsgraph: bpy.types.Depsgraph | None = None,
 ) -> Iterator[Mesh]:
-    """The bpy.types.Mesh to read, with the edits of this moment; valid inside the `with` only.
+    """The bpy.types.Mesh to read, with present edits; valid inside the `with` only.
 
-    `evaluated`: with the modifiers of `source` applied, as `depsgraph` has them already; None:
-    brought up to date first.
+    `evaluated`: with the modifiers of `source` applied, as in `depsgraph`; None: updated first.
     """
     if source.mode == "EDIT":
         source.update_from_editmode()
@@ -61,7 +60,7 @@ def control_mesh(
             yield mesh
     elif (
         source.mode == "EDIT"
-    ):  # then it lists the attributes of the edit, not its own: read a copy
+    ):  # then it lists the attributes of the edit, not its own, so a copy is read
         with _copy_of_mesh(source) as mesh:
             yield mesh
     else:
@@ -80,8 +79,8 @@ def _copy_of_mesh(owner: Object) -> Iterator[Mesh]:
 def _evaluated(context: Context, source: Object) -> Iterator[Object]:
     """`source` with its modifiers applied.
 
-    Blender evaluates no object that is hidden, disabled, excluded or not in the scene, so a copy
-    that is not one of that stands in meanwhile.
+    Blender does not evaluate objects that are hidden, disabled, excluded or not in the scene, so a
+    temporary copy is evaluated.
     """
     if source.visible_get():
         yield source.evaluated_get(context.evaluated_depsgraph_get())
@@ -96,7 +95,7 @@ def _evaluated(context: Context, source: Object) -> Iterator[Object]:
 
 
 def _of_update(source: Object, depsgraph: bpy.types.Depsgraph) -> Object:
-    """`source` as `depsgraph` has it, with its modifiers applied; JobError if it has not."""
+    """`source` in `depsgraph`, with its modifiers applied; JobError if it is missing there."""
     if not source.visible_get(view_layer=depsgraph.view_layer):
         raise JobError(
             f"{source.name}: Show it, or set Control Mesh to As Modelled. It is hidden, so Blender "
@@ -131,7 +130,7 @@ def _optional(mesh: Mesh, name: str, domain: str, data_type: str) -> np.ndarray 
 
 
 def _required(mesh: Mesh, name: str, domain: str, data_type: str, size: int) -> np.ndarray:
-    """Part of every mesh, but not listed while it is empty."""
+    """An attribute that every mesh has, but that is not listed if empty."""
     values = _optional(mesh, name, domain, data_type)
     if values is None and size:
         raise RuntimeError(
@@ -141,7 +140,7 @@ def _required(mesh: Mesh, name: str, domain: str, data_type: str, size: int) -> 
 
 
 def shown_selection(elements: Any) -> np.ndarray:
-    """(k,) bool: those of the `elements`, vertices or faces of a mesh, that are selected and to be seen."""
+    """(k,) bool: the `elements`, vertices or faces of a mesh, that are selected and visible."""
     return column(elements, "select", bool) & ~column(elements, "hide", bool)
 
 
@@ -159,9 +158,9 @@ def selected_faces(mesh: Mesh, source_name: str) -> np.ndarray:
 
 
 def tolerance_factors(source: Object, mesh: Mesh, settings: AnySettings) -> np.ndarray | None:
-    """(n,) from 0 to 1: the part of the tolerance that each vertex of `mesh` has; None: all of it.
+    """(n,) from 0 to 1: the share of the tolerance at each vertex of `mesh`; None: the whole tolerance.
 
-    JobError if `source` has nothing by the name that the settings say.
+    JobError if `source` has no group of the name in the settings.
     """
     if not (is_near(settings) and settings.tolerance_group):
         return None
@@ -169,9 +168,9 @@ def tolerance_factors(source: Object, mesh: Mesh, settings: AnySettings) -> np.n
 
 
 def vertex_pulls(source: Object, mesh: Mesh, settings: AnySettings) -> np.ndarray | None:
-    """(n,) weights of the core, one a vertex of `mesh`; None: nothing pulls.
+    """(n,) weights for the core, one for each vertex of `mesh`; None: no weights.
 
-    JobError if `source` has nothing by the name that the settings say.
+    JobError if `source` has no group of the name in the settings.
     """
     if not (is_near(settings) and settings.pull_group):
         return None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Curve objects, and edges of meshes without faces, as curves in the world."""
+"""Reads curve objects, and edges without faces, as curves in the world."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
@@ -12,27 +12,25 @@ from ..curves.cubics import Curve, from_bezier, from_nurbs, through
 from .read import read_mesh
 from .world_shape import transformed
 
-_LOOKED_AT = 100_000  # corners: a few milliseconds
+_LOOKED_AT = 100_000  # corners; a few milliseconds
 
 
 def has_curves(source: Object) -> bool:
-    """Whether there is anything to read. Cheap: for panels."""
+    """Whether there are curves to read. Fast enough for panels."""
     if source.type == "CURVE":
         return bool(cast(Any, source.data).splines)
     return source.type == "MESH" and _has_wires(source.data)
 
 
 def _has_wires(mesh: Any) -> bool:
-    """Whether an edge has no face; of large meshes nobody asks while panels are drawn."""
+    """Whether an edge has no face; large meshes are not searched while panels are drawn."""
     if not len(mesh.polygons) or len(mesh.loops) > _LOOKED_AT:
         return bool(len(mesh.edges)) and not len(mesh.polygons)
     return len(np.unique(column(mesh.loops, "edge_index", np.int32))) < len(mesh.edges)
 
 
 def read_curves(source: Object) -> list[Curve]:
-    """All of `source`, with the edits of this moment, in the world's coordinates; those with a mark
-    for it are sharp.
-    """
+    """All curves of `source`, with present edits, in the world's coordinates; marked ones are sharp."""
     found = list(_splines(source) if source.type == "CURVE" else _wires(source))
     sharp = source.discrete_fairing_curves.sharp
     matrix = np.array(source.matrix_world)
@@ -69,7 +67,7 @@ def _splines(source: Object) -> Iterator[Curve]:
 
 
 def _wires(source: Object) -> Iterator[Curve]:
-    """Chains of edges without faces, from one end or branching to the next."""
+    """Chains of edges without faces, from one end or branching point to the next."""
     if source.mode == "EDIT":
         source.update_from_editmode()
     arrays = read_mesh(source.data)
@@ -86,8 +84,8 @@ def _wires(source: Object) -> Iterator[Curve]:
 
 
 def chains(edges: np.ndarray, marks: Sequence[bool] | np.ndarray) -> list[tuple[list[int], bool]]:
-    """Vertices along each chain of `edges` (e, 2), which ends where not two edges of one mark meet;
-    first and last are one where it is closed.
+    """Vertices along each chain of `edges` (e, 2), and whether it is closed. Chains end wherever the
+    number of edges at a vertex is not two, or their marks differ; closed ones repeat the first vertex.
     """
     at: dict[int, list[int]] = {}
     for k, pair in enumerate(edges.tolist()):

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Values of one mesh at the places of another: the same if the faces are, else the nearest ones."""
+"""Transfers values between two meshes: element by element if their faces are equal, else from the
+nearest places.
+"""
 
 from typing import Any
 
@@ -10,11 +12,12 @@ from ..core import ControlArrays, are_equal
 from ..triangles import fans
 from .layers import STORAGE, Attribute
 
-_INWARD = 0.05  # of the way to a face's centre: which side of a seam a corner is on
+# relative offset to a face's centre, which tells on which side of a seam a corner is
+_INWARD = 0.05
 
 
 class Samples:
-    """From the elements of `old` to those of `new`, two meshes of about the same shape."""
+    """From the elements of `old` to those of `new`, two meshes of nearly the same shape."""
 
     def __init__(self, old: ControlArrays, new: ControlArrays) -> None:
         self.same = len(old.positions) == len(new.positions) and are_equal(
@@ -24,11 +27,11 @@ class Samples:
         self._known: dict[str, tuple[np.ndarray, np.ndarray]] = {}  # by domain
 
     def of(self, attribute: Attribute) -> np.ndarray:
-        """The values of an attribute of the old mesh on the new one. Not on edges, unless `same`."""
+        """The values of an attribute of the old mesh on the new one. On edges only if `same`."""
         return self.values(attribute.values, attribute.domain, STORAGE[attribute.data_type].mixable)
 
     def values(self, values: np.ndarray, domain: str, mixable: bool) -> np.ndarray:
-        """(size, …) of the old elements of `domain` → of the new ones, mixed if that makes sense."""
+        """(size, …) values of old elements of `domain` → of new ones; interpolated if `mixable`."""
         if self.same:
             return values
         if not len(self._triangles()[0]):
@@ -51,7 +54,7 @@ class Samples:
         }[domain]
 
     def _find(self, domain: str) -> tuple[np.ndarray, np.ndarray]:
-        """Old elements with weights (k, 3) for each new one; for faces their ids (k,) alone."""
+        """Old elements with weights (k, 3) for each new one; for faces only their ids (k,)."""
         new, (triangles, faces) = self._new, self._triangles()
         sizes = np.diff(new.offsets)
         centres = np.add.reduceat(new.positions[new.corners], new.offsets[:-1]) / sizes[:, None]
@@ -67,11 +70,11 @@ class Samples:
         return (found if domain == "CORNER" else self._old.corners[found]), weights
 
     def _triangles(self) -> tuple[np.ndarray, np.ndarray]:
-        """(t, 3) corners of the old mesh in triangles, fans of its faces, and (t,) their faces."""
+        """(t, 3) corners of the old mesh as triangles, fans of its faces, and (t,) their faces."""
         return fans(self._old.offsets[:-1], np.diff(self._old.offsets))
 
     def _nearest(self, places: np.ndarray) -> np.ndarray:
-        """(k,) the old triangle that is nearest to each place."""
+        """(k,) the nearest old triangle for each place."""
         if not hasattr(self, "_tree"):
             triangles = self._old.corners[self._triangles()[0]]
             self._tree: Any = BVHTree.FromPolygons(
@@ -82,7 +85,7 @@ class Samples:
 
 
 def _barycentric(corners: np.ndarray, places: np.ndarray) -> np.ndarray:
-    """(k, 3) weights of the corners (k, 3, 3) that make the point of their plane below each place."""
+    """(k, 3) weights of the corners (k, 3, 3) at the projections of the places to their planes."""
     a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     p = places - corners[:, 0]
     aa, ab, bb = ((x * y).sum(axis=1) for x, y in ((a, a), (a, b), (b, b)))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scans as arrays: meshes, point clouds and instances, with modifiers, in the world."""
+"""Reads scans as arrays: meshes, point clouds and instances, with modifiers, in the world."""
 
 import zlib
 from collections.abc import Iterable, Iterator, Sequence
@@ -15,19 +15,21 @@ from ..triangles import normals
 from .read import control_mesh
 from .world_shape import transformed, world_matrix, world_shape
 
-MOST_LIVE = 20_000  # points that an edit waits for
+MOST_LIVE = 20_000  # points of a scan that are used during edits
 
 
 @dataclass(frozen=True)
 class Scan:
-    """Points, triangles between them or none, and normals where these are in place of triangles."""
+    """Points, with triangles, or with normals, or with neither."""
 
     points: np.ndarray  # (S, 3) float64
     triangles: np.ndarray  # (T, 3) int64
-    normals: np.ndarray | None = None  # (S, 3), outwards, of any length; zero where unknown
+    normals: np.ndarray | None = None  # (S, 3), outwards, of any length; zero if unknown
 
     def in_shape_of(self, cage: Object) -> "Scan":
-        """Where the cage's own coordinates are, in the size that it has in the world. Raises JobError."""
+        """The scan in the coordinates of the cage, in the size that it has in the world. Raises
+        JobError.
+        """
         matrix = np.array(world_matrix(cage), dtype=np.float64)
         if np.linalg.matrix_rank(matrix) < 4:
             raise JobError(
@@ -37,39 +39,41 @@ class Scan:
         return Scan(world_shape(cage).of(moved.points), moved.triangles)
 
     def moved(self, matrix: np.ndarray) -> "Scan":
-        """By a (4, 4) matrix; a mirrored one turns the triangles, so that they look outward."""
+        """The scan transformed by a (4, 4) matrix; a mirror image is reversed, so that triangles still
+        point outwards.
+        """
         turned = np.linalg.det(matrix[:3, :3]) < 0
         triangles = self.triangles[:, ::-1] if turned else self.triangles
         return Scan(transformed(self.points, matrix), triangles)
 
     def thinned(self) -> "Scan":
-        """Few enough points for an edit to wait for; what triangles know of sides goes with them."""
+        """A subset of points that is fast enough for edits; triangles are dropped with their sides."""
         step = -(-len(self.points) // MOST_LIVE)
         outward = normals(self.points, self.triangles)[::step] if len(self.triangles) else None
         return Scan(self.points[::step], np.empty((0, 3), np.int64), outward)
 
     @property
     def volume(self) -> float:
-        """That a closed one encloses; negative where its normals point inwards."""
+        """The volume that a closed scan encloses; negative if its normals point inwards."""
         corners = (self.points - self.points.mean(axis=0))[self.triangles]
         return float(np.linalg.det(corners).sum()) / 6 if len(corners) else 0.0
 
     @property
     def arguments(self) -> dict[str, Any]:
-        """Of `discrete_fairing.fit`."""
+        """The arguments of the scan for `discrete_fairing.fit`."""
         triangles = self.triangles if len(self.triangles) else None
         return {"points": self.points, "triangles": triangles, "normals": self.normals}
 
 
 def is_scan(target: Object) -> bool:
-    """Whether it may be one: an empty is that stands for a collection."""
+    """Whether the object may be a scan; an empty may be one if it instances a collection."""
     if target.type == "EMPTY":
         return target.instance_type == "COLLECTION"
     return target.type in {"MESH", "POINTCLOUD"}
 
 
 def read_scans(context: Context, targets: Sequence[Object]) -> Scan:
-    """All of them as one, as the window shows them: with modifiers and instances, in the world."""
+    """All targets as one scan, as shown in the window: with modifiers and instances, in the world."""
     parts = [part.moved(matrix) for part, matrix in _parts(context, targets)]
     begins = np.cumsum([0, *(len(part.points) for part in parts)])
     return Scan(
@@ -84,10 +88,10 @@ def read_scans(context: Context, targets: Sequence[Object]) -> Scan:
 
 
 def made_of(context: Context, targets: Sequence[Object], cage: Object) -> dict[str, Any]:
-    """What a fit is made of beside its cage: a checksum of the scans in their own coordinates, and their
-    places as the cage sees them.
+    """The state of a fit besides its cage: a checksum of the scans in their own coordinates, and their
+    transforms relative to the cage.
     """
-    # a cage may have been scaled to nothing
+    # a cage may be scaled to zero
     back, places, total = np.linalg.pinv(np.array(world_matrix(cage), np.float64)), [], 0
     for part, matrix in _parts(context, targets):
         for array in (part.points, part.triangles):
@@ -97,13 +101,13 @@ def made_of(context: Context, targets: Sequence[Object], cage: Object) -> dict[s
 
 
 def are_moved(made: dict[str, Any], now: dict[str, Any]) -> bool:
-    """Of two that `made_of` has returned: by more than Blender's own matrices are off."""
+    """Whether two states of `made_of` differ by more than the rounding of Blender's matrices."""
     before, after = (np.array(one["places"]) for one in (made, now))
     return bool(np.abs(before - after).max(initial=0.0) > 1e-5 * np.abs(before).max(initial=0.0))
 
 
 def watched(targets: Iterable[Object]) -> Iterator[bpy.types.ID]:
-    """The data-blocks whose change may change what `read_scans` returns."""
+    """The data-blocks whose changes affect the result of `read_scans`."""
     for target in targets:
         yield target
         if target.data is not None:
@@ -113,13 +117,13 @@ def watched(targets: Iterable[Object]) -> Iterator[bpy.types.ID]:
 
 
 def in_metres(context: Context, target: Object) -> tuple[np.ndarray, np.ndarray]:
-    """One of them: points (n, 3) in metres, and triangles (m, 3)."""
+    """One object: points (n, 3) in metres, and triangles (m, 3)."""
     found = read_scans(context, [target])
     return found.points * context.scene.unit_settings.scale_length, found.triangles
 
 
 def _parts(context: Context, targets: Sequence[Object]) -> list[tuple[Scan, np.ndarray]]:
-    """Each in its own coordinates, and its (4, 4) matrix to the world."""
+    """Each scan in its own coordinates, and its (4, 4) matrix to the world."""
     own = [part for target in targets for part in _own(context, target)]
     return own + _instances(context, targets)
 
@@ -135,7 +139,7 @@ def _own(context: Context, target: Object) -> Iterator[tuple[Scan, np.ndarray]]:
 
 
 def _instances(context: Context, targets: Iterable[Object]) -> list[tuple[Scan, np.ndarray]]:
-    """What collections, nodes and instancers among the `targets` show elsewhere."""
+    """Instances that collections, nodes and instancers among the `targets` create."""
     found, meshes = [], {}
     wanted = {target.name_full for target in targets}
     depsgraph: Any = context.evaluated_depsgraph_get()
@@ -153,7 +157,7 @@ def _instances(context: Context, targets: Iterable[Object]) -> list[tuple[Scan, 
 
 
 def of_mesh(mesh: Mesh) -> Scan:
-    """In its own coordinates."""
+    """The scan of a mesh, in its own coordinates."""
     points = column(mesh.vertices, "co", width=3).astype(np.float64)
     mesh.calc_loop_triangles()
     return Scan(points, column(mesh.loop_triangles, "vertices", np.int32, 3).astype(np.int64))

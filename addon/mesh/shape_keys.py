@@ -22,19 +22,18 @@ SETTINGS = (
 )
 
 
-EASED = "Eased"  # the key that easing writes
+EASED = "Eased"  # the shape key written by easing
 
 
 @dataclass(frozen=True)
 class ShapeKey:
-    """One key; `relative_key`: the place of the key that it is relative to."""
+    """One key; `relative_key`: the index of the key that it is relative to."""
 
     name: str
     relative_key: int
-    settings: (
-        dict  # by the names in SETTINGS that this Blender has, in an order that is safe to write
-    )
-    frame: float = 0.0  # of an absolute key
+    # by the names in SETTINGS that this version of Blender has, in an order that is safe to write
+    settings: dict
+    frame: float = 0.0  # frame of an absolute key
 
 
 @dataclass(frozen=True)
@@ -55,8 +54,8 @@ class ShapeKeys:
 
 
 def read_shape_keys(source: Object, vertex_count: int) -> ShapeKeys | None:
-    """The ShapeKeys of the object `source`, None if it has none, or if they are not of its
-    `vertex_count` vertices.
+    """The ShapeKeys of the object `source`; None if it has none, or if they do not have `vertex_count`
+    vertices.
     """
     keys = source.data.shape_keys
     if keys is None or not len(keys.key_blocks):
@@ -87,9 +86,9 @@ def _positions(block: bpy.types.ShapeKey) -> np.ndarray:
 def influences(
     keys: ShapeKeys, weights: Callable[[str], np.ndarray]
 ) -> dict[int, float | np.ndarray]:
-    """How much of each key but the first, by its place, the sliders mix, or the time of absolute keys:
-    the shape is the first key plus so much of what the others differ from it, a number or one a vertex.
-    `weights`: (n,) of a vertex group by its name.
+    """The influence of each key but the first, by index, from its slider or, for absolute keys, from
+    the time. The shape is the first key plus the other keys' differences times their influences, each a
+    number or one a vertex. `weights`: (n,) of a vertex group by its name.
     """
     if keys.show_only:
         return {keys.active: 1.0} if keys.active else {}
@@ -109,8 +108,8 @@ def influences(
 
 
 def _absolute_influences(keys: ShapeKeys) -> dict[int, float | np.ndarray]:
-    """The same of absolute keys: between two of them, by the curve that each of the two asks for. Blender
-    mixes keys of its own alone, and no other mesh can have their frames, which are read-only.
+    """The same for absolute keys: between two of them, by the interpolation of each. Blender applies
+    them to its own keys only, and other meshes cannot get their frames, which are read-only.
     """
     frames = [key.frame for key in keys.keys]
     kinds = [key.settings["interpolation"] for key in keys.keys]
@@ -134,8 +133,8 @@ def _absolute_influences(keys: ShapeKeys) -> dict[int, float | np.ndarray]:
 
 
 def _curve_weights(at: float, kind: str) -> tuple[float, float, float, float]:
-    """Of four keys in turn, `at` 0 to 1 between the middle ones: a cardinal spline, whose tangents are so
-    much of the chord beside, or a uniform cubic B-spline, or linear.
+    """Weights of four consecutive keys, at the parameter `at` from 0 to 1 between the middle ones: a
+    cardinal spline, whose tangents are a share of the chord, or a uniform cubic B-spline, or linear.
     """
     square, cube = at * at, at * at * at
     if kind == "KEY_BSPLINE":
@@ -151,7 +150,7 @@ def _curve_weights(at: float, kind: str) -> tuple[float, float, float, float]:
 
 
 def mixed(keys: ShapeKeys, weights: Callable[[str], np.ndarray]) -> np.ndarray:
-    """(n, 3): the shape that the sliders make of `keys`; `weights` as of `influences`."""
+    """(n, 3): the shape that the sliders mix from `keys`; `weights`: as for `influences`."""
     first, shape = keys.positions[0], keys.positions[0].copy()
     for place, share in influences(keys, weights).items():
         shape += np.reshape(share, (-1, 1)) * (keys.positions[place] - first)
@@ -159,15 +158,15 @@ def mixed(keys: ShapeKeys, weights: Callable[[str], np.ndarray]) -> np.ndarray:
 
 
 def key_positions(source: Object, name: str, vertex_count: int) -> np.ndarray | None:
-    """(n, 3) of the key by that `name`; None if there is not one of so many vertices."""
+    """(n, 3) positions of the key `name`; None if there is none with `vertex_count` vertices."""
     keys = read_shape_keys(source, vertex_count)
     names = [key.name for key in keys.keys] if keys else []
     return keys.positions[names.index(name)] if keys and name in names else None
 
 
 def dependent_keys(source: Object) -> tuple[str, list[str]]:
-    """The name of the key that is edited, and of those that are relative to it, directly or not: what
-    moves it moves them too. Empty without keys.
+    """The name of the edited key, and of the keys that are directly or indirectly relative to it, which
+    move with it. Empty without keys.
     """
     keys: Any = source.data.shape_keys
     active = source.active_shape_key
@@ -188,11 +187,11 @@ def write_shape_keys(
     shapes: np.ndarray | Sequence[np.ndarray],
     source: Object | None = None,
 ) -> None:
-    """Gives the object `target` the `keys` (ShapeKeys): the first has its mesh's own positions, the
-    others `shapes`.
+    """Gives the object `target` the `keys`: the first has its mesh's own positions, the others
+    `shapes`.
 
-    `shapes`: k - 1 arrays (N, 3), or one array (k - 1, N, 3). Vertex groups have to be there
-    already. `source`: the object whose keys they are, for their drivers.
+    `shapes`: k - 1 arrays (N, 3), or one array (k - 1, N, 3). Vertex groups must exist already.
+    `source`: the object with these keys, for their drivers.
     """
     blocks = [target.shape_key_add(name=key.name, from_mix=False) for key in keys.keys]
     for block, positions in zip(blocks[1:], shapes, strict=True):
@@ -216,8 +215,8 @@ def _set_up(block: bpy.types.ShapeKey, key: ShapeKey, relative: bpy.types.ShapeK
 
 
 def add_shape_key(target: Object, key: ShapeKey, relative: str, away: np.ndarray) -> None:
-    """Gives `target` one more `key`, which is (N, 3) `away` from the key by the name `relative`, or
-    from the first one if there is none by that name.
+    """Gives `target` another `key`, which differs by `away` (N, 3) from the key `relative`, or from the
+    first one if that is missing.
     """
     if target.data.shape_keys is None:
         target.shape_key_add(name="Basis", from_mix=False)
@@ -230,8 +229,8 @@ def add_shape_key(target: Object, key: ShapeKey, relative: str, away: np.ndarray
 
 
 def put_key(target: Object, name: str, positions: np.ndarray) -> None:
-    """Gives `target`, in Object Mode, a key by that `name` with the `positions` (n, 3), fully on; one
-    that it has already gets them.
+    """Gives `target`, in Object Mode, a key `name` with the `positions` (n, 3), at full value; an
+    existing one is overwritten.
     """
     if target.data.shape_keys is None:
         target.shape_key_add(name="Basis", from_mix=False)
@@ -245,25 +244,25 @@ def put_key(target: Object, name: str, positions: np.ndarray) -> None:
 
 @dataclass(frozen=True)
 class KeyAnimation:
-    """What animates the shape keys of a mesh, kept alive while they are made again."""
+    """The animation of a mesh's shape keys, kept while the keys are replaced."""
 
     spare: int | str  # key of a copy of the mesh, with its keys and their drivers
 
     @classmethod
     def of(cls, mesh: Mesh) -> "KeyAnimation | None":
-        """None if nothing does."""
+        """The animation of the mesh's keys; None if there is none."""
         keys = mesh.shape_keys
         if keys is None or keys.animation_data is None:
             return None
         return cls(session_key(mesh.copy()))
 
     def give(self, target: Object, last: bool = True) -> list[str]:
-        """Lets it animate the keys of `target`; what is lost, a sentence each. `last`: whether they are
-        not made twice.
+        """Attaches the animation to the keys of `target`; returns what is lost, a sentence each.
+        `last`: whether no other call follows.
         """
         spare, notes = self._mesh(), []
         new = target.data.shape_keys
-        if new is None or spare is None:  # undo may have taken the copy
+        if new is None or spare is None:  # undo may have removed the copy
             notes.append("The animation of the surface's shape keys is dropped.")
         else:
             old = spare.shape_keys
@@ -281,7 +280,7 @@ class KeyAnimation:
         return notes
 
     def drop(self) -> None:
-        """Nothing is animated by it any more."""
+        """Frees the copy without attaching the animation."""
         spare = self._mesh()
         if spare is not None:
             bpy.data.meshes.remove(spare)
@@ -292,5 +291,5 @@ class KeyAnimation:
 
 def _act(old: Any, new: Any) -> None:
     new.action = old.action
-    if getattr(old, "action_slot", None) is not None:  # since Blender 4.4
+    if getattr(old, "action_slot", None) is not None:  # Blender 4.4 and later
         new.action_slot = old.action_slot

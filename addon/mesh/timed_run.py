@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A run on the mesh of one object: how long it takes, and whether what was computed still fits, once it is over."""
+"""A run on the mesh of one object: its predicted time, and whether its result still applies once it is
+finished.
+"""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -16,11 +18,11 @@ from .world_shape import WorldShape, world_shape
 
 
 class TimedRun:
-    """What all runs share; they read when they are made."""
+    """The common part of all runs, which read the mesh in their constructors."""
 
-    kind: str  # for predictions: an energy, or what is done
-    again: str  # what to do once more where the mesh has changed meanwhile, as "Fill"
-    name: str  # what sentences call it
+    kind: str  # for predictions: an energy, or another kind of work
+    again: str  # verb for repeating it if the mesh has changed meanwhile, such as "Fill"
+    name: str  # for sentences
     reference: Reference
     shape: WorldShape
     arrays: core.ControlArrays
@@ -30,7 +32,9 @@ class TimedRun:
 
     @contextmanager
     def _reading(self, context: Context, target: Object, evaluated: bool = False) -> Iterator[Mesh]:
-        """Notes what the run is of. Inside the `with` its mesh is there, as `control_mesh` has it."""
+        """Notes the object and mesh of the run. Inside the `with` the mesh is available, as from
+        `control_mesh`.
+        """
         self.name, self.reference = target.name, Reference(target)
         self.shape, self._mode = world_shape(target), target.mode
         with control_mesh(context, target, evaluated) as mesh:
@@ -39,16 +43,16 @@ class TimedRun:
 
     @property
     def _key(self) -> tuple[str, Any]:
-        """For predictions: each kind of run knows a mesh by itself."""
+        """The key for predictions: each kind of run has its own for a mesh."""
         return type(self).__name__, self.reference.key
 
     @property
     def predicted_seconds(self) -> float:
-        """How long `compute` will take."""
+        """The predicted time of `compute`."""
         return prediction.seconds(self.kind, self._work(), self._key)
 
     def _work(self) -> int:
-        """Triangles of all that is computed."""
+        """Number of triangles that are computed."""
         return self.triangles
 
     def compute(self, **watchers: Any) -> None:
@@ -61,8 +65,8 @@ class TimedRun:
         raise NotImplementedError
 
     def why_outdated(self, context: Context) -> str:
-        """Why what was computed does not fit any more, in one sentence; empty if it does. A long run leaves
-        time for edits, undo and other modes.
+        """Why the result no longer applies, in one sentence; empty if it does. During a long run the
+        user may edit, undo, or change the mode.
         """
         happened = self._what_happened(context)
         if not happened:
@@ -82,5 +86,5 @@ class TimedRun:
         return "" if same else "was edited"
 
     def note(self) -> None:
-        """For predictions, on the main thread."""
+        """Records the time for predictions, on the main thread."""
         prediction.note(self.kind, self._work(), self._taken, self._key)

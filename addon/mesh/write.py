@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A result of the core as a new Blender mesh, in bulk."""
+"""Writes a result of the core as a new Blender mesh, in bulk."""
 
 from collections.abc import Iterable
 from typing import Any, TypeAlias, cast
@@ -17,12 +17,13 @@ from .boundary_marks import BOUNDARY
 from .fixed_normals import NORMAL
 from .layers import SurfaceData, fill_layer, find_layer, layer_values, make_layer, write_data
 
-Edges: TypeAlias = tuple[np.ndarray, np.ndarray]  # (e, 2) vertices; the one that leaves each corner
+# (e, 2) vertices; the edge that leaves each corner
+Edges: TypeAlias = tuple[np.ndarray, np.ndarray]
 
 PAD_SIZES = "fair_pad_size"
-# an attribute on faces: a surface near scans that have no points there
+# an attribute on faces: faces of a surface near scans without points
 NO_POINTS = "fair_no_points"
-# attributes on points: where something is wrong with the surface, by kind
+# attributes on points: the faults of a surface, by kind
 FAULTS = {
     "crossing": "fair_crosses_itself",
     "far": "fair_far_from_mesh",
@@ -37,8 +38,8 @@ def write_mesh(
     materials: Iterable[bpy.types.Material | None] = (),
     edges: Edges | None = None,
 ) -> Mesh:
-    """A new bpy.types.Mesh. Faces: the triangles of `result`, then its quads; the control vertices
-    come first.
+    """A new bpy.types.Mesh. Faces: the triangles of `result`, then its quads; the control vertices come
+    first.
 
     The refined edges `sharp_pairs` (k, 2) are marked sharp, so that smooth shading stops there.
     """
@@ -50,8 +51,8 @@ def write_mesh(
 
 
 def fill_mesh(mesh: Mesh, result: Any, sharp_pairs: np.ndarray, edges: Edges | None = None) -> None:
-    """The same into a `mesh` that has no geometry. Its materials stay. `edges`: as `edge_table` has
-    them, so that a large surface does not make the window wait for them; None: Blender finds them.
+    """The same for a `mesh` without geometry, which keeps its materials. `edges`: from `edge_table`, so
+    that the window does not wait for a large surface; None: Blender finds them.
     """
     write_faces(mesh, result.vertices, *result.faces)
     if edges is not None:
@@ -69,8 +70,8 @@ def rebuild_mesh(
     settings: Settings,
     level: int,
 ) -> None:
-    """Gives the mesh of `target` the geometry of `result` and what the control mesh carries, shape
-    keys excepted. For handlers: calls no operator.
+    """Gives the mesh of `target` the geometry of `result` and the data of the control mesh, except
+    shape keys. For handlers: calls no operator.
 
     The mesh, its materials and the object's modifiers stay.
     """
@@ -86,7 +87,7 @@ def refill_mesh(
 ) -> None:
     """Gives the mesh of `target`, for all objects that share it, the geometry of `result`.
 
-    Its materials, custom properties and name stay; all that lay on the old geometry is gone.
+    Its materials, custom properties and name stay; all data on the old geometry are lost.
     """
     if target.data.shape_keys is not None:
         target.shape_key_clear()
@@ -101,9 +102,7 @@ def attributes_left_out(settings: Settings) -> tuple[str, ...]:
 
 
 def write_pad_sizes(mesh: Mesh, result: Any, transfer: AttributeTransfer) -> None:
-    """Gives `mesh` the widths of the pads that hold its control vertices, where any of them gave
-    way.
-    """
+    """Writes the sizes of the pads that hold its control vertices, if any is reduced."""
     pads = result.report["pads"]
     if pads["gone"]:
         widths = transfer.point(np.asarray(pads["widths"], np.float32))
@@ -117,9 +116,7 @@ def faces_without_points(mesh: Mesh) -> np.ndarray:
 
 
 def has_faces_of(mesh: Mesh, result: Any) -> bool:
-    """Whether `mesh` can have been built of the faces of `result`: nobody has put another one in
-    its place.
-    """
+    """Whether the faces of `mesh` are those of `result`: nobody has replaced the mesh."""
     triangles, quads = result.faces
     return (
         len(mesh.vertices) == len(result.vertices)
@@ -129,13 +126,15 @@ def has_faces_of(mesh: Mesh, result: Any) -> bool:
 
 
 def write_positions(mesh: Mesh, vertices: np.ndarray) -> None:
-    """Moves the points of `mesh` to `vertices` (N, 3): single precision goes in as one block."""
+    """Moves the points of `mesh` to `vertices` (N, 3), in single precision, as one block."""
     mesh.attributes["position"].data.foreach_set("vector", vertices.astype(np.float32).ravel())
     mesh.update()
 
 
 def write_faces(mesh: Mesh, vertices: np.ndarray, triangles: np.ndarray, quads: np.ndarray) -> None:
-    """Gives `mesh`, which has no geometry, `vertices` (n, 3), `triangles` (t, 3) and then `quads` (q, 4)."""
+    """Gives `mesh`, which has no geometry, `vertices` (n, 3), `triangles` (t, 3) and then `quads` (q,
+    4).
+    """
     corners = np.concatenate([triangles.ravel(), quads.ravel()]).astype(np.int32, copy=False)
     starts = np.concatenate(
         [3 * np.arange(len(triangles)), triangles.size + 4 * np.arange(len(quads))]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A mesh that Clean Scan has cleaned, written to the mesh that it was: by BMesh, and only where
-something changed, so that all that lies on the rest stays.
+"""Writes a mesh cleaned by Clean Scan to the original mesh: by BMesh, and only where it has changed, so
+that other data stay.
 """
 
 from collections.abc import Sequence
@@ -19,10 +19,10 @@ from .write_filling import write_hole
 
 @dataclass(frozen=True)
 class Cleaned:
-    """As discrete_fairing.Cleaned, with flat faces."""
+    """Like discrete_fairing.Cleaned, with flat faces."""
 
     positions: np.ndarray  # (N, 3) in the object's coordinates
-    points: np.ndarray  # (N, 3) in the shape that it has in the world
+    points: np.ndarray  # (N, 3) in the world's shape
     corners: np.ndarray
     offsets: np.ndarray
     vertex_origin: np.ndarray
@@ -31,12 +31,12 @@ class Cleaned:
 
     @property
     def known(self) -> int:
-        """How many vertices were there before; all others follow."""
+        """Number of original vertices; all others follow."""
         return int((self.vertex_origin >= 0).sum())
 
 
 def write_cleaned(target: Object, arrays: ControlArrays, made: Cleaned) -> None:
-    """Makes the mesh of `target`, which is `arrays`, what was `made` of it, in whatever mode."""
+    """Changes the mesh of `target`, which has the `arrays`, to the cleaned mesh `made`, in any mode."""
     with edited(target) as bm:
         _change(bm, arrays, made)
 
@@ -71,8 +71,8 @@ def _change(bm: Any, arrays: ControlArrays, made: Cleaned) -> None:
 
 
 def _left_alone(arrays: ControlArrays, faces: list[int]) -> tuple[list[int], list[int]]:
-    """Ids of the edges that may have no face once these `faces` are gone, and of the vertices that may have no
-    edge.
+    """Ids of the edges that may lose their last face with these `faces`, and of the vertices that may
+    lose their last edge.
     """
     gone = np.zeros(len(arrays.face_sizes), bool)
     gone[faces] = True
@@ -84,8 +84,8 @@ def _left_alone(arrays: ControlArrays, faces: list[int]) -> tuple[list[int], lis
 
 
 def _vertices(bm: Any, arrays: ControlArrays, made: Cleaned, old: Sequence[Any]) -> list[Any]:
-    """The vertex of each that was there before; copies are made, and those that have moved are moved,
-    by as much in all shape keys.
+    """The BMesh vertex of each vertex of `made` that existed before or is a copy. Moved ones are moved,
+    by the same amount in all shape keys.
     """
     keys = bm.verts.layers.shape.values()
     origin = made.vertex_origin[: made.known]
@@ -110,7 +110,7 @@ _SAME, _TURNED, _OTHER, _NEW = range(4)
 
 
 def _states(arrays: ControlArrays, made: Cleaned) -> np.ndarray:
-    """(M,) what has become of the old face that each comes from."""
+    """(M,) the state of each face's original face."""
     origin = made.face_origin
     sizes = np.diff(made.offsets)
     old = origin >= 0
@@ -147,8 +147,8 @@ def _make_again(
     old_verts: Sequence[Any],
     old_faces: Sequence[Any],
 ) -> None:
-    """A face with other vertices than before, in the place of one that goes; corners and edges take
-    what theirs had.
+    """Makes a face with other vertices than its original, which is deleted; corners and edges take over
+    its data.
     """
     span = slice(int(made.offsets[row]), int(made.offsets[row + 1]))
     origins = made.corner_origin[span].tolist()
@@ -173,7 +173,7 @@ def _around(items: Sequence[Any]) -> list[tuple[Any, Any]]:
 
 
 def _fill(bm: Any, made: Cleaned, verts: Sequence[Any]) -> None:
-    """The faces that are new, one filling after another."""
+    """Makes the new faces, one filling after another."""
     for faces in _fillings(made):
         patch = Patch.of(faces, made.points[: made.known], made.points[made.known :])
         rim = [verts[v] for v in patch.rim.tolist()]
@@ -181,7 +181,7 @@ def _fill(bm: Any, made: Cleaned, verts: Sequence[Any]) -> None:
 
 
 def _fillings(made: Cleaned) -> list[np.ndarray]:
-    """(t, 3) ids of the new faces that hang together by edges, of each filling."""
+    """(t, 3) ids of the new faces of each filling, connected by edges."""
     rows = np.flatnonzero(made.face_origin < 0)
     if not len(rows):
         return []

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The faces that fill a hole, made by BMesh: with what the rim has, blended over the filling."""
+"""Makes the faces that fill a hole, by BMesh, with the rim's data blended over the filling."""
 
 from collections.abc import Callable, Collection, Iterator
 from typing import Any
@@ -13,16 +13,18 @@ from .layers import OWN_VERTICES_ONLY
 
 Read = Callable[[Any], list[float]]
 Write = Callable[[Any, list[float]], None]
-Spread = list[tuple[Write, np.ndarray]]  # values of all vertices of a filling, and how to write one
-_NUMBERS = ("float", "float_vector", "color", "float_color")  # kinds of layers that can be mixed
+# values of all vertices of a filling, and a function that writes one
+Spread = list[tuple[Write, np.ndarray]]
+# kinds of layers that can be interpolated
+_NUMBERS = ("float", "float_vector", "color", "float_color")
 
 
 def write_hole(bm: Any, patch: Patch, rim: list[Any], places: np.ndarray) -> list[Any]:
-    """Makes the faces of `patch` between its `rim` (r vertices of `bm`) and new vertices at
-    `places` (k, 3), in the object's coordinates; returns them.
+    """Makes the faces of `patch` between its `rim` (r vertices of `bm`) and new vertices at `places`
+    (k, 3), in the object's coordinates; returns them.
 
-    What can be mixed is spread from the rim. All else is that of the nearest vertex of the rim, and
-    of a face there.
+    Numbers are interpolated from the rim. Other data are those of the nearest vertex of the rim, and of
+    a face there.
     """
     beside = [next(iter(v.link_loops), None) for v in rim]
     of_vertices = _spread_vertices(bm, rim, patch)
@@ -45,7 +47,7 @@ def write_hole(bm: Any, patch: Patch, rim: list[Any], places: np.ndarray) -> lis
         for corner, v in zip(face.loops, corners, strict=True):
             if beside[nearest[v]] is not None:
                 corner.copy_from(beside[nearest[v]])
-        # again: to copy to a corner ends what Python knew of it
+        # again, since copying to a corner invalidates references to it
         for corner, v in zip(face.loops, corners, strict=True):
             for write, rows in of_corners:
                 write(corner, rows[v].tolist())
@@ -54,8 +56,8 @@ def write_hole(bm: Any, patch: Patch, rim: list[Any], places: np.ndarray) -> lis
 
 
 def cut_sides(bm: Any, sides: list[list[Any]]) -> None:
-    """Border edges, each with its ends and the vertices that lie on it between them, are cut there and joined to
-    these. Triangles become triangles, with what their corners have blended along the edge.
+    """Cuts border edges, each given with its ends and the vertices on it, at these vertices and joins
+    them. Triangles become triangles, and their corners get data interpolated along the edge.
     """
     places: dict[Any, Any] = {}
     for side in sides:
@@ -101,7 +103,7 @@ def _weights(deform: Any, groups: list[int]) -> Write:
 
 
 def _spread_corners(bm: Any, rim: list[Any], patch: Patch) -> Spread:
-    """Of the layers whose values go on around the whole rim: across a seam there is no mean."""
+    """Values of the layers that are continuous around the whole rim; across a seam there is no mean."""
     found: Spread = []
     for read, write in _layers(bm.loops.layers):
         values = [[read(corner) for corner in v.link_loops] for v in rim]
@@ -113,8 +115,8 @@ def _spread_corners(bm: Any, rim: list[Any], patch: Patch) -> Spread:
 
 
 def _layers(layers: Any, zero: Collection[str] = ()) -> Iterator[tuple[Read, Write]]:
-    """Ways to read and to write one element, of each layer that can be mixed; those by the names
-    `zero` are read as 0.
+    """Functions that read and write an element, for each layer that can be interpolated; layers named
+    in `zero` are read as 0.
     """
     for kind in _NUMBERS:
         for name, layer in getattr(layers, kind).items():

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every button: what users and scripts call."""
+"""All operators, for users and scripts."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Single border edges that are smooth, straight or free, whatever the surface's setting."""
+"""Makes single border edges smooth, straight or free, whatever the surface's setting."""
 
 from typing import TYPE_CHECKING
 

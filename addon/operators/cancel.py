@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cancel, as a button."""
+"""A button that cancels the present run."""
 
 import bpy
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Check Mesh, and what follows from it: show a defect or a hole, mend a defect; and Select Places of a surface."""
+"""Check Mesh; buttons that show a defect or a hole, or mend a defect; and Select Places of a surface."""
 
 from collections.abc import Sequence
 from typing import Any, cast
@@ -50,7 +50,7 @@ class OBJECT_OT_fairing_check(_Checking, bpy.types.Operator):
             return {"FINISHED"}
         try:
             select_in_all(context, [(t, _groups(defects)) for t, defects in bad])
-        except RuntimeError as error:  # a hidden collection, an object that cannot be edited
+        except RuntimeError as error:  # a hidden collection, or an object that cannot be edited
             self.report({"WARNING"}, f"The elements cannot be shown: {error}")
         for target, defects in found:
             store_defects(context, target, defects)
@@ -65,8 +65,8 @@ class _AtDefect(_Checking):
     def _defect(
         self, context: Context
     ) -> tuple[Object, dict[str, Any] | None, list[dict[str, Any]]]:
-        """(object, defect, all its defects), checked again if the mesh was changed since; the defect
-        is None if it is gone.
+        """(object, defect, all its defects), checked again if the mesh has changed since; the defect is
+        None if it no longer exists.
         """
         target = cast(Object, context.active_object)
         known = recall_defects(target)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Clean Scan: from a scan as it comes to a closed surface, with a list of what was done."""
+"""Clean Scan: makes a closed surface of a raw scan, and lists what was done."""
 
 from collections.abc import Iterator, Sequence
 
@@ -88,7 +88,7 @@ class OBJECT_OT_fairing_clean(Shown, LargestHole, WholeFairing, bpy.types.Operat
         return [CleanJob(context, target, options) for target in targets]
 
     def finish(self, context: Context, jobs: Sequence[CleanJob]) -> Answer:
-        """Changes the meshes, if nobody else has meanwhile."""
+        """Writes the meshes, unless they have changed meanwhile."""
         if self.is_outdated(context, jobs):
             return {"CANCELLED"}
         for job in jobs:

@@ -18,8 +18,8 @@ from ..settings import Settings
 from ..ui.main import active_settings
 from .fair import Fairing, can_fair
 
-MEASURED = 250_000  # triangles: larger surfaces wait for Measure
-_GAP = 1.15  # from one to the next, in widths of the source
+MEASURED = 250_000  # triangles; larger surfaces are measured on request
+_GAP = 1.15  # distance of successive surfaces, in widths of the source
 
 
 class OBJECT_OT_fairing_compare(Fairing, bpy.types.Operator):
@@ -53,7 +53,7 @@ class OBJECT_OT_fairing_compare(Fairing, bpy.types.Operator):
 
 
 def _width(source: Object) -> float:
-    """Of its box, along the world's X."""
+    """Width of its bounding box, along the world's X."""
     matrix = np.array(source.matrix_world)
     corners = np.array([tuple(corner) for corner in source.bound_box])
     return float(np.ptp(corners @ matrix[0, :3]))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fair Surface from Curves: the fairest surface over a network of curves, which it follows from then on."""
+"""Fair Surface from Curves: the fairest surface over a network of curves, which it follows."""
 
 from collections.abc import Iterable
 from dataclasses import replace
@@ -20,7 +20,7 @@ from ..settings import Settings
 from .fair import Fairing, can_fair
 from .shown import Shown
 
-# The surface runs through the curves, is free between them, and ends as they do.
+# The surface passes through the curves, is free between them, and ends as they do.
 _OURS: dict[str, Any] = {
     "interpolation": "APPROXIMATE",
     "tolerance": 0.0,
@@ -40,7 +40,7 @@ _OURS: dict[str, Any] = {
 
 
 def curve_objects(context: Context) -> list[Object]:
-    """Those of the selection that have curves, by name."""
+    """The selected objects with curves, by name."""
     return sorted((o for o in context.selected_objects if has_curves(o)), key=lambda o: o.name)
 
 
@@ -91,8 +91,8 @@ class OBJECT_OT_fairing_curves(Shown, CageSettings, Fairing, bpy.types.Operator)
         self._tidied({"CANCELLED"})
 
     def _tidied(self, answer: Answer) -> Answer:
-        """A control mesh without a surface is nothing that anyone has asked for."""
-        cage = self._cage.find() if self._cage is not None else None  # undo may have taken it
+        """Removes the control mesh if no surface was made."""
+        cage = self._cage.find() if self._cage is not None else None  # undo may have removed it
         if answer == {"CANCELLED"}:
             self._cage = None
             if cage is not None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Ease Control Mesh and Ease Selected: vertices that spoil the surface are put right."""
+"""Ease Control Mesh and Ease Selected: move vertices that spoil the surface."""
 
 from collections.abc import Iterable, Sequence
 from typing import Any
@@ -22,7 +22,7 @@ from .strain import active_sources
 
 
 class _Easing(WholeFairing):
-    """What both share: what was computed is written if it still fits, and said in words."""
+    """The common part: writes the result if it still applies, and reports it."""
 
     cancelled_text = "Easing was cancelled: nothing has changed"
 
@@ -37,7 +37,7 @@ class _Easing(WholeFairing):
         return {"FINISHED"}
 
     def write(self, context: Context, jobs: list[Any]) -> None:
-        """For the operator to say."""
+        """Implemented by the operators."""
         raise NotImplementedError
 
 

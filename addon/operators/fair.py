@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Fair Surface, Recompute and Show Source.
 
-All work is reachable from `execute`, which scripts and background runs call.
+All work can be done by `execute`, which scripts and background runs call.
 """
 
 from collections.abc import Sequence
@@ -30,7 +30,7 @@ from .modal import ModalRun
 
 
 def can_fair(context: Context) -> str:
-    """Why nothing can be faired here, in one sentence; empty when it can."""
+    """Why nothing can be faired here, in one sentence; empty if something can."""
     if core.why_missing():
         return core.why_missing()
     if running() is not None:
@@ -39,9 +39,7 @@ def can_fair(context: Context) -> str:
 
 
 class Fairing(ExplainedPoll, ModalRun):
-    """What both operators share: jobs are made, computed, and only when all are done something is
-    written.
-    """
+    """The common part of both operators: makes jobs, computes them, and writes once all are complete."""
 
     def invoke(self, context: Context, _event: bpy.types.Event) -> Answer:
         jobs = self._prepare(context)
@@ -58,13 +56,11 @@ class Fairing(ExplainedPoll, ModalRun):
         return self._in_time(context, jobs) or self._begin_small(context, jobs)
 
     def is_redone(self) -> bool:
-        """Whether Adjust Last Operation calls, which waits for the end and takes no ESC."""
+        """Whether Adjust Last Operation is calling, which blocks and cannot be cancelled."""
         return self.options.is_repeat and not bpy.app.background
 
     def _in_time(self, context: Context, jobs: list[Job]) -> Answer | None:
-        """Makes the surfaces at once; None where nobody would wait so long, by what was predicted
-        or by what it took.
-        """
+        """Makes the surfaces at once; None if the predicted or the actual time is too long to wait."""
         if redo.predicted_seconds(jobs) > prediction.PATIENCE:
             return None
         try:
@@ -73,17 +69,17 @@ class Fairing(ExplainedPoll, ModalRun):
             return None
 
     def _unused(self, context: Context, jobs: list[Job]) -> list[Job] | None:
-        """The `jobs`, or new ones where some are done already; None after an error."""
+        """The `jobs`, or new ones if some are complete already; None after an error."""
         return jobs if all(job.result is None for job in jobs) else self._prepare(context)
 
     def _in_background(self, context: Context, tried: list[Job]) -> Answer:
-        """With the bar."""
+        """Runs in the background, with the progress bar."""
         jobs = self._unused(context, tried)
         return {"CANCELLED"} if jobs is None else self.start(context, jobs)
 
     def _begin_small(self, context: Context, tried: list[Job]) -> Answer:
-        """Makes surfaces with fewer levels at once, which Recompute makes whole. Where not even that is quick
-        enough, nothing is made: then Blender puts back what was there.
+        """Makes surfaces with fewer levels at once, which Recompute completes. If even that is too slow
+        nothing is made, and Blender restores the previous state.
         """
         jobs = self._unused(context, tried)
         if jobs is None:
@@ -111,7 +107,7 @@ class Fairing(ExplainedPoll, ModalRun):
             return None
 
     def _block(self, context: Context, jobs: list[Job], deadline: Deadline | None = None) -> Answer:
-        """All of it before anything else happens; raises JobCancelled if the deadline passes."""
+        """Computes all jobs while blocking; raises JobCancelled if the deadline passes."""
         try:
             for job in jobs:
                 console = ConsoleProgress(job.name) if bpy.app.background else None
@@ -125,7 +121,7 @@ class Fairing(ExplainedPoll, ModalRun):
         return self.finish(context, jobs)
 
     def finish(self, context: Context, jobs: Sequence[Job]) -> Answer:
-        """Writes what finished jobs have computed, and selects it in Object Mode."""
+        """Writes the results of finished jobs, and selects them in Object Mode."""
         gone = [job.name for job in jobs if not job.is_writable()]
         if gone:
             self.report(
@@ -134,7 +130,7 @@ class Fairing(ExplainedPoll, ModalRun):
             )
             return {"CANCELLED"}
         targets = [target for job in jobs if (target := job.target) is not None]
-        # what the user has begun meanwhile goes on, unless it is done to the very surfaces
+        # the user's present mode stays, unless the surfaces themselves are being edited
         busy = context.mode not in {"OBJECT", self._mode}
         busy = busy and all(target.mode == "OBJECT" for target in targets)
         if context.mode != "OBJECT" and not busy:
@@ -152,15 +148,15 @@ class Fairing(ExplainedPoll, ModalRun):
         return {"FINISHED"}
 
     def make_jobs(self, context: Context) -> list[Job]:
-        """What is to be computed; raises JobError."""
+        """The jobs to compute; raises JobError."""
         raise NotImplementedError
 
     def after(self, context: Context, jobs: Sequence[Job]) -> None:
-        """For what is not common to both."""
+        """A hook for operators, after writing."""
 
 
 class FairSurface(Fairing, FairingSettings):
-    """All of Fair Surface but its name."""
+    """Fair Surface without its identifier."""
 
     bl_idname: str
     bl_label = "Fair Surface"
@@ -171,7 +167,7 @@ class FairSurface(Fairing, FairingSettings):
         draw_settings(cast(bpy.types.UILayout, self.layout), self, self.bl_idname)
 
     def invoke(self, context: Context, event: bpy.types.Event) -> Answer:
-        """From buttons, menus and search: with the settings of the panel."""
+        """From buttons, menus and search: uses the settings of the panel."""
         take_near(self.properties)
         fill_in(context.scene.discrete_fairing, self.properties)
         return super().invoke(context, event)
@@ -186,7 +182,7 @@ class FairSurface(Fairing, FairingSettings):
 
     def after(self, context: Context, jobs: Sequence[Job]) -> None:
         for job in jobs:
-            source = cast(Object, job.source)  # there, as `finish` has seen
+            source = cast(Object, job.source)  # `finish` has checked it
             hidden = self.hide_source and not switch.live_surfaces_of(
                 source
             )  # or it is being edited
@@ -196,14 +192,16 @@ class FairSurface(Fairing, FairingSettings):
 
 
 class WholeFairing(Fairing):
-    """A run that has nothing smaller to show: where it takes long, Adjust Last Operation begins it again."""
+    """A run without a smaller result: if it takes long, Adjust Last Operation starts it in the
+    background.
+    """
 
     def _begin_small(self, context: Context, _tried: list[Job]) -> Answer:
         redo.repeat_soon(context, self)
         return {"FINISHED"}
 
     def is_outdated(self, context: Context, jobs: Sequence[MeshJob]) -> bool:
-        """Whether somebody else has changed a mesh meanwhile, which is said."""
+        """Whether a mesh has changed meanwhile, which is reported."""
         reason = next(filter(None, (job.why_outdated(context) for job in jobs)), "")
         if reason:
             self.report({"ERROR"}, reason)
@@ -218,7 +216,7 @@ class OBJECT_OT_fairing_surface(FairSurface, bpy.types.Operator):
 
 
 def faired_objects(context: Context) -> list[Object]:
-    """The selected objects that can be made from their source; the active one alone if none."""
+    """The selected objects that can be made from their source; the active one alone if there are none."""
     selected = [o for o in context.selected_objects if source_of(o)]
     active = context.active_object
     if not selected and active is not None and source_of(active):
@@ -227,7 +225,9 @@ def faired_objects(context: Context) -> list[Object]:
 
 
 def _again(context: Context, target: Object) -> Job:
-    """From its source as it is now, whose own curves, if there are any, come first."""
+    """The job that recomputes `target` from its present source, after updating the source's own curves,
+    if any.
+    """
     source = cast(Object, source_of(target))
     remarks = curve_cage.follow(source).remarks if curve_cage.is_cage(source) else []
     job = job_of(context, source, Settings.of(target.discrete_fairing), target)
@@ -285,7 +285,7 @@ class OBJECT_OT_fairing_show_source(ExplainedPoll, bpy.types.Operator):
 
     def execute(self, context: Context) -> Answer:
         source = source_of(cast(Object, context.active_object))
-        assert source is not None  # as poll has seen
+        assert source is not None  # poll has checked it
         source.hide_set(False)
         select_only(context, [source])
         return {"FINISHED"}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fill Hole Fair: holes of the mesh itself, closed so that nobody sees where they were."""
+"""Fill Hole Fair: fills holes of the mesh itself so that they become invisible."""
 
 from collections.abc import Iterator, Sequence
 from typing import cast
@@ -98,7 +98,7 @@ class OBJECT_OT_fairing_fill(Shown, LargestHole, WholeFairing, bpy.types.Operato
             yield "largest"
 
     def invoke(self, context: Context, event: bpy.types.Event) -> Answer:
-        """From a button: caps and transoms are flat until another Joint is chosen."""
+        """From a button: caps and transoms are flat unless another Joint is chosen."""
         self._asked = self.properties.is_property_set("joint")
         return super().invoke(context, event)
 
@@ -125,14 +125,14 @@ class OBJECT_OT_fairing_fill(Shown, LargestHole, WholeFairing, bpy.types.Operato
         return jobs
 
     def finish(self, context: Context, jobs: Sequence[HoleJob]) -> Answer:
-        """Changes the meshes that can be filled, and says why others cannot."""
+        """Changes the meshes that can be filled, and reports why others cannot."""
         reasons = list(self._reasons)
         ready = []
         for job in jobs:
             reason = str(job.error or job.why_outdated(context))
             reasons += [reason] * bool(reason)
             ready += [job] * (not reason)
-        if ready and context.mode == "EDIT_MESH":  # then only what is new is selected
+        if ready and context.mode == "EDIT_MESH":  # then only new faces become selected
             bpy.ops.mesh.select_all(action="DESELECT")
         done = [job.apply() for job in ready]
         for job in jobs:

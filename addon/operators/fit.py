@@ -36,7 +36,7 @@ def _choice_reason(context: Context) -> str:
 
 
 def _chosen(context: Context) -> tuple[Object | None, list[Object]]:
-    """The cage, None where it is to be made; and the scans. Raises JobError."""
+    """The cage, None if it is to be made; and the scans. Raises JobError."""
     selected, active = _selected(context), context.active_object
     if len(selected) == 1 or _are_all_scans(context, selected):
         return None, selected

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Vertices at which the surface gets a normal that somebody chooses, and at which it finds its own."""
+"""Fixes the surface's normal at vertices, and frees it again."""
 
 from typing import TYPE_CHECKING
 

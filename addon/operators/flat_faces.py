@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Faces that stay flat: selected in Edit Mode, found by their shape in Object Mode."""
+"""Keeps faces flat: selected ones in Edit Mode, found ones in Object Mode."""
 
 from collections.abc import Iterable
 from math import degrees, radians
@@ -46,7 +46,8 @@ class OBJECT_OT_fairing_flat_faces(Shown, ExplainedPoll, bpy.types.Operator):
     def execute(self, context: Context) -> Answer:
         targets = _targets(context)
         if context.mode == "EDIT_MESH":
-            bpy.ops.object.mode_set(mode="OBJECT")  # where every Blender writes the marks
+            # the only mode in which every version of Blender writes the marks
+            bpy.ops.object.mode_set(mode="OBJECT")
             try:
                 count = sum(flat_marks.mark_selected(o.data, not self.clear) for o in targets)
             finally:
@@ -69,13 +70,13 @@ class OBJECT_OT_fairing_flat_faces(Shown, ExplainedPoll, bpy.types.Operator):
 
 
 def _targets(context: Context) -> list[Object]:
-    """Of surfaces their sources; of objects that share a mesh, one."""
+    """Sources in place of surfaces; one of the objects that share a mesh."""
     sources = [source_of(o) or o for o in source_objects(context)]
     return list({o.data: o for o in sources}.values())
 
 
 def _mark_found(target: Object, angle: float) -> int:
-    """Marks the flats of `target` (`angle` in degrees); returns of how many faces they are."""
+    """Marks the flats of `target` (`angle` in degrees); returns their number of faces."""
     arrays = world_shape(target).of_arrays(read_mesh(target.data))
     found = find_flats(arrays, angle)
     flat_marks.mark(target.data, found)

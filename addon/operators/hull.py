@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Close Hull: a half hull made whole and watertight."""
+"""Close Hull: makes a half hull whole and watertight."""
 
 from dataclasses import asdict, replace
 from typing import Any, cast
@@ -33,7 +33,9 @@ class OBJECT_OT_fairing_close(ExplainedPoll, bpy.types.Operator):
     reasons = ACTIVE_MESH
 
     def execute(self, context: Context) -> Answer:
-        """Of the control mesh; where its surface is active, the closed one is faired as that was."""
+        """Closes the control mesh; if its surface is active, fairs the closed one with the same
+        settings.
+        """
         active = cast(Object, context.active_object)
         source = cast(Object, active_source(context))
         settings = None if source_of(active) is None else Settings.of(active.discrete_fairing)
@@ -57,7 +59,7 @@ class OBJECT_OT_fairing_close(ExplainedPoll, bpy.types.Operator):
 
 
 def _closed(context: Context, source: Object) -> Object:
-    """A new control mesh beside `source`, its rims creased; NotHalf, NotClosed."""
+    """A new control mesh beside `source`, with creased rims; raises NotHalf, NotClosed."""
     with control_mesh(context, source) as mesh:
         arrays = read_mesh(mesh)
         names = read_names(mesh)
@@ -87,7 +89,7 @@ def _pairs(edges: np.ndarray) -> list[frozenset[int]]:
 
 
 def _crease(mesh: Mesh, made: Whole, weights: dict[frozenset[int], float]) -> None:
-    """Rims are sharp; the half's own `weights` are those of both sides."""
+    """Creases rims, and the edges of both sides by the half's own `weights`."""
     wanted = {
         frozenset(edge.vertices): weights.get(
             frozenset(made.origin[list(edge.vertices)].tolist()), 0.0

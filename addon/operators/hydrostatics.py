@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Hydrostatics of a hull that takes in no water at its draught: said, and as a table."""
+"""Hydrostatics of a hull at its draught, reported or as a table; the hull must be closed below the
+waterplane.
+"""
 
 from collections.abc import Iterable
 from math import degrees, radians
@@ -24,7 +26,9 @@ _COLUMNS = (
 
 
 class _Afloat(ExplainedPoll):
-    """What both share. x is along the hull, z up; the draught is measured from the lowest point at no trim."""
+    """The common part. x is along the hull, z up; the draught is measured from the lowest point at no
+    trim.
+    """
 
     reasons = ACTIVE_MESH
 
@@ -50,7 +54,7 @@ class _Afloat(ExplainedPoll):
     )
 
     def afloat(self, context: Context, draughts: list[float]) -> list[Hydrostatics] | None:
-        """At each of the `draughts` in metres; None after an error has been reported."""
+        """The hydrostatics at each of the `draughts` in metres; None after an error has been reported."""
         target = cast(Object, context.active_object)
         points, triangles = in_metres(context, target)
         low, pivot = points[:, 2].min(), 0.5 * (points[:, 0].min() + points[:, 0].max())
@@ -115,7 +119,7 @@ class OBJECT_OT_fairing_hydrostatics_table(_Afloat, ExportHelper, bpy.types.Oper
     filename_ext = ".csv"
 
     if TYPE_CHECKING:
-        filepath: str  # what ExportHelper adds
+        filepath: str  # added by ExportHelper
 
     filter_glob: StringProperty(default="*.csv", options={"HIDDEN"})
     count: IntProperty(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fair Selected Faces in Place, and Fair Scan in Place: meshes themselves, by request and with undo."""
+"""Fair Selected Faces in Place, and Fair Scan in Place: they change meshes themselves, with undo."""
 
 from collections.abc import Iterator, Sequence
 
@@ -41,7 +41,7 @@ VERTICES = (
 
 
 class InPlace(Shown, WholeFairing):
-    """What faces of the meshes themselves are faired with."""
+    """The settings for fairing faces of the meshes themselves."""
 
     levels: IntProperty(
         name="Levels",
@@ -123,11 +123,11 @@ class InPlace(Shown, WholeFairing):
         ]
 
     def targets(self, context: Context) -> list[Object]:
-        """Whose faces; raises JobError."""
+        """The objects whose faces are faired; raises JobError."""
         raise NotImplementedError
 
     def finish(self, context: Context, jobs: Sequence[in_place.InPlaceJob]) -> Answer:
-        """Changes the meshes, if nobody else has meanwhile."""
+        """Writes the meshes, unless they have changed meanwhile."""
         if self.is_outdated(context, jobs):
             return {"CANCELLED"}
         for job in jobs:

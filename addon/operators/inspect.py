@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Buttons of the inspection: show, measure again, read out, and turn the viewport so that it shows."""
+"""Inspection: show, measure again, read out, and switch the viewport."""
 
 from typing import Any, cast
 
@@ -15,7 +15,7 @@ from ..poll import IN_EITHER_MODE, IN_OBJECT_MODE, ExplainedPoll, Reason, needs,
 
 
 def meshes(context: Context) -> list[Object]:
-    """The mesh objects that a button acts on: those selected, or else the active one."""
+    """The mesh objects that a button acts on: the selected ones, or else the active one."""
     chosen = [o for o in context.selected_objects if o.type == "MESH"]
     active = context.active_object
     return chosen or ([active] if active is not None and active.type == "MESH" else [])
@@ -42,7 +42,7 @@ class OBJECT_OT_fairing_inspect(_Inspecting, bpy.types.Operator):
     reasons = (IN_EITHER_MODE, of_meshes(meshes))
 
     def invoke(self, context: Context, _event: bpy.types.Event) -> Answer:
-        """From a button: in the viewport beside it, what was asked for is to be seen."""
+        """From a button: also switches the viewport beside it, so that the result is visible."""
         space = cast(Any, context.space_data)
         if space is not None and space.type == "VIEW_3D":
             viewport_shading.show(space, self.mode)
@@ -61,7 +61,7 @@ class OBJECT_OT_fairing_inspect(_Inspecting, bpy.types.Operator):
 
 
 def _has_reference(context: Context) -> bool:
-    """Whether there is something that all objects' deviation can be measured from."""
+    """Whether the deviation of all objects has a reference."""
     other = context.scene.discrete_fairing_inspection.deviation_object
     return other is not None or all(map(source_of, meshes(context)))
 

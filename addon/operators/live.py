@@ -63,9 +63,7 @@ class OBJECT_OT_fairing_live(ExplainedPoll, bpy.types.Operator):
         return {"FINISHED"}
 
     def _make(self, context: Context) -> Object:
-        """A faired object of the active mesh, with the panel's settings; its first surface is a
-        live one.
-        """
+        """A faired object of the active mesh, with the panel's settings and a live first surface."""
         source = cast(Object, context.active_object)
         settings = Settings.of(context.scene.discrete_fairing).for_source(source)
         mesh = cast(Mesh, bpy.data.meshes.new(f"{source.name} Fair"))
@@ -81,7 +79,7 @@ class OBJECT_OT_fairing_live(ExplainedPoll, bpy.types.Operator):
 
 
 def _show(context: Context, source: Object) -> None:
-    """What is hidden can neither be edited nor does Blender look at it."""
+    """Unhides the source: hidden objects can neither be edited nor are they updated by Blender."""
     if is_in_view_layer(context, source):
         source.hide_set(False)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Long runs in a window: the view stays alive, the status bar shows how far, ESC ends it."""
+"""Long runs in a window: the view stays responsive, the status bar shows the progress, ESC cancels."""
 
 import bpy
 
@@ -11,27 +11,27 @@ from ..mesh.object import session_key
 from ..queue import Queue, running, set_running, status_text
 from ..redraw import Progress, tag_sidebars
 
-_INTERVAL = 0.05  # seconds between two looks at the thread
+_INTERVAL = 0.05  # seconds between two checks of the thread
 
 
 class ModalRun(OperatorBase):
-    """Mix-in of an operator that computes jobs on a thread and calls `finish(context, jobs)` when
-    all are done.
+    """Mix-in of an operator that computes jobs on a thread and calls `finish(context, jobs)` when all
+    are complete.
     """
 
     cancelled_text = "Fairing was cancelled: nothing has changed"
 
     def finish(self, context: Context, jobs: list[Job]) -> Answer:
-        """For the operator to say."""
+        """Implemented by the operator."""
         raise NotImplementedError
 
     def start(self, context: Context, jobs: list[Job]) -> Answer:
-        """Begins; the operator returns what this returns."""
+        """Starts the run; the operator returns the result of this."""
         self._jobs = jobs
         self._queue = Queue(jobs, core.module().Monitor)
         set_running(self._queue)
         self._progress = Progress()
-        self._told: set[int | str] = set()  # the workspaces whose status bar says how far it is
+        self._told: set[int | str] = set()  # the workspaces whose status bars show the progress
         manager = context.window_manager
         self._timer = manager.event_timer_add(_INTERVAL, window=context.window)
         manager.modal_handler_add(self)
@@ -39,19 +39,19 @@ class ModalRun(OperatorBase):
         return {"RUNNING_MODAL"}
 
     def modal(self, context: Context, event: bpy.types.Event) -> Answer:
-        """Takes nothing from the window but ESC."""
+        """Consumes no event but ESC."""
         if event.type == "ESC" and event.value == "PRESS":
             self._queue.cancel()
             return {"RUNNING_MODAL"}
         if event.type == "TIMER":
-            # whoever drags something holds on to what `finish` might take away
+            # while something is dragged, `finish` must not remove it
             if self._queue.finished and not is_dragging(context):
                 return self._end(context)
             self._show_progress(context)
         return {"PASS_THROUGH"}
 
     def cancel(self, context: Context) -> None:
-        """Called by Blender when it ends the operator itself, as on quitting."""
+        """Called by Blender when it ends the operator itself, such as on quitting."""
         self._queue.cancel()
         self._clean_up(context)
 
@@ -79,12 +79,12 @@ class ModalRun(OperatorBase):
             self._show(context, text)
 
     def _show(self, context: Context, text: str | None) -> None:
-        """Status bars of the workspaces that are seen, and sidebars, but not the viewports, which may
-        take long to draw; None puts back what Blender shows in each status bar itself.
+        """Updates the status bars of visible workspaces, and sidebars, but not viewports, which may be
+        slow; None restores Blender's own text.
         """
         if text is not None:
             seen = {session_key(w.workspace): w.workspace for w in context.window_manager.windows}
-        else:  # others may have been seen meanwhile
+        else:  # other workspaces may have been visible meanwhile
             seen = {session_key(w): w for w in bpy.data.workspaces}
             seen = {key: seen[key] for key in self._told & seen.keys()}
         for workspace in seen.values():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""File > Import > Offsets: half a hull from a yard's table."""
+"""File > Import > Offsets: makes half a hull from a yard's table."""
 
 from pathlib import Path
 from typing import Any, cast
@@ -35,7 +35,7 @@ class IMPORT_MESH_OT_fairing_offsets(ImportHelper, bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
     filename_ext = ".csv"
 
-    # not that of the last import: a file that is named was dropped
+    # without the path of the last import: a given file was dropped
     filepath: StringProperty(subtype="FILE_PATH", options={"SKIP_SAVE"})
     filter_glob: StringProperty(default="*.csv;*.tsv;*.txt", options={"HIDDEN"})
     unit: EnumProperty(name="Unit", description="The unit of the table's numbers", items=_UNITS)
@@ -46,10 +46,10 @@ class IMPORT_MESH_OT_fairing_offsets(ImportHelper, bpy.types.Operator):
     )
 
     def invoke(self, context: Context, event: bpy.types.Event) -> Answer:
-        """A file that was dropped is known; else the browser asks for one."""
+        """A dropped file is known; otherwise the browser asks for one."""
         if self.filepath:
             return self.execute(context)
-        helper: Any = ImportHelper  # whose stub says None
+        helper: Any = ImportHelper  # its stub returns None
         return helper.invoke(self, context, event)
 
     def execute(self, context: Context) -> Answer:
@@ -83,8 +83,8 @@ class IMPORT_MESH_OT_fairing_offsets(ImportHelper, bpy.types.Operator):
 
 
 def _set_panel(context: Context, made: HullMesh) -> None:
-    """As the job Hull has it. Where a crease ends inside the hull, flow lines swing, and bending does not; elsewhere
-    bending springs off borders and knuckles.
+    """Sets the panel to the job Hull. If a crease ends inside the hull, bending is used, since flow
+    lines oscillate there; otherwise flow lines, since bending rises at borders and knuckles.
     """
     cast(Any, bpy.ops.object).fairing_preset_apply(filepath=str(preset_file("HULL")))
     if made.fades:
@@ -102,7 +102,7 @@ def _object(context: Context, name: str, made: HullMesh) -> Object:
 
 
 class IO_FH_fairing_offsets(bpy.types.FileHandler):
-    """Drop a table of offsets onto the viewport."""
+    """Accepts a table of offsets dropped onto the viewport."""
 
     bl_idname = "IO_FH_fairing_offsets"
     bl_label = "Offsets"

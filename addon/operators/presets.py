@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Presets through Blender's own machinery: shipped ones lie in addon/presets, the user's in their
-own folder.
+"""Presets by Blender's own machinery: shipped ones are in addon/presets, the user's in their own
+folder.
 
-A preset is a script that sets the active operator's properties, as Blender's redo panel has it. The
-panel runs and keeps the same scripts with the settings that it shows in the operator's place.
+A preset is a script that sets the active operator's properties, like those of Blender's redo panel. The
+panel runs and saves the same scripts with its settings in place of the operator.
 """
 
 from typing import Any, cast
@@ -17,8 +17,8 @@ from ..purposes import FOLDER, PRESET_FOLDER
 from ..settings import NAMES
 from ..ui.main import active_settings
 
-_FOLDER = str(FOLDER.parent)  # the one that holds presets/
-# belongs to the present work, not to the kind of thing that is made
+_FOLDER = str(FOLDER.parent)  # contains presets/
+# settings of the present work, not of a kind of object
 NOT_KEPT = {"use_selection", "tolerance_group", "pull_group", "symmetry_plane", "memory_limit"}
 
 
@@ -39,7 +39,7 @@ class OBJECT_OT_fairing_preset_apply(bpy.types.Operator):
 
     def execute(self, context: Context) -> Answer:
         with _settings_as_operator(context):
-            execute: Any = bpy.ops.script.execute_preset  # whose stub says None
+            execute: Any = bpy.ops.script.execute_preset  # its stub returns None
             return execute(filepath=self.filepath, menu_idname="VIEW3D_PT_fairing_presets")
 
 

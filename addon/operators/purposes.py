@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fair for …: the settings of a purpose, and the run, in one click."""
+"""Fair for …: sets a job's settings and runs, in one click."""
 
 from dataclasses import asdict
 from typing import Any
@@ -15,7 +15,8 @@ from ..settings import Settings
 from ..ui.main import active_settings, fairing_operator, remembered
 from .fair import can_fair
 
-# an operator that another one calls leaves no step of undo by itself; from a script's call none does
+# an operator called by another one makes no undo step by itself; one called by a script makes none at
+# all
 _UNDO = True
 
 
@@ -24,7 +25,7 @@ class OBJECT_OT_fairing_for(ExplainedPoll, bpy.types.Operator):
 
     bl_idname = "object.fairing_for"
     bl_label = "Fair for"
-    bl_options = {"INTERNAL"}  # the operators that it runs have their own undo
+    bl_options = {"INTERNAL"}  # the operators that it runs make their own undo steps
 
     purpose: EnumProperty(name="Purpose", items=PURPOSES)
 
@@ -41,7 +42,9 @@ class OBJECT_OT_fairing_for(ExplainedPoll, bpy.types.Operator):
         return self._run_or_say(context, "EXEC_DEFAULT")
 
     def _run_or_say(self, context: Context, how: str) -> Answer:
-        """What an operator within this one reports as an error is an exception here, and would be shown as one."""
+        """Runs the operator; an error reported by it is an exception here, and is reported as a
+        message.
+        """
         try:
             return self._run(context, how)
         except RuntimeError as error:

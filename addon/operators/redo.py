@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Adjust Last Operation never waits: where the whole surface takes too long, it shows one with fewer levels.
+"""Adjust Last Operation never blocks for long: if the whole surface takes too long, it makes one with
+fewer levels.
 
-Blender calls `execute` from there, which can neither be modal nor be cancelled.
+Blender calls `execute` there, which can neither be modal nor be cancelled.
 """
 
 from collections.abc import Sequence
@@ -16,8 +17,8 @@ from ..job import Job
 from ..queue import TimedJob, running
 from ..settings import Settings
 
-BUDGET = 0.5 * prediction.PATIENCE  # for computing; reading, writing and undo take time as well
-_WITHOUT = "THIN_PLATE"  # stands in where another energy is too slow even for a small surface
+BUDGET = 0.5 * prediction.PATIENCE  # for computing; reading, writing and undo also take time
+_WITHOUT = "THIN_PLATE"  # replaces an energy that is too slow even for a small surface
 
 
 def predicted_seconds(jobs: Sequence[TimedJob]) -> float:
@@ -25,13 +26,13 @@ def predicted_seconds(jobs: Sequence[TimedJob]) -> float:
 
 
 def small_jobs(context: Context, jobs: Sequence[Job]) -> list[Job]:
-    """Jobs in the place of `jobs` that take no longer than anyone would wait; raises JobError."""
+    """Jobs in place of `jobs` that are fast enough to wait for; raises JobError."""
     budget = BUDGET / len(jobs)
     return [Job(context, cast(Object, job.source), _small(job, budget), job.target) for job in jobs]
 
 
 def _small(job: Job, budget: float) -> Settings:
-    """Its settings with as many levels, and if need be the energy, that the `budget` is enough for."""
+    """Its settings with the number of levels and, if needed, the energy that the `budget` allows."""
     for energy, least in ((job.settings.energy, 2), (_WITHOUT, 2), (_WITHOUT, 1)):
         for levels in range(job.settings.levels, least - 1, -1):
             if job.predict(energy, levels) <= budget:
@@ -40,8 +41,8 @@ def _small(job: Job, budget: float) -> Settings:
 
 
 def invoke_soon(context: Context, operator: Any, properties: dict[str, Any]) -> None:
-    """Calls an operator of bpy.ops as its button does, from the current window, after the current one
-    returns; not at all where a run has begun meanwhile.
+    """Calls an operator of bpy.ops like its button, from the current window, after the current one
+    returns; not if a run has started meanwhile.
     """
     window = context.window
     if window is None:
@@ -52,14 +53,14 @@ def invoke_soon(context: Context, operator: Any, properties: dict[str, Any]) -> 
         manager = current_context().window_manager
         if place < len(manager.windows) and not running():
             with current_context().temp_override(window=manager.windows[place]):
-                operator("INVOKE_DEFAULT", True, **properties)  # with a step of undo, as a button's
+                operator("INVOKE_DEFAULT", True, **properties)  # with an undo step, like a button
 
     bpy.app.timers.register(begin, first_interval=0.01)
 
 
 def repeat_soon(context: Context, operator: Any) -> None:
-    """Lets `operator`, which Adjust Last Operation has called and which would take too long there,
-    begin again with the same properties, in the background with its bar.
+    """Restarts `operator`, which Adjust Last Operation has called and which would take too long there,
+    with the same properties in the background.
     """
     call = getattr(bpy.ops.object, operator.bl_idname.rpartition("_OT_")[2])
     invoke_soon(context, call, operator.as_keywords())

@@ -32,13 +32,13 @@ _FILE_UNITS = {"MM": 1e-3, "CM": 1e-2, "M": 1.0, "IN": 0.0254, "FT": 0.3048}
 
 
 def _surface(context: Context, target: Object) -> Drawn:
-    """As it is seen, in the world; normals, which would part it at sharp edges, are left out."""
+    """The mesh as displayed, in the world, without normals, which would divide it at sharp edges."""
     found = read_scans(context, [target])
     return Drawn(found.points, np.zeros_like(found.points), found.triangles)
 
 
 def _imported_stations(context: Context, target: Object) -> list[tuple[str, float]]:
-    """Those of the table of offsets that the mesh, or its source, is of."""
+    """The stations of the table of offsets from which the mesh, or its source, was made."""
     source = cast(Object, active_source(context))
     names = read_names(source.data)
     if not names:
@@ -50,7 +50,9 @@ def _imported_stations(context: Context, target: Object) -> list[tuple[str, floa
 def even_planes(
     context: Context, kind: str, surface: Drawn, listed: str, spacing: float, start: float
 ) -> list[Plane]:
-    """Across an axis: those listed, else the stations of the import, else evenly spaced. ValueError for no list."""
+    """Planes across an axis: the listed ones, else the stations of the import, else evenly spaced ones.
+    ValueError for an invalid list.
+    """
     axis = _AXES[kind]
     normal = tuple(float(k == axis) for k in range(3))
     low, high = surface.points[:, axis].min(), surface.points[:, axis].max()
@@ -63,7 +65,7 @@ def even_planes(
         named = [
             (f"{_WORDS[kind]} {at:.6g}", at) for at in places(listed, low, high, spacing, start)
         ]
-    inset = 1e-5 * (high - low)  # the end stations are the border, which a plane only touches
+    inset = 1e-5 * (high - low)  # the end stations are borders, which a plane only touches
     if axis == 1 and abs(low) <= inset and not listed.strip():
         named = [("profile", 0.0), *named]  # of a half hull
     return [
@@ -74,13 +76,13 @@ def even_planes(
 
 
 def cuts(surface: Drawn, planes: list[Plane]) -> list[Cut]:
-    """Only where there is something."""
+    """The cuts that are not empty."""
     found = [Cut(plane, cut(surface, np.array(plane.normal), plane.place)) for plane in planes]
     return [one for one in found if one.curves]
 
 
 class _Spaced:
-    """Mix-in: where planes are."""
+    """Mix-in: positions of planes."""
 
     spacing: FloatProperty(
         name="Spacing",
@@ -200,7 +202,7 @@ class EXPORT_SCENE_OT_fairing_lines(_Spaced, ExplainedPoll, ExportHelper, bpy.ty
     filename_ext = ".dxf"
 
     if TYPE_CHECKING:
-        filepath: str  # what ExportHelper adds
+        filepath: str  # added by ExportHelper
 
     filter_glob: StringProperty(default="*.dxf", options={"HIDDEN"})
     stations: StringProperty(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What Adjust Last Operation, or a file browser, shows of an operator."""
+"""The properties that Adjust Last Operation, or a file browser, shows of an operator."""
 
 from collections.abc import Iterable
 from typing import cast
@@ -13,7 +13,7 @@ class Shown(OperatorBase):
     """Mix-in of operators that show some of their properties below one another."""
 
     def shown(self, context: Context) -> Iterable[str]:
-        """The names of those that mean something now."""
+        """The names of the properties that apply now."""
         raise NotImplementedError
 
     def draw(self, context: Context) -> None:

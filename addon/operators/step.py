@@ -23,26 +23,26 @@ from .written_files import ByFileBrowser
 
 
 def _to_fit(context: Context) -> list[Object]:
-    """The selected meshes, but the sources of surfaces that are selected too."""
+    """The selected meshes, without sources of selected surfaces."""
     chosen = source_objects(context)
     sources = {source_of(target) for target in chosen}
     return [target for target in chosen if target not in sources]
 
 
 class _Fitting(fair.Fairing, PatchSettings):
-    """What both share: patches are fitted to the surfaces of all selected objects."""
+    """The common part: fits patches to the surfaces of all selected objects."""
 
     reasons = (fair.can_fair, needs(source_objects, "Select a mesh or a faired surface first"))
 
     def patch_options(self) -> PatchOptions:
-        """Of the patches."""
+        """The settings of patches."""
         return PatchOptions(self.fit_tolerance, self.fit_angle, self.fit_levels)
 
     def make_jobs(self, context: Context) -> list[Any]:
         return [PatchJob(context, target, self.patch_options()) for target in _to_fit(context)]
 
     def execute(self, context: Context) -> Answer:
-        """From scripts."""
+        """For scripts."""
         jobs = self._prepare(context)
         return {"CANCELLED"} if jobs is None else self._block(context, jobs)
 

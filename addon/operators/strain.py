@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Strain: shown, selected, jumped to, and written as a table."""
+"""Strain: show it, select strained vertices, go to one, write a table."""
 
 from collections.abc import Iterable, Sequence
 from typing import Any, cast
@@ -27,7 +27,7 @@ from .written_files import ByFileBrowser, write_text_file
 
 
 def active_sources(context: Context) -> list[Object]:
-    """What the active object is or is made from; in Edit Mode all meshes that are edited."""
+    """The source of the active object, or itself; in Edit Mode all edited meshes."""
     if context.mode == "EDIT_MESH":
         return list(context.objects_in_mode_unique_data)
     source = active_source(context)
@@ -35,7 +35,7 @@ def active_sources(context: Context) -> list[Object]:
 
 
 class _Straining(WholeFairing):
-    """What is measured first, if it has changed since the last time."""
+    """The common part: measures the strain first, if anything has changed since the last time."""
 
     cancelled_text = "Measuring was cancelled: nothing has changed"
 
@@ -53,7 +53,7 @@ class _Straining(WholeFairing):
         return self.use(context, list(jobs))
 
     def use(self, context: Context, jobs: list[StrainJob]) -> Answer:
-        """What to do with the strain, on all objects that are still there."""
+        """Uses the strain of all objects that still exist."""
         raise NotImplementedError
 
 
@@ -119,7 +119,7 @@ class OBJECT_OT_fairing_select_strained(Shown, _Straining, bpy.types.Operator):
         wanted: list[Any] = []
         for job in jobs:
             strained = job.result
-            assert strained is not None  # as computing has left it
+            assert strained is not None  # computing has set it
             text = Units.of(context.scene).lengths(max(strained.largest, strained.floor))
             chosen = self._chosen(strained)
             if len(chosen):
@@ -149,7 +149,7 @@ class OBJECT_OT_fairing_crease_knuckle(_Straining, bpy.types.Operator):
         done = 0
         for job in jobs:
             source, strained = job.reference.find(), job.result
-            assert source is not None and strained is not None  # as computing has left it
+            assert source is not None and strained is not None  # computing has set it
             if strained.knuckle:
                 self.report(
                     {"INFO"}, f"{job.name}: {_crease(source, strained.knuckle)} edges creased"
@@ -163,7 +163,7 @@ class OBJECT_OT_fairing_crease_knuckle(_Straining, bpy.types.Operator):
 
 
 def _crease(source: Object, chain: list[int]) -> int:
-    """How many edges along the `chain` of vertices are sharp now."""
+    """Creases the edges along the `chain` of vertices; returns their number."""
     with edited(source) as bm:
         layer = bm.edges.layers.float.get("crease_edge") or bm.edges.layers.float.new("crease_edge")
         bm.verts.ensure_lookup_table()
@@ -211,7 +211,7 @@ class OBJECT_OT_fairing_strain_table(ByFileBrowser, _Straining, bpy.types.Operat
     filter_glob: StringProperty(default="*.csv", options={"HIDDEN"})
 
     def make_jobs(self, context: Context) -> list[Any]:
-        """Of the mesh itself, whatever its shape keys make of it."""
+        """For the mesh itself, without its shape keys."""
         return [StrainJob(context, cast(Object, active_source(context)), as_mixed=False)]
 
     def finish(self, context: Context, jobs: Sequence[Any]) -> Answer:

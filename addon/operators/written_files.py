@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Operators that write a file, which the file browser asks for, or a script names."""
+"""Operators that write a file chosen in the file browser, or given by a script."""
 
 from typing import TYPE_CHECKING, Any, cast
 
@@ -12,33 +12,35 @@ from .fair import Fairing
 
 
 class ByFileBrowser(ExportHelper, Fairing):
-    """Mix-in of a run whose `filepath` the browser fills in. Then it goes on as `begin` says, and the
-    window stays alive.
+    """Mix-in of a run with a `filepath` from the browser. Then `begin` continues, and the window stays
+    responsive.
     """
 
     if TYPE_CHECKING:
-        filepath: str  # what ExportHelper adds
+        filepath: str  # added by ExportHelper
 
     _from_browser = False
 
     def invoke(self, context: Context, event: bpy.types.Event) -> Answer:
         self._from_browser = True
-        helper: Any = ExportHelper  # whose stub says None
+        helper: Any = ExportHelper  # its stub returns None
         return helper.invoke(self, context, event)
 
     def execute(self, context: Context) -> Answer:
-        """The file browser calls it too."""
+        """Called by scripts and by the file browser."""
         if self._from_browser and not bpy.app.background:
             return self.begin(context)
         return super().execute(context)
 
     def begin(self, context: Context) -> Answer:
-        """As a button does."""
+        """Starts the run like a button."""
         return Fairing.invoke(self, context, cast(Any, None))
 
 
 def write_text_file(operator: bpy.types.Operator, path: str, text: str) -> bool:
-    """Whether it was written; why not is reported. The file is whole or as it was."""
+    """Returns whether the file was written; otherwise reports why not. The file is complete or
+    unchanged.
+    """
     place = bpy.path.abspath(path)
     try:
         with core.module().whole_files.whole_file(place) as part:

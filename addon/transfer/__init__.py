@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the control mesh carries, transferred to the refined lattice: NumPy, no Blender."""
+"""Transfers the data of the control mesh to the refined lattice. NumPy, no Blender."""

@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""All control faces of one kind with their refined faces, and how values spread over them.
-
-In chunks: no large copies.
-"""
+"""Interpolates values from control faces to refined faces, in chunks, without large copies."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -15,7 +12,7 @@ from .control_faces import Centres, ControlFaces, find_control_faces
 from .lattice import Cells, make_cells, pair_keys, sides
 from .mended import faired_mesh
 
-CHUNK = 1 << 18  # values at a time: these fit in a processor's cache
+CHUNK = 1 << 18  # values at a time, which fit in a processor's cache
 
 _NEVER = np.iinfo(np.int32).max
 
@@ -23,7 +20,7 @@ _NEVER = np.iinfo(np.int32).max
 @dataclass(frozen=True)
 class Patch:
     """The refined faces `fine` (F n², k) of the F control faces `faces`; their first corner is the
-    mesh's `start`.
+    mesh's corner `start`.
     """
 
     cells: Cells
@@ -32,8 +29,8 @@ class Patch:
     start: int
 
     def mix_corners(self, known: np.ndarray, out: np.ndarray) -> None:
-        """Writes the mixed values at all refined corners; `known` (corners and centres, w), `out`
-        (corners, w) float32.
+        """Writes the interpolated values at all refined corners; `known` (corners and centres, w),
+        `out` (corners, w) float32.
         """
         own = self._own(out)
         for part, values in self._mixed(known, self.faces.corners):
@@ -52,8 +49,8 @@ class Patch:
     def pick_corners(
         self, values: np.ndarray, ids: np.ndarray, fans: np.ndarray, out: np.ndarray
     ) -> None:
-        """Writes the nearest of `values` (corners, …) at all refined corners; `ids` (F, k): where
-        those of a face are.
+        """Writes the nearest of `values` (corners, …) at all refined corners; `ids` (F, k): the corners
+        of a face.
 
         `fans` (F,) bool: faces whose last corner is a centre.
         """
@@ -80,7 +77,7 @@ class Patch:
         return (slice(begin, min(begin + step, faces)) for begin in range(0, faces, step))
 
     def _mixed(self, known: np.ndarray, ids: np.ndarray) -> Iterator[tuple[slice, np.ndarray]]:
-        """Chunks of faces, and their values (w, faces, P) float32 at all points."""
+        """Chunks of faces, with their values (w, faces, P) float32 at all points."""
         width, size = known.shape[1], self.faces.size
         spread = np.ascontiguousarray(self.cells.weights.T)
         for part in self._chunks(width):
@@ -89,12 +86,10 @@ class Patch:
             yield part, mixed.astype(np.float32).reshape(width, -1, len(self.cells.points))
 
     def _picked(self, ids: np.ndarray, fans: np.ndarray) -> Iterator[tuple[slice, np.ndarray]]:
-        """Chunks of faces, and the id (faces, P) int32 of `ids` (F, k) that is nearest to each
-        point.
-        """
+        """Chunks of faces, with the id (faces, P) int32 in `ids` (F, k) that is nearest to each point."""
         nearest = _nearest(self.cells)
         for part in self._chunks(self.faces.size):
-            # of equally near ones the lowest vertex, so that faces with a common edge agree on it
+            # at equal distance the lowest vertex, so that adjacent faces agree
             order = np.where(
                 nearest[fans[part].astype(np.intp)], self.faces.vertices[part, None, :], _NEVER
             )
@@ -102,10 +97,10 @@ class Patch:
 
 
 def _nearest(cells: Cells) -> np.ndarray:
-    """(2, P, k) bool: the corners nearest to each point; in a plain face, and in one whose last
-    corner is a centre.
+    """(2, P, k) bool: the corners nearest to each point; in a plain face, and in one whose last corner
+    is a centre.
 
-    A centre is nearest to itself only.
+    A centre counts for itself only.
     """
     plain = cells.weights == cells.weights.max(axis=1, keepdims=True)
     rest = cells.weights[:, :-1]
@@ -117,16 +112,16 @@ def _nearest(cells: Cells) -> np.ndarray:
 
 
 class AttributeTransfer:
-    """Carries values from the n vertices, c corners, m faces and e edges of a control mesh to a
+    """Transfers values from the n vertices, c corners, m faces and e edges of a control mesh to a
     refined one.
 
-    The refined corners are those of the result's triangles, then of its quads, as in a mesh that is
-    made of them.
+    The refined corners are those of the result's triangles, then of its quads, as in a mesh made of
+    them.
     """
 
     def __init__(self, result: Any, arrays: ControlArrays, levels: int) -> None:
-        """`result`: the core's, refined `levels` times; `arrays`: the control mesh (positions,
-        edges, corners, offsets).
+        """`result`: the core's, refined `levels` times; `arrays`: the control mesh (positions, edges,
+        corners, offsets).
         """
         self.levels = levels
         self.control_count = len(arrays.positions)
@@ -148,11 +143,11 @@ class AttributeTransfer:
 
     @property
     def triangle_count(self) -> int:
-        """Of the refined mesh, a quad counting two."""
+        """Triangles of the refined mesh, two for each quad."""
         return sum(len(patch.fine) * (patch.fine.shape[1] - 2) for patch in self.patches)
 
     def used_vertices(self) -> np.ndarray:
-        """(n,) bool: which control vertices belong to a face."""
+        """(n,) bool: whether a control vertex belongs to a face."""
         used = np.zeros(self.vertex_count, bool)
         for patch in self.patches:
             used[patch.faces.vertices] = True
@@ -161,7 +156,7 @@ class AttributeTransfer:
     def corner(self, values: np.ndarray) -> np.ndarray:
         """(c,) or (c, w) numbers on corners → (refined corners, w) float32.
 
-        A face's come from its own corners only.
+        Interpolates within each face only.
         """
         values = self._faired.corner(_table(values))
         known = np.concatenate([values, self._centres.corner(values)])
@@ -183,9 +178,7 @@ class AttributeTransfer:
         return out
 
     def own_point(self, values: np.ndarray) -> np.ndarray:
-        """(n, …) → (refined vertices, …): as given on the control vertices, 0 or False on all
-        others.
-        """
+        """(n, …) → (refined vertices, …): the values on control vertices, 0 or False on all others."""
         out = np.zeros((self.vertex_count, *values.shape[1:]), values.dtype)
         out[: len(values)] = values
         return out
@@ -195,11 +188,10 @@ class AttributeTransfer:
         return values[self._polygon]
 
     def edge_origin(self, corner_edge: np.ndarray, edge_count: int) -> np.ndarray:
-        """(refined edges,) int32: the control edge that each is a piece of, -1 for edges inside of
-        faces.
+        """(refined edges,) int32: the control edge that contains each, -1 for edges inside faces.
 
-        `corner_edge` (refined corners,): the edge that leaves each corner; `edge_count`: how many
-        there are.
+        `corner_edge` (refined corners,): the edge that leaves each corner; `edge_count`: number of
+        edges.
         """
         origin = np.full(edge_count, -1, np.int32)
         for patch in self.patches:
@@ -207,10 +199,10 @@ class AttributeTransfer:
         return origin
 
     def pick_corner(self, values: np.ndarray) -> np.ndarray:
-        """(c, …) of any type on corners → (refined corners, …): the value of the nearest corner of
-        the same polygon.
+        """(c, …) of any type on corners → (refined corners, …): the value of the nearest corner of the
+        same polygon.
 
-        Of several that are equally near, that of the vertex with the lowest id.
+        At equal distance that of the vertex with the lowest id.
         """
         values = self._faired.pick_corner(values)
         out = np.empty((self.corner_count, *values.shape[1:]), values.dtype)
@@ -225,10 +217,10 @@ class AttributeTransfer:
         return out
 
     def pick_point(self, values: np.ndarray) -> np.ndarray:
-        """(n, …) of any type on vertices → (refined vertices, …): the value of the nearest vertex
-        of the control face.
+        """(n, …) of any type on vertices → (refined vertices, …): the value of the nearest vertex of
+        the control face.
 
-        Of several that are equally near, the one with the lowest id.
+        At equal distance the one with the lowest id.
         """
         out = np.zeros((self.vertex_count, *values.shape[1:]), values.dtype)
         lowest, _ = self._centres.lowest()
@@ -250,9 +242,7 @@ class AttributeTransfer:
 
     @staticmethod
     def _replace(ids: np.ndarray, lowest: np.ndarray, count: int) -> np.ndarray:
-        """`ids` with the centres, which have no values to pick, replaced by what is picked for
-        them.
-        """
+        """`ids` with centres, which have no values, replaced by `lowest`."""
         replaced = ids.copy()
         centre = replaced >= count
         replaced[centre] = lowest[replaced[centre] - count]
@@ -267,8 +257,8 @@ def _table(values: np.ndarray) -> np.ndarray:
 def _edge_origin(
     patch: Patch, control_edges: np.ndarray, corner_edge: np.ndarray, origin: np.ndarray
 ) -> None:
-    """Writes the id of the control edge to `origin` (refined edges,) for all pieces of control
-    edges in `patch`.
+    """Writes to `origin` (refined edges,) the id of the control edge, for all pieces of control edges
+    in `patch`.
 
     `control_edges` (e, 2): their vertices; `corner_edge` (refined corners,): the refined edge that
     leaves each corner.
@@ -277,12 +267,12 @@ def _edge_origin(
     if not len(vertices) or not len(control_edges):
         return
     keys = pair_keys(control_edges)
-    order = np.argsort(keys, kind="stable")  # mending may have made two edges one: the first counts
+    order = np.argsort(keys, kind="stable")  # mending may have merged two edges: the first counts
     leaving = corner_edge[patch.start : patch.start + patch.fine.size].reshape(len(vertices), -1)
     n = int(np.sqrt(leaving.shape[1] // size))
     for side, (run, start, _) in enumerate(sides(size, n)):
         wanted = pair_keys(np.stack([vertices[:, side], vertices[:, (side + 1) % size]], axis=1))
         place = np.minimum(np.searchsorted(keys, wanted, sorter=order), len(keys) - 1)
         edge = order[place]
-        is_edge = keys[edge] == wanted  # a cut through a polygon is none
+        is_edge = keys[edge] == wanted  # a cut through a polygon is no control edge
         origin[leaving[is_edge][:, run * size + start]] = edge[is_edge, None]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A large mesh in blocks of faces with some of their neighbours, for what is local: each costs its size
-alone.
+"""Divides a large mesh into blocks of faces with their surroundings, for local computations, so that
+the cost of each depends on its size only.
 """
 
 from collections.abc import Iterator
@@ -14,11 +14,11 @@ from .cut_out import CutOut, cut_out
 def blocks(
     arrays: ControlArrays, chosen: np.ndarray, most: int, around: float
 ) -> Iterator[tuple[CutOut, np.ndarray]]:
-    """(cut-out, (f,) bool which of its faces are the block's own): together these are the faces
-    `chosen` (m,) bool, at most `most` a block. A cut-out has all faces, too, whose centres are no
-    farther than `around`, a length, from the box around its own.
+    """(cut-out, (f,) bool: whether a face is the block's own): together the own faces are the faces
+    `chosen` (m,) bool, at most `most` a block. A cut-out also has all faces whose centres are within
+    `around`, a length, of the bounding box of its own.
 
-    Halved across the longest axis, over and over, so that no step looks at more than it cuts.
+    Blocks are halved across the longest axis, recursively, so that no step reads more than it divides.
     """
     whole = CutOut(arrays, np.arange(len(arrays.positions)), np.arange(len(chosen)))
     waiting = [(whole, chosen)] if chosen.any() else []
@@ -48,6 +48,6 @@ def _cut(
 
 
 def _centres(arrays: ControlArrays) -> np.ndarray:
-    """(m, 3): means of corners."""
+    """(m, 3): means of the faces' corners."""
     sums = np.add.reduceat(arrays.positions[arrays.corners], arrays.offsets[:-1], axis=0)
     return sums / arrays.face_sizes[:, None]

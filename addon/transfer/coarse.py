@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A refined surface by fewer of its points. Plain arrays, no Blender."""
+"""A refined surface with fewer of its points. Plain arrays, no Blender."""
 
 import numpy as np
 
@@ -8,8 +8,8 @@ from .lattice import make_cells
 
 
 def coarse_triangles(transfer: AttributeTransfer, levels: int) -> tuple[np.ndarray, np.ndarray]:
-    """(t, 3) triangles of refined vertices as after `levels` refinements, at most those that there
-    were, and (t,) the control face of each, by its place among those of `transfer`. Quads are cut.
+    """(t, 3) triangles of refined vertices on the lattice of `levels` refinements, at most those of the
+    surface, and (t,) the control face of each, by its position in `transfer`. Quads are cut.
     """
     triangles, owners = [np.empty((0, 3), np.int32)], [np.empty(0, np.int64)]
     start = 0

@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The core's control faces, found again in its result: which vertices, and which corners of the
-input, each one has.
+"""Finds the core's control faces in its result: the vertices and the input's corners of each.
 
-A polygon of the input may have been split in several control faces; all triangles of a fan have its
-centre last.
+An input polygon may be split into several control faces; all triangles of a fan have its centre last.
 """
 
 from dataclasses import dataclass
@@ -33,8 +31,8 @@ class ControlFaces:
 def find_control_faces(
     fine: np.ndarray, fine_polygon: np.ndarray, cells: Cells, arrays: ControlArrays
 ) -> ControlFaces:
-    """ControlFaces of the refined faces `fine` (f, k), written as `cells` (Cells) say;
-    `fine_polygon` (f,): their input faces.
+    """ControlFaces of the refined faces `fine` (f, k), in the order of `cells`; `fine_polygon` (f,):
+    their input faces.
 
     `arrays`: the input mesh (positions, corners, offsets).
     """
@@ -51,14 +49,14 @@ def _corners(vertices: np.ndarray, polygon: np.ndarray, arrays: ControlArrays) -
     found = first[:, None] + np.arange(size, dtype=np.int32)
     whole = arrays.offsets[polygon + 1] - first == size
     whole[whole] = (arrays.corners[found[whole]] == vertices[whole]).all(axis=1)
-    split = np.flatnonzero(~whole)  # or turned over
+    split = np.flatnonzero(~whole)  # or reversed
     if len(split):
         found[split] = _search(vertices[split], polygon[split], arrays)
     return found
 
 
 def _search(vertices: np.ndarray, polygon: np.ndarray, arrays: ControlArrays) -> np.ndarray:
-    # no polygon has a vertex twice, so polygon and vertex name a corner
+    # no polygon contains a vertex twice, so polygon and vertex determine a corner
     centre = vertices - len(arrays.positions)
     wanted = _keys(polygon[:, None], vertices)
     polygons = np.unique(polygon)
@@ -78,8 +76,8 @@ def _keys(polygon: np.ndarray, vertex: np.ndarray) -> np.ndarray:
 
 
 class Centres:
-    """The centres of all fans. `members` (t,): their triangles among the control triangles, fan
-    after fan.
+    """The centres of all fans. `members` (t,): their triangles among the control triangles, fan after
+    fan.
     """
 
     def __init__(self, triangles: ControlFaces, arrays: ControlArrays) -> None:
@@ -117,11 +115,11 @@ class Centres:
         return np.add.reduceat(values * self._weights[:, None], self._starts, axis=0)
 
     def _area_weights(self, positions: np.ndarray) -> np.ndarray:
-        """(members,) float64: with these the corners' mean is the area centroid, where the core
-        puts the centre.
+        """(members,) float64: with these weights the mean of the corners is the area centroid, where
+        the core places the centre.
 
-        A value that is linear in the plane of a polygon so stays linear. Centroids outside their
-        corners' hull, which strongly warped polygons can have, give way to the plain mean.
+        So a value that is linear in the plane of a polygon stays linear. A centroid outside the
+        corners' hull, which strongly warped polygons may have, is replaced by the plain mean.
         """
         plain = 1.0 / np.repeat(self._sizes, self._sizes)
         if not self.count:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A part of a control mesh as a mesh of its own, so that fairing a few faces does not cost the whole."""
+"""Cuts a part out of a control mesh, so that fairing a few faces does not cost the whole."""
 
 from dataclasses import dataclass, replace
 
@@ -10,15 +10,15 @@ from ..core import ControlArrays
 
 @dataclass(frozen=True)
 class CutOut:
-    """`arrays` of some faces, and where they come from."""
+    """The `arrays` of some faces, and their ids."""
 
     arrays: ControlArrays
-    vertices: np.ndarray  # (k,) the ids that its vertices have in the whole
-    faces: np.ndarray  # (f,) those of its faces
+    vertices: np.ndarray  # (k,) ids of its vertices in the whole mesh
+    faces: np.ndarray  # (f,) ids of its faces in the whole mesh
 
 
 def grown(arrays: ControlArrays, chosen: np.ndarray, rings: int) -> np.ndarray:
-    """(m,) bool: the faces `chosen` (m,) bool, and `rings` rings of those that touch them."""
+    """(m,) bool: the faces `chosen` (m,) bool, and `rings` rings of faces around them."""
     face_of = np.repeat(np.arange(len(chosen)), arrays.face_sizes)
     for _ in range(rings):
         touched = np.zeros(len(arrays.positions), bool)
@@ -29,7 +29,7 @@ def grown(arrays: ControlArrays, chosen: np.ndarray, rings: int) -> np.ndarray:
 
 
 def inside(arrays: ControlArrays, chosen: np.ndarray) -> np.ndarray:
-    """(n,) bool: vertices all of whose faces are `chosen` (m,) bool, and that lie on no border."""
+    """(n,) bool: vertices all of whose faces are `chosen` (m,) bool, and that are not on a border."""
     in_chosen = chosen[np.repeat(np.arange(len(chosen)), arrays.face_sizes)]
     found = np.zeros(len(arrays.positions), bool)
     found[arrays.corners[in_chosen]] = True
@@ -39,7 +39,7 @@ def inside(arrays: ControlArrays, chosen: np.ndarray) -> np.ndarray:
 
 
 def cut_out(arrays: ControlArrays, chosen: np.ndarray) -> CutOut:
-    """The faces `chosen` (m,) bool, in their order, with the vertices and edges that they have."""
+    """The faces `chosen` (m,) bool, in their order, with their vertices and edges."""
     faces = np.flatnonzero(chosen)
     kept = chosen[np.repeat(np.arange(len(chosen)), arrays.face_sizes)]
     vertices, corners = np.unique(arrays.corners[kept], return_inverse=True)
@@ -69,7 +69,9 @@ def cut_out(arrays: ControlArrays, chosen: np.ndarray) -> CutOut:
 
 
 def _on_border(arrays: ControlArrays) -> np.ndarray | None:
-    """The marks of edges on the border: those inside, which a cut would lay bare, have no say."""
+    """The marks of border edges only: marks of inner edges must not apply where a cut makes them a
+    border.
+    """
     if arrays.boundary_edge is None:
         return None
     return np.where(arrays.edge_uses == 1, arrays.boundary_edge, 0)

@@ -1,15 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Values spread from the rim of a filling over its inside: discrete harmonic, so never beyond those of the rim."""
+"""Values extended from the rim of a filling to its inside: discrete harmonic, so never beyond those of
+the rim.
+"""
 
 import numpy as np
 
-_RESIDUAL = 1e-7  # of the first one: colours and coordinates have single precision
+_RESIDUAL = 1e-7  # relative to the first one: colours and coordinates are single precision
 
 
 def spread(points: np.ndarray, triangles: np.ndarray, known: np.ndarray) -> np.ndarray:
-    """(n, c) from the first k rows, `known` (k, c), over a mesh of `points` (n, 3) and `triangles`
-    (t, 3): each other value is the mean of its neighbours', weighted by the inverse lengths of the
-    edges, which keeps all of them between the least and the largest that is known.
+    """(n, c) values, from those of the first k rows, `known` (k, c), on a mesh of `points` (n, 3) and
+    `triangles` (t, 3). Each other value is the mean of its neighbours', weighted by inverse edge
+    lengths, so that all are between the least and the largest known one.
     """
     count, first = len(points), len(known)
     values = np.zeros((count, known.shape[1]))
@@ -19,7 +21,8 @@ def spread(points: np.ndarray, triangles: np.ndarray, known: np.ndarray) -> np.n
     weight = 1.0 / np.maximum(length, np.finfo(np.float32).tiny)
     degree = _at(pairs[0], weight, count) + _at(pairs[1], weight, count)
     for column in values.T:
-        column[first:] = 0.5 * (column[:first].min() + column[:first].max())  # a constant stays
+        # constants are reproduced exactly
+        column[first:] = 0.5 * (column[:first].min() + column[:first].max())
         column[first:] += _correction(column, pairs, weight, degree, first)
     return values
 
@@ -31,7 +34,7 @@ def _at(rows: np.ndarray, values: np.ndarray, count: int) -> np.ndarray:
 def _correction(
     start: np.ndarray, pairs: np.ndarray, weight: np.ndarray, degree: np.ndarray, first: int
 ) -> np.ndarray:
-    """What is to be added to start[first:], by conjugate gradients on the diagonal."""
+    """The correction of start[first:], by conjugate gradients with a diagonal preconditioner."""
 
     def laplacian(x: np.ndarray) -> np.ndarray:
         flow = weight * (x[pairs[0]] - x[pairs[1]])

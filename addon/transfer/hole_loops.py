@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which loops are holes of a mesh, or of what is left of it."""
+"""Finds the loops that are holes of a mesh, or of its remaining faces."""
 
 from collections.abc import Iterable
 from typing import TypeAlias
@@ -12,7 +12,7 @@ Side: TypeAlias = frozenset[int]  # the two vertices of an edge
 
 
 def holes_in(points: np.ndarray, faces: tuple[np.ndarray, np.ndarray]) -> list[list[list[int]]]:
-    """Of each hole of a mesh with these flat `faces` its rim, and the rims of islands in it."""
+    """For each hole of a mesh with these flat `faces`: its rim, and the rims of its islands."""
     found = core.module().with_islands(points, faces) if len(faces[0]) else []
     return [[loop.tolist() for loop in hole] for hole in found]
 
@@ -20,8 +20,8 @@ def holes_in(points: np.ndarray, faces: tuple[np.ndarray, np.ndarray]) -> list[l
 def unclear_edges(
     arrays: core.ControlArrays, gone: np.ndarray, loops: list[list[int]]
 ) -> list[Side]:
-    """Border edges that are around no hole, of faces that have neighbours: where more than two faces
-    meet at an edge, or neighbours look different ways, nobody could say what a hole is.
+    """Border edges that bound no hole, of faces that have neighbours: where more than two faces meet at
+    an edge, or neighbours differ in orientation, holes are ambiguous.
     """
     uses = _uses(arrays, gone)
     known = {side for loop in loops for side in sides_of(loop)}
@@ -39,7 +39,7 @@ def _side(arrays: core.ControlArrays, edge: int) -> Side:
 
 
 def _uses(arrays: core.ControlArrays, gone: np.ndarray) -> np.ndarray:
-    """(e,) faces at each edge without those that are `gone`."""
+    """(e,) number of faces at each edge, without those that are `gone`."""
     corners = arrays.corner_edges
     if gone.any():
         corners = corners[np.repeat(~gone, arrays.face_sizes)]
@@ -53,7 +53,7 @@ def sides_of(loop: list[int]) -> Iterable[Side]:
 def where_faces_were(
     arrays: core.ControlArrays, gone: np.ndarray, loops: list[list[int]]
 ) -> list[list[list[int]]]:
-    """The loops around each connected part of the erased faces: its rim, the longest, then islands."""
+    """The loops around each connected part of the deleted faces: its rim, the longest, then islands."""
     faces = np.flatnonzero(gone).tolist()
     edges_of = {f: arrays.corner_edges[arrays.offsets[f] : arrays.offsets[f + 1]] for f in faces}
     faces_at: dict[int, list[int]] = {}
@@ -79,7 +79,7 @@ def where_faces_were(
 def flat_faces(
     arrays: core.ControlArrays, kept: np.ndarray | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Corners and offsets of the faces `kept` (m,) bool, or of all, as the core takes them."""
+    """Corners and offsets of the faces `kept` (m,) bool, or of all, for the core."""
     sizes = arrays.face_sizes if kept is None else arrays.face_sizes[kept]
     corners = arrays.corners if kept is None else arrays.corners[np.repeat(kept, arrays.face_sizes)]
     return corners.astype(np.int64), np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64)

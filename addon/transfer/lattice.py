@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The lattice that a control face is refined to: its points, cells and sides. Plain arrays, no
-Blender.
+"""The lattice of a refined control face: its points, cells and sides. Plain arrays, no Blender.
 
 The core writes the N² cells (N = 2^levels) of a control face one after another, row by row from the
 face's first side to the opposite corner or side; in a triangle's row upward and downward cells
@@ -14,17 +13,17 @@ import numpy as np
 
 from .. import core
 
-# the cells along a side of a face, and which two of their corners lie on it
+# the cells along a side of a face, and the two of their corners on it
 Side: TypeAlias = tuple[np.ndarray, int, int]
 
 
 def fine_edges(
     faces: tuple[np.ndarray, np.ndarray], control_pairs: np.ndarray, levels: int
 ) -> np.ndarray:
-    """Vertex pairs (k, 2) of the refined edges that the control edges `control_pairs` (c, 2) were
-    split into.
+    """Vertex pairs (k, 2) of the refined edges into which the control edges `control_pairs` (c, 2) were
+    split.
 
-    `faces`: the core's (triangles (T, 3), quads (Q, 4)). An edge between two faces comes twice.
+    `faces`: the core's (triangles (T, 3), quads (Q, 4)). An edge between two faces occurs twice.
     """
     wanted = pair_keys(np.asarray(control_pairs))
     n = 2**levels
@@ -49,23 +48,19 @@ def edge_table(faces: tuple[np.ndarray, np.ndarray]) -> tuple[np.ndarray, np.nda
 
 
 def mark_pairs(edges: np.ndarray, pairs: np.ndarray) -> np.ndarray:
-    """(e,) bool: which of the `edges` (e, 2) are among the vertex `pairs` (k, 2), whichever way
-    round.
-    """
+    """(e,) bool: which of the `edges` (e, 2) are among the vertex `pairs` (k, 2), in either direction."""
     return np.isin(pair_keys(edges), pair_keys(pairs))
 
 
 def sides(corners: int, n: int) -> tuple[Side, ...]:
-    """For each side of a face with 3 or 4 corners: its n cells in order, and which two of their
-    corners lie on it.
+    """For each side of a face with 3 or 4 corners: its n cells in order, and the two of their corners
+    on it.
     """
     return _triangle_sides(n) if corners == 3 else _quad_sides(n)
 
 
 def pair_keys(pairs: np.ndarray) -> np.ndarray:
-    """One number for each vertex pair, whichever way round it is given: (…, 2) integers → (k,)
-    int64.
-    """
+    """One number for each vertex pair, in either direction: (…, 2) integers → (k,) int64."""
     pairs = np.sort(pairs.astype(np.int64).reshape(-1, 2), axis=1)
     return pairs[:, 0] << 32 | pairs[:, 1]
 
@@ -98,7 +93,7 @@ class Cells:
     points: np.ndarray  # (P, 2) int32: i, j
     corner_point: np.ndarray  # (n² k,) int32: the point at each corner of each cell
     first_corner: np.ndarray  # (P,) int32: a corner that lies at each point
-    weights: np.ndarray  # (P, k) float64: how much each corner of the face counts
+    weights: np.ndarray  # (P, k) float64: weight of each corner of the face
 
 
 def make_cells(corners: int, levels: int) -> Cells:

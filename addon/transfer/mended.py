@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The mesh that the core faired: the control mesh, or what mending made of it."""
+"""The mesh that the core faired: the control mesh, or its mended form."""
 
 from dataclasses import dataclass, replace
 from typing import Any
@@ -11,22 +11,24 @@ from ..core import ControlArrays
 
 @dataclass(frozen=True)
 class FairedMesh:
-    """`arrays`: its own, with the vertices and edges of the control mesh under their ids."""
+    """Its own `arrays`, with the vertices and edges of the control mesh under their ids."""
 
     arrays: ControlArrays
-    polygons: tuple[np.ndarray, np.ndarray]  # of refined triangles, of quads: the faces in `arrays`
-    origin: np.ndarray | None  # (c, 2) corners of the control mesh that each corner is made of
-    share: np.ndarray | None  # (c,) float64, that of the second one
+    # the faces in `arrays` of refined triangles and of refined quads
+    polygons: tuple[np.ndarray, np.ndarray]
+    # (c, 2) corners of the control mesh from which each corner is interpolated
+    origin: np.ndarray | None
+    share: np.ndarray | None  # (c,) float64, share of the second one
 
     def corner(self, values: np.ndarray) -> np.ndarray:
-        """(control corners, w) numbers → (c, w), mixed."""
+        """(control corners, w) numbers → (c, w), interpolated."""
         if self.origin is None or self.share is None:
             return values
         share = self.share[:, None]
         return (1.0 - share) * values[self.origin[:, 0]] + share * values[self.origin[:, 1]]
 
     def pick_corner(self, values: np.ndarray) -> np.ndarray:
-        """(control corners, …) of any type → (c, …), of the nearer one."""
+        """(control corners, …) of any type → (c, …), from the nearer one."""
         if self.origin is None or self.share is None:
             return values
         return values[np.where(self.share > 0.5, self.origin[:, 1], self.origin[:, 0])]

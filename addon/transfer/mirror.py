@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Exact symmetry: which vertices are each other's mirror images, and surfaces made as symmetric as
-their control meshes.
+"""Exact symmetry: finds vertices that are mirror images of each other, and makes surfaces as symmetric
+as their control meshes.
 
-Nothing is matched by nearness. Each control vertex has a colour, a number of 64 bits that is mixed from its
-place and those of its neighbours [Weisfeiler and Lehman 1968], and another one of its image; a refined vertex
-has the same sums of them as of places. Partners are those of which one has the colour of the other's image.
-Solvers round, and not alike on both sides: hence `symmetrize`.
+Nothing is matched by nearness. Each control vertex has a colour, a number of 64 bits mixed from its
+position and those of its neighbours [Weisfeiler and Lehman 1968], and its image has another one; a
+refined vertex has the same sums of colours as of positions. Partners have the colours of each other's
+images. Solvers round, and differently on both sides: hence `symmetrize`.
 """
 
 from collections.abc import Sequence
@@ -19,9 +19,10 @@ from .attributes import AttributeTransfer, Patch
 from .lattice import pair_keys
 
 AXES = "XYZ"
-NONE = -1  # the image of a vertex that belongs to no face
+NONE = -1  # the image of a vertex without faces
 
-_ROUNDING = 1e-4  # of the surface's size; more is no rounding: then something else is not symmetric
+# relative to the surface's size; a larger difference is no rounding but another asymmetry
+_ROUNDING = 1e-4
 
 
 @dataclass(frozen=True)
@@ -36,22 +37,22 @@ class Mirror:
 
 
 def _mixed(values: np.ndarray) -> np.ndarray:
-    """Of numbers of 64 bits, others that depend on all bits [Steele, Lea and Flood 2014]."""
+    """Hashes numbers of 64 bits [Steele, Lea and Flood 2014]."""
     values = (values ^ (values >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
     values = (values ^ (values >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
     return values ^ (values >> np.uint64(31))
 
 
 def _of_places(positions: np.ndarray) -> np.ndarray:
-    """(n,) colours, the same at the same place to the bit."""
+    """(n,) colours, equal at equal positions."""
     colours = np.zeros(len(positions), np.uint64)
-    for column in (positions + 0.0).T:  # + 0: a negative zero is at the same place
+    for column in (positions + 0.0).T:  # + 0 turns a negative zero into zero
         colours = _mixed(colours + np.ascontiguousarray(column, np.float64).view(np.uint64))
     return colours
 
 
 def _with_neighbours(colours: np.ndarray, patches: list[Patch]) -> np.ndarray:
-    """The colours after a round: those of the sides of all faces around are mixed in."""
+    """The colours after a round, in which those of the sides of all faces around are mixed in."""
     total = np.zeros_like(colours)
     for patch in patches:
         own = colours[patch.faces.vertices]
@@ -61,7 +62,7 @@ def _with_neighbours(colours: np.ndarray, patches: list[Patch]) -> np.ndarray:
 
 
 def _refined(patches: list[Patch], colours: np.ndarray, count: int) -> np.ndarray:
-    """(count,) colours of the refined vertices: sums of those of the corners, by weights in whole numbers."""
+    """(count,) colours of the refined vertices: sums over the corners with integer weights."""
     found = np.zeros(count, np.uint64)
     for patch in patches:
         weights = patch.cells.weights * patch.cells.lattice.n**2
@@ -71,8 +72,8 @@ def _refined(patches: list[Patch], colours: np.ndarray, count: int) -> np.ndarra
 
 
 def _partners(own: np.ndarray, image: np.ndarray, used: np.ndarray) -> np.ndarray | None:
-    """(n,) int32: of each that is `used`, (n,) bool, the one whose own colour is that of its image; None
-    where these are not the same colours.
+    """(n,) int32: for each `used` vertex, (n,) bool, the one whose own colour equals that of its image;
+    None if the two sets of colours differ.
     """
     ids = np.flatnonzero(used)
     order, image_order = (ids[np.argsort(values[ids], kind="stable")] for values in (own, image))
@@ -86,14 +87,14 @@ def _partners(own: np.ndarray, image: np.ndarray, used: np.ndarray) -> np.ndarra
 def _mirror(
     transfer: AttributeTransfer, own: np.ndarray, image: np.ndarray, axis: int
 ) -> Mirror | None:
-    """That of a control mesh whose vertices and their images have these colours at their places; None if its
+    """The Mirror of a control mesh whose vertices and their images have these colours; None if its
     faces are not symmetric.
     """
     patches, count = transfer.patches, transfer.control_count
-    ids = max(count, *(int(patch.faces.vertices.max()) + 1 for patch in patches))  # centres too
+    ids = max(count, *(int(patch.faces.vertices.max()) + 1 for patch in patches))  # with centres
     own, image = (np.append(c, np.zeros(ids - count, np.uint64)) for c in (own, image))
     known, distinct = -1, 0
-    while distinct > known:  # vertices at one place are told apart by their neighbours
+    while distinct > known:  # neighbours distinguish coincident vertices
         own, image = _with_neighbours(own, patches), _with_neighbours(image, patches)
         known, distinct = distinct, len(np.unique(own))
     used = np.zeros(ids, bool)
@@ -114,7 +115,7 @@ def maps_pairs(
     pairs: np.ndarray | Sequence[Any],
     values: np.ndarray | Sequence[float] | float = 0.0,
 ) -> bool:
-    """Whether the vertex `pairs` (k, 2) are a symmetric set, with their `values` (k,)."""
+    """Whether the vertex `pairs` (k, 2) with their `values` (k,) are a symmetric set."""
     pairs = np.asarray(pairs, np.int64).reshape(-1, 2)
     image = mirror.control[pairs]
     values = np.broadcast_to(values, len(pairs))
@@ -135,7 +136,7 @@ def maps_vertices(mirror: Mirror, vertices: np.ndarray | Sequence[Any]) -> bool:
 
 
 def maps_positions(mirror: Mirror, positions: np.ndarray) -> bool:
-    """Whether `positions` (n, 3), of the control vertices, lie exactly opposite each other."""
+    """Whether `positions` (n, 3) of the control vertices are exact mirror images."""
     used = mirror.control >= 0
     image = positions[mirror.control[used]]
     image[:, mirror.axis] *= -1.0
@@ -152,8 +153,8 @@ def find_mirrors(
     """The planes x = 0, y = 0, z = 0 across which control mesh and features are symmetric: (list of
     Mirror, notes).
 
-    `transfer`: AttributeTransfer; `arrays`: the control mesh; `crease_edges` (k, 2) and `corner_vertices`
-    (c,): control vertices; `soft_creases`: pairs of them (k, 2) and weights (k,).
+    `transfer`: AttributeTransfer; `arrays`: the control mesh; `crease_edges` (k, 2) and
+    `corner_vertices` (c,): control vertices; `soft_creases`: pairs of them (k, 2) and weights (k,).
     """
     found, notes = [], []
     used, own = transfer.used_vertices(), _of_places(arrays.positions)
@@ -183,8 +184,8 @@ def find_mirrors(
 
 
 def uneven_axes(vertices: np.ndarray, mirrors: list[Mirror]) -> list[str]:
-    """Names of the axes in which `vertices` differ from their image by more than rounding:
-    `symmetrize` leaves those.
+    """Names of the axes in which `vertices` differ from their images by more than rounding;
+    `symmetrize` leaves these out.
     """
     uneven = (m for m in mirrors if not _differ_by_rounding(*_with_image(vertices, m)[1:]))
     return [AXES[mirror.axis] for mirror in uneven]
@@ -193,13 +194,13 @@ def uneven_axes(vertices: np.ndarray, mirrors: list[Mirror]) -> list[str]:
 def symmetrize(
     vertices: np.ndarray, mirrors: list[Mirror], control_positions: np.ndarray | None = None
 ) -> np.ndarray:
-    """`vertices` (N, 3) float64 of the refined surface, made exactly symmetric across all
-    `mirrors`; a new array.
+    """`vertices` (N, 3) float64 of the refined surface, made exactly symmetric across all `mirrors`; a
+    new array.
 
-    Each vertex becomes the mean of itself and its partner's image, so opposite ones agree to the
-    last bit in any precision, those on the plane get 0.0, and control vertices that are symmetric
-    stay what they are. `control_positions` (n, 3): of the control mesh, or of a shape key; mirrors
-    that it does not obey are left out.
+    Each vertex becomes the mean of itself and its partner's image, so that opposite ones agree to the
+    last bit in any precision, those on the plane get 0.0, and symmetric control vertices are unchanged.
+    `control_positions` (n, 3): of the control mesh, or of a shape key; mirrors across which it is not
+    symmetric are left out.
     """
     for mirror in mirrors:
         if control_positions is None or maps_positions(mirror, control_positions):
@@ -217,7 +218,7 @@ def _mean_with_image(vertices: np.ndarray, mirror: Mirror) -> np.ndarray:
 
 
 def _with_image(vertices: np.ndarray, mirror: Mirror) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Ids of the vertices that have partners, their places, and those of their partners' images."""
+    """Ids of the vertices with partners, their positions, and those of their partners' images."""
     moved = np.flatnonzero(mirror.fine >= 0)
     here, image = vertices[moved], vertices[mirror.fine[moved]]
     image[:, mirror.axis] *= -1.0

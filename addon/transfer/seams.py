@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Seams of half a mesh: where its border lies in a coordinate plane, and a Mirror modifier would join it
-to its image.
-"""
+"""Seams of half a mesh: borders in a coordinate plane, which a Mirror modifier joins to their images."""
 
 from typing import Any
 
@@ -21,9 +19,9 @@ def seam_pairs(
     edges: tuple[np.ndarray, np.ndarray] | None = None,
 ) -> np.ndarray:
     """(k, 2) refined edges of the core's `result` for the mesh `arrays`, both in the coordinates of the
-    object, on seams that are a fold: where a connected seam turns somewhere by more than the crease
-    angle of the `settings`, all of it, so that the fold does not end where it gets flat. A surface
-    that was faired across its symmetry plane has none there. `edges`: as `edge_table` has them.
+    object, on seams that fold: if a connected seam turns anywhere by more than the crease angle of the
+    `settings`, all of it, so that the fold does not end where it gets flat. None for a surface faired
+    across its symmetry plane. `edges`: from `edge_table`.
     """
     axes = [axis for axis in _half_axes(arrays) if AXES[axis] != settings.symmetry_plane]
     found = [np.empty((0, 2), np.int32)]
@@ -36,19 +34,19 @@ def seam_pairs(
         flat = (np.abs(result.vertices[table[border], axis]) <= near).all(axis=1)
         pairs, along = table[border[flat]], normals[flat, axis]
         part = core.module().patches.connected_parts(len(result.vertices), pairs)[pairs[:, 0]]
-        # from the normal of a face to that of its image
+        # between the normals of a face and its image
         turns = np.arccos(np.clip(1.0 - 2.0 * along**2, -1.0, 1.0))
         found.append(pairs[np.isin(part, part[turns > settings.crease_angle])])
     return np.concatenate(found)
 
 
 def _reach(points: np.ndarray) -> float:
-    """How far from a plane points may be and lie in it."""
+    """The largest distance of points that count as in a plane."""
     return float(core.module().halves.SNAP * np.ptp(points, axis=0).max(initial=0.0))
 
 
 def _half_axes(arrays: ControlArrays) -> list[int]:
-    """The axes on one side of whose plane the whole mesh lies, with border edges in it."""
+    """The axes whose plane has the whole mesh on one side, and border edges in it."""
     ends = arrays.positions[arrays.edges[arrays.edge_uses == 1]]
     used = arrays.positions[arrays.corners]
     if not len(ends):
@@ -60,7 +58,7 @@ def _half_axes(arrays: ControlArrays) -> list[int]:
 
 
 def _normals_beside(result: Any, border: np.ndarray, corner_edges: np.ndarray) -> np.ndarray:
-    """(b, 3): the unit normal of the one face at each of the edges `border` (b,), rising."""
+    """(b, 3): the unit normal of the single face at each of the edges `border` (b,), ascending."""
     corner = np.flatnonzero(np.isin(corner_edges, border))
     corner = corner[np.argsort(corner_edges[corner])]
     triangles, quads = result.faces

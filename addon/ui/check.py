@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The panel "Check": what is wrong with the mesh, and how to mend it."""
+"""The panel "Check": defects of the mesh, and buttons that mend them."""
 
 from math import degrees
 from typing import Any
@@ -15,7 +15,7 @@ from ..units import Text, Units
 from .layout import Folded
 from .notice import draw_notice
 
-_SHOWN = 8  # lines; a mesh with more kinds of defects has not been seen
+_SHOWN = 8  # rows; more kinds of defects are unlikely
 
 
 class VIEW3D_PT_fairing_check(Folded, bpy.types.Panel):
@@ -46,7 +46,9 @@ class VIEW3D_PT_fairing_check(Folded, bpy.types.Panel):
 
 
 def _draw_joints(layout: bpy.types.UILayout, context: Context) -> None:
-    """`Bonnet Fair, Fender Fair`, then gap, kink and jump, each with its worst place."""
+    """For example `Bonnet Fair, Fender Fair`, then gap, kink and jump, each with a button to the worst
+    place.
+    """
     found = joints.rows()
     text = Units.of(context.scene).lengths(max((row.gap for row in found), default=0.0))
     for index, joint in enumerate(found[:_SHOWN]):
@@ -77,7 +79,7 @@ def _draw_defect(
 
 
 def _hole_text(hole: dict[str, Any], text: Text) -> str:
-    """`12 mm wide, 34 edges`."""
+    """For example `12 mm wide, 34 edges`."""
     edges = f"{hole['edges']:,} edges"
     return f"{text(hole['width'])} wide, {edges}" if "width" in hole else edges
 
@@ -90,7 +92,7 @@ def _draw_holes(
     column = layout.column(align=True)
     column.active = not stale
     column.label(text="Holes")
-    # files of before know no width
+    # records in older files have no width
     text = Units.of(context.scene).lengths(holes[0].get("width", 0.0))
     for hole in holes[:_SHOWN]:
         row = column.row(align=True)

@@ -33,9 +33,7 @@ class VIEW3D_PT_fairing_compare(Folded, bpy.types.Panel):
 
 
 def measured_surfaces(active: Object | None) -> list[tuple[Object, dict]]:
-    """The surfaces of the active object, or of its source, that have been measured, with their
-    read-outs.
-    """
+    """The measured surfaces of the active object, or of its source, with their read-outs."""
     if active is None or active.type != "MESH":
         return []
     source = source_of(active) or active

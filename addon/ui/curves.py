@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Curves that a surface is to be made over, and those that one is made over."""
+"""Panels for curves: the surface to make over selected ones, and the curves of a surface."""
 
 from typing import cast
 
@@ -41,7 +41,7 @@ class VIEW3D_PT_fairing_curves(Sidebar, bpy.types.Panel):
 
 
 def _cage_of(active: Object) -> Object | None:
-    """The control mesh over curves: `active` itself, or what it is made from."""
+    """The control mesh over curves: `active` itself, or its source."""
     source = source_of(active) or active
     return source if curve_cage.is_cage(source) else None
 

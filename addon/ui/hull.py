@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The panel "Hull": what a boat yard does with a half hull and its surface."""
+"""The panel "Hull": tools of a boat yard for a half hull and its surface."""
 
 from typing import Any
 

@@ -17,7 +17,7 @@ from .notice import draw_notice
 
 class VIEW3D_PT_fairing_inspect(Sidebar, bpy.types.Panel):
     bl_label = "Inspect"
-    bl_order = 1  # below what makes surfaces
+    bl_order = 1  # below the panels that make surfaces
 
     def draw(self, context: Context) -> None:
         layout = self.layout
@@ -85,7 +85,7 @@ def _draw_modes(layout: bpy.types.UILayout, current: str) -> None:
 
 
 def _draw_viewport(layout: bpy.types.UILayout, context: Context, mode: str) -> None:
-    """A button if this viewport, another than the one where it was asked for, shows nothing of it."""
+    """A button for viewports that do not show the inspected mode."""
     if viewport_shading.shows(context.space_data, mode):
         return
     draw_notice(layout, "This viewport's shading does not show it", icon="INFO")

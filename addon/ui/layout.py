@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where panels stand, and how settings are laid out: sidebar, redo panel and memory alike."""
+"""The layout of settings, for sidebar, redo panel and stored surfaces."""
 
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
@@ -34,18 +34,18 @@ class Folded(Sidebar):
 
 @dataclass(frozen=True)
 class Known:
-    """What is known of the source, in a few words each; empty: nothing. It stands below what it is
-    about, since beside it a narrow sidebar cuts it.
+    """Remarks on the source, in a few words each; empty: none. They stand below their setting, since a
+    narrow sidebar would cut them off beside it.
     """
 
     triangles: str = ""
-    tolerance: str = ""  # the length that it comes to
-    held: str = ""  # how many vertices are as far off as they may be
+    tolerance: str = ""  # the resulting length
+    held: str = ""  # number of vertices at the tolerance
     missing_groups: dict[str, str] = field(default_factory=dict)
-    edges: str = ""  # border edges that are other than the setting says
-    normals: str = ""  # fixed ones
+    edges: str = ""  # border edges with their own boundary
+    normals: str = ""  # fixed normals
     flats: str = ""  # faces that stay flat
-    vertices: str = ""  # what Automatic comes to
+    vertices: str = ""  # the meaning of Automatic
     follows: bool = False  # whether that is Limit
 
 
@@ -55,8 +55,8 @@ _NOTHING = Known()
 def draw_job(
     layout: bpy.types.UILayout, settings: FairingSettings, known: Known = _NOTHING, job: str = ""
 ) -> None:
-    """What everyone needs: how fine, how near to the source; and where no `job` has chosen them,
-    what is fair, and what vertices are.
+    """The settings that everyone needs: how fine, how near to the source; and, unless a `job` sets
+    them, the energy and the meaning of vertices.
     """
     if job:
         layout.label(text=name_of_purpose(job), icon_value=icon(job))
@@ -67,21 +67,21 @@ def draw_job(
         draw_fairness(layout, settings, known)
     if is_limit(settings) or known.follows:
         follow = layout.row()
-        follow.active = settings.energy == "THIN_PLATE"  # others do not follow
+        follow.active = settings.energy == "THIN_PLATE"  # other energies do not use it
         follow.prop(settings, "limit", slider=True)
     elif is_near(settings):
         _draw_tolerance(layout, settings, known)
 
 
 def amount_names(near: FitAmount) -> tuple[str, ...]:
-    """What is shown of how closely a surface follows a scan."""
+    """The settings of a fit's amount that apply."""
     return ("amount", "tolerance") if near.amount == "TOLERANCE" else ("amount",)
 
 
 def draw_fairness(
     layout: bpy.types.UILayout, settings: FairingSettings, known: Known = _NOTHING
 ) -> None:
-    """What a job chooses: what is fair, and what vertices are."""
+    """The settings that a job sets: the energy and the meaning of vertices."""
     draw_choices(layout, settings, "energy", ENERGY_NAMES)
     _remark(layout, ENERGY_MEANINGS[settings.energy])
     draw_choices(layout, settings, "interpolation", SHORT_INTERPOLATIONS)
@@ -92,7 +92,7 @@ def draw_fairness(
 def draw_shape(
     layout: bpy.types.UILayout, settings: FairingSettings, known: Known = _NOTHING
 ) -> None:
-    """What else shapes the surface."""
+    """The other settings of the shape."""
     if is_near(settings):
         _draw_held_by(layout, settings, known)
     _draw_pads(layout, settings)
@@ -112,7 +112,7 @@ def draw_shape(
 
 
 def _draw_tolerance(layout: bpy.types.UILayout, settings: FairingSettings, known: Known) -> None:
-    if settings.pull_group == HOLD:  # of a surface from curves, which a length says nothing of
+    if settings.pull_group == HOLD:  # a surface from curves, for which a length is meaningless
         _remark(layout, "Held along its curves")
         return
     layout.prop(settings, "tolerance", text="Hold within")
@@ -123,7 +123,7 @@ def _draw_tolerance(layout: bpy.types.UILayout, settings: FairingSettings, known
 
 
 def _draw_held_by(layout: bpy.types.UILayout, settings: FairingSettings, known: Known) -> None:
-    """What the tolerance is said in, and what it is at each vertex."""
+    """The unit of the tolerance, and its value at each vertex."""
     layout.prop(settings, "tolerance_unit")
     for name in ("tolerance_group", "pull_group"):
         missing = known.missing_groups.get(name, "")
@@ -195,7 +195,9 @@ FOLDED = (
 def draw_settings(
     layout: bpy.types.UILayout, settings: FairingSettings, identifier: str, triangle_text: str = ""
 ) -> None:
-    """All of them, the rare ones folded; `identifier` tells Blender which of them are open."""
+    """All settings, the rare ones folded; `identifier` is the key under which Blender stores which are
+    open.
+    """
     layout.use_property_split = True
     layout.use_property_decorate = False
     draw_job(layout, settings, Known(triangle_text))
@@ -204,7 +206,7 @@ def draw_settings(
 
 
 def draw_folded(layout: bpy.types.UILayout, settings: FairingSettings, identifier: str) -> None:
-    """The rare ones."""
+    """The rare settings."""
     for label, draw in FOLDED:
         header, body = layout.panel(f"{identifier}.{label}", default_closed=True)
         header.label(text=label)
@@ -213,19 +215,19 @@ def draw_folded(layout: bpy.types.UILayout, settings: FairingSettings, identifie
 
 
 def _reason(layout: bpy.types.UILayout, text: str) -> None:
-    """Why what stands above is grey."""
+    """Why the setting above is grey."""
     _remark(layout, text, icon="INFO")
 
 
 def _remark(layout: bpy.types.UILayout, text: str, icon: Any = "NONE") -> None:
-    """A few words on what stands above."""
+    """A few words on the setting above."""
     row = layout.row()
     row.alignment = "RIGHT"
     row.label(text=text, icon=icon)
 
 
 def _switched(layout: bpy.types.UILayout, settings: Any, switch: str, value: str) -> None:
-    """A value with its switch before it, grey while that is off."""
+    """A value with a switch in front, grey while that is off."""
     row = layout.row(align=True, heading=name_of(settings, switch))
     row.prop(settings, switch, text="")
     sub = row.row(align=True)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The switch Live with what it says, in the panel Fair Surface."""
+"""The switch Live with its state, in the panel Fair Surface."""
 
 import bpy
 
@@ -10,12 +10,12 @@ from .notice import draw_notice
 
 
 def draw_live(layout: bpy.types.UILayout, context: Context) -> None:
-    """For the active object: a faired surface, or a mesh whose surfaces are live or will be."""
+    """For the active object: a faired surface, or a mesh whose surfaces are or become live."""
     active = context.active_object
     if active is None or active.type != "MESH":
         return
     is_surface = active.discrete_fairing.source is not None
-    # one whose source is gone has still to say so
+    # a surface whose source is gone must still say so
     targets = [active] if is_surface or switch.problem(active) else switch.live_surfaces_of(active)
     on = any(map(switch.is_on, targets))
     row = layout.row()
@@ -25,7 +25,7 @@ def draw_live(layout: bpy.types.UILayout, context: Context) -> None:
 
 
 def draw_stale(layout: bpy.types.UILayout, target: Object) -> None:
-    """The badge of a surface that is not that of its source and settings any more."""
+    """The badge of a surface that is out of date."""
     reason = "" if switch.is_seen_to(target) else why_stale(target)
     if reason:
         row = layout.row()
@@ -34,7 +34,7 @@ def draw_stale(layout: bpy.types.UILayout, target: Object) -> None:
 
 
 def draw_stale_surfaces(layout: bpy.types.UILayout, source: Object | None) -> None:
-    """The same beside their source."""
+    """The same for the surfaces of a source."""
     stale = (
         [] if source is None else [t for t in stale_surfaces(source) if not switch.is_seen_to(t)]
     )

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The sidebar tab "Fairing": the few controls first, the rest folded away."""
+"""The sidebar tab "Fairing": few controls first, the rest folded."""
 
 from typing import Any, cast
 
@@ -42,9 +42,9 @@ class VIEW3D_PT_fairing_presets(PresetPanel, bpy.types.Panel):
         super().draw(context)
 
     def path_menu(self, searchpaths: list[str], *args: Any, **names: Any) -> Any:
-        """The user's own, and a field to save one: those that come with the extension are there as pictures."""
+        """The user's presets, and a field to save one; shipped presets are pictures."""
         own = [path for path in searchpaths if not is_shipped(path)]
-        # of no folder Blender would say that it is missing; that of the pictures has no presets
+        # without a folder Blender would report it as missing; that of the pictures has no presets
         return bpy.types.Menu.path_menu(cast(Any, self), own or [str(PRESETS)], *args, **names)
 
 
@@ -53,7 +53,7 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
 
     @classmethod
     def poll(cls, context: Context) -> bool:
-        """Not where curves alone are selected, which have a panel of their own."""
+        """Not for selections of curves only, which have their own panel."""
         active = context.active_object
         of_curves = active is not None and active.type != "MESH" and has_curves(active)
         return not of_curves or bool(source_objects(context))
@@ -132,9 +132,7 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
 
 
 def remembered(context: Context) -> FAIRING_PG_surface | None:
-    """What the active object remembers of its making; None if it is no faired surface, or its
-    source is gone.
-    """
+    """The stored settings of the active object; None if it is no faired surface, or its source is gone."""
     active = context.active_object
     if active is None or active.type != "MESH" or active.discrete_fairing.source is None:
         return None
@@ -142,20 +140,22 @@ def remembered(context: Context) -> FAIRING_PG_surface | None:
 
 
 def _near_scans(context: Context) -> FAIRING_PG_fit | None:
-    """What the active surface remembers of its scans; None for other surfaces."""
+    """The stored fit of the active surface; None for other surfaces."""
     near = cast(Object, context.active_object).discrete_fairing_fit
     return near if len(near.scans) else None
 
 
 def fairing_operator(context: Context) -> Any:
-    """What the button runs: Recompute where the active object's surface is remembered, else Fair Surface."""
+    """The operator of the button: Recompute if the active object is a stored surface, else Fair
+    Surface.
+    """
     operators: Any = bpy.ops.object
     again = remembered(context) is not None
     return operators.fairing_recompute if again else operators.fairing_surface
 
 
 def _size_text(settings: FairingSettings, sources: list[Object], triangles: int) -> str:
-    """`61,952 triangles, about 12 s`; empty where there are none."""
+    """For example `61,952 triangles, about 12 s`; empty without sources."""
     mesh = session_key(sources[0]) if len(sources) == 1 else None
     work = triangles * halves(settings)
     time = prediction.text(prediction.seconds(settings.energy, work, mesh))
@@ -163,7 +163,7 @@ def _size_text(settings: FairingSettings, sources: list[Object], triangles: int)
 
 
 def _draw_places(layout: bpy.types.UILayout, memory: FAIRING_PG_surface) -> None:
-    """What was found wrong with the surface when it was made, as long as its mesh has the places."""
+    """The faults found when the surface was made, as long as its mesh has their places."""
     target = cast(Object, memory.id_data)
     attributes = target.data.attributes
     counts = (recall(target, "report") or {}).get("faults", {})
@@ -176,15 +176,15 @@ def _draw_places(layout: bpy.types.UILayout, memory: FAIRING_PG_surface) -> None
 
 
 def live_surface(context: Context) -> Object | None:
-    """The surface that follows the active object; None if none does."""
+    """The surface that follows the active object; None if there is none."""
     active = context.active_object
     followers = switch.live_surfaces_of(active) if active is not None else []
     return followers[0] if followers else None
 
 
 def active_settings(context: Context) -> FairingSettings:
-    """Those of the faired surface that is active, or that follows the active object; else those for
-    the next one.
+    """Settings of the active faired surface, or of the live one of the active object; else those of the
+    next one.
     """
     followed = live_surface(context)
     return (
@@ -195,7 +195,7 @@ def active_settings(context: Context) -> FairingSettings:
 
 
 def _sources(context: Context, memory: FAIRING_PG_surface | None) -> list[Object]:
-    """What the surface of the panel's settings is made from."""
+    """The sources of the surface with the panel's settings."""
     if memory is None:
         return source_objects(context)
     source = source_of(cast(Object, memory.id_data))
@@ -203,9 +203,7 @@ def _sources(context: Context, memory: FAIRING_PG_surface | None) -> list[Object
 
 
 def tolerance_text(context: Context, settings: FairingSettings, sources: list[Object]) -> str:
-    """The length that the tolerance comes to, with its unit; empty where it would not be the one that
-    counts, or takes long to find out.
-    """
+    """The length of the tolerance, with its unit; empty if it does not apply, or takes long to find."""
     if not is_near(settings) or is_evaluated(settings) or len(sources) != 1:
         return ""
     mesh = sources[0].data
@@ -221,7 +219,7 @@ def tolerance_text(context: Context, settings: FairingSettings, sources: list[Ob
 
 
 def _held_text(memory: FAIRING_PG_surface) -> str:
-    """`37 of 63 vertices at the limit`; empty where none may move."""
+    """For example `37 of 63 vertices at the limit`; empty if none may move."""
     if not is_near(memory):
         return ""
     held = (recall(cast(Object, memory.id_data), "report") or {}).get("at_tolerance")
@@ -229,7 +227,7 @@ def _held_text(memory: FAIRING_PG_surface) -> str:
 
 
 def normals_text(settings: FairingSettings, sources: list[Object]) -> str:
-    """`Normals: 3 fixed`; empty where none is."""
+    """For example `Normals: 3 fixed`; empty if there are none."""
     small = (o for o in sources if len(o.data.edges) <= _MEASURED)
     count = fixed_normals.count(small)
     if not count:
@@ -238,7 +236,7 @@ def normals_text(settings: FairingSettings, sources: list[Object]) -> str:
 
 
 def flats_text(settings: FairingSettings, sources: list[Object]) -> str:
-    """`Flat faces: 6`, or what keeps them; empty where none is marked."""
+    """For example `Flat faces: 6`, or why they do not apply; empty if none is marked."""
     count = flat_marks.count(o for o in sources if len(o.data.edges) <= _MEASURED)
     if not count:
         return ""
@@ -246,13 +244,13 @@ def flats_text(settings: FairingSettings, sources: list[Object]) -> str:
 
 
 def follows(settings: FairingSettings, sources: list[Object]) -> bool:
-    """Whether some surface will pass through limit positions."""
+    """Whether a surface will pass through limit positions."""
     return any(is_limit(Settings.of(settings).for_source(source)) for source in sources)
 
 
 def vertices_text(settings: FairingSettings, sources: list[Object]) -> str:
-    """What Automatic comes to; empty where it is not chosen. Limit is left out, and said so, where
-    the modifier is in the mesh already.
+    """The meaning of Automatic; empty if it is not chosen. If the modifier is applied in the mesh, says
+    that Limit is not used.
     """
     if not sources or settings.interpolation not in ("AUTO", "LIMIT"):
         return ""
@@ -268,8 +266,8 @@ def vertices_text(settings: FairingSettings, sources: list[Object]) -> str:
 
 
 def missing_groups(settings: FairingSettings, sources: list[Object]) -> dict[str, str]:
-    """Which source lacks a group, in a few words, by the setting that names it; none where
-    modifiers may make it.
+    """The source that lacks a group, in a few words, by the setting that names it; none if modifiers
+    may make it.
     """
     found = {}
     for setting in ("tolerance_group", "pull_group"):
@@ -289,7 +287,7 @@ def _split(layout: bpy.types.UILayout) -> bpy.types.UILayout:
 
 
 def _draw_source(layout: bpy.types.UILayout, memory: FAIRING_PG_surface) -> None:
-    """Whose surface this is, and the way to what controls it."""
+    """The source of this surface, and a button to edit it."""
     row = layout.row(align=True)
     row.prop(memory, "source")
     row.operator("object.fairing_show_source", text="", icon="RESTRICT_SELECT_OFF")
@@ -308,7 +306,7 @@ def _draw_repairs(layout: bpy.types.UILayout, surface: Object | None) -> None:
 
 
 def _draw_purposes(layout: bpy.types.UILayout) -> None:
-    """What the surface is for, before any setting."""
+    """The jobs, before any settings."""
     header, body = layout.panel("fairing.purposes")
     header.label(text="Fair for")
     if body is not None:
@@ -316,14 +314,14 @@ def _draw_purposes(layout: bpy.types.UILayout) -> None:
 
 
 def _draw_button(layout: bpy.types.UILayout, operator: str, icon: Any, text: str) -> None:
-    """The one large button."""
+    """The large button."""
     row = layout.row(align=True)
     row.scale_y = 1.5
     row.operator(operator, text=text, icon=icon)
 
 
 def _draw_flats(layout: bpy.types.UILayout, marked: bool) -> None:
-    """Faces that stay flat, and a way back where some are."""
+    """Faces that stay flat, and a button that unmarks them."""
     row = layout.row(align=True)
     row.operator("object.fairing_flat_faces")
     if marked:
@@ -332,7 +330,7 @@ def _draw_flats(layout: bpy.types.UILayout, marked: bool) -> None:
 
 
 def _draw_neighbour(layout: bpy.types.UILayout, memory: FAIRING_PG_surface) -> None:
-    """Which object the border meets, and how."""
+    """The object that the border meets, and how."""
     layout.prop(memory, "neighbour")
     if memory.neighbour is not None:
         layout.prop(memory, "joint")
@@ -341,7 +339,7 @@ def _draw_neighbour(layout: bpy.types.UILayout, memory: FAIRING_PG_surface) -> N
 
 
 def _draw_cad(layout: bpy.types.UILayout) -> None:
-    """From the surface to CAD."""
+    """Buttons for CAD."""
     row = layout.row(align=True)
     row.operator("export_scene.fairing_step", text="Export STEP", icon="EXPORT")
     row.operator("object.fairing_show_patches", icon="OUTLINER_OB_SURFACE")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Entries in Blender's own menus, which is also where its search (F3) finds operators."""
+"""Entries in Blender's own menus, which its search (F3) uses to find operators."""
 
 from typing import Any
 
@@ -110,7 +110,7 @@ def _draw_all(menu: Any, context: Context) -> None:
 
 
 def _draw_faces(menu: Any, _context: Context) -> None:
-    """In Edit Mode: the faces that are selected."""
+    """In Edit Mode: for selected faces."""
     menu.layout.separator()
     menu.layout.operator_context = "INVOKE_DEFAULT"
     button = menu.layout.operator(

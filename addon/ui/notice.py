@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sentences in a panel: Blender's labels do not wrap."""
+"""Sentences in a panel, broken into lines, since Blender's labels do not wrap."""
 
 import textwrap
 from typing import Any
 
 import bpy
 
-WIDTH = 33  # characters that fit a sidebar of its usual width
+WIDTH = 33  # characters that fit a sidebar of default width
 
 
 def draw_notice(layout: bpy.types.UILayout, text: str, icon: Any = "ERROR") -> None:

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How many surfaces are out of date, in the header of the Outliner: its rows are closed to Python."""
+"""The number of surfaces that are out of date, in the header of the Outliner; Python cannot draw in its
+rows.
+"""
 
 from typing import Any
 
@@ -13,7 +15,7 @@ from ..live import switch
 def draw_count(header: Any, _context: Context) -> None:
     count = sum(not switch.is_seen_to(target) for target in stale_surfaces())
     if count:
-        # first and short: the header is narrow
+        # first and short, since the header is narrow
         header.layout.operator("object.fairing_recompute_stale", text=str(count), icon="ERROR")
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pictures of what surfaces are for, and of what settings with a choice do.
+"""Pictures of the jobs, and of the options of settings with a choice.
 
 examples/render_panel_pictures.py draws those of the settings.
 """
@@ -14,30 +14,32 @@ from ..purposes import FOLDER, PURPOSES, preset_file, stem
 
 PRESETS = FOLDER / "pictures"
 SETTINGS = Path(__file__).resolve().parent / "setting_pictures"
-# of a picture, in heights of a line
+# size of a picture, in heights of a line
 _LARGE, _SMALL = 4.5, 2.6
 
 _loaded: Any = None
 
 
 def icon(key: str) -> int:
-    """The number of the picture of a purpose or a choice, for Blender's layouts; 0 if it is not there."""
+    """The icon of a job or an option, for Blender's layouts; 0 if it is missing."""
     picture = _loaded.get(stem(key)) if _loaded is not None else None
     return picture.icon_id if picture is not None else 0
 
 
 def name_of(owner: Any, name: str) -> str:
-    """What the interface calls a setting. `bl_rna` of an operator that is drawn does not know it."""
+    """The name of a setting in the interface. `bl_rna` of an operator that is being drawn does not have
+    it.
+    """
     return owner.rna_type.properties[name].name
 
 
 def _short(label: str) -> str:
-    """A name without what stands in brackets, for a button under a picture."""
+    """A name without its part in brackets, for a button under a picture."""
     return label.partition(" (")[0]
 
 
 def draw_pictures(layout: bpy.types.UILayout) -> None:
-    """The purposes with settings, two in a row."""
+    """The jobs with settings, two in a row."""
     grid = layout.grid_flow(row_major=True, columns=2, even_columns=True)
     for purpose, label, *_ in PURPOSES:
         path = preset_file(purpose)
@@ -50,7 +52,9 @@ def draw_pictures(layout: bpy.types.UILayout) -> None:
 
 
 def draw_purposes(layout: bpy.types.UILayout) -> None:
-    """All purposes, three in a row: a click fairs. Those of the last row share its width, as their names are longer."""
+    """All jobs, three in a row: a click fairs. Those of the last row share its width, since their names
+    are longer.
+    """
     whole = len(PURPOSES) // 3 * 3
     grid = layout.grid_flow(row_major=True, columns=3, even_columns=True, align=True)
     last = layout.row(align=True)
@@ -62,7 +66,7 @@ def draw_purposes(layout: bpy.types.UILayout) -> None:
 
 
 def draw_choices(layout: bpy.types.UILayout, owner: Any, name: str, labels: dict[str, str]) -> None:
-    """What a setting offers side by side, each under its picture; `labels`: names short enough."""
+    """The options of a setting side by side, each under its picture; `labels`: short names."""
     layout.label(text=name_of(owner, name))
     row = layout.row(align=True)
     row.use_property_split = False
@@ -73,7 +77,7 @@ def draw_choices(layout: bpy.types.UILayout, owner: Any, name: str, labels: dict
 
 
 def draw_ends(layout: bpy.types.UILayout, low: str, high: str) -> None:
-    """Pictures of what a slider does at its two ends."""
+    """Pictures of the two ends of a slider."""
     row = layout.row()
     for key, text in ((low, "0"), (high, "1")):
         column = row.column()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The panel "Strain": which control vertices spoil the surface, and what puts them right."""
+"""The panel "Strain": the control vertices that spoil the surface, and buttons that ease them."""
 
 from typing import Any
 
@@ -50,7 +50,7 @@ class VIEW3D_PT_fairing_strain(Folded, bpy.types.Panel):
 
 
 def _draw_worst(layout: Any, context: Context, source: Object, strained: Strained) -> None:
-    """A list to jump from, and what is still scatter."""
+    """A list of vertices to go to, and the limit of scatter."""
 
     text = Units.of(context.scene).lengths(max(strained.largest, strained.floor))
     drawing = context.scene.discrete_fairing_strain

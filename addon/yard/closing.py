@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Half a hull made whole and closed: mirrored, joined in the middle, with deck and transom ruled
-from side to side. NumPy, no Blender.
+"""Makes half a hull whole and closed: mirrored, joined in the middle, with deck and transom ruled from
+side to side. NumPy, no Blender.
 """
 
 from dataclasses import dataclass
@@ -9,27 +9,28 @@ import numpy as np
 
 from ..core import module
 
-_NEAR = 1e-6  # of the hull's size: as far from the middle plane as a vertex in it may be
+# relative to the hull's size: the largest distance of vertices that count as in the middle plane
+_NEAR = 1e-6
 
 
 class NotHalf(ValueError):
-    """Why a mesh is no half hull: a sentence."""
+    """Why a mesh is no half hull, as a sentence."""
 
 
 @dataclass(frozen=True)
 class Whole:
-    """A closed hull: the half's own vertices and faces first."""
+    """A closed hull; the half's own vertices and faces come first."""
 
-    origin: np.ndarray  # (n,) the vertex of the half that each is, or is the image of
+    origin: np.ndarray  # (n,) the vertex of the half that each vertex is, or is the image of
     positions: np.ndarray  # (n, 3)
     corners: np.ndarray  # (c,)
     offsets: np.ndarray  # (m + 1,)
     caps: np.ndarray  # (m,) bool: faces of deck and transom
-    rim: np.ndarray  # (k, 2) edges between hull and caps, and where deck and transom meet
+    rim: np.ndarray  # (k, 2) edges between hull and caps, and between deck and transom
 
 
 def whole(positions: np.ndarray, corners: np.ndarray, offsets: np.ndarray, axis: int = 1) -> Whole:
-    """Of a half that ends in the plane across `axis`; raises NotHalf."""
+    """The closed hull of a half that ends in the plane across `axis`; raises NotHalf."""
     sizes = np.diff(offsets)
     half = positions.astype(float)
     middle = np.abs(half[:, axis]) <= _NEAR * np.ptp(half, axis=0).max(initial=0.0)
@@ -65,14 +66,14 @@ def whole(positions: np.ndarray, corners: np.ndarray, offsets: np.ndarray, axis:
 
 
 def _turned(corners: np.ndarray, offsets: np.ndarray) -> np.ndarray:
-    """The same faces the other way round from the same corner, so that both sides are cut into triangles alike."""
+    """The reversed faces with the same first corners, so that both sides are cut into triangles alike."""
     sizes = np.repeat(np.diff(offsets), np.diff(offsets))
     starts = np.repeat(offsets[:-1], np.diff(offsets))
     return corners[starts + (starts - np.arange(len(corners))) % sizes]
 
 
 def _require_ends(rim: np.ndarray, middle: np.ndarray) -> None:
-    """Every chain of the rim has to reach the middle: else it is a hole in one side."""
+    """Every chain of the rim must reach the middle; otherwise it is a hole in one side."""
     reached = middle.copy()
     while True:
         more = reached[rim].any(axis=1)
@@ -88,7 +89,7 @@ def _require_ends(rim: np.ndarray, middle: np.ndarray) -> None:
 
 
 def _turns(half: np.ndarray, rim: np.ndarray, middle: np.ndarray) -> np.ndarray:
-    """Vertices of the rim where it turns by more than 45°, as from the sheer down the transom."""
+    """Vertices of the rim where it turns by more than 45°, such as from the sheer to the transom."""
     after = dict(rim.tolist())
     found = []
     for v, w in rim.tolist():

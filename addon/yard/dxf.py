@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Polylines and texts as a DXF file of release 12, which every program for drawings reads. No Blender."""
+"""Writes polylines and texts as a DXF file of release 12, which all drawing programs read. No Blender."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ import numpy as np
 class Polyline:
     layer: str
     points: np.ndarray  # (k, 3)
-    closed: bool = False  # then the last point is not the first again
+    closed: bool = False  # a closed one does not repeat its first point
 
 
 @dataclass(frozen=True)
@@ -24,7 +24,7 @@ class Label:
 
 
 def text(drawing: Iterable[Polyline | Label]) -> str:
-    """The file; ASCII, each layer with a colour of its own."""
+    """The text of the file; ASCII, each layer with its own colour."""
     drawing = list(drawing)
     layers = sorted({item.layer for item in drawing})
     ends = np.concatenate([_extent(item) for item in drawing] or [np.zeros((1, 3))])

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The mesh over a table of offsets: quads between stations and lines, triangles where lines end.
-NumPy, no Blender.
+"""Meshes a table of offsets: quads between stations and lines, triangles where lines end. NumPy, no
+Blender.
 """
 
 from collections import Counter
@@ -14,13 +14,13 @@ from .offsets import Offset, Offsets, is_buttock, is_diagonal, is_sharp, is_wate
 
 @dataclass(frozen=True)
 class HullMesh:
-    """A half hull, whose faces point outwards."""
+    """A half hull whose faces point outwards."""
 
     positions: np.ndarray  # (n, 3) metres
     faces: list[list[int]]
-    names: list[str]  # (n,) `station 4, WL 300`
+    names: list[str]  # (n,) names such as `station 4, WL 300`
     creases: list[tuple[int, int]]  # edges along knuckles, and along a sharp stem or keel
-    stations: list[tuple[str, float]]  # name and mean x of each, from the lowest x
+    stations: list[tuple[str, float]]  # name and mean x of each, by ascending x
 
     @property
     def is_half(self) -> bool:
@@ -29,7 +29,7 @@ class HullMesh:
 
     @property
     def fades(self) -> bool:
-        """Whether a crease ends inside the hull, as that of a sharp stem at a round keel."""
+        """Whether a crease ends inside the hull, such as that of a sharp stem at a round keel."""
         uses = Counter(side for face in self.faces for side in _sides(face))
         border = [list(s) for s, n in uses.items() if n == 1 and self.positions[list(s), 1].any()]
         ends = Counter(v for pair in self.creases for v in pair)
@@ -38,7 +38,7 @@ class HullMesh:
 
 
 def hull_mesh(table: Offsets) -> HullMesh:
-    """Stations are joined in the order of their places, whatever the table's."""
+    """The mesh of a table; stations are sorted by position."""
     ladders = {
         name: _ladder([p for p in table.points if p.station == name], table)
         for name in table.stations
@@ -64,7 +64,7 @@ def hull_mesh(table: Offsets) -> HullMesh:
         faces += [face if outwards else face[::-1] for face in _strip(here, there)]
         after = dict(there)
         creases += [(v, after[line]) for line, v in here if is_sharp(line) and line in after]
-    # above a bulb and below a rising keel strips lie in the middle of the hull, where it has no skin
+    # above a bulb and below a rising keel, strips in the middle plane are no skin
     faces = [face for face in faces if any(positions[v][1] for v in face)]
     places = np.array(positions, float).reshape(-1, 3)
     sides = {side for face in faces for side in _sides(face)}
@@ -108,8 +108,8 @@ def _section(
     middle: frozenset[int],
     knuckles: set[frozenset[int]],
 ) -> tuple[np.ndarray, frozenset[int]]:
-    """From an edge in the middle over up to two faces, not over a knuckle: middles of sides (k, 2), outwards and
-    away from the edge within the plane; and the last side.
+    """A section from an edge in the middle over up to two faces, but not over a knuckle: midpoints of
+    sides (k, 2), outwards and away from the edge within the plane; and the last side.
     """
     points, face, side = [places[list(middle)].mean(axis=0)], -1, middle
     while len(points) < 3 and len(side) == 2 and side not in knuckles:
@@ -127,8 +127,9 @@ def _section(
 
 
 def _is_sharp(section: np.ndarray, at_knuckle: bool) -> bool:
-    """Whether both halves turn at the middle by more than twice as much as the curvature beside it explains. Where
-    one face shows none: at a knuckle the panel is straight; elsewhere, if they turn by more than a right angle.
+    """Whether the turn of both halves at the middle exceeds twice the turn explained by the curvature
+    beside it. If a single face shows no curvature: at a knuckle the panel counts as straight; elsewhere
+    a turn of more than a right angle is sharp.
     """
     steps = np.diff(section, axis=0) * [1.0, np.sign(section[1, 1])]
     slopes = np.arctan2(steps[:, 1], steps[:, 0])
@@ -146,8 +147,9 @@ def _mean_x(points: list[Offset]) -> float:
 
 
 def _ladder(points: list[Offset], table: Offsets) -> list[Offset]:
-    """A station's points from the keel to the sheer: in the table's order where all lines are named, by height
-    where there are waterlines, by the angle seen from the top of the middle where there are buttocks or diagonals.
+    """A station's points from the keel to the sheer: in the table's order if all lines are named, by
+    height if there are waterlines, by the angle seen from the top of the middle if there are buttocks
+    or diagonals.
     """
     top = max(p.place[2] for p in points)
     if any(is_buttock(p.line) or is_diagonal(p.line) for p in points):
@@ -158,7 +160,7 @@ def _ladder(points: list[Offset], table: Offsets) -> list[Offset]:
 
 
 def _strip(here: list[tuple[str, int]], there: list[tuple[str, int]]) -> list[list[int]]:
-    """Faces between two stations: lines that both have in the same order are joined, and both ends."""
+    """Faces between two stations: joins lines that both have in the same order, and both ends."""
     lines = [line for line, _ in here], [line for line, _ in there]
     last = len(here) - 1, len(there) - 1
     blocks = SequenceMatcher(None, *lines, autojunk=False).get_matching_blocks()
@@ -173,7 +175,7 @@ def _strip(here: list[tuple[str, int]], there: list[tuple[str, int]]) -> list[li
 
 
 def _between(a: list[int], b: list[int], at_top: bool) -> list[list[int]]:
-    """Quads, and a triangle for each line that one side has more: beside the profile that it ends at."""
+    """Quads, and a triangle for each line that only one side has, beside the profile at which it ends."""
     both = min(len(a), len(b)) - 1
     spare_a, spare_b = len(a) - 1 - both, len(b) - 1 - both
     shift_a, shift_b = (0, 0) if at_top else (spare_a, spare_b)

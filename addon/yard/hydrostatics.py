@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Volume, areas and centroids of a closed mesh, and hydrostatics of what lies below a waterplane.
-Plain arrays, no Blender.
+"""Volume, areas and centroids of a closed mesh, and hydrostatics of the part below a waterplane. Plain
+arrays, no Blender.
 
-All are exact on the triangles: those that the waterplane cuts are clipped, and volumes are fluxes
-through the wet faces of fields that vanish on the waterplane z = 0, so its own face is never needed
-[divergence theorem]. The waterplane's area and moments are what the wet faces' shadows say.
+All are exact for the triangles: triangles that the waterplane cuts are clipped, and volumes are fluxes
+through the wet faces of fields that vanish on the waterplane z = 0, so that its own face is not needed
+[divergence theorem]. The waterplane's area and moments follow from the projections of the wet faces.
 """
 
 from dataclasses import dataclass
@@ -18,7 +18,7 @@ class NotClosed(ValueError):
 
 @dataclass(frozen=True)
 class Solid:
-    """Of a whole closed mesh, in its own unit."""
+    """Properties of a whole closed mesh, in its own unit."""
 
     volume: float
     area: float
@@ -27,7 +27,9 @@ class Solid:
 
 @dataclass(frozen=True)
 class Hydrostatics:
-    """Of a hull afloat, in its own unit. Lengths along the hull and across are measured in the waterplane."""
+    """Properties of a floating hull, in its own unit. Lengths along and across the hull are measured in
+    the waterplane.
+    """
 
     volume: float
     buoyancy: np.ndarray  # (3,) the centre of the displaced volume (LCB, TCB, VCB)
@@ -35,7 +37,7 @@ class Hydrostatics:
     waterplane: float  # area
     flotation: float  # x of the waterplane's centroid (LCF)
     transverse: float  # second moment of the waterplane about its centre line
-    longitudinal: float  # and across, about LCF
+    longitudinal: float  # second moment across it, about LCF
     length: float  # of the waterplane
     beam: float
 
@@ -63,9 +65,9 @@ def solid(points: np.ndarray, triangles: np.ndarray) -> Solid:
 def hydrostatics(
     points: np.ndarray, triangles: np.ndarray, draught: float, trim: float = 0.0, pivot: float = 0.0
 ) -> Hydrostatics:
-    """Of a hull of `points` (n, 3) and `triangles` (m, 3) outwards, that floats at z = `draught` where x
-    is `pivot`. `trim`: radians, the waterplane rises with x. The hull may be open above the waterplane, and may be a
-    half that ends in the plane y = 0. Raises NotClosed.
+    """Hydrostatics of a hull with `points` (n, 3) and `triangles` (m, 3) outwards, which floats at z =
+    `draught` where x is `pivot`. `trim`: radians, the waterplane rises with x. The hull may be open
+    above the waterplane, and may be a half that ends in the plane y = 0. Raises NotClosed.
     """
     turn = np.array([[np.cos(trim), 0, np.sin(trim)], [0, 1, 0], [-np.sin(trim), 0, np.cos(trim)]])
     origin = np.array([pivot, 0.0, draught])
@@ -97,13 +99,15 @@ def hydrostatics(
 
 
 def clipped(corners: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Of triangles (m, 3, 3) what lies below z = 0, as triangles (k, 3, 3); and (c, 3) points of the cut."""
+    """The parts of triangles (m, 3, 3) below z = 0, as triangles (k, 3, 3); and (c, 3) points of the
+    cut.
+    """
     below = corners[:, :, 2] < 0.0
     count = below.sum(axis=1)
     whole, parts, cut = corners[count == 3], [], []
     for kept in (1, 2):
         some, here = corners[count == kept], below[count == kept]
-        lone = np.argmax(here == (kept == 1), axis=1)  # the corner that is alone on its side
+        lone = np.argmax(here == (kept == 1), axis=1)  # the single corner on its side
         a, b, c = (some[np.arange(len(some)), (lone + k) % 3] for k in range(3))
         ab, ca = _crossing(a, b), _crossing(a, c)
         cut += [ab, ca]
@@ -115,7 +119,7 @@ def clipped(corners: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def open_edges(triangles: np.ndarray) -> np.ndarray:
-    """(k, 2) vertices of directed edges that no other triangle runs along the other way."""
+    """(k, 2) vertices of directed edges without an opposite edge."""
     sides = (
         np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=2)
         .reshape(-1, 2)
@@ -127,7 +131,7 @@ def open_edges(triangles: np.ndarray) -> np.ndarray:
 
 
 def _is_half(afloat: np.ndarray, triangles: np.ndarray) -> bool:
-    """Whether all that is open below the waterplane lies in the plane y = 0; NotClosed if more is open."""
+    """Whether all open edges below the waterplane lie in the plane y = 0; raises NotClosed for others."""
     opened = afloat[open_edges(triangles)]
     wet = opened[opened[:, :, 2].min(axis=1, initial=np.inf) < 0.0]
     near = 1e-6 * np.ptp(afloat, axis=0).max()
@@ -145,13 +149,13 @@ def _crossing(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 
 def _areas(corners: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """(m, 3) vectors across the triangles, as long as these are large; (m,) areas."""
+    """(m, 3) vectors normal to the triangles, with their areas as lengths; (m,) areas."""
     across = 0.5 * np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     return across, np.linalg.norm(across, axis=1)
 
 
 def _volume(corners: np.ndarray) -> tuple[float, np.ndarray]:
-    """Volume and centroid (3,) of what the triangles and the plane z = 0 enclose."""
+    """Volume and centroid (3,) enclosed by the triangles and the plane z = 0."""
     up = _areas(corners)[0][:, 2]
     middles = 0.5 * (corners + np.roll(corners, -1, axis=1))
     volume = float((up * corners[:, :, 2].mean(axis=1)).sum())

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A table of offsets as points that are named by station and line. No Blender.
+"""Reads a table of offsets as points named by station and line. No Blender.
 
-Three layouts, told apart by their heads. `station, …`: a row for each station, a column for each
-line. `line, …`, `waterline, …`, `buttock, …`: the same turned. `station, line, x, y, z`: a row for each
+Three layouts, distinguished by their heads. `station, …`: a row for each station, a column for each
+line. `line, …`, `waterline, …`, `buttock, …`: transposed. `station, line, x, y, z`: a row for each
 point.
 """
 
@@ -16,11 +16,11 @@ _QUANTITY = {"x": "x", "y": "y", "z": "z", "half-breadth": "y", "half breadth": 
 _LINE = re.compile(r"(wl|waterline|btk|buttock)\b[\s.]*(.*)$|(b)[\s.]*(\d.*)$")
 _DIAGONAL = re.compile(r"diag(onal)?\b")
 _LAST = re.compile(r"(.*?)[\s,:]+(x|y|z|half[- ]breadth|height)$", re.IGNORECASE)
-_AXIS = {"w": "z", "b": "y"}  # what a waterline's or buttock's own number is
-_PROFILE = re.compile(r"stem|stern|profile")  # whose cells are places along the hull
+_AXIS = {"w": "z", "b": "y"}  # the coordinate that the number of a waterline or buttock gives
+_PROFILE = re.compile(r"stem|stern|profile")  # lines whose cells are positions along the hull
 _SHARP = re.compile(r"knuckle|chine|sharp")
 _STATION_PLACE = {"x", "position", "from bow", "from ap", "from fp"}
-_ANGLE = "angle"  # of a diagonal below level, in degrees
+_ANGLE = "angle"  # angle of a diagonal below level, in degrees
 _LINE_PLACE = {"height", "half-breadth", "half breadth", "position", "at"}
 
 
@@ -49,19 +49,19 @@ class Offsets:
 
 @dataclass
 class _Series:
-    """A line's cells of one quantity, station by station."""
+    """A line's cells of one quantity, for all stations."""
 
     line: str
     quantity: str  # x, y, z; d: along a diagonal, from the middle
     fixed: dict[
         str, float
-    ]  # what the line's own number says; of a diagonal its height in the middle and its angle
+    ]  # values of the line's own number; for a diagonal its height in the middle and its angle
     head: Cell
     cells: list[Cell]
 
 
 def is_sharp(line: str) -> bool:
-    """Whether the name of a line says that the hull has a knuckle there."""
+    """Whether the name of a line indicates a knuckle."""
     return _SHARP.search(line.lower()) is not None
 
 
@@ -78,7 +78,7 @@ def is_diagonal(line: str) -> bool:
 
 
 def read(text: str, unit: float | None = None) -> Offsets:
-    """`unit`: metres in a number, in the place of what the file says; raises OffsetsError."""
+    """The offsets in a text. `unit`: metres in a number, which overrides the file; raises OffsetsError."""
     sheet = read_sheet(text)
     scale = unit or sheet.unit
     if scale is None:
@@ -133,7 +133,7 @@ def _listed(sheet: Sheet, words: list[str]) -> list[Offset]:
 
 
 def _by_station(sheet: Sheet, rows: list[list[Cell]], head: str) -> list[Offset]:
-    """Of rows of stations, whose first row names the lines."""
+    """Offsets from rows of stations, whose first row names the lines."""
     lines, body = rows[0], rows[1:]
     kinds: list[Cell] | None = None
     places: list[Cell] | None = None
@@ -177,7 +177,7 @@ def _by_station(sheet: Sheet, rows: list[list[Cell]], head: str) -> list[Offset]
 
 
 def _station_x(sheet: Sheet, station: Cell, where: Cell | None, index: int) -> float | None:
-    """None for a profile, whose cells say it."""
+    """The station's x; None for a profile, whose cells have it."""
     if where is not None and not where.is_blank:
         return sheet.number(where)
     if _PROFILE.search(station.word):
@@ -205,7 +205,7 @@ def _series(
     own = _LINE.match(label.lower())
     family = label[0].lower() if own else ""
     rest = (own.group(2) or own.group(4) or "") if own else ""
-    if not family and label[:1].isdigit():  # a bare number, of what the head's first cell says
+    if not family and label[:1].isdigit():  # a bare number belongs to the first cell of the head
         family = next((word[0] for word in ("waterline", "buttock") if word in first), "")
         rest, label = (
             label,
@@ -246,8 +246,8 @@ def _once(series: list[_Series]) -> None:
 def _points(
     sheet: Sheet, station: Cell, x: float | None, index: int, series: list[_Series]
 ) -> list[Offset]:
-    """Of one station. In a profile the place along the hull stands where else the half-breadth does; a line
-    with heights and no half-breadths lies in the middle.
+    """The points of one station. In a profile, positions along the hull replace half-breadths; a line
+    with heights but no half-breadths lies in the middle.
     """
     broad = {one.line for one in series if one.quantity in "yd" or "y" in one.fixed}
     values: dict[str, dict[str, float]] = {}

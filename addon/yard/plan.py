@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where a hull is cut, and the sheet with its lines: profile, half-breadth plan and body plan.
+"""Planes that cut a hull, and the sheet with its lines: profile, half-breadth plan and body plan.
 NumPy, no Blender.
 """
 
@@ -9,8 +9,8 @@ import numpy as np
 
 from .dxf import Label, Polyline
 
-_GAP = 0.1  # between two views, of the hull's length
-_TEXT = 0.01  # height of labels, of the hull's length
+_GAP = 0.1  # between two views, relative to the hull's length
+_TEXT = 0.01  # height of labels, relative to the hull's length
 
 
 @dataclass(frozen=True)
@@ -24,15 +24,15 @@ class Plane:
 
 @dataclass(frozen=True)
 class Cut:
-    """What one plane cuts out of a hull: curves (k, 3); of closed ones the last point is the first."""
+    """The curves (k, 3) in which one plane cuts a hull; closed ones repeat their first point."""
 
     plane: Plane
     curves: list[np.ndarray]
 
 
 def places(text: str, low: float, high: float, spacing: float, start: float) -> list[float]:
-    """Those of a list `0, 1.5, 3`, or every `spacing` from `start`, strictly between `low` and `high`.
-    ValueError for what is no list.
+    """The positions in a list such as `0, 1.5, 3`, or every `spacing` from `start`, strictly between
+    `low` and `high`. ValueError for an invalid list.
     """
     if text.strip():
         return [float(part) for part in text.replace(";", ",").split(",") if part.strip()]
@@ -46,9 +46,9 @@ def places(text: str, low: float, high: float, spacing: float, start: float) -> 
 def sheet(
     title: str, stations: list[Cut], buttocks: list[Cut], waterlines: list[Cut]
 ) -> list[Polyline | Label]:
-    """Below one another: profile (x, z), half-breadths (x, y), and beside the profile the body plan: the half
-    nearer to low x on the right, the other one on the left. Each over the grid of the other planes, with the
-    stations' names below, in one frame with `title`.
+    """Profile (x, z), below it half-breadths (x, y), and beside the profile the body plan: the half
+    nearer to low x on the right, the other one on the left. Each view has the grid of the other planes,
+    with the stations' names below, in one frame with `title`.
     """
     points = np.concatenate([c for cut in (*stations, *buttocks, *waterlines) for c in cut.curves])
     low, high = points.min(axis=0), points.max(axis=0)
@@ -94,14 +94,14 @@ def _box(low: tuple[float, float], high: tuple[float, float]) -> np.ndarray:
 def _grid(
     across: tuple[float, float], up: tuple[float, float], x: np.ndarray, y: np.ndarray
 ) -> list[Polyline]:
-    """Lines at each `x` from end to end of `up`, and at each `y` of `across`."""
+    """Lines at each `x` over the range `up`, and at each `y` over `across`."""
     upright = [[(at, end, 0.0) for end in up] for at in x]
     level = [[(end, at, 0.0) for end in across] for at in y]
     return [Polyline("GRID", np.array(line)) for line in (*upright, *level)]
 
 
 def in_space(found: dict[str, list[Cut]]) -> list[Polyline | Label]:
-    """The curves where they are, a layer for each kind."""
+    """The curves in space, a layer for each kind."""
     return [
         Polyline(kind, curve)
         for kind, cuts in found.items()
@@ -125,13 +125,15 @@ def scaled(drawing: list[Polyline | Label], factor: float) -> list[Polyline | La
 
 
 def opened(curve: np.ndarray) -> tuple[np.ndarray, bool]:
-    """A closed curve (k, 3) without its last point, which is its first again, and whether it is closed."""
+    """A closed curve (k, 3) without its last point, which repeats the first, and whether it is closed."""
     closed = len(curve) > 3 and bool((curve[0] == curve[-1]).all())
     return (curve[:-1] if closed else curve), closed
 
 
 def half(curve: np.ndarray) -> list[np.ndarray]:
-    """The parts of a polyline (k, 3) with y >= 0, cut where it crosses; all of it, mirrored, where none has."""
+    """The parts of a polyline (k, 3) with y >= 0, cut where it crosses; the whole mirror image if there
+    are none.
+    """
     if (curve[:, 1] <= 0.0).all() and (curve[:, 1] < 0.0).any():
         return [curve * [1, -1, 1]]
     inside = curve[:, 1] >= 0.0

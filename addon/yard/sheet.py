@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A table's text as cells that know where they stand, and the numbers in them. No Blender."""
+"""A table's text as cells with their positions, and the numbers in them. No Blender."""
 
 import csv
 import re
@@ -30,7 +30,7 @@ _IN_WORDS = re.compile(r"\b(?:in|units?:?)\s+([a-z-]+)", re.IGNORECASE)
 
 
 class OffsetsError(ValueError):
-    """Why a table cannot be read: a sentence with row and column."""
+    """Why a table cannot be read, as a sentence with row and column."""
 
 
 @dataclass(frozen=True)
@@ -47,7 +47,7 @@ class Cell:
 
     @property
     def word(self) -> str:
-        """Without a unit in brackets, in small letters."""
+        """The text without a unit in brackets, in lower case."""
         return _IN_BRACKETS.sub("", self.text).strip().lower()
 
     def error(self, why: str) -> OffsetsError:
@@ -56,15 +56,15 @@ class Cell:
 
 @dataclass(frozen=True)
 class Sheet:
-    """A table: its head comes first, and all rows are as wide."""
+    """A table: its head is the first row, and all rows have the same width."""
 
     rows: list[list[Cell]]
     keys: dict[str, Cell]  # rows above the head, such as `spacing, 1000`, by their first cell
-    unit: float | None  # metres in a number; None where the file names no unit
+    unit: float | None  # metres in a number; None if the file names no unit
     decimal_comma: bool
 
     def number(self, cell: Cell) -> float:
-        """In the table's unit, or metres for `feet-inches-eighths`; NaN where blank."""
+        """The number in the table's unit, or in metres for `feet-inches-eighths`; NaN if blank."""
         if cell.is_blank:
             return nan
         text = cell.text.replace(",", ".") if self.decimal_comma else cell.text
@@ -83,7 +83,7 @@ class Sheet:
 
 
 def read_sheet(text: str) -> Sheet:
-    """Of comma, semicolon or tab separated values; raises OffsetsError."""
+    """The sheet of comma, semicolon or tab separated values; raises OffsetsError."""
     lines = text.lstrip("\ufeff").splitlines()
     plain = [line for line in lines if line.strip() and not line.startswith("#")]
     joined = "\n".join(plain)
