@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Blender's repository of the zips, for any static host: a listing that Blender reads, and a page to drag from."""
+"""Makes Blender's repository of the zips, for any static host: a listing that Blender reads, and a page
+to drag zips from.
+"""
 
 import shutil
 from pathlib import Path

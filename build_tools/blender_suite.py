@@ -21,18 +21,19 @@ SCRIPTS = ROOT / "tests" / "blender"
 EXAMPLES = ROOT / "examples"
 SCREENSHOTS = OUT / "screenshots"
 HEADLESS, WINDOW, ENDURANCE = "headless_*.py", "window_*.py", "*_endurance.py"
-HUNG = (124, 137)  # what timeout(1) ends with
-# Over a minute each: all of them take more than half of a Blender's time. Every one runs in one Blender, all others
-# in each; `nightly`, and a script that is named, in every Blender. In turn: so each Blender has about as much to do.
+HUNG = (124, 137)  # exit codes of timeout(1)
+# Over a minute each: together more than half of a Blender's time. Each runs in one Blender, all other
+# scripts in every one; `nightly`, and a script given by name, in every Blender. They take turns, so
+# that each Blender has about equal work.
 LONG = ["window_run.py", "window_live.py", "window_jobs.py", "headless_endurance.py"]
-# They time how long a window stops, so nothing else of the suite runs beside them in the same Blender.
+# They measure how long a window stops, so no other script runs beside them in the same Blender.
 TIMED = ["window_gaps.py", "window_redo.py"]
-# of scripts at a time in one Blender: they wait for half of their time
+# scripts that run at the same time in one Blender, since they wait for half of their time
 LANES = 2
 
 
 def install(blender: RealBlender) -> RealBlender:
-    """The Blender, with the extension packed and installed as a user would, into settings that nobody else has."""
+    """The Blender after packing and installing the extension like a user, with separate settings."""
     blender.clear()
     made = build([blender.root.wheel()], blender)
     where = ["--repo", "user_default", "--enable", blender.seen(made)]
@@ -41,7 +42,7 @@ def install(blender: RealBlender) -> RealBlender:
 
 
 def count(code: int, text: str, script: str) -> Tally:
-    """The tally of one script by what it printed: each line `PASS name …` or `FAIL name …` is a test."""
+    """The tally of one script from its output: each line `PASS name …` or `FAIL name …` is a test."""
     results = re.findall(r"^(PASS|FAIL) ", text, re.MULTILINE)
     tally = Tally(passed=results.count("PASS"), failed=results.count("FAIL"))
     if code in HUNG:
@@ -53,10 +54,11 @@ def count(code: int, text: str, script: str) -> Tally:
 
 
 def counting_allocator(script: Path) -> dict[str, str]:
-    """Variables that have the C library allocate, where a script counts what a run leaves behind.
+    """Environment variables for a script that counts memory left by a run: they select the C library's
+    allocator.
 
-    It tells the bytes in use, and without its caches for threads these are exact. Blender's own
-    allocators (jemalloc, TBB's) keep reserves that come and go by megabytes.
+    It reports the bytes in use, exactly if its caches for threads are off. Blender's own allocators
+    (jemalloc, TBB's) keep reserves that vary by megabytes.
     """
     if not script.match(ENDURANCE):
         return {}
@@ -65,7 +67,7 @@ def counting_allocator(script: Path) -> dict[str, str]:
 
 
 def run_script(blender: RealBlender, script: Path) -> Tally:
-    """One script in one Blender, in a window if its name says so; then it has a second try."""
+    """Runs one script in one Blender, in a window if its name says so; then it may be tried twice."""
     say(f"Blender {blender.version}: {script.name}")
     start = blender.window if script.match(WINDOW) else blender.headless
     screenshots = blender.seen(blender.exchange / "screenshots")
@@ -83,7 +85,7 @@ def run_script(blender: RealBlender, script: Path) -> Tally:
 
 
 def run_in_lanes(lanes: list[RealBlender], scripts: list[Path]) -> list[Tally]:
-    """Scripts in their order, each in the lane that is free first."""
+    """Runs scripts in their order, each in the lane that becomes free first."""
     free: SimpleQueue[RealBlender] = SimpleQueue()
     for lane in lanes:
         free.put(lane)
@@ -100,15 +102,18 @@ def run_in_lanes(lanes: list[RealBlender], scripts: list[Path]) -> list[Tally]:
 
 
 def left_to_others(root: DebianRoot) -> set[str]:
-    """The long scripts that the Blender of this root does not run: they take turns."""
+    """The long scripts that other roots run, since they take turns."""
     return {script for k, script in enumerate(LONG) if ROOTS[k % len(ROOTS)] != root}
 
 
 def try_all(blender: RealBlender, wanted: str, left_out: set[str]) -> Tally:
-    """Every script whose name contains `wanted`, but for some, in one Blender that has the extension."""
+    """Runs every script whose name contains `wanted`, except `left_out`, in one Blender with the
+    extension.
+    """
     folder = blender.exchange / SCRIPTS.name
     ignored = shutil.ignore_patterns("__pycache__", "images", "notes")
-    for scripts in (SCRIPTS, EXAMPLES, ROOT / "docs"):  # whose models and calls are tried
+    # models and calls of these folders are tested too
+    for scripts in (SCRIPTS, EXAMPLES, ROOT / "docs"):
         shutil.copytree(scripts, blender.exchange / scripts.name, ignore=ignored)
     (blender.exchange / "screenshots").mkdir()
     scripts = [
@@ -119,7 +124,7 @@ def try_all(blender: RealBlender, wanted: str, left_out: set[str]) -> Tally:
     ]
     if not scripts:
         return Tally(failed=1, note=f"no script for '{wanted}'")
-    # the long ones first, so that none is left at the end
+    # the long ones first, so that none is left for the end
     scripts.sort(key=lambda path: path.name not in LONG)
     lanes = blender.lanes(LANES)
     done = run_in_lanes(lanes, [script for script in scripts if script.name not in TIMED])
@@ -131,7 +136,9 @@ def try_all(blender: RealBlender, wanted: str, left_out: set[str]) -> Tally:
 
 
 def in_each(work: Callable[[RealBlender], Tally], workers: int | None = None) -> dict[str, Tally]:
-    """What `work` counts in each Blender, `workers` at a time; one that cannot be had is one failure."""
+    """The tally of `work` in each Blender, `workers` at a time; a Blender that cannot be made is one
+    failure.
+    """
 
     def tally(root: DebianRoot) -> Tally:
         blender = of_debian(root)
@@ -143,10 +150,11 @@ def in_each(work: Callable[[RealBlender], Tally], workers: int | None = None) ->
 
 
 def run_suite(wanted: str = "", everything: bool = False) -> dict[str, Tally]:
-    """The tallies by Blender; long scripts run in one of them, unless they are `wanted` or `everything` is.
+    """The tallies by Blender. Long scripts run in one of them, unless they are `wanted` or `everything`
+    is set.
 
-    Each Blender has a folder, settings and a screen of its own. One suite at a time, as the next one takes the same
-    folders.
+    Each Blender has its own folder, settings and screen. Only one suite runs at a time, since the next
+    one uses the same folders.
     """
 
     def prepare(blender: RealBlender) -> Tally:
@@ -160,6 +168,7 @@ def run_suite(wanted: str = "", everything: bool = False) -> dict[str, Tally]:
         return try_all(blender, wanted, set() if all_scripts else left_to_others(blender.root))
 
     with alone("blender"):
-        # all before the first test: compilers use all cores, and scripts in windows would run out of time
+        # all before the first test: compilers use all cores, so scripts in windows would run out of
+        # time
         prepared = in_each(prepare, workers=1)
         return in_each(work)

@@ -5,13 +5,13 @@ import subprocess
 from pathlib import Path
 
 GRAPHICS = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
-PATIENCE = 15_000  # milliseconds of the page's own clock, for what it loads and draws
+PATIENCE = 15_000  # milliseconds of the page's own clock, for loading and drawing
 TIME_LIMIT = 300  # seconds
 
 
 def _run(address: str, *options: str) -> str:
     words = ["chromium", "--headless", "--no-sandbox", "--hide-scrollbars", *GRAPHICS]
-    # nothing turns, so that pictures are the same each time
+    # nothing turns, so that pictures are reproducible
     words += ["--force-prefers-reduced-motion", f"--virtual-time-budget={PATIENCE}"]
     done = subprocess.run(
         [*words, *options, address], check=True, timeout=TIME_LIMIT, capture_output=True, text=True

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The list of components, CycloneDX 1.6 as JSON: what is compiled into a release's wheels."""
+"""Writes the list of components, CycloneDX 1.6 as JSON: the code that is compiled into a release's
+wheels.
+"""
 
 import json
 import re
@@ -12,8 +14,8 @@ from shell import DevError
 
 SOURCES, DEPENDENCIES = "build_tools/cross/sources.py", "cmake/dependencies.cmake"
 ZIG = r"build_tools/requirements_zig.txt ziglang==([\d.]+)"
-# what THIRD_PARTY_LICENSES.txt names: name, the file and the pattern of the version that releases are
-# compiled with, licence, page, package
+# as in THIRD_PARTY_LICENSES.txt: name, the file and pattern of the version in releases, licence, page,
+# package
 LIBRARIES = (
     ("OpenMesh", rf"{SOURCES} openmesh_([\d.]+)\.orig", "BSD-3-Clause")
     + ("https://www.graphics.rwth-aachen.de/software/openmesh/", "generic/openmesh"),
@@ -31,7 +33,7 @@ LIBRARIES = (
 
 
 def version_in(place: str) -> str:
-    """The version that a file of the project names, the first match of the pattern behind its name."""
+    """The version in a file of the project, by the first match of the pattern."""
     file, _, pattern = place.partition(" ")
     found = re.search(pattern, (ROOT / file).read_text("utf-8"))
     if found is None:
@@ -40,7 +42,9 @@ def version_in(place: str) -> str:
 
 
 def component(name: str, version: str, licence: str, page: str, package: str) -> dict[str, Any]:
-    """One whose code is in the wheels; `package` is its type and name as a package, "pypi/pybind11"."""
+    """A component whose code is in the wheels; `package` is its type and name as a package,
+    "pypi/pybind11".
+    """
     url = f"pkg:{package}@{version}" if version[0].isdigit() else f"pkg:{package}"
     return {
         "type": "library",
@@ -54,7 +58,7 @@ def component(name: str, version: str, licence: str, page: str, package: str) ->
 
 
 def listing(version: str, epoch: int) -> str:
-    """The list as JSON, of a release of this version and time, on which alone it depends."""
+    """The list as JSON for a release of this version and time; it depends on nothing else."""
     ours = component("discrete-fairing", version, "GPL-3.0-or-later", "", "pypi/discrete-fairing")
     parts = [component(name, version_in(place), *others) for name, place, *others in LIBRARIES]
     refs = [part["bom-ref"] for part in parts]

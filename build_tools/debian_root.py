@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Debian systems in folders, each for its Blender, its Python and its libraries.
 
-Everything mounted for one lives in a mount namespace of its own, so nothing is left to unmount, however
-a command ends, and deleting the cache can never reach through a mount into the project.
+Their mounts are in a mount namespace of their own, so nothing needs unmounting, however a command ends,
+and deleting the cache can never reach through a mount into the project.
 """
 
 import shutil
@@ -19,12 +19,12 @@ PACKAGES = ["blender", "python3-numpy"]
 PACKAGES += ["g++", "ccache", "cmake", "ninja-build", "libopenmesh-dev", "libeigen3-dev"]
 PACKAGES += ["libnanoflann-dev"]
 PACKAGES += ["python3-dev", "python3-pip", "python3-scikit-build-core", "pybind11-dev"]
-# a window without a screen, drawn by the processor, and photographs of it
+# a window without a screen, drawn by the processor, and screenshots of it
 PACKAGES += ["xvfb", "xauth", "libgl1-mesa-dri", "xdotool", "imagemagick", "fonts-dejavu-core"]
 
-INSIDE = Path("/srv/discrete_fairing")  # one folder that both sides may write
+INSIDE = Path("/srv/discrete_fairing")  # a folder that both sides may write
 ENTER = ROOT / "build_tools" / "enter_root.sh"
-# nobody reads the documents of a system in a folder, and a crash of the machine may spoil it
+# documents of such a system are not needed, and losing it in a crash does no harm
 LEAN = [
     "--dpkgopt=path-exclude=/usr/share/doc/*",
     "--dpkgopt=path-exclude=/usr/share/man/*",
@@ -41,15 +41,15 @@ class DebianRoot:
     python_tag: str
     extra_packages: tuple[str, ...] = ()
     options: tuple[str, ...] = ()
-    # whether its C library is old enough for a manylinux tag that auditwheel knows
+    # whether its C library is old enough for a manylinux tag of auditwheel
     repairable: bool = True
-    # for what it is, if not for its Blender
+    # its use, if it is not for Blender
     purpose: str = ""
     base_packages: tuple[str, ...] = tuple(PACKAGES)
 
     @property
     def place(self) -> str:
-        """How its folder is called."""
+        """The name of its folder."""
         return f"debian-{self.suite}{self.purpose and '-'}{self.purpose}"
 
     @property
@@ -58,7 +58,7 @@ class DebianRoot:
 
     @property
     def outside(self) -> Path:
-        """What is `INSIDE` for the programs in it."""
+        """The path of `INSIDE` for programs outside."""
         return self.folder / INSIDE.relative_to("/")
 
     @property
@@ -67,7 +67,7 @@ class DebianRoot:
 
     @property
     def ccache(self) -> Path:
-        """What its compiler made before, in this clone or another; another compiler is another cache."""
+        """Its compiler's cache, shared by clones; each compiler has its own."""
         return Path.home() / ".cache" / f"ccache-{self.place}"
 
     def command(self, *words: str | Path, **extra: str) -> list[str]:
@@ -80,7 +80,7 @@ class DebianRoot:
         return as_root("unshare", "--mount", "sh", ENTER, self.folder, ROOT, self.ccache, *inner)
 
     def make(self) -> None:
-        """Makes the folder, a minute's work; returns at once when it is there."""
+        """Makes the folder, which takes a minute; returns at once if it exists."""
         with alone(self.place):
             packages = [*self.base_packages, *self.extra_packages]
             value = fingerprint([], self.suite, *packages, *LEAN, *self.options, str(INSIDE))
@@ -107,11 +107,11 @@ class DebianRoot:
             )
         run(*as_root("mkdir", "-p", self.folder / "project", self.outside))
         run(*as_root("chmod", "1777", self.outside))
-        # Blender looks for its disks
+        # Blender searches for disks
         run(*as_root("ln", "-sf", "/proc/self/mounts", self.folder / "etc" / "mtab"))
 
     def wheel(self) -> Path:
-        """The wheel for the Python inside, built there; returns at once when nothing changed."""
+        """The wheel for the Python inside, built there; returns at once if nothing has changed."""
         self.make()
         folder = self.outside / "wheels"
         with alone(f"wheel-{self.suite}"):
@@ -147,7 +147,7 @@ ROOTS = (
         "cp314",
         # Blender's own scripts import these, but its package does not depend on them
         extra_packages=("python3-cattr", "python3-requests", "python3-zstandard"),
-        # a mirror that stands still has an index past its date
+        # a mirror that is not updated has an expired index
         options=('--aptopt=Acquire::Check-Valid-Until "false"',),
         repairable=False,
     ),

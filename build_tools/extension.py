@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The extension's zips, one for each platform: staged, then built and validated by Blender itself.
+"""Makes the extension's zips, one for each platform: staged, then built and validated by Blender
+itself.
 
-Blender wants `__init__.py` beside the manifest, so what lies in addon/ and at the root is laid out again.
+Blender requires `__init__.py` beside the manifest, so addon/ and the root are combined in one folder.
 """
 
 import re
@@ -16,12 +17,12 @@ from shell import DevError, run, say
 from stamp import alone
 from wheel_version import manifest_version
 
-# first Blender whose Python is another one; Debian's own builds have 3.13 in any version
+# the first Blender with the next version of Python; Debian's own builds have 3.13 in any version
 ENDS = {"cp311": "5.1.0"}
 
 LICENCES = ["LICENSE", "THIRD_PARTY_LICENSES.txt"]
 
-# Blender's names of the platforms, by what a wheel calls them
+# Blender's names of platforms, by the platform tag of a wheel
 PLATFORMS = {
     r"(many)?linux\w*_x86_64": "linux-x64",
     r"(many)?linux\w*_aarch64": "linux-arm64",
@@ -62,7 +63,7 @@ def only_platform(wheels: list[Path]) -> str:
 
 
 def name(wheels: list[Path]) -> str:
-    """What the zip that carries these wheels is called, without the suffix."""
+    """The name of the zip with these wheels, without the suffix."""
     tags = [*map(python_tag, wheels)]
     python = f"{tags[0]}-" if len(tags) == 1 else ""
     place = only_platform(wheels).replace("-", "_")
@@ -70,7 +71,7 @@ def name(wheels: list[Path]) -> str:
 
 
 def added_lines(wheels: list[Path]) -> dict[str, str]:
-    """What only the staging knows of the manifest."""
+    """Lines of the manifest that are known only after staging."""
     paths = ", ".join(f'"./wheels/{wheel.name}"' for wheel in wheels)
     lines = {"platforms": f'["{only_platform(wheels)}"]', "wheels": f"[{paths}]"}
     ends = [ENDS.get(python_tag(wheel)) for wheel in wheels]
@@ -80,7 +81,7 @@ def added_lines(wheels: list[Path]) -> dict[str, str]:
 
 
 def staged_manifest(wheels: list[Path]) -> str:
-    """The manifest with what only the staging knows, put before its first table."""
+    """The manifest with these lines before its first table."""
     added = added_lines(wheels)
     values, bracket, tables = MANIFEST.read_text().partition("\n[")
     kept = [line for line in values.splitlines() if line.partition(" = ")[0] not in added]
@@ -89,7 +90,7 @@ def staged_manifest(wheels: list[Path]) -> str:
 
 
 def stage(wheels: list[Path], folder: Path) -> None:
-    """Lays the extension out in a folder that is not there yet."""
+    """Copies the extension's files to a folder that does not exist yet."""
     for wheel in wheels:
         if wheel_version(wheel) != manifest_version():
             raise DevError(f"{wheel.name} is not of the manifest's version {manifest_version()}.")
@@ -103,7 +104,7 @@ def stage(wheels: list[Path], folder: Path) -> None:
 
 
 def build(wheels: list[Path], blender: RealBlender) -> Path:
-    """One zip, built and validated by `blender`; it is left in the folder common with Blender."""
+    """One zip, built and validated by `blender`; it stays in the folder shared with Blender."""
     source = blender.exchange / name(wheels)
     made = blender.exchange / f"{name(wheels)}.zip"
     shutil.rmtree(source, ignore_errors=True)
@@ -115,20 +116,22 @@ def build(wheels: list[Path], blender: RealBlender) -> Path:
 
 
 def by_platform(wheels: list[Path]) -> list[list[Path]]:
-    """The wheels of each zip: one zip a platform, with the wheels of all its Pythons."""
+    """The wheels of each zip: one zip for each platform, with the wheels of all its Pythons."""
     platforms = dict.fromkeys(platform(wheel) for wheel in wheels)
     return [[wheel for wheel in wheels if platform(wheel) == each] for each in platforms]
 
 
 def wheels_at_hand() -> list[list[Path]]:
-    """The wheels for .venv and for each Debian root, each for a zip of its own; of two alike the first one counts."""
+    """The wheels for .venv and for each Debian root, each for its own zip; duplicates are dropped."""
     wheels = [native_wheel.install(), *(root.wheel() for root in ROOTS)]
     first = {name([wheel]): wheel for wheel in reversed(wheels)}
     return [[wheel] for wheel in reversed(first.values())]
 
 
 def zips(folder: Path | None, names: list[str] | None = None) -> list[list[Path]]:
-    """The wheels in a folder or, where none is given, compiled for the platforms named or for all; by platform."""
+    """The wheels in a folder or, without one, those compiled for the named platforms or for all; by
+    platform.
+    """
     from cross.targets import TARGETS, target_named
     from cross.wheels import build as compile_for
 
@@ -139,7 +142,7 @@ def zips(folder: Path | None, names: list[str] | None = None) -> list[list[Path]
 
 
 def wheels_in(folder: Path) -> list[list[Path]]:
-    """The wheels that were made elsewhere, of each platform."""
+    """The wheels in a folder, by platform."""
     wheels = sorted(folder.glob("discrete_fairing-*.whl"))
     if not wheels:
         raise DevError(f"there is no wheel of discrete_fairing in {folder}.")
@@ -149,7 +152,9 @@ def wheels_in(folder: Path) -> list[list[Path]]:
 
 
 def build_all(zips: list[list[Path]]) -> list[Path]:
-    """A zip for each list of wheels, under out/, made by a Blender with a wheel's Python where there is one."""
+    """A zip for each list of wheels, under out/, built by a Blender with a wheel's Python if there is
+    one.
+    """
     folder = OUT / "extension"
     with alone("blender"):
         blenders = [of_debian(root) for root in ROOTS]

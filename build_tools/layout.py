@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where everything is: the project's folders, and those that dev.py makes."""
+"""Paths of the project's folders, and of those that dev.py makes."""
 
 from pathlib import Path
 

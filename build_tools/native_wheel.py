@@ -12,14 +12,15 @@ from wheel_version import LOCAL_PART, manifest_version
 
 WHEELS = BUILD / "wheels"
 STAMP = VENV / "stamps" / "wheel"
-RELEASE = BUILD / "release"  # of the preset for tests: the core is compiled once for both
-# -Werror is for us; who builds the wheel elsewhere may have a compiler with new warnings
+# the folder of the preset for tests, so that the core is compiled once for both
+RELEASE = BUILD / "release"
+# -Werror only here; other compilers may have new warnings
 PIP_WHEEL = ["wheel", "--no-deps", "--no-build-isolation"]
 PIP_WHEEL += ["--config-settings=cmake.define.DF_WARNINGS_AS_ERRORS=ON"]
 
 
 def inputs() -> list[Path]:
-    """Every file that the wheel is made of."""
+    """Every file that the wheel depends on."""
     names = ["native", "cmake", "CMakeLists.txt", "pyproject.toml", "LICENSE"]
     names += ["THIRD_PARTY_LICENSES.txt", "build_tools/wheel_version.py"]
     return files_under(MANIFEST, *(ROOT / name for name in names))
@@ -45,7 +46,7 @@ def only_wheel(folder: Path) -> Path:
 def repair(wheel: Path, folder: Path, *libraries: Path) -> None:
     """Writes the self-contained wheel, named after the platforms that can load it, to `folder`.
 
-    `libraries` are the folders to take libraries from; without any, it is the machine's own.
+    `libraries`: folders to copy libraries from; without any, the machine's own.
     """
     words = [VENV_BIN / "auditwheel", "repair", "--strip"]
     if libraries:
@@ -71,7 +72,7 @@ def build() -> Path:
 
 
 def install() -> Path:
-    """Builds the wheel and installs it into .venv; returns at once when nothing changed."""
+    """Builds the wheel and installs it into .venv; returns at once if nothing has changed."""
     with alone("wheel"):
         value = fingerprint(inputs(), local_version())
         if is_fresh(STAMP, value):

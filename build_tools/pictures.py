@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The pictures of the documents, made again by one command; docs/developers/pictures.md has the date of each."""
+"""Remakes the pictures of the documents; docs/developers/pictures.md has the date of each."""
 
 import re
 import time
@@ -24,7 +24,7 @@ version.
 |---|---|---|
 """
 ROW = re.compile(r"^\| \[(\S+)\]\(\S+\) \| (.+) \| (\S+), `(\w+)`, (\S+) \|$", re.MULTILINE)
-# the script of each folder, whose argument is the picture's name; or of a picture alone
+# the script of each folder, which is called with the picture's name; or of a single picture
 SCRIPTS = {
     "convergence.png": "benchmarks/plot_convergence.py",
     "pads.png": "examples/gallery.py",
@@ -37,13 +37,13 @@ SCRIPTS = {
     "splines": "examples/render_splines.py",
     "tutorials": "examples/render_tutorials.py",
 }
-PLOTS = "benchmarks/plot_"  # which draw one picture each
+PLOTS = "benchmarks/plot_"  # scripts that draw one picture each
 WINDOWS, RECORDINGS = "build_tools/window_pictures.py", "build_tools/recordings.py"
 BY_HAND = {"splines/freecad.png": "a photograph of FreeCAD's window"}
 
 
 def maker(name: str) -> str:
-    """What makes a picture, as a command after `python`."""
+    """The command that makes a picture, without `python`."""
     if name in BY_HAND:
         return BY_HAND[name]
     folder, _, file = name.rpartition("/")
@@ -57,13 +57,13 @@ def maker(name: str) -> str:
 
 
 def pictures() -> list[str]:
-    """All of docs/images, by their names there."""
+    """The names of all pictures in docs/images."""
     found = [path for path in IMAGES.rglob("*") if path.suffix in (".png", ".gif")]
     return sorted(path.relative_to(IMAGES).as_posix() for path in found)
 
 
 def rows(text: str) -> dict[str, tuple[str, str, str, str]]:
-    """By picture: what made it, and the version, commit and day that it shows."""
+    """By picture: the command that made it, and the version, commit and day that it shows."""
     return {name: (by.strip("`"), *shows) for name, by, *shows in ROW.findall(text)}
 
 
@@ -77,7 +77,9 @@ def page(made: dict[str, tuple[str, str, str, str]]) -> str:
 
 
 def note(names: Iterable[str]) -> None:
-    """Dates these pictures by what there is now; those that are gone leave the page."""
+    """Writes the present date for these pictures; pictures that no longer exist are removed from the
+    page.
+    """
     code, commit = output("git", "log", "-1", "--format=%h")
     if code != 0:
         raise DevError("pictures are dated by a git commit.")
@@ -89,7 +91,7 @@ def note(names: Iterable[str]) -> None:
 
 
 def draw(name: str, meshes: Path | None) -> None:
-    """Makes one picture; its script leaves it as it is where what it needs is not here."""
+    """Makes one picture; its script leaves it unchanged if its requirements are missing."""
     script, *arguments = maker(name).split()
     if script == RECORDINGS:
         recordings.record(*arguments, IMAGES / name)

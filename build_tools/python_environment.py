@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The project's own Python in .venv, with every dependency at an exact version, and Pythons for single tools."""
+"""The project's own Python in .venv, with every dependency at an exact version, and Pythons for single
+tools.
+"""
 
 import shutil
 import sys
@@ -9,7 +11,7 @@ from layout import CACHE, ROOT, VENV, VENV_PYTHON
 from shell import DevError, output, run, say
 from stamp import fingerprint, is_fresh, leave
 
-REQUIREMENTS = ROOT / "build_tools" / "requirements.lock"  # of requirements.txt
+REQUIREMENTS = ROOT / "build_tools" / "requirements.lock"  # locked versions of requirements.txt
 STAMP = VENV / "stamps" / "requirements"
 RIVALS = ROOT / "build_tools" / "requirements_bench.lock"
 RIVALS_STAMP = VENV / "stamps" / "requirements_bench"
@@ -17,12 +19,12 @@ BPY_VERSION = (3, 11)  # Blender 4.1 to 5.0, hence of the bpy wheel
 
 
 def has_bpy() -> bool:
-    """Whether .venv has the bpy module: it exists for one version of Python only."""
+    """Whether .venv has the bpy module, which exists for one version of Python only."""
     return (VENV / "lib" / "python{}.{}".format(*BPY_VERSION) / "site-packages" / "bpy").is_dir()
 
 
 def base_python() -> str:
-    """The Python that .venv is made of: the one that bpy is for where there is one."""
+    """The Python for .venv: the version that bpy needs, if there is one."""
     if sys.version_info[:2] == BPY_VERSION:
         return sys.executable
     name = "python{}.{}".format(*BPY_VERSION)
@@ -30,7 +32,7 @@ def base_python() -> str:
 
 
 def install() -> None:
-    """Makes .venv and fills it, or adds what it lacks; returns at once when the requirements are as before."""
+    """Makes .venv and installs missing packages; returns at once if the requirements have not changed."""
     base = base_python()
     version = output(base, "-VV")[1]
     value = fingerprint([REQUIREMENTS], version)
@@ -46,7 +48,9 @@ def install() -> None:
 
 
 def install_rivals() -> None:
-    """What the benchmarks measure us against; without dependencies, since NumPy has to stay as bpy wants it."""
+    """Installs the programs that benchmarks compare with; without dependencies, since bpy determines
+    the version of NumPy.
+    """
     value = fingerprint([RIVALS], STAMP.read_text())
     if not is_fresh(RIVALS_STAMP, value):
         pip("install", "--no-deps", "--require-hashes", "--requirement", RIVALS)
@@ -54,7 +58,7 @@ def install_rivals() -> None:
 
 
 def install_tool(name: str, lock: Path) -> Path:
-    """A Python in the cache with a tool's packages, which stay out of .venv but find what is there."""
+    """A Python in the cache with a tool's packages, which are not in .venv but can import its packages."""
     folder = CACHE / name
     python, stamp = folder / "bin" / "python", folder / "stamp"
     value = fingerprint([lock], STAMP.read_text(), str(VENV))
@@ -64,14 +68,14 @@ def install_tool(name: str, lock: Path) -> Path:
         pip("install", "--require-hashes", "--requirement", lock, python=python)
         (packages,) = folder.glob("lib/python*/site-packages")
         (shared,) = VENV.glob("lib/python*/site-packages")
-        # a path file adds to the end: what the tool brings along goes first
+        # a path file appends: the tool's own packages come first
         (packages / "shared.pth").write_text(f"{shared}\n")
         leave(stamp, value)
     return python
 
 
 def pybind11() -> str:
-    """The folder of CMake's files of pybind11."""
+    """The folder with pybind11's CMake files."""
     code, folder = output(VENV_PYTHON, "-m", "pybind11", "--cmakedir")
     if code:
         raise DevError("pybind11 is not in .venv: run `dev.py setup` first.")
@@ -79,5 +83,5 @@ def pybind11() -> str:
 
 
 def pip(*arguments: str | Path, python: Path = VENV_PYTHON, **extra: str) -> None:
-    """Runs pip, in .venv if nothing else is said."""
+    """Runs pip, in .venv by default."""
     run(python, "-m", "pip", "--quiet", "--disable-pip-version-check", *arguments, **extra)

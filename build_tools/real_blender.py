@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Real Blenders to build, validate and try the extension in: those of the Debian roots."""
+"""Real Blenders in the Debian roots, which build, validate and test the extension."""
 
 import re
 from dataclasses import dataclass, replace
@@ -11,9 +11,9 @@ from shell import DevError, as_root, output, run, say
 ASK = "import bpy, sys; print('is', bpy.app.version_string, 'cp%d%d' % sys.version_info[:2])"
 WINDOW = (1600, 1000)
 FIRST_SCREEN = 70
-# sockets in the root's own folder alone: those without a folder would be common to all roots of a machine
+# sockets in the root's own folder only: others would be shared by all roots of a machine
 SCREEN = "-screen 0 {}x{}x24 -nolisten local"
-TIME_LIMIT = 600  # seconds: a Blender that is not done then hangs
+TIME_LIMIT = 600  # seconds, after which a Blender counts as hanging
 
 
 @dataclass(frozen=True)
@@ -22,26 +22,26 @@ class RealBlender:
 
     version: str
     root: DebianRoot
-    # of several that run at the same time, each with settings and a screen of its own
+    # one of several that run at the same time, each with its own settings and screen
     lane: int = 0
 
     @property
     def folder(self) -> Path:
-        """What Blender and we can write, as we see it; `INSIDE` for Blender."""
+        """The shared folder, as seen from outside; `INSIDE` for Blender."""
         return self.root.outside
 
     @property
     def exchange(self) -> Path:
-        """Where files for Blender and from it lie, as we see it."""
+        """The folder for files to and from Blender, as seen from outside."""
         return self.folder / "exchange"
 
     @property
     def user(self) -> str:
-        """The name of the user's folder in the common one."""
+        """The name of the user's folder in the shared one."""
         return f"user-{self.lane}"
 
     def lanes(self, count: int) -> "list[RealBlender]":
-        """So many of this Blender that may run at the same time, all with what is installed now."""
+        """Copies of this Blender, with everything installed now, that may run at the same time."""
         found = [replace(self, lane=lane) for lane in range(count)]
         for other in found[1:]:
             copied = ["cp", "--archive", self.folder / self.user, self.folder / other.user]
@@ -65,7 +65,7 @@ class RealBlender:
     def window(
         self, *arguments: str | Path, size: tuple[int, int] = WINDOW, **extra: str
     ) -> list[str]:
-        """The command line of Blender in a window on a screen of its own, drawn by the processor."""
+        """The command line of Blender in a window on its own screen, drawn by the processor."""
         width, height = map(str, size)
         number = FIRST_SCREEN + self.lane
         screen = ["xvfb-run", f"--server-num={number}"]
@@ -74,19 +74,19 @@ class RealBlender:
         return self.command(*screen, *blender, LIBGL_ALWAYS_SOFTWARE="1", **extra)
 
     def clear(self) -> None:
-        """Empties the common folder, but for what the Debian root keeps there."""
+        """Empties the shared folder, except for files of the Debian root."""
         old = [*self.folder.glob("user*"), self.exchange]
         run(*as_root("rm", "-rf", *old))
         self.exchange.mkdir(parents=True)
         self.exchange.chmod(0o777)
 
     def seen(self, path: Path) -> Path:
-        """A path in the common folder as Blender sees it."""
+        """A path in the shared folder as seen by Blender."""
         return INSIDE / path.relative_to(self.folder)
 
 
 def of_debian(root: DebianRoot) -> RealBlender:
-    """Blender in a Debian root, which is made if need be."""
+    """Blender in a Debian root, which is made if missing."""
     root.make()
     asking = ["--background", "--factory-startup", "--python-expr", ASK]
     _, text = output(*root.command("blender", *asking))

@@ -45,7 +45,7 @@ def notes(changelog: str) -> str:
 
 
 def sums(folder: Path) -> str:
-    """Hash and name of every file, as `sha256sum --check` reads them."""
+    """Hash and name of every file, for `sha256sum --check`."""
     files = sorted(path for path in folder.rglob("*") if path.is_file() and path.name != SUMS)
     return "".join(
         f"{hashlib.sha256(path.read_bytes()).hexdigest()}  {path.relative_to(folder)}\n"
@@ -54,7 +54,7 @@ def sums(folder: Path) -> str:
 
 
 def add_samples(folder: Path) -> None:
-    """A .blend file for each trade, which Blender as a Python module writes."""
+    """A .blend file for each trade, written by the bpy module."""
     if has_bpy():
         run(VENV_PYTHON, ROOT / "examples" / "sample_files.py", folder)
     else:

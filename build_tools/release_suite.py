@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The life of the extension at a user's: installed from a served repository, used, updated, removed, in each real Blender."""
+"""Tests the extension's life at a user's: installed from a served repository, used, updated, removed,
+in each real Blender.
+"""
 
 import shutil
 import zipfile
@@ -25,7 +27,7 @@ PRESET = "scripts/presets/operator/object.fairing_surface/mine.py"
 
 
 def next_version(version: str) -> str:
-    """The version of the next release that mends something."""
+    """The version of the next bug-fix release."""
     rest, _, last = version.rpartition(".")
     return f"{rest}.{int(last) + 1}"
 
@@ -44,7 +46,7 @@ def newer(path: Path) -> Path:
 
 
 def command(blender: RealBlender, *words: str) -> str:
-    """What one of Blender's commands for extensions says; its failure is an error."""
+    """The output of one of Blender's commands for extensions; its failure is an error."""
     code, text = output(*blender.headless("--online-mode", "--command", "extension", *words))
     told = "\n".join(line for line in text.splitlines() if not line.startswith("PROGRESS"))
     print(told, flush=True)
@@ -54,7 +56,7 @@ def command(blender: RealBlender, *words: str) -> str:
 
 
 def look(blender: RealBlender, stage: str, version: str) -> Tally:
-    """The script of one stage, in this Blender."""
+    """Runs the script of one stage in this Blender."""
     say(f"Blender {blender.version}: {stage}")
     script = blender.seen(blender.exchange / "tests" / f"{stage}.py")
     facts = {"DF_VERSION": version, "DF_EXTENSION": f"bl_ext.{REPOSITORY}.{PACKAGE}"}
@@ -65,19 +67,19 @@ def look(blender: RealBlender, stage: str, version: str) -> Tally:
 
 
 def check(name: str, fine: bool) -> Tally:
-    """One test that is made from outside."""
+    """One test that is made outside Blender."""
     print(f"{'PASS' if fine else 'FAIL'} {name}", flush=True)
     return Tally(passed=int(fine), failed=int(not fine))
 
 
 def traces(user: Path) -> list[str]:
-    """What of the extension lies in Blender's folder for a user; what the user made himself is none."""
+    """Files of the extension in Blender's folder for a user, without those that the user made."""
     paths = (str(path.relative_to(user)) for path in user.rglob(f"*{PACKAGE}*"))
     return sorted(path for path in paths if not path.endswith(".pyc"))
 
 
 def live(blender: RealBlender) -> Tally:
-    """All stages in one Blender."""
+    """Runs all stages in one Blender."""
     blender.clear()
     (folder := SERVED / blender.version).mkdir(parents=True, exist_ok=True)
     zipped = extension.build([blender.root.wheel()], blender)
@@ -88,7 +90,7 @@ def live(blender: RealBlender) -> Tally:
     then = next_version(now)
     with served(folder) as address:
         blender_repository.generate(blender, [zipped], folder)
-        # Blender's own repository is on the network, and tests are not
+        # Blender's own repository is on the network, which tests do not use
         words = ["--clear-all", "--name", REPOSITORY, "--url", f"{address}/index.json", REPOSITORY]
         command(blender, "repo-add", *words)
         command(blender, "install", "--sync", "--enable", PACKAGE)

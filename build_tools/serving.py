@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A folder as a static host serves it, on this machine's own network; for tests and pictures."""
+"""Serves a folder like a static host, on this machine only; for tests and pictures."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager

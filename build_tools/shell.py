@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Running other programs: what is run is shown, and a failure ends in one clear sentence."""
+"""Runs other programs: prints each command, and reports a failure in one clear sentence."""
 
 import os
 import shlex
@@ -12,16 +12,16 @@ from layout import ROOT, VENV_BIN
 
 
 class DevError(Exception):
-    """Something that the person at the keyboard has to know; shown without a traceback."""
+    """An error for the user of dev.py; shown without a traceback."""
 
 
 def say(message: str) -> None:
-    """A line of progress, in order with the output of the programs that are run."""
+    """Prints a progress line, in order with the output of programs."""
     print(f"» {message}", flush=True)
 
 
 def environment(**extra: str) -> dict[str, str]:
-    """This process's environment with the project's own tools first on the path."""
+    """This process's environment with the project's tools first on the path."""
     return {**os.environ, "PATH": f"{VENV_BIN}{os.pathsep}{os.environ['PATH']}", **extra}
 
 
@@ -36,7 +36,7 @@ def run(*command: str | Path, check: bool = True, **extra: str) -> int:
 
 
 def output(*command: str | Path, **extra: str) -> tuple[int, str]:
-    """Exit code and output (errors included) of a program that is run quietly; 127 if it is not there."""
+    """Exit code and output (with errors) of a program that runs quietly; 127 if it is not installed."""
     words = [str(word) for word in command]
     if shutil.which(words[0], path=environment()["PATH"]) is None:
         return 127, ""
@@ -52,7 +52,7 @@ def output(*command: str | Path, **extra: str) -> tuple[int, str]:
 
 
 def as_root(*command: str | Path) -> list[str]:
-    """The command line that runs `command` as root, by sudo where we are not root ourselves."""
+    """The command line that runs `command` as root, by sudo if needed."""
     words = [str(word) for word in command]
     if os.geteuid() == 0:
         return words

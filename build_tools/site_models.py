@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the page of turning surfaces loads: three.js, as Debian has it, and the models, as Blender exports them."""
+"""Files for the page with turning surfaces: three.js from Debian, and the models, exported by Blender."""
 
 import shutil
 from pathlib import Path
@@ -33,7 +33,9 @@ def add_three(static: Path) -> None:
 
 
 def add_models(static: Path) -> None:
-    """The models; made again when the package, the add-on or the examples have changed. Without bpy the page has pictures."""
+    """The models; made again if the package, the add-on or the examples have changed. Without bpy the
+    page has pictures.
+    """
     if not has_bpy():
         say("bpy exists for Python 3.11 only: pictures stand where surfaces would turn.")
         return

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The site: the Markdown documents and the package's docstrings as pages, made by Sphinx.
 
-The documents are staged as they lie in the project, so that the links between them hold in both places.
+The documents keep their places in the project, so that links between them work in both.
 """
 
 import shutil
@@ -24,7 +24,7 @@ STAGED_FOLDERS = ["docs", "benchmarks/results"]
 
 
 def stage() -> None:
-    """Lays the sources of the pages out again."""
+    """Copies the sources of the pages."""
     shutil.rmtree(SOURCE, ignore_errors=True)
     shutil.copytree(ROOT / "docs" / "site", SOURCE)
     for name in STAGED:
@@ -36,7 +36,7 @@ def stage() -> None:
 
 
 def build() -> Path:
-    """The site's folder; a warning, as of a link that leads nowhere, is an error."""
+    """Builds the site's folder; a warning, such as for a broken link, is an error."""
     native_wheel.install()
     with alone("site"):
         python = python_environment.install_tool("site", LOCK)

@@ -23,7 +23,7 @@ PAGE = """<!DOCTYPE html><link rel="stylesheet" href="turning.css">
 
 
 def main() -> None:
-    """A picture of each model."""
+    """Draws a picture of each model."""
     with TemporaryDirectory() as made:
         static = Path(made) / "static"
         shutil.copytree(SITE / "_static", static)

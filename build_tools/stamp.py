@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Skipping work whose inputs are the same as last time, by their content; doing it once at a time."""
+"""Skips work whose inputs have not changed, by their content, and prevents doing it twice at a time."""
 
 import hashlib
 from collections.abc import Iterable, Iterator
@@ -10,7 +10,7 @@ from layout import CACHE, ROOT
 
 
 def files_under(*tops: Path) -> list[Path]:
-    """All files in the given files and folders, caches left out, in a fixed order."""
+    """All files in the given files and folders, without caches, in a fixed order."""
     found = []
     for top in tops:
         found += [top] if top.is_file() else [path for path in top.rglob("*") if path.is_file()]
@@ -18,7 +18,7 @@ def files_under(*tops: Path) -> list[Path]:
 
 
 def fingerprint(files: Iterable[Path], *facts: str) -> str:
-    """One hash of the files' names and contents and of some facts that matter as well."""
+    """A hash of the files' names and contents, and of other `facts`."""
     digest = hashlib.sha256(repr(facts).encode())
     for path in files:
         digest.update(f"{path.relative_to(ROOT)}\0".encode())
@@ -27,20 +27,20 @@ def fingerprint(files: Iterable[Path], *facts: str) -> str:
 
 
 def is_fresh(stamp: Path, value: str) -> bool:
-    """Whether the work that left `stamp` was done on the very same inputs."""
+    """Whether the work that left `stamp` had the same inputs."""
     return stamp.is_file() and stamp.read_text() == value
 
 
 def leave(stamp: Path, value: str) -> None:
-    """Notes that the work is done."""
+    """Records that the work is done."""
     stamp.parent.mkdir(parents=True, exist_ok=True)
     stamp.write_text(value)
 
 
 @contextmanager
 def alone(work: str) -> Iterator[None]:
-    """Waits until no other process does the same work, which would spoil it; the end of a process gives it back."""
-    import fcntl  # which Windows lacks, where `dev.py wheels` runs
+    """Waits until no other process does the same work; the lock ends with the process."""
+    import fcntl  # not on Windows, where `dev.py wheels` runs
 
     CACHE.mkdir(exist_ok=True)
     with (CACHE / f"{work}.lock").open("w") as lock:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The form of the sources: clang-format and ruff; types: mypy; what may import what: import-linter."""
+"""Checks of the sources: format by clang-format and ruff, types by mypy, imports by import-linter."""
 
 from pathlib import Path
 
@@ -23,7 +23,7 @@ def checks() -> dict[str, list]:
         "clang-format": ["clang-format", "--dry-run", "--Werror", *cpp_files()],
         "ruff check": ["ruff", "check", *PYTHON_FOLDERS],
         "ruff format": ["ruff", "format", "--check", *PYTHON_FOLDERS],
-        # of what pyproject.toml names
+        # of those in pyproject.toml
         "mypy": ["mypy"],
         "imports": [
             *("env", f"PYTHONPATH={ROOT / 'native' / 'binding'}"),
@@ -33,7 +33,7 @@ def checks() -> dict[str, list]:
 
 
 def rewrite() -> int:
-    """Brings all sources into form; what ruff cannot mend it names."""
+    """Formats all sources; ruff names what it cannot correct."""
     run("clang-format", "-i", *cpp_files())
     run("ruff", "format", *PYTHON_FOLDERS)
     return run("ruff", "check", "--fix", *PYTHON_FOLDERS, check=False)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The test suites, one after the other, and their sum."""
+"""Runs the test suites one after another and counts the results."""
 
 import os
 from collections.abc import Callable
@@ -21,17 +21,17 @@ from shell import DevError, run, say
 from stamp import alone
 from tally import Tally, attempt, read_junit, with_exit_code
 
-# tests of one label alone, or all others
+# tests with a label, or all others
 FAULTS = ("--label-regex", "^faults$")
 NO_FAULTS = ("--label-exclude", "^faults$")
 NIGHT_OF_FUZZING = 30.0  # minutes
-# a process for each core; the tests of one file stay together, for what they share
+# a process for each core; tests of one file stay together, since they share fixtures
 ON_ALL_CORES = ("--numprocesses=auto", "--dist=loadfile")
 REPORTS = BUILD / "reports"
 
 
 def fresh_report(name: str) -> Path:
-    """The path of a report that is not there yet."""
+    """The path of a report, after deleting an old one."""
     REPORTS.mkdir(parents=True, exist_ok=True)
     path = REPORTS / f"{name}.xml"
     path.unlink(missing_ok=True)
@@ -39,13 +39,13 @@ def fresh_report(name: str) -> Path:
 
 
 def style_suite() -> Tally:
-    """Form of the sources: one check a tool."""
+    """Format of the sources: one check for each tool."""
     codes = [run(*command, check=False) for command in style.checks().values()]
     return Tally(passed=codes.count(0), failed=len(codes) - codes.count(0))
 
 
 def native_suite(preset: str, *chosen: str) -> Tally:
-    """GoogleTest through CTest, of one preset; `chosen`: which tests, in CTest's words."""
+    """GoogleTest through CTest, with one preset; `chosen`: CTest options that select tests."""
     report = fresh_report("-".join(["native", preset, *(["faults"] if chosen == FAULTS else [])]))
     run("cmake", "--preset", preset)
     run("cmake", "--build", "--preset", preset)
@@ -66,7 +66,7 @@ def pytest_suite(name: str, *options: str, **environment: str) -> Tally:
 
 
 def fuzz_suite() -> Tally:
-    """A fixed budget of random calls, and the corpus."""
+    """A fixed number of random calls, and the corpus."""
     return pytest_suite("fuzz", *ON_ALL_CORES, **fuzzing.sanitized_environment())
 
 
@@ -78,7 +78,7 @@ def addon_suite() -> Tally:
 
 
 def site_suite() -> Tally:
-    """The site, built, and looked at in a browser."""
+    """Builds the site and tests it in a browser."""
     with alone("tools"):
         system_packages.install(system_packages.SITE)
     return pytest_suite("site")
@@ -91,12 +91,12 @@ def table_line(name: str, tally: Tally, seconds: float | None = None) -> str:
     return f"{name:<16}{counts} {time}  {tally.note}".rstrip()
 
 
-# one tally, or several by what they are about
+# one tally, or several by subject
 SUITES: dict[str, Callable[[], Tally | dict[str, Tally]]] = {
     "style": style_suite,
     "native": lambda: native_suite("release", *NO_FAULTS),
     "sanitizers": lambda: native_suite("asan-ubsan", *NO_FAULTS),
-    # allocations that fail, where leaks and double frees show
+    # allocations that fail, to find leaks and double frees
     "faults": lambda: native_suite("asan-ubsan", *FAULTS),
     "python": lambda: pytest_suite("python", *ON_ALL_CORES),
     "fuzz": fuzz_suite,
@@ -109,9 +109,11 @@ SUITES: dict[str, Callable[[], Tally | dict[str, Tally]]] = {
 
 
 def nightly_suite() -> dict[str, Tally]:
-    """What is too long for every day: long scripts in every Blender, races between threads, new random calls."""
+    """Suites that take too long for every day: long scripts in every Blender, races between threads,
+    new random calls.
+    """
     blenders = blender_suite.run_suite(everything=True)
-    fuzz_failed = fuzzing.fuzz(NIGHT_OF_FUZZING) != 0  # random calls that no run has made before
+    fuzz_failed = fuzzing.fuzz(NIGHT_OF_FUZZING) != 0  # new random calls at each run
     return {
         **{f"Blender of {place}": tally for place, tally in blenders.items()},
         "races, native": native_suite(fuzzing.THREADS, *NO_FAULTS),
@@ -122,7 +124,7 @@ def nightly_suite() -> dict[str, Tally]:
     }
 
 
-# by name alone, as each takes half an hour
+# only by name, since each takes half an hour
 LONG_SUITES: dict[str, Callable[[], Tally | dict[str, Tally]]] = {
     "windows": emulated.windows,
     "arm": emulated.arm,
@@ -131,7 +133,7 @@ LONG_SUITES: dict[str, Callable[[], Tally | dict[str, Tally]]] = {
 
 
 def suite_named(name: str) -> Callable[[], Tally | dict[str, Tally]]:
-    """A suite; `blender:TEXT` is of the parts alone whose names contain TEXT."""
+    """A suite; `blender:TEXT` is the part whose scripts' names contain TEXT."""
     suite, _, part = name.partition(":")
     if part and suite != "blender":
         raise DevError(f"only parts of blender can be named, not of {suite}.")
@@ -152,7 +154,7 @@ def run_all(names: list[str]) -> int:
         parts = result if isinstance(result, dict) else {}
         whole = sum(parts.values(), Tally()) if parts else result
         total += whole
-        # the notes of a whole stand beside its parts
+        # notes of a suite are printed beside its parts
         shown = replace(whole, note="") if parts else whole
         rows.append(table_line(name, shown, monotonic() - start))
         rows += [table_line(f"  {part}", tally) for part, tally in parts.items()]

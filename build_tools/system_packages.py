@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The Debian packages that the project stands on."""
+"""The Debian packages that the project needs."""
 
 import shutil
 
@@ -15,16 +15,16 @@ BPY += ["libuuid1", "libopengl0", "libgomp1", "xvfb"]
 REAL_BLENDER = ["mmdebstrap"]
 
 ALL = NATIVE + PYTHON + BPY + REAL_BLENDER
-# for the benchmarks alone: what we are measured against, and the BLAS that does CHOLMOD justice
+# for the benchmarks only: programs to compare with, and a BLAS that is fast for CHOLMOD
 BENCHMARKS = ["libcgal-dev", "libopenblas0-pthread"]
-# for the site alone: what draws its surfaces that turn
+# for the site only: draws its turning surfaces
 PAGES = ["libjs-three"]
-# for the tests of the site alone: the browser that looks at it
+# for the site's tests only: a browser
 SITE = ["chromium", "fonts-dejavu-core"]
 
 
 def missing(packages: list[str]) -> list[str]:
-    """Those of the packages that are not installed, nor provided by another one (libxt6 by trixie's libxt6t64)."""
+    """The packages that are not installed, nor provided by another one (libxt6 by trixie's libxt6t64)."""
     _, listing = output("dpkg-query", "-W", "-f", "${db:Status-Status} ${Package}, ${Provides}\n")
     lines = [line.split(" ", 1) for line in listing.splitlines()]
     names = [names for status, names in lines if status == "installed"]
@@ -33,7 +33,7 @@ def missing(packages: list[str]) -> list[str]:
 
 
 def install(packages: list[str] = ALL) -> None:
-    """Installs what is missing; returns at once when nothing is."""
+    """Installs missing packages; returns at once if there are none."""
     if shutil.which("dpkg-query") is None:
         raise DevError(
             "this is no Debian: install " + " ".join(packages) + " or what they are called here."
@@ -43,6 +43,6 @@ def install(packages: list[str] = ALL) -> None:
         return
     say("system packages: " + " ".join(wanted))
     quiet = ["env", "DEBIAN_FRONTEND=noninteractive", "apt-get", "-qq", "-o", "Dpkg::Use-Pty=0"]
-    # an unrelated source that cannot be reached must not stop us: install tells what is really absent
+    # an unrelated source without connection must not stop this: install reports missing packages
     run(*as_root(*quiet, "update"), check=False)
     run(*as_root(*quiet, "install", "--yes", "--no-install-recommends", *wanted))

@@ -18,13 +18,13 @@ MARKED = re.compile(r"(<!-- table: ([\w.]+) -->).*?(<!-- /table -->)", re.DOTALL
 
 
 def documents() -> Iterator[Path]:
-    """All Markdown that tables may stand in."""
+    """All Markdown files that may contain tables."""
     yield from sorted(ROOT.glob("*.md"))
     yield from sorted((ROOT / "docs").rglob("*.md"))
 
 
 def filled(text: str) -> str:
-    """`text` with each table as the results have it; FileNotFoundError for a name that none has."""
+    """`text` with each table from the results; FileNotFoundError for an unknown name."""
 
     def table(match: re.Match[str]) -> str:
         return f"{match[1]}\n\n{(TABLES / f'{match[2]}.md').read_text('utf-8')}\n{match[3]}"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How many tests of a suite, or of a part of it, ended how."""
+"""Counts of a suite's tests by outcome."""
 
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Callable
@@ -14,7 +14,7 @@ Result = TypeVar("Result")
 
 @dataclass
 class Tally:
-    """Counts, and why they are as they are where that needs a word."""
+    """Counts, and notes that explain them."""
 
     passed: int = 0
     failed: int = 0
@@ -28,7 +28,7 @@ class Tally:
 
 
 def read_junit(report: Path) -> Tally:
-    """Counts a JUnit report of CTest or pytest; an absent or empty one is a failure."""
+    """Counts of a JUnit report of CTest or pytest; a missing or empty one is a failure."""
     if not report.is_file():
         return Tally(failed=1, note="ended without a report")
     cases = list(ElementTree.parse(report).iter("testcase"))
@@ -40,14 +40,14 @@ def read_junit(report: Path) -> Tally:
 
 
 def with_exit_code(tally: Tally, code: int) -> Tally:
-    """A program that fails although none of its tests did counts as one failure."""
+    """A program that fails without a failed test counts as one failure."""
     if code != 0 and tally.failed == 0:
         tally.failed, tally.note = 1, f"exit code {code}"
     return tally
 
 
 def attempt(suite: Callable[[], Result]) -> "Result | Tally":
-    """A suite that cannot even run is one failure, and no reason to leave the others out."""
+    """Runs a suite; if it cannot run, that is one failure, and the others continue."""
     try:
         return suite()
     except DevError as error:

@@ -14,7 +14,7 @@ LOCAL_PART = "DF_LOCAL_VERSION"
 
 
 def manifest_version() -> str:
-    """The project's version, from the one place where it is written."""
+    """The project's version, which the manifest defines."""
     return tomllib.loads(MANIFEST.read_text(encoding="utf-8"))["version"]
 
 
@@ -26,5 +26,5 @@ def dynamic_metadata(field, settings=None, project=None) -> str:
 
 
 def version(local: str | None) -> str:
-    """The manifest's, and the local part of a development build."""
+    """The manifest's version, with the local part of a development build."""
     return f"{manifest_version()}+{local}" if local else manifest_version()

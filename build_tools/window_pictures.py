@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The documents' pictures of Blender's window: parts of what the scripts of tests/blender/ photograph."""
+"""The documents' pictures of Blender's window: parts of screenshots by scripts of tests/blender/."""
 
 import shutil
 from collections.abc import Iterable
@@ -13,19 +13,19 @@ from stamp import alone
 
 PICTURES = ROOT / "docs" / "images" / "settings"
 VIEWPORT = "1262x814+58+84"  # with the sidebar, of a window of 1600 by 1000
-# by the names of pictures: the script, its screenshot, the part of it, how wide it becomes
+# by the picture's name: the script, its screenshot, the part, the width of the result
 PARTS = {
     "window_surface": ("window_run.py", "redo", VIEWPORT, 945),
     "window_live": ("window_live.py", "live", VIEWPORT, 945),
     "window_job": ("window_jobs.py", "job_mechanical_zebra", VIEWPORT, 945),
     "window_badge": ("window_follows.py", "badge", "560x720+1040+24", 560),
 }
-# few colours, as a window has
+# a window has few colours
 COLOURS = ("-dither", "None", "-colors", "128", "-strip")
 
 
 def cut(name: str) -> None:
-    """One picture, photographed anew and cut by the ImageMagick of the Debian root."""
+    """Takes one screenshot again, and cuts out the picture by ImageMagick in the Debian root."""
     script, screenshot, part, width = PARTS[name]
     with alone("blender"):
         blender = install(of_debian(ROOTS[0]))

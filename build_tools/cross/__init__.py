@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Wheels for the machines that this one is not: compiled here, inspected, and tried as far as emulators reach."""
+"""Wheels for other platforms: compiled here, inspected, and tested in emulators."""

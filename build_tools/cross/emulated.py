@@ -23,7 +23,7 @@ ARM_LIBRARY = CACHE / "debian-trixie-arm64"
 
 
 def tally(text: str) -> Tally:
-    """How many surfaces are within their measured bound, by the comparison's last line."""
+    """The tally of surfaces within their measured bound, from the comparison's last line."""
     found = re.search(r"^(\d+) passed, (\d+) failed", text, re.MULTILINE)
     if found is None:
         return Tally(failed=1, note="the surfaces were not compared")
@@ -33,9 +33,9 @@ def tally(text: str) -> Tally:
 def tallies(
     target: Target, folder: Path, seen: Callable[[Path], str], start: Callable[..., list]
 ) -> dict[str, Tally]:
-    """GoogleTest's own program, and this machine's surfaces compared with the target's.
+    """Runs the target's GoogleTest program, and compares its surfaces with this machine's.
 
-    `seen`: how the target's programs call a path in `folder`; `start`: the command line that runs one.
+    `seen`: the path in `folder` for the target's programs; `start`: the command line that runs one.
     """
     report, surfaces = folder / "native.xml", folder / "surfaces.bin"
     report.unlink(missing_ok=True)
@@ -51,7 +51,7 @@ def tallies(
 
 
 def windows() -> dict[str, Tally]:
-    """Under Wine; programs are copied to where it finds them."""
+    """Under Wine; programs are copied into its folder."""
     WINE.make()
     quiet = {"WINEDEBUG": "-all", "XDG_RUNTIME_DIR": "/tmp", "DISPLAY": ""}
 
@@ -73,7 +73,7 @@ def arm() -> dict[str, Tally]:
 
 
 def unpack_arm_library() -> None:
-    """The C library, unpacked and no more: nothing of it runs while that is done."""
+    """Unpacks the C library without running any of its scripts."""
     system_packages.install(["qemu-user-static", "mmdebstrap"])
     stamp, value = CACHE / f"{ARM_LIBRARY.name}.stamp", fingerprint([], "libc6")
     with alone(ARM_LIBRARY.name):

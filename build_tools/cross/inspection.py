@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether cross-compiled wheels can be loaded on the oldest system that their tag names, with nothing but themselves.
+"""Checks that cross-compiled wheels load on the oldest system of their tag without further libraries.
 
 python -m cross.inspection WHEEL…, by .venv's Python, which has LIEF.
 """
@@ -15,7 +15,7 @@ import lief
 
 LARGEST = 3_000_000  # bytes of a wheel
 
-# what every system of the kind has; Windows' C library is a part of the system since 10
+# parts of every such system; Windows has had its C library since version 10
 WINDOWS = r"(?i)kernel32\.dll|ntdll\.dll|advapi32\.dll|api-ms-win-crt-[\w-]+\.dll|ucrtbase\.dll"
 LINUX = r"lib(c|m|pthread|dl|rt)\.so\.\d+|ld-linux-(x86-64|aarch64)\.so\.\d+"
 MACOS = r"/usr/lib/libSystem\.B\.dylib"
@@ -23,18 +23,18 @@ MACOS = r"/usr/lib/libSystem\.B\.dylib"
 
 @dataclass
 class Binary:
-    """A module's needs, as far as they decide where it can be loaded."""
+    """The properties of a module that decide where it can be loaded."""
 
     processor: str
     libraries: list[str] = field(default_factory=list)
     least_system: tuple[int, ...] = ()  # glibc's or macOS's version
     exports: list[str] | None = None  # None: not read, as on macOS
     signed: bool = False
-    for_debuggers: bool = False  # has data for them; read on Linux alone
+    for_debuggers: bool = False  # has data for debuggers; read on Linux only
 
 
 def glibc(module: lief.ELF.Binary) -> tuple[int, ...]:
-    """The newest version of the C library that a module for Linux asks for."""
+    """The newest version of the C library that a module for Linux needs."""
     names = [
         v.name for file in module.symbols_version_requirement for v in file.get_auxiliary_symbols()
     ]
@@ -63,28 +63,29 @@ def read(path: Path) -> Binary:
 
 
 def allowed_libraries(tag: str, python: str) -> str:
-    """The pattern of the libraries that a module may need."""
+    """A pattern of the libraries that a module may need."""
     if tag.startswith("win"):
         return f"{WINDOWS}|{python.replace('cp', 'python')}\\.dll"
     return LINUX if "linux" in tag else MACOS
 
 
 def named_system(tag: str) -> tuple[int, ...]:
-    """The oldest system that a tag names; Windows' tag names none."""
+    """The oldest system of a tag; Windows' tags have none."""
     found = re.search(r"_(\d+)_(\d+)_", tag)
     return (int(found[1]), int(found[2])) if found else ()
 
 
 def offered(tag: str) -> str:
-    """The pattern of what a module may export.
+    """A pattern of the names that a module may export.
 
-    pybind11 asks for its exceptions on Windows, where no module takes another one's names by accident.
+    pybind11 exports its exceptions on Windows, where modules do not take each other's names by
+    accident.
     """
     return r"PyInit__native|_Z.*8pybind11.*" if tag.startswith("win") else "PyInit__native"
 
 
 def faults_of(module: Binary, tag: str, python: str) -> list[str]:
-    """What is wrong with a module for the tag of its wheel."""
+    """The faults of a module, given the tag of its wheel."""
     processor = "arm64" if tag.endswith(("aarch64", "arm64")) else "x86_64"
     allowed = allowed_libraries(tag, python)
     foreign = [name for name in module.libraries if not re.fullmatch(allowed, name)]
@@ -104,7 +105,7 @@ def faults_of(module: Binary, tag: str, python: str) -> list[str]:
 
 
 def faults(wheel: Path) -> list[str]:
-    """What is wrong with a wheel."""
+    """The faults of a wheel."""
     python = wheel.stem.split("-")[2]
     with tempfile.TemporaryDirectory() as made, zipfile.ZipFile(wheel) as archive:
         modules = [name for name in archive.namelist() if name.endswith((".so", ".pyd", ".dylib"))]

@@ -16,7 +16,7 @@ from cross.sources import openmesh, zig
 from cross.targets import Target
 
 TOOLCHAIN = ROOT / "build_tools" / "cross" / "toolchain.cmake"
-GOOGLETEST = Path("/usr/src/googletest")  # Debian's libgtest-dev brings it
+GOOGLETEST = Path("/usr/src/googletest")  # from Debian's libgtest-dev
 
 
 def build_folder(target: Target) -> Path:
@@ -39,7 +39,7 @@ def settings(target: Target) -> dict[str, str | Path]:
 
 
 def python_settings(target: Target, python: str) -> dict[str, str | Path]:
-    """CMake's variables that say which Python the binding is for."""
+    """CMake's variables for the binding's Python."""
     found: dict[str, str | Path] = {
         "Python_INCLUDE_DIR": headers(target, python),
         "PYTHON_MODULE_EXTENSION": target.suffix(python),
@@ -52,7 +52,7 @@ def python_settings(target: Target, python: str) -> dict[str, str | Path]:
 
 def configure(target: Target, variables: dict[str, str | Path]) -> None:
     """Runs CMake in a target's folder."""
-    forget = ["-UPython_*", "-U_Python_*"]  # what CMake found of another Python
+    forget = ["-UPython_*", "-U_Python_*"]  # results of CMake for another Python
     words = [*forget, *(f"-D{name}={value}" for name, value in variables.items())]
     run("cmake", "-G", "Ninja", "-S", ROOT, "-B", build_folder(target), *words)
 
@@ -78,10 +78,10 @@ def module(target: Target, python: str) -> Path:
 
 
 def stripped(made: Path, *what: str) -> Path:
-    """A module without the data for debuggers that zig's own libraries bring: two thirds of it for Linux; for macOS
-    these name the folder where it was compiled.
+    """A module without data for debuggers from zig's own libraries: two thirds of it on Linux; on macOS
+    they contain the path of the build folder.
 
-    The linker could leave them out, but then zig builds its libraries once more.
+    The linker could leave them out, but then zig builds its libraries again.
     """
     system_packages.install(["llvm"])
     path = made.parent / "stripped" / made.name

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What compiling for a Python takes that is not on this machine: its headers and, on Windows, its import library."""
+"""Headers and, for Windows, import libraries of Pythons that are not on this machine."""
 
 import re
 import shutil
@@ -11,12 +11,12 @@ from cross.sources import FOLDER, PYTHON_SOURCES, only_folder, zig
 from cross.targets import Target
 
 HERE = Path(__file__).resolve().parent
-# the functions and objects of Python that pybind11 uses; a name that is missing is an error of the linker
+# the functions and objects of Python that pybind11 uses; a missing name is a linker error
 NAMES = HERE / "python_names.txt"
 
 
 def is_header(name: str) -> bool:
-    """Whether we need a file of Python's sources."""
+    """Whether a file of Python's sources is needed."""
     return re.search(r"^[^/]+/(Include/.*\.h|PC/pyconfig\.h(\.in)?)$", name) is not None
 
 
@@ -28,12 +28,13 @@ def headers(target: Target, python: str) -> Path:
     config = HERE / "pyconfig.h"
     if target.is_windows:
         (config,) = (source / "PC").glob("pyconfig.h*")
-    shutil.copy2(config, folder / "pyconfig.h")  # with its time, or all is compiled again
+    # with its time, or everything would be compiled again
+    shutil.copy2(config, folder / "pyconfig.h")
     return folder
 
 
 def definition(python: str) -> str:
-    """The module definition that says what a Python's library exports, as far as we use it."""
+    """The module definition with the used exports of a Python's library."""
     lines = [line.split() for line in NAMES.read_text().splitlines() if not line.startswith("#")]
     names = [name for name, *only in lines if python in (only or [python])]
     library = python.replace("cp", "python")
@@ -41,7 +42,7 @@ def definition(python: str) -> str:
 
 
 def import_library(python: str) -> Path:
-    """What a module for Windows is linked with, so that it finds Python when it is loaded."""
+    """The import library by which a module for Windows finds Python when it is loaded."""
     folder = FOLDER / "headers"
     folder.mkdir(parents=True, exist_ok=True)
     library = folder / f"{python.replace('cp', 'python')}.lib"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What cross compilation takes from elsewhere, each at one version with its hash: zig by pip, sources from Debian."""
+"""Sources for cross compilation, each at one version with its hash: zig by pip, others from Debian."""
 
 import hashlib
 import shutil
@@ -19,7 +19,7 @@ ZIG = ROOT / "build_tools" / "requirements_zig.lock"
 
 
 def debian(file: str, folder: Path) -> None:
-    """Brings a file of the pool of the mirror that this machine's apt uses."""
+    """Downloads a file from the pool of the mirror that apt uses."""
     _, text = output("apt-get", "indextargets", "--format", "$(REPO_URI)")
     mirrors = [mirror for mirror in text.split() if "security" not in mirror]
     if not mirrors:
@@ -40,7 +40,7 @@ class Source:
         return FOLDER / "archives" / Path(self.file).name
 
     def fetch(self) -> Path:
-        """The archive, fetched if it is not there; an archive with another hash is refused."""
+        """The archive, downloaded if missing; an archive with another hash is refused."""
         if not self.archive.is_file():
             say(f"fetching {self.archive.name}")
             self.archive.parent.mkdir(parents=True, exist_ok=True)
@@ -64,21 +64,21 @@ class Source:
             )
 
     def unpacked(self, wanted: Callable[[str], bool] = lambda name: True) -> Path:
-        """The folder of the archive's files, those alone whose names are `wanted`."""
+        """The folder of the archive's files, only those with `wanted` names."""
         folder, stamp = FOLDER / self.name, FOLDER / f"{self.name}.stamp"
         with alone("cross-sources"):
             if not (is_fresh(stamp, self.sha256) and folder.is_dir()):
                 archive = self.fetch()
                 shutil.rmtree(folder, ignore_errors=True)
                 with tarfile.open(archive) as file:
-                    # hashes vouch for them
+                    # their hashes are checked
                     file.extractall(folder, [m for m in file if wanted(m.name)])
                 leave(stamp, self.sha256)
         return folder
 
 
 def only_folder(folder: Path) -> Path:
-    """The one folder that an archive of sources holds."""
+    """The single folder in an archive of sources."""
     (found,) = (path for path in folder.iterdir() if path.is_dir())
     return found
 
@@ -108,7 +108,7 @@ def zig() -> Path:
     with alone("zig"):
         python = install_tool("zig", ZIG)
     (program,) = python.parent.parent.glob("lib/python*/site-packages/ziglang/zig")
-    for tool in ("ar", "ranlib"):  # CMake wants programs of one word
+    for tool in ("ar", "ranlib"):  # CMake needs programs without arguments
         script = program.with_name(f"zig-{tool}")
         script.write_text(f'#!/bin/sh\nexec "{program}" {tool} "$@"\n')
         script.chmod(0o755)

@@ -9,12 +9,12 @@ PYTHONS = ("cp311", "cp313")
 
 @dataclass(frozen=True)
 class Target:
-    """One platform, as each tool calls it."""
+    """One platform, with its name in each tool."""
 
-    name: str  # as Blender does
-    zig: str  # the oldest system is a part of it
+    name: str  # Blender's name
+    zig: str  # includes the oldest system
     wheel_tag: str
-    module_suffix: str  # of an extension module, {tag} and {digits} being of the Python
+    module_suffix: str  # of an extension module; {tag} and {digits} belong to the Python
 
     @property
     def is_windows(self) -> bool:
@@ -25,7 +25,7 @@ class Target:
         return self.name.startswith("macos")
 
     def suffix(self, python: str) -> str:
-        """What follows the name of a module for a Python, "cp311"."""
+        """The suffix of a module for a Python such as "cp311"."""
         return self.module_suffix.format(tag=python, digits=python.removeprefix("cp"))
 
 

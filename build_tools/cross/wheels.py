@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Wheels for other platforms: the package's Python files, a cross-compiled module, the metadata that pip would write."""
+"""Wheels for other platforms: the package's Python files, a cross-compiled module, and metadata like
+pip's.
+"""
 
 import re
 import shutil
@@ -18,20 +20,20 @@ from cross.targets import PYTHONS, Target
 
 PACKAGE = ROOT / "native" / "binding" / "discrete_fairing"
 WHEELS = native_build.BUILD / "wheels" / "cross"
-# as a build front end asks for it, without compiling
+# like a build front end, without compiling
 METADATA = (
     "import sys, scikit_build_core.build as b; b.prepare_metadata_for_build_wheel(sys.argv[1])"
 )
 
 
 def stage(folder: Path) -> None:
-    """Lays out the package and its metadata, for any platform."""
+    """Copies the package and its metadata, for any platform."""
     shutil.copytree(PACKAGE, folder / PACKAGE.name, ignore=shutil.ignore_patterns("__pycache__"))
     run(VENV_PYTHON, "-c", METADATA, folder, **{LOCAL_PART: local_version()})
 
 
 def pack(staged: Path, module: Path, tag: str, folder: Path) -> Path:
-    """Packs what is staged with the module of one Python and platform."""
+    """Packs the staged files with the module of one Python and platform."""
     with tempfile.TemporaryDirectory() as place:
         made = Path(shutil.copytree(staged, Path(place) / "wheel"))
         shutil.copy(module, made / PACKAGE.name)
@@ -45,7 +47,7 @@ def pack(staged: Path, module: Path, tag: str, folder: Path) -> Path:
 
 
 def inspect(wheels: list[Path]) -> None:
-    """A wheel that its tag's systems could not load is an error."""
+    """Raises an error for wheels that their tags' systems could not load."""
     tools = str(ROOT / "build_tools")
     code, text = output(VENV_PYTHON, "-m", "cross.inspection", *wheels, PYTHONPATH=tools)
     if code:
@@ -53,7 +55,7 @@ def inspect(wheels: list[Path]) -> None:
 
 
 def build(target: Target, pythons: tuple[str, ...] = PYTHONS) -> list[Path]:
-    """One platform's wheels, compiled and inspected; returns at once when nothing changed."""
+    """The wheels of one platform, compiled and inspected; returns at once if nothing has changed."""
     with alone("cross"):
         folder, stamp = WHEELS / target.name, CACHE / f"cross-{target.name}.stamp"
         tools = files_under(ROOT / "build_tools" / "cross", ZIG)
