@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Makes Blender's repository of the zips, for any static host: a listing that Blender reads, and a page
-to drag zips from.
-"""
+"""Makes Blender's repository of the zips, for any static host: a listing for Blender, and a page to drag zips from."""
 
 import shutil
 from pathlib import Path

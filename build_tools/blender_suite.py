@@ -22,13 +22,11 @@ EXAMPLES = ROOT / "examples"
 SCREENSHOTS = OUT / "screenshots"
 HEADLESS, WINDOW, ENDURANCE = "headless_*.py", "window_*.py", "*_endurance.py"
 HUNG = (124, 137)  # exit codes of timeout(1)
-# Over a minute each: together more than half of a Blender's time. Each runs in one Blender, all other
-# scripts in every one; `nightly`, and a script given by name, in every Blender. They take turns, so
-# that each Blender has about equal work.
+# Over a minute each, together more than half of a Blender's time: each runs in one Blender, in turn; all other
+# scripts, `nightly`, and a script given by name run in every Blender.
 LONG = ["window_run.py", "window_live.py", "window_jobs.py", "headless_endurance.py"]
 # They measure how long a window stops, so no other script runs beside them in the same Blender.
 TIMED = ["window_gaps.py", "window_redo.py"]
-# scripts that run at the same time in one Blender, since they wait for half of their time
 LANES = 2
 
 
@@ -54,11 +52,10 @@ def count(code: int, text: str, script: str) -> Tally:
 
 
 def counting_allocator(script: Path) -> dict[str, str]:
-    """Environment variables for a script that counts memory left by a run: they select the C library's
-    allocator.
+    """Environment variables for a script that counts memory left by a run: they select the C library's allocator.
 
-    It reports the bytes in use, exactly if its caches for threads are off. Blender's own allocators
-    (jemalloc, TBB's) keep reserves that vary by megabytes.
+    It reports the bytes in use, exactly if its caches for threads are off. Blender's own allocators (jemalloc, TBB's)
+    keep reserves that vary by megabytes.
     """
     if not script.match(ENDURANCE):
         return {}
@@ -107,13 +104,14 @@ def left_to_others(root: DebianRoot) -> set[str]:
 
 
 def try_all(blender: RealBlender, wanted: str, left_out: set[str]) -> Tally:
-    """Runs every script whose name contains `wanted`, except `left_out`, in one Blender with the
-    extension.
-    """
+    """Runs every script whose name contains `wanted`, except `left_out`, in one Blender with the extension."""
     folder = blender.exchange / SCRIPTS.name
     ignored = shutil.ignore_patterns("__pycache__", "images", "notes")
-    # models and calls of these folders are tested too
-    for scripts in (SCRIPTS, EXAMPLES, ROOT / "docs"):
+    for scripts in (
+        SCRIPTS,
+        EXAMPLES,
+        ROOT / "docs",
+    ):  # models and calls of these folders are tested too
         shutil.copytree(scripts, blender.exchange / scripts.name, ignore=ignored)
     (blender.exchange / "screenshots").mkdir()
     scripts = [
@@ -124,7 +122,6 @@ def try_all(blender: RealBlender, wanted: str, left_out: set[str]) -> Tally:
     ]
     if not scripts:
         return Tally(failed=1, note=f"no script for '{wanted}'")
-    # the long ones first, so that none is left for the end
     scripts.sort(key=lambda path: path.name not in LONG)
     lanes = blender.lanes(LANES)
     done = run_in_lanes(lanes, [script for script in scripts if script.name not in TIMED])
@@ -136,9 +133,7 @@ def try_all(blender: RealBlender, wanted: str, left_out: set[str]) -> Tally:
 
 
 def in_each(work: Callable[[RealBlender], Tally], workers: int | None = None) -> dict[str, Tally]:
-    """The tally of `work` in each Blender, `workers` at a time; a Blender that cannot be made is one
-    failure.
-    """
+    """The tally of `work` in each Blender, `workers` at a time; a Blender that cannot be made is one failure."""
 
     def tally(root: DebianRoot) -> Tally:
         blender = of_debian(root)
@@ -150,11 +145,10 @@ def in_each(work: Callable[[RealBlender], Tally], workers: int | None = None) ->
 
 
 def run_suite(wanted: str = "", everything: bool = False) -> dict[str, Tally]:
-    """The tallies by Blender. Long scripts run in one of them, unless they are `wanted` or `everything`
-    is set.
+    """The tallies by Blender. Long scripts run in one of them, unless they are `wanted` or `everything` is set.
 
-    Each Blender has its own folder, settings and screen. Only one suite runs at a time, since the next
-    one uses the same folders.
+    Each Blender has its own folder, settings and screen. Only one suite runs at a time, since the next one uses the
+    same folders.
     """
 
     def prepare(blender: RealBlender) -> Tally:
@@ -168,7 +162,6 @@ def run_suite(wanted: str = "", everything: bool = False) -> dict[str, Tally]:
         return try_all(blender, wanted, set() if all_scripts else left_to_others(blender.root))
 
     with alone("blender"):
-        # all before the first test: compilers use all cores, so scripts in windows would run out of
-        # time
+        # all before the first test: compilers use all cores, so scripts in windows would run out of time
         prepared = in_each(prepare, workers=1)
         return in_each(work)

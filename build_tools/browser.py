@@ -11,7 +11,6 @@ TIME_LIMIT = 300  # seconds
 
 def _run(address: str, *options: str) -> str:
     words = ["chromium", "--headless", "--no-sandbox", "--hide-scrollbars", *GRAPHICS]
-    # nothing turns, so that pictures are reproducible
     words += ["--force-prefers-reduced-motion", f"--virtual-time-budget={PATIENCE}"]
     done = subprocess.run(
         [*words, *options, address], check=True, timeout=TIME_LIMIT, capture_output=True, text=True

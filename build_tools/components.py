@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes the list of components, CycloneDX 1.6 as JSON: the code that is compiled into a release's
-wheels.
-"""
+"""Writes the list of components, CycloneDX 1.6 as JSON: the code that is compiled into a release's wheels."""
 
 import json
 import re
@@ -14,8 +12,7 @@ from shell import DevError
 
 SOURCES, DEPENDENCIES = "build_tools/cross/sources.py", "cmake/dependencies.cmake"
 ZIG = r"build_tools/requirements_zig.txt ziglang==([\d.]+)"
-# as in THIRD_PARTY_LICENSES.txt: name, the file and pattern of the version in releases, licence, page,
-# package
+# as in THIRD_PARTY_LICENSES.txt: name, the file and pattern of the version in releases, licence, page, package
 LIBRARIES = (
     ("OpenMesh", rf"{SOURCES} openmesh_([\d.]+)\.orig", "BSD-3-Clause")
     + ("https://www.graphics.rwth-aachen.de/software/openmesh/", "generic/openmesh"),
@@ -42,9 +39,7 @@ def version_in(place: str) -> str:
 
 
 def component(name: str, version: str, licence: str, page: str, package: str) -> dict[str, Any]:
-    """A component whose code is in the wheels; `package` is its type and name as a package,
-    "pypi/pybind11".
-    """
+    """A component whose code is in the wheels; `package` is its type and name as a package, "pypi/pybind11"."""
     url = f"pkg:{package}@{version}" if version[0].isdigit() else f"pkg:{package}"
     return {
         "type": "library",

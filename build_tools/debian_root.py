@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Debian systems in folders, each for its Blender, its Python and its libraries.
 
-Their mounts are in a mount namespace of their own, so nothing needs unmounting, however a command ends,
-and deleting the cache can never reach through a mount into the project.
+Their mounts are in a mount namespace of their own, so nothing needs unmounting, however a command ends, and deleting
+the cache can never reach through a mount into the project.
 """
 
 import shutil
@@ -107,7 +107,6 @@ class DebianRoot:
             )
         run(*as_root("mkdir", "-p", self.folder / "project", self.outside))
         run(*as_root("chmod", "1777", self.outside))
-        # Blender searches for disks
         run(*as_root("ln", "-sf", "/proc/self/mounts", self.folder / "etc" / "mtab"))
 
     def wheel(self) -> Path:

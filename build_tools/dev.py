@@ -68,8 +68,7 @@ def test(given: Namespace) -> int:
     """All suites, or those named; the last line counts the tests. By name alone: windows, arm, nightly."""
     from suites import run_all
 
-    # not the wheel: suites that need it build it, so that the others run where it cannot be built
-    setup_tools()
+    setup_tools()  # not the wheel: suites that need it build it, so that the others run where it cannot be built
     return run_all(given.names)
 
 

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Makes the extension's zips, one for each platform: staged, then built and validated by Blender
-itself.
+"""Makes the extension's zips, one for each platform: staged, then built and validated by Blender itself.
 
 Blender requires `__init__.py` beside the manifest, so addon/ and the root are combined in one folder.
 """
@@ -129,9 +128,7 @@ def wheels_at_hand() -> list[list[Path]]:
 
 
 def zips(folder: Path | None, names: list[str] | None = None) -> list[list[Path]]:
-    """The wheels in a folder or, without one, those compiled for the named platforms or for all; by
-    platform.
-    """
+    """The wheels in a folder or, without one, those compiled for the named platforms or for all; by platform."""
     from cross.targets import TARGETS, target_named
     from cross.wheels import build as compile_for
 
@@ -152,9 +149,7 @@ def wheels_in(folder: Path) -> list[list[Path]]:
 
 
 def build_all(zips: list[list[Path]]) -> list[Path]:
-    """A zip for each list of wheels, under out/, built by a Blender with a wheel's Python if there is
-    one.
-    """
+    """A zip for each list of wheels, under out/, built by a Blender with a wheel's Python if there is one."""
     folder = OUT / "extension"
     with alone("blender"):
         blenders = [of_debian(root) for root in ROOTS]

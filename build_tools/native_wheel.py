@@ -12,8 +12,9 @@ from wheel_version import LOCAL_PART, manifest_version
 
 WHEELS = BUILD / "wheels"
 STAMP = VENV / "stamps" / "wheel"
-# the folder of the preset for tests, so that the core is compiled once for both
-RELEASE = BUILD / "release"
+RELEASE = (
+    BUILD / "release"
+)  # the folder of the preset for tests, so that the core is compiled once for both
 # -Werror only here; other compilers may have new warnings
 PIP_WHEEL = ["wheel", "--no-deps", "--no-build-isolation"]
 PIP_WHEEL += ["--config-settings=cmake.define.DF_WARNINGS_AS_ERRORS=ON"]

@@ -77,9 +77,7 @@ def page(made: dict[str, tuple[str, str, str, str]]) -> str:
 
 
 def note(names: Iterable[str]) -> None:
-    """Writes the present date for these pictures; pictures that no longer exist are removed from the
-    page.
-    """
+    """Writes the present date for these pictures; pictures that no longer exist are removed from the page."""
     code, commit = output("git", "log", "-1", "--format=%h")
     if code != 0:
         raise DevError("pictures are dated by a git commit.")

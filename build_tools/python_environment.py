@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The project's own Python in .venv, with every dependency at an exact version, and Pythons for single
-tools.
-"""
+"""The project's own Python in .venv, with every dependency at an exact version, and Pythons for single tools."""
 
 import shutil
 import sys
@@ -48,9 +46,7 @@ def install() -> None:
 
 
 def install_rivals() -> None:
-    """Installs the programs that benchmarks compare with; without dependencies, since bpy determines
-    the version of NumPy.
-    """
+    """Installs the programs that benchmarks compare with; without dependencies, since bpy needs its NumPy."""
     value = fingerprint([RIVALS], STAMP.read_text())
     if not is_fresh(RIVALS_STAMP, value):
         pip("install", "--no-deps", "--require-hashes", "--requirement", RIVALS)

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tests the extension's life at a user's: installed from a served repository, used, updated, removed,
-in each real Blender.
-"""
+"""Tests the extension's life at a user's in each real Blender: installed from a repository, used, updated, removed."""
 
 import shutil
 import zipfile

@@ -33,9 +33,7 @@ def add_three(static: Path) -> None:
 
 
 def add_models(static: Path) -> None:
-    """The models; made again if the package, the add-on or the examples have changed. Without bpy the
-    page has pictures.
-    """
+    """The models; made again after changes of package, add-on or examples. Without bpy the page has pictures."""
     if not has_bpy():
         say("bpy exists for Python 3.11 only: pictures stand where surfaces would turn.")
         return

@@ -23,7 +23,6 @@ def checks() -> dict[str, list]:
         "clang-format": ["clang-format", "--dry-run", "--Werror", *cpp_files()],
         "ruff check": ["ruff", "check", *PYTHON_FOLDERS],
         "ruff format": ["ruff", "format", "--check", *PYTHON_FOLDERS],
-        # of those in pyproject.toml
         "mypy": ["mypy"],
         "imports": [
             *("env", f"PYTHONPATH={ROOT / 'native' / 'binding'}"),

@@ -21,7 +21,6 @@ from shell import DevError, run, say
 from stamp import alone
 from tally import Tally, attempt, read_junit, with_exit_code
 
-# tests with a label, or all others
 FAULTS = ("--label-regex", "^faults$")
 NO_FAULTS = ("--label-exclude", "^faults$")
 NIGHT_OF_FUZZING = 30.0  # minutes
@@ -91,7 +90,6 @@ def table_line(name: str, tally: Tally, seconds: float | None = None) -> str:
     return f"{name:<16}{counts} {time}  {tally.note}".rstrip()
 
 
-# one tally, or several by subject
 SUITES: dict[str, Callable[[], Tally | dict[str, Tally]]] = {
     "style": style_suite,
     "native": lambda: native_suite("release", *NO_FAULTS),
@@ -109,9 +107,7 @@ SUITES: dict[str, Callable[[], Tally | dict[str, Tally]]] = {
 
 
 def nightly_suite() -> dict[str, Tally]:
-    """Suites that take too long for every day: long scripts in every Blender, races between threads,
-    new random calls.
-    """
+    """Suites too long for every day: long scripts in every Blender, races between threads, new random calls."""
     blenders = blender_suite.run_suite(everything=True)
     fuzz_failed = fuzzing.fuzz(NIGHT_OF_FUZZING) != 0  # new random calls at each run
     return {
@@ -154,7 +150,6 @@ def run_all(names: list[str]) -> int:
         parts = result if isinstance(result, dict) else {}
         whole = sum(parts.values(), Tally()) if parts else result
         total += whole
-        # notes of a suite are printed beside its parts
         shown = replace(whole, note="") if parts else whole
         rows.append(table_line(name, shown, monotonic() - start))
         rows += [table_line(f"  {part}", tally) for part, tally in parts.items()]

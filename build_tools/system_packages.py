@@ -17,9 +17,7 @@ REAL_BLENDER = ["mmdebstrap"]
 ALL = NATIVE + PYTHON + BPY + REAL_BLENDER
 # for the benchmarks only: programs to compare with, and a BLAS that is fast for CHOLMOD
 BENCHMARKS = ["libcgal-dev", "libopenblas0-pthread"]
-# for the site only: draws its turning surfaces
 PAGES = ["libjs-three"]
-# for the site's tests only: a browser
 SITE = ["chromium", "fonts-dejavu-core"]
 
 

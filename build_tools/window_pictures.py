@@ -20,7 +20,6 @@ PARTS = {
     "window_job": ("window_jobs.py", "job_mechanical_zebra", VIEWPORT, 945),
     "window_badge": ("window_follows.py", "badge", "560x720+1040+24", 560),
 }
-# a window has few colours
 COLOURS = ("-dither", "None", "-colors", "128", "-strip")
 
 

@@ -78,8 +78,7 @@ def named_system(tag: str) -> tuple[int, ...]:
 def offered(tag: str) -> str:
     """A pattern of the names that a module may export.
 
-    pybind11 exports its exceptions on Windows, where modules do not take each other's names by
-    accident.
+    pybind11 exports its exceptions on Windows, where modules do not take each other's names by accident.
     """
     return r"PyInit__native|_Z.*8pybind11.*" if tag.startswith("win") else "PyInit__native"
 

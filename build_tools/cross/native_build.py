@@ -78,8 +78,8 @@ def module(target: Target, python: str) -> Path:
 
 
 def stripped(made: Path, *what: str) -> Path:
-    """A module without data for debuggers from zig's own libraries: two thirds of it on Linux; on macOS
-    they contain the path of the build folder.
+    """A module without data for debuggers from zig's own libraries: two thirds of it on Linux; on macOS they contain
+    the path of the build folder.
 
     The linker could leave them out, but then zig builds its libraries again.
     """

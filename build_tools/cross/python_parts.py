@@ -28,8 +28,9 @@ def headers(target: Target, python: str) -> Path:
     config = HERE / "pyconfig.h"
     if target.is_windows:
         (config,) = (source / "PC").glob("pyconfig.h*")
-    # with its time, or everything would be compiled again
-    shutil.copy2(config, folder / "pyconfig.h")
+    shutil.copy2(
+        config, folder / "pyconfig.h"
+    )  # with its time, or everything would be compiled again
     return folder
 
 

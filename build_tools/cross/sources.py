@@ -88,7 +88,6 @@ OPENMESH = Source(
     "o/openmesh/openmesh_11.0.0.orig.tar.gz",
     "c7f35d29673e6dbb6d65b214c10c4c6249521a8f1e8f8db6e8bdc2eed798aedc",
 )
-# for their headers
 PYTHON_SOURCES = {
     "cp311": Source(
         "python311",

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Wheels for other platforms: the package's Python files, a cross-compiled module, and metadata like
-pip's.
-"""
+"""Wheels for other platforms: the package's Python files, a cross-compiled module, and metadata like pip's."""
 
 import re
 import shutil
@@ -20,7 +18,6 @@ from cross.targets import PYTHONS, Target
 
 PACKAGE = ROOT / "native" / "binding" / "discrete_fairing"
 WHEELS = native_build.BUILD / "wheels" / "cross"
-# like a build front end, without compiling
 METADATA = (
     "import sys, scikit_build_core.build as b; b.prepare_metadata_for_build_wheel(sys.argv[1])"
 )
