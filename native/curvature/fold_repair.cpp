@@ -199,7 +199,7 @@ void FoldRepair::refill(const Array<float>& marks, Array<double>& x) {
   refine_linearly(it_.grid(), constraints_.targets(), it_.workers(), linear.data());
   fill_harmonically(it_.grid(), constraints_.any() ? constraints_.without_held() : unknowns, marks,
                     linear.data(), x.data());
-  it_.system.symmetrizer().points(it_.grid(), x);
+  it_.system.symmetrize(it_.level, x);
 }
 
 // Marks the surroundings of points whose energy has grown so much that the total is no longer

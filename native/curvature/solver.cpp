@@ -28,12 +28,12 @@ GaussNewtonSolver::GaussNewtonSolver(const ControlMesh& mesh, const GridLevels& 
                                      const Stencils& stencils, const Unknowns& unknowns,
                                      const GaussNewtonOptions& options,
                                      IntervalConstraints constraints, const Pads* pads,
-                                     Mirrors mirrors, Workers& workers, Monitor& monitor)
+                                     Symmetry symmetry, Workers& workers, Monitor& monitor)
     : options_(options),
       constraints_(std::move(constraints)),
       pads_{pads},
       system_(mesh, grids, base, stencils, unknowns, options,
-              constraints_.any() ? &constraints_ : nullptr, std::move(mirrors), workers, monitor),
+              constraints_.any() ? &constraints_ : nullptr, std::move(symmetry), workers, monitor),
       iterate_{system_},
       next_level_(base),
       folded_faces_(folded_control_faces(mesh, constraints_.targets(), workers)),
@@ -171,7 +171,7 @@ void GaussNewtonSolver::keep_start_if_worse(const StepStart& start, const Array<
 void GaussNewtonSolver::keep(const Array<double>& x, const StepStart& start,
                              CurvatureLevelReport& report) {
   surface() = x;
-  system_.symmetrizer().points(iterate_.grid(), surface());
+  system_.symmetrize(iterate_.level, surface());
   iterate_.current.held = start.held;
   iterate_.linearize();
   report.energy = iterate_.op().objective();
@@ -202,18 +202,18 @@ bool GaussNewtonSolver::is_settled(const CurvatureLevelReport& report) {
 // If steps were damped, or control vertices may move, all levels are solved again.
 bool GaussNewtonSolver::can_move() const { return solved_.is_sound && !constraints_.any(); }
 
-bool GaussNewtonSolver::solve_moved(Mirrors mirrors, Array<double>& found,
+bool GaussNewtonSolver::solve_moved(Symmetry symmetry, Array<double>& found,
                                     CurvatureLevelReport& report) {
   std::swap(surface(), found);
-  const bool is_sound = steps_go_well(std::move(mirrors), report);
+  const bool is_sound = steps_go_well(std::move(symmetry), report);
   std::swap(surface(), found);
   return is_sound;
 }
 
-bool GaussNewtonSolver::steps_go_well(Mirrors mirrors, CurvatureLevelReport& report) {
-  system_.symmetrizer().set_mirrors(std::move(mirrors));
+bool GaussNewtonSolver::steps_go_well(Symmetry symmetry, CurvatureLevelReport& report) {
+  system_.set_symmetry(std::move(symmetry));
   folded_faces_ = folded_control_faces(system_.mesh(), constraints_.targets(), iterate_.workers());
-  system_.symmetrizer().points(iterate_.grid(), surface());
+  system_.symmetrize(iterate_.level, surface());
   iterate_.linearize();
   report.level = iterate_.level;
   report.plate_energy = NAN;  // unknown: the thin plate's surface has not been linearized

@@ -16,12 +16,12 @@ class GaussNewtonSolver {
  public:
   // `levels`: all from 0 on; those below `base` have no unknowns. `constraints`: those of control
   // vertices that move, and the targets of all. `pads`: the pads of control vertices while total
-  // curvature is minimized, or null; their widths may change before each level. `mirrors`:
-  // symmetries of the surface to keep. All references must outlive the solver.
+  // curvature is minimized, or null; their widths may change before each level. `symmetry`:
+  // that of the surface, to keep. All references must outlive the solver.
   GaussNewtonSolver(const ControlMesh& mesh, const GridLevels& grids, int base,
                     const Stencils& stencils, const Unknowns& unknowns,
                     const GaussNewtonOptions& options, IntervalConstraints constraints,
-                    const Pads* pads, Mirrors mirrors, Workers& workers, Monitor& monitor);
+                    const Pads* pads, Symmetry symmetry, Workers& workers, Monitor& monitor);
 
   // Solves the next level, from `base` on. It starts at `plate`, the thin plate's surface (3
   // numbers a point, in working coordinates), or, above the coarsest level, at one from the level
@@ -33,7 +33,7 @@ class GaussNewtonSolver {
   // and improves `surface`. False if the steps fail; then another solver must solve level by level.
   // Requires can_move(). Throws as solve_next_level().
   bool can_move() const;
-  bool solve_moved(Mirrors mirrors, Array<double>& surface, CurvatureLevelReport& report);
+  bool solve_moved(Symmetry symmetry, Array<double>& surface, CurvatureLevelReport& report);
 
   // The pads that are active after the levels so far; null: none.
   const Pads* pads() { return pads_.now(); }
@@ -88,7 +88,7 @@ class GaussNewtonSolver {
   double energy_bound(const CurvatureLevelReport& report);
   // Whether the steps are near a solution and have less energy than the thin plate.
   bool is_settled(const CurvatureLevelReport& report);
-  bool steps_go_well(Mirrors mirrors, CurvatureLevelReport& report);
+  bool steps_go_well(Symmetry symmetry, CurvatureLevelReport& report);
   // Whether a part of the surface x is far from the mesh.
   bool has_diverged(const Array<double>& x, const Array<double>& plate);
   void keep_start_if_worse(const StepStart& start, const Array<double>& plate,

@@ -62,7 +62,7 @@ class Candidates {
   bool is_unknown(std::size_t p) const { return diagonal_[p] > 0; }
 
   void accept_if_lower() {
-    it_.system.symmetrizer().points(it_.grid(), trial());
+    it_.system.symmetrize(it_.level, trial());
     it_.trial.functional = it_.current.functional;
     it_.system.linearize(it_.level, it_.trial);
     const double objective = it_.op().objective();
@@ -82,7 +82,7 @@ class Candidates {
 void start_at_plate(SurfaceIterate& iterate, int level, const Array<double>& plate) {
   iterate.level = level;
   iterate.current.points = plate;
-  iterate.system.symmetrizer().points(iterate.grid(), iterate.current.points);
+  iterate.system.symmetrize(iterate.level, iterate.current.points);
 }
 
 void choose_start(SurfaceIterate& iterate, int level, Pads* pads, const Array<double>& plate,

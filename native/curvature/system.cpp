@@ -33,20 +33,10 @@ HierarchyOptions hierarchy_options(const Unknowns& unknowns, const GaussNewtonOp
 
 }  // namespace
 
-void Symmetrizer::points(const GridLevel& grid, Array<double>& x) const {
-  for (const Mirror* mirror : mirrors_)
-    mean_with_image(grid, *mirror, unknowns_, workers_, x.data());
-}
-
-void Symmetrizer::displacements(const GridLevel& grid, Array<double>& h) const {
-  for (const Mirror* mirror : mirrors_)
-    mean_of_displacements(grid, *mirror, unknowns_, workers_, h.data());
-}
-
 GaussNewtonSystem::GaussNewtonSystem(const ControlMesh& mesh, const GridLevels& grids, int base,
                                      const Stencils& stencils, const Unknowns& unknowns,
                                      const GaussNewtonOptions& options,
-                                     IntervalConstraints* constraints, Mirrors mirrors,
+                                     IntervalConstraints* constraints, Symmetry symmetry,
                                      Workers& workers, Monitor& monitor)
     : stencils_(stencils),
       base_(base),
@@ -55,7 +45,7 @@ GaussNewtonSystem::GaussNewtonSystem(const ControlMesh& mesh, const GridLevels& 
       monitor_(monitor),
       grids_(grids),
       shared_{mesh, unknowns, workers},
-      symmetrizer_(std::move(mirrors), shared_.unknowns, workers),
+      symmetry_(std::move(symmetry)),
       constraints_(constraints) {
   shared_.tension = options.tension;
   std::vector<HierarchyLevel> all;
@@ -150,7 +140,7 @@ double GaussNewtonSystem::solve(int level, const LinearizedSurface& about, Array
   ++work_.steps;
   work_.iterations += report.iterations;
   work_.pad_corrections += report.pad_corrections;
-  symmetrizer_.displacements(grid(level), h);
+  symmetrize_displacements(grid(level), symmetry_, shared_.unknowns, workers(), h.data());
   report.load_work = sum(workers(), constraint_force.size(),
                          [&](std::size_t i) { return constraint_force[i] * h[i]; });
   return report.load_work + sum(workers(), points, [&](std::size_t i) { return force[i] * h[i]; });
@@ -180,7 +170,7 @@ double SurfaceIterate::try_step(double length) {
   for_each_index(workers(), current.points.size(), [&](std::size_t i) {
     trial.points[i] = current.points[i] + length * step[i / 3] * current.linearization.normal[i];
   });
-  system.symmetrizer().points(grid(), trial.points);
+  system.symmetrize(level, trial.points);
   trial.functional = current.functional;
   system.linearize(level, trial);
   return trial.energy;

@@ -20,27 +20,6 @@ namespace fairing {
 // Of all levels; they must outlive the system.
 using GridLevels = std::vector<const GridLevel*>;
 
-// Keeps mirror symmetries: replaces surfaces and steps by the mean with their mirror images.
-// Rounding differs between the two sides of a mirror, and steps over crumpled places amplify the
-// difference until damping decides differently, so this is necessary after every step.
-class Symmetrizer {
- public:
-  Symmetrizer(Mirrors mirrors, const Unknowns& unknowns, Workers& workers)
-      : mirrors_(std::move(mirrors)), unknowns_(unknowns), workers_(workers) {}
-
-  void set_mirrors(Mirrors mirrors) { mirrors_ = std::move(mirrors); }
-
-  // 3 numbers a point; points that are not unknowns stay.
-  void points(const GridLevel& grid, Array<double>& x) const;
-  // 1 number a point, along the normals.
-  void displacements(const GridLevel& grid, Array<double>& h) const;
-
- private:
-  Mirrors mirrors_;
-  const Unknowns& unknowns_;
-  Workers& workers_;
-};
-
 struct LinearizedSurface {
   Array<double> points;  // 3 numbers a point, in working coordinates
   Functional functional;
@@ -64,7 +43,7 @@ class GaussNewtonSystem {
   GaussNewtonSystem(const ControlMesh& mesh, const GridLevels& grids, int base,
                     const Stencils& stencils, const Unknowns& unknowns,
                     const GaussNewtonOptions& options, IntervalConstraints* constraints,
-                    Mirrors mirrors, Workers& workers, Monitor& monitor);
+                    Symmetry symmetry, Workers& workers, Monitor& monitor);
   ~GaussNewtonSystem();
   GaussNewtonSystem(const GaussNewtonSystem&) = delete;  // its parts refer to each other
 
@@ -75,8 +54,13 @@ class GaussNewtonSystem {
   CurvatureLevel& op(int level) { return *operators_[std::size_t(level - base_)]; }
   const Stencils& stencils() const { return stencils_; }
   CurvatureShared& shared() { return shared_; }
-  Symmetrizer& symmetrizer() { return symmetrizer_; }
   Workers& workers() { return shared_.workers; }
+
+  void set_symmetry(Symmetry symmetry) { symmetry_ = std::move(symmetry); }
+  // Makes a surface of `level` symmetric; points that are not unknowns stay.
+  void symmetrize(int level, Array<double>& x) {
+    fairing::symmetrize(grid(level), symmetry_, shared_.unknowns, workers(), x.data());
+  }
 
   // Linearizes about the surface's points, which sets K of `level`.
   void linearize(int level, LinearizedSurface& surface);
@@ -128,7 +112,7 @@ class GaussNewtonSystem {
   std::vector<std::unique_ptr<CurvatureLevel>> operators_;  // from base_ on
   QuadraticTransfers<1> transfers_;
   std::unique_ptr<Hierarchy> hierarchy_;
-  Symmetrizer symmetrizer_;
+  Symmetry symmetry_;
   StepWork work_;
   IntervalConstraints* constraints_;  // null: none
 };

@@ -27,7 +27,7 @@ bool VariationSteps::begin_with_change() {
         moved(change.data() + 3 * i);
     Eigen::Map<Vec3>(start.points.data() + 3 * i) += moved.dot(normal) * normal;
   });
-  iterate_.system.symmetrizer().points(grid, start.points);
+  iterate_.system.symmetrize(iterate_.level, start.points);
   iterate_.linearize(of_variation);
   return true;
 }

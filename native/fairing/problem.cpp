@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/points.h"
+#include "base/roundoff.h"
 #include "fairing/checked.h"
 #include "fairing/memory_plan.h"
 #include "fairing/unknowns.h"
@@ -39,6 +40,39 @@ MembraneOptions membrane_of(const FairingProblem& problem) {
   return out;
 }
 
+// Largest distance of two positions in working coordinates that count as the same: rounding in the
+// caller's computation at the mesh's size, and some units in the last place of world coordinates.
+double same_place(const Frame& frame) {
+  const double place = std::numeric_limits<double>::epsilon() * frame.centre.norm() / frame.scale;
+  return roundoff + 8 * place;
+}
+
+// Corners and ends of chains need no test of their own, since they change the curves.
+bool mirrors_curves(const ControlMesh& mesh, const Mirror& mirror, const FeatureCurves& curves,
+                    double tolerance) {
+  const auto count = std::size_t(curves.points_per_edge);
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+    if (curves.run[e] < 0) continue;
+    if (curves.run[std::size_t(mirror.edge[e])] < 0) return false;
+    const auto points = curves.of(Index(e)), opposite = curves.of(mirror.edge[e]);
+    const bool reversed = mirror.reverses(mesh, Index(e));
+    for (std::size_t k = 0; k < count; ++k) {
+      const Vec3& image = opposite[reversed ? count - 1 - k : k];
+      if ((mirror.plane.image(points[k]) - image).norm() > tolerance) return false;
+    }
+  }
+  return true;
+}
+
+bool mirrors_weights(const ControlMesh& mesh, const Mirror& mirror,
+                     const std::vector<double>& weights) {
+  for (std::size_t v = 0; v < weights.size(); ++v) {
+    const Index image = mesh.original_vertex(mirror.vertex[v]);
+    if (!mesh.ring(Index(v)).empty() && weights[v] != weights[std::size_t(image)]) return false;
+  }
+  return true;
+}
+
 // `world`: one position a control vertex; `cage`: the caller's. Sets working coordinates.
 void make_about(std::vector<Vec3> world, std::vector<Vec3> cage, Stopwatch& watch,
                 FairingProblem& problem) {
@@ -56,8 +90,11 @@ void make_about(std::vector<Vec3> world, std::vector<Vec3> cage, Stopwatch& watc
   problem.units = units_in_working(problem);
   problem.stencils =
       make_stencils(mesh, *problem.charts(), options.paper, *problem.workers, membrane_of(problem));
-  if (options.energy != Energy::thin_plate)
-    problem.mirrors = find_symmetry(mesh, problem.basis, problem.frame, options);
+  problem.symmetry = find_symmetry(mesh, same_place(problem.frame), [&](const Mirror& mirror) {
+    return mirrors_weights(mesh, mirror, options.weights) &&
+           (options.tolerance.size() == 1 || mirrors_weights(mesh, mirror, options.tolerance)) &&
+           mirrors_curves(mesh, mirror, problem.basis.working_curves, same_place(problem.frame));
+  });
   problem.start_weights =
       problem.constraints_of(problem.basis, problem.units.weight).start_weights();
   require_anchored(mesh, problem.unknowns, problem.start_weights);
@@ -133,6 +170,14 @@ ControlPositions FairingProblem::about(std::span<const double> coordinates,
   for (std::size_t v = 0; v < control.cage.size(); ++v)
     control.cage[v] = point_at(coordinates, Index(v));
   return control;
+}
+
+Symmetry FairingProblem::symmetry_of(const ControlPositions& control) const {
+  const double tolerance = same_place(frame);
+  return symmetry.kept([&](const Mirror& mirror) {
+    return mirrors_positions(mesh, mirror, control.working, tolerance) &&
+           mirrors_curves(mesh, mirror, control.working_curves, tolerance);
+  });
 }
 
 std::vector<double> FairingProblem::working_tolerances() const {

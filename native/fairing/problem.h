@@ -12,7 +12,7 @@
 #include "fairing/held_positions.h"
 #include "fairing/options.h"
 #include "fairing/report.h"
-#include "fairing/symmetry.h"
+#include "mesh/symmetry.h"
 #include "paper/charts.h"
 #include "stencil/stencils.h"
 
@@ -32,7 +32,8 @@ struct FairingProblem {
   ControlPositions basis{};
   MeshUnits units{};
   Stencils stencils{};
-  std::vector<Mirror> mirrors{};
+  // Of all that the surface depends on, in working coordinates.
+  Symmetry symmetry{};
   VertexWeights start_weights{};  // of control vertices
 
   std::unique_ptr<ChartMaker> charts() const { return make_charts(mesh, exponent, options.paper); }
@@ -42,10 +43,8 @@ struct FairingProblem {
   ControlPositions control_positions(std::span<const double> coordinates) const;
   // One of the options' shapes, with its handed curves.
   ControlPositions shape_positions(std::size_t shape) const;
-  // The mirror symmetries of the mesh that these positions have too.
-  Mirrors mirrors_of(const ControlPositions& control) const {
-    return kept_by(control, mesh, frame, mirrors);
-  }
+  // The part of the symmetry that these positions have too.
+  Symmetry symmetry_of(const ControlPositions& control) const;
   // The constraints of the control vertices at these positions, with weights in this unit.
   // `control` must outlive them.
   ControlConstraints constraints_of(const ControlPositions& control, double unit) const {

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "base/median.h"
-#include "fairing/symmetry.h"
 #include "mesh/normal.h"
 #include "strain/excess.h"
 #include "strain/load_matrix.h"
@@ -54,22 +53,13 @@ StrainGauge::StrainGauge(const FairingProblem& problem, ThinPlateSolver& solver,
   normals_ = Columns::Zero(Eigen::Index(vertices_.size()), 3);
   for (std::size_t i = 0; i < on_pads_; ++i)
     normals_.row(Eigen::Index(i)) = control_normal(mesh, vertices_[i]).stableNormalized();
-  find_images();
-}
-
-// A mesh that is its own mirror image has each error twice.
-void StrainGauge::find_images() {
-  for (std::size_t i = 0; i < vertices_.size(); ++i) images_.push_back({Index(i)});
+  // A mesh that is its own mirror image has each error twice.
   const std::vector<Index> row = row_of_vertices();
-  for (const Mirror& mirror :
-       find_symmetry(problem_.mesh, problem_.basis, problem_.frame, problem_.options))
-    for (std::vector<Index>& images : images_)
-      for (std::size_t k = 0, known = images.size(); k < known; ++k) {
-        const Index v = vertices_[std::size_t(images[k])];
-        const Index other = row[std::size_t(mirror.vertex[std::size_t(v)])];
-        if (other >= 0 && std::find(images.begin(), images.end(), other) == images.end())
-          images.push_back(other);
-      }
+  for (const Index v : vertices_) {
+    std::vector<Index>& images = images_.emplace_back();
+    for (const Index image : problem.symmetry.images(v))
+      if (row[std::size_t(image)] >= 0) images.push_back(row[std::size_t(image)]);
+  }
 }
 
 void StrainGauge::require_room(const FairingProblem& problem, int rings_apart,

@@ -71,7 +71,6 @@ class StrainGauge {
   Kinds kinds(bool by_neighbours) const;
   std::vector<std::vector<Index>> rows_of_same_kind(const Kinds& kinds) const;
   void add_curve_rows();
-  void find_images();
   std::vector<Index> row_of_vertices() const;
   Columns ways_of(Columns loads) const;
   Ways in_mesh_units(const Columns& ways) const;

@@ -98,7 +98,7 @@ std::unique_ptr<GaussNewtonSolver> FairingSystems::make_steps(const ControlPosit
   return std::make_unique<GaussNewtonSolver>(
       problem_.mesh, grids, levels.base(), problem_.stencils, problem_.unknowns, options,
       problem_.constraints_of(control, problem_.units.weight_in_space), plate().pads(),
-      problem_.mirrors_of(control), *problem_.workers, monitor_);
+      problem_.symmetry_of(control), *problem_.workers, monitor_);
 }
 
 std::vector<Vec3> FairingSystems::positions_of(const ControlPositions& control) const {
@@ -183,7 +183,7 @@ bool FairingSystems::solve_moved(const ControlPositions& control, RecentSurfaces
                       on_prediction(options.measure, watch, report));
   recent.remember(positions);
   add_plate(1);
-  if (steps_ && !steps_->solve_moved(problem_.mirrors_of(control), surface.curved,
+  if (steps_ && !steps_->solve_moved(problem_.symmetry_of(control), surface.curved,
                                      report.curvature.emplace_back()))
     return false;
   report_held(report);

@@ -74,24 +74,27 @@ FaceImage face_image(bool quad, int n, int turn) {
           {(across.i - origin.i) / n, (across.j - origin.j) / n}};
 }
 
-void mean_with_image(const GridLevel& grid, const Mirror& mirror, const Unknowns& unknowns,
-                     Workers& workers, double* x) {
-  for_pairs(grid, mirror, unknowns, workers, [&](std::size_t p, std::size_t q) {
-    Eigen::Map<Vec3> a(x + 3 * p), b(x + 3 * q);
-    const Vec3 mean = 0.5 * (a + mirror.plane.image(b));
-    b = mirror.plane.image(mean);
-    a = mean;
-  });
+void symmetrize(const GridLevel& grid, const Symmetry& symmetry, const Unknowns& unknowns,
+                Workers& workers, double* x) {
+  for (const auto& mirror : symmetry.mirrors)
+    for_pairs(grid, *mirror, unknowns, workers, [&](std::size_t p, std::size_t q) {
+      Eigen::Map<Vec3> a(x + 3 * p), b(x + 3 * q);
+      const Vec3 mean = 0.5 * (a + mirror->plane.image(b));
+      b = mirror->plane.image(mean);
+      a = mean;
+    });
 }
 
-void mean_of_displacements(const GridLevel& grid, const Mirror& mirror, const Unknowns& unknowns,
-                           Workers& workers, double* h) {
-  for_pairs(grid, mirror, unknowns, workers,
-            [&](std::size_t p, std::size_t q) { h[p] = h[q] = 0.5 * (h[p] + h[q]); });
-  if (grid.mesh().copies.vertex.empty()) return;
-  for_each_run(grid, workers, [&](const Run& run) {
-    if (lies_in_plane(grid.mesh(), mirror, run)) std::fill_n(h + run.first, run.count, 0.0);
-  });
+void symmetrize_displacements(const GridLevel& grid, const Symmetry& symmetry,
+                              const Unknowns& unknowns, Workers& workers, double* h) {
+  for (const auto& mirror : symmetry.mirrors) {
+    for_pairs(grid, *mirror, unknowns, workers,
+              [&](std::size_t p, std::size_t q) { h[p] = h[q] = 0.5 * (h[p] + h[q]); });
+    if (grid.mesh().copies.vertex.empty()) continue;
+    for_each_run(grid, workers, [&](const Run& run) {
+      if (lies_in_plane(grid.mesh(), *mirror, run)) std::fill_n(h + run.first, run.count, 0.0);
+    });
+  }
 }
 
 }  // namespace fairing

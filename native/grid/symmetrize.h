@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Makes vectors on a level symmetric under a mirror of its control mesh.
+// Makes vectors on a level symmetric under the mirrors of its control mesh. Rounding differs between
+// the two sides of a mirror, and steps over crumpled places amplify the difference until damping
+// decides differently, so Gauss-Newton steps need this each time.
 #pragma once
 
 #include "grid/accumulate.h"
-#include "mesh/mirror.h"
+#include "mesh/symmetry.h"
 #include "parallel/workers.h"
 
 namespace fairing {
@@ -20,13 +22,13 @@ struct FaceImage {
 // For a face whose corner c is mapped to corner (turn - c) mod size, or to itself (Mirror::turn).
 FaceImage face_image(bool quad, int n, int turn);
 
-// x <- the mean of x and its mirror image at the unknowns of a level, which must be symmetric too;
+// x <- the mean of x and its mirror images at the unknowns of a level, which must be symmetric too;
 // 3 numbers a point.
-void mean_with_image(const GridLevel& grid, const Mirror& mirror, const Unknowns& unknowns,
-                     Workers& workers, double* x);
+void symmetrize(const GridLevel& grid, const Symmetry& symmetry, const Unknowns& unknowns,
+                Workers& workers, double* x);
 
 // The same for displacements along normals, one number a point; nothing within the plane.
-void mean_of_displacements(const GridLevel& grid, const Mirror& mirror, const Unknowns& unknowns,
-                           Workers& workers, double* h);
+void symmetrize_displacements(const GridLevel& grid, const Symmetry& symmetry,
+                              const Unknowns& unknowns, Workers& workers, double* h);
 
 }  // namespace fairing

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesh/mirror.h"
+#include "mesh/symmetry.h"
 
 #include <Eigen/Geometry>
 #include <cmath>

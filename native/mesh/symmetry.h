@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "mesh/control_mesh.h"
@@ -45,19 +46,27 @@ struct Mirror {
   }
 };
 
-// The mirrors that a surface keeps, of those that its control mesh has; not owned.
-using Mirrors = std::vector<const Mirror*>;
+// Up to three mirrors, at right angles to each other, so that averaging by one keeps the symmetry of
+// the others. Found once for a mesh and handed down; copies share the images.
+struct Symmetry {
+  using Holds = std::function<bool(const Mirror&)>;
+
+  std::vector<std::shared_ptr<const Mirror>> mirrors{};
+
+  // The mirrors that hold.
+  Symmetry kept(const Holds& holds) const;
+  // A vertex and its images, each once.
+  std::vector<Index> images(Index v) const;
+};
 
 // All planes that may mirror the vertices, coordinate planes first; most do not. Positions as for
-// find_mirrors.
+// find_symmetry.
 std::vector<Plane> mirror_planes(const ControlMesh& mesh, double tolerance);
 
-// Up to three mirrors of the mesh with its features and its region, at right angles to each other,
-// so that averaging by one keeps the symmetry of the others; coordinate planes come first. `holds`
+// The mirrors of the mesh with its features and its region; coordinate planes come first. `holds`
 // decides last. Positions must be centred at the origin, with a bounding box of size one;
-// `tolerance` is their rounding.
-std::vector<Mirror> find_mirrors(const ControlMesh& mesh, double tolerance,
-                                 const std::function<bool(const Mirror&)>& holds);
+// `tolerance` is their rounding. May throw FairingError(cancelled).
+Symmetry find_symmetry(const ControlMesh& mesh, double tolerance, const Symmetry::Holds& holds);
 
 // Whether other positions of the vertices have the same mirror.
 bool mirrors_positions(const ControlMesh& mesh, const Mirror& mirror,

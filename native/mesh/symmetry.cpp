@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesh/mirror.h"
+#include "mesh/symmetry.h"
 
 #include <algorithm>
 #include <cmath>
@@ -305,20 +305,37 @@ bool mirrors_positions(const ControlMesh& mesh, const Mirror& mirror,
   return true;
 }
 
-std::vector<Mirror> find_mirrors(const ControlMesh& mesh, double tolerance,
-                                 const std::function<bool(const Mirror&)>& holds) {
-  std::vector<Mirror> found;
+Symmetry Symmetry::kept(const Holds& holds) const {
+  Symmetry out;
+  for (const auto& mirror : mirrors)
+    if (holds(*mirror)) out.mirrors.push_back(mirror);
+  return out;
+}
+
+std::vector<Index> Symmetry::images(Index v) const {
+  std::vector<Index> out{v};
+  for (const auto& mirror : mirrors)
+    for (std::size_t k = 0, known = out.size(); k < known; ++k) {
+      const Index image = mirror->vertex[std::size_t(out[k])];
+      if (std::ranges::find(out, image) == out.end()) out.push_back(image);
+    }
+  return out;
+}
+
+Symmetry find_symmetry(const ControlMesh& mesh, double tolerance, const Symmetry::Holds& holds) {
+  Symmetry found;
   const std::vector<Plane> planes = mirror_planes(mesh, tolerance);
   if (planes.empty()) return found;
   MirrorFinder finder(mesh, tolerance);
   for (const Plane& plane : planes) {
-    if (found.size() == 3 || finder.exhausted()) break;
-    const auto is_right = [&](const Mirror& other) {
-      return std::abs(other.plane.normal.dot(plane.normal)) <= Plane::search_reach * tolerance;
+    if (found.mirrors.size() == 3 || finder.exhausted()) break;
+    const auto is_right = [&](const auto& other) {
+      return std::abs(other->plane.normal.dot(plane.normal)) <= Plane::search_reach * tolerance;
     };
-    if (!std::all_of(found.begin(), found.end(), is_right)) continue;
+    if (!std::ranges::all_of(found.mirrors, is_right)) continue;
     Mirror mirror;
-    if (finder.find(plane, mirror) && holds(mirror)) found.push_back(std::move(mirror));
+    if (finder.find(plane, mirror) && holds(mirror))
+      found.mirrors.push_back(std::make_shared<const Mirror>(std::move(mirror)));
   }
   return found;
 }

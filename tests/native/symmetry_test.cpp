@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Mirror symmetries of control meshes, and where they take the points of a lattice.
-#include "mesh/mirror.h"
+#include "mesh/symmetry.h"
 
 #include <gtest/gtest.h>
 
@@ -40,7 +40,13 @@ ControlMesh turned(ControlMesh mesh) {
   return working(std::move(mesh));
 }
 
-std::vector<Mirror> mirrors(const ControlMesh& mesh) { return find_mirrors(mesh, tolerance, any); }
+Symmetry symmetry(const ControlMesh& mesh) { return find_symmetry(mesh, tolerance, any); }
+
+std::vector<Mirror> mirrors(const ControlMesh& mesh) {
+  std::vector<Mirror> out;
+  for (const auto& mirror : symmetry(mesh).mirrors) out.push_back(*mirror);
+  return out;
+}
 
 // All elements' images agree with each other.
 void expect_a_mirror(const ControlMesh& mesh, const Mirror& mirror) {
@@ -121,13 +127,24 @@ TEST(Mirror, NoneAcrossWhichFeaturesDiffer) {
 TEST(Mirror, NoneThatDoesNotHold) {
   const ControlMesh mesh = working(control(cube()));
   int asked = 0;
-  const auto found = find_mirrors(mesh, tolerance, [&](const Mirror& mirror) {
+  const Symmetry found = find_symmetry(mesh, tolerance, [&](const Mirror& mirror) {
     ++asked;
     return mirror.vertex[0] == 0;
   });
   EXPECT_GT(asked, 3);
-  ASSERT_EQ(found.size(), 1u);  // one diagonal plane; its likes are not at right angles to it
-  EXPECT_EQ(found[0].vertex[0], 0);
+  ASSERT_EQ(found.mirrors.size(), 1u);  // a diagonal plane; its likes are not at right angles to it
+  EXPECT_EQ(found.mirrors[0]->vertex[0], 0);
+}
+
+TEST(Mirror, ImagesOfAVertexByAllMirrors) {
+  const Symmetry of_cube = symmetry(working(control(cube())));
+  std::vector<Index> images = of_cube.images(0);
+  EXPECT_EQ(images[0], 0);
+  std::ranges::sort(images);
+  EXPECT_EQ(images, (std::vector<Index>{0, 1, 2, 3, 4, 5, 6, 7}));
+  const Symmetry along_x =
+      of_cube.kept([](const Mirror& mirror) { return mirror.plane.normal == Vec3::UnitX(); });
+  EXPECT_EQ(along_x.images(0).size(), 2u);
 }
 
 TEST(Mirror, VerticesAtOnePlaceAreToldApart) {
@@ -170,11 +187,9 @@ TEST(LatticeMirror, TakesPointsWhereTheyBelong) {
       const GridLevel lattice(mesh, level);
       Array<double> x(3 * lattice.size());
       refine_linearly(lattice, mesh.positions, x.data());
-      for (const Mirror& mirror : mirrors(mesh)) {
-        Array<double> mean = x;
-        mean_with_image(lattice, mirror, unknowns(mesh, true), workers, mean.data());
-        for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(mean[i], x[i], 1e-13);
-      }
+      Array<double> mean = x;
+      symmetrize(lattice, symmetry(mesh), unknowns(mesh, true), workers, mean.data());
+      for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(mean[i], x[i], 1e-13);
     }
 }
 
@@ -190,7 +205,8 @@ TEST(LatticeMirror, MeansOfDisplacements) {
         return mirror.plane.normal.dot(Eigen::Map<const Vec3>(&x[3 * p])) - mirror.plane.offset;
       };
       for (std::size_t p = 0; p < h.size(); ++p) h[p] = distance(p) * (1 + distance(p));
-      mean_of_displacements(lattice, mirror, unknowns(mesh, true), workers, h.data());
+      symmetrize_displacements(lattice, {{std::make_shared<const Mirror>(mirror)}},
+                               unknowns(mesh, true), workers, h.data());
       for (auto p = std::size_t(lattice.face_base(0)); p < h.size(); ++p)  // edges may be curves
         EXPECT_NEAR(h[p], distance(p) * distance(p), 1e-13);
     }
@@ -204,7 +220,8 @@ TEST(LatticeMirror, LeavesWhatIsNoUnknown) {
   Array<double> x(3 * lattice.size());
   for (std::size_t i = 0; i < x.size(); ++i) x[i] = std::sin(12.9898 * double(i + 1));
   Array<double> mean = x;
-  mean_with_image(lattice, mirrors(mesh).at(0), unknowns(mesh, false), workers, mean.data());
+  symmetrize(lattice, {{std::make_shared<const Mirror>(mirrors(mesh).at(0))}},
+             unknowns(mesh, false), workers, mean.data());
   const auto same = [&](Index p) {
     return std::equal(&x[3 * std::size_t(p)], &x[3 * std::size_t(p)] + 3,
                       &mean[3 * std::size_t(p)]);
