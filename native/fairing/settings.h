@@ -81,6 +81,11 @@ inline constexpr Conflict conflicts[] = {
     {[](const FairOptions& o) { return o.energy != Energy::thin_plate && o.has_normals(); },
      "normals are for the thin plate only; use energy=\"thin_plate\", or free the normals."},
     {[](const FairOptions& o) {
+       return o.energy != Energy::thin_plate && !o.features.flat_faces.empty();
+     },
+     "flat_faces are for the thin plate only, other energies leave waves in them; use "
+     "energy=\"thin_plate\", or leave flat_faces out."},
+    {[](const FairOptions& o) {
        return o.energy == Energy::minimum_variation && o.membrane.tension > 0;
      },
      "tension cannot be used with minimum variation; use energy=\"thin_plate\" or "

@@ -37,12 +37,6 @@ def native_options(settings: Mapping[str, Any]) -> _native.Options:
         given["interpolation"] = _native.Interpolation.approximate
     for name, value in given.items():
         setattr(options, name, value)
-    if len(given.get("flat_faces", ())) and options.energy != _native.Energy.thin_plate:
-        raise fairing_error(
-            "BAD_OPTION",
-            "flat_faces are for the thin plate only; other energies leave waves in them.",
-            cure='Use energy="thin_plate", or leave flat_faces out.',
-        )
     return options
 
 
