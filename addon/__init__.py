@@ -39,17 +39,19 @@ def _modules() -> tuple[Any, ...]:
 
 
 def register() -> None:
+    from . import registration
+
     for module in _modules():
-        module.register()
+        registration.register(module)
     # the module `bpy` ends by a signal, or never, where classes are left registered
     if not bpy.app.binary_path:
         atexit.register(unregister)
 
 
 def unregister() -> None:
-    from . import queue
+    from . import queue, registration
 
     atexit.unregister(unregister)
     queue.end_all()
     for module in reversed(_modules()):
-        module.unregister()
+        registration.unregister(module)

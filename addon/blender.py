@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Blender's types with the add-on's properties, for annotations; and registration."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
 import bpy
 import numpy as np
-from bpy.props import PointerProperty
 
 Answer: TypeAlias = set[Any]  # returned by operators: {"FINISHED"} or {"CANCELLED"}
 
@@ -92,46 +91,3 @@ def column(elements: Any, name: str, dtype: Any = np.float32, width: int = 1) ->
     values = np.empty(len(elements) * width, dtype)
     elements.foreach_get(name, values)
     return values.reshape(-1, width) if width > 1 else values
-
-
-Registration: TypeAlias = tuple[Callable[[], None], Callable[[], None]]  # register, unregister
-
-
-def registration(*classes: type) -> Registration:
-    """Registration of `classes`."""
-    factory: Any = bpy.utils.register_classes_factory  # its stub returns None
-    register, unregister = factory(classes)
-    return register, unregister
-
-
-def attached(*groups: tuple[type, str, type]) -> Registration:
-    """Registration of property groups (owner, name, group): every data-block of the type `owner` gets a
-    group by that name.
-    """
-    make_property: Any = PointerProperty  # its stub returns None
-
-    def register() -> None:
-        for owner, name, group in groups:
-            bpy.utils.register_class(group)
-            setattr(owner, name, make_property(type=group))
-
-    def unregister() -> None:
-        for owner, name, group in reversed(groups):
-            delattr(owner, name)
-            bpy.utils.unregister_class(group)
-
-    return register, unregister
-
-
-def in_order(*parts: Registration) -> Registration:
-    """Registration of all `parts`; unregistration runs in reverse order."""
-
-    def register() -> None:
-        for begin, _ in parts:
-            begin()
-
-    def unregister() -> None:
-        for _, end in reversed(parts):
-            end()
-
-    return register, unregister

@@ -15,16 +15,7 @@ from bpy.props import (
     StringProperty,
 )
 
-from .blender import (
-    Context,
-    Mesh,
-    Object,
-    attached,
-    column,
-    current_context,
-    in_order,
-    registration,
-)
+from .blender import Context, Mesh, Object, column, current_context
 from .curves.cubics import Curve
 from .curves.settle import Covered, CoverOptions, covered
 from .errors import JobError
@@ -222,7 +213,4 @@ def keys(blocks: Sequence[Any]) -> set[int | str]:
     return {session_key(block) for block in blocks}
 
 
-register, unregister = in_order(
-    registration(FAIRING_PG_curve),
-    attached((bpy.types.Object, "discrete_fairing_curves", FAIRING_PG_curves)),
-)
+ATTACHED = ((bpy.types.Object, "discrete_fairing_curves", FAIRING_PG_curves),)

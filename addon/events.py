@@ -7,13 +7,10 @@ inside another handler, Blender would skip an unrelated one.
 
 import traceback
 from collections.abc import Callable, Mapping
-from functools import partial
 from typing import Any, TypeAlias
 
 import bpy
 from bpy.app.handlers import persistent
-
-from .blender import Registration
 
 Listener: TypeAlias = Callable[..., None]
 
@@ -38,11 +35,6 @@ def ignore(wanted: Mapping[str, Listener]) -> None:
         _listeners[name].remove(listener)
         if not _listeners[name]:
             getattr(bpy.app.handlers, name).remove(_handlers.pop(name))
-
-
-def listening(wanted: Mapping[str, Listener]) -> Registration:
-    """Registration of a module that only listens."""
-    return partial(listen, wanted), partial(ignore, wanted)
 
 
 def start_timer(function: Callable[[], float | None], seconds: float) -> None:

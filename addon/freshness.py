@@ -236,29 +236,27 @@ def _mark_all_unread(*_: Any) -> None:
     _unread.update(_surfaces)
 
 
-def _begin(*_: Any) -> None:
-    """Starts with the surfaces of the file that was just opened."""
+def _forget() -> None:
     for known in (_surfaces, _seen, _unread, _watched):
         known.clear()
+
+
+def _begin(*_: Any) -> None:
+    """Starts with the surfaces of the file that was just opened."""
+    _forget()
     for target in all_objects():
         if target.type == "MESH" and target.discrete_fairing.source is not None:
             know(target)
 
 
-_HANDLERS = {
+HANDLERS = {
     "depsgraph_update_post": _note_changes,
     "undo_post": _mark_all_unread,
     "redo_post": _mark_all_unread,
     "load_post": _begin,
 }
-
-
-def register() -> None:
-    events.listen(_HANDLERS)
+TIMERS = (_look,)
 
 
 def unregister() -> None:
-    events.ignore(_HANDLERS)
-    events.stop_timer(_look)
-    for known in (_surfaces, _seen, _unread, _watched):
-        known.clear()
+    _forget()

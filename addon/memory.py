@@ -8,7 +8,6 @@ file is opened or objects are appended from it.
 
 import json
 from collections.abc import Iterable, Mapping, Sequence
-from functools import partial
 from typing import Any, cast
 
 import bpy
@@ -22,7 +21,7 @@ from bpy.props import (
 )
 
 from . import events, records
-from .blender import Context, Object, all_objects, all_scenes, attached, in_order, registration
+from .blender import Context, Object, all_objects, all_scenes
 from .properties import FairingSettings, FitAmount, copy_settings
 from .settings import Settings
 
@@ -258,26 +257,22 @@ def _is_sound(known: Any, value: Any) -> bool:
 
 
 # linking and appending has a handler since Blender 4.3
-_HANDLERS = {
+HANDLERS = {
     name: unset_unsound_settings
     for name in ("load_post", "blend_import_post")
     if hasattr(bpy.app.handlers, name)
 }
 
 
-def _look_now() -> None:
-    """Checks the open file, as in preferences.py."""
+ATTACHED = (
+    (bpy.types.Object, "discrete_fairing", FAIRING_PG_surface),
+    (bpy.types.Object, "discrete_fairing_fit", FAIRING_PG_fit),
+    (bpy.types.Mesh, "discrete_fairing", FAIRING_PG_mesh),
+)
+TIMERS = (unset_unsound_settings,)
+
+
+def register() -> None:
+    """Looks at the file that is open, as preferences.py does."""
     if not bpy.app.background:
         events.start_timer(unset_unsound_settings, 0.0)
-
-
-register, unregister = in_order(
-    attached(
-        (bpy.types.Object, "discrete_fairing", FAIRING_PG_surface),
-        (bpy.types.Mesh, "discrete_fairing", FAIRING_PG_mesh),
-    ),
-    registration(FAIRING_PG_scan),
-    attached((bpy.types.Object, "discrete_fairing_fit", FAIRING_PG_fit)),
-    events.listening(_HANDLERS),
-    (_look_now, partial(events.stop_timer, unset_unsound_settings)),
-)

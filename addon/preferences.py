@@ -97,19 +97,14 @@ def _give_default_levels(scene: Scene, _depsgraph: Any = None) -> None:
         settings.levels = levels
 
 
-_HANDLERS = {"load_post": give_scenes_default_levels, "depsgraph_update_post": _give_default_levels}
+HANDLERS = {"load_post": give_scenes_default_levels, "depsgraph_update_post": _give_default_levels}
+
+
+TIMERS = (give_scenes_default_levels,)
 
 
 def register() -> None:
-    bpy.utils.register_class(DiscreteFairingPreferences)
-    events.listen(_HANDLERS)
-    # The file that is open now: bpy.data must not be used while add-ons are being enabled. Without a
-    # window no timer ever runs, and a pending one would keep the bpy module from ending.
+    # the file that is open now: bpy.data may not be touched while add-ons are being enabled.
+    # Without a window no timer ever runs, and one that waits would keep the bpy module from ending.
     if not bpy.app.background:
         events.start_timer(give_scenes_default_levels, 0.0)
-
-
-def unregister() -> None:
-    events.stop_timer(give_scenes_default_levels)
-    events.ignore(_HANDLERS)
-    bpy.utils.unregister_class(DiscreteFairingPreferences)

@@ -12,7 +12,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
 from . import vertex_values
-from .blender import Context, Object, attached
+from .blender import Context, Object
 from .choices import (
     BOUNDARIES,
     DEFAULT_ENERGY,
@@ -306,4 +306,4 @@ class FAIRING_PG_settings(FairingSettings, bpy.types.PropertyGroup):
     """The settings that the panel shows; stored with the scene."""
 
 
-register, unregister = attached((bpy.types.Scene, "discrete_fairing", FAIRING_PG_settings))
+ATTACHED = ((bpy.types.Scene, "discrete_fairing", FAIRING_PG_settings),)

@@ -14,7 +14,6 @@ import numpy as np
 from gpu_extras import batch as _batch
 from mathutils import Matrix
 
-from .. import events
 from ..blender import Object, current_context
 from ..mesh.object import Showing, changed_keys, session_key
 from .drawn import Drawn
@@ -133,7 +132,7 @@ def _forget(*_: Any) -> None:
     _entries.clear()
 
 
-_HANDLERS = {
+HANDLERS = {
     "depsgraph_update_post": _note_changes,
     "frame_change_post": _forget,
     "undo_post": _forget,
@@ -148,14 +147,12 @@ def register() -> None:
     if bpy.app.background:
         return
     _handle = bpy.types.SpaceView3D.draw_handler_add(_draw, (), "WINDOW", "POST_VIEW")
-    events.listen(_HANDLERS)
 
 
 def unregister() -> None:
     global _handle
     if bpy.app.background:
         return
-    events.ignore(_HANDLERS)
     bpy.types.SpaceView3D.draw_handler_remove(_handle, "WINDOW")
     _handle = None
     _forget()

@@ -7,7 +7,7 @@ from typing import Any
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty
 
-from ..blender import Context, Mesh, attached, scene_of
+from ..blender import Context, Mesh, scene_of
 from . import display, overlay
 
 MODES = (
@@ -272,7 +272,7 @@ class FAIRING_PG_inspection(bpy.types.PropertyGroup):
     )
 
 
-register, unregister = attached(
+ATTACHED = (
     (bpy.types.Object, "discrete_fairing_inspection", FAIRING_PG_display),
     (bpy.types.Scene, "discrete_fairing_inspection", FAIRING_PG_inspection),
 )

@@ -170,7 +170,7 @@ def _end_all(*_: Any) -> None:
     events.stop_timer(on_timer)
 
 
-_HANDLERS = {
+HANDLERS = {
     "depsgraph_update_post": _follow,
     "frame_change_post": _follow_frame,
     "undo_pre": _before_undo,
@@ -184,10 +184,5 @@ _HANDLERS = {
 }
 
 
-def register() -> None:
-    events.listen(_HANDLERS)
-
-
 def unregister() -> None:
     _end_all()
-    events.ignore(_HANDLERS)

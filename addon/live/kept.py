@@ -5,7 +5,6 @@ from typing import Any
 
 import bpy
 
-from .. import events
 from ..blender import Object, all_objects
 from . import cage, registry, switch
 
@@ -41,4 +40,4 @@ def _surfaces() -> list[Object]:
     ]
 
 
-register, unregister = events.listening({"save_pre": _note, "load_post": _restore})
+HANDLERS = {"save_pre": _note, "load_post": _restore}

@@ -7,7 +7,7 @@ import bpy
 from bpy.props import BoolProperty, FloatProperty, IntProperty, StringProperty
 
 from .. import core
-from ..blender import Context, Object, all_objects, attached, current_context
+from ..blender import Context, Object, all_objects, current_context
 from ..memory import no_source_reason, source_of
 from ..mesh.object import session_key
 from ..poll import LINKED_SURFACE
@@ -224,4 +224,4 @@ class FAIRING_PG_live(bpy.types.PropertyGroup):
     )
 
 
-register, unregister = attached((bpy.types.Object, "discrete_fairing_live", FAIRING_PG_live))
+ATTACHED = ((bpy.types.Object, "discrete_fairing_live", FAIRING_PG_live),)

@@ -29,13 +29,5 @@ def resume() -> None:
             switch.switch_on(target)
 
 
-_HANDLERS = {"undo_post": _agree, "redo_post": _agree}
-
-
-def register() -> None:
-    events.listen(_HANDLERS)
-
-
-def unregister() -> None:
-    events.ignore(_HANDLERS)
-    events.stop_timer(resume)
+HANDLERS = {"undo_post": _agree, "redo_post": _agree}
+TIMERS = (resume,)

@@ -129,19 +129,14 @@ def _checksum(mesh: Mesh) -> int:
     return zlib.crc32(corners.tobytes(), zlib.crc32(column(mesh.vertices, "co", width=3).tobytes()))
 
 
-_HANDLERS = {
+HANDLERS = {
     "depsgraph_update_post": _note_changes,
     "undo_post": _look_again,
     "redo_post": _look_again,
     "load_post": _forget,
 }
-
-
-def register() -> None:
-    events.listen(_HANDLERS)
+TIMERS = (measure_unseen,)
 
 
 def unregister() -> None:
-    events.ignore(_HANDLERS)
-    events.stop_timer(measure_unseen)
     _forget()

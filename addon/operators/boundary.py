@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import bpy
 from bpy.props import EnumProperty
 
-from ..blender import Answer, Context, registration
+from ..blender import Answer, Context
 from ..choices import EDGE_BOUNDARIES
 from ..mesh.boundary_marks import mark_selected, select_marked
 from ..poll import ExplainedPoll, in_edit_mode
@@ -64,6 +64,3 @@ class OBJECT_OT_fairing_select_boundary(_OfEdges, bpy.types.Operator):
         if not count:
             self.report({"INFO"}, f"No border edge is marked {_NAMES[self.boundary]}")
         return {"FINISHED"}
-
-
-register, unregister = registration(OBJECT_OT_fairing_boundary, OBJECT_OT_fairing_select_boundary)

@@ -3,7 +3,7 @@
 
 import bpy
 
-from ..blender import Answer, Context, registration
+from ..blender import Answer, Context
 from ..poll import ExplainedPoll, needs
 from ..queue import running
 
@@ -21,6 +21,3 @@ class OBJECT_OT_fairing_cancel(ExplainedPoll, bpy.types.Operator):
         if (queue := running()) is not None:
             queue.cancel()
         return {"FINISHED"}
-
-
-register, unregister = registration(OBJECT_OT_fairing_cancel)

@@ -9,7 +9,7 @@ import numpy as np
 from bpy.props import IntProperty, IntVectorProperty
 
 from .. import core, errors
-from ..blender import Answer, Context, Object, registration
+from ..blender import Answer, Context, Object
 from ..check import repair
 from ..check.defects import (
     check_object,
@@ -181,14 +181,3 @@ class OBJECT_OT_fairing_select_faults(ExplainedPoll, bpy.types.Operator):
 
 def _groups(defects: list[dict[str, Any]]) -> list[tuple[str, Sequence[Any]]]:
     return [(d["kind"], d["elements"]) for d in defects]
-
-
-CLASSES = (
-    OBJECT_OT_fairing_check,
-    OBJECT_OT_fairing_select_defect,
-    OBJECT_OT_fairing_repair,
-    OBJECT_OT_fairing_select_hole,
-    OBJECT_OT_fairing_select_faults,
-)
-
-register, unregister = registration(*CLASSES)

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
-from ..blender import Answer, Context, registration
+from ..blender import Answer, Context
 from ..cleaning import STEPS, CleanJob, CleanOptions
 from ..mesh.read import source_objects
 from ..poll import of_meshes
@@ -98,6 +98,3 @@ class OBJECT_OT_fairing_clean(Shown, LargestHole, WholeFairing, bpy.types.Operat
             good = job.result.watertight and not job.result.left
             self.report({"INFO" if good else "WARNING"}, f"{job.name}: {said[-1]}")
         return {"FINISHED"}
-
-
-register, unregister = registration(OBJECT_OT_fairing_clean)

@@ -8,7 +8,7 @@ from typing import cast
 import bpy
 import numpy as np
 
-from ..blender import Context, Object, registration
+from ..blender import Context, Object
 from ..choices import ENERGIES
 from ..inspection import readout
 from ..job import Job
@@ -57,6 +57,3 @@ def _width(source: Object) -> float:
     matrix = np.array(source.matrix_world)
     corners = np.array([tuple(corner) for corner in source.bound_box])
     return float(np.ptp(corners @ matrix[0, :3]))
-
-
-register, unregister = registration(OBJECT_OT_fairing_compare)

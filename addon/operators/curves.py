@@ -9,7 +9,7 @@ import bpy
 from bpy.props import EnumProperty, IntProperty
 
 from .. import curve_cage
-from ..blender import Answer, Context, Object, registration
+from ..blender import Answer, Context, Object
 from ..choices import ENERGIES, ENERGY_MEANING
 from ..curve_cage import CageSettings
 from ..job import Job
@@ -118,6 +118,3 @@ class OBJECT_OT_fairing_curves(Shown, CageSettings, Fairing, bpy.types.Operator)
         for sentence in self._found.remarks:
             self.report({"WARNING"}, sentence)
         cast(Object, jobs[0].source).hide_set(True)
-
-
-register, unregister = registration(OBJECT_OT_fairing_curves)

@@ -7,7 +7,7 @@ from typing import Any
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
-from ..blender import Answer, Context, registration
+from ..blender import Answer, Context
 from ..mesh.object import select_only
 from ..mesh.read import source_objects
 from ..poll import in_edit_mode, in_mode, of_meshes
@@ -173,6 +173,3 @@ class OBJECT_OT_fairing_ease_selected(_Easing, bpy.types.Operator):
     def write(self, _context: Context, jobs: list[Any]) -> None:
         for job in jobs:
             job.write()
-
-
-register, unregister = registration(OBJECT_OT_fairing_ease, OBJECT_OT_fairing_ease_selected)

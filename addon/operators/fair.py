@@ -10,7 +10,7 @@ from typing import cast
 import bpy
 
 from .. import core, curve_cage, prediction
-from ..blender import Answer, Context, Object, registration
+from ..blender import Answer, Context, Object
 from ..errors import JobCancelled, JobError
 from ..freshness import is_own, stale_surfaces
 from ..job import Job
@@ -289,13 +289,3 @@ class OBJECT_OT_fairing_show_source(ExplainedPoll, bpy.types.Operator):
         source.hide_set(False)
         select_only(context, [source])
         return {"FINISHED"}
-
-
-CLASSES = (
-    OBJECT_OT_fairing_surface,
-    OBJECT_OT_fairing_recompute,
-    OBJECT_OT_fairing_recompute_stale,
-    OBJECT_OT_fairing_show_source,
-)
-
-register, unregister = registration(*CLASSES)

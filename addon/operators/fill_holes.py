@@ -7,7 +7,7 @@ from typing import cast
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntVectorProperty
 
-from ..blender import Answer, Context, Object, registration
+from ..blender import Answer, Context, Object
 from ..choices import ENERGIES, JOINTS
 from ..errors import JobError
 from ..holes import Filling, FillOptions, HoleJob, fill_warnings
@@ -153,6 +153,3 @@ def _said(done: list[Filling]) -> str:
     if cut:
         said.append(counted(cut, "edge cut at a vertex on it", "edges cut at vertices on them"))
     return ", ".join(said)
-
-
-register, unregister = registration(OBJECT_OT_fairing_fill)

@@ -7,7 +7,7 @@ from dataclasses import replace
 import bpy
 from bpy.props import IntProperty
 
-from ..blender import Context, Object, registration
+from ..blender import Context, Object
 from ..errors import JobError
 from ..job import Job
 from ..mesh.scans import Scan, is_scan, read_scans
@@ -121,6 +121,3 @@ class OBJECT_OT_fairing_fit(Shown, WholeFairing, FitAmount, bpy.types.Operator):
         if made > 1.5 * self.cage_faces:
             return f"With {self.cage_faces} faces the cage left out a part of the scan: it has {faces}."
         return ""
-
-
-register, unregister = registration(OBJECT_OT_fairing_fit)

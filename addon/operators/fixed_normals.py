@@ -7,7 +7,7 @@ import bpy
 from bpy.props import EnumProperty
 from mathutils import Vector
 
-from ..blender import Answer, Context, Object, registration
+from ..blender import Answer, Context, Object
 from ..mesh import fixed_normals
 from ..mesh.read import control_mesh
 from ..mesh.world_shape import world_matrix
@@ -79,6 +79,3 @@ def _fix_own(context: Context, source: Object) -> int:
 
 def _z_axis(empty: Object) -> Vector:
     return Vector(tuple(row[2] for row in world_matrix(empty))[:3])
-
-
-register, unregister = registration(OBJECT_OT_fairing_fix_normal, OBJECT_OT_fairing_free_normal)

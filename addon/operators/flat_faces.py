@@ -7,7 +7,7 @@ from math import degrees, radians
 import bpy
 from bpy.props import BoolProperty, FloatProperty
 
-from ..blender import Answer, Context, Object, registration
+from ..blender import Answer, Context, Object
 from ..check.flats import find_flats
 from ..memory import source_of
 from ..mesh import flat_marks
@@ -81,6 +81,3 @@ def _mark_found(target: Object, angle: float) -> int:
     found = find_flats(arrays, angle)
     flat_marks.mark(target.data, found)
     return int(found.sum())
-
-
-register, unregister = registration(OBJECT_OT_fairing_flat_faces)

@@ -7,7 +7,7 @@ from typing import Any, cast
 import bpy
 import numpy as np
 
-from ..blender import Answer, Context, Mesh, Object, registration
+from ..blender import Answer, Context, Mesh, Object
 from ..memory import active_source, source_of
 from ..mesh.layers import write_creases
 from ..mesh.object import new_object, select_only
@@ -103,6 +103,3 @@ def _crease(mesh: Mesh, made: Whole, weights: dict[frozenset[int], float]) -> No
 def _solid_text(context: Context, found: Solid) -> str:
     centre = ", ".join(f"{value:.4g}" for value in found.centroid)
     return f"volume {found.volume:.5g} m³, area {found.area:.5g} m², centroid ({centre}) m"
-
-
-register, unregister = registration(OBJECT_OT_fairing_close)

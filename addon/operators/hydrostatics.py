@@ -11,7 +11,7 @@ import bpy
 from bpy.props import FloatProperty, IntProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper
 
-from ..blender import Answer, Context, Object, registration
+from ..blender import Answer, Context, Object
 from ..mesh.scans import in_metres
 from ..poll import ExplainedPoll
 from ..yard.hydrostatics import Hydrostatics, NotClosed, hydrostatics
@@ -155,8 +155,3 @@ class OBJECT_OT_fairing_hydrostatics_table(_Afloat, ExportHelper, bpy.types.Oper
             found.block_coefficient(draught),
         )
         return ",".join(f"{number:.9g}" for number in numbers)
-
-
-register, unregister = registration(
-    OBJECT_OT_fairing_hydrostatics, OBJECT_OT_fairing_hydrostatics_table
-)

@@ -7,7 +7,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
 from .. import in_place
-from ..blender import Answer, Context, Object, registration
+from ..blender import Answer, Context, Object
 from ..choices import DEFAULT_ENERGY, ENERGIES, ENERGY_MEANING, JOINTS
 from ..errors import JobError
 from ..mesh.read import source_objects
@@ -195,6 +195,3 @@ class OBJECT_OT_fairing_scan(InPlace, bpy.types.Operator):
 def _has_selection(target: Object) -> bool:
     target.update_from_editmode()
     return target.data.total_face_sel > 0
-
-
-register, unregister = registration(OBJECT_OT_fairing_in_place, OBJECT_OT_fairing_scan)

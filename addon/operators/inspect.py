@@ -6,7 +6,7 @@ from typing import Any, cast
 import bpy
 from bpy.props import EnumProperty
 
-from ..blender import Answer, Context, Object, registration
+from ..blender import Answer, Context, Object
 from ..inspection import display, readout, viewport_shading
 from ..inspection.display import VALUES
 from ..inspection.settings import MODES
@@ -106,13 +106,3 @@ class OBJECT_OT_fairing_viewport(ExplainedPoll, bpy.types.Operator):
     def execute(self, context: Context) -> Answer:
         viewport_shading.show(context.space_data, "ZEBRA")
         return {"FINISHED"}
-
-
-CLASSES = (
-    OBJECT_OT_fairing_inspect,
-    OBJECT_OT_fairing_refresh,
-    OBJECT_OT_fairing_measure,
-    OBJECT_OT_fairing_viewport,
-)
-
-register, unregister = registration(*CLASSES)

@@ -8,7 +8,7 @@ import bpy
 from bpy.props import EnumProperty, IntProperty
 
 from .. import errors
-from ..blender import Answer, Context, Object, registration
+from ..blender import Answer, Context, Object
 from ..check import joints
 from ..check.defects import select_defects
 from ..choices import JOINTS
@@ -108,12 +108,3 @@ class OBJECT_OT_fairing_select_joint(ExplainedPoll, bpy.types.Operator):
         if context.area is not None and context.area.type == "VIEW_3D":
             bpy.ops.view3d.view_selected()
         return {"FINISHED"}
-
-
-CLASSES = (
-    OBJECT_OT_fairing_match_border,
-    OBJECT_OT_fairing_joints,
-    OBJECT_OT_fairing_select_joint,
-)
-
-register, unregister = registration(*CLASSES)

@@ -6,7 +6,7 @@ from typing import cast
 import bpy
 
 from .. import core, memory, place
-from ..blender import Answer, Context, Mesh, Object, registration
+from ..blender import Answer, Context, Mesh, Object
 from ..live import switch
 from ..mesh.modifiers import copy_modifiers
 from ..mesh.object import is_in_view_layer, new_object, nothing_left_behind
@@ -82,6 +82,3 @@ def _show(context: Context, source: Object) -> None:
     """Unhides the source: hidden objects can neither be edited nor are they updated by Blender."""
     if is_in_view_layer(context, source):
         source.hide_set(False)
-
-
-register, unregister = registration(OBJECT_OT_fairing_live)

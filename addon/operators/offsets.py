@@ -8,7 +8,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
-from ..blender import Answer, Context, Mesh, Object, registration
+from ..blender import Answer, Context, Mesh, Object
 from ..mesh.layers import write_creases
 from ..mesh.object import linked_object, select_only
 from ..mesh.offset_names import write_names
@@ -112,6 +112,3 @@ class IO_FH_fairing_offsets(bpy.types.FileHandler):
     @classmethod
     def poll_drop(cls, context: Context) -> bool:
         return context.area is not None and context.area.type == "VIEW_3D"
-
-
-register, unregister = registration(IMPORT_MESH_OT_fairing_offsets, IO_FH_fairing_offsets)

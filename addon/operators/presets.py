@@ -12,7 +12,7 @@ import bpy
 from bl_operators.presets import AddPresetBase
 from bpy.props import StringProperty
 
-from ..blender import Answer, Context, registration
+from ..blender import Answer, Context
 from ..purposes import FOLDER, PRESET_FOLDER
 from ..settings import NAMES
 from ..ui.main import active_settings
@@ -58,16 +58,9 @@ class OBJECT_OT_fairing_preset_add(AddPresetBase, bpy.types.Operator):
             return cast(Any, super()).execute(context)
 
 
-CLASSES = (OBJECT_OT_fairing_preset_add, OBJECT_OT_fairing_preset_apply)
-
-_register_classes, _unregister_classes = registration(*CLASSES)
-
-
 def register() -> None:
-    _register_classes()
     bpy.utils.register_preset_path(_FOLDER)
 
 
 def unregister() -> None:
     bpy.utils.unregister_preset_path(_FOLDER)
-    _unregister_classes()

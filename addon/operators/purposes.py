@@ -7,7 +7,7 @@ from typing import Any
 import bpy
 from bpy.props import EnumProperty
 
-from ..blender import Answer, Context, registration
+from ..blender import Answer, Context
 from ..mesh.read import source_objects
 from ..poll import ExplainedPoll, needs
 from ..purposes import EASED_FIRST, OPERATORS, PURPOSES, preset_file
@@ -69,6 +69,3 @@ class OBJECT_OT_fairing_for(ExplainedPoll, bpy.types.Operator):
             return fairing_operator(context)(how, _UNDO)
         settings = asdict(Settings.of(active_settings(context)))
         return operators.fairing_surface(how, _UNDO, **settings)
-
-
-register, unregister = registration(OBJECT_OT_fairing_for)

@@ -10,7 +10,7 @@ import numpy as np
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper
 
-from ..blender import Answer, Context, Object, registration
+from ..blender import Answer, Context, Object
 from ..inspection.drawn import Drawn
 from ..inspection.sections import cut
 from ..memory import active_source
@@ -265,6 +265,3 @@ class EXPORT_SCENE_OT_fairing_lines(_Spaced, ExplainedPoll, ExportHelper, bpy.ty
     @staticmethod
     def _tenth(surface: Drawn) -> float:
         return float(np.ptp(surface.points[:, 0])) / 10.0
-
-
-register, unregister = registration(OBJECT_OT_fairing_section_curves, EXPORT_SCENE_OT_fairing_lines)

@@ -9,7 +9,7 @@ import bpy
 from bpy.props import StringProperty
 
 from .. import prediction
-from ..blender import Answer, Context, Object, registration
+from ..blender import Answer, Context, Object
 from ..cad.fit import PatchJob, refused
 from ..cad.settings import PatchSettings, StepSettings, scale_to
 from ..cad.step import summary, write_jobs
@@ -119,8 +119,3 @@ class OBJECT_OT_fairing_show_patches(_Fitting, bpy.types.Operator):
         fitted = [job for job in jobs if not job.refused]
         if fitted:
             self.report({"INFO"}, summary(fitted, "MM", scale_to("MM", context.scene)))
-
-
-CLASSES = (EXPORT_SCENE_OT_fairing_step, OBJECT_OT_fairing_show_patches)
-
-register, unregister = registration(*CLASSES)

@@ -9,7 +9,7 @@ import numpy as np
 from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
 from mathutils import Vector
 
-from ..blender import Answer, Context, Object, registration
+from ..blender import Answer, Context, Object
 from ..check.defects import select_defects, select_in_all
 from ..memory import active_source
 from ..mesh.edited import edited
@@ -242,14 +242,3 @@ class OBJECT_OT_fairing_strain_table(ByFileBrowser, _Straining, bpy.types.Operat
         path = bpy.path.abspath(self.filepath)
         self.report({"INFO"}, f"{words.count(len(job.result.positions))} written to {path}")
         return {"FINISHED"}
-
-
-CLASSES = (
-    OBJECT_OT_fairing_strain,
-    OBJECT_OT_fairing_select_strained,
-    OBJECT_OT_fairing_crease_knuckle,
-    OBJECT_OT_fairing_go_to_strained,
-    OBJECT_OT_fairing_strain_table,
-)
-
-register, unregister = registration(*CLASSES)

@@ -219,7 +219,7 @@ def _resume(*_: Any) -> None:
     shown_changed()
 
 
-_HANDLERS = {
+HANDLERS = {
     "depsgraph_update_post": _note_changes,
     "frame_change_post": _mark_stale,
     "undo_post": _mark_all_stale,
@@ -227,14 +227,12 @@ _HANDLERS = {
     "load_pre": _forget,
     "load_post": _resume,
 }
+TIMERS = (_on_timer,)
 
 
 def register() -> None:
-    events.listen(_HANDLERS)
     _start_timer()  # for the file that is open now
 
 
 def unregister() -> None:
-    events.ignore(_HANDLERS)
-    events.stop_timer(_on_timer)
     _forget()

@@ -15,7 +15,6 @@ from bpy_extras.view3d_utils import location_3d_to_region_2d
 from gpu_extras import batch as _batch
 from mathutils import Matrix, Vector
 
-from .. import events
 from ..blender import Context, Object, current_context
 from ..inspection.overlay_arrays import pulled
 from ..live.switch import surfaces_of
@@ -228,9 +227,6 @@ def _forget(*_: Any) -> None:
     _entries.clear()
 
 
-_HANDLERS = {"load_pre": _forget}
-
-
 def _start() -> None:
     """From a timer, since there is no graphics card while Blender starts."""
     global _shader
@@ -240,20 +236,21 @@ def _start() -> None:
     _handles.append(add(_draw_labels, (), "WINDOW", "POST_PIXEL"))
 
 
+HANDLERS = {"load_pre": _forget}
+TIMERS = (_start,)
+
+
 def register() -> None:
     if bpy.app.background:
         return
     # persistent, since opening a file ends other timers
     bpy.app.timers.register(_start, first_interval=0.0, persistent=True)
-    events.listen(_HANDLERS)
 
 
 def unregister() -> None:
     global _shader
     if bpy.app.background:
         return
-    events.ignore(_HANDLERS)
-    events.stop_timer(_start)
     for handle in _handles:
         bpy.types.SpaceView3D.draw_handler_remove(handle, "WINDOW")
     _handles.clear()

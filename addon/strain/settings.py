@@ -6,7 +6,7 @@ from typing import Any
 import bpy
 from bpy.props import BoolProperty, FloatProperty, IntProperty
 
-from ..blender import Context, attached
+from ..blender import Context
 from ..inspection import overlay
 from . import known
 
@@ -53,7 +53,7 @@ class FAIRING_PG_strain_drawing(bpy.types.PropertyGroup):
     )
 
 
-register, unregister = attached(
+ATTACHED = (
     (bpy.types.Object, "discrete_fairing_strain", FAIRING_PG_strain),
     (bpy.types.Scene, "discrete_fairing_strain", FAIRING_PG_strain_drawing),
 )

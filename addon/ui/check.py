@@ -7,7 +7,7 @@ from typing import Any
 import bpy
 
 from .. import errors
-from ..blender import Context, registration
+from ..blender import Context
 from ..check import joints, repair
 from ..check.defects import recall_cleaned, recall_defects, recall_holes
 from ..check.holes import MOST
@@ -103,8 +103,3 @@ def _draw_holes(
     if len(holes) > _SHOWN:
         more = "" if len(holes) < MOST else "at least "
         column.label(text=f"and {more}{len(holes) - _SHOWN} smaller ones")
-
-
-CLASSES = (VIEW3D_PT_fairing_check,)
-
-register, unregister = registration(*CLASSES)

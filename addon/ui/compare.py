@@ -3,7 +3,7 @@
 
 import bpy
 
-from ..blender import Context, Object, Scene, all_objects, registration
+from ..blender import Context, Object, Scene, all_objects
 from ..choices import ENERGIES, energy_name
 from ..inspection import readout
 from ..memory import recall, source_of
@@ -48,6 +48,3 @@ def figures(target: Object, record: dict, scene: Scene) -> tuple[str, str, str]:
     after = record["after"]
     curvature, fold = (readout.text(after, key, scene) for key in ("total_curvature", "worst_fold"))
     return energy_name(target.discrete_fairing.energy), curvature, fold
-
-
-register, unregister = registration(VIEW3D_PT_fairing_compare)

@@ -6,7 +6,7 @@ from typing import cast
 import bpy
 
 from .. import curve_cage
-from ..blender import Context, Object, registration
+from ..blender import Context, Object
 from ..curve_cage import CageSettings
 from ..memory import source_of
 from ..mesh.read_curves import has_curves
@@ -44,6 +44,3 @@ def _cage_of(active: Object) -> Object | None:
     """The control mesh over curves: `active` itself, or its source."""
     source = source_of(active) or active
     return source if curve_cage.is_cage(source) else None
-
-
-register, unregister = registration(VIEW3D_PT_fairing_curves)

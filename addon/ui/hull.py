@@ -5,7 +5,7 @@ from typing import Any
 
 import bpy
 
-from ..blender import Context, registration
+from ..blender import Context
 from .layout import Folded
 
 
@@ -21,6 +21,3 @@ class VIEW3D_PT_fairing_hull(Folded, bpy.types.Panel):
         layout.operator("object.fairing_close")
         layout.operator("object.fairing_hydrostatics")
         layout.operator("object.fairing_hydrostatics_table", icon="FILE_TEXT")
-
-
-register, unregister = registration(VIEW3D_PT_fairing_hull)

@@ -5,7 +5,7 @@ from typing import Any
 
 import bpy
 
-from ..blender import Context, Object, registration
+from ..blender import Context, Object
 from ..inspection import display, readout, viewport_shading
 from ..inspection.display import VALUES
 from ..inspection.settings import MODES
@@ -129,8 +129,3 @@ def _draw_readout(
             column.label(text=text)
     if record["before"]:
         draw_notice(layout, readout.NO_SURFACE, icon="INFO")
-
-
-CLASSES = (VIEW3D_PT_fairing_inspect,)
-
-register, unregister = registration(*CLASSES)

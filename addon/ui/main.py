@@ -7,7 +7,7 @@ import bpy
 from bl_ui.utils import PresetPanel
 
 from .. import core, errors, prediction, size, vertex_values
-from ..blender import Context, Mesh, Object, registration
+from ..blender import Context, Mesh, Object
 from ..core import keeps_marks, tolerance
 from ..live import switch
 from ..memory import FAIRING_PG_fit, FAIRING_PG_surface, recall, source_of, source_problem
@@ -348,11 +348,3 @@ def _draw_cad(layout: bpy.types.UILayout) -> None:
 def _draw_progress(layout: bpy.types.UILayout, queue: Queue) -> None:
     layout.progress(factor=queue.fraction, text=status_text(queue))
     layout.operator("object.fairing_cancel", icon="X")
-
-
-CLASSES = (
-    VIEW3D_PT_fairing_presets,
-    VIEW3D_PT_fairing,
-)
-
-register, unregister = registration(*CLASSES)

@@ -166,10 +166,6 @@ _ENTRIES = {
 
 
 def register() -> None:
-    bpy.utils.register_class(VIEW3D_MT_fairing_for)
-    bpy.utils.register_class(VIEW3D_MT_fairing)
-    bpy.utils.register_class(VIEW3D_MT_fairing_boundary)
-    bpy.utils.register_class(VIEW3D_MT_fairing_normals)
     for name, draw in _ENTRIES.items():
         getattr(bpy.types, name).append(draw)
 
@@ -177,7 +173,3 @@ def register() -> None:
 def unregister() -> None:
     for name, draw in _ENTRIES.items():
         getattr(bpy.types, name).remove(draw)
-    bpy.utils.unregister_class(VIEW3D_MT_fairing_normals)
-    bpy.utils.unregister_class(VIEW3D_MT_fairing_boundary)
-    bpy.utils.unregister_class(VIEW3D_MT_fairing)
-    bpy.utils.unregister_class(VIEW3D_MT_fairing_for)

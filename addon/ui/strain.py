@@ -5,7 +5,7 @@ from typing import Any
 
 import bpy
 
-from ..blender import Context, Object, registration
+from ..blender import Context, Object
 from ..memory import active_source
 from ..strain import known
 from ..strain.drawn import magnification
@@ -79,6 +79,3 @@ def _draw_worst(layout: Any, context: Context, source: Object, strained: Straine
 def _name(strained: Strained, index: int) -> str:
     name = strained.name(index)
     return name[0].upper() + name[1:]
-
-
-register, unregister = registration(VIEW3D_PT_fairing_strain)

@@ -12,9 +12,10 @@ from addon import freshness, records
 from addon.inspection import display
 from addon.live import handlers
 from addon.memory import keep, recall, unset_unsound_settings
+from addon.registration import classes_of
 from addon.ui import check, compare, inspect, main
 
-PANELS = (*main.CLASSES, *check.CLASSES, *inspect.CLASSES, compare.VIEW3D_PT_fairing_compare)
+PANELS = [panel for module in (main, check, inspect, compare) for panel in classes_of(module)]
 DEEP = "[" * 100_000 + "]" * 100_000
 VALUES = (None, True, -1, 10**400, 1e999, float("nan"), "x", [], {}, [[]], [{}], {"x": "x"})
 RECORDS = ("report", "readout", "carried", "made", "defects")

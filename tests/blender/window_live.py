@@ -243,7 +243,7 @@ def test_another_file_and_disabling():
     bpy.ops.preferences.addon_disable(module=harness.EXTENSION)
     yield 0.5
     assert not bpy.app.timers.is_registered(handlers.on_timer)
-    for name in handlers._HANDLERS:
+    for name in handlers.HANDLERS:
         assert not [
             f for f in getattr(bpy.app.handlers, name) if f.__module__.endswith(".events")
         ], name

@@ -33,7 +33,7 @@ def registered():
     """All of the add-on's own that Blender would call, by their lists."""
     return {
         name: [f for f in getattr(bpy.app.handlers, name) if f.__module__ == "addon.events"]
-        for name in handlers._HANDLERS
+        for name in handlers.HANDLERS
     }
 
 

@@ -15,6 +15,7 @@ from addon.choices import ENERGIES, ENERGY_MEANINGS, INTERPOLATIONS
 from addon.operators.fair import FairSurface
 from addon.properties import fill_in
 from addon.purposes import FOLDER, PRESET_FOLDER, PURPOSES
+from addon.registration import classes_of
 from addon.settings import NAMES, Settings
 from addon.ui import layout as settings_layout
 from addon.ui import main, menus, pictures
@@ -41,7 +42,7 @@ def test_every_setting_is_shown_somewhere():
     settings = bpy.context.scene.discrete_fairing
     settings.interpolation = "APPROXIMATE"
     settings.use_selection = True
-    panels = [cls for cls in main.CLASSES if issubclass(cls, Sidebar)]
+    panels = [cls for cls in classes_of(main) if issubclass(cls, Sidebar)]
     log = [entry for cls in panels for entry in draw(cls)]
     settings.interpolation = "LIMIT"
     log += [entry for cls in panels for entry in draw(cls)]
