@@ -51,13 +51,6 @@ class TimedJob(Runnable, Protocol):
         """The predicted time of `compute`."""
 
 
-class MeshJob(TimedJob, Protocol):
-    """A job that changes a mesh, which may have changed since it was read."""
-
-    def why_outdated(self, context: Any) -> str:
-        """Why the result no longer fits the mesh, in one sentence; empty if it does."""
-
-
 class Queue:
     """A sequence of jobs. Its thread runs only `compute`, and uses nothing of Blender."""
 

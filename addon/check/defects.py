@@ -127,6 +127,12 @@ def select_in_all(
     return sum(_select(target.data, groups, _RANK[first]) for target, groups in wanted)
 
 
+def bring_into_view(context: Context) -> None:
+    """What is selected, where a viewport is meant."""
+    if context.area is not None and context.area.type == "VIEW_3D":
+        bpy.ops.view3d.view_selected()
+
+
 def elements_of(bm: bmesh.types.BMesh, kind: str, elements: Sequence[Any]) -> list[Any]:
     """BMesh elements for ids of the core, without deleted ones."""
     vertices, faces = bm.verts, bm.faces

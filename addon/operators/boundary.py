@@ -6,16 +6,18 @@ from typing import TYPE_CHECKING
 import bpy
 from bpy.props import EnumProperty
 
-from ..blender import Answer, Context
+from ..blender import Context
 from ..choices import EDGE_BOUNDARIES
+from ..errors import JobError
 from ..mesh.boundary_marks import mark_selected, select_marked
-from ..poll import ExplainedPoll, in_edit_mode
+from ..poll import in_edit_mode
 from ..words import counted
+from .refusing import Action
 
 _NAMES = {key: name for key, name, *_ in EDGE_BOUNDARIES}
 
 
-class _OfEdges(ExplainedPoll):
+class _OfEdges(Action):
     if TYPE_CHECKING:
         boundary: str
 
@@ -33,16 +35,12 @@ class OBJECT_OT_fairing_boundary(_OfEdges, bpy.types.Operator):
         name="Boundary", description="What these edges become", items=EDGE_BOUNDARIES
     )
 
-    def execute(self, context: Context) -> Answer:
+    def act(self, context: Context) -> str:
         meshes = [o.data for o in context.objects_in_mode_unique_data]
         count = sum(mark_selected(mesh, self.boundary) for mesh in meshes)
         if not count:
-            self.report(
-                {"ERROR"}, "Select edges at an open border: no edge with a single face is selected"
-            )
-            return {"CANCELLED"}
-        self.report({"INFO"}, f"{counted(count, 'border edge')}: {_NAMES[self.boundary]}")
-        return {"FINISHED"}
+            raise JobError("Select edges at an open border: no edge with a single face is selected")
+        return f"{counted(count, 'border edge')}: {_NAMES[self.boundary]}"
 
 
 class OBJECT_OT_fairing_select_boundary(_OfEdges, bpy.types.Operator):
@@ -58,9 +56,7 @@ class OBJECT_OT_fairing_select_boundary(_OfEdges, bpy.types.Operator):
         items=[choice for choice in EDGE_BOUNDARIES if choice[-1]],
     )
 
-    def execute(self, context: Context) -> Answer:
+    def act(self, context: Context) -> str:
         meshes = [o.data for o in context.objects_in_mode_unique_data]
         count = sum(select_marked(mesh, self.boundary) for mesh in meshes)
-        if not count:
-            self.report({"INFO"}, f"No border edge is marked {_NAMES[self.boundary]}")
-        return {"FINISHED"}
+        return "" if count else f"No border edge is marked {_NAMES[self.boundary]}"

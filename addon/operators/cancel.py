@@ -3,12 +3,13 @@
 
 import bpy
 
-from ..blender import Answer, Context
-from ..poll import ExplainedPoll, needs
+from ..blender import Context
+from ..poll import needs
 from ..queue import running
+from .refusing import Action
 
 
-class OBJECT_OT_fairing_cancel(ExplainedPoll, bpy.types.Operator):
+class OBJECT_OT_fairing_cancel(Action, bpy.types.Operator):
     """End the present run, as ESC does, and change nothing"""
 
     bl_idname = "object.fairing_cancel"
@@ -17,7 +18,6 @@ class OBJECT_OT_fairing_cancel(ExplainedPoll, bpy.types.Operator):
 
     reasons = (needs(lambda _: running(), "Nothing to cancel: no surface is being faired"),)
 
-    def execute(self, _context: Context) -> Answer:
+    def act(self, _context: Context) -> None:
         if (queue := running()) is not None:
             queue.cancel()
-        return {"FINISHED"}

@@ -12,6 +12,7 @@ from .. import core, errors
 from ..blender import Answer, Context, Object
 from ..check import repair
 from ..check.defects import (
+    bring_into_view,
     check_object,
     recall_defects,
     recall_holes,
@@ -23,11 +24,12 @@ from ..check.faults import faulty_vertices
 from ..check.holes import edges_of
 from ..mesh.read import active_mesh, source_objects
 from ..mesh.write import FAULTS, NO_POINTS, faces_without_points
-from ..poll import IN_EITHER_MODE, ExplainedPoll, needs, of_meshes
+from ..poll import IN_EITHER_MODE, needs, of_meshes
 from ..words import counted
+from .refusing import Action, refusing
 
 
-class _Checking(ExplainedPoll):
+class _Checking(Action):
     reasons = (lambda _: core.why_missing(), IN_EITHER_MODE, of_meshes(source_objects))
 
 
@@ -38,7 +40,7 @@ class OBJECT_OT_fairing_check(_Checking, bpy.types.Operator):
     bl_label = "Check Mesh"
     bl_options = {"REGISTER", "UNDO"}
 
-    def execute(self, context: Context) -> Answer:
+    def act(self, context: Context) -> str:
         found = [(t, check_object(context, t)) for t in source_objects(context)]
         bad = [(t, defects) for t, defects in found if defects]
         for target, defects in bad:
@@ -46,15 +48,14 @@ class OBJECT_OT_fairing_check(_Checking, bpy.types.Operator):
         if not bad:
             count = sum(len(recall_holes(target)) for target, _ in found)
             listed = "" if not count else f"; {counted(count, 'hole')} listed in the panel Check"
-            self.report({"INFO"}, f"Nothing is wrong{listed}")
-            return {"FINISHED"}
+            return f"Nothing is wrong{listed}"
         try:
             select_in_all(context, [(t, _groups(defects)) for t, defects in bad])
         except RuntimeError as error:  # a hidden collection, or an object that cannot be edited
             self.report({"WARNING"}, f"The elements cannot be shown: {error}")
         for target, defects in found:
             store_defects(context, target, defects)
-        return {"FINISHED"}
+        return ""
 
 
 class _AtDefect(_Checking):
@@ -82,14 +83,13 @@ class OBJECT_OT_fairing_select_defect(_AtDefect, bpy.types.Operator):
     bl_label = "Select"
     bl_options = {"REGISTER", "UNDO"}
 
-    def execute(self, context: Context) -> Answer:
+    def act(self, context: Context) -> str:
         target, defect, defects = self._defect(context)
         if defect is None:
-            self.report({"INFO"}, "This defect is no longer there")
-            return {"FINISHED"}
+            return "This defect is no longer there"
         select_defects(context, target, defect["kind"], defect["elements"])
         store_defects(context, target, defects)
-        return {"FINISHED"}
+        return ""
 
 
 class OBJECT_OT_fairing_repair(_AtDefect, bpy.types.Operator):
@@ -99,18 +99,15 @@ class OBJECT_OT_fairing_repair(_AtDefect, bpy.types.Operator):
     bl_label = "Repair"
     bl_options = {"REGISTER", "UNDO"}
 
+    @refusing
     def execute(self, context: Context) -> Answer:
         target, defect, _ = self._defect(context)
         if defect is None or repair.label(defect["code"]) is None:
             self.report({"INFO"}, "There is nothing to repair here")
             return {"CANCELLED"}
         select_defects(context, target, defect["kind"], defect["elements"])
-        try:
-            with errors.explained(target.name):
-                repair.repair(target, defect)
-        except errors.JobError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        with errors.explained(target.name):
+            repair.repair(target, defect)
         left = check_object(context, target)
         select_in_all(context, [(target, _groups(left))])
         store_defects(context, target, left)
@@ -131,22 +128,20 @@ class OBJECT_OT_fairing_select_hole(_Checking, bpy.types.Operator):
         name="Edge", description="Two vertices of its rim", size=2, min=0, options={"HIDDEN"}
     )
 
-    def execute(self, context: Context) -> Answer:
+    def act(self, context: Context) -> str:
         target = cast(Object, context.active_object)
         edges = edges_of(context, target, list(self.edge))
         if not edges:
-            self.report({"INFO"}, "This hole is no longer there")
-            return {"FINISHED"}
+            return "This hole is no longer there"
         known = recall_defects(target)
         select_defects(context, target, "edge", edges)
         if known is not None and not known[1]:
             store_defects(context, target, known[0])
-        if context.area is not None and context.area.type == "VIEW_3D":
-            bpy.ops.view3d.view_selected()
-        return {"FINISHED"}
+        bring_into_view(context)
+        return ""
 
 
-class OBJECT_OT_fairing_select_faults(ExplainedPoll, bpy.types.Operator):
+class OBJECT_OT_fairing_select_faults(Action, bpy.types.Operator):
     """Select in Edit Mode where this surface crosses itself, bulges far from its source, is folded, or has no points of its scan"""
 
     bl_idname = "object.fairing_select_faults"
@@ -168,7 +163,7 @@ class OBJECT_OT_fairing_select_faults(ExplainedPoll, bpy.types.Operator):
         of_meshes(active_mesh),
     )
 
-    def execute(self, context: Context) -> Answer:
+    def act(self, context: Context) -> None:
         target = cast(Object, context.active_object)
         faulty, bare = (
             faulty_vertices(target.data),
@@ -176,7 +171,6 @@ class OBJECT_OT_fairing_select_faults(ExplainedPoll, bpy.types.Operator):
         )
         groups = (("vertex", faulty.tolist()), ("face", bare.tolist()))
         select_in_all(context, [(target, [group for group in groups if group[1]])])
-        return {"FINISHED"}
 
 
 def _groups(defects: list[dict[str, Any]]) -> list[tuple[str, Sequence[Any]]]:

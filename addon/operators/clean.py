@@ -6,16 +6,16 @@ from collections.abc import Iterator, Sequence
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
-from ..blender import Answer, Context
+from ..blender import Context
 from ..cleaning import STEPS, CleanJob, CleanOptions
 from ..mesh.read import source_objects
 from ..poll import of_meshes
-from .fair import WholeFairing, can_fair
+from .fair import InMeshes, can_fair
 from .fill_holes import LargestHole
 from .shown import Shown
 
 
-class OBJECT_OT_fairing_clean(Shown, LargestHole, WholeFairing, bpy.types.Operator):
+class OBJECT_OT_fairing_clean(Shown, LargestHole, InMeshes, bpy.types.Operator):
     """Make a closed surface of a scan: remove loose parts, mend defects, fill holes, and list what was done"""
 
     bl_idname = "object.fairing_clean"
@@ -87,14 +87,10 @@ class OBJECT_OT_fairing_clean(Shown, LargestHole, WholeFairing, bpy.types.Operat
         targets = {target.data: target for target in source_objects(context)}.values()
         return [CleanJob(context, target, options) for target in targets]
 
-    def finish(self, context: Context, jobs: Sequence[CleanJob]) -> Answer:
-        """Writes the meshes, unless they have changed meanwhile."""
-        if self.is_outdated(context, jobs):
-            return {"CANCELLED"}
+    def write(self, context: Context, jobs: Sequence[CleanJob]) -> None:
         for job in jobs:
             said = job.apply(context)
             for sentence in said[:-1]:
                 self.report({"INFO"}, f"{job.name}: {sentence}")
             good = job.result.watertight and not job.result.left
             self.report({"INFO" if good else "WARNING"}, f"{job.name}: {said[-1]}")
-        return {"FINISHED"}

@@ -7,7 +7,7 @@ from typing import Any
 import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
-from ..blender import Answer, Context
+from ..blender import Context
 from ..mesh.object import select_only
 from ..mesh.read import source_objects
 from ..poll import in_edit_mode, in_mode, of_meshes
@@ -16,27 +16,24 @@ from ..strain.ease import EaseJob, EaseOptions, EaseSelectedJob
 from ..ui.main import fairing_operator
 from ..units import Units
 from . import redo
-from .fair import WholeFairing, can_fair
+from .fair import InMeshes, can_fair
 from .shown import Shown
 from .strain import active_sources
 
 
-class _Easing(WholeFairing):
+class _Easing(InMeshes):
     """The common part: writes the result if it still applies, and reports it."""
 
     cancelled_text = "Easing was cancelled: nothing has changed"
 
-    def finish(self, context: Context, jobs: Sequence[Any]) -> Answer:
-        if self.is_outdated(context, jobs):
-            return {"CANCELLED"}
-        self.write(context, list(jobs))
+    def write(self, context: Context, jobs: Sequence[Any]) -> None:
+        self.put(context, list(jobs))
         for job in jobs:
             job.note()
             said = job.said(Units.of(context.scene).lengths(job.longest))
             self.report({"INFO"}, f"{job.name}: {said}")
-        return {"FINISHED"}
 
-    def write(self, context: Context, jobs: list[Any]) -> None:
+    def put(self, context: Context, jobs: list[Any]) -> None:
         """Implemented by the operators."""
         raise NotImplementedError
 
@@ -139,7 +136,7 @@ class OBJECT_OT_fairing_ease(Shown, _Easing, bpy.types.Operator):
         options = values_of(EaseOptions, self)
         return [EaseJob(context, source, options) for source in active_sources(context)]
 
-    def write(self, context: Context, jobs: list[Any]) -> None:
+    def put(self, context: Context, jobs: list[Any]) -> None:
         if self.result == "SHAPE_KEY":
             for job in jobs:
                 job.write_key()
@@ -170,6 +167,6 @@ class OBJECT_OT_fairing_ease_selected(_Easing, bpy.types.Operator):
     def make_jobs(self, context: Context) -> list[Any]:
         return [EaseSelectedJob(context, source, self.factor) for source in source_objects(context)]
 
-    def write(self, _context: Context, jobs: list[Any]) -> None:
+    def put(self, _context: Context, jobs: list[Any]) -> None:
         for job in jobs:
             job.write()

@@ -5,7 +5,7 @@ All work can be done by `execute`, which scripts and background runs call.
 """
 
 from collections.abc import Sequence
-from typing import cast
+from typing import Any, cast
 
 import bpy
 
@@ -21,12 +21,13 @@ from ..mesh.object import is_in_view_layer, nothing_left_behind, select_only, wh
 from ..mesh.read import source_objects
 from ..poll import IN_EITHER_MODE, LINKED_SURFACE, ExplainedPoll, in_mode, needs
 from ..properties import FairingSettings, copy_settings, fill_in, take_near
-from ..queue import ConsoleProgress, MeshJob, running
+from ..queue import ConsoleProgress, running
 from ..scan_fit import job_of
 from ..settings import Settings
 from ..ui.layout import draw_settings
 from . import redo
 from .modal import ModalRun
+from .refusing import Action, refusing
 
 
 def can_fair(context: Context) -> str:
@@ -41,16 +42,14 @@ def can_fair(context: Context) -> str:
 class Fairing(ExplainedPoll, ModalRun):
     """The common part of both operators: makes jobs, computes them, and writes once all are complete."""
 
+    @refusing
     def invoke(self, context: Context, _event: bpy.types.Event) -> Answer:
-        jobs = self._prepare(context)
-        if jobs is None:
-            return {"CANCELLED"}
-        return self._in_time(context, jobs) or self._in_background(context, jobs)
+        jobs = self._prepared(context)
+        return self._in_time(context, jobs) or self.start(context, self._unused(context, jobs))
 
+    @refusing
     def execute(self, context: Context) -> Answer:
-        jobs = self._prepare(context)
-        if jobs is None:
-            return {"CANCELLED"}
+        jobs = self._prepared(context)
         if not self.is_redone():
             return self._block(context, jobs)
         return self._in_time(context, jobs) or self._begin_small(context, jobs)
@@ -68,67 +67,47 @@ class Fairing(ExplainedPoll, ModalRun):
         except JobCancelled:
             return None
 
-    def _unused(self, context: Context, jobs: list[Job]) -> list[Job] | None:
-        """The `jobs`, or new ones if some are complete already; None after an error."""
-        return jobs if all(job.result is None for job in jobs) else self._prepare(context)
-
-    def _in_background(self, context: Context, tried: list[Job]) -> Answer:
-        """Runs in the background, with the progress bar."""
-        jobs = self._unused(context, tried)
-        return {"CANCELLED"} if jobs is None else self.start(context, jobs)
+    def _unused(self, context: Context, jobs: list[Job]) -> list[Job]:
+        """The `jobs`, or new ones where some are done already."""
+        return jobs if all(job.result is None for job in jobs) else self._prepared(context)
 
     def _begin_small(self, context: Context, tried: list[Job]) -> Answer:
         """Makes surfaces with fewer levels at once, which Recompute completes. If even that is too slow
         nothing is made, and Blender restores the previous state.
         """
         jobs = self._unused(context, tried)
-        if jobs is None:
-            return {"CANCELLED"}
         try:
-            answer = self._block(context, redo.small_jobs(context, jobs), Deadline(redo.BUDGET))
-        except JobCancelled:
-            said = "This takes too long here: set it in the panel, and press Recompute"
-            self.report({"ERROR"}, said)
-            return {"CANCELLED"}
-        if answer == {"FINISHED"}:
-            for target, job in zip(self._written, jobs, strict=True):
-                copy_settings(job.settings, target.discrete_fairing)
-                target.discrete_fairing.unfinished = True
-            self.report({"INFO"}, "Shown with fewer levels: press Recompute for the whole surface")
-        return answer
+            self._block(context, redo.small_jobs(context, jobs), Deadline(redo.BUDGET))
+        except JobCancelled as error:
+            raise JobError(
+                "This takes too long here: set it in the panel, and press Recompute"
+            ) from error
+        for target, job in zip(self._written, jobs, strict=True):
+            copy_settings(job.settings, target.discrete_fairing)
+            target.discrete_fairing.unfinished = True
+        self.report({"INFO"}, "Shown with fewer levels: press Recompute for the whole surface")
+        return {"FINISHED"}
 
-    def _prepare(self, context: Context) -> list[Job] | None:
-        """The jobs, or None after an error has been reported."""
+    def _prepared(self, context: Context) -> list[Job]:
         self._mode = context.mode
-        try:
-            return self.make_jobs(context)
-        except JobError as error:
-            self.report({"ERROR"}, str(error))
-            return None
+        return self.make_jobs(context)
 
     def _block(self, context: Context, jobs: list[Job], deadline: Deadline | None = None) -> Answer:
         """Computes all jobs while blocking; raises JobCancelled if the deadline passes."""
-        try:
-            for job in jobs:
-                console = ConsoleProgress(job.name) if bpy.app.background else None
-                progress = deadline or console
-                job.compute(**({"progress": progress} if progress else {}))
-        except JobCancelled:
-            raise
-        except JobError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
-        return self.finish(context, jobs)
+        for job in jobs:
+            console = ConsoleProgress(job.name) if bpy.app.background else None
+            progress = deadline or console
+            job.compute(**({"progress": progress} if progress else {}))
+        self.finish(context, jobs)
+        return {"FINISHED"}
 
-    def finish(self, context: Context, jobs: Sequence[Job]) -> Answer:
+    def finish(self, context: Context, jobs: Sequence[Job]) -> None:
         """Writes the results of finished jobs, and selects them in Object Mode."""
         gone = [job.name for job in jobs if not job.is_writable()]
         if gone:
-            self.report(
-                {"ERROR"},
-                f"Fair once more: {', '.join(gone)} was deleted or undone during the run, and nothing has been made.",
+            raise JobError(
+                f"Fair once more: {', '.join(gone)} was deleted or undone during the run, and nothing has been made."
             )
-            return {"CANCELLED"}
         targets = [target for job in jobs if (target := job.target) is not None]
         # the user's present mode stays, unless the surfaces themselves are being edited
         busy = context.mode not in {"OBJECT", self._mode}
@@ -145,7 +124,6 @@ class Fairing(ExplainedPoll, ModalRun):
         if not busy:
             select_only(context, self._written)
         self.after(context, jobs)
-        return {"FINISHED"}
 
     def make_jobs(self, context: Context) -> list[Job]:
         """The jobs to compute; raises JobError."""
@@ -200,12 +178,19 @@ class WholeFairing(Fairing):
         redo.repeat_soon(context, self)
         return {"FINISHED"}
 
-    def is_outdated(self, context: Context, jobs: Sequence[MeshJob]) -> bool:
-        """Whether a mesh has changed meanwhile, which is reported."""
-        reason = next(filter(None, (job.why_outdated(context) for job in jobs)), "")
-        if reason:
-            self.report({"ERROR"}, reason)
-        return bool(reason)
+
+class InMeshes(WholeFairing):
+    """A run whose outcome is written to the meshes that it read."""
+
+    def finish(self, context: Context, jobs: Sequence[Any]) -> None:
+        """Writes the meshes, unless they have changed meanwhile."""
+        for reason in filter(None, (job.why_outdated(context) for job in jobs)):
+            raise JobError(reason)
+        self.write(context, jobs)
+
+    def write(self, context: Context, jobs: Sequence[Any]) -> None:
+        """For the operator to say."""
+        raise NotImplementedError
 
 
 class OBJECT_OT_fairing_surface(FairSurface, bpy.types.Operator):
@@ -268,7 +253,7 @@ class OBJECT_OT_fairing_recompute_stale(Fairing, bpy.types.Operator):
         return [_again(context, target) for target in stale_surfaces()]
 
 
-class OBJECT_OT_fairing_show_source(ExplainedPoll, bpy.types.Operator):
+class OBJECT_OT_fairing_show_source(Action, bpy.types.Operator):
     """Show the source of this surface and select it, to edit its vertices"""
 
     bl_idname = "object.fairing_show_source"
@@ -283,9 +268,8 @@ class OBJECT_OT_fairing_show_source(ExplainedPoll, bpy.types.Operator):
 
     reasons = (in_mode("Go to Object Mode first", "OBJECT"), _source_reason)
 
-    def execute(self, context: Context) -> Answer:
+    def act(self, context: Context) -> None:
         source = source_of(cast(Object, context.active_object))
         assert source is not None  # poll has checked it
         source.hide_set(False)
         select_only(context, [source])
-        return {"FINISHED"}

@@ -124,7 +124,7 @@ class OBJECT_OT_fairing_fill(Shown, LargestHole, WholeFairing, bpy.types.Operato
                 job.flatten()
         return jobs
 
-    def finish(self, context: Context, jobs: Sequence[HoleJob]) -> Answer:
+    def finish(self, context: Context, jobs: Sequence[HoleJob]) -> None:
         """Changes the meshes that can be filled, and reports why others cannot."""
         reasons = list(self._reasons)
         ready = []
@@ -138,13 +138,11 @@ class OBJECT_OT_fairing_fill(Shown, LargestHole, WholeFairing, bpy.types.Operato
         for job in jobs:
             job.check_again(context)
         if not done:
-            self.report({"ERROR"}, " ".join(reasons))
-            return {"CANCELLED"}
+            raise JobError(" ".join(reasons))
         reasons += [f"{job.name}: {job.left_text}" for job in ready if job.left_text]
         self.report({"INFO"}, _said(done))
         for sentence in reasons + fill_warnings(done):
             self.report({"WARNING"}, sentence)
-        return {"FINISHED"}
 
 
 def _said(done: list[Filling]) -> str:

@@ -7,12 +7,14 @@ import bpy
 from bpy.props import EnumProperty
 from mathutils import Vector
 
-from ..blender import Answer, Context, Object
+from ..blender import Context, Object
+from ..errors import JobError
 from ..mesh import fixed_normals
 from ..mesh.read import control_mesh
 from ..mesh.world_shape import world_matrix
-from ..poll import ExplainedPoll, in_edit_mode
+from ..poll import in_edit_mode
 from ..words import counted
+from .refusing import Action
 
 _FROM = (
     ("MESH", "The Mesh", "The normal that the mesh has at the vertex, custom normals included"),
@@ -20,7 +22,7 @@ _FROM = (
 )
 
 
-class _OfVertices(ExplainedPoll):
+class _OfVertices(Action):
     if TYPE_CHECKING:
         origin: str
 
@@ -36,25 +38,21 @@ class OBJECT_OT_fairing_fix_normal(_OfVertices, bpy.types.Operator):
 
     origin: EnumProperty(name="From", description="Where the normals come from", items=_FROM)
 
-    def execute(self, context: Context) -> Answer:
+    def act(self, context: Context) -> str:
         sources = context.objects_in_mode_unique_data
         if self.origin == "MESH":
             count = sum(_fix_own(context, source) for source in sources)
         else:
             empties = [o for o in context.selected_objects if o.type == "EMPTY"]
             if len(empties) != 1:
-                self.report(
-                    {"ERROR"},
-                    "Select one empty beside the mesh before Edit Mode: its Z axis is the normal",
+                raise JobError(
+                    "Select one empty beside the mesh before Edit Mode: its Z axis is the normal"
                 )
-                return {"CANCELLED"}
             axis = _z_axis(empties[0])
             count = sum(fixed_normals.fix_along(source, axis) for source in sources)
         if not count:
-            self.report({"ERROR"}, "Select a vertex with faces first")
-            return {"CANCELLED"}
-        self.report({"INFO"}, f"{counted(count, 'normal')} fixed")
-        return {"FINISHED"}
+            raise JobError("Select a vertex with faces first")
+        return f"{counted(count, 'normal')} fixed"
 
 
 class OBJECT_OT_fairing_free_normal(_OfVertices, bpy.types.Operator):
@@ -64,11 +62,9 @@ class OBJECT_OT_fairing_free_normal(_OfVertices, bpy.types.Operator):
     bl_label = "Free Normal"
     bl_options = {"REGISTER", "UNDO"}
 
-    def execute(self, context: Context) -> Answer:
+    def act(self, context: Context) -> str:
         count = sum(fixed_normals.free(o.data) for o in context.objects_in_mode_unique_data)
-        if not count:
-            self.report({"INFO"}, "No selected vertex has a fixed normal")
-        return {"FINISHED"}
+        return "" if count else "No selected vertex has a fixed normal"
 
 
 def _fix_own(context: Context, source: Object) -> int:

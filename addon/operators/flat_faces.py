@@ -7,18 +7,20 @@ from math import degrees, radians
 import bpy
 from bpy.props import BoolProperty, FloatProperty
 
-from ..blender import Answer, Context, Object
+from ..blender import Context, Object
 from ..check.flats import find_flats
+from ..errors import JobError
 from ..memory import source_of
 from ..mesh import flat_marks
 from ..mesh.read import read_mesh, source_objects
 from ..mesh.world_shape import world_shape
-from ..poll import IN_EITHER_MODE, ExplainedPoll, of_meshes
+from ..poll import IN_EITHER_MODE, of_meshes
 from ..words import counted
+from .refusing import Action
 from .shown import Shown
 
 
-class OBJECT_OT_fairing_flat_faces(Shown, ExplainedPoll, bpy.types.Operator):
+class OBJECT_OT_fairing_flat_faces(Shown, Action, bpy.types.Operator):
     """Keep faces flat, by Bending: in Edit Mode the selected ones, in Object Mode large flat ones between tight rims"""
 
     bl_idname = "object.fairing_flat_faces"
@@ -43,7 +45,7 @@ class OBJECT_OT_fairing_flat_faces(Shown, ExplainedPoll, bpy.types.Operator):
     def shown(self, context: Context) -> Iterable[str]:
         return ("clear", "angle") if context.mode == "OBJECT" and not self.clear else ("clear",)
 
-    def execute(self, context: Context) -> Answer:
+    def act(self, context: Context) -> str:
         targets = _targets(context)
         if context.mode == "EDIT_MESH":
             # the only mode in which every version of Blender writes the marks
@@ -53,20 +55,14 @@ class OBJECT_OT_fairing_flat_faces(Shown, ExplainedPoll, bpy.types.Operator):
             finally:
                 bpy.ops.object.mode_set(mode="EDIT")
             if not count:
-                self.report({"ERROR"}, "Select faces first")
-                return {"CANCELLED"}
+                raise JobError("Select faces first")
         elif self.clear:
             count = sum(flat_marks.clear(o.data) for o in targets)
         else:
             count = sum(_mark_found(o, degrees(self.angle)) for o in targets)
             if not count:
-                self.report(
-                    {"INFO"}, "No flat faces found: select faces in Edit Mode to keep them flat"
-                )
-                return {"FINISHED"}
-        stay = "may curve" if self.clear else "stay flat"
-        self.report({"INFO"}, f"{counted(count, 'face')} {stay}")
-        return {"FINISHED"}
+                return "No flat faces found: select faces in Edit Mode to keep them flat"
+        return f"{counted(count, 'face')} {'may curve' if self.clear else 'stay flat'}"
 
 
 def _targets(context: Context) -> list[Object]:

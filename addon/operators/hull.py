@@ -7,23 +7,25 @@ from typing import Any, cast
 import bpy
 import numpy as np
 
-from ..blender import Answer, Context, Mesh, Object
+from ..blender import Context, Mesh, Object
+from ..errors import JobError
 from ..memory import active_source, source_of
 from ..mesh.layers import write_creases
 from ..mesh.object import new_object, select_only
 from ..mesh.offset_names import read_names, write_names
 from ..mesh.read import active_mesh, control_mesh, read_mesh
 from ..mesh.scans import in_metres, of_mesh
-from ..poll import IN_OBJECT_MODE, ExplainedPoll, of_meshes
+from ..poll import IN_OBJECT_MODE, of_meshes
 from ..settings import Settings
 from ..strain.measure import mixed_positions
 from ..yard.closing import NotHalf, Whole, whole
 from ..yard.hydrostatics import NotClosed, Solid, solid
+from .refusing import Action
 
 ACTIVE_MESH = (IN_OBJECT_MODE, of_meshes(active_mesh))
 
 
-class OBJECT_OT_fairing_close(ExplainedPoll, bpy.types.Operator):
+class OBJECT_OT_fairing_close(Action, bpy.types.Operator):
     """Make half a hull whole and watertight: mirrored, with a deck and a flat transom between sharp rims"""
 
     bl_idname = "object.fairing_close"
@@ -32,30 +34,26 @@ class OBJECT_OT_fairing_close(ExplainedPoll, bpy.types.Operator):
 
     reasons = ACTIVE_MESH
 
-    def execute(self, context: Context) -> Answer:
+    def act(self, context: Context) -> str:
         """Closes the control mesh; if its surface is active, fairs the closed one with the same
-        settings.
-        """
+        settings."""
         active = cast(Object, context.active_object)
         source = cast(Object, active_source(context))
         settings = None if source_of(active) is None else Settings.of(active.discrete_fairing)
         try:
             closed = _closed(context, source)
         except NotHalf as error:
-            self.report({"ERROR"}, f"{source.name} is no half hull: {error}.")
-            return {"CANCELLED"}
+            raise JobError(f"{source.name} is no half hull: {error}.") from error
         except NotClosed as error:
-            self.report(
-                {"ERROR"}, f"Run Check Mesh on {source.name}: {error.args[0]} edges stay open."
-            )
-            return {"CANCELLED"}
+            raise JobError(
+                f"Run Check Mesh on {source.name}: {error.args[0]} edges stay open."
+            ) from error
         select_only(context, [closed])
         if settings is not None:
             options = asdict(replace(settings, symmetry_plane="NONE", use_selection=False))
             cast(Any, bpy.ops.object).fairing_surface(**options)
         found = solid(*in_metres(context, cast(Object, context.active_object)))
-        self.report({"INFO"}, f"Closed: {_solid_text(context, found)}")
-        return {"FINISHED"}
+        return f"Closed: {_solid_text(found)}"
 
 
 def _closed(context: Context, source: Object) -> Object:
@@ -100,6 +98,6 @@ def _crease(mesh: Mesh, made: Whole, weights: dict[frozenset[int], float]) -> No
     write_creases(mesh, wanted)
 
 
-def _solid_text(context: Context, found: Solid) -> str:
+def _solid_text(found: Solid) -> str:
     centre = ", ".join(f"{value:.4g}" for value in found.centroid)
     return f"volume {found.volume:.5g} m³, area {found.area:.5g} m², centroid ({centre}) m"

@@ -5,19 +5,19 @@ waterplane.
 
 from collections.abc import Iterable
 from math import degrees, radians
-from typing import TYPE_CHECKING, Any, cast
+from typing import cast
 
 import bpy
 from bpy.props import FloatProperty, IntProperty, StringProperty
-from bpy_extras.io_utils import ExportHelper
 
-from ..blender import Answer, Context, Object
+from ..blender import Context, Object
+from ..errors import JobError
 from ..mesh.scans import in_metres
-from ..poll import ExplainedPoll
 from ..yard.hydrostatics import Hydrostatics, NotClosed, hydrostatics
 from .hull import ACTIVE_MESH
+from .refusing import Action
 from .shown import Shown
-from .written_files import write_text_file
+from .written_files import WritesText, write_text_file
 
 _COLUMNS = (
     "draught_m,trim_deg,volume_m3,displacement_kg,lcb_m,vcb_m,wetted_m2,waterplane_m2,lcf_m,bm_m,"
@@ -25,7 +25,7 @@ _COLUMNS = (
 )
 
 
-class _Afloat(ExplainedPoll):
+class _Afloat(Action):
     """The common part. x is along the hull, z up; the draught is measured from the lowest point at no
     trim.
     """
@@ -53,8 +53,8 @@ class _Afloat(ExplainedPoll):
         min=0.0,
     )
 
-    def afloat(self, context: Context, draughts: list[float]) -> list[Hydrostatics] | None:
-        """The hydrostatics at each of the `draughts` in metres; None after an error has been reported."""
+    def afloat(self, context: Context, draughts: list[float]) -> list[Hydrostatics]:
+        """At each of the `draughts` in metres; raises JobError."""
         target = cast(Object, context.active_object)
         points, triangles = in_metres(context, target)
         low, pivot = points[:, 2].min(), 0.5 * (points[:, 0].min() + points[:, 0].max())
@@ -64,11 +64,9 @@ class _Afloat(ExplainedPoll):
                 for draught in draughts
             ]
         except NotClosed as error:
-            cast(Any, self).report(
-                {"ERROR"},
-                f"Press Close Hull, or fill holes: {target.name} has {error.args[0]} open edges below the waterplane.",
-            )
-            return None
+            raise JobError(
+                f"Press Close Hull, or fill holes: {target.name} has {error.args[0]} open edges below the waterplane."
+            ) from error
 
 
 class OBJECT_OT_fairing_hydrostatics(Shown, _Afloat, bpy.types.Operator):
@@ -80,15 +78,12 @@ class OBJECT_OT_fairing_hydrostatics(Shown, _Afloat, bpy.types.Operator):
 
     said: StringProperty(options={"HIDDEN", "SKIP_SAVE"})
 
-    def execute(self, context: Context) -> Answer:
+    def act(self, context: Context) -> str:
         draught = self.draught * context.scene.unit_settings.scale_length
-        found = self.afloat(context, [draught])
-        if found is None:
-            return {"CANCELLED"}
-        lines = _said(found[0], draught, self.density)
+        (found,) = self.afloat(context, [draught])
+        lines = _said(found, draught, self.density)
         self.said = "\n".join(lines)
-        self.report({"INFO"}, ", ".join(lines))
-        return {"FINISHED"}
+        return ", ".join(lines)
 
     def shown(self, _context: Context) -> Iterable[str]:
         return _Afloat.__annotations__
@@ -110,7 +105,7 @@ def _said(found: Hydrostatics, draught: float, density: float) -> list[str]:
     ]
 
 
-class OBJECT_OT_fairing_hydrostatics_table(_Afloat, ExportHelper, bpy.types.Operator):
+class OBJECT_OT_fairing_hydrostatics_table(_Afloat, WritesText, bpy.types.Operator):
     """Write hydrostatics at evenly spaced draughts as a table (CSV), in metres and kilograms"""
 
     bl_idname = "object.fairing_hydrostatics_table"
@@ -118,25 +113,18 @@ class OBJECT_OT_fairing_hydrostatics_table(_Afloat, ExportHelper, bpy.types.Oper
     bl_options = {"REGISTER"}
     filename_ext = ".csv"
 
-    if TYPE_CHECKING:
-        filepath: str  # added by ExportHelper
-
     filter_glob: StringProperty(default="*.csv", options={"HIDDEN"})
     count: IntProperty(
         name="Draughts", description="How many, up to the draught", default=10, min=1, soft_max=50
     )
 
-    def execute(self, context: Context) -> Answer:
+    def act(self, context: Context) -> str:
         deepest = self.draught * context.scene.unit_settings.scale_length
         draughts = [deepest * (k + 1) / self.count for k in range(self.count)]
         found = self.afloat(context, draughts)
-        if found is None:
-            return {"CANCELLED"}
         rows = [self._row(one, draught) for one, draught in zip(found, draughts, strict=True)]
-        if not write_text_file(self, self.filepath, "\r\n".join([_COLUMNS, *rows, ""])):
-            return {"CANCELLED"}
-        self.report({"INFO"}, f"{len(rows)} draughts written to {bpy.path.abspath(self.filepath)}")
-        return {"FINISHED"}
+        write_text_file(self.filepath, "\r\n".join([_COLUMNS, *rows, ""]))
+        return f"{len(rows)} draughts written to {bpy.path.abspath(self.filepath)}"
 
     def _row(self, found: Hydrostatics, draught: float) -> str:
         numbers = (

@@ -7,13 +7,13 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
 from .. import in_place
-from ..blender import Answer, Context, Object
+from ..blender import Context, Object
 from ..choices import DEFAULT_ENERGY, ENERGIES, ENERGY_MEANING, JOINTS
 from ..errors import JobError
 from ..mesh.read import source_objects
 from ..poll import in_mode, of_meshes
 from ..settings import Settings, values_of
-from .fair import WholeFairing, can_fair
+from .fair import InMeshes, can_fair
 from .shown import Shown
 
 
@@ -40,7 +40,7 @@ VERTICES = (
 )
 
 
-class InPlace(Shown, WholeFairing):
+class InPlace(Shown, InMeshes):
     """The settings for fairing faces of the meshes themselves."""
 
     levels: IntProperty(
@@ -126,17 +126,13 @@ class InPlace(Shown, WholeFairing):
         """The objects whose faces are faired; raises JobError."""
         raise NotImplementedError
 
-    def finish(self, context: Context, jobs: Sequence[in_place.InPlaceJob]) -> Answer:
-        """Writes the meshes, unless they have changed meanwhile."""
-        if self.is_outdated(context, jobs):
-            return {"CANCELLED"}
+    def write(self, _context: Context, jobs: Sequence[in_place.InPlaceJob]) -> None:
         for job in jobs:
             job.apply()
             for sentence in job.notes:
                 self.report({"INFO"}, sentence)
             for sentence in job.warnings():
                 self.report({"WARNING"}, sentence)
-        return {"FINISHED"}
 
 
 class OBJECT_OT_fairing_in_place(InPlace, bpy.types.Operator):

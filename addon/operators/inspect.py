@@ -11,7 +11,8 @@ from ..inspection import display, readout, viewport_shading
 from ..inspection.display import VALUES
 from ..inspection.settings import MODES
 from ..memory import source_of
-from ..poll import IN_EITHER_MODE, IN_OBJECT_MODE, ExplainedPoll, Reason, needs, of_meshes
+from ..poll import IN_EITHER_MODE, IN_OBJECT_MODE, Reason, needs, of_meshes
+from .refusing import Action
 
 
 def meshes(context: Context) -> list[Object]:
@@ -21,7 +22,7 @@ def meshes(context: Context) -> list[Object]:
     return chosen or ([active] if active is not None and active.type == "MESH" else [])
 
 
-class _Inspecting(ExplainedPoll):
+class _Inspecting(Action):
     bl_options = {"REGISTER", "UNDO"}
 
     reasons: tuple[Reason, ...] = (IN_OBJECT_MODE, of_meshes(meshes))
@@ -48,16 +49,16 @@ class OBJECT_OT_fairing_inspect(_Inspecting, bpy.types.Operator):
             viewport_shading.show(space, self.mode)
         return self.execute(context)
 
-    def execute(self, context: Context) -> Answer:
+    def act(self, context: Context) -> str:
         for target in meshes(context):
             target.discrete_fairing_inspection.mode = self.mode
         if self.mode in VALUES and context.mode == "EDIT_MESH":
-            self.report({"INFO"}, "Press Tab, then Refresh: colours are measured in Object Mode")
-        elif self.mode == "DEVIATION" and not _has_reference(context):
+            return "Press Tab, then Refresh: colours are measured in Object Mode"
+        if self.mode == "DEVIATION" and not _has_reference(context):
             self.report(
                 {"WARNING"}, "Choose an object under Measured From: this mesh was made from none"
             )
-        return {"FINISHED"}
+        return ""
 
 
 def _has_reference(context: Context) -> bool:
@@ -72,10 +73,9 @@ class OBJECT_OT_fairing_refresh(_Inspecting, bpy.types.Operator):
     bl_idname = "object.fairing_refresh"
     bl_label = "Refresh Colours"
 
-    def execute(self, context: Context) -> Answer:
+    def act(self, context: Context) -> None:
         for target in meshes(context):
             display.refresh(target, context.scene.discrete_fairing_inspection)
-        return {"FINISHED"}
 
 
 class OBJECT_OT_fairing_measure(_Inspecting, bpy.types.Operator):
@@ -84,13 +84,12 @@ class OBJECT_OT_fairing_measure(_Inspecting, bpy.types.Operator):
     bl_idname = "object.fairing_measure"
     bl_label = "Measure"
 
-    def execute(self, context: Context) -> Answer:
+    def act(self, context: Context) -> None:
         for target in meshes(context):
             readout.take(context, target, source_of(target))
-        return {"FINISHED"}
 
 
-class OBJECT_OT_fairing_viewport(ExplainedPoll, bpy.types.Operator):
+class OBJECT_OT_fairing_viewport(Action, bpy.types.Operator):
     """Switch this viewport to Material Preview, which shows stripes and colours, until Off switches it back"""
 
     bl_idname = "object.fairing_viewport"
@@ -103,6 +102,5 @@ class OBJECT_OT_fairing_viewport(ExplainedPoll, bpy.types.Operator):
         ),
     )
 
-    def execute(self, context: Context) -> Answer:
+    def act(self, context: Context) -> None:
         viewport_shading.show(context.space_data, "ZEBRA")
-        return {"FINISHED"}

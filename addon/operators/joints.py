@@ -10,7 +10,7 @@ from bpy.props import EnumProperty, IntProperty
 from .. import errors
 from ..blender import Answer, Context, Object
 from ..check import joints
-from ..check.defects import select_defects
+from ..check.defects import bring_into_view, select_defects
 from ..choices import JOINTS
 from ..freshness import is_own
 from ..job import Job
@@ -18,6 +18,7 @@ from ..memory import no_source_reason, source_of
 from ..poll import LINKED_SURFACE, ExplainedPoll, in_mode, needs
 from ..settings import Settings
 from .fair import Fairing, can_fair
+from .refusing import Action
 
 
 def _other(context: Context) -> Object | None:
@@ -85,7 +86,7 @@ class OBJECT_OT_fairing_joints(ExplainedPoll, bpy.types.Operator):
         return {"FINISHED"}
 
 
-class OBJECT_OT_fairing_select_joint(ExplainedPoll, bpy.types.Operator):
+class OBJECT_OT_fairing_select_joint(Action, bpy.types.Operator):
     """Select the vertex of this joint with the largest kink in Edit Mode, and bring it into view"""
 
     bl_idname = "object.fairing_select_joint"
@@ -98,13 +99,11 @@ class OBJECT_OT_fairing_select_joint(ExplainedPoll, bpy.types.Operator):
 
     reasons = (needs(lambda _: joints.rows(), "Press Check Joints first"),)
 
-    def execute(self, context: Context) -> Answer:
+    def act(self, context: Context) -> str:
         rows = joints.rows()
         target = rows[self.index].first.find() if self.index < len(rows) else None
         if target is None or rows[self.index].worst >= len(target.data.vertices):
-            self.report({"INFO"}, "This joint is no longer there")
-            return {"FINISHED"}
+            return "This joint is no longer there"
         select_defects(context, target, "vertex", [rows[self.index].worst])
-        if context.area is not None and context.area.type == "VIEW_3D":
-            bpy.ops.view3d.view_selected()
-        return {"FINISHED"}
+        bring_into_view(context)
+        return ""

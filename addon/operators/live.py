@@ -6,17 +6,18 @@ from typing import cast
 import bpy
 
 from .. import core, memory, place
-from ..blender import Answer, Context, Mesh, Object
+from ..blender import Context, Mesh, Object
 from ..live import switch
 from ..mesh.modifiers import copy_modifiers
 from ..mesh.object import is_in_view_layer, new_object, nothing_left_behind
-from ..poll import ExplainedPoll, in_mode
+from ..poll import in_mode
 from ..settings import Settings, is_limit, wants_modifiers
+from .refusing import Action
 
 _MODES = {"OBJECT", "EDIT_MESH", "SCULPT"}
 
 
-class OBJECT_OT_fairing_live(ExplainedPoll, bpy.types.Operator):
+class OBJECT_OT_fairing_live(Action, bpy.types.Operator):
     """Update the surface while you edit the control mesh; makes one if there is none"""
 
     bl_idname = "object.fairing_live"
@@ -46,13 +47,13 @@ class OBJECT_OT_fairing_live(ExplainedPoll, bpy.types.Operator):
         _active_reason,
     )
 
-    def execute(self, context: Context) -> Answer:
+    def act(self, context: Context) -> None:
         targets = switch.active_surfaces(context)
         on = self.state == "ON" or (self.state == "TOGGLE" and not any(map(switch.is_on, targets)))
         if not on:
             for target in targets:
                 switch.switch_off(target, context)
-            return {"FINISHED"}
+            return
         with nothing_left_behind():
             targets = targets or [self._make(context)]
         for target in targets:
@@ -60,7 +61,6 @@ class OBJECT_OT_fairing_live(ExplainedPoll, bpy.types.Operator):
             switch.switch_on(target)
             if switch.problem(target):
                 self.report({"WARNING"}, switch.problem(target))
-        return {"FINISHED"}
 
     def _make(self, context: Context) -> Object:
         """A faired object of the active mesh, with the panel's settings and a live first surface."""

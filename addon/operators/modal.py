@@ -5,11 +5,13 @@ import bpy
 
 from .. import core
 from ..blender import Answer, Context, OperatorBase
+from ..errors import JobError
 from ..job import Job
 from ..live.full_level import is_dragging
 from ..mesh.object import session_key
 from ..queue import Queue, running, set_running, status_text
 from ..redraw import Progress, tag_sidebars
+from .refusing import refusing
 
 _INTERVAL = 0.05  # seconds between two checks of the thread
 
@@ -21,7 +23,7 @@ class ModalRun(OperatorBase):
 
     cancelled_text = "Fairing was cancelled: nothing has changed"
 
-    def finish(self, context: Context, jobs: list[Job]) -> Answer:
+    def finish(self, context: Context, jobs: list[Job]) -> None:
         """Implemented by the operator."""
         raise NotImplementedError
 
@@ -55,16 +57,17 @@ class ModalRun(OperatorBase):
         self._queue.cancel()
         self._clean_up(context)
 
+    @refusing
     def _end(self, context: Context) -> Answer:
         queue = self._queue
         self._clean_up(context)
         if queue.error:
-            self.report({"ERROR"}, queue.error)
-        elif queue.cancelled:
+            raise JobError(queue.error)
+        if queue.cancelled:
             self.report({"INFO"}, self.cancelled_text)
-        else:
-            return self.finish(context, self._jobs)
-        return {"CANCELLED"}
+            return {"CANCELLED"}
+        self.finish(context, self._jobs)
+        return {"FINISHED"}
 
     def _clean_up(self, context: Context) -> None:
         self._queue.join()

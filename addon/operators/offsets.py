@@ -9,6 +9,7 @@ from bpy.props import BoolProperty, EnumProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
 from ..blender import Answer, Context, Mesh, Object
+from ..errors import JobError
 from ..mesh.layers import write_creases
 from ..mesh.object import linked_object, select_only
 from ..mesh.offset_names import write_names
@@ -16,6 +17,7 @@ from ..purposes import preset_file
 from ..yard.hull_mesh import HullMesh, hull_mesh
 from ..yard.offsets import read
 from ..yard.sheet import UNITS, OffsetsError
+from .refusing import Action
 
 _UNITS = (
     ("AUTO", "As in the File", "The unit that the file names"),
@@ -27,12 +29,13 @@ _UNITS = (
 )
 
 
-class IMPORT_MESH_OT_fairing_offsets(ImportHelper, bpy.types.Operator):
+class IMPORT_MESH_OT_fairing_offsets(ImportHelper, Action, bpy.types.Operator):
     """Make half a hull from a table of offsets (CSV), with vertices named by station and line"""
 
     bl_idname = "import_mesh.fairing_offsets"
     bl_label = "Import Offsets"
     bl_options = {"REGISTER", "UNDO"}
+    reasons = ()
     filename_ext = ".csv"
 
     # without the path of the last import: a given file was dropped
@@ -52,34 +55,30 @@ class IMPORT_MESH_OT_fairing_offsets(ImportHelper, bpy.types.Operator):
         helper: Any = ImportHelper  # its stub returns None
         return helper.invoke(self, context, event)
 
-    def execute(self, context: Context) -> Answer:
+    def act(self, context: Context) -> str:
         path = Path(bpy.path.abspath(self.filepath))
         try:
             table = read(path.read_text("utf-8-sig"), UNITS.get(self.unit))
         except OSError as error:
-            return self._refuse(f"Choose another file: {path} cannot be read ({error.strerror}).")
-        except UnicodeDecodeError:
-            return self._refuse(f"Save {path.name} as text in UTF-8: it is no table of offsets.")
+            raise JobError(
+                f"Choose another file: {path} cannot be read ({error.strerror})."
+            ) from error
+        except UnicodeDecodeError as error:
+            raise JobError(
+                f"Save {path.name} as text in UTF-8: it is no table of offsets."
+            ) from error
         except OffsetsError as error:
-            return self._refuse(f"{path.name}: {error}.")
+            raise JobError(f"{path.name}: {error}.") from error
         made = hull_mesh(table)
         if not made.faces:
-            return self._refuse(f"{path.name}: Add offsets: no two stations have points to join.")
+            raise JobError(f"{path.name}: Add offsets: no two stations have points to join.")
         target = _object(context, path.stem, made)
         select_only(context, [target])
         _set_panel(context, made)
         if self.symmetry and made.is_half:
             context.scene.discrete_fairing.symmetry_plane = "Y"
         knuckles = f", {len(made.creases)} edges creased" if made.creases else ""
-        self.report(
-            {"INFO"},
-            f"{len(table.points)} offsets at {len(table.stations)} stations, {len(made.faces)} faces{knuckles}",
-        )
-        return {"FINISHED"}
-
-    def _refuse(self, why: str) -> Answer:
-        self.report({"ERROR"}, why)
-        return {"CANCELLED"}
+        return f"{len(table.points)} offsets at {len(table.stations)} stations, {len(made.faces)} faces{knuckles}"
 
 
 def _set_panel(context: Context, made: HullMesh) -> None:

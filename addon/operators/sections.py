@@ -3,14 +3,14 @@
 
 from collections.abc import Iterator
 from math import cos, radians, sin
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any, cast
 
 import bpy
 import numpy as np
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
-from bpy_extras.io_utils import ExportHelper
 
-from ..blender import Answer, Context, Object
+from ..blender import Context, Object
+from ..errors import JobError
 from ..inspection.drawn import Drawn
 from ..inspection.sections import cut
 from ..memory import active_source
@@ -18,12 +18,12 @@ from ..mesh.object import linked_object, select_only
 from ..mesh.offset_names import read_names, stations
 from ..mesh.scans import of_mesh, read_scans
 from ..mesh.world_shape import world_matrix
-from ..poll import ExplainedPoll
 from ..yard.dxf import text
 from ..yard.plan import Cut, Plane, in_space, opened, places, scaled, sheet
 from .hull import ACTIVE_MESH
+from .refusing import Action
 from .shown import Shown
-from .written_files import write_text_file
+from .written_files import WritesText, write_text_file
 
 _AXES = {"STATIONS": 0, "BUTTOCKS": 1, "WATERLINES": 2}
 _WORDS = {"STATIONS": "station", "BUTTOCKS": "buttock", "WATERLINES": "waterline"}
@@ -96,7 +96,7 @@ class _Spaced:
     )
 
 
-class OBJECT_OT_fairing_section_curves(Shown, _Spaced, ExplainedPoll, bpy.types.Operator):
+class OBJECT_OT_fairing_section_curves(Shown, _Spaced, Action, bpy.types.Operator):
     """Make curves where planes cut the active mesh: stations, buttocks, waterlines, diagonals, or your own plane"""
 
     bl_idname = "object.fairing_section_curves"
@@ -140,23 +140,20 @@ class OBJECT_OT_fairing_section_curves(Shown, _Spaced, ExplainedPoll, bpy.types.
         if self.kind == "DIAGONALS":
             yield "angle"
 
-    def execute(self, context: Context) -> Answer:
+    def act(self, context: Context) -> str:
         target = cast(Object, context.active_object)
         surface = _surface(context, target)
         try:
             planes = self._planes(context, surface)
-        except ValueError:
-            self.report(
-                {"ERROR"}, f"Write Places as numbers, such as 0, 1.5, 3: '{self.places}' is no list"
-            )
-            return {"CANCELLED"}
+        except ValueError as error:
+            raise JobError(
+                f"Write Places as numbers, such as 0, 1.5, 3: '{self.places}' is no list"
+            ) from error
         found = cuts(surface, planes)
         if not found:
-            self.report({"ERROR"}, "Move the planes, or give a smaller Spacing: none cuts the mesh")
-            return {"CANCELLED"}
+            raise JobError("Move the planes, or give a smaller Spacing: none cuts the mesh")
         select_only(context, [_curve_object(context, target, one) for one in found])
-        self.report({"INFO"}, f"{len(found)} sections of {target.name}")
-        return {"FINISHED"}
+        return f"{len(found)} sections of {target.name}"
 
     def _planes(self, context: Context, surface: Drawn) -> list[Plane]:
         if self.kind == "OBJECT":
@@ -193,16 +190,13 @@ def _curve_object(context: Context, target: Object, one: Cut) -> Object:
     return linked_object(context, curve, target)
 
 
-class EXPORT_SCENE_OT_fairing_lines(_Spaced, ExplainedPoll, ExportHelper, bpy.types.Operator):
+class EXPORT_SCENE_OT_fairing_lines(_Spaced, WritesText, bpy.types.Operator):
     """Export stations, buttocks and waterlines of the active mesh with a body plan, as a drawing (DXF)"""
 
     bl_idname = "export_scene.fairing_lines"
     bl_label = "Export Lines Plan"
     bl_options = {"REGISTER", "PRESET"}
     filename_ext = ".dxf"
-
-    if TYPE_CHECKING:
-        filepath: str  # added by ExportHelper
 
     filter_glob: StringProperty(default="*.dxf", options={"HIDDEN"})
     stations: StringProperty(
@@ -228,7 +222,7 @@ class EXPORT_SCENE_OT_fairing_lines(_Spaced, ExplainedPoll, ExportHelper, bpy.ty
 
     reasons = ACTIVE_MESH
 
-    def execute(self, context: Context) -> Answer:
+    def act(self, context: Context) -> str:
         target = cast(Object, context.active_object)
         surface = _surface(context, target)
         try:
@@ -243,24 +237,19 @@ class EXPORT_SCENE_OT_fairing_lines(_Spaced, ExplainedPoll, ExportHelper, bpy.ty
                 )
                 for kind in _AXES
             }
-        except ValueError:
-            self.report(
-                {"ERROR"},
-                f"Write Stations as numbers, such as 0, 1.5, 3: '{self.stations}' is no list",
-            )
-            return {"CANCELLED"}
+        except ValueError as error:
+            raise JobError(
+                f"Write Stations as numbers, such as 0, 1.5, 3: '{self.stations}' is no list"
+            ) from error
         found = {kind: cuts(surface, planes) for kind, planes in listed.items()}
         if not any(found.values()):
-            self.report({"ERROR"}, "Select the surface of a hull: no plane cuts this mesh")
-            return {"CANCELLED"}
+            raise JobError("Select the surface of a hull: no plane cuts this mesh")
         factor = context.scene.unit_settings.scale_length / _FILE_UNITS[self.unit] / self.scale
         title = f"{target.name}   1 : {self.scale:g}   {self.unit.lower()}"
         drawing = in_space(found) if self.in_space else sheet(title, *found.values())
-        if not write_text_file(self, self.filepath, text(scaled(drawing, factor))):
-            return {"CANCELLED"}
+        write_text_file(self.filepath, text(scaled(drawing, factor)))
         count = ", ".join(f"{len(cuts)} {kind.lower()}" for kind, cuts in found.items())
-        self.report({"INFO"}, f"{count} written to {bpy.path.abspath(self.filepath)}")
-        return {"FINISHED"}
+        return f"{count} written to {bpy.path.abspath(self.filepath)}"
 
     @staticmethod
     def _tenth(surface: Drawn) -> float:

@@ -13,13 +13,15 @@ from ..blender import Answer, Context, Object
 from ..cad.fit import PatchJob, refused
 from ..cad.settings import PatchSettings, StepSettings, scale_to
 from ..cad.step import summary, write_jobs
+from ..errors import JobError
 from ..memory import source_of
 from ..mesh.read import source_objects
 from ..poll import needs
 from ..settings import PatchOptions
 from . import fair, redo
+from .refusing import refusing
 from .shown import Shown
-from .written_files import ByFileBrowser
+from .written_files import ByFileBrowser, written
 
 
 def _to_fit(context: Context) -> list[Object]:
@@ -41,10 +43,10 @@ class _Fitting(fair.Fairing, PatchSettings):
     def make_jobs(self, context: Context) -> list[Any]:
         return [PatchJob(context, target, self.patch_options()) for target in _to_fit(context)]
 
+    @refusing
     def execute(self, context: Context) -> Answer:
         """For scripts."""
-        jobs = self._prepare(context)
-        return {"CANCELLED"} if jobs is None else self._block(context, jobs)
+        return self._block(context, self._prepared(context))
 
 
 class EXPORT_SCENE_OT_fairing_step(
@@ -63,14 +65,14 @@ class EXPORT_SCENE_OT_fairing_step(
     def patch_options(self) -> PatchOptions:
         return replace(super().patch_options(), force=self.force)
 
+    @refusing
     def begin(self, context: Context) -> Answer:
-        jobs = self._prepare(context)
-        return {"CANCELLED"} if jobs is None else self.start(context, jobs)
+        return self.start(context, self._prepared(context))
 
     def shown(self, _context: Context) -> Iterable[str]:
         return StepSettings.__annotations__ | PatchSettings.__annotations__
 
-    def finish(self, context: Context, jobs: list[Any]) -> Answer:
+    def finish(self, context: Context, jobs: list[Any]) -> None:
         faulty = refused(jobs)
         for job in jobs:
             job.note_defects(context)
@@ -78,24 +80,14 @@ class EXPORT_SCENE_OT_fairing_step(
                 self.report({"WARNING"}, sentence)
         if faulty:
             names = ", ".join(job.name for job in faulty)
-            self.report(
-                {"ERROR"},
+            raise JobError(
                 f"Smooth the faces that Check lists in the panel of the source, or use Write Faulty Faces. "
-                f"Nothing was written: the surface of {names} folds or turns too sharply for patches.",
+                f"Nothing was written: the surface of {names} folds or turns too sharply for patches."
             )
-            return {"CANCELLED"}
         scale = scale_to(self.unit, context.scene)
-        path = bpy.path.abspath(self.filepath)
-        try:
+        with written(self.filepath) as path:
             write_jobs(path, jobs, self.unit, scale)
-        except OSError as error:
-            self.report(
-                {"ERROR"},
-                f"Choose another file: {path} cannot be written ({error.strerror or error}).",
-            )
-            return {"CANCELLED"}
         self.report({"INFO"}, summary(jobs, self.unit, scale))
-        return {"FINISHED"}
 
 
 class OBJECT_OT_fairing_show_patches(_Fitting, bpy.types.Operator):
@@ -105,10 +97,9 @@ class OBJECT_OT_fairing_show_patches(_Fitting, bpy.types.Operator):
     bl_label = "Show Patches"
     bl_options = {"UNDO"}
 
+    @refusing
     def invoke(self, context: Context, _event: bpy.types.Event) -> Answer:
-        jobs = self._prepare(context)
-        if jobs is None:
-            return {"CANCELLED"}
+        jobs = self._prepared(context)
         if redo.predicted_seconds(jobs) > prediction.PATIENCE:
             return self.start(context, jobs)
         return self._block(context, jobs)

@@ -9,19 +9,21 @@ import numpy as np
 from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
 from mathutils import Vector
 
-from ..blender import Answer, Context, Object
+from ..blender import Context, Object
 from ..check.defects import select_defects, select_in_all
+from ..errors import JobError
 from ..memory import active_source
 from ..mesh.edited import edited
 from ..mesh.object import why_not_here
 from ..mesh.shape_keys import EASED, key_positions
 from ..mesh.world_shape import transformed, world_matrix
-from ..poll import ExplainedPoll, Reason, of_meshes
+from ..poll import Reason, of_meshes
 from ..strain import known, table, words
 from ..strain.measure import StrainJob
 from ..strain.strained import Strained, above
 from ..units import Units
 from .fair import WholeFairing, can_fair
+from .refusing import Action
 from .shown import Shown
 from .written_files import ByFileBrowser, write_text_file
 
@@ -44,20 +46,19 @@ class _Straining(WholeFairing):
     def make_jobs(self, context: Context) -> list[Any]:
         return [known.job_for(context, source) for source in active_sources(context)]
 
-    def finish(self, context: Context, jobs: Sequence[Any]) -> Answer:
+    def finish(self, context: Context, jobs: Sequence[Any]) -> None:
         for job in jobs:
             if job.reference.find() is None:
-                self.report({"ERROR"}, f"Select once more: {job.name} was deleted during the run")
-                return {"CANCELLED"}
+                raise JobError(f"Select once more: {job.name} was deleted during the run")
             known.keep(job)
-        return self.use(context, list(jobs))
+        self.use(context, list(jobs))
 
-    def use(self, context: Context, jobs: list[StrainJob]) -> Answer:
+    def use(self, context: Context, jobs: list[StrainJob]) -> None:
         """Uses the strain of all objects that still exist."""
         raise NotImplementedError
 
 
-class OBJECT_OT_fairing_strain(ExplainedPoll, bpy.types.Operator):
+class OBJECT_OT_fairing_strain(Action, bpy.types.Operator):
     """Show how far the surface would move at each vertex if that vertex were released: wrong offsets stand out"""
 
     bl_idname = "object.fairing_strain"
@@ -66,12 +67,11 @@ class OBJECT_OT_fairing_strain(ExplainedPoll, bpy.types.Operator):
 
     reasons = _Straining.reasons
 
-    def execute(self, context: Context) -> Answer:
+    def act(self, context: Context) -> None:
         sources = active_sources(context)
         show = not all(source.discrete_fairing_strain.show for source in sources)
         for source in sources:
             source.discrete_fairing_strain.show = show
-        return {"FINISHED"}
 
 
 _TO_SELECT = (*_Straining.reasons, lambda c: why_not_here(c, active_sources(c)))
@@ -115,7 +115,7 @@ class OBJECT_OT_fairing_select_strained(Shown, _Straining, bpy.types.Operator):
     def shown(self, _context: Context) -> Iterable[str]:
         return ("by",) if self.by == "FLOOR" else ("by", self.by.lower())
 
-    def use(self, context: Context, jobs: list[StrainJob]) -> Answer:
+    def use(self, context: Context, jobs: list[StrainJob]) -> None:
         wanted: list[Any] = []
         for job in jobs:
             strained = job.result
@@ -130,7 +130,6 @@ class OBJECT_OT_fairing_select_strained(Shown, _Straining, bpy.types.Operator):
             self.report({"INFO"}, f"{job.name}: {said}")
             wanted.append((job.reference.find(), [("vertex", chosen.tolist())]))
         select_in_all(context, wanted)
-        return {"FINISHED"}
 
     def _chosen(self, strained: Strained) -> np.ndarray:
         if self.by == "COUNT":
@@ -145,7 +144,7 @@ class OBJECT_OT_fairing_crease_knuckle(_Straining, bpy.types.Operator):
     bl_label = "Crease Knuckle"
     bl_options = {"REGISTER", "UNDO"}
 
-    def use(self, context: Context, jobs: list[StrainJob]) -> Answer:
+    def use(self, context: Context, jobs: list[StrainJob]) -> None:
         done = 0
         for job in jobs:
             source, strained = job.reference.find(), job.result
@@ -156,10 +155,7 @@ class OBJECT_OT_fairing_crease_knuckle(_Straining, bpy.types.Operator):
                 )
                 done += 1
         if not done:
-            self.report(
-                {"ERROR"}, "Crease edges by hand (Shift E): no strained vertices form a chain"
-            )
-        return {"FINISHED"} if done else {"CANCELLED"}
+            raise JobError("Crease edges by hand (Shift E): no strained vertices form a chain")
 
 
 def _crease(source: Object, chain: list[int]) -> int:
@@ -173,7 +169,7 @@ def _crease(source: Object, chain: list[int]) -> int:
     return len(sides)
 
 
-class OBJECT_OT_fairing_go_to_strained(ExplainedPoll, bpy.types.Operator):
+class OBJECT_OT_fairing_go_to_strained(Action, bpy.types.Operator):
     """Select this vertex in Edit Mode and bring it to the middle of the viewport"""
 
     bl_idname = "object.fairing_go_to_strained"
@@ -184,19 +180,15 @@ class OBJECT_OT_fairing_go_to_strained(ExplainedPoll, bpy.types.Operator):
 
     reasons = _TO_SELECT
 
-    def execute(self, context: Context) -> Answer:
+    def act(self, context: Context) -> None:
         source = cast(Object, active_source(context))
         if not select_defects(context, source, "vertex", [self.vertex]):
-            self.report(
-                {"ERROR"}, f"Choose another vertex: {source.name} has no vertex {self.vertex}"
-            )
-            return {"CANCELLED"}
+            raise JobError(f"Choose another vertex: {source.name} has no vertex {self.vertex}")
         space = cast(Any, context.space_data)
         strained = known.found_of(source)
         if space is not None and space.type == "VIEW_3D" and strained is not None:
             place = Vector(strained.positions[self.vertex].tolist())
             space.region_3d.view_location = world_matrix(source) @ place
-        return {"FINISHED"}
 
 
 class OBJECT_OT_fairing_strain_table(ByFileBrowser, _Straining, bpy.types.Operator):
@@ -214,15 +206,13 @@ class OBJECT_OT_fairing_strain_table(ByFileBrowser, _Straining, bpy.types.Operat
         """For the mesh itself, without its shape keys."""
         return [StrainJob(context, cast(Object, active_source(context)), as_mixed=False)]
 
-    def finish(self, context: Context, jobs: Sequence[Any]) -> Answer:
+    def finish(self, context: Context, jobs: Sequence[Any]) -> None:
         (job,) = jobs
         source = job.reference.find()
         if source is None:
-            self.report(
-                {"ERROR"},
-                f"Write it once more: {job.name} was deleted during the run, and nothing was written",
+            raise JobError(
+                f"Write it once more: {job.name} was deleted during the run, and nothing was written"
             )
-            return {"CANCELLED"}
         matrix = np.array(world_matrix(source))
 
         def in_world(positions: np.ndarray) -> np.ndarray:
@@ -237,8 +227,6 @@ class OBJECT_OT_fairing_strain_table(ByFileBrowser, _Straining, bpy.types.Operat
                 job.names,
             )
         )
-        if not write_text_file(self, self.filepath, written):
-            return {"CANCELLED"}
+        write_text_file(self.filepath, written)
         path = bpy.path.abspath(self.filepath)
         self.report({"INFO"}, f"{words.count(len(job.result.positions))} written to {path}")
-        return {"FINISHED"}

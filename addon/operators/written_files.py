@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Operators that write a file chosen in the file browser, or given by a script."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, cast
 
 import bpy
@@ -8,7 +10,9 @@ from bpy_extras.io_utils import ExportHelper
 
 from .. import core
 from ..blender import Answer, Context
+from ..errors import JobError
 from .fair import Fairing
+from .refusing import Action
 
 
 class ByFileBrowser(ExportHelper, Fairing):
@@ -37,16 +41,25 @@ class ByFileBrowser(ExportHelper, Fairing):
         return Fairing.invoke(self, context, cast(Any, None))
 
 
-def write_text_file(operator: bpy.types.Operator, path: str, text: str) -> bool:
-    """Returns whether the file was written; otherwise reports why not. The file is complete or
-    unchanged.
-    """
+class WritesText(ExportHelper, Action):
+    """Mix-in of operators that write a text at once."""
+
+    if TYPE_CHECKING:
+        filepath: str  # added by ExportHelper
+
+
+@contextmanager
+def written(path: str) -> Iterator[str]:
+    """Inside the `with` the absolute `path` is written; JobError where it cannot be."""
     place = bpy.path.abspath(path)
     try:
-        with core.module().whole_files.whole_file(place) as part:
-            part.write_text(text, encoding="utf-8", newline="")
+        yield place
     except OSError as error:
         why = error.strerror or error
-        operator.report({"ERROR"}, f"Choose another file: {place} cannot be written ({why}).")
-        return False
-    return True
+        raise JobError(f"Choose another file: {place} cannot be written ({why}).") from error
+
+
+def write_text_file(path: str, text: str) -> None:
+    """Whole, or the file is as it was."""
+    with written(path) as place, core.module().whole_files.whole_file(place) as part:
+        part.write_text(text, encoding="utf-8", newline="")
