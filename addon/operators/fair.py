@@ -42,8 +42,12 @@ def can_fair(context: Context) -> str:
 class Fairing(ExplainedPoll, ModalRun):
     """The common part of both operators: makes jobs, computes them, and writes once all are complete."""
 
-    @refusing
     def invoke(self, context: Context, _event: bpy.types.Event) -> Answer:
+        return self.begin(context)
+
+    @refusing
+    def begin(self, context: Context) -> Answer:
+        """Starts the run like a button."""
         jobs = self._prepared(context)
         return self._in_time(context, jobs) or self.start(context, self._unused(context, jobs))
 

@@ -11,12 +11,12 @@ from ..poll import ExplainedPoll
 
 
 def refusing(call: Callable[..., Answer]) -> Callable[..., Answer]:
-    """Of an operator's method: a JobError is reported, and nothing was done."""
+    """Of an operator's method that takes a context: a JobError is reported, and nothing was done."""
 
     @wraps(call)
-    def answered(self: Any, *arguments: Any) -> Answer:
+    def answered(self: Any, context: Context) -> Answer:  # Blender counts the arguments
         try:
-            return call(self, *arguments)
+            return call(self, context)
         except JobError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}

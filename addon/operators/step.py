@@ -98,7 +98,7 @@ class OBJECT_OT_fairing_show_patches(_Fitting, bpy.types.Operator):
     bl_options = {"UNDO"}
 
     @refusing
-    def invoke(self, context: Context, _event: bpy.types.Event) -> Answer:
+    def begin(self, context: Context) -> Answer:
         jobs = self._prepared(context)
         if redo.predicted_seconds(jobs) > prediction.PATIENCE:
             return self.start(context, jobs)

@@ -3,7 +3,7 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 import bpy
 from bpy_extras.io_utils import ExportHelper
@@ -35,10 +35,6 @@ class ByFileBrowser(ExportHelper, Fairing):
         if self._from_browser and not bpy.app.background:
             return self.begin(context)
         return super().execute(context)
-
-    def begin(self, context: Context) -> Answer:
-        """Starts the run like a button."""
-        return Fairing.invoke(self, context, cast(Any, None))
 
 
 class WritesText(ExportHelper, Action):
