@@ -14,6 +14,7 @@ from typing import Any
 FOLDER = Path(__file__).resolve().parent / "presets"
 # the folder of Blender's presets for the operator, which the panel uses too
 PRESET_FOLDER = "operator/object.fairing_surface"
+_DEFAULT = "Default.py"
 
 # identifier, name, description, number in files
 PURPOSES = (
@@ -88,9 +89,10 @@ def preset_file(purpose: str) -> Path | None:
 
 @cache
 def preset_values(path: Path) -> dict[str, Any]:
-    """The values that a preset sets, {setting: value}; the file is parsed, not run."""
+    """What a preset sets, {setting: value}; read, not run. Those that are shipped say what differs from Default."""
     tree = ast.parse(path.read_text(encoding="utf-8"))
-    return {
+    default = path.with_name(_DEFAULT)
+    return (preset_values(default) if path != default else {}) | {
         node.targets[0].attr: ast.literal_eval(node.value)
         for node in tree.body
         if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Attribute)

@@ -3,31 +3,15 @@
 # on. The tolerance lets vertices be off.
 import bpy
 
+bpy.utils.execfile(__file__.rpartition("Mechanical")[0] + "Default.py")
 op = bpy.context.active_operator
 
-op.levels = 3
-op.energy = "THIN_PLATE"
 op.interpolation = "APPROXIMATE"
-op.limit = 1.0
 op.tolerance = 0.0
 op.tolerance_unit = "SCENE"
-op.pad_size = 1.0
-op.tension = 0.0
 op.boundary = "CURVE"
-op.mesh_source = "ORIGINAL"
-op.joint = "TANGENT"
-op.keep_symmetry = True
-op.use_crease_attribute = True
-op.crease_threshold = 1.0
 op.use_sharp_edges = True
 op.use_crease_angle = True
 op.crease_angle = 0.523599
 op.use_corner_angle = True
 op.corner_angle = 0.785398
-op.metric_exponent = 0.5
-op.repair = "MEND"
-op.weld = 0.0
-op.use_shape_keys = True
-op.copy_modifiers = False
-op.hide_source = True
-op.shade_smooth = True
