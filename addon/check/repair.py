@@ -15,9 +15,7 @@ from .defects import elements_of
 
 
 def repair(target: Object, defect: dict[str, Any]) -> None:
-    """Mends one `defect` (a dict of defects.check_object) of `target`, which is in Edit Mode and
-    unchanged since the check.
-    """
+    """Mends a `defect` of check_object; `target` is in Edit Mode, and unchanged since."""
     bm = bmesh.from_edit_mesh(target.data)
     chosen = elements_of(bm, defect["kind"], defect["elements"])
     _REPAIRS[defect["code"]][1](bm, chosen)

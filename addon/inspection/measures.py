@@ -56,9 +56,7 @@ def total_curvature(bent: Curvature) -> float:
 
 
 def worst_folds(arrays: ControlArrays) -> tuple[float, float]:
-    """The largest angles between two faces that share an edge, in degrees: (over smooth edges, over
-    all edges).
-    """
+    """The largest angles of two faces at an edge, in degrees: (of smooth edges, of all)."""
     angles, inside = fold_angles(arrays)
     smooth = inside if arrays.sharp_edge is None else inside & ~arrays.sharp_edge
     return float(angles[smooth].max(initial=0.0)), float(angles[inside].max(initial=0.0))

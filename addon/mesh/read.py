@@ -145,9 +145,7 @@ def shown_selection(elements: Any) -> np.ndarray:
 
 
 def selected_faces(mesh: Mesh, source_name: str) -> np.ndarray:
-    """(r,) int32: ids of the selected and visible faces of a bpy.types.Mesh; JobError if there are
-    none.
-    """
+    """(r,) int32: ids of the selected and visible faces; JobError without any."""
     found = np.flatnonzero(shown_selection(mesh.polygons)).astype(np.int32)
     if not len(found):
         raise JobError(

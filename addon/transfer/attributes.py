@@ -38,9 +38,7 @@ class Patch:
                 own[part, :, w] = np.take(lattice, self.cells.corner_point, axis=1)
 
     def mix_points(self, known: np.ndarray, out: np.ndarray) -> None:
-        """The same at all refined vertices; `known` (vertices and centres, w), `out` (refined
-        vertices, w) float32.
-        """
+        """The same at refined vertices: `known` (vertices and centres, w) → `out` (vertices, w)."""
         ids = self.fine.reshape(len(self.faces.polygon), -1)
         for part, values in self._mixed(known, self.faces.vertices):
             points = ids[part][:, self.cells.first_corner]
@@ -166,9 +164,7 @@ class AttributeTransfer:
         return out
 
     def point(self, values: np.ndarray) -> np.ndarray:
-        """(n,) or (n, w) numbers on vertices → (refined vertices, w) float32; the first n are the
-        given ones.
-        """
+        """(n,) or (n, w) numbers on vertices → (refined vertices, w) float32, the n first."""
         values = _table(values)
         known = np.concatenate([values, self._centres.point(values)])
         out = np.zeros((self.vertex_count, values.shape[1]), np.float32)

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Planes that cut a hull, and the sheet with its lines: profile, half-breadth plan and body plan.
-NumPy, no Blender.
-"""
+"""Where a hull is cut, and the sheet with its three plans. NumPy, no Blender."""
 
 from dataclasses import dataclass
 

@@ -164,9 +164,7 @@ def _at_own_level(
     count: Callable[[int], int],
     runs: SeveralRuns,
 ) -> SplinePatches:
-    """Finer and finer surfaces, until one serves or the next is too large. `surface`: one of a level;
-    `count`: how many points it has.
-    """
+    """Finer surfaces (`surface`, of `count` points), until one serves or the next is too large."""
     level = FIRST_LEVEL
     turns = np.empty(0)  # of the level before
     missing = 0.0
@@ -336,9 +334,7 @@ class _Run:
         return bool(bad[chosen_of_part].any())
 
     def stays_folded(self, result: Result, level: int, finer: int, watched: dict[str, Any]) -> bool:
-        """Whether no finer level mends a coarse one: turns about halve from one to the next. It is
-        refused then, unless the caller insists.
-        """
+        """Whether no finer level mends it, as turns about halve a level; then refused."""
         limit = min(HOPELESS_TURN, 1.5 * TURN_LIMIT * 2**finer)
         turns = _native.lattice_turns(
             result.vertices, *result.faces, result.crease_edges, level, 0.0, **watched

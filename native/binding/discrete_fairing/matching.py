@@ -382,8 +382,7 @@ def _between(values: np.ndarray, place: np.ndarray) -> np.ndarray:
 
 
 def _along(lattice: Lattice, side: int) -> tuple[np.ndarray, np.ndarray]:
-    """Of a closed lattice's points: steps along this side, from the foot of the median in a triangle,
-    and steps across it."""
+    """Steps along this side, from the foot of the median in a triangle, and across it."""
     i, j, n = lattice.i, lattice.j, lattice.n
     if lattice.quad:
         return [(i, j), (j, n - i), (n - i, n - j), (n - j, i)][side]

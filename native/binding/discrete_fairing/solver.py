@@ -80,9 +80,7 @@ class Solver:
 
     @property
     def vertex_origin(self) -> np.ndarray | None:
-        """(n,) int32: the vertex with which repair="mend" merged each, usually itself; None if none was
-        merged.
-        """
+        """(n,) int32: the vertex with which each was merged, usually itself; None: none was."""
         mended = self._constants["mended"]
         return mended["vertex_origin"][: self.control_vertices] if mended else None
 

@@ -61,9 +61,7 @@ class Strain:
         return worst[self._is_wrong[worst]]
 
     def report(self) -> dict[str, Any]:
-        """The largest excess, with its sign, and its vertex (-1: none is held); floor, wrong vertices,
-        noise.
-        """
+        """Largest excess with its sign, its vertex (-1: none), floor, wrong vertices, noise."""
         worst = self.worst(1)
         vertex = int(worst[0]) if len(worst) else -1
         largest = float(self.excess[vertex]) if len(worst) else 0.0

@@ -20,7 +20,7 @@ class State:
     corners: np.ndarray  # (c,) int64
     offsets: np.ndarray  # (m + 1,) int64
     vertex_origin: np.ndarray  # (n,) ids in the input; -1: a new one
-    face_origin: np.ndarray  # (m,)
+    face_origin: np.ndarray  # (m,) ids in the whole mesh
     corner_origin: np.ndarray  # (c,)
 
     @classmethod

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Steps that change connectivity: they join borders, remove fins, split crowded edges and pinched
-vertices, and reverse faces.
-"""
+"""Steps that change which faces hang together: borders, fins, edges, vertices, orientation."""
 
 from __future__ import annotations
 
