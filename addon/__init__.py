@@ -23,7 +23,7 @@ def _modules() -> tuple[Any, ...]:
     from .strain import settings as strain_settings, known, overlay as strain_overlay
     from .mesh import mesh_changes
     from . import freshness
-    from .live import switch, handlers, kept, undo
+    from .live import switch, handlers, kept
     from .operators import (
         fair, fill_holes, cancel, in_place, curves, boundary, fixed_normals, flat_faces, compare, live, check, joints,
         clean, fit, inspect, offsets, hull, hydrostatics, sections, strain, ease, presets, purposes, step,

@@ -10,7 +10,7 @@ import numpy as np
 
 from . import core, errors
 from .blender import Context, Object
-from .check.defects import check_object, store_defects
+from .check.defects import check_object, entry, store_defects
 from .errors import JobCancelled, JobError
 from .inspection.curvature import face_normals
 from .mesh.edited import edited, select_nothing
@@ -77,10 +77,8 @@ class Filled:
     @classmethod
     def of(cls, found: Any, points: np.ndarray, shape: WorldShape) -> "Filled":
         """From the core's result for a mesh at `points` (n, 3), in the world's `shape`."""
-        new, none = (
-            np.concatenate([np.empty((0, 3)), *(h.vertices for h in found.holes)]),
-            np.empty((0, 3)),
-        )
+        none = np.empty((0, 3))
+        new = np.concatenate([none, *(hole.vertices for hole in found.holes)])
         return cls(
             [Patch.of(hole.faces, points, new) for hole in found.holes],
             shape.back(new, none, none),
@@ -93,13 +91,8 @@ class Filled:
 
 def _skipped(hole: Any) -> dict[str, Any]:
     """A hole that the core has skipped."""
-    return {
-        "code": errors.VERTEX_ON_EDGE if hole.cure == "cut" else hole.code,
-        "message": hole.message,
-        "kind": hole.kind,
-        "elements": hole.elements,
-        "severity": "error",
-    }
+    code = errors.VERTEX_ON_EDGE if hole.cure == "cut" else hole.code
+    return entry(code, hole.kind, hole.elements, "error", hole.message)
 
 
 class HoleJob(TimedRun):
@@ -137,7 +130,8 @@ class HoleJob(TimedRun):
             side = frozenset(options.edge)
             self._holes = [hole for hole in holes if any(side in sides_of(loop) for loop in hole)]
         elif not self._editing:
-            self._holes = _no_wider(self._points, self._faces, holes, options.largest)
+            wanted = core.module().holes_to_fill(self._points, self._faces, holes, options.largest)
+            self._holes = [[loop.tolist() for loop in hole] for hole in wanted]
         elif options.replaces:
             self._holes = where_faces_were(arrays, gone, loops)
         else:
@@ -274,16 +268,6 @@ def _is_cap(points: np.ndarray, arrays: core.ControlArrays, hole: list[list[int]
 def _triangles_in(edges: int, density: float) -> int:
     """Number of equilateral triangles in a round flat hole with so many edges."""
     return edges + round((edges * density) ** 2 / (np.sqrt(3.0) * np.pi))
-
-
-def _no_wider(
-    points: np.ndarray,
-    faces: tuple[np.ndarray, np.ndarray],
-    holes: list[list[list[int]]],
-    largest: float,
-) -> list[list[list[int]]]:
-    wanted = core.module().holes_to_fill(points, faces, holes, largest)
-    return [[loop.tolist() for loop in hole] for hole in wanted]
 
 
 def _why_none(

@@ -156,8 +156,13 @@ def status_text(queue: Queue) -> str:
     """`Suzanne (2 of 5): Fairing, 45 %`."""
     position, count = queue.position
     which = f" ({position} of {count})" if count > 1 else ""
+    return f"{queue.job_name}{which}: {progress_text(queue)}"
+
+
+def progress_text(queue: Queue) -> str:
+    """`Fairing, 45 %`."""
     doing = "Cancelling" if queue.cancelled else phase_text(queue.phase)
-    return f"{queue.job_name}{which}: {doing}, {100 * queue.fraction:.0f} %"
+    return f"{doing}, {100 * queue.fraction:.0f} %"
 
 
 def phase_text(phase: str) -> str:

@@ -10,7 +10,7 @@ import numpy as np
 
 from . import core, freshness, memory, prediction
 from .blender import Context, Mesh, Object
-from .check.defects import recall_defects, store_defects
+from .check.defects import entry, recall_defects, store_defects
 from .errors import OF_FITS, REMEDIES, JobError
 from .job import Job
 from .mesh import scans
@@ -55,7 +55,7 @@ class Fit:
         return cls(scan, kept.tolerance if kept.amount == "TOLERANCE" else None, objects=near)
 
     def arguments(self, cage: Object) -> dict[str, Any]:
-        """Of `discrete_fairing.fit`."""
+        """The arguments of the scan for `discrete_fairing.fit`."""
         scan = self.scan.in_shape_of(cage)
         return scan.arguments | {"tolerance": self.tolerance, "weight": self.weight}
 
@@ -225,11 +225,7 @@ def _require(cage: Object, fit: Fit) -> None:
 def _note(context: Context, target: Object, places: dict[str, np.ndarray], kind: str) -> None:
     known = recall_defects(target)
     kept = [] if known is None or known[1] else known[0]
-    new = [
-        {"code": code, "message": "", "kind": kind, "elements": ids.tolist(), "severity": "warning"}
-        for code, ids in places.items()
-        if len(ids)
-    ]
+    new = [entry(code, kind, ids.tolist()) for code, ids in places.items() if len(ids)]
     others = [defect for defect in kept if defect["code"] not in places]
     if new or len(others) < len(kept):
         store_defects(context, target, others + new)

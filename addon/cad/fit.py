@@ -9,13 +9,13 @@ import numpy as np
 
 from .. import core, errors, neighbours, prediction
 from ..blender import Context, Object
-from ..check.defects import store_defects
+from ..check.defects import entry, store_defects
 from ..errors import JobError
 from ..job import Job
 from ..memory import source_of
 from ..mesh.object import Reference, new_object
 from ..mesh.shape_keys import ShapeKeys
-from ..mesh.world_shape import world_matrix
+from ..mesh.world_shape import transformed, world_matrix
 from ..scan_fit import Fit, settings_of_fit
 from ..settings import PatchOptions, Settings, is_evaluated
 from . import colours, words
@@ -105,8 +105,8 @@ class PatchJob(Job):
         if mended:
             self.notes.append(mended)
         if self._mesh is not None:
-            vertices = _moved(self.result.vertices, self.placement)
-            shown = replace(self._mesh, positions=_moved(self._mesh.positions, self._stands))
+            vertices = transformed(self.result.vertices, self.placement)
+            shown = replace(self._mesh, positions=transformed(self._mesh.positions, self._stands))
             self.apart = distance(self.result, self.arrays, self.patches.levels, vertices, shown)
 
     def predict(self, energy: str, levels: int) -> float:
@@ -152,15 +152,11 @@ class PatchJob(Job):
     @property
     def defects(self) -> list[dict[str, Any]]:
         """The faults of the patches, by faces of the source, like the defects of Check Mesh."""
-        found = []
-        for code, name in _KINDS:
-            faces = self._faulty(name)
-            if faces:
-                severity = "error" if code == "UNRESOLVED" else "warning"
-                found.append(
-                    {"code": code, "kind": "face", "elements": faces, "severity": severity}
-                )
-        return found
+        return [
+            entry(code, "face", faces, "error" if code == "UNRESOLVED" else "warning")
+            for code, name in _KINDS
+            if (faces := self._faulty(name))
+        ]
 
     def _faulty(self, name: str) -> list[int]:
         if self.refused:
@@ -185,10 +181,6 @@ class PatchJob(Job):
         source = self.source
         if source is not None and self.defects and not is_evaluated(self.settings):
             store_defects(context, source, self.defects)
-
-
-def _moved(points: np.ndarray, matrix: np.ndarray) -> np.ndarray:
-    return points @ matrix[:3, :3].T + matrix[:3, 3]
 
 
 def refused(jobs: Sequence[PatchJob]) -> list[PatchJob]:

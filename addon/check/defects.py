@@ -30,18 +30,18 @@ def check_object(context: Context, target: Object) -> list[dict[str, Any]]:
     return defects
 
 
+def entry(
+    code: str, kind: str, elements: Sequence[Any], severity: str = "warning", message: str = ""
+) -> dict[str, Any]:
+    """A defect as it is remembered."""
+    plain = [list(e) if isinstance(e, tuple) else int(e) for e in elements]
+    found = {"code": code, "message": message, "kind": kind, "elements": plain}
+    return found | {"severity": severity}
+
+
 def as_dicts(found: Sequence[Any]) -> list[dict[str, Any]]:
     """The core's defects as dicts, for storage."""
-    return [
-        {
-            "code": defect.code,
-            "message": defect.message,
-            "kind": defect.kind,
-            "elements": [list(e) if isinstance(e, tuple) else int(e) for e in defect.elements],
-            "severity": defect.severity,
-        }
-        for defect in found
-    ]
+    return [entry(d.code, d.kind, d.elements, d.severity, d.message) for d in found]
 
 
 def store_defects(

@@ -10,7 +10,7 @@ import numpy as np
 
 from .. import core, errors
 from ..blender import Context, Object
-from ..queue import Queue, phase_text
+from ..queue import Queue
 from ..scan_fit import job_of
 from ..settings import Settings
 
@@ -40,7 +40,7 @@ class FreshSolver:
         self.solver = solver
 
 
-class FullLevel:
+class FullLevel(Queue):
     """A run of the job of Recompute, and then of a fresh solver."""
 
     def __init__(
@@ -51,49 +51,14 @@ class FullLevel:
         region: np.ndarray | None,
         arguments: dict[str, Any],
     ) -> None:
-        """Reads the mesh; raises JobError. Then call `start` or `compute`.
-
-        `arguments`: those of the live solver, for `region` or all faces.
-        """
+        """Reads; raises JobError. `arguments`: of the live solver, for `region` or all faces."""
         settings = Settings.of(target.discrete_fairing)
         self.job = job_of(context, source, settings, target, region, again=False)
         now = ("vertices", "tolerance", "weights")
         its = {name: self.job.arguments[name] for name in now if name in self.job.arguments}
         self.arguments = {**arguments, **its}  # arguments of the fresh solver
-        self._fresh = FreshSolver(source.name, self.arguments)
-        self._queue = Queue([self.job, self._fresh], core.module().Monitor)
-
-    def start(self) -> None:
-        """Computes on a thread."""
-        self._queue.start()
-
-    def compute(self) -> None:
-        """Computes the surface alone, at once; raises JobError."""
-        self.job.compute()
-
-    @property
-    def finished(self) -> bool:
-        return self._queue.finished
-
-    @property
-    def solver(self) -> Any:
-        """The fresh solver, None if there is none."""
-        return self._fresh.solver
-
-    @property
-    def error(self) -> str | None:
-        """Why there is no surface, as a sentence; None if there is one."""
-        return self._queue.error
-
-    @property
-    def text(self) -> str:
-        """Its progress, such as `Fairing, 45 %`."""
-        return f"{phase_text(self._queue.phase)}, {100 * self._queue.fraction:.0f} %"
-
-    def cancel(self, wait: bool = False) -> None:
-        self._queue.cancel()
-        if wait:
-            self._queue.join()
+        self.fresh = FreshSolver(source.name, self.arguments)
+        super().__init__([self.job, self.fresh], core.module().Monitor)
 
 
 class Schedule:
@@ -126,7 +91,9 @@ class Schedule:
     def cancel(self, wait: bool = False) -> None:
         """Cancels a run whose source has changed, and plans the next."""
         if self.run is not None:
-            self.run.cancel(wait)
+            self.run.cancel()
+            if wait:
+                self.run.join()
             self.run = None
             self.plan()
 

@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Live stored in the file: noted when it is saved, switched on when it is opened."""
+"""Live that stays on: in a file that is saved and opened again, and with the steps of undo.
+
+A step of Blender's undo holds `was_on`, which follows the switch, but no session.
+"""
 
 from typing import Any
 
 import bpy
 
+from .. import events
 from ..blender import Object, all_objects
 from . import cage, registry, switch
 
@@ -40,4 +44,22 @@ def _surfaces() -> list[Object]:
     ]
 
 
-HANDLERS = {"save_pre": _note, "load_post": _restore}
+def _agree(*_: Any) -> None:
+    """Ends what is not to be on any more after undo. Nothing is written: its mesh is what it was before."""
+    for target in registry.known():
+        session, was_on = registry.session_of(target), target.discrete_fairing_live.was_on
+        if session is not None and not was_on and not session.ending:
+            registry.remove(session, hand_back=False)
+        elif was_on and not switch.is_on(target):
+            events.start_timer(resume, 0.0)  # after undo: Blender has not looked at its objects yet
+
+
+def resume() -> None:
+    """Starts sessions that undo or redo has switched on."""
+    for target in registry.known():
+        if target.discrete_fairing_live.was_on and registry.is_in_a_scene(target):
+            switch.switch_on(target)
+
+
+HANDLERS = {"save_pre": _note, "load_post": _restore, "undo_post": _agree, "redo_post": _agree}
+TIMERS = (resume,)

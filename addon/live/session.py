@@ -25,6 +25,7 @@ from ..mesh.read import control_mesh, read_mesh, selected_faces, tolerance_facto
 from ..mesh.world_shape import WorldShape, world_matrix, world_shape
 from ..mesh.write import has_faces_of, rebuild_mesh, write_positions
 from ..preferences import preferences
+from ..queue import progress_text
 from ..scan_fit import live_scan
 from ..settings import Settings, halves, is_evaluated
 from .full_level import FullLevel, Schedule, is_dragging
@@ -149,17 +150,15 @@ class Session:
             with errors.explained(source.name):
                 return self._follow(source, target, depsgraph)
         except JobError as error:
-            self._fail(str(error))
+            self.wait(str(error))
         return True
 
     def _follow(self, source: Object, target: Object, depsgraph: Update) -> bool:
         clock = Clock()
         if not self._has_settings_of(source, target):
             self._forget()
-            self._settings, self._chosen = (
-                Settings.of(target.discrete_fairing),
-                _chosen_level(target),
-            )
+            self._settings = Settings.of(target.discrete_fairing)
+            self._chosen = _chosen_level(target)
             self._shape = world_shape(source)
             self._read_others(source, target)
         elif self._others_due and depsgraph is None:
@@ -288,11 +287,7 @@ class Session:
         self._stale = False
 
     def wait(self, sentence: str) -> None:
-        """Waits until the source is valid again: `sentence` describes its fault."""
-        self._fail(sentence)
-
-    def _fail(self, sentence: str) -> None:
-        """Keeps the last good surface until the source is valid again."""
+        """The last good surface stays, until the source is fine again: `sentence` says what is wrong."""
         self.cancel_full()
         self.trouble = sentence
         self._stale = False
@@ -353,10 +348,10 @@ class Session:
         if full is None:
             return
         try:
-            full.compute()
+            full.job.compute()
         except JobError as error:
             self._schedule.run = None
-            self._fail(str(error))
+            self.wait(str(error))
             return
         self._finish(context)
 
@@ -368,7 +363,7 @@ class Session:
         try:
             run = FullLevel(context, source, target, self._region, self._arguments)
         except JobError as error:
-            self._fail(str(error))
+            self.wait(str(error))
             return None
         self._schedule.run = run
         return run
@@ -377,7 +372,7 @@ class Session:
         full, self._schedule.run = self._schedule.run, None
         assert full is not None
         if full.error is not None:
-            self._fail(full.error)
+            self.wait(full.error)
             return
         if self._present()[1].mode == "EDIT":
             self._schedule.plan()
@@ -388,8 +383,8 @@ class Session:
         self.level, self.triangles = job.settings.levels, job.triangles
         # the same faces: the next edit only moves them
         self._mesh = session_key(target.data) if job.settings.levels == self._level else None
-        if full.solver is not None:
-            self.solver, self._arguments = full.solver, full.arguments
+        if full.fresh.solver is not None:
+            self.solver, self._arguments = full.fresh.solver, full.arguments
             self._edge_length = job.edge_length
 
     def lend(self) -> None:
@@ -417,7 +412,7 @@ class Session:
     def full_text(self) -> str:
         """Progress of the full level, in words; empty if none is computed."""
         run = self._schedule.run
-        return run.text if run is not None else ""
+        return progress_text(run) if run is not None else ""
 
     @property
     def slower(self) -> list[str]:

@@ -1,27 +1,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Eases control vertices: all a little, the worst, or the selected ones."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, cast
 
 import bmesh
 import numpy as np
 
-from .. import core, errors, size
-from ..blender import Context, Object
+from .. import core, errors
+from ..blender import Context, Mesh, Object
 from ..errors import JobError
 from ..in_place import floats
 from ..live.switch import look_again
-from ..mesh.offset_names import read_names
-from ..mesh.read import shown_selection
 from ..mesh.shape_keys import EASED, key_positions, put_key
-from ..mesh.timed_run import TimedRun
-from ..preferences import preferences
-from ..settings import Settings, halves
+from ..settings import Settings
 from . import words
-from .measure import knuckle_of, plate_settings, settings_for
-
-_LEVELS = 2  # on which the core computes
+from .measure import PlateRun, knuckle_of
 
 
 @dataclass(frozen=True)
@@ -34,7 +28,7 @@ class EaseOptions:
     stiffness: float = 0.0  # the amount of df.ease
 
 
-class _Moving(TimedRun):
+class _Moving(PlateRun):
     """New positions of the vertices of one source: read, computed on any thread, then written."""
 
     kind, again = "EASE", "Ease"
@@ -49,17 +43,13 @@ class _Moving(TimedRun):
         """Reads the mesh; raises JobError if that is impossible. `go_on`: start from an earlier result,
         if any. `settings`: replace those of the source's surface.
         """
-        settings = plate_settings(settings or settings_for(context, source))
-        with self._reading(context, source) as mesh:
-            self.names = read_names(mesh)
-            self.selected = shown_selection(mesh.vertices)
-        count = len(self.arrays.positions)
-        eased = key_positions(source, EASED, count) if go_on else None
-        self._start = self.arrays.positions if eased is None else eased
-        self._world = self.shape.of_arrays(replace(self.arrays, positions=self._start))
-        self.arguments = core.fair_arguments(self._world, settings, preferences())
-        coarse = size.coarse_triangles(self.arrays.face_sizes) * halves(settings)
-        self.triangles = coarse * 4**_LEVELS
+
+        def start(_mesh: Mesh) -> np.ndarray:
+            own = self.arrays.positions
+            eased = key_positions(source, EASED, len(own)) if go_on else None
+            return own if eased is None else eased
+
+        self._read_plate(context, source, settings, start)
 
     def _compute(self, watchers: dict[str, Any]) -> None:
         with errors.explained(self.name):
@@ -67,7 +57,7 @@ class _Moving(TimedRun):
         sent = self._world.positions
         places = self._places()
         self.moves = np.linalg.norm(places - sent, axis=1)  # (n,) in scene units
-        self.positions = self.shape.back(places, sent, self._start)
+        self.positions = self.shape.back(places, sent, self.positions)
 
     def _run(self, watchers: dict[str, Any]) -> Any:
         raise NotImplementedError
@@ -127,7 +117,7 @@ class EaseJob(_Moving):
         arguments = core.plate_arguments(self.arguments)
         found = core.module().strain(**arguments, **watch)
         self.knuckle = knuckle_of(found.excess, self.arrays, self._world.positions)
-        fixed = np.zeros(len(self._start), bool)
+        fixed = np.zeros(len(self.positions), bool)
         fixed[self.knuckle] = True
         return fixed
 

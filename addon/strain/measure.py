@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Measures the strain of a source: read on Blender's main thread, computed on any."""
 
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -10,6 +11,7 @@ from .. import core, errors, size, vertex_values
 from ..blender import Context, Mesh, Object, scene_of
 from ..live.switch import live_surfaces_of, surfaces_of
 from ..mesh.offset_names import read_names
+from ..mesh.read import shown_selection
 from ..mesh.shape_keys import mixed, read_shape_keys
 from ..mesh.timed_run import TimedRun
 from ..preferences import preferences
@@ -33,7 +35,28 @@ def plate_settings(settings: Settings) -> Settings:
     return replace(settings, use_selection=False, interpolation="EXACT", use_shape_keys=False)
 
 
-class StrainJob(TimedRun):
+class PlateRun(TimedRun):
+    """What the thin plate through all control vertices is asked of one source."""
+
+    def _read_plate(
+        self,
+        context: Context,
+        source: Object,
+        settings: Settings | None,
+        positions: Callable[[Mesh], np.ndarray],
+    ) -> None:
+        """Of the vertices at `positions(mesh)`. `settings`: in the place of those of its surface."""
+        settings = plate_settings(settings or settings_for(context, source))
+        with self._reading(context, source) as mesh:
+            self.names, self.positions = read_names(mesh), positions(mesh)
+            self.selected = shown_selection(mesh.vertices)
+        self._world = self.shape.of_arrays(replace(self.arrays, positions=self.positions))
+        self.arguments = core.fair_arguments(self._world, settings, preferences())
+        coarse = size.coarse_triangles(self.arrays.face_sizes) * halves(settings)
+        self.triangles = coarse * 4**_LEVELS
+
+
+class StrainJob(PlateRun):
     """The strain of one source, with its present edits."""
 
     kind = "STRAIN"
@@ -51,17 +74,13 @@ class StrainJob(TimedRun):
         is used if nothing has changed since. `as_mixed`: with the mix of shape keys, not the mesh
         alone. `settings`: replace those of its surface.
         """
-        settings = plate_settings(settings or settings_for(context, source))
-        with self._reading(context, source) as mesh:
-            arrays, self.names = self.arrays, read_names(mesh)
-            self.positions = arrays.positions
-            if as_mixed:
-                self.positions = mixed_positions(source, mesh, arrays.positions)
-        world = self.shape.of_arrays(replace(arrays, positions=self.positions))
-        self._edge_length = world.mean_edge_length
-        self.arguments = core.plate_arguments(core.fair_arguments(world, settings, preferences()))
-        coarse = size.coarse_triangles(arrays.face_sizes) * halves(settings)
-        self.triangles = coarse * 4**_LEVELS
+
+        def positions(mesh: Mesh) -> np.ndarray:
+            own = self.arrays.positions
+            return mixed_positions(source, mesh, own) if as_mixed else own
+
+        self._read_plate(context, source, settings, positions)
+        self.arguments = core.plate_arguments(self.arguments)
         self.result = None
         if known is not None and known.result is not None and self.is_that_of(known):
             self.result = known.result
@@ -89,7 +108,7 @@ class StrainJob(TimedRun):
             found.excess_ways @ back,
             found.excess,
             found.floor,
-            self._edge_length,
+            self._world.mean_edge_length,
             found.wrong,
             self.names,
             knuckle_of(found.excess, self.arrays, self.positions),

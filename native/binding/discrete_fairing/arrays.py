@@ -104,6 +104,28 @@ def following(offsets: np.ndarray) -> np.ndarray:
     return after
 
 
+def ranges(starts: np.ndarray, ends: np.ndarray) -> np.ndarray:
+    """The numbers start … end - 1 of every pair, one range after another."""
+    sizes = ends - starts
+    before = np.cumsum(sizes) - sizes
+    return np.arange(int(sizes.sum())) + np.repeat(starts - before, sizes)
+
+
+def fans(starts: np.ndarray, ends: np.ndarray) -> np.ndarray:
+    """(t, 3) corners of triangles: each face, corners from start to before end, from its first."""
+    first = np.repeat(starts, ends - starts - 2)
+    second = ranges(starts + 1, ends - 1)
+    return np.stack([first, second, second + 1], axis=1)
+
+
+def face_vectors(points: np.ndarray, corners: np.ndarray, offsets: np.ndarray) -> np.ndarray:
+    """(m, 3) normals, whose lengths are twice the areas."""
+    # from the first corner, so that rounding is that of the face's size
+    first = np.repeat(offsets[:-1], np.diff(offsets))
+    away = points[corners] - points[corners[first]]
+    return np.add.reduceat(np.cross(away, away[following(offsets)]), offsets[:-1])
+
+
 def index_array(values: ArrayLike, name: str) -> np.ndarray:
     """int64, C-contiguous. Raises FairingError BAD_SHAPE for anything but integers.
 

@@ -9,9 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .arrays import face_arrays, following, vertex_array
+from .arrays import face_arrays, following, ranges, vertex_array
 from .errors import fairing_error
-from .piecewise.cutting import ranges
 
 # (vertices, faces)
 Mesh = tuple[ArrayLike, Any]

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from . import _native
+from .arrays import face_vectors, fans, following, ranges
 from .fairing import fair
 
 # Rings of faces around a hole whose vertices determine how the surface continues.
@@ -246,13 +247,9 @@ class _SidesBehind:
         faces = mesh.faces_at(rim)
         corners = mesh.corners_at(faces)
         sizes = mesh.offsets[faces + 1] - mesh.offsets[faces]
-        starts = np.cumsum(sizes) - sizes
-        after = np.arange(1, len(corners) + 1)
-        after[starts + sizes - 1] = starts
-        # from the first corner, so that rounding is that of the face's size
-        points = mesh.points[corners] - np.repeat(mesh.points[corners[starts]], sizes, axis=0)
-        normals = np.add.reduceat(np.cross(points, points[after]), starts)
-        theirs = np.sort(np.stack([corners, corners[after]], axis=1), axis=1)
+        offsets = np.concatenate([[0], np.cumsum(sizes)])
+        normals = face_vectors(mesh.points, corners, offsets)
+        theirs = np.sort(np.stack([corners, corners[following(offsets)]], axis=1), axis=1)
         count = len(mesh.points)
         keys = theirs[:, 0] * count + theirs[:, 1]
         rows = np.argsort(keys, kind="stable")
@@ -324,8 +321,7 @@ class MeshPart:
     def faces_at(self, vertices: np.ndarray) -> np.ndarray:
         """The same as touching(); faster for many calls with few vertices each."""
         faces, ends = self._faces_by_vertex
-        sizes = ends[vertices + 1] - ends[vertices]
-        return np.unique(faces[_runs(ends[vertices], sizes)])
+        return np.unique(faces[ranges(ends[vertices], ends[vertices + 1])])
 
     @cached_property
     def _faces_by_vertex(self) -> tuple[np.ndarray, np.ndarray]:
@@ -335,22 +331,13 @@ class MeshPart:
 
     def corner_fans(self, faces: np.ndarray) -> np.ndarray:
         """(t, 3) triangles of these faces, as fans from their first corners."""
-        starts = np.repeat(self.offsets[faces], self.offsets[faces + 1] - self.offsets[faces] - 2)
-        sizes = self.offsets[faces + 1] - self.offsets[faces] - 2
-        second = _runs(self.offsets[faces] + 1, sizes)
-        return self.corners[np.stack([starts, second, second + 1], axis=1)]
+        return self.corners[fans(self.offsets[faces], self.offsets[faces + 1])]
 
     def corners_at(self, faces: np.ndarray) -> np.ndarray:
         """All corners of these faces, face after face."""
-        sizes = self.offsets[faces + 1] - self.offsets[faces]
-        return self.corners[_runs(self.offsets[faces], sizes)]
+        return self.corners[ranges(self.offsets[faces], self.offsets[faces + 1])]
 
 
 def angles_between(u: np.ndarray, v: np.ndarray) -> np.ndarray:
     """(…) angles between vectors (…, 3), radians."""
     return np.arctan2(np.linalg.norm(np.cross(u, v), axis=-1), (u * v).sum(axis=-1))
-
-
-def _runs(starts: np.ndarray, sizes: np.ndarray) -> np.ndarray:
-    """The numbers start … start + size - 1 of every pair, one run after another."""
-    return np.arange(sizes.sum()) + np.repeat(starts - np.cumsum(sizes) + sizes, sizes)

@@ -24,7 +24,7 @@ import addon
 from addon import core
 from addon.blender import scene_of
 from addon.freshness import UNFINISHED, why_stale
-from addon.live import handlers, registry, switch, undo
+from addon.live import handlers, kept, registry, switch
 from addon.live import session as session_module
 from addon.ui import main
 
@@ -79,7 +79,7 @@ def test_undo_takes_live_along():
     handlers.on_timer()
     assert box_as_it_is()[2] == off and registry.sessions() == []
     bpy.ops.ed.redo()
-    assert undo.resume() is None
+    assert kept.resume() is None
     source, target, again = box_as_it_is()
     assert again == on and target.discrete_fairing_live.on
     pull(source)
@@ -93,7 +93,7 @@ def test_undo_of_switching_off():
     target.discrete_fairing_live.on = False
     bpy.ops.ed.undo_push(message="off")
     bpy.ops.ed.undo()
-    undo.resume()
+    kept.resume()
     source, target, again = box_as_it_is()
     assert again == on and target.discrete_fairing_live.on
 
@@ -106,13 +106,13 @@ def test_undo_wakes_no_copy_and_no_surface_of_another_file(tmp_path):
     bpy.ops.ed.undo_push(message="copied")
     bpy.ops.ed.undo_push(message="more")
     bpy.ops.ed.undo()
-    undo.resume()
+    kept.resume()
     assert len(registry.sessions()) == 1
     reopen(tmp_path)
     bpy.ops.ed.undo_push(message="opened")
     bpy.ops.ed.undo_push(message="more")
     bpy.ops.ed.undo()
-    undo.resume()
+    kept.resume()
     assert registry.sessions() == []
 
 

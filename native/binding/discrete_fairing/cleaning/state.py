@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..arrays import following
+from ..arrays import face_vectors, fans, following
 from ..patches import connected_parts
 
 
@@ -127,14 +127,10 @@ class State:
 
     def face_vectors(self) -> np.ndarray:
         """(m, 3) normals, whose lengths are twice the areas."""
-        sizes = np.diff(self.offsets)
-        # from the first corner, so that rounding is that of the face's size
-        if (sizes == 3).all():
+        if (np.diff(self.offsets) == 3).all():
             corner = self.points[self.corners.reshape(-1, 3)]
             return np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
-        first = np.repeat(self.offsets[:-1], sizes)
-        points = self.points[self.corners] - self.points[self.corners[first]]
-        return np.add.reduceat(np.cross(points, points[self.sides.next]), self.offsets[:-1])
+        return face_vectors(self.points, self.corners, self.offsets)
 
     def triangles(self) -> np.ndarray:
         """(t, 3) vertex ids: each face as a fan from its first corner."""
@@ -143,10 +139,7 @@ class State:
     @cached_property
     def triangle_corners(self) -> np.ndarray:
         """(t, 3) the corners of triangles()."""
-        sizes = np.diff(self.offsets) - 2
-        first = np.repeat(self.offsets[:-1], sizes)
-        second = np.arange(len(first)) - np.repeat(np.cumsum(sizes) - sizes, sizes) + first + 1
-        return np.stack([first, second, second + 1], axis=1)
+        return fans(self.offsets[:-1], self.offsets[1:])
 
 
 class Sides:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import _native
-from ..arrays import face_arrays, shape_array, vertex_array
+from ..arrays import face_arrays, ranges, shape_array, vertex_array
 from ..errors import fairing_error
 from ..options import Settings, whole
 from .outline import Outline
@@ -215,10 +215,3 @@ class Cutter:
             if outline.mended:
                 same["mended"] = outline.mended
         return same
-
-
-def ranges(starts: np.ndarray, ends: np.ndarray) -> np.ndarray:
-    """The numbers start … end - 1 of every pair, one range after another."""
-    sizes = ends - starts
-    before = np.cumsum(sizes) - sizes
-    return np.arange(int(sizes.sum())) + np.repeat(starts - before, sizes)
