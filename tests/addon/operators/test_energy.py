@@ -94,7 +94,7 @@ def test_a_note_says_that_shape_keys_only_blend(source, capfd):
 def test_slower_energies_get_their_bar_earlier(energy, monkeypatch):
     add("Box", *CUBE)
     started = []
-    ways = {"_prepare": lambda self, context: [job], "_block": lambda *_: "blocked"}
+    ways = {"make_jobs": lambda self, context: [job], "_block": lambda *_: "blocked"}
     fake = type("Fake", (fair_operators.Fairing,), ways)
     fake.start = lambda self, context, jobs: started.append(jobs) or "started"
     job = type("J", (), {"predicted_seconds": prediction._AT_FIRST[energy] * 768, "result": None})
