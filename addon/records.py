@@ -4,12 +4,9 @@ records at every redraw: records that the add-on cannot have written count as mi
 """
 
 import json
-from collections.abc import Callable
-from typing import Any, TypeAlias
+from typing import Any
 
 from .errors import FAULT_KINDS, REPAIR_CODES
-
-Form: TypeAlias = Callable[[Any], bool]  # whether a value has this format
 
 # the keys of a read-out, for a surface and for its control mesh
 FIGURES = (
@@ -24,9 +21,8 @@ FIGURES = (
     "faces",
 )
 
-_MOST = (
-    2**63
-)  # of whole numbers: no count is as large, and larger ones cannot be written as decimals
+# of whole numbers: no count is as large, and larger ones cannot be written as decimals
+_MOST = 2**63
 
 
 def parse(name: str, text: str) -> dict[str, Any] | None:
@@ -35,103 +31,82 @@ def parse(name: str, text: str) -> dict[str, Any] | None:
         record = json.loads(text)
     except (ValueError, RecursionError):
         return None
-    return record if _FORMS[name](record) else None
+    return record if _has(record, _FORMS[name]) else None
 
 
-def _text(value: Any) -> bool:
-    return isinstance(value, str)
+def _has(value: Any, form: Any) -> bool:
+    """Whether `value` has a form: a type or a function that says so, one of several in a tuple, a list of one
+    for all elements, or a dict of some for keys; those that end in ? may be missing.
+    """
+    if isinstance(form, tuple):
+        return any(_has(value, each) for each in form)
+    if isinstance(form, list):
+        return isinstance(value, list) and all(_has(each, form[0]) for each in value)
+    if isinstance(form, dict):
+        return isinstance(value, dict) and all(_has_key(value, *item) for item in form.items())
+    if form is int:
+        return isinstance(value, int) and not isinstance(value, bool) and abs(value) < _MOST
+    return isinstance(value, form) if isinstance(form, type) else bool(form(value))
 
 
-def _truth(value: Any) -> bool:
-    return isinstance(value, bool)
+def _has_key(record: dict[str, Any], key: str, form: Any) -> bool:
+    name = key.rstrip("?")
+    return _has(record[name], form) if name in record else name != key
 
 
-def _whole(value: Any) -> bool:
-    return isinstance(value, int) and not isinstance(value, bool) and abs(value) < _MOST
-
-
-def _number(value: Any) -> bool:
-    return isinstance(value, float) or _whole(value)
-
-
-def _any_dict(value: Any) -> bool:
-    return isinstance(value, dict)
+def _is_none(value: Any) -> bool:
+    return value is None
 
 
 def _id(value: Any) -> bool:
-    return _whole(value) and 0 <= value < 2**31
+    return _has(value, int) and 0 <= value < 2**31
 
 
 def _pair(value: Any) -> bool:
-    return _all(_id)(value) and len(value) == 2
+    return _has(value, [_id]) and len(value) == 2
 
 
 def _matrix(value: Any) -> bool:
-    return _all(_all(_number))(value) and [len(row) for row in value] == [4] * 4
+    return _has(value, [[_NUMBER]]) and [len(row) for row in value] == [4] * 4
 
 
-def _one_of(names: frozenset[str]) -> Form:
-    return lambda value: _text(value) and value in names
-
-
-def _or_none(form: Form) -> Form:
-    return lambda value: value is None or form(value)
-
-
-def _all(form: Form) -> Form:
-    return lambda value: isinstance(value, list) and all(map(form, value))
-
-
-def _dict(needed: dict[str, Form], others: dict[str, Form] | None = None) -> Form:
-    """A dict with the `needed` keys in their formats, and any of the `others` in theirs."""
-    known = needed | (others or {})
-
-    def fits(value: Any) -> bool:
-        return (
-            _any_dict(value)
-            and value.keys() >= needed.keys()
-            and all(form(value[key]) for key, form in known.items() if key in value)
-        )
-
-    return fits
+def _repair(value: Any) -> bool:
+    return _has(value, {"code": str, "elements": list}) and value["code"] in REPAIR_CODES
 
 
 def _counts(value: Any) -> bool:
-    return _any_dict(value) and value.keys() <= FAULT_KINDS and all(map(_whole, value.values()))
+    return _has(value, {f"{kind}?": int for kind in FAULT_KINDS}) and value.keys() <= FAULT_KINDS
 
 
 def _defect(value: Any) -> bool:
-    texts = dict.fromkeys(("code", "message", "kind", "severity"), _text)
-    if not _dict({**texts, "elements": _all(lambda _: True)})(value):
+    texts = dict.fromkeys(("code", "message", "kind", "severity"), str)
+    if not _has(value, {**texts, "elements": list}):
         return False
-    return all(map(_pair if value["kind"] == "edge" else _id, value["elements"]))
+    return _has(value["elements"], [_pair if value["kind"] == "edge" else _id])
 
 
-_LEVEL = _dict(
-    {"steps": _all(_dict({"decrement": _number}))}, {"converged": _truth, "folds": _whole}
-)
-_REPAIR = _dict({"code": _one_of(REPAIR_CODES), "elements": _all(lambda _: True)})
-_FIGURES = _dict({}, dict.fromkeys(FIGURES, _or_none(_number)))
-_NAMES = dict.fromkeys(("attributes", "groups", "marks", "keys"), _all(_text))
-_SCANS = _dict({"shape": _whole, "places": _all(_matrix)})
+_NUMBER = (int, float)
+_LEVEL = {"steps": [{"decrement": _NUMBER}], "converged?": bool, "folds?": int}
+_FIGURES = {f"{name}?": (_is_none, *_NUMBER) for name in FIGURES}
+_NAMES = {f"{name}?": [str] for name in ("attributes", "groups", "marks", "keys")}
+_SCANS = {"shape": int, "places": [_matrix]}
 
-_FORMS = {
-    "report": _dict({}, {"curvature": _all(_LEVEL), "faults": _counts, "repairs": _all(_REPAIR)}),
-    "readout": _dict(
-        {
-            "after": _FIGURES,
-            "before": _or_none(_FIGURES),
-            "counts": _all(_whole),
-        }
-    ),
-    "carried": _dict({}, _NAMES),
-    "stood": _any_dict,
-    "made": _dict(
-        {"settings": _any_dict, "source": _whole},
-        {"neighbour": _text, "scans": _SCANS, "beside": _SCANS},
-    ),
-    "defects": _dict(
-        {"defects": _all(_defect), "counts": _all(_whole)},
-        {"holes": _all(_dict({"edges": _id, "at": _pair})), "cleaned": _all(_text)},
-    ),
+_FORMS: dict[str, Any] = {
+    "report": {"curvature?": [_LEVEL], "faults?": _counts, "repairs?": [_repair]},
+    "readout": {"after": _FIGURES, "before": (_is_none, _FIGURES), "counts": [int]},
+    "carried": _NAMES,
+    "stood": dict,
+    "made": {
+        "settings": dict,
+        "source": int,
+        "neighbour?": str,
+        "scans?": _SCANS,
+        "beside?": _SCANS,
+    },
+    "defects": {
+        "defects": [_defect],
+        "counts": [int],
+        "holes?": [{"edges": _id, "at": _pair}],
+        "cleaned?": [str],
+    },
 }

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`--ease` and `--strain`: control meshes put right before they are faired, and their table."""
+"""`--ease` and `--strain` on the command line: ease control meshes before they are faired, and write
+tables of their vertices' strain.
+"""
 
 import argparse
 from collections.abc import Callable, Sequence

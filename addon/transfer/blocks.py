@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A large mesh in blocks of faces with some neighbours: what is local costs its size alone."""
+"""Divides a large mesh into blocks of faces with their surroundings, for local computations, so that
+the cost of each depends on its size only.
+"""
 
 from collections.abc import Iterator
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Seams of half a mesh: where its border lies in a coordinate plane, as for a Mirror modifier."""
+"""Seams of half a mesh: borders in a coordinate plane, which a Mirror modifier joins to their images."""
 
 from typing import Any
 

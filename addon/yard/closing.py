@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Half a hull made whole and closed: mirrored, with deck and transom ruled. NumPy, no Blender."""
+"""Makes half a hull whole and closed: mirrored, joined in the middle, with deck and transom ruled from
+side to side. NumPy, no Blender.
+"""
 
 from dataclasses import dataclass
 

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The mesh over a table of offsets: quads, and triangles where lines end. NumPy, no Blender."""
+"""Meshes a table of offsets: quads between stations and lines, triangles where lines end. NumPy, no
+Blender.
+"""
 
 from collections import Counter
 from dataclasses import dataclass

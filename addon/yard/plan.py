@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where a hull is cut, and the sheet with its three plans. NumPy, no Blender."""
+"""Planes that cut a hull, and the sheet with its lines: profile, half-breadth plan and body plan.
+NumPy, no Blender.
+"""
 
 from dataclasses import dataclass
 

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Steps that change which faces hang together: borders, fins, edges, vertices, orientation."""
+"""Steps that change connectivity: they join borders, remove fins, split crowded edges and pinched
+vertices, and reverse faces.
+"""
 
 from __future__ import annotations
 
