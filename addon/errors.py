@@ -9,9 +9,8 @@ from . import core
 from .settings import AnySettings
 from .words import counted, listed
 
-VERTEX_ON_EDGE = (
-    "VERTEX_ON_EDGE"  # the core calls a hole whose rim has no width there DEGENERATE_FACE
-)
+# The core calls a hole whose rim has no width there DEGENERATE_FACE.
+VERTEX_ON_EDGE = "VERTEX_ON_EDGE"
 _OR_MEND = ", or set Defects to Mend"
 # One sentence for every code that a user of Blender can meet; it begins with an instruction, like all
 # refusals.

@@ -13,9 +13,8 @@ PATIENCE = 0.5  # seconds; a run that is predicted to take longer never stops th
 _KEPT = 5  # runs of each energy
 # seconds; shorter runs are dominated by other costs, and bound the time a triangle from above
 _BRIEF = 0.1
-_TRIED = (
-    1e5  # triangles; small runs are tried at first, since a run that exceeds PATIENCE is stopped
-)
+# Triangles; small runs are tried at first, since a run that exceeds PATIENCE is stopped.
+_TRIED = 1e5
 # seconds a triangle on a machine of two cores, until runs are known
 _AT_FIRST = {
     "THIN_PLATE": 2e-5,

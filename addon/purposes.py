@@ -89,7 +89,9 @@ def preset_file(purpose: str) -> Path | None:
 
 @cache
 def preset_values(path: Path) -> dict[str, Any]:
-    """What a preset sets, {setting: value}; read, not run. Those that are shipped say what differs from Default."""
+    """The settings of a preset, {setting: value}, which is read, not run. A shipped preset contains the
+    differences from Default.
+    """
     tree = ast.parse(path.read_text(encoding="utf-8"))
     default = path.with_name(_DEFAULT)
     return (preset_values(default) if path != default else {}) | {

@@ -160,7 +160,7 @@ def status_text(queue: Queue) -> str:
 
 
 def progress_text(queue: Queue) -> str:
-    """`Fairing, 45 %`."""
+    """The progress, such as `Fairing, 45 %`."""
     doing = "Cancelling" if queue.cancelled else phase_text(queue.phase)
     return f"{doing}, {100 * queue.fraction:.0f} %"
 

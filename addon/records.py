@@ -21,7 +21,7 @@ FIGURES = (
     "faces",
 )
 
-# of whole numbers: no count is as large, and larger ones cannot be written as decimals
+# limit of whole numbers: no count is as large, and larger ones cannot be written as decimals
 _MOST = 2**63
 
 
@@ -35,8 +35,9 @@ def parse(name: str, text: str) -> dict[str, Any] | None:
 
 
 def _has(value: Any, form: Any) -> bool:
-    """Whether `value` has a form: a type or a function that says so, one of several in a tuple, a list of one
-    for all elements, or a dict of some for keys; those that end in ? may be missing.
+    """Whether `value` has a form. A form is a type, a function that tests the value, a tuple of forms of
+    which one must fit, a list with the form of all elements, or a dict with the form of each key; a key
+    that ends in ? may be missing.
     """
     if isinstance(form, tuple):
         return any(_has(value, each) for each in form)

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What Blender is to know of a module: a module declares it, and it is registered in one place.
+"""Registers in Blender what modules declare.
 
-Classes are found by themselves. `ATTACHED`: property groups of data-blocks; `HANDLERS`: listeners by the names
-of Blender's events; `TIMERS`: what may wait to be called. What else is to be done a module does in functions
-`register` and `unregister` of its own: after all that, and before it is taken back.
+Classes are found without a declaration. `ATTACHED`: property groups of data-blocks. `HANDLERS`: listeners
+by the names of Blender's events. `TIMERS`: functions that may be waiting for a timer. A module may have
+functions `register` and `unregister` for the rest, called after these are registered and before they are
+unregistered.
 """
 
 from types import ModuleType
@@ -25,7 +26,7 @@ _KINDS = (
 
 
 def classes_of(module: ModuleType) -> list[type]:
-    """Those of Blender's kinds that `module` defines, in its order."""
+    """The classes of `module` that Blender registers, in their order."""
     defined = [v for v in vars(module).values() if getattr(v, "__module__", "") == module.__name__]
     return [v for v in defined if isinstance(v, type) and issubclass(v, _KINDS)]
 

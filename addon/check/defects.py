@@ -33,7 +33,7 @@ def check_object(context: Context, target: Object) -> list[dict[str, Any]]:
 def entry(
     code: str, kind: str, elements: Sequence[Any], severity: str = "warning", message: str = ""
 ) -> dict[str, Any]:
-    """A defect as it is remembered."""
+    """A defect as plain data, which can be stored."""
     plain = [list(e) if isinstance(e, tuple) else int(e) for e in elements]
     found = {"code": code, "message": message, "kind": kind, "elements": plain}
     return found | {"severity": severity}
@@ -128,7 +128,7 @@ def select_in_all(
 
 
 def bring_into_view(context: Context) -> None:
-    """What is selected, where a viewport is meant."""
+    """The context with a viewport as its area, for operators that select."""
     if context.area is not None and context.area.type == "VIEW_3D":
         bpy.ops.view3d.view_selected()
 

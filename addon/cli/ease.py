@@ -21,8 +21,8 @@ from ..strain.measure import StrainJob
 from ..strain.strained import Strained
 from ..units import digits_of
 from .files import write_text
-from .numbers import number
 from .places import Place, tables
+from .rna import number
 
 _STIFFNESS = number("a number, 0 or more", lambda value: 0.0 <= value < inf)
 _LENGTH = number("a length above 0", lambda value: 0.0 < value < inf)

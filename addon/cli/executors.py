@@ -23,9 +23,8 @@ from typing import Any
 import bpy
 
 _MORE_TRIES = 3  # for a task whose worker died
-_MOST_FILES = (
-    16  # inputs of a task: starting Blender takes a second, and an interruption loses one task
-)
+# Inputs of a task: starting Blender takes a second, and an interruption loses one task.
+_MOST_FILES = 16
 _TASKS_A_WORKER = 4  # so that no worker waits long for the last one
 _LAST_WORDS = 2000  # characters of the output of a process that left no report
 

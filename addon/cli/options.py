@@ -9,9 +9,8 @@ from typing import Any
 from ..properties import FAIRING_PG_settings
 from ..settings import NAMES, OF_NEAR, Settings
 from . import ease, fit, mending, step
-from .numbers import number
 from .places import FORMATS
-from .rna import add, default, option
+from .rna import add, default, number, option
 
 # Settings that apply only in an open scene, or to data that OBJ, PLY and STL files do not have.
 NOT_HERE = frozenset(

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Options from Blender's properties, which have the description, default and range of each."""
+"""Options from Blender's properties, which have the description, default and range of each, and options
+that are numbers.
+"""
 
 import argparse
 from collections.abc import Callable
-from math import degrees, radians
+from math import degrees, nan, radians
 from typing import Any
 
 import bpy
@@ -17,6 +19,23 @@ def default(prop: Any) -> Any:
 def option(name: str) -> str:
     """`--crease-angle` for crease_angle; the word "use" is dropped for --x and --no-x."""
     return "--" + name.removeprefix("use_").replace("_", "-")
+
+
+def number(what: str, accepts: Callable[[float], bool]) -> Callable[[str], float]:
+    """The `type` of a numeric argument; `what`: its description, such as "a length, 0 or more". Refuses
+    NaN.
+    """
+
+    def read(text: str) -> float:
+        try:
+            value = float(text)
+        except ValueError:
+            value = nan
+        if not accepts(value):
+            raise argparse.ArgumentTypeError(f"{text!r} is not {what}")
+        return value
+
+    return read
 
 
 def add(

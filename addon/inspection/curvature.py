@@ -21,9 +21,8 @@ class Curvature:
     mean: np.ndarray
     gauss: np.ndarray  # (n,) float64, κ₁ κ₂
     area: np.ndarray  # (n,) float64, area of the surface at each vertex
-    inner: (
-        np.ndarray
-    )  # (n,) bool: measured there. Elsewhere the mean of the measured neighbours, or 0 without any
+    # (n,) bool: measured there. Elsewhere the mean of the measured neighbours, or 0 without any
+    inner: np.ndarray
 
     @property
     def total(self) -> np.ndarray:
@@ -67,9 +66,8 @@ def triangle_curvature(
     square = [np.einsum("ij,ij->i", s, s) for s in side]
     normal = cross(side[0], side[1])
     twice_area = np.sqrt(np.einsum("ij,ij->i", normal, normal))
-    sound = twice_area > 1e-14 * (
-        square[0] + square[1] + square[2]
-    )  # slivers have no useful cotangent
+    # slivers have no useful cotangent
+    sound = twice_area > 1e-14 * (square[0] + square[1] + square[2])
     safe = np.where(sound, twice_area, 1.0)
 
     cosine = [-np.einsum("ij,ij->i", side[(i + 1) % 3], side[(i + 2) % 3]) for i in range(3)]
@@ -228,9 +226,8 @@ def _halve(positions: np.ndarray, quads: np.ndarray) -> tuple[np.ndarray, np.nda
     inside_bd = _both_face(normal, cross(b - a, d - a), cross(c - b, bd))
     square_ac, square_bd = np.einsum("ij,ij->i", ac, ac), np.einsum("ij,ij->i", bd, bd)
     share = square_bd / np.maximum(square_ac + square_bd, np.finfo(float).tiny)
-    weight = np.clip(
-        0.5 + 5.0 * (share - 0.5), 0.0, 1.0
-    )  # weight of ac: from 0 to 1 while the lengths exchange their order
+    # weight of ac: from 0 to 1 while the lengths exchange their order
+    weight = np.clip(0.5 + 5.0 * (share - 0.5), 0.0, 1.0)
     weight = np.where(inside_ac == inside_bd, weight, inside_ac)
     along_ac, along_bd = weight > 0.0, weight < 1.0
     triangles = [quads[along_ac][:, half] for half in ([0, 1, 2], [0, 2, 3])]

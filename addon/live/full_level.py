@@ -51,7 +51,7 @@ class FullLevel(Queue):
         region: np.ndarray | None,
         arguments: dict[str, Any],
     ) -> None:
-        """Reads; raises JobError. `arguments`: of the live solver, for `region` or all faces."""
+        """Reads the mesh; raises JobError. `arguments`: those of the live solver, for `region` or all faces."""
         settings = Settings.of(target.discrete_fairing)
         self.job = job_of(context, source, settings, target, region, again=False)
         now = ("vertices", "tolerance", "weights")

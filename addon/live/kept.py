@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Live that stays on: in a file that is saved and opened again, and with the steps of undo.
+"""Live stays on in a file that is saved and opened again, and follows the steps of undo.
 
-A step of Blender's undo holds `was_on`, which follows the switch, but no session.
+An undo step contains `was_on`, which follows the switch, but no session.
 """
 
 from typing import Any
@@ -45,13 +45,14 @@ def _surfaces() -> list[Object]:
 
 
 def _agree(*_: Any) -> None:
-    """Ends what is not to be on any more after undo. Nothing is written: its mesh is what it was before."""
+    """Ends sessions that undo has switched off. Writes nothing, since undo has restored the mesh."""
     for target in registry.known():
         session, was_on = registry.session_of(target), target.discrete_fairing_live.was_on
         if session is not None and not was_on and not session.ending:
             registry.remove(session, hand_back=False)
         elif was_on and not switch.is_on(target):
-            events.start_timer(resume, 0.0)  # after undo: Blender has not looked at its objects yet
+            # not within undo, before Blender has updated its objects
+            events.start_timer(resume, 0.0)
 
 
 def resume() -> None:

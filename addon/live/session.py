@@ -287,7 +287,7 @@ class Session:
         self._stale = False
 
     def wait(self, sentence: str) -> None:
-        """The last good surface stays, until the source is fine again: `sentence` says what is wrong."""
+        """Keeps the last good surface until the source is valid again; `sentence` describes its fault."""
         self.cancel_full()
         self.trouble = sentence
         self._stale = False

@@ -12,7 +12,7 @@ from ..errors import JobError
 from ..mesh.boundary_marks import mark_selected, select_marked
 from ..poll import in_edit_mode
 from ..words import counted
-from .refusing import Action
+from .mixins import Action
 
 _NAMES = {key: name for key, name, *_ in EDGE_BOUNDARIES}
 

@@ -26,7 +26,7 @@ from ..mesh.read import active_mesh, source_objects
 from ..mesh.write import FAULTS, NO_POINTS, faces_without_points
 from ..poll import IN_EITHER_MODE, needs, of_meshes
 from ..words import counted
-from .refusing import Action, refusing
+from .mixins import Action, refusing
 
 
 class _Checking(Action):

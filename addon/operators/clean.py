@@ -12,7 +12,7 @@ from ..mesh.read import source_objects
 from ..poll import of_meshes
 from .fair import InMeshes, can_fair
 from .fill_holes import LargestHole
-from .shown import Shown
+from .mixins import Shown
 
 
 class OBJECT_OT_fairing_clean(Shown, LargestHole, InMeshes, bpy.types.Operator):

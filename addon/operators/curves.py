@@ -18,7 +18,7 @@ from ..mesh.read_curves import has_curves
 from ..poll import in_mode, needs
 from ..settings import Settings
 from .fair import Fairing, can_fair
-from .shown import Shown
+from .mixins import Shown
 
 # The surface passes through the curves, is free between them, and ends as they do.
 _OURS: dict[str, Any] = {

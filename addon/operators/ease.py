@@ -17,7 +17,7 @@ from ..ui.main import fairing_operator
 from ..units import Units
 from . import redo
 from .fair import InMeshes, can_fair
-from .shown import Shown
+from .mixins import Shown
 from .strain import active_sources
 
 

@@ -26,8 +26,8 @@ from ..scan_fit import job_of
 from ..settings import Settings
 from ..ui.layout import draw_settings
 from . import redo
+from .mixins import Action, refusing
 from .modal import ModalRun
-from .refusing import Action, refusing
 
 
 def can_fair(context: Context) -> str:
@@ -47,7 +47,7 @@ class Fairing(ExplainedPoll, ModalRun):
 
     @refusing
     def begin(self, context: Context) -> Answer:
-        """Starts the run like a button."""
+        """Starts the run as a button does."""
         jobs = self._prepared(context)
         return self._in_time(context, jobs) or self.start(context, self._unused(context, jobs))
 
@@ -72,7 +72,7 @@ class Fairing(ExplainedPoll, ModalRun):
             return None
 
     def _unused(self, context: Context, jobs: list[Job]) -> list[Job]:
-        """The `jobs`, or new ones where some are done already."""
+        """The `jobs`, or new ones if some have been computed already."""
         return jobs if all(job.result is None for job in jobs) else self._prepared(context)
 
     def _begin_small(self, context: Context, tried: list[Job]) -> Answer:
@@ -165,9 +165,8 @@ class FairSurface(Fairing, FairingSettings):
     def after(self, context: Context, jobs: Sequence[Job]) -> None:
         for job in jobs:
             source = cast(Object, job.source)  # `finish` has checked it
-            hidden = self.hide_source and not switch.live_surfaces_of(
-                source
-            )  # or it is being edited
+            # one with a live surface is being edited
+            hidden = self.hide_source and not switch.live_surfaces_of(source)
             hidden = hidden and source.mode == "OBJECT"
             if hidden and is_in_view_layer(context, source):
                 source.hide_set(True)
@@ -184,16 +183,16 @@ class WholeFairing(Fairing):
 
 
 class InMeshes(WholeFairing):
-    """A run whose outcome is written to the meshes that it read."""
+    """Mix-in of runs that write to the meshes that they have read."""
 
     def finish(self, context: Context, jobs: Sequence[Any]) -> None:
-        """Writes the meshes, unless they have changed meanwhile."""
+        """Writes the meshes, unless one has changed during the run."""
         for reason in filter(None, (job.why_outdated(context) for job in jobs)):
             raise JobError(reason)
         self.write(context, jobs)
 
     def write(self, context: Context, jobs: Sequence[Any]) -> None:
-        """For the operator to say."""
+        """What the operator reports."""
         raise NotImplementedError
 
 

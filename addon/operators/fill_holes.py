@@ -16,7 +16,7 @@ from ..poll import of_meshes
 from ..settings import values_of
 from ..words import counted
 from .fair import WholeFairing, can_fair
-from .shown import Shown
+from .mixins import Shown
 
 
 class LargestHole:

@@ -19,7 +19,7 @@ from ..settings import Settings
 from ..ui.layout import amount_names
 from ..words import counted
 from .fair import WholeFairing, can_fair
-from .shown import Shown
+from .mixins import Shown
 
 
 def _selected(context: Context) -> list[Object]:

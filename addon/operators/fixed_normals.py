@@ -14,7 +14,7 @@ from ..mesh.read import control_mesh
 from ..mesh.world_shape import world_matrix
 from ..poll import in_edit_mode
 from ..words import counted
-from .refusing import Action
+from .mixins import Action
 
 _FROM = (
     ("MESH", "The Mesh", "The normal that the mesh has at the vertex, custom normals included"),

@@ -16,8 +16,7 @@ from ..mesh.read import read_mesh, source_objects
 from ..mesh.world_shape import world_shape
 from ..poll import IN_EITHER_MODE, of_meshes
 from ..words import counted
-from .refusing import Action
-from .shown import Shown
+from .mixins import Action, Shown
 
 
 class OBJECT_OT_fairing_flat_faces(Shown, Action, bpy.types.Operator):

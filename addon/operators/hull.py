@@ -20,7 +20,7 @@ from ..settings import Settings
 from ..strain.measure import mixed_positions
 from ..yard.closing import NotHalf, Whole, whole
 from ..yard.hydrostatics import NotClosed, Solid, solid
-from .refusing import Action
+from .mixins import Action
 
 ACTIVE_MESH = (IN_OBJECT_MODE, of_meshes(active_mesh))
 

@@ -15,8 +15,7 @@ from ..errors import JobError
 from ..mesh.scans import in_metres
 from ..yard.hydrostatics import Hydrostatics, NotClosed, hydrostatics
 from .hull import ACTIVE_MESH
-from .refusing import Action
-from .shown import Shown
+from .mixins import Action, Shown
 from .written_files import WritesText, write_text_file
 
 _COLUMNS = (
@@ -54,7 +53,7 @@ class _Afloat(Action):
     )
 
     def afloat(self, context: Context, draughts: list[float]) -> list[Hydrostatics]:
-        """At each of the `draughts` in metres; raises JobError."""
+        """The hydrostatics at each of the `draughts`, in metres; raises JobError."""
         target = cast(Object, context.active_object)
         points, triangles = in_metres(context, target)
         low, pivot = points[:, 2].min(), 0.5 * (points[:, 0].min() + points[:, 0].max())

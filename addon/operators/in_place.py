@@ -14,7 +14,7 @@ from ..mesh.read import source_objects
 from ..poll import in_mode, of_meshes
 from ..settings import Settings, values_of
 from .fair import InMeshes, can_fair
-from .shown import Shown
+from .mixins import Shown
 
 
 def _joints() -> tuple[tuple[str, str, str], ...]:

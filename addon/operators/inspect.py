@@ -12,7 +12,7 @@ from ..inspection.display import VALUES
 from ..inspection.settings import MODES
 from ..memory import source_of
 from ..poll import IN_EITHER_MODE, IN_OBJECT_MODE, Reason, needs, of_meshes
-from .refusing import Action
+from .mixins import Action
 
 
 def meshes(context: Context) -> list[Object]:

@@ -18,7 +18,7 @@ from ..memory import no_source_reason, source_of
 from ..poll import LINKED_SURFACE, ExplainedPoll, in_mode, needs
 from ..settings import Settings
 from .fair import Fairing, can_fair
-from .refusing import Action
+from .mixins import Action
 
 
 def _other(context: Context) -> Object | None:

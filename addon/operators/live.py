@@ -12,7 +12,7 @@ from ..mesh.modifiers import copy_modifiers
 from ..mesh.object import is_in_view_layer, new_object, nothing_left_behind
 from ..poll import in_mode
 from ..settings import Settings, is_limit, wants_modifiers
-from .refusing import Action
+from .mixins import Action
 
 _MODES = {"OBJECT", "EDIT_MESH", "SCULPT"}
 

@@ -9,9 +9,10 @@ from ..errors import JobError
 from ..job import Job
 from ..live.full_level import is_dragging
 from ..mesh.object import session_key
+from ..poll import needs
 from ..queue import Queue, running, set_running, status_text
 from ..redraw import Progress, tag_sidebars
-from .refusing import refusing
+from .mixins import Action, refusing
 
 _INTERVAL = 0.05  # seconds between two checks of the thread
 
@@ -94,3 +95,17 @@ class ModalRun(OperatorBase):
             workspace.status_text_set(text)
         self._told |= seen.keys()
         tag_sidebars(context)
+
+
+class OBJECT_OT_fairing_cancel(Action, bpy.types.Operator):
+    """End the present run, as ESC does, and change nothing"""
+
+    bl_idname = "object.fairing_cancel"
+    bl_label = "Cancel"
+    bl_options = {"INTERNAL"}
+
+    reasons = (needs(lambda _: running(), "Nothing to cancel: no surface is being faired"),)
+
+    def act(self, _context: Context) -> None:
+        if (queue := running()) is not None:
+            queue.cancel()

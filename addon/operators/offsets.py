@@ -17,7 +17,7 @@ from ..purposes import preset_file
 from ..yard.hull_mesh import HullMesh, hull_mesh
 from ..yard.offsets import read
 from ..yard.sheet import UNITS, OffsetsError
-from .refusing import Action
+from .mixins import Action
 
 _UNITS = (
     ("AUTO", "As in the File", "The unit that the file names"),

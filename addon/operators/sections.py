@@ -21,8 +21,7 @@ from ..mesh.world_shape import world_matrix
 from ..yard.dxf import text
 from ..yard.plan import Cut, Plane, in_space, opened, places, scaled, sheet
 from .hull import ACTIVE_MESH
-from .refusing import Action
-from .shown import Shown
+from .mixins import Action, Shown
 from .written_files import WritesText, write_text_file
 
 _AXES = {"STATIONS": 0, "BUTTOCKS": 1, "WATERLINES": 2}

@@ -19,8 +19,7 @@ from ..mesh.read import source_objects
 from ..poll import needs
 from ..settings import PatchOptions
 from . import fair, redo
-from .refusing import refusing
-from .shown import Shown
+from .mixins import Shown, refusing
 from .written_files import ByFileBrowser, written
 
 

@@ -23,8 +23,7 @@ from ..strain.measure import StrainJob
 from ..strain.strained import Strained, above
 from ..units import Units
 from .fair import WholeFairing, can_fair
-from .refusing import Action
-from .shown import Shown
+from .mixins import Action, Shown
 from .written_files import ByFileBrowser, write_text_file
 
 

@@ -12,7 +12,7 @@ from .. import core
 from ..blender import Answer, Context
 from ..errors import JobError
 from .fair import Fairing
-from .refusing import Action
+from .mixins import Action
 
 
 class ByFileBrowser(ExportHelper, Fairing):
@@ -38,7 +38,7 @@ class ByFileBrowser(ExportHelper, Fairing):
 
 
 class WritesText(ExportHelper, Action):
-    """Mix-in of operators that write a text at once."""
+    """Mix-in of operators that write a text file at once."""
 
     if TYPE_CHECKING:
         filepath: str  # added by ExportHelper
@@ -46,7 +46,7 @@ class WritesText(ExportHelper, Action):
 
 @contextmanager
 def written(path: str) -> Iterator[str]:
-    """Inside the `with` the absolute `path` is written; JobError where it cannot be."""
+    """A context that writes the absolute `path`; raises JobError if the file cannot be written."""
     place = bpy.path.abspath(path)
     try:
         yield place
@@ -56,6 +56,6 @@ def written(path: str) -> Iterator[str]:
 
 
 def write_text_file(path: str, text: str) -> None:
-    """Whole, or the file is as it was."""
+    """Writes the whole text, or leaves the file as it was."""
     with written(path) as place, core.module().whole_files.whole_file(place) as part:
         part.write_text(text, encoding="utf-8", newline="")

@@ -36,7 +36,7 @@ def plate_settings(settings: Settings) -> Settings:
 
 
 class PlateRun(TimedRun):
-    """What the thin plate through all control vertices is asked of one source."""
+    """The thin plate through all control vertices of one source, from which strain is measured."""
 
     def _read_plate(
         self,
@@ -45,7 +45,7 @@ class PlateRun(TimedRun):
         settings: Settings | None,
         positions: Callable[[Mesh], np.ndarray],
     ) -> None:
-        """Of the vertices at `positions(mesh)`. `settings`: in the place of those of its surface."""
+        """`positions(mesh)`: those of the vertices. `settings`: used in place of those of its surface."""
         settings = plate_settings(settings or settings_for(context, source))
         with self._reading(context, source) as mesh:
             self.names, self.positions = read_names(mesh), positions(mesh)

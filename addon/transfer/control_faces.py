@@ -17,9 +17,8 @@ class ControlFaces:
     """F control faces with k corners each."""
 
     vertices: np.ndarray  # (F, k) int32; ids from the vertex count on are centres of fans
-    corners: (
-        np.ndarray
-    )  # (F, k) int32, corners of the input; ids from the corner count on are centres of fans
+    # (F, k) int32, corners of the input; ids from the corner count on are centres of fans
+    corners: np.ndarray
     polygon: np.ndarray  # (F,) int32, the input face
 
     @property

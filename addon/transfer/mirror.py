@@ -30,9 +30,8 @@ class Mirror:
     """A plane through the origin across which a control mesh is its own mirror image."""
 
     axis: int  # 0, 1 or 2: the coordinate that changes its sign
-    control: (
-        np.ndarray
-    )  # (n,) int32: the image of each control vertex, NONE for those without a face
+    # (n,) int32: the image of each control vertex, NONE for those without a face
+    control: np.ndarray
     fine: np.ndarray  # (N,) int32: the same for the refined vertices
 
 

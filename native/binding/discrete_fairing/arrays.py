@@ -112,14 +112,14 @@ def ranges(starts: np.ndarray, ends: np.ndarray) -> np.ndarray:
 
 
 def fans(starts: np.ndarray, ends: np.ndarray) -> np.ndarray:
-    """(t, 3) corners of triangles: each face, corners from start to before end, from its first."""
+    """(t, 3) corners of the triangles of faces, each a fan from the first of its corners start … end - 1."""
     first = np.repeat(starts, ends - starts - 2)
     second = ranges(starts + 1, ends - 1)
     return np.stack([first, second, second + 1], axis=1)
 
 
 def face_vectors(points: np.ndarray, corners: np.ndarray, offsets: np.ndarray) -> np.ndarray:
-    """(m, 3) normals, whose lengths are twice the areas."""
+    """(m, 3) normals of faces, whose lengths are twice the areas."""
     # from the first corner, so that rounding is that of the face's size
     first = np.repeat(offsets[:-1], np.diff(offsets))
     away = points[corners] - points[corners[first]]

@@ -32,9 +32,8 @@ HOPELESS_TURN = np.radians(150.0)  # the same, of a coarse level: a fold that st
 FOLD_LIMIT = np.radians(45.0)  # between a patch and the refined surface
 # The share of the tolerance that the refined surface itself may be off.
 LATTICE_SHARE = 0.5
-ORDER = (
-    3  # of the change from a level to the next, so much is as large as all that follow: order two
-)
+# Of the change from a level to the next, so much is as large as all that follow: order two.
+ORDER = 3
 CELLS_AT_ONCE = 1 << 14  # that two surfaces are compared at; or one control face
 
 

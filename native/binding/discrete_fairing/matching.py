@@ -251,9 +251,8 @@ class _Change:
         unit = along / np.linalg.norm(along, axis=1, keepdims=True)
         at = own.slot[ids[0]]
         mine = Foot(own.point[at], own.normal[at], own.inward[at], own.bend[at])
-        unknown = (
-            1 if face.lattice.quad else 3
-        )  # the rows of a triangle do not reach its sides' ends
+        # the rows of a triangle do not reach its sides' ends
+        unknown = 1 if face.lattice.quad else 3
         self.d, self.q = _turned(d, q, unit, mine, foot, ends, unknown)
 
     def __call__(self, u: np.ndarray, v: np.ndarray) -> np.ndarray:

@@ -43,9 +43,8 @@ def _begin(
         square = (near**2).sum(axis=1)
         # no nearest sample is farther from the middle than this, by the triangle inequality
         away, across = np.sqrt(square), np.linalg.norm(points[here] - middle, axis=1).max()
-        kept = (
-            away <= 2.0 * across + away.min()
-        )  # lengths, since rounding of squares may leave none
+        # lengths, since rounding of squares may leave none
+        kept = away <= 2.0 * across + away.min()
         near, ids, grid, square = near[kept], ids[kept], grid[kept], square[kept]
         for rows in np.array_split(here, len(here) * len(near) // 2**22 + 1):
             nearest = (square - 2.0 * (points[rows] - middle) @ near.T).argmin(axis=1)

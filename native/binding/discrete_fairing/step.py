@@ -276,9 +276,8 @@ def _outward(patches: SplinePatches) -> np.ndarray:
     volume = np.zeros(len(patches.shell_closed))
     extent = np.abs(patches.vertices - patches.vertices[:1]).max(initial=0) or 1.0
     for p in range(len(patches)):
-        net = (
-            patches.net(p) - patches.vertices[0]
-        ) / extent  # scaled, so that cubes do not overflow
+        # scaled, so that cubes do not overflow
+        net = (patches.net(p) - patches.vertices[0]) / extent
         a, b, c, d = net[:-1, :-1], net[1:, :-1], net[1:, 1:], net[:-1, 1:]
         cells = np.cross(a, b) * c + np.cross(a, c) * d
         volume[patches.patch_shell[p]] += cells.sum()

@@ -7,9 +7,8 @@ import numpy as np
 
 from .state import State
 
-ROUNDS = (
-    10  # times that vertices move to their neighbours' mean; spikes of several vertices need more
-)
+# Times that vertices move to their neighbours' mean; spikes of several vertices need more.
+ROUNDS = 10
 
 
 def flattened(

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How operators answer: a JobError refuses, and is said."""
+"""Mix-ins of operators: what they report, and which of their properties they show."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import wraps
-from typing import Any
+from typing import Any, cast
+
+import bpy
 
 from ..blender import Answer, Context, OperatorBase
 from ..errors import JobError
@@ -11,7 +13,7 @@ from ..poll import ExplainedPoll
 
 
 def refusing(call: Callable[..., Answer]) -> Callable[..., Answer]:
-    """Of an operator's method that takes a context: a JobError is reported, and nothing was done."""
+    """A method of an operator, with a context, that reports a JobError and cancels the operator."""
 
     @wraps(call)
     def answered(self: Any, context: Context) -> Answer:  # Blender counts the arguments
@@ -28,7 +30,7 @@ class Action(ExplainedPoll, OperatorBase):
     """Mix-in of operators that are done at once."""
 
     def act(self, context: Context) -> str | None:
-        """Does it; what is to be said of it. Raises JobError."""
+        """Carries it out and returns what the operator reports, if anything. Raises JobError."""
         raise NotImplementedError
 
     @refusing
@@ -37,3 +39,19 @@ class Action(ExplainedPoll, OperatorBase):
         if said:
             self.report({"INFO"}, said)
         return {"FINISHED"}
+
+
+class Shown(OperatorBase):
+    """Mix-in of operators that show some of their properties below one another, in Adjust Last Operation
+    or a file browser.
+    """
+
+    def shown(self, context: Context) -> Iterable[str]:
+        """The names of the properties that apply now."""
+        raise NotImplementedError
+
+    def draw(self, context: Context) -> None:
+        layout = cast(bpy.types.UILayout, self.layout)
+        layout.use_property_split = True
+        for name in self.shown(context):
+            layout.prop(self, name)
