@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "curvature/fold_repair.h"
 #include "grid/runs.h"
 #include "mesh/sharp_turn.h"
 
@@ -33,49 +34,37 @@ std::vector<double> least_cosines_of_stars(const GridLevel& grid, const Array<do
   return least;
 }
 
-}  // namespace
-
-void FallbackSteps::run(Pads* pads, const StepStart& start, CurvatureLevelReport& report) {
-  run_on_points(start, report);
-  if (it_.level < it_.system.finest()) return;
-  if (pads && report.folds_before > 0)
-    deactivate_all(*pads);
-  else if (pads)
-    move_to_pads(*pads, start, report);
-  report.converged = report.left <= steps_.accurate_end().movement;
-  // Vertices within tolerances are fixed first.
-  if (!report.converged && !it_.system.is_bound()) polish(report);
+void deactivate(SurfaceIterate& it, Pads& pads, std::size_t v) {
+  pads.deactivate(v);
+  if (!it.current.held.loads.empty()) it.current.held.loads[v].setZero();
 }
 
-void FallbackSteps::polish(CurvatureLevelReport& report) {
-  if (!is_near(report, damped_decrement)) return;
-  LinearizedSurface before = it_.current;
-  CurvatureLevelReport polished = report;
-  steps_.polish(longest_climb, polished);
-  polished.folds = fold_repair_.find().count();
-  if (polished.folds <= report.folds)
-    report = std::move(polished);
-  else
-    it_.current = std::move(before);
+void deactivate_all(SurfaceIterate& it, Pads& pads) {
+  for (std::size_t v = 0; v < pads.places().size(); ++v) deactivate(it, pads, v);
 }
 
-void FallbackSteps::run_on_points(const StepStart& start, CurvatureLevelReport& report) {
-  steps_.run_damped(nullptr, start, {}, report);
-  if (it_.level == it_.system.finest()) fold_repair_.run(start, report);
+// A load acts along the normals of its pad. If these turn sharply away from the vertex's normal,
+// less than half of the load holds the vertex, and neighbouring pads oppose each other.
+void deactivate_turned(SurfaceIterate& it, Pads& pads) {
+  const std::vector<double> facing =
+      least_cosines_of_stars(it.grid(), it.current.linearization.normal);
+  for (std::size_t v = 0; v < facing.size(); ++v)
+    if (facing[v] < sharp_turn) deactivate(it, pads, v);
 }
 
 // Accepts the surface on pads if it has hardly more energy than the one on points, no more folds,
 // and is as near to a solution; otherwise all vertices stay on point forces.
-void FallbackSteps::move_to_pads(Pads& pads, const StepStart& start, CurvatureLevelReport& report) {
-  deactivate_turned(pads);
+void move_to_pads(SurfaceIterate& it, Pads& pads, const StepStart& start,
+                  CurvatureLevelReport& report) {
+  deactivate_turned(it, pads);
   if (!pads.any()) return;
-  LinearizedSurface on_points = it_.current;
+  LinearizedSurface on_points = it.current;
   const CurvatureLevelReport of_points = report;
-  StepStart from{it_.current.points, it_.current.held, start.report};
+  StepStart from{it.current.points, it.current.held, start.report};
   from.held.loads.clear();
-  steps_.run_damped(&pads, from, {}, report);
+  run_damped(it, &pads, from, {}, report);
   report.folds_before = of_points.folds_before;
-  report.folds = fold_repair_.find().count();
+  report.folds = folds_of(it).count();
   // There is no step if nothing is bent at the start, or if no step is possible.
   const bool ends = report.steps.empty() ? report.converged : report.steps.back().length > 0;
   const bool is_as_near =
@@ -83,27 +72,38 @@ void FallbackSteps::move_to_pads(Pads& pads, const StepStart& start, CurvatureLe
   if (report.energy <= other_minimum * of_points.energy && report.folds <= of_points.folds &&
       is_as_near)
     return;
-  deactivate_all(pads);
-  it_.current = std::move(on_points);
+  deactivate_all(it, pads);
+  it.current = std::move(on_points);
   report = of_points;
 }
 
-void FallbackSteps::deactivate_all(Pads& pads) {
-  for (std::size_t v = 0; v < pads.places().size(); ++v) deactivate(pads, v);
+// Plain steps to the end, undone if they make folds.
+void polish_without_folds(SurfaceIterate& it, CurvatureLevelReport& report) {
+  if (!is_near(report, damped_decrement)) return;
+  LinearizedSurface before = it.current;
+  CurvatureLevelReport polished = report;
+  polish(it, longest_climb, polished);
+  polished.folds = folds_of(it).count();
+  if (polished.folds <= report.folds)
+    report = std::move(polished);
+  else
+    it.current = std::move(before);
 }
 
-// A load acts along the normals of its pad. If these turn sharply away from the vertex's normal,
-// less than half of the load holds the vertex, and neighbouring pads oppose each other.
-void FallbackSteps::deactivate_turned(Pads& pads) {
-  const std::vector<double> facing =
-      least_cosines_of_stars(it_.grid(), it_.current.linearization.normal);
-  for (std::size_t v = 0; v < facing.size(); ++v)
-    if (facing[v] < sharp_turn) deactivate(pads, v);
-}
+}  // namespace
 
-void FallbackSteps::deactivate(Pads& pads, std::size_t v) {
-  pads.deactivate(v);
-  if (!it_.current.held.loads.empty()) it_.current.held.loads[v].setZero();
+void run_fallback(SurfaceIterate& it, Pads* pads, const StepStart& start,
+                  CurvatureLevelReport& report) {
+  run_damped(it, nullptr, start, {}, report);
+  if (it.level < it.system.finest()) return;
+  repair_folds(it, start, report);
+  if (pads && report.folds_before > 0)
+    deactivate_all(it, *pads);
+  else if (pads)
+    move_to_pads(it, *pads, start, report);
+  report.converged = report.left <= accurate_end(it).movement;
+  // Vertices within tolerances are fixed first.
+  if (!report.converged && !it.system.is_bound()) polish_without_folds(it, report);
 }
 
 }  // namespace fairing

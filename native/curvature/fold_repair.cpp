@@ -142,33 +142,65 @@ void fill_harmonically(const GridLevel& grid, const Unknowns& unknowns, const Ar
       x[3 * std::size_t(filled[std::size_t(i)]) + std::size_t(a)] = targets(i, a);
 }
 
-Folds FoldRepair::find() const {
-  return find_folds(it_.grid(), it_.workers(), it_.current.points.data(), folded_faces_);
+Folds folds_of(const SurfaceIterate& it) {
+  return find_folds(it.grid(), it.workers(), it.current.points.data(), it.folded_faces);
 }
 
-void FoldRepair::dilate_marks(int by, Array<float>& marks) {
+namespace {
+
+void dilate_marks(SurfaceIterate& it, int by, Array<float>& marks) {
   for (int r = 0; r < by; ++r)
-    dilate(it_.grid(), it_.workers(), it_.system.shared().float_slots, nullptr, marks);
+    dilate(it.grid(), it.workers(), it.system.shared().float_slots, nullptr, marks);
 }
 
-void FoldRepair::run(const StepStart& start, CurvatureLevelReport& report) {
-  const std::size_t points = it_.grid().size();
-  Folds folds = find();
+// Places the marked points between their neighbours as they lie on the control mesh.
+void refill(SurfaceIterate& it, const Array<float>& marks, Array<double>& x) {
+  const Unknowns& unknowns = it.system.shared().unknowns;
+  Array<double> linear(x.size());
+  refine_linearly(it.grid(), it.constraints.targets(), it.workers(), linear.data());
+  fill_harmonically(it.grid(), it.constraints.any() ? it.constraints.without_held() : unknowns,
+                    marks, linear.data(), x.data());
+  it.system.symmetrize(it.level, x);
+}
+
+// Marks the surroundings of points whose energy has grown so much that the total is no longer
+// comparable. Returns whether there are any.
+bool mark_diverged(SurfaceIterate& it, const Linearization& before, double energy,
+                   Array<float>& marks) {
+  Array<float> bursts(marks.size());
+  for_each_index(it.workers(), bursts.size(), [&](std::size_t i) {
+    const double bound = point_energy(before, i) + (equal_energy - 1) * energy;
+    bursts[i] = point_energy(it.current.linearization, i) > bound ? 1.0f : 0.0f;
+  });
+  if (!any(bursts)) return false;
+  dilate_marks(it, 2 * rings, bursts);
+  for_each_index(it.workers(), marks.size(),
+                 [&](std::size_t i) { marks[i] = std::max(marks[i], bursts[i]); });
+  return true;
+}
+
+}  // namespace
+
+void repair_folds(SurfaceIterate& it, const StepStart& start, CurvatureLevelReport& report) {
+  const std::size_t points = it.grid().size();
+  Folds folds = folds_of(it);
   report.folds_before = report.folds = folds.count();
   if (report.folds == 0) return;
-  LinearizedSurface best = it_.current;
+  LinearizedSurface best = it.current;
   Array<float> folded(points, 0.0f), burst_before(points, 0.0f), marks;
   for (int round = 0; round < most_repairs && report.folds > 0; ++round) {
-    mark_folds(it_.grid(), it_.current.points.data(), folds, marks);
-    for_each_index(it_.workers(), points, [&](std::size_t i) {
+    mark_folds(it.grid(), it.current.points.data(), folds, marks);
+    for_each_index(it.workers(), points, [&](std::size_t i) {
       folded[i] = std::max(folded[i], marks[i]) * (burst_before[i] > 0 ? 0.0f : 1.0f);
     });
     if (!any(folded)) break;
     marks = folded;
-    dilate_marks(rings + round, marks);
+    dilate_marks(it, rings + round, marks);
+    StepStart filled = start;
+    refill(it, marks, filled.points);
     CurvatureLevelReport again;
-    solve_again(start, marks, again);
-    folds = find();
+    run_damped(it, nullptr, filled, marks, again);
+    folds = folds_of(it);
     again.folds_before = report.folds_before;
     again.folds = folds.count();
     // The energy mostly falls, since the folds had trapped the steps.
@@ -177,44 +209,12 @@ void FoldRepair::run(const StepStart& start, CurvatureLevelReport& report) {
                             : report.energy / other_minimum;
     if (again.energy <= most) {
       report = again;
-      best = it_.current;
-    } else if (!mark_diverged(best.linearization, report.energy, burst_before)) {
+      best = it.current;
+    } else if (!mark_diverged(it, best.linearization, report.energy, burst_before)) {
       break;
     }
   }
-  it_.current = std::move(best);
-}
-
-void FoldRepair::solve_again(const StepStart& start, const Array<float>& marks,
-                             CurvatureLevelReport& report) {
-  StepStart filled = start;
-  refill(marks, filled.points);
-  steps_.run_damped(nullptr, filled, marks, report);
-}
-
-// Places the marked points between their neighbours as they lie on the control mesh.
-void FoldRepair::refill(const Array<float>& marks, Array<double>& x) {
-  const Unknowns& unknowns = it_.system.shared().unknowns;
-  Array<double> linear(x.size());
-  refine_linearly(it_.grid(), constraints_.targets(), it_.workers(), linear.data());
-  fill_harmonically(it_.grid(), constraints_.any() ? constraints_.without_held() : unknowns, marks,
-                    linear.data(), x.data());
-  it_.system.symmetrize(it_.level, x);
-}
-
-// Marks the surroundings of points whose energy has grown so much that the total is no longer
-// comparable. Returns whether there are any.
-bool FoldRepair::mark_diverged(const Linearization& before, double energy, Array<float>& marks) {
-  Array<float> bursts(marks.size());
-  for_each_index(it_.workers(), bursts.size(), [&](std::size_t i) {
-    const double bound = point_energy(before, i) + (equal_energy - 1) * energy;
-    bursts[i] = point_energy(it_.current.linearization, i) > bound ? 1.0f : 0.0f;
-  });
-  if (!any(bursts)) return false;
-  dilate_marks(2 * rings, bursts);
-  for_each_index(it_.workers(), marks.size(),
-                 [&](std::size_t i) { marks[i] = std::max(marks[i], bursts[i]); });
-  return true;
+  it.current = std::move(best);
 }
 
 }  // namespace fairing

@@ -15,32 +15,12 @@ namespace fairing {
 void fill_harmonically(const GridLevel& grid, const Unknowns& unknowns, const Array<float>& marks,
                        const double* shape, double* x);
 
-class FoldRepair {
- public:
-  // `folded_faces`: control faces whose folds are excused (folded_control_faces). All references
-  // must outlive it.
-  FoldRepair(SurfaceIterate& iterate, const ControlConstraints& constraints,
-             const std::vector<std::uint8_t>& folded_faces, CurvatureSteps& steps)
-      : it_(iterate), constraints_(constraints), folded_faces_(folded_faces), steps_(steps) {}
+// Folds of the present surface that the control mesh does not have.
+Folds folds_of(const SurfaceIterate& iterate);
 
-  // Folds of the present surface.
-  Folds find() const;
-
-  // Tries to replace iterate.current, the end of the damped steps from `start`, by a surface with
-  // fewer folds and hardly more energy, or with much less energy. Sets folds_before and folds of
-  // `report`, or replaces it.
-  void run(const StepStart& start, CurvatureLevelReport& report);
-
- private:
-  void refill(const Array<float>& marks, Array<double>& x);
-  void dilate_marks(int rings, Array<float>& marks);
-  void solve_again(const StepStart& start, const Array<float>& marks, CurvatureLevelReport& report);
-  bool mark_diverged(const Linearization& before, double energy, Array<float>& marks);
-
-  SurfaceIterate& it_;
-  const ControlConstraints& constraints_;
-  const std::vector<std::uint8_t>& folded_faces_;
-  CurvatureSteps& steps_;
-};
+// Tries to replace iterate.current, the end of the damped steps from `start`, by a surface with
+// fewer folds and hardly more energy, or with much less energy. Sets folds_before and folds of
+// `report`, or replaces it.
+void repair_folds(SurfaceIterate& iterate, const StepStart& start, CurvatureLevelReport& report);
 
 }  // namespace fairing

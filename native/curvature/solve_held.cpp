@@ -73,7 +73,7 @@ HeldLimits GaussNewtonSystem::held_limits(int level, const Functional& functiona
   HeldLimits out;
   out.solve = limits(functional);
   if (functional.pads || is_bound()) out.solve.tolerance = error_reduction(level, functional);
-  out.force = is_finest ? load_tolerance_ : coarse_force_tolerance;
+  out.force = is_finest ? options_.load_tolerance : coarse_force_tolerance;
   out.of_first_force = constraints_ ? inexact : is_finest ? left_on_finest : force_left_below;
   out.gap = wanted_gap(level);
   out.of_first_gap = inexact;

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "constraints/diverged.h"
+#include "curvature/fallback.h"
+#include "curvature/fold_repair.h"
 #include "curvature/start.h"
 #include "curvature/total_curvature.h"
 #include "parallel/reductions.h"
@@ -29,18 +31,12 @@ GaussNewtonSolver::GaussNewtonSolver(const ControlMesh& mesh, const GridLevels& 
                                      const GaussNewtonOptions& options,
                                      IntervalConstraints constraints, const Pads* pads,
                                      Symmetry symmetry, Workers& workers, Monitor& monitor)
-    : options_(options),
-      constraints_(std::move(constraints)),
+    : constraints_(std::move(constraints)),
       pads_{pads},
       system_(mesh, grids, base, stencils, unknowns, options,
               constraints_.any() ? &constraints_ : nullptr, std::move(symmetry), workers, monitor),
-      iterate_{system_},
-      next_level_(base),
-      folded_faces_(folded_control_faces(mesh, constraints_.targets(), workers)),
-      steps_(iterate_, options_),
-      fold_repair_(iterate_, constraints_, folded_faces_, steps_),
-      fallback_(iterate_, fold_repair_, steps_),
-      variation_(iterate_, steps_) {
+      iterate_{system_, constraints_, folded_control_faces(mesh, constraints_.targets(), workers)},
+      next_level_(base) {
   if (base < system_.finest()) thickness_.emplace(mesh, constraints_.targets(), workers);
 }
 
@@ -62,7 +58,7 @@ CurvatureLevelReport GaussNewtonSolver::solve_next_level(const Array<double>& pl
           (!is_finest() &&
            thickness_->of(iterate_.grid(), iterate_.workers(), surface().data()).is_bubble())};
   if (is_finest()) {
-    report.folds = fold_repair_.find().count();
+    report.folds = folds_of(iterate_).count();
     solved_ = {report.converged && is_plain, report.energy, report.folds};
   }
   subtract_tension(start, plate, report);
@@ -87,25 +83,25 @@ bool GaussNewtonSolver::solve_total_curvature(const StepStart& start, const Arra
 
 // The change of one level starts the next only if plain steps converged on all levels.
 void GaussNewtonSolver::vary(bool is_plain, CurvatureLevelReport& report) {
-  if (!is_plain || report.kept_start) variation_.forget();
+  if (!is_plain || report.kept_start) variation_.change.clear();
   if (is_finest() && !report.kept_start)
-    variation_.run(steps_.accurate_end(), report);
-  else if (is_plain && !constraints_.any() && !variation_.vanishes() &&
+    run_variation(iterate_, variation_, accurate_end(iterate_), report);
+  else if (is_plain && !constraints_.any() && !variation_.vanishes &&
            iterate_.level >= first_of_variation)
-    variation_.prepare_next_level(end());
+    prepare_variation(iterate_, variation_, end());
 }
 
 // Plain steps, which converge without folds on an even mesh. If they fail, the mesh is rough on
 // finer levels too, and the fallback runs. If they converge with folds, the fallback's surface
 // replaces theirs only if it is as near to its solution and has fewer folds.
 bool GaussNewtonSolver::step(const StepStart& start, CurvatureLevelReport& report) {
-  if (below_.is_plain) steps_.run_plain(pads_.now(), end(), long_patience, report);
+  if (below_.is_plain) run_plain(iterate_, pads_.now(), end(), long_patience, report);
   const bool is_plain = below_.is_plain && is_settled(report);
-  if (is_plain && is_finest()) report.folds_before = report.folds = fold_repair_.find().count();
+  if (is_plain && is_finest()) report.folds_before = report.folds = folds_of(iterate_).count();
   if (is_lost(is_plain)) return false;
   if (is_plain && report.folds == 0) return true;
   const Snapshot plain = snapshot(report);
-  fallback_.run(pads_.now(), start, report);
+  run_fallback(iterate_, pads_.now(), start, report);
   if (!is_plain ||
       (report.folds < plain.report.folds && report.converged >= plain.report.converged))
     return false;
@@ -131,7 +127,7 @@ void GaussNewtonSolver::restore(const Snapshot& saved, CurvatureLevelReport& rep
 }
 
 StopCriterion GaussNewtonSolver::end() {
-  if (is_finest() && (!varies() || variation_.vanishes())) return steps_.accurate_end();
+  if (is_finest() && (!varies() || variation_.vanishes)) return accurate_end(iterate_);
   return {pads_.now() ? start_decrement : plain_decrement, 0};
 }
 
@@ -140,12 +136,12 @@ void GaussNewtonSolver::end_constraints(CurvatureLevelReport& report) {
   if (any_moved) constraints_.enforce(surface().data());
   iterate_.current.held.bounds.clear();
   system_.fix_control_vertices(constraints_.without_held(), iterate_.level, iterate_.current);
-  if (any_moved) steps_.polish(short_patience, report);
+  if (any_moved) polish(iterate_, short_patience, report);
 }
 
 double GaussNewtonSolver::tension_of(const Array<double>& x) {
-  if (!(options_.tension > 0)) return 0;
-  return options_.tension * surface_area(iterate_.grid(), iterate_.workers(), x.data());
+  if (!(system_.options().tension > 0)) return 0;
+  return system_.options().tension * surface_area(iterate_.grid(), iterate_.workers(), x.data());
 }
 
 // The report has energies without tension.
@@ -212,7 +208,8 @@ bool GaussNewtonSolver::solve_moved(Symmetry symmetry, Array<double>& found,
 
 bool GaussNewtonSolver::steps_go_well(Symmetry symmetry, CurvatureLevelReport& report) {
   system_.set_symmetry(std::move(symmetry));
-  folded_faces_ = folded_control_faces(system_.mesh(), constraints_.targets(), iterate_.workers());
+  iterate_.folded_faces =
+      folded_control_faces(system_.mesh(), constraints_.targets(), iterate_.workers());
   system_.symmetrize(iterate_.level, surface());
   iterate_.linearize();
   report.level = iterate_.level;
@@ -224,10 +221,10 @@ bool GaussNewtonSolver::steps_go_well(Symmetry symmetry, CurvatureLevelReport& r
   report.converged = true;
   const double start_tension = tension_of(surface());
   if (varies())
-    variation_.run(steps_.accurate_end(), report);
+    run_variation(iterate_, variation_, accurate_end(iterate_), report);
   else
-    steps_.run_plain(pads_.now(), steps_.accurate_end(), short_patience, report);
-  report.folds_before = report.folds = fold_repair_.find().count();
+    run_plain(iterate_, pads_.now(), accurate_end(iterate_), short_patience, report);
+  report.folds_before = report.folds = folds_of(iterate_).count();
   solved_.is_sound =
       report.converged && report.folds <= solved_.folds &&
       (varies() || report.energy <= equal_energy * report.start_energy + flat_energy);

@@ -6,7 +6,6 @@
 
 #include <optional>
 
-#include "curvature/fallback.h"
 #include "curvature/variation.h"
 #include "grid/thickness.h"
 
@@ -83,7 +82,7 @@ class GaussNewtonSolver {
   // excludes the case that plain steps converged there and here.
   bool is_lost(bool is_plain) const { return below_.is_bubble && (!is_plain || varies()); }
   void vary(bool is_plain, CurvatureLevelReport& report);
-  bool varies() const { return options_.energy == CurvatureEnergy::minimum_variation; }
+  bool varies() const { return system_.options().energy == CurvatureEnergy::minimum_variation; }
   // Most total curvature that a surface of the level may have.
   double energy_bound(const CurvatureLevelReport& report);
   // Whether the steps are near a solution and have less energy than the thin plate.
@@ -100,18 +99,13 @@ class GaussNewtonSolver {
                         CurvatureLevelReport& report);
   bool is_finest() const { return iterate_.level == system_.finest(); }
 
-  GaussNewtonOptions options_;
   IntervalConstraints constraints_;
   OwnPads pads_;
   GaussNewtonSystem system_;
   SurfaceIterate iterate_;
   int next_level_;
-  std::vector<std::uint8_t> folded_faces_;  // of the control mesh
-  std::optional<Thickness> thickness_;      // only below the finest level
-  CurvatureSteps steps_;
-  FoldRepair fold_repair_;
-  FallbackSteps fallback_;
-  VariationSteps variation_;
+  std::optional<Thickness> thickness_;  // only below the finest level
+  VariationBelow variation_;
   Below below_;
   Solved solved_;
 };

@@ -280,20 +280,26 @@ bool is_near(const CurvatureLevelReport& report, double decrement) {
   return last.length > 0 && last.decrement <= decrement;
 }
 
-void CurvatureSteps::run(Pads* pads, LocalDamping* damping, const StopCriterion& end, int patience,
-                         CurvatureLevelReport& report) {
+namespace {
+
+void run_steps(SurfaceIterate& iterate, Pads* pads, LocalDamping* damping, const StopCriterion& end,
+               int patience, CurvatureLevelReport& report) {
   // Local damping compares tensors in space, so it needs the charts' axes.
-  StepLoop(iterate_, {CurvatureEnergy::total_curvature, pads, damping != nullptr}, damping, end,
+  StepLoop(iterate, {CurvatureEnergy::total_curvature, pads, damping != nullptr}, damping, end,
            patience)
-      .run(options_.max_steps, report);
-  report.energy = iterate_.op().objective();
+      .run(iterate.system.options().max_steps, report);
+  report.energy = iterate.op().objective();
 }
 
-void CurvatureSteps::run_variation(const StopCriterion& end, CurvatureLevelReport& report) {
-  LocalDamping damping(iterate_.grid(), iterate_.system.shared().unknowns, iterate_.workers());
+}  // namespace
+
+void run_to_variation(SurfaceIterate& iterate, const StopCriterion& end,
+                      CurvatureLevelReport& report) {
+  LocalDamping damping(iterate.grid(), iterate.system.shared().unknowns, iterate.workers());
   const std::size_t before = report.steps.size();
   try {
-    StepLoop(iterate_, of_variation, &damping, end, 0).run(options_.max_steps, report);
+    StepLoop(iterate, of_variation, &damping, end, 0)
+        .run(iterate.system.options().max_steps, report);
   } catch (const FairingError& error) {
     // The variation may leave vertices undetermined that only its long waves move; then its matrix
     // has no factor, and the present surface is the result
@@ -305,32 +311,32 @@ void CurvatureSteps::run_variation(const StopCriterion& end, CurvatureLevelRepor
   }
 }
 
-void CurvatureSteps::run_plain(Pads* pads, const StopCriterion& end, int patience,
-                               CurvatureLevelReport& report) {
-  run(pads, nullptr, end, patience, report);
+void run_plain(SurfaceIterate& iterate, Pads* pads, const StopCriterion& end, int patience,
+               CurvatureLevelReport& report) {
+  run_steps(iterate, pads, nullptr, end, patience, report);
 }
 
-void CurvatureSteps::run_damped(Pads* pads, const StepStart& start, const Array<float>& filled,
-                                CurvatureLevelReport& report) {
-  iterate_.current = {};
-  iterate_.current.points = start.points;
-  iterate_.current.held = start.held;
+void run_damped(SurfaceIterate& iterate, Pads* pads, const StepStart& start,
+                const Array<float>& filled, CurvatureLevelReport& report) {
+  iterate.current = {};
+  iterate.current.points = start.points;
+  iterate.current.held = start.held;
   report = start.report;
   report.damped = true;
-  LocalDamping damping(iterate_.grid(), iterate_.system.shared().unknowns, iterate_.workers());
+  LocalDamping damping(iterate.grid(), iterate.system.shared().unknowns, iterate.workers());
   if (!filled.empty()) damping.hold(filled);
-  run(pads, &damping, {damped_decrement, 0, worthwhile_gain}, 0, report);
+  run_steps(iterate, pads, &damping, {damped_decrement, 0, worthwhile_gain}, 0, report);
 }
 
-void CurvatureSteps::polish(int patience, CurvatureLevelReport& report) {
-  LinearizedSurface before = iterate_.current;
+void polish(SurfaceIterate& iterate, int patience, CurvatureLevelReport& report) {
+  LinearizedSurface before = iterate.current;
   CurvatureLevelReport after = report;
   after.converged = false;
-  run_plain(iterate_.current.functional.pads, accurate_end(), patience, after);
+  run_plain(iterate, before.functional.pads, accurate_end(iterate), patience, after);
   if (is_near(after, plain_decrement) && after.energy <= equal_energy * before.energy)
     report = std::move(after);
   else
-    iterate_.current = std::move(before);
+    iterate.current = std::move(before);
 }
 
 }  // namespace fairing

@@ -67,38 +67,28 @@ double flat_energy_about(const LinearizedSurface& surface, Workers& workers);
 // Two methods. Plain steps have full length: they may pass humps of the discrete energy, which stop
 // steps that must lower it, and may raise it a few times in a row (the watchdog technique of
 // Chamberlain et al. 1982). Damped steps converge where a surface is crumpled and plain ones
-// diverge. Both are accelerated near the end (constraints/anderson.h).
-class CurvatureSteps {
- public:
-  // All references must outlive it.
-  CurvatureSteps(SurfaceIterate& iterate, const GaussNewtonOptions& options)
-      : iterate_(iterate), options_(options) {}
+// diverge. Both are accelerated near the end (constraints/anderson.h). All move iterate.current and
+// throw ErrorCode::cancelled.
 
-  // Steps from iterate.current with control vertices on these pads; null: on point forces. Adds the
-  // steps to `report`, and sets energy, `left` and `converged`. Throws ErrorCode::cancelled.
-  void run_plain(Pads* pads, const StopCriterion& end, int patience, CurvatureLevelReport& report);
-  // Steps from `start` to damped_decrement, or until the gain is too small. Resets `report`. Points
-  // that are `filled` (above zero; empty: none) are damped throughout.
-  void run_damped(Pads* pads, const StepStart& start, const Array<float>& filled,
-                  CurvatureLevelReport& report);
+// Plain steps with control vertices on these pads; null: on point forces. Adds the steps to
+// `report`, and sets energy, `left` and `converged`.
+void run_plain(SurfaceIterate& iterate, Pads* pads, const StopCriterion& end, int patience,
+               CurvatureLevelReport& report);
+// Damped steps from `start` to damped_decrement, or until the gain is too small. Resets `report`.
+// Points that are `filled` (above zero; empty: none) are damped throughout.
+void run_damped(SurfaceIterate& iterate, Pads* pads, const StepStart& start,
+                const Array<float>& filled, CurvatureLevelReport& report);
+// Damped steps on point forces to least variation. Adds the steps to `report`, and sets `left` and
+// `converged`.
+void run_to_variation(SurfaceIterate& iterate, const StopCriterion& end,
+                      CurvatureLevelReport& report);
+// Plain steps to the step tolerance, on the present pads. If they do not come near it, or end with
+// more energy, surface and report are restored.
+void polish(SurfaceIterate& iterate, int patience, CurvatureLevelReport& report);
 
-  // Damped steps on point forces from iterate.current to least variation. Adds the steps to
-  // `report`, and sets `left` and `converged`.
-  void run_variation(const StopCriterion& end, CurvatureLevelReport& report);
-
-  // Plain steps to the step tolerance, on the present pads. If they do not come near it, or end
-  // with more energy, surface and report are restored.
-  void polish(int patience, CurvatureLevelReport& report);
-
-  // The end at which the surface is as near to the solution as promised.
-  StopCriterion accurate_end() const { return {0, options_.step_tolerance}; }
-
- private:
-  void run(Pads* pads, LocalDamping* damping, const StopCriterion& end, int patience,
-           CurvatureLevelReport& report);
-
-  SurfaceIterate& iterate_;
-  const GaussNewtonOptions& options_;
-};
+// The end at which the surface is as near to the solution as promised.
+inline StopCriterion accurate_end(const SurfaceIterate& iterate) {
+  return {0, iterate.system.options().step_tolerance};
+}
 
 }  // namespace fairing

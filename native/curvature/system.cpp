@@ -40,8 +40,7 @@ GaussNewtonSystem::GaussNewtonSystem(const ControlMesh& mesh, const GridLevels& 
                                      Workers& workers, Monitor& monitor)
     : stencils_(stencils),
       base_(base),
-      max_iterations_(options.solve.max_iterations),
-      load_tolerance_(options.load_tolerance),
+      options_(options),
       monitor_(monitor),
       grids_(grids),
       shared_{mesh, unknowns, workers},
@@ -104,7 +103,8 @@ PcgLimits GaussNewtonSystem::limits(const Functional& functional) const {
   limits.from_start = true;
   limits.by_error = loads_change;
   limits.may_end_early = varies;
-  limits.max_iterations = varies ? std::min(max_iterations_, most_of_variation) : max_iterations_;
+  limits.max_iterations = options_.solve.max_iterations;
+  if (varies) limits.max_iterations = std::min(limits.max_iterations, most_of_variation);
   return limits;
 }
 

@@ -49,6 +49,7 @@ class GaussNewtonSystem {
 
   int base() const { return base_; }
   int finest() const { return int(grids_.size()) - 1; }
+  const GaussNewtonOptions& options() const { return options_; }
   const ControlMesh& mesh() const { return shared_.mesh; }
   const GridLevel& grid(int level) const { return *grids_[std::size_t(level)]; }
   CurvatureLevel& op(int level) { return *operators_[std::size_t(level - base_)]; }
@@ -104,8 +105,8 @@ class GaussNewtonSystem {
                         Multipliers<1>& held, Array<double>& constraint_force, StepReport& report);
 
   const Stencils& stencils_;
-  int base_, max_iterations_;
-  double load_tolerance_;
+  int base_;
+  GaussNewtonOptions options_;
   Monitor& monitor_;
   GridLevels grids_;
   CurvatureShared shared_;
@@ -119,6 +120,8 @@ class GaussNewtonSystem {
 
 struct SurfaceIterate {
   GaussNewtonSystem& system;
+  const ControlConstraints& constraints;
+  std::vector<std::uint8_t> folded_faces;  // of the control mesh, where its surface may fold too
   int level = 0;
   LinearizedSurface current{};
   LinearizedSurface trial{};
@@ -129,7 +132,7 @@ struct SurfaceIterate {
 
   const GridLevel& grid() const { return system.grid(level); }
   CurvatureLevel& op() { return system.op(level); }
-  Workers& workers() { return system.workers(); }
+  Workers& workers() const { return system.workers(); }
 
   // Linearizes about `current`, which sets K.
   void linearize() { system.linearize(level, current); }
