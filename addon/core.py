@@ -5,8 +5,6 @@ The only place that knows both names of a setting, Blender's and that of `discre
 arrays, no Blender.
 """
 
-import re
-import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cache
 from typing import Any
@@ -28,16 +26,7 @@ def _load() -> tuple[Any, str]:
         import discrete_fairing
     except ImportError as error:
         return None, f"{MISSING} ({error})"
-    _hush(discrete_fairing)
     return discrete_fairing, ""
-
-
-def _hush(module: Any) -> None:
-    """Silences memory warnings of the add-on's own runs, which Blender would print on its console; the
-    run's report has them. Runs of users' scripts still warn.
-    """
-    ours = rf"({re.escape(__package__)}|{re.escape(module.__name__)})\."
-    warnings.filterwarnings("ignore", category=module.MemoryWarning, module=ours)
 
 
 def module() -> Any:

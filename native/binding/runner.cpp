@@ -3,14 +3,12 @@
 
 #include <algorithm>
 #include <condition_variable>
-#include <cstdio>
 #include <mutex>
 #include <system_error>
 #include <thread>
 #include <utility>
 
 #include "binding/running.h"
-#include "parallel/memory_news.h"
 
 namespace py = pybind11;
 
@@ -46,34 +44,11 @@ class Watch {
     }
   }
 
-  // Announces memory before it is allocated, by a warning, which may be an error in the caller.
-  void tell_of_memory() {
-    const std::size_t bytes = news_.unheard();
-    if (bytes == 0) return;
-    news_.heard(bytes);
-    if (failure_) return;
-    try {
-      const py::object kind = py::module_::import("discrete_fairing.errors").attr("MemoryWarning");
-      char text[160];
-      std::snprintf(text, sizeof text,
-                    "This run will take at least %.3g MB, more than the %.3g MB predicted: a "
-                    "level has proved hard.",
-                    double(bytes) / megabyte, double(news_.predicted()) / megabyte);
-      if (PyErr_WarnEx(kind.ptr(), text, 2) != 0) throw py::error_already_set();
-    } catch (...) {
-      failure_ = std::current_exception();
-      monitor_.cancel();
-    }
-  }
-
-  MemoryNews& news() { return news_; }
-
   // Call it after the job; an exception of Python has priority.
   void end(const std::exception_ptr& failure) {
     if (!failure) {
       tell_watcher();
       ask_python();
-      tell_of_memory();
     }
     if (failure_) std::rethrow_exception(failure_);
     if (failure) std::rethrow_exception(failure);
@@ -81,7 +56,6 @@ class Watch {
 
  private:
   Monitor& monitor_;
-  MemoryNews news_;
   Monitor* watcher_;
   const py::object& progress_;
   std::exception_ptr failure_;
@@ -195,13 +169,7 @@ void Runner::run(const std::function<void()>& job, Monitor& monitor, Monitor* wa
     }
     return watch.end(failure);
   }
-  MemoryNews& news = watch.news();
-  const std::function<void()> told = [&] {
-    const MemoryNewsScope scope(news);
-    job();
-  };
-  news.listen(true);
-  thread_->start(told);
+  thread_->start(job);
   for (bool over = false; !over;) {
     {
       const py::gil_scoped_release release;
@@ -210,10 +178,8 @@ void Runner::run(const std::function<void()>& job, Monitor& monitor, Monitor* wa
     if (over) break;
     watch.tell_watcher();
     watch.ask_python();
-    watch.tell_of_memory();
     require_own_process();  // the callback may have forked
   }
-  news.listen(false);
   watch.end(thread_->take_failure());
 }
 

@@ -2,7 +2,6 @@
 #include "fairing/memory_plan.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstdio>
 #include <limits>
 #include <string>
@@ -40,51 +39,54 @@ struct Counts {
   double in_large_rings = 0;  // pairs of neighbours at vertices of high valence, which rows contain
 };
 
-// Bytes by energy: for a side and a vertex of the control mesh (stencils, pads); for a point of
-// every level; for an unknown of a level with rows; for a point of the finest level. Bounds of
-// measurements on 13 meshes from level 0 to 6, of triangles and of quads.
+// Bounds of the peak, up to twice the peaks of tests/python/test_memory.py, in bytes: for a side of
+// the control mesh; by energy for a point of each level, for an unknown of a level with rows, and
+// for one of the largest level that is factored.
+constexpr double control_side = 1400;
 struct Costs {
-  double side, vertex, point, unknown, finest;
+  double point, row, factor;
 };
-constexpr Costs plate_costs{660, 960, 56, 230, 200}, curvature_costs{760, 960, 240, 830, 800},
-    variation_costs{1100, 960, 420, 870, 800};
-// In addition: for an unknown while the rows of level 1 are summed; for a point of the finest
-// level, with the limit surface beside the plate, or with the sweeps of the back leg.
-constexpr double first_rows = 1300, limit_or_sweeps = 950,
-                 pair_of_neighbours = 6;  // on a level with rows
+constexpr Costs plate_costs{200, 180, 1100}, curvature_costs{520, 1200, 1500},
+    variation_costs{980, 480, 4000};
+// In addition: for a point, with the limit surface beside the plate, or with the sweeps of the back
+// leg; for a factored unknown, with that surface or if control vertices move; for two neighbours of
+// a vertex of high valence.
+constexpr double surface_beside = 380, second_factor = 1200, pair_of_neighbours = 6;
 
 const Costs& costs_of(Energy energy) {
   if (energy == Energy::thin_plate) return plate_costs;
   return energy == Energy::total_curvature ? curvature_costs : variation_costs;
 }
 
-// Bytes of a factor, at most those of a full one.
-double factor_of(double unknowns) {
-  return std::min(double(factor_bytes(std::size_t(unknowns))),
-                  double(matrix_entry) * unknowns * (1 + unknowns / 2));
+// The hierarchy ends on its first level, if that is small, or on the finest tiny one. Steps to total
+// curvature factor small levels that prove hard.
+double factored_unknowns(const Counts& c, const FairOptions& options) {
+  const bool any_vertex = c.unknown.vertices > 0;
+  const double first = c.unknown.points(any_vertex ? 0 : std::min(options.levels, 1)),
+               small =
+                   double(options.energy == Energy::total_curvature ? direct_limit : tiny_level);
+  double out = any_vertex || first <= double(direct_limit) ? first : 0;
+  for (int l = 0; l <= options.levels && c.unknown.points(l) <= small; ++l)
+    out = std::max(out, c.unknown.points(l));
+  return out;
 }
 
 double bytes_of(const Counts& c, std::size_t shapes, const FairOptions& options) {
   const Costs& costs = costs_of(options.energy);
   const bool is_plate = options.energy == Energy::thin_plate;
-  double bytes = costs.side * c.solved.sides() + costs.vertex * c.solved.vertices;
-  double factored = 0;
+  const bool beside = (is_plate && options.interpolation == Interpolation::limit) ||
+                      options.paper.method == Method::back_leg;
+  const bool twice = beside || (is_plate && options.interpolation == Interpolation::approximate);
+  double bytes = control_side * c.solved.sides() +
+                 double(shapes * sizeof(Vec3)) * c.solved.points(options.levels) +
+                 (costs.factor + (twice ? second_factor : 0)) * factored_unknowns(c, options);
   for (int l = 0; l <= options.levels; ++l) {
-    const double points = c.solved.points(l), unknowns = c.unknown.points(l);
-    bytes += costs.point * points;
+    const double points = c.solved.points(l);
+    bytes += (costs.point + (beside ? surface_beside : 0)) * points;
     if (has_rows(1 << l, std::size_t(points)))
-      bytes += (costs.unknown + (l == 1 ? first_rows : 0)) * unknowns +
-               pair_of_neighbours * c.in_large_rings;
-    if (unknowns <= double(tiny_level) || (l == 0 && c.unknown.vertices > 0)) factored = unknowns;
+      bytes += costs.row * c.unknown.points(l) + pair_of_neighbours * c.in_large_rings;
   }
-  const double finest =
-      costs.finest + double(shapes * sizeof(Vec3)) +
-      (is_plate && options.interpolation == Interpolation::limit ? limit_or_sweeps : 0) +
-      (options.paper.method == Method::back_leg ? limit_or_sweeps : 0);
-  // Borders and curves have fewer neighbours in a factor, half as many if all edges are such.
-  const double open = 0.5 + 0.5 * c.unknown.edges / std::max(c.solved.edges, 1.0);
-  return bytes + finest * c.solved.points(options.levels) +
-         (is_plate ? 1 : 3) * open * factor_of(factored);
+  return bytes;
 }
 
 RunSize size_of(const Counts& c, std::size_t shapes, const FairOptions& options) {

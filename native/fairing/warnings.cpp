@@ -13,22 +13,21 @@
 #include "fairing/fixed_normals.h"
 #include "grid/thickness.h"
 #include "mesh/vertex_pair.h"
-#include "parallel/memory_news.h"
+#include "parallel/expected_memory.h"
 
 namespace fairing {
 
-void expect_memory(const Report& report) {
-  if (MemoryNews* news = MemoryNews::current()) news->expect(report.predicted_bytes);
-}
+void expect_memory(const Report& report) { expect_memory(report.predicted_bytes); }
 
 void warn_of_memory(const MemoryLedger& ledger, Report& report) {
   report.peak_bytes = ledger.peak();
-  const MemoryNews* news = MemoryNews::current();
-  if (!news || !news->told()) return;
+  const std::size_t predicted = report.predicted_bytes;
+  if (predicted == 0 || report.peak_bytes <= std::max(predicted + predicted / 10, small_run))
+    return;
   char text[200];
   std::snprintf(text, sizeof text,
                 "This took %.3g MB; %.3g MB were predicted. Some levels proved hard.",
-                double(report.peak_bytes) / megabyte, double(report.predicted_bytes) / megabyte);
+                double(report.peak_bytes) / 1e6, double(predicted) / 1e6);
   report.warnings.push_back({"MEMORY_EXCEEDED", text, {}, ElementKind::mesh});
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "multigrid/hierarchy.h"
-#include "parallel/memory_news.h"
+#include "parallel/expected_memory.h"
 
 namespace fairing {
 namespace {

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "base/error.h"
-#include "parallel/memory_news.h"
 #include "parallel/reductions.h"
 
 namespace fairing {
@@ -79,7 +78,6 @@ CoarseSolver::CoarseSolver(LevelOperator& op, Workers& workers, std::size_t unkn
                            bool always_direct)
     : op_(op), workers_(workers), trace_(usual_trace) {
   if (unknowns > direct_limit && !always_direct) return;
-  announce_memory(factor_bytes(unknowns));
   factor_ = std::make_unique<Factor>();
   refactor();
 }

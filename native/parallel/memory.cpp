@@ -2,11 +2,9 @@
 #include "parallel/memory.h"
 
 #include <algorithm>
-#include <chrono>
-#include <thread>
 #include <vector>
 
-#include "parallel/memory_news.h"
+#include "parallel/expected_memory.h"
 
 #if defined(_WIN32)
 #include <windows.h>
@@ -22,56 +20,38 @@
 namespace fairing {
 namespace {
 
-thread_local std::vector<MemoryLedger*> ledgers;  // the innermost is last
-thread_local MemoryNews* run_news = nullptr;
+struct OpenLedger {
+  MemoryLedger* ledger;
+  std::size_t expected = 0;  // bytes; 0: unknown
+};
+thread_local std::vector<OpenLedger> ledgers;  // the innermost is last
 
-MemoryLedger* open_ledger() { return ledgers.empty() ? nullptr : ledgers.back(); }
-
-// A run with less memory than this is not announced, nor one within a tenth of the prediction.
-// Beyond that every additional quarter is.
-constexpr std::size_t small_run = std::size_t(16) << 20, slack = 10, further = 4;
-constexpr int longest_wait = 200;  // for a listener, in milliseconds
+MemoryLedger* open_ledger() { return ledgers.empty() ? nullptr : ledgers.back().ledger; }
 
 }  // namespace
 
-void MemoryNews::needs(std::size_t bytes) {
-  const std::size_t before = bytes_, predicted = predicted_;
-  const std::size_t allowed =
-      before > 0 ? before + before / further : predicted + predicted / slack;
-  if (predicted == 0 || bytes <= std::max(allowed, small_run)) return;
-  bytes_ = bytes;
-  for (int i = 0; i < longest_wait && listens_ && unheard() > 0; ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-}
-
-MemoryNews* MemoryNews::current() { return run_news; }
-
-MemoryNewsScope::MemoryNewsScope(MemoryNews& news) { run_news = &news; }
-
-MemoryNewsScope::~MemoryNewsScope() { run_news = nullptr; }
-
-void announce_memory(std::size_t bytes) {
-  if (const MemoryLedger* const open = open_ledger(); open && run_news)
-    run_news->needs(open->current() + bytes);
+void expect_memory(std::size_t bytes) {
+  if (!ledgers.empty()) ledgers.back().expected = bytes;
 }
 
 bool is_expected_memory(std::size_t bytes) {
-  const MemoryLedger* const open = open_ledger();
-  if (!open || !run_news || run_news->predicted() == 0) return true;
-  return open->current() + bytes <= std::max(2 * run_news->predicted(), small_run);
+  if (ledgers.empty() || ledgers.back().expected == 0) return true;
+  return ledgers.back().ledger->current() + bytes <=
+         std::max(2 * ledgers.back().expected, small_run);
 }
 
-MemoryLedger::MemoryLedger(std::size_t limit) : limit_(limit) { ledgers.push_back(this); }
+MemoryLedger::MemoryLedger(std::size_t limit) : limit_(limit) { ledgers.push_back({this}); }
 
 // A solver's ledger may end before one that was opened later.
-MemoryLedger::~MemoryLedger() { std::erase(ledgers, this); }
+MemoryLedger::~MemoryLedger() {
+  std::erase_if(ledgers, [this](const OpenLedger& open) { return open.ledger == this; });
+}
 
 void MemoryLedger::add(std::size_t bytes) {
   MemoryLedger* const open = open_ledger();
   if (!open) return;
   open->current_ += bytes;
   open->peak_ = std::max(open->peak_, open->current_);
-  announce_memory(0);  // pages of a new array count once they are written
 }
 
 void MemoryLedger::remove(std::size_t bytes) {

@@ -1,20 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The settings arrive at the core under its own names; creases and corners from plain arrays."""
 
-import warnings
 from dataclasses import replace
 
-import bpy
-import discrete_fairing as df
 import numpy as np
 import pytest
 from polygons import grid, polygons
-from scenes import CUBE, add, computed, set_edge_attribute, settings
+from scenes import CUBE, add, set_edge_attribute, settings
 
 from addon import core
 from addon.choices import ENERGIES, TOLERANCE_UNITS
 from addon.core import are_equal, fair_arguments
-from addon.job import Job
 from addon.mesh.read import ControlArrays, read_mesh
 from addon.preferences import Defaults
 
@@ -225,19 +221,3 @@ def test_corners_are_the_default_and_a_choice_of_their_own():
         given = fair_arguments(polygons(*sheet()), settings(boundary=boundary), Defaults)
         assert given["corner_vertices"].tolist() == wanted
         assert given["boundary"] == ("curve" if boundary == "CORNERS" else boundary.lower())
-
-
-def test_news_of_memory_stay_off_the_console(monkeypatch, recwarn):
-    """The core tells callers in Python; of our own runs users read it in the report."""
-
-    def takes_more(*args, **options):
-        warnings.warn("more than predicted", df.MemoryWarning, stacklevel=2)
-        return made(*args, **options)
-
-    made = df.fair
-    monkeypatch.setattr(df, "fair", takes_more)
-    core._load.cache_clear()  # the filter is set with the first use
-    job = computed(Job(bpy.context, add("Box", *CUBE), settings()))
-    assert job.result is not None and not recwarn.list
-    core.module().fair(*CUBE, 1)
-    assert [w.category for w in recwarn.list] == [df.MemoryWarning], "scripts of users hear of it"

@@ -66,6 +66,10 @@ CASES = {
     **{f"{n} on points": (meshes.ALL[n](), (1, 2, 3, 4, 5), POINTS) for n in ON_POINTS},
     "tolerance": (meshes.creature(), (3,), NEAR | {"tolerance": 0.02}),
     "weights": (meshes.creature(), (3,), NEAR | {"weights": [1.0] * 98}),
+    # levels that are factored: small ones, two at a time; the first one; one that proves hard
+    "cube, tolerance": (meshes.cube(), (1, 2, 3, 4), NEAR | {"tolerance": 0.02}),
+    "first level": (meshes.torus(24, 16), (1,), {"energy": "minimum_variation"}),
+    "hard level": (meshes.random_hull(140), (2,), {"energy": "total_curvature"}),
     "tension": (meshes.creature(), (3,), {"tension": 0.5}),
     "steps under tension": (meshes.creature(), (3,), STEPS | {"tension": 0.5}),
     **{
@@ -189,17 +193,10 @@ def hard():
     return rough, faces, 3, "total_curvature"
 
 
-def test_a_run_that_takes_more_says_so_before():
-    with pytest.warns(df.MemoryWarning, match=r"at least .* MB, more than the .* MB predicted"):
-        report = df.fair(*hard(), threads=1).report
-    assert report["peak_bytes"] > 1.1 * report["predicted_bytes"]
+def test_a_run_that_takes_more_says_so():
+    report = df.fair(*hard(), threads=1).report
+    assert 1.1 < report["peak_bytes"] / report["predicted_bytes"] <= 2
     assert "MEMORY_EXCEEDED" in [w["code"] for w in report["warnings"]]
-    # an error in its place ends the run
-    with warnings.catch_warnings():
-        warnings.simplefilter("error", df.MemoryWarning)
-        for call in (df.fair, lambda *mesh, **more: df.Solver(*mesh, **more).solve()):
-            with pytest.raises(df.MemoryWarning):
-                call(*hard(), threads=1)
 
 
 def test_a_factor_that_only_saves_time_keeps_to_twice_the_prediction():

@@ -13,7 +13,6 @@ from .checking import Defect, check, predicted_size
 from .cleaning import Act, Cleaned, clean, hole_width, holes_to_fill
 from .denoising import Denoised, denoise
 from .easing import Eased, ease
-from .errors import MemoryWarning
 from .fairing import fair
 from .filled import Filled, FilledHole, SkippedHole
 from .filling import fill_holes, find_holes, with_islands
@@ -39,7 +38,6 @@ __all__ = [
     "Fitted",
     "FilledHole",
     "Joint",
-    "MemoryWarning",
     "Monitor",
     "Part",
     "Piece",

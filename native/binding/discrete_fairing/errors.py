@@ -10,10 +10,6 @@ from . import _native
 from ._native import FairingError
 
 
-class MemoryWarning(RuntimeWarning):
-    """A run is about to take more memory than was predicted."""
-
-
 def fairing_error(
     code: str,
     cause: str,
