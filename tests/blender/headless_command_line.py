@@ -55,25 +55,6 @@ def write_obj(name):
     Path(name).write_text("\n".join(lines) + "\n")
 
 
-def write_ply(name):
-    lines = ["ply", "format ascii 1.0", f"element vertex {len(POINTS)}"]
-    lines += [f"property float {axis}" for axis in "xyz"]
-    lines += [f"element face {len(FACES)}", "property list uchar int vertex_indices", "end_header"]
-    lines += [" ".join(map(str, point)) for point in POINTS]
-    lines += [" ".join(map(str, (4, *face))) for face in FACES]
-    Path(name).write_text("\n".join(lines) + "\n")
-
-
-def write_stl(name):
-    lines = ["solid box"]
-    for a, b, c, d in FACES:
-        for triangle in ((a, b, c), (a, c, d)):
-            lines += ["facet normal 0 0 0", "outer loop"]
-            lines += ["vertex {} {} {}".format(*POINTS[corner]) for corner in triangle]
-            lines += ["endloop", "endfacet"]
-    Path(name).write_text("\n".join([*lines, "endsolid box"]) + "\n")
-
-
 def obj_vertices(name):
     lines = [line.split() for line in Path(name).read_text().splitlines() if line.startswith("v ")]
     return [tuple(float(x) for x in line[1:4]) for line in lines]
@@ -89,30 +70,6 @@ def test_one_file():
     assert "in.obj" in error and "→" in error
 
 
-def test_many_files_of_all_kinds_and_bad_ones():
-    write_obj("a.obj")
-    write_ply("b.ply")
-    write_stl("c.stl")
-    Path("turned.obj").write_text(
-        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 0 -1\nf 1 2 3\nf 1 2 4\n"
-    )
-    names = ("a.obj", "turned.obj", "b.ply", "missing.ply", "c.stl")
-    options = ("--format", "obj", "--levels", 1, "--repair", "refuse")
-    code, whole = report(*names, "new/", *options)
-    assert code == whole["exit_code"] == 1
-    assert [entry["status"] for entry in whole["inputs"]] == [
-        "done",
-        "failed",
-        "done",
-        "failed",
-        "done",
-    ]
-    codes = [entry["error"]["code"] for entry in whole["inputs"] if entry["error"]]
-    assert codes == ["INCONSISTENT_ORIENTATION", "UNREADABLE"], codes
-    for name in ("a", "b", "c"):
-        assert set(POINTS) <= set(obj_vertices(f"new/{name}.obj")), name
-
-
 def test_files_side_by_side():
     for name in ("a.obj", "b.obj", "c.obj"):
         write_obj(name)
@@ -122,14 +79,6 @@ def test_files_side_by_side():
     assert code == 0 and [entry["status"] for entry in told["inputs"]] == ["done"] * 3, told
     for name in names:
         assert Path("spread", name).read_bytes() == Path("alone", name).read_bytes()
-
-
-def test_a_piece_in_another_process():
-    write_obj("in.obj")
-    assert call("in.obj", "here.obj", "--levels", 2, "--pieces", 1)[0] == 0
-    code, _, error = call("in.obj", "there.obj", "--levels", 2, "--pieces", 1, "--jobs", 2)
-    assert code == 0, error
-    assert Path("there.obj").read_text() == Path("here.obj").read_text()
 
 
 def test_help_and_version():

@@ -9,42 +9,9 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
 
-import bpy
 import harness
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"  # copied beside the scripts
-PURPOSES = ("HULL", "PANEL", "MECHANICAL", "CHARACTER", "SCAN_PATCH", "POINTS")
-OPERATOR = re.compile(r"\b(?:bpy\.ops\.)?(object|export_scene)\.(fairing_\w+)")
-
-
-def scan():
-    """Noisy enough for each purpose."""
-    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=4)
-    source = bpy.context.object
-    for vertex in source.data.vertices:
-        vertex.co *= 1.0 + 0.004 * ((7 * vertex.index) % 5 - 2)
-    source.data.update()
-    return source
-
-
-def test_fair_for_every_purpose():
-    for purpose in PURPOSES:
-        harness.fresh_scene()
-        source = scan()
-        faces = len(source.data.polygons)
-        bpy.context.scene.discrete_fairing.levels = 1
-        assert bpy.ops.object.fairing_for(purpose=purpose) == {"FINISHED"}, purpose
-        made = bpy.context.active_object
-        assert (made == source) == (purpose == "SCAN_PATCH")
-        assert len(made.data.polygons) >= faces
-
-
-def test_operators_are_there():
-    named = {
-        pair for page in DOCS.rglob("*.md") for pair in OPERATOR.findall(page.read_text("utf-8"))
-    }
-    assert len(named) > 10
-    assert [pair for pair in named if pair[1] not in dir(getattr(bpy.ops, pair[0]))] == []
 
 
 def test_the_page_on_scripts():

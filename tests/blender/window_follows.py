@@ -2,7 +2,6 @@
 """What stands in for a modifier, in a real window: the badge, Live that stays on in the file."""
 
 import sys
-import tempfile
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
@@ -35,29 +34,6 @@ def test_a_badge_and_one_button_for_all():
         lambda: harness.module("queue").running() is None and not list(stale())
     )
     assert (target.data.vertices[0].co - source.data.vertices[0].co).length == 0.0
-
-
-def test_live_stays_on_in_the_file():
-    _, target = yield from surface()
-    target.discrete_fairing_live.keep_on = True
-    with bpy.context.temp_override(**harness.view()):
-        bpy.ops.object.fairing_live(state="ON")
-    yield 1.0
-    with tempfile.TemporaryDirectory() as folder:
-        path = str(Path(folder) / "live.blend")
-        bpy.ops.wm.save_as_mainfile(filepath=path)
-        bpy.ops.wm.open_mainfile(filepath=path)
-        yield 1.0
-    source, target = bpy.data.objects["Suzanne"], bpy.data.objects["Suzanne Fair"]
-    assert target.discrete_fairing_live.on
-    source.data.vertices[0].co.z += 1.0
-    source.data.update()
-    yield from harness.until(
-        lambda: (target.data.vertices[0].co - source.data.vertices[0].co).length == 0.0
-    )
-    yield from harness.open_sidebar("Fairing")
-    yield 1.0
-    harness.photograph("live_kept")
 
 
 harness.run_in_window(globals())

@@ -74,16 +74,4 @@ def test_escape_and_the_button_cancel_change_nothing():
         assert target.mode == "EDIT" and np.array_equal(positions(target), before)
 
 
-def test_an_edit_meanwhile_is_kept_and_the_run_refused():
-    target = yield from noisy_grid()
-    assert start() == {"RUNNING_MODAL"}
-    edited = bmesh.from_edit_mesh(target.data)
-    edited.verts.ensure_lookup_table()
-    edited.verts[0].co.z = 1.0
-    bmesh.update_edit_mesh(target.data)
-    before = positions(target)
-    yield from harness.until_it_ends()
-    assert np.array_equal(positions(target), before)
-
-
 harness.run_in_window(globals())

@@ -3,7 +3,6 @@
 
 import importlib
 import sys
-import tempfile
 from pathlib import Path
 from time import perf_counter
 
@@ -174,38 +173,6 @@ def test_total_curvature_is_followed():
     yield from wait_for_the_full_level(target, 3)
 
 
-def test_undo_takes_live_along():
-    """The step before has the source hidden under its surface: neither is left half way."""
-    harness.add_suzanne()
-    with bpy.context.temp_override(**harness.view()):
-        assert bpy.ops.object.fairing_surface(levels=2) == {"FINISHED"}
-        target = bpy.context.view_layer.objects.active
-        target.discrete_fairing_live.levels = 1
-        bpy.ops.ed.undo_push(message="the surface is made")
-        before = positions(target.data)
-        assert bpy.ops.object.fairing_live(state="ON") == {"FINISHED"}
-        bpy.ops.ed.undo_push(message="live")
-    yield 0.5
-    with bpy.context.temp_override(**harness.view()):
-        bpy.ops.ed.undo()
-    yield 1.0
-    source, target = bpy.data.objects["Suzanne"], bpy.data.objects["Suzanne Fair"]
-    assert live("registry").sessions() == [] and not target.discrete_fairing_live.on
-    assert source.hide_get() and source.display_type == "TEXTURED"
-    assert np.array_equal(positions(target.data), before)
-    with bpy.context.temp_override(**harness.view()):
-        bpy.ops.ed.redo()
-    waited = 0.0
-    while not bpy.data.objects["Suzanne Fair"].discrete_fairing_live.on:
-        assert waited < harness.DRAWN
-        waited += 0.5
-        yield 0.5
-    source, target = bpy.data.objects["Suzanne"], bpy.data.objects["Suzanne Fair"]
-    assert not source.hide_get()
-    yield from wait_for_the_full_level(target, 2)
-    assert np.array_equal(positions(target.data), before)
-
-
 def test_rendering_meanwhile():
     source, target = yield from open_scene(3, 2)
     with bpy.context.temp_override(**harness.view()):
@@ -222,33 +189,6 @@ def test_rendering_meanwhile():
         bpy.ops.render.render()
     yield from wait_for_the_full_level(target, 3)
     assert np.array_equal(positions(target.data)[0], positions_of(source)[0])
-
-
-def test_another_file_and_disabling():
-    _, target = yield from open_scene(3, 2)
-    with tempfile.TemporaryDirectory() as folder:
-        path = str(Path(folder) / "live.blend")
-        with bpy.context.temp_override(**harness.view()):
-            bpy.ops.object.mode_set(mode="OBJECT")
-        bpy.ops.wm.save_as_mainfile(filepath=path)
-        bpy.ops.wm.open_mainfile(filepath=path)
-        yield 1.0
-    handlers = live("handlers")
-    assert live("registry").sessions() == [] and not bpy.app.timers.is_registered(handlers.on_timer)
-    target = bpy.data.objects["Suzanne Fair"]
-    assert not target.discrete_fairing_live.on
-    target.discrete_fairing_live.on = True
-    yield 0.2
-    assert session(target).updates and bpy.app.timers.is_registered(handlers.on_timer)
-    bpy.ops.preferences.addon_disable(module=harness.EXTENSION)
-    yield 0.5
-    assert not bpy.app.timers.is_registered(handlers.on_timer)
-    for name in handlers.HANDLERS:
-        assert not [
-            f for f in getattr(bpy.app.handlers, name) if f.__module__.endswith(".events")
-        ], name
-    bpy.ops.preferences.addon_enable(module=harness.EXTENSION)
-    yield 0.5
 
 
 def test_quitting_while_live():

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The panel in the sidebar of a real window."""
 
-import importlib
 import sys
 from pathlib import Path
 
@@ -37,31 +36,6 @@ def test_presets_are_chosen_by_pictures():
         bpy.ops.wm.call_panel(name="VIEW3D_PT_fairing_presets")
     yield from with_colours("presets", before)
     harness.xdotool("key", "Escape")
-    yield 0.5
-
-
-class VIEW3D_PT_unfolded(bpy.types.Panel):
-    """What stands folded under More, unfolded: no script can click on a fold."""
-
-    bl_label = "More"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Fairing"
-
-    def draw(self, context):
-        layout = importlib.import_module(f"{harness.EXTENSION}.ui.layout")
-        self.layout.use_property_split = True
-        layout.draw_shape(self.layout, context.scene.discrete_fairing)
-
-
-def test_choices_have_pictures():
-    pictures = importlib.import_module(f"{harness.EXTENSION}.ui.pictures")
-    assert pictures.icon("THIN_PLATE") and pictures.icon("LIMIT") and pictures.icon("HULL")
-    yield from harness.open_sidebar("Fairing")
-    before = harness.colours(harness.photograph("choices"))
-    bpy.utils.register_class(VIEW3D_PT_unfolded)
-    yield from with_colours("choices", before)
-    bpy.utils.unregister_class(VIEW3D_PT_unfolded)
     yield 0.5
 
 

@@ -176,20 +176,6 @@ def test_several_objects_queue():
     }
 
 
-def test_edit_mode_and_a_region():
-    source, settings = yield from open_panel(TOO_LONG)
-    with bpy.context.temp_override(**harness.view()):
-        bpy.ops.object.mode_set(mode="EDIT")
-        bpy.ops.mesh.select_all(action="SELECT")
-        assert bpy.ops.object.fairing_surface(
-            "INVOKE_DEFAULT", levels=TOO_LONG, use_selection=True
-        ) == {"RUNNING_MODAL"}
-    yield 0.5
-    harness.xdotool("key", "Escape")
-    yield from wait_for_the_end()
-    assert source.mode == "EDIT" and len(bpy.data.objects) == 1, "cancelled: still in Edit Mode"
-
-
 def start_long_run():
     """A run that would take minutes, begun."""
     harness.add_suzanne()

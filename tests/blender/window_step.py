@@ -13,10 +13,6 @@ import harness
 
 PATIENCE = 240.0  # seconds
 LONG = 7  # levels that take long enough to be cancelled
-LEAF = (
-    [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0.02, 0, 0.02), (0.02, 1, 0.02)],
-    [(0, 1, 2, 3), (1, 4, 5, 2)],
-)
 FOLDER = tempfile.mkdtemp()
 
 
@@ -111,22 +107,6 @@ def test_escape_leaves_the_old_file():
     yield from wait_for_the_end()
     assert path.read_text() == "old" and not left_over(path)
     assert list(bpy.data.objects) == sources and all(o.select_get() for o in sources)
-
-
-def test_a_refusal_writes_nothing_and_lists_the_faces():
-    path = Path(FOLDER) / "leaf.step"
-    mesh = bpy.data.meshes.new("Leaf")
-    mesh.from_pydata(LEAF[0], [], LEAF[1])
-    leaf = bpy.data.objects.new("Leaf", mesh)
-    bpy.context.collection.objects.link(leaf)
-    alone(leaf)
-    yield from harness.open_sidebar("Fairing")
-    yield from browse(path)
-    yield from wait_for_the_end()
-    assert not path.exists() and not left_over(path)
-    assert "UNRESOLVED" in leaf.discrete_fairing.defects
-    yield 1.0
-    harness.photograph("step_refused")
 
 
 def test_the_button_and_the_patches_of_a_surface():

@@ -116,29 +116,4 @@ def test_edit_mode_follows_the_edit():
         bpy.ops.object.mode_set(mode="OBJECT")
 
 
-def test_beside_a_live_surface():
-    target = sheet()
-    with bpy.context.temp_override(
-        **harness.view(), active_object=target, selected_objects=[target]
-    ):
-        bpy.ops.object.fairing_surface(levels=3, hide_source=False)
-    surface = bpy.data.objects["Sheet Fair"]
-    surface.select_set(False)
-    surface.discrete_fairing_live.on = True
-    yield 0.5
-    before = blue(pixels("strain_live_before"))
-    show(target)
-    yield from until_measured(target)
-    assert blue(pixels("strain_live")) > before + 40
-    target.data.vertices[WRONG].co.z -= 0.1
-    target.data.vertices[24].co.z += 0.15
-    target.data.update()
-    yield from until_measured(target)
-    assert room().found_of(target).wrong.tolist() == [24]
-    pixels("strain_live_moved")
-    assert surface.discrete_fairing_live.on
-    surface.discrete_fairing_live.on = False
-    yield 2.0
-
-
 harness.run_in_window(globals())
