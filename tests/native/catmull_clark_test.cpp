@@ -40,32 +40,5 @@ TEST(CatmullClark, LimitsDoNotDependOnTheSteps) {
   }
 }
 
-TEST(CatmullClark, VerticesWithoutFacesStay) {
-  OwnedPolygonMesh mesh = house();
-  mesh.coordinates.insert(mesh.coordinates.end(), {5, 6, 7});
-  const ControlMesh control = make_control_mesh(mesh.view(), {});
-  const SharpRules rules(control, {}, {{}, std::vector<double>(11, 0.7)});
-  const CatmullClark subdivided(mesh.view(), control, rules, 1);
-  EXPECT_EQ(point_at(subdivided.vertex_limits(mesh.coordinates), 10), Vec3(5, 6, 7));
-}
-
-// Quads at the corners of a polygon share the middle of it and of its sides.
-TEST(CatmullClark, QuadsMeet) {
-  const OwnedPolygonMesh mesh = house();
-  const ControlMesh control = make_control_mesh(mesh.view(), {});
-  const CatmullClark subdivided(mesh.view(), control, SharpRules(control, {}, {}), 4);
-  const int side = subdivided.pieces();
-  ASSERT_EQ(side, 8);
-  for (Index f = 0; f + 1 < Index(mesh.offsets.size()); ++f) {
-    const Index first = subdivided.corners(f), last = subdivided.corners(f + 1);
-    for (Index k = first; k < last; ++k) {
-      const Index next = k + 1 < last ? k + 1 : first;
-      EXPECT_EQ(subdivided.point(f, k, 0, 0), subdivided.vertex(k));
-      for (int t = 0; t <= side; ++t)
-        EXPECT_EQ(subdivided.point(f, k, side, t), subdivided.point(f, next, t, side));
-    }
-  }
-}
-
 }  // namespace
 }  // namespace fairing::test

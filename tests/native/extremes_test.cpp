@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Surfaces that are not finite, and a solver whose rebase was stopped.
-#include "fairing/extremes.h"
-
+// A solver whose rebase was stopped.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,34 +8,9 @@
 
 #include "fairing/fair.h"
 #include "meshes.h"
-#include "thrown.h"
 
 namespace fairing::test {
 namespace {
-
-TEST(Extremes, NoSurfaceThatIsNotFiniteGoesOut) {
-  const OwnedPolygonMesh polygons = cube();
-  const ControlMesh mesh = make_control_mesh(polygons.view(), {}, {});
-  Workers workers(1);
-  std::vector<double> x(300, 1.0);
-  const auto refusal = [&](std::size_t bad, double value, double factor) {
-    std::vector<Vec3> positions = mesh.positions;
-    positions[7] *= factor;
-    const ControlPositions control = positions_of_mesh(mesh, positions, {}, {1, 0.5}, {});
-    x[bad] = value;
-    const FairingError error =
-        thrown([&] { require_finite(mesh, control, workers, x.size(), x.data()); });
-    x[bad] = 1;
-    require_finite(mesh, control, workers, x.size(), x.data());
-    EXPECT_EQ(error.code, ErrorCode::too_extreme);
-    return error;
-  };
-  for (const double value : {double(NAN), double(INFINITY), -double(INFINITY)})
-    for (const std::size_t bad : {std::size_t(0), std::size_t(299)}) {
-      EXPECT_EQ(refusal(bad, value, 1e6).elements, std::vector<std::int64_t>{7});
-      EXPECT_TRUE(refusal(bad, value, 2).elements.empty());
-    }
-}
 
 struct Rebased {
   OwnedPolygonMesh mesh = torus(6, 5), other = torus(6, 5);

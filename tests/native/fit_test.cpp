@@ -108,24 +108,6 @@ TEST(Feet, FollowASurfaceThatMoves) {
   EXPECT_GT(same, feet.size() * 9 / 10);
 }
 
-TEST(Feet, OfAScanInsideOutAreFewAndLookedForNearbyOnly) {
-  Near near(wavy_torus(), 2, 400, 0.01);
-  FeetFinder any(near.cells, near.scan, reach, near.workers);
-  any.set_surface(near.x.data());
-  Array<Foot> nearest, feet;
-  any.find(nearest);
-  for (std::size_t s = 0; s < nearest.size(); ++s)
-    near.scan.normal.push_back(-any.normal_at(nearest[s]).cast<float>());
-  FeetFinder finder(near.cells, near.scan, reach, near.workers);
-  finder.set_surface(near.x.data());
-  finder.find(feet);
-  for (std::size_t s = 0; s < feet.size(); ++s) {
-    if (feet[s].cell < 0) continue;
-    EXPECT_LE(std::abs(finder.distance(s, feet[s])),
-              std::abs(any.distance(s, nearest[s])) + 2 * reach);
-  }
-}
-
 TEST(Feet, ThatAreFarAreFoundAgainAndOthersStay) {
   Near near(wavy_torus(), 2, 300, 0.05);
   FeetFinder finder(near.cells, near.scan, reach, near.workers);

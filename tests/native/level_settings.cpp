@@ -147,13 +147,15 @@ MakeCharts charts_of(double exponent, const PaperOptions& options) {
 }
 
 void on_all(int most_levels, const std::function<void(const Setting&, Workers&)>& body,
-            const MakeCharts& make) {
+            const MakeCharts& make, double tension) {
   Workers workers(1);
   for (const auto& [name, mesh] : all_meshes())
     for (int level = 0; level <= most_levels; ++level) {
       SCOPED_TRACE(name + ", level " + std::to_string(level));
       const std::unique_ptr<ChartMaker> charts = make(mesh);
-      body({mesh, GridLevel(mesh, level), *charts, make_stencils(mesh, *charts, workers)}, workers);
+      body({mesh, GridLevel(mesh, level), *charts,
+            make_stencils(mesh, *charts, workers, MembraneOptions{tension})},
+           workers);
     }
 }
 

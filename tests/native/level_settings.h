@@ -68,6 +68,6 @@ MakeCharts charts_of(double exponent = centripetal, const PaperOptions& options 
 
 // Calls body(setting, workers) for every mesh at every level up to `most_levels`.
 void on_all(int most_levels, const std::function<void(const Setting&, Workers&)>& body,
-            const MakeCharts& make = charts_of());
+            const MakeCharts& make = charts_of(), double tension = 0);
 
 }  // namespace fairing::test

@@ -249,61 +249,6 @@ OwnedPolygonMesh quad_doublet() {
                    {{0, 1, 2, 3}, {2, 1, 0, 4}});
 }
 
-OwnedPolygonMesh mobius(int quads) {
-  std::vector<Point> points;
-  std::vector<Polygon> faces;
-  for (int i = 0; i < quads; ++i) {
-    const double half_turn = pi * i / quads;
-    for (const double side : {-0.4, 0.4})
-      points.push_back(
-          on_circle(double(i) / quads, 2 + side * std::cos(half_turn), side * std::sin(half_turn)));
-    const int j = (i + 1) % quads, swap = j == 0;
-    faces.push_back({2 * i, 2 * j + swap, 2 * j + 1 - swap, 2 * i + 1});
-  }
-  return make_mesh(points, faces);
-}
-
-OwnedPolygonMesh three_on_an_edge() {
-  return make_mesh({{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {-1, 1, 0}, {-1, -1, 0}},
-                   {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}});
-}
-
-OwnedPolygonMesh two_cubes() {
-  OwnedPolygonMesh mesh = cube();
-  const OwnedPolygonMesh other = cube();
-  // The second one, moved by (2, 2, 0): its vertices 0 and 4 are the first one's 2 and 6.
-  const std::int64_t ids[] = {2, 8, 9, 10, 6, 11, 12, 13};
-  for (std::size_t v = 0; v < 8; ++v)
-    if (ids[v] >= 8)
-      mesh.coordinates.insert(mesh.coordinates.end(),
-                              {other.coordinates[3 * v] + 2, other.coordinates[3 * v + 1] + 2,
-                               other.coordinates[3 * v + 2]});
-  for (const std::int64_t v : other.corners) mesh.corners.push_back(ids[v]);
-  for (std::int64_t f = 1; f <= 6; ++f) mesh.offsets.push_back(24 + 4 * f);
-  return mesh;
-}
-
-OwnedPolygonMesh plate_with_fins() {
-  OwnedPolygonMesh mesh = grid(4, 4);
-  const auto add = [&](std::int64_t a, std::int64_t b, std::int64_t c, std::int64_t d) {
-    mesh.corners.insert(mesh.corners.end(), {a, b, c, d});
-    mesh.offsets.push_back(std::int64_t(mesh.corners.size()));
-  };
-  // Above 11, 12, 13 along a row, then above 7 and 17 along a column.
-  mesh.coordinates.insert(mesh.coordinates.end(), {1, 2, 1, 2, 2, 1, 3, 2, 1, 2, 1, 1, 2, 3, 1});
-  add(11, 12, 26, 25);
-  add(12, 13, 27, 26);
-  add(7, 12, 26, 28);
-  add(12, 17, 29, 26);
-  return mesh;
-}
-
-OwnedPolygonMesh flipped_cube_face() {
-  OwnedPolygonMesh mesh = cube();
-  std::reverse(mesh.corners.begin() + 8, mesh.corners.begin() + 12);
-  return mesh;
-}
-
 OwnedPolygonMesh triangulated(const OwnedPolygonMesh& quads) {
   OwnedPolygonMesh mesh{quads.coordinates, {}, {0}};
   for (std::int64_t f = 0; f < quads.view().face_count(); ++f) {

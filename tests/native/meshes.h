@@ -52,13 +52,4 @@ OwnedPolygonMesh flat_corner();  // a quad that looks like a triangle: 180 degre
 OwnedPolygonMesh warped_quad(double height);  // a unit square with two opposite corners lifted
 OwnedPolygonMesh quad_doublet();              // two quads around the interior vertex 1 of valence 2
 
-// Several sheets.
-OwnedPolygonMesh three_on_an_edge();  // three triangles on the edge 0-1
-OwnedPolygonMesh two_cubes();         // with the edge 2-6 in common
-OwnedPolygonMesh plate_with_fins();   // two fins that cross on a grid of 4 by 4, in vertex 12
-
-// Defective.
-OwnedPolygonMesh mobius(int quads);
-OwnedPolygonMesh flipped_cube_face();  // the cube with face 2 turned over
-
 }  // namespace fairing::test

@@ -57,15 +57,6 @@ double area(const OwnedPolygonMesh& input, const SplitMesh& mesh) {
   return sum;
 }
 
-TEST(Split, KeepsTrianglesAndGoodQuads) {
-  for (const OwnedPolygonMesh& mesh :
-       {tetrahedron(), cube(), square_pyramid(), grid(3, 3), torus(8, 6)}) {
-    const SplitMesh result = split(mesh);
-    EXPECT_EQ(std::int64_t(result.faces.size()), mesh.view().face_count());
-    EXPECT_TRUE(result.centres.empty());
-  }
-}
-
 TEST(Split, FansOfStarShapedPolygons) {
   const SplitMesh pentagons = split(dodecahedron());
   EXPECT_EQ(pentagons.faces.size(), 60u);

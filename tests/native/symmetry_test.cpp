@@ -101,29 +101,6 @@ TEST(Mirror, NoneWhereAVertexIsOff) {
   EXPECT_TRUE(mirrors(mesh).empty());
 }
 
-TEST(Mirror, NoneAcrossWhichFacesDiffer) {
-  EXPECT_EQ(mirrors(working(control(grid(4, 4)))).size(), 2u);
-  const std::vector<Mirror> found = mirrors(working(control(triangulated(grid(4, 4)))));
-  ASSERT_EQ(found.size(), 2u);  // along the cuts and across them
-  for (const Mirror& mirror : found)
-    EXPECT_NEAR(std::abs(mirror.plane.normal.x()), std::sqrt(0.5), 1e-12);
-  EXPECT_TRUE(mirrors(working(control(triangulated(grid(4, 3))))).empty());
-}
-
-TEST(Mirror, NoneAcrossWhichFeaturesDiffer) {
-  FeatureOptions creases;
-  creases.crease_edges = {{0, 1}};  // along x
-  const std::vector<Mirror> found = mirrors(working(control(cube(), creases)));
-  ASSERT_EQ(found.size(), 2u);
-  EXPECT_EQ(std::abs(found[0].plane.normal.x()), 1);  // the other takes y to z
-  FeatureOptions region;
-  region.region = {true, {0, 1, 2}, RegionContinuity::tangent};
-  EXPECT_EQ(mirrors(working(control(grid(3, 3)))).size(), 2u);
-  const std::vector<Mirror> kept = mirrors(working(control(grid(3, 3), region)));
-  ASSERT_EQ(kept.size(), 1u);
-  EXPECT_EQ(std::abs(kept[0].plane.normal.x()), 1);
-}
-
 TEST(Mirror, NoneThatDoesNotHold) {
   const ControlMesh mesh = working(control(cube()));
   int asked = 0;

@@ -58,8 +58,13 @@ TEST(Assembly, IsTheMatrixOfChartsAndFits) {
         charts);
 }
 
+// With and without a membrane.
+void on_all_tensions(int most_levels, const std::function<void(const Setting&, Workers&)>& body) {
+  for (const double tension : {0.0, 0.1}) on_all(most_levels, body, charts_of(), tension);
+}
+
 TEST(ThinPlate, AppliesTheAssembledMatrix) {
-  on_all(3, [](const Setting& s, Workers& workers) {
+  on_all_tensions(3, [](const Setting& s, Workers& workers) {
     const Dense all = assembled(s, all_points(s.mesh));
     const ThinPlateRows<double> rows(s.mesh, s.stencils);
     const ThinPlateRows<float> narrow(s.mesh, s.stencils);
@@ -83,7 +88,7 @@ TEST(ThinPlate, AppliesTheAssembledMatrix) {
 }
 
 TEST(ThinPlate, IsTheAssembledSystemOnItsUnknowns) {
-  on_all(2, [](const Setting& s, Workers& workers) {
+  on_all_tensions(2, [](const Setting& s, Workers& workers) {
     for (int choice = 0; choice < 3; ++choice) {
       const Unknowns unknowns = some_points(s.mesh, choice);
       VertexWeights weights(std::size_t(s.mesh.vertex_count()), 0.0);
@@ -180,7 +185,7 @@ void expect_rows_of(const Setting& s, const Unknowns& unknowns, Workers& workers
 }
 
 TEST(Rows, AreTheAssembledSystem) {
-  on_all(3, [](const Setting& s, Workers& workers) {
+  on_all_tensions(3, [](const Setting& s, Workers& workers) {
     for (int choice = 0; choice < 3; ++choice)
       expect_rows_of(s, some_points(s.mesh, choice), workers);
   });
