@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The recordings of the pages: tests/blender/record_trades.py takes the pictures, ImageMagick makes a GIF of them."""
+"""The recordings of the pages: examples/record_trades.py takes the pictures, ImageMagick makes a GIF of them."""
 
 import json
 import shutil
@@ -12,7 +12,7 @@ from real_blender import of_debian
 from shell import DevError, run
 from stamp import alone
 
-SCRIPT = Path("tests") / "blender" / "record_trades.py"
+SCRIPT = Path("examples") / "record_trades.py"
 NEEDED = ("tests/blender", "examples", "docs/trades", "docs/how-to")
 WINDOW = (960, 720)
 WIDTH = 720  # of a recording

@@ -12,7 +12,7 @@ import traceback
 from functools import partial
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "examples"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests" / "blender"))
 sys.path.insert(0, str(Path(__file__).parent))
 
 import bmesh
