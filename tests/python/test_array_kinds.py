@@ -113,38 +113,6 @@ def test_two_triangles_in_a_tuple_are_two_triangles():
         assert_same(df.fair(points, faces, 2), df.fair(points, np.array(faces), 2))
 
 
-def test_numpy_scalars_as_options():
-    result = df.fair(
-        POINTS, FACES, np.int8(2), metric_exponent=np.float32(0.5), threads=np.uint8(1)
-    )
-    assert_same(result)
-
-
-def test_features_and_weights_of_any_kind():
-    (points, faces), ridge = meshes.roof()
-    expected = df.fair(points, faces, 2, crease_edges=ridge, corner_vertices=[3])
-    for edges in (
-        ridge.tolist(),
-        ridge.astype(np.uint8),
-        np.asfortranarray(ridge),
-        ridge[::-1],
-        ridge[:, ::-1],
-    ):
-        result = df.fair(
-            points, faces, 2, crease_edges=edges, corner_vertices=np.array([3], np.uint16)
-        )
-        assert_same(result, expected)
-    weights = np.arange(1, len(POINTS) + 1)
-    expected = df.fair(POINTS, FACES, 2, interpolation="approximate", weights=weights.astype(float))
-    for other in (
-        weights,
-        weights.tolist(),
-        weights.astype(np.float32),
-        strided(weights[:, None])[:, 0],
-    ):
-        assert_same(df.fair(POINTS, FACES, 2, interpolation="approximate", weights=other), expected)
-
-
 def test_results_are_the_callers_own():
     """Writable, and alive after the result is gone."""
     result = df.fair(POINTS, FACES, 1)

@@ -98,15 +98,11 @@ def test_unsigned_index_that_does_not_fit():
 def test_area_is_judged_by_shape_and_not_by_size():
     assert df.fair(1e-30 * POINTS, FACES, 1).report["converged"]
     assert df.fair(1e-7 * POINTS + 5.0, FACES, 1).report["converged"]
-
-
-def test_coincident_vertices_apart_are_a_warning():
-    vertices, faces = meshes.single_triangle()
-    other = vertices * [1, -1, 1]
-    other[1, 1] -= 0.2
-    result = df.fair(np.concatenate([vertices, other]), np.array([[0, 1, 2], [3, 5, 4]]), 2)
-    (warning,) = result.report["warnings"]
-    assert (warning["code"], list(warning["elements"])) == ("COINCIDENT_VERTICES", [0, 3])
+    for scale in (1e-6, 1e6):
+        thin = scale * np.array([[0, 0, 0], [1, 0, 0], [0, 1e-9, 0]])
+        assert not df.check(thin, [[0, 1, 2]])
+        thin[2, 1] = 1e-13 * scale
+        assert_refused("DEGENERATE_FACE", [0], thin, [[0, 1, 2]])
 
 
 @pytest.mark.parametrize(
@@ -155,56 +151,38 @@ def test_levels_that_are_no_whole_number(levels):
     assert_refused("BAD_OPTION", [], POINTS, FACES, levels)
 
 
+STRANGE = {
+    "energy": ["cheap", None, 7],
+    "chart": ["conformal"],
+    "interpolation": ["EXACT"],
+    "boundary": ["", ["curve"]],
+    "method": [1],
+    "metric_exponent": [-0.01, 1.5, NAN, "half"],
+    "chart_blend": [2, INF],
+    "epsilon": [-1, INF, None, 10**400],
+    "relative_residual": [0, -1, 1],
+    "max_iterations": [0, -1],
+    "threads": [-1, 10**6, 1.5, np.array([1, 2])],
+    "memory_limit": [-1],
+    "crease_angle": [NAN, "sharp"],
+    "corner_angle": [INF],
+    "smoother_degree": [-2],
+    "sweeps": [-1],
+    "measure": [np.zeros(3)],
+    "pad_size": [np.array([1.0, 0.0]), -0.1, 1.5],
+    "tension": [-0.1, 1.1, NAN],
+}
+TOGETHER = [
+    {"tolerance": -1e-9, "interpolation": "approximate"},
+    {"tolerance": NAN, "interpolation": "approximate"},
+    {"weights": np.ones(12), "interpolation": "exact"},
+    {"tension": 0.5, "energy": "minimum_variation"},
+    {"region": [0], "joint": "smooth"},
+]
+
+
 @pytest.mark.parametrize(
-    "option",
-    [
-        {"energy": "cheap"},
-        {"energy": None},
-        {"energy": 7},
-        {"chart": "conformal"},
-        {"interpolation": "EXACT"},
-        {"boundary": ""},
-        {"boundary": ["curve"]},
-        {"method": 1},
-        {"metric_exponent": -0.01},
-        {"metric_exponent": 1.5},
-        {"metric_exponent": NAN},
-        {"metric_exponent": "half"},
-        {"chart_blend": 2},
-        {"chart_blend": INF},
-        {"tolerance": -1e-9, "interpolation": "approximate"},
-        {"tolerance": NAN, "interpolation": "approximate"},
-        {"epsilon": -1},
-        {"epsilon": INF},
-        {"epsilon": None},
-        {"relative_residual": 0},
-        {"relative_residual": -1},
-        {"relative_residual": 1},
-        {"max_iterations": 0},
-        {"max_iterations": -1},
-        {"threads": -1},
-        {"threads": 10**6},
-        {"threads": 1.5},
-        {"memory_limit": -1},
-        {"crease_angle": NAN},
-        {"crease_angle": "sharp"},
-        {"corner_angle": INF},
-        {"smoother_degree": -2},
-        {"sweeps": -1},
-        {"weights": np.ones(12), "interpolation": "exact"},
-        {"threads": np.array([1, 2])},
-        {"measure": np.zeros(3)},
-        {"epsilon": 10**400},
-        {"pad_size": np.array([1.0, 0.0])},
-        {"pad_size": -0.1},
-        {"pad_size": 1.5},
-        {"tension": -0.1},
-        {"tension": 1.1},
-        {"tension": NAN},
-        {"tension": 0.5, "energy": "minimum_variation"},
-        {"region": [0], "joint": "smooth"},
-    ],
-    ids=str,
+    "option", [*({k: v} for k, values in STRANGE.items() for v in values), *TOGETHER], ids=str
 )
 def test_strange_options(option):
     assert_refused("BAD_OPTION", [], POINTS, FACES, 1, **option)
@@ -241,14 +219,6 @@ def test_features_of_wrong_shape(option):
     assert refusal(POINTS, FACES, **option).code == "BAD_SHAPE"
 
 
-def test_no_features_are_no_error():
-    plain = df.fair(POINTS, FACES, 1).vertices
-    for none in ([], np.empty((0, 2), int), np.empty(0)):
-        assert np.array_equal(
-            df.fair(POINTS, FACES, 1, crease_edges=none, corner_vertices=[]).vertices, plain
-        )
-
-
 def test_too_large_for_the_limit():
     """Refused with the figures, before anything large is allocated."""
     error = refusal(POINTS, FACES, 5, memory_limit=10**6)
@@ -279,15 +249,3 @@ def test_positional_misuse_is_pythons_own_error():
         df.fair(POINTS, FACES, 2, "thin_plate", 0.5)
     with pytest.raises(TypeError):
         df.fair(POINTS, FACES, colour="red")
-
-
-@pytest.mark.parametrize("boundary", ["curve", "linear", "free", "closed"])
-@pytest.mark.parametrize("levels", [0, 1, 2])
-def test_valence_360(boundary, levels):
-    vertices, faces = meshes.closed_pole(360) if boundary == "closed" else meshes.fan(360)
-    result = df.fair(
-        vertices, faces, levels, boundary="curve" if boundary == "closed" else boundary
-    )
-    assert np.isfinite(result.vertices).all() and np.abs(result.vertices).max() < 2
-    assert np.array_equal(result.vertices[: len(vertices)], vertices)
-    assert result.report["converged"]

@@ -170,18 +170,3 @@ def test_edges_on_one_side_break_the_symmetry(kind):
 
     assert unlike(side + [(partner[a], partner[b]) for a, b in side]) < 1e-12
     assert unlike(side) > 1e-3
-
-
-def test_nothing_named_is_nothing():
-    plain = df.fair(POINTS, FACES, 2)
-    for nothing in (None, {}, {"free": []}, {"linear": np.empty((0, 2), int)}):
-        found = df.fair(POINTS, FACES, 2, boundary_edges=nothing)
-        assert found.vertices.tobytes() == plain.vertices.tobytes()
-
-
-def test_patches():
-    options = {"levels": 4, "tolerance": 1e-3, "normal_tolerance": 0.02}
-    patches = df.fit_patches(POINTS, FACES, boundary_edges={"free": TOP}, **options)
-    plain = df.fit_patches(POINTS, FACES, **options)
-    assert not len(patches.unmet)
-    assert np.abs(patches.result.vertices - plain.result.vertices).max() > 1e-3

@@ -186,16 +186,6 @@ def test_a_hole_is_filled_and_the_border_of_a_sheet_is_not():
     assert [defect.code for defect in sheet.left] == ["OPEN_HOLE"]
 
 
-def test_holes_by_their_length():
-    points, faces = BALL
-    height = points[faces].mean(axis=1)[:, 2]
-    kept = faces[(height < 0.9) & (height > -0.5)]
-    small = df.clean(points, kept, largest=1.3)
-    assert told(small, "fill")[0].text.startswith("1 hole filled")
-    assert len(small.left[0].elements) > 20
-    assert df.clean(points, kept, largest=3.0).watertight
-
-
 def test_a_hole_wider_than_half_of_its_part_is_flat():
     points, faces = mapped(
         lambda a, b: (np.cos(2 * np.pi * a), np.sin(2 * np.pi * a), 2.0 * b), 32, 17, (True, False)

@@ -67,17 +67,6 @@ def test_a_drag_goes_on_from_the_surface_and_its_loads():
     assert difference(0.5) < 2 * difference(0)
 
 
-def test_curves_and_regions_stand_on_pads_too():
-    vertices, faces = meshes.wavy_patch()
-    result = tight.fair(vertices, faces, levels=2, energy="total_curvature", pad_size=0.5)
-    assert result.report["curvature"][-1]["converged"]
-    part = tight.fair(
-        vertices, faces, levels=2, energy="total_curvature", pad_size=0.5, region=range(6)
-    )
-    assert np.isfinite(part.vertices).all()
-    assert np.array_equal(part.vertices[: len(vertices)], vertices)
-
-
 @pytest.mark.parametrize("name", ["icosahedron", "torus", "creature"])
 def test_what_is_left_cannot_be_seen(name):
     """Of steps by default."""

@@ -6,7 +6,6 @@ import random
 import discrete_fairing as df
 import numpy as np
 import pytest
-from discrete_fairing import filling
 from ragged_holes import (
     cut,
     mapped,
@@ -463,26 +462,6 @@ def test_a_vertex_on_an_edge_is_named():
     faces = [[b, a, 4 + k] for k, (a, b) in enumerate([(0, 1), (1, 2), (2, 3), (3, 0)])]
     left = skipped(np.array(vertices, float), faces, holes=[[0, 1, 2, 3]])
     assert (left.code, left.cure) == ("DEGENERATE_FACE", "cut") and set(left.elements) <= {2, 3}
-
-
-def test_only_the_faces_around_are_read(monkeypatch):
-    """The rest of the mesh makes no difference, not by a bit."""
-    vertices, faces = sphere(5)
-    height = vertices[faces].mean(axis=1)[:, 2]
-    vertices, faces = cut(vertices, faces, (height > 0.9) | (height < -0.95))
-    parts = []
-
-    def around(whole, holes, rings, found=filling._around):
-        parts.append(found(whole, holes, rings))
-        return parts[-1]
-
-    monkeypatch.setattr(filling, "_around", around)
-    near = df.fill_holes(vertices, faces)
-    assert 0 < len(parts[0].corners) < faces.size / 4
-    monkeypatch.setattr(filling, "_around", lambda whole, holes, rings: whole)
-    whole = df.fill_holes(vertices, faces)
-    assert near.vertices.tobytes() == whole.vertices.tobytes()
-    assert near.faces.tobytes() == whole.faces.tobytes()
 
 
 @pytest.mark.parametrize("defect", ["point", "twice", "turned"])

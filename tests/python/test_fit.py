@@ -263,12 +263,6 @@ def test_triangles_give_the_normals(cage, scan, fitted):
     assert caught.value.code == "INCONSISTENT_ORIENTATION"
 
 
-def test_a_fit_has_no_pads_and_says_so(cage, scan):
-    with pytest.raises(df.FairingError, match="no pads") as caught:
-        df.fit(*cage, scan[:500], pad_size=1.0)
-    assert caught.value.code == "BAD_OPTION"
-
-
 def test_half_with_a_symmetry_plane_fits_both_halves(scan):
     vertices, faces = blob_cage(6)
     side = scan[scan[:, 1] > 0]
@@ -321,13 +315,6 @@ def test_patches_are_evaluated_as_splines_are():
         expected, normal = spline_measures.evaluate(patches, p, t, t)
         np.testing.assert_allclose(at, expected.reshape(-1, 3), atol=1e-12)
         np.testing.assert_allclose(np.cross(along, across), normal.reshape(-1, 3), atol=1e-10)
-
-
-def test_the_order_of_points_does_not_matter(cage, scan, fitted):
-    order = np.random.default_rng(1).permutation(len(scan))
-    other = df.fit(*cage, scan[order])
-    assert np.abs(other.distances - fitted.distances[order]).max() < NOISE / 4
-    assert (other.faces_of_points == fitted.faces_of_points[order]).mean() > 0.99
 
 
 def test_a_cage_that_is_too_coarse_says_where(scan):

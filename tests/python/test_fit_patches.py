@@ -2,7 +2,6 @@
 """Spline patches of fair surfaces: accuracy, seams, topology, refusals."""
 
 import sys
-import tracemalloc
 from pathlib import Path
 
 import control_meshes
@@ -382,22 +381,6 @@ def test_a_block_with_a_flat_concave_face_has_patches_at_a_fine_level():
     assert "STRAIGHT_CURVE" not in [w["code"] for w in patches.result.report["warnings"]]
 
 
-def test_a_finer_level_that_folds_takes_no_patches_away(monkeypatch):
-    fair, folded = fitting.fair, []
-
-    def folded_at_level_6(points, faces, level, **options):
-        result = fair(points, faces, level, **options)
-        if level == 6:
-            result.vertices[-1] = result.vertices[0]
-            folded.append(result)
-        return result
-
-    monkeypatch.setattr(fitting, "fair", folded_at_level_6)
-    patches = df.fit_patches(*block_over_an_l(), **SHARP)
-    assert not len(patches.unresolved) and patches.shell_closed.all()
-    assert folded and patches.levels == 5
-
-
 def test_a_thin_tray_misses_few_faces():
     """Where they shared patches with many spans, 24 of 94 faces missed."""
     tray = thin_walls.phone_case()
@@ -442,26 +425,6 @@ def test_a_tip_between_two_creases_is_no_fold():
     assert patches.largest_residual < 5e-4 * patches.size
 
 
-def test_a_surface_is_compared_with_a_coarser_one_face_by_face(monkeypatch):
-    """The same distance whatever is compared at once, in memory that does not grow with the mesh."""
-
-    def of(mesh, at_once):
-        monkeypatch.setattr(fitting, "CELLS_AT_ONCE", at_once)
-        coarse, fine = (df.fair(*mesh, levels) for levels in (4, 5))
-        tracemalloc.start()
-        change = fitting.change_between(coarse, fine, 5)
-        peak = tracemalloc.get_traced_memory()[1]
-        tracemalloc.stop()
-        return change.tolist(), peak
-
-    small, large = control_meshes.torus(), control_meshes.torus(24, 16)
-    change, peak = of(large, 1)
-    whole, all_at_once = of(large, 10**9)
-    assert change == whole and len(change) == 24 * 16 and min(change) > 0
-    assert peak < all_at_once / 30
-    assert peak < 1.1 * of(small, 1)[1]
-
-
 def test_curves_fitted_more_sharply_make_no_patch_fold():
     """Beside needles patches that met their tolerance were fitted anew to sharper curves, and turned over.
     The drum was refused, after a level more and three times the work.
@@ -470,14 +433,6 @@ def test_curves_fitted_more_sharply_make_no_patch_fold():
     result = df.fair(*uneven_drum(), 6, threads=1)
     watched = {"threads": 1, "monitor": df.Monitor(), "progress": None}
     assert not run.still_folded(result, 6, [82, 89, 90], watched)
-
-
-def test_a_mesh_whose_faces_all_fold_is_not_fitted_twice(monkeypatch):
-    """A slat of 2 x 0.1 x 0.02 was fitted as its own neighbourhood, and then again as the whole: 16 s each."""
-    monkeypatch.setattr(fitting._Run, "_fit", lambda *_, **__: pytest.fail("fitted"))
-    run = fitting._Run(1e-4, 8e-4, False)
-    result = df.fair(*control_meshes.cube(), 3)
-    assert not run.still_folded(result, 3, range(6), {})
 
 
 def test_rows_of_quads_are_one_patch_whose_curvature_does_not_jump():

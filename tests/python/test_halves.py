@@ -5,7 +5,6 @@ errors, warnings and repairs name the half's own elements."""
 import discrete_fairing as df
 import numpy as np
 import pytest
-from discrete_fairing import fitting
 from half_hulls import COUNT, hull, whole
 
 TIGHT = {"relative_residual": 1e-11, "step_tolerance": 1e-10}
@@ -114,13 +113,6 @@ def test_a_keel_that_is_creased_stays_sharp():
     assert sorted(map(sorted, sharp.crease_edges.tolist())) == keel
     alone = df.fair(points, faces, 3, corner_vertices=ENDS, **TIGHT)
     assert np.allclose(sharp.vertices, alone.vertices, atol=1e-7), "as its own border"
-
-
-def test_patches_begin_as_coarse_as_both_halves_ask_for(monkeypatch):
-    points, faces = hull()
-    one = df.predicted_size(len(points), faces, fitting.FIRST_LEVEL)["vertices"]
-    monkeypatch.setattr(fitting, "MOST_POINTS", int(1.5 * one))
-    assert df.fit_patches(points, faces, force=True, **HALF).levels < fitting.FIRST_LEVEL
 
 
 # --- refusals and repairs ---

@@ -4,11 +4,9 @@ within a tenth, however thin the triangles are."""
 
 import control_meshes as meshes
 import discrete_fairing as df
-import numpy as np
 import pytest
 import sliver_meshes as slivers
 import surface_measures as measures
-import thin_meshes
 from bevelled_boxes import bevelled_box
 
 REFINED = {
@@ -22,13 +20,6 @@ THIN = {
     "sheet stretched by 100": lambda: slivers.stretched_sheet(200, 100),
     "sheared sheet": lambda: slivers.stretched_sheet(200, 100, sheared=True),
     "bevel": lambda: bevelled_box((1, 0.2, 0.1), 0.002),
-    "star": lambda: thin_meshes.star(np.random.default_rng(1)),
-}
-THIN |= {
-    f"nearly coincident, {seed}": lambda seed=seed: thin_meshes.near_coincident(
-        np.random.default_rng(seed)
-    )
-    for seed in range(8)
 }
 
 

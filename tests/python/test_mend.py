@@ -201,6 +201,13 @@ def test_faces_look_the_same_way_afterwards():
     assert acts == [("DUPLICATE_FACE", [1]), ("INCONSISTENT_ORIENTATION", [4, 12])]
     assert list(result.report["flipped_faces"]) == [4, 12]
     assert result.vertices.tobytes() == tight.fair(POINTS, FACES, 1).vertices.tobytes()
+    # the fewest faces turn in each part; of two the first stays
+    faces = np.concatenate([FACES[:, ::-1], FACES + 12])
+    faces[[3, 25]] = faces[[3, 25], ::-1]
+    twins = np.concatenate([POINTS, POINTS + 5])
+    assert mend(twins, faces)[0].report["flipped_faces"] == [3, 25]
+    points, quads = meshes.grid(2, 1)
+    assert mend(points, [quads[0], quads[1][::-1]])[0].report["flipped_faces"] == [1]
 
 
 def cut_apart():

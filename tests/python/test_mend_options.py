@@ -110,13 +110,6 @@ def test_a_crease_along_a_cap_is_in_pieces():
     assert pairs == {(0, 4), (1, 4)}
 
 
-def test_a_crease_that_never_was_an_edge_is_still_refused():
-    for pair, code in (((2, 3), "BAD_FEATURE_EDGE"), ((0, 9), "INDEX_OUT_OF_RANGE")):
-        with pytest.raises(df.FairingError) as caught:
-            mend(CAP, CAP_FACES, 1, crease_edges=[pair])
-        assert caught.value.code == code
-
-
 def test_a_solver_on_a_mended_mesh():
     points, faces = split_vertex()
     solver = df.Solver(points, faces, 2, repair="mend", relative_residual=1e-8)

@@ -187,13 +187,6 @@ def test_epsilon_takes_cusps_off(name):
     assert all(more < less for less, more in zip(energies, energies[1:]))
 
 
-def test_epsilon_leaves_creases_alone():
-    (vertices, faces), ridge = meshes.roof()
-    result = tight.fair(vertices, faces, 2, epsilon=0.05, crease_edges=ridge)
-    on_ridge = np.unique(ridge)
-    assert np.array_equal(result.vertices[on_ridge], vertices[on_ridge])
-
-
 def test_weights_that_leave_a_closed_surface_nowhere_to_be():
     """Nothing holds it: any one point would do, and that is no surface."""
     with pytest.raises(df.FairingError) as caught:

@@ -320,23 +320,6 @@ def test_shapes_are_cut_out_with_each_piece(name):
         assert mine["largest_deviation"] == pytest.approx(theirs["largest_deviation"], abs=1e-12)
 
 
-def test_shapes_outside_a_region_stay(tmp_path):
-    points, faces, _ = MESHES["split polygons"]
-    given = {**TIGHT, "region": range(40), "shapes": shapes_of(points)[:1]}
-    whole = df.fair(points, faces, 2, **given)
-    paths = []
-    for piece in cut(points, faces, count=8, rings=2, **given):
-        piece.save(tmp_path / "piece.npz")  # files hold shapes too
-        paths.append(tmp_path / f"{piece.index}.npz")
-        df.Piece.load(tmp_path / "piece.npz").fair().save(paths[-1])
-    joined = df.join(paths)
-    gap = np.linalg.norm(joined.shapes[0] - whole.shapes[0], axis=1).max()
-    assert gap / np.ptp(points, axis=0).max() < bound(2)
-    outside = whole.triangle_polygon >= 40
-    rows = np.unique(whole.faces[0][outside])
-    assert np.allclose(joined.shapes[0][rows], whole.shapes[0][rows], rtol=0, atol=1e-12)
-
-
 @pytest.mark.parametrize("name", MESHES)
 def test_through_limit_positions(name):
     points, faces, settings = MESHES[name]

@@ -8,7 +8,6 @@ import control_meshes as meshes
 import discrete_fairing as df
 import numpy as np
 import pytest
-from discrete_fairing import _native
 from every_call import CALLS
 
 PHASES = [
@@ -48,12 +47,6 @@ def test_progress_grows_and_ends_with_one():
     assert all(type(fraction) is float and type(phase) is str for fraction, phase in calls)
 
 
-def test_progress_does_not_change_the_result():
-    vertices, faces = meshes.creature()
-    watched = df.fair(vertices, faces, 3, progress=lambda fraction, phase: None)
-    assert np.array_equal(watched.vertices, df.fair(vertices, faces, 3).vertices)
-
-
 @pytest.mark.parametrize("answer", [None, True, 0, "False"])
 def test_only_false_cancels(answer):
     assert df.fair(*meshes.creature(), 2, progress=lambda fraction, phase: answer).report[
@@ -75,10 +68,6 @@ def test_returning_false_cancels(options):
     assert cancelled(progress=lambda fraction, phase: False, **options) < 5
 
 
-def test_cancelling_midway():
-    assert cancelled(progress=lambda fraction, phase: phase != "solve") < 10
-
-
 @pytest.mark.parametrize("reports", [1, 4])
 def test_cancelling_while_patches_are_fitted(reports):
     """At once, and the same call goes through afterwards, with the same bits."""
@@ -97,18 +86,6 @@ def test_cancelling_while_patches_are_fitted(reports):
     assert again.patch_points.tobytes() == before.patch_points.tobytes()
 
 
-def test_turns_between_cells_are_measured_beside_python_and_can_be_cancelled():
-    surface = df.fair(*meshes.icosahedron(), 4)
-    arrays = surface.vertices, *surface.faces, surface.crease_edges, 4, 0.0, 1
-    asked, monitor = [], _native.Monitor()
-    turns = _native.lattice_turns(*arrays, monitor, lambda *told: asked.append(told))
-    assert len(turns) == 20 and asked
-    monitor.cancel()
-    with pytest.raises(df.FairingError) as caught:
-        _native.lattice_turns(*arrays, monitor, None)
-    assert caught.value.code == "CANCELLED"
-
-
 def test_an_exception_in_progress_comes_out():
     class Own(Exception):
         pass
@@ -119,15 +96,6 @@ def test_an_exception_in_progress_comes_out():
     with pytest.raises(Own, match="mine"):
         df.fair(*long_run(), 5, progress=fail)
     assert df.fair(*meshes.icosahedron(), 2).report["converged"]
-
-
-def test_an_exception_at_the_very_last_call_comes_out():
-    def fail_at_the_end(fraction, phase):
-        if fraction == 1:
-            raise KeyError(phase)
-
-    with pytest.raises(KeyError):
-        df.fair(*meshes.icosahedron(), 2, progress=fail_at_the_end)
 
 
 def test_monitor_cancels_from_another_thread():
@@ -175,26 +143,6 @@ def test_runs_beside_each_other():
         thread.join()
     for name in jobs:
         assert all(np.array_equal(vertices, alone[name]) for vertices in together[name]), name
-
-
-def test_an_error_in_one_run_is_none_in_another():
-    outcomes = {}
-
-    def run(name, faces):
-        try:
-            outcomes[name] = df.fair(meshes.icosahedron()[0], faces, 3).report["converged"]
-        except df.FairingError as error:
-            outcomes[name] = error.code
-
-    good = meshes.icosahedron()[1]
-    bad = good.copy()
-    bad[3, 1] = 99
-    threads = [threading.Thread(target=run, args=[k, bad if k % 2 else good]) for k in range(6)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    assert outcomes == {k: "INDEX_OUT_OF_RANGE" if k % 2 else True for k in range(6)}
 
 
 def test_a_run_from_within_progress():

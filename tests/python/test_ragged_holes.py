@@ -8,7 +8,6 @@ import random
 import discrete_fairing as df
 import numpy as np
 import pytest
-from discrete_fairing import near_hole
 from mesh_files import read_mesh
 from ragged_holes import cut, ragged, smallest_angle, torus, uses
 from shared_data import SHARED
@@ -87,22 +86,6 @@ def test_holes_in_rounds_of_their_own_share_no_edge():
     filled = df.fill_holes(vertices, kept)
     assert len(filled.holes) == 3 and (uses(filled.faces) == 2).all()
     assert not [d for d in df.check(filled.vertices, filled.faces) if d.severity == "error"]
-
-
-def test_noise_that_folds_a_rim_costs_no_second_round(monkeypatch):
-    """Four holes, two of them with a fold at the rim: one run each, and two other ways for those that fold."""
-    runs = []
-    fair = near_hole.fair
-    monkeypatch.setattr(near_hole, "fair", lambda *a, **o: runs.append(0) or fair(*a, **o))
-    rng = random.Random(1)
-    points, faces = torus(120, 60)
-    gone = np.any([ragged(faces, rng.choice([60, 150]), rng) for _ in range(4)], axis=0)
-    vertices, kept = cut(points, faces, gone)
-    vertices = vertices + 0.02 * np.random.default_rng(1).normal(size=vertices.shape)
-    filled = df.fill_holes(vertices, kept)
-    assert (uses(filled.faces) == 2).all()
-    assert [hole.folds for hole in filled.holes] == [1, 1, 0, 0]
-    assert len(runs) == 8  # 10 with second rounds
 
 
 def test_noise_at_a_rim_leaves_no_more_folds_than_any_triangles():

@@ -212,6 +212,7 @@ REFUSED = {
             ({"energy": "total_curvature"}, OPTION, "thin_plate"),
             ({"interpolation": "limit"}, OPTION, "interpolation"),
             ({"fixed": [0, 1]}, OPTION, "fixed"),
+            ({"pad_size": 1.0}, OPTION, "no pads"),
             ({"triangles": [[0, 1, 99_999]]}, RANGE, "99999"),
             ({"normals": THREE}, SHAPE, "normal"),
             ({"points": np.empty((0, 3))}, SHAPE, "no points"),

@@ -143,10 +143,3 @@ def test_isolated_vertices_follow_their_shape():
     shape = vertices + [1, 0, 0]
     result = tight.fair(vertices, faces, 2, shapes=[shape])
     assert np.array_equal(result.shapes[0][:13], shape)
-
-
-def test_no_shapes():
-    vertices, faces = meshes.icosahedron()
-    for none in (None, [], np.empty((0, 12, 3))):
-        result = tight.fair(vertices, faces, 1, shapes=none)
-        assert result.shapes == [] and result.report["shapes"] == []

@@ -77,15 +77,6 @@ def test_pages_share_the_spine_and_the_spine_is_a_curve(boundary):
     assert sorted(map(sorted, result.crease_edges.tolist())) == [[k, k + 1] for k in range(4)]
 
 
-def test_corners_split_the_spine():
-    vertices, faces, _ = book(3)
-    smooth = fair(vertices, faces, 2)
-    split = fair(vertices, faces, 2, corner_vertices=[2])
-    assert not np.array_equal(smooth.vertices, split.vertices)
-    sharp = fair(vertices, faces, 2, corner_angle=0.01)
-    assert not np.array_equal(split.vertices, sharp.vertices)
-
-
 def test_sheets_are_counted_and_told():
     vertices, faces, _ = book(3)
     result = fair(vertices, faces, 1)
@@ -182,17 +173,6 @@ def test_shared_vertices_stay(options):
     moved = np.linalg.norm(result.vertices[:11] - vertices, axis=1)
     assert moved[0] == 0 and moved[1:].max() > 1e-3
     assert len(np.unique(result.vertices, axis=0)) == len(result.vertices)
-
-
-def test_shapes():
-    vertices, faces, _ = book(3)
-    moved = vertices + 0.1 * np.sin(3 * vertices[:, [1, 2, 0]])
-    result = fair(vertices, faces, 2, shapes=[moved, vertices])
-    linear = fair(moved, faces, 2).vertices  # with its own parameters: near, not the same
-    assert result.shapes[0].shape == result.vertices.shape
-    assert np.array_equal(result.shapes[0][: len(vertices)], moved)
-    assert np.abs(result.shapes[0] - linear).max() < 0.05
-    assert np.array_equal(result.shapes[1], result.vertices)
 
 
 @pytest.mark.parametrize("pages", [[0], [0, 1], [0, 1, 2]])

@@ -171,18 +171,6 @@ def test_a_cancelled_call_is_followed_by_a_fresh_one(energy):
     assert not result.report["warm"] and np.array_equal(result.vertices, expected)
 
 
-def test_an_exception_of_progress_comes_out_and_the_solver_goes_on():
-    vertices, faces = sample("creature")
-    solver = df.Solver(vertices, faces, 2)
-
-    def fail(fraction, phase):
-        raise KeyError(phase)
-
-    with pytest.raises(KeyError):
-        solver.solve(progress=fail)
-    assert np.array_equal(solver.solve().vertices[: len(vertices)], vertices)
-
-
 def test_one_call_at_a_time():
     vertices, faces = sample("icosahedron")
     solver = df.Solver(vertices, faces, 2)
@@ -215,15 +203,3 @@ def test_the_caller_s_arrays_may_change_and_go():
     assert np.abs(solver.solve().vertices - expected).max() < 1e-8
     solver.rebase(vertices)
     assert np.array_equal(solver.solve().vertices, expected)
-
-
-def test_isolated_vertices_and_no_levels():
-    vertices, faces = sample("cube")
-    vertices = np.vstack([vertices, [9, 9, 9]])
-    for levels in (0, 1):
-        solver = df.Solver(vertices, faces, levels)
-        solver.solve()
-        shape = vertices + np.arange(9)[:, None] * [0.01, 0, 0.02]
-        result = solver.solve(shape)
-        assert np.array_equal(result.vertices[:9], shape)
-        assert result.report["warnings"][0]["code"] == "ISOLATED_VERTICES"

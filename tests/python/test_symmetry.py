@@ -165,18 +165,6 @@ def test_folds_are_removed_alike_on_both_sides(kind, seed, scale, exponent):
     assert_symmetric(result.vertices, tolerance=1e-9)
 
 
-@pytest.mark.parametrize("levels", [1, 2, 3])
-@pytest.mark.parametrize("scale", [(1, 1.5, 0.7), (0.1, 1, 1)], ids=str)
-@pytest.mark.parametrize("path", shared_files("bad/soup_seams", ".ply"))
-def test_folds_of_a_scaled_suzanne_too(path, scale, levels):
-    if "suzanne" not in path.name:
-        pytest.skip("not Suzanne")
-    points, faces = weld(*read_mesh(path), 5)
-    result = tight.fair(points * scale, faces, levels)
-    size = size_of(points * scale)
-    assert_same_positions(result.vertices * [-1, 1, 1], result.vertices, 1e-9 * size)
-
-
 @pytest.mark.parametrize("energy", ENERGIES)
 def test_of_sheets_that_meet(energy):
     vertices, faces = mirrored_book()

@@ -119,15 +119,6 @@ def test_energy_is_below_the_thin_plates(name, levels):
     assert last["energy"] == pytest.approx(measured, rel=0.1) or levels < 3
 
 
-def test_reports_its_steps():
-    (*_, level) = fair(meshes.creature(), 2).report["curvature"]
-    assert level["start_energy"] <= level["plate_energy"]
-    assert level["steps"][0]["energy"] == level["start_energy"]
-    assert all(step["decrement"] > 0 and 0 <= step["length"] <= 1 for step in level["steps"])
-    assert fair(meshes.creature(), 2, max_steps=1).report["curvature"][-1]["converged"] is False
-    assert tight.fair(*meshes.creature(), 1).report["curvature"] == []
-
-
 @pytest.mark.parametrize("name", ["wavy_patch", "fan3", "fan8"])
 def test_a_free_boundary_is_lower(name):
     mesh = meshes.ALL[name]()
