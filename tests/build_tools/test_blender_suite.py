@@ -8,19 +8,14 @@ from debian_root import ROOTS
 from shell import DevError
 
 
-def test_every_long_script_is_there():
+def test_scripts_that_are_named_are_there():
     there = {path.name for path in blender_suite.SCRIPTS.glob("*.py")}
-    assert set(blender_suite.LONG) <= there
+    assert {*blender_suite.LONG, *blender_suite.TIMED} <= there
 
 
 def test_every_long_script_runs_in_one_blender():
     taken = [set(blender_suite.LONG) - blender_suite.left_to_others(root) for root in ROOTS]
     assert sorted(script for scripts in taken for script in scripts) == sorted(blender_suite.LONG)
-
-
-def test_timed_scripts_are_there():
-    there = {path.name for path in blender_suite.SCRIPTS.glob("*.py")}
-    assert set(blender_suite.TIMED) <= there
 
 
 def test_two_lanes_never_run_in_one_another(monkeypatch):

@@ -11,7 +11,7 @@ import extension
 import pytest
 from cross import python_parts, sources, wheels
 from cross.sources import Source
-from cross.targets import PYTHONS, TARGETS, target_named
+from cross.targets import TARGETS, target_named
 from layout import ROOT
 from shell import DevError, output
 from wheel_version import manifest_version
@@ -34,20 +34,6 @@ def test_blender_knows_a_target_by_its_wheel_tag(target, tmp_path):
 )
 def test_a_module_is_called_as_its_python_looks_for_it(name, suffix):
     assert target_named(name).suffix("cp313") == suffix
-
-
-def all_sources():
-    return [sources.OPENMESH, *sources.PYTHON_SOURCES.values()]
-
-
-@pytest.mark.parametrize("source", all_sources(), ids=lambda source: source.name)
-def test_sources_are_pinned(source):
-    assert "://" not in source.file
-    assert len(bytes.fromhex(source.sha256)) == hashlib.sha256().digest_size
-
-
-def test_every_python_has_its_sources():
-    assert set(PYTHONS) == set(sources.PYTHON_SOURCES)
 
 
 def source_of(path, texts):

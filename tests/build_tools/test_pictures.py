@@ -31,11 +31,3 @@ def test_each_picture_has_a_script_and_shows_this_version():
         assert by == pictures.maker(name)
         assert name in pictures.BY_HAND or (ROOT / by.split()[0]).is_file(), name
         assert version == manifest_version(), f"{name} is older: dev.py pictures"
-
-
-def test_a_pointer_is_drawn_where_it_was_and_rings_when_pressed():
-    import recordings
-
-    words = recordings.pointer(10, 20, True)
-    assert "polygon 10.0,20.0" in words[5] and "circle 10.0,20.0 22.0,20.0" in words[-3]
-    assert len(recordings.pointer(10, 20, False)) == 6

@@ -17,11 +17,6 @@ from wheel_version import manifest_version
 EPOCH = 1_700_000_000  # seconds since 1970
 
 
-def test_the_page_is_of_no_time():
-    template = (ROOT / "build_tools" / "repository_page.html").read_text("utf-8")
-    assert re.findall(r"\$\S+", template) == ["${body}"]
-
-
 def test_the_next_version_differs_by_its_manifest_alone(tmp_path):
     old = manifest_version()
     path = tmp_path / f"discrete_fairing-{old}-linux_x64.zip"
@@ -32,10 +27,6 @@ def test_the_next_version_differs_by_its_manifest_alone(tmp_path):
         assert archive.read("a.py") == b"a"
         manifest = archive.read("blender_manifest.toml").decode()
     assert manifest == f'id = "x"\nversion = "{next_version(old)}"\n'
-
-
-def test_next_version():
-    assert next_version("1.0.9") == "1.0.10"
 
 
 def test_components_are_those_whose_licences_we_give():
