@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Fills holes in their own mesh with the fairest surface: finds the holes, makes the faces."""
 
-from collections.abc import Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, cast
 
@@ -50,16 +50,10 @@ class FillOptions:
 class Filling:
     """What has been done to a mesh."""
 
-    holes: int = 0
-    faces: int = 0  # new faces
-    plates: int = 0  # holes filled by the thin plate instead of the requested energy
-    plain: int = 0  # holes filled by the first triangulation
-    folded: int = 0
-    crossing: int = 0  # holes whose filling crosses the mesh or itself
-    unclear: int = 0  # border edges around ambiguous holes
-    # why holes have triangles instead of requested quads, one reason each
-    triangles: Sequence[str] = ()
-    cut: int = 0  # edges that were cut at the vertices on them
+    holes: list[Any]  # the core's reports of those that were filled
+    energy: str  # the requested one, as the core names it
+    unclear: int  # border edges around ambiguous holes
+    cut: int  # edges that were cut at the vertices on them
 
 
 @dataclass(frozen=True)
@@ -208,17 +202,7 @@ class HoleJob(TimedRun):
             _write(bm, np.flatnonzero(self._gone), patches, self.result.places, self._is_flat)
             cut_sides(bm, sides)
         self.note()
-        return Filling(
-            len(holes),
-            sum(len(patch.faces) for patch in patches),
-            sum(h.energy not in (self._options.energy.lower(), "none") for h in holes),
-            sum(h.energy == "none" and not h.converged for h in holes),
-            sum(h.folds > 0 for h in holes),
-            sum(h.crossings > 0 for h in holes),
-            self._unclear,
-            [h.why_triangles for h in holes if h.why_triangles],
-            len(cuts),
-        )
+        return Filling(holes, self._options.energy.lower(), self._unclear, len(cuts))
 
     @property
     def skipped(self) -> list[dict[str, Any]]:
@@ -325,30 +309,36 @@ def _write(
                 edge.smooth = edge.smooth and all(other in new for other in edge.link_faces)
 
 
+# What is said of so many filled holes, from the core's report of each and the requested energy.
+_REMARKS: tuple[tuple[Callable[[Any, str], bool], str], ...] = (
+    (
+        lambda hole, energy: hole.energy not in (energy, "none"),
+        "{} filled with Bending: the chosen Fairness found no surface there",
+    ),
+    (
+        lambda hole, _: hole.energy == "none" and not hole.converged,
+        "{} filled with flat triangles: every fairer surface folds at this rim",
+    ),
+    (
+        lambda hole, _: hole.folds > 0,
+        "The filling of {} folds: erase more faces around it, and fill again",
+    ),
+    (
+        lambda hole, _: hole.crossings > 0,
+        "The filling of {} passes through other faces: erase those in its way, or fill by hand",
+    ),
+)
+
+
 def fill_warnings(done: list[Filling]) -> list[str]:
     """Warnings about fillings, a sentence each."""
-    plates, folded = sum(f.plates for f in done), sum(f.folded for f in done)
-    unclear = sum(f.unclear for f in done)
+    unclear = sum(filling.unclear for filling in done)
     said = [_unclear_text(unclear)] if unclear else []
-    if plates:
-        said.append(
-            f"{counted(plates, 'hole')} filled with Bending: the chosen Fairness found no surface there"
-        )
-    plain = sum(f.plain for f in done)
-    if plain:
-        said.append(
-            f"{counted(plain, 'hole')} filled with flat triangles: every fairer surface folds at this rim"
-        )
-    if folded:
-        said.append(
-            f"The filling of {counted(folded, 'hole')} folds: erase more faces around it, and fill again"
-        )
-    crossing = sum(f.crossing for f in done)
-    if crossing:
-        said.append(
-            f"The filling of {counted(crossing, 'hole')} passes through other faces: erase those in its way, or fill by hand"
-        )
-    reasons = [reason for f in done for reason in f.triangles]
+    for is_so, sentence in _REMARKS:
+        count = sum(is_so(hole, filling.energy) for filling in done for hole in filling.holes)
+        if count:
+            said.append(sentence.format(counted(count, "hole")))
+    reasons = [h.why_triangles for filling in done for h in filling.holes if h.why_triangles]
     if reasons:
         said.append(f"{counted(len(reasons), 'hole')} filled with triangles: {_listed(reasons)}")
     return said

@@ -146,8 +146,9 @@ class OBJECT_OT_fairing_fill(Shown, LargestHole, WholeFairing, bpy.types.Operato
 
 
 def _said(done: list[Filling]) -> str:
-    holes, faces, cut = (sum(counts) for counts in zip(*((f.holes, f.faces, f.cut) for f in done)))
-    said = [f"{counted(holes, 'hole')} filled with {faces:,} faces"] * bool(holes or not cut)
+    holes, cut = [hole for filling in done for hole in filling.holes], sum(f.cut for f in done)
+    faces = sum(len(hole.faces) for hole in holes)
+    said = [f"{counted(len(holes), 'hole')} filled with {faces:,} faces"] * bool(holes or not cut)
     if cut:
         said.append(counted(cut, "edge cut at a vertex on it", "edges cut at vertices on them"))
     return ", ".join(said)

@@ -8,8 +8,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from . import _native
-from .near_hole import MeshPart, NearHole
-from .rounds import Filling, RimEdges, Wanted, numbered_on
+from .near_hole import MeshPart, NearHole, Wanted
+from .rounds import Filling, RimEdges, numbered_on
 from .watching import SeveralRuns
 
 
@@ -168,7 +168,7 @@ def with_less_crossing(
         best, least = filling, (counts[row], filling.made.folds)
         last = len(near.faces), 0
         run = watched.run(1.0, 1.0)
-        for moved, made in near.other_ways(wanted.energy, wanted.joint, wanted.noisy, run):
+        for moved, made in near.other_ways(wanted, run):
             chosen.put(row, Filling(moved, near.faces, near.first, made))
             faces = chosen.crossing(row)
             now = len(faces), made.folds

@@ -42,6 +42,31 @@ class Made:
         return self.energy == "none" and not self.converged
 
 
+@dataclass(frozen=True, slots=True)
+class Wanted:
+    """The settings of fill_holes()."""
+
+    energy: str
+    joint: str
+    noisy: bool  # more rings determine the continuation, none of them exactly
+    density: float
+
+    @property
+    def triangles(self) -> tuple[float, bool]:
+        """The density of new triangles, and whether remeshing follows the normals of the faces around."""
+        return self.density, self.joint != "position"
+
+    @property
+    def ways(self) -> list[tuple[str, str]]:
+        """Pairs (energy, joint) in the order of trial: the requested pair; the thin plate, which needs no
+        steps; the thin plate with joint "tangent", since noise in two rings may spoil their curvature.
+        """
+        if self.joint == "position":
+            return []
+        found = [(self.energy, self.joint), ("thin_plate", self.joint), ("thin_plate", "tangent")]
+        return list(dict.fromkeys(found))
+
+
 # Codes of fair() that do not concern a hole.
 _NOT_OF_A_HOLE = ("CANCELLED", "OUT_OF_MEMORY", "FORKED")
 
@@ -57,60 +82,59 @@ class NearHole:
         self._rim = np.unique(faces[faces < len(mesh.points)])
         self._ignored = np.empty(0, np.int64)  # faces around that fair() has refused
         self._held = np.zeros(len(own), bool)  # new vertices that must not move
-        self._known: dict[
-            tuple[str, str], tuple[np.ndarray, Made] | None
-        ] = {}  # while none is held
+        # by energy and joint, while none is held
+        self._known: dict[tuple[str, str], tuple[np.ndarray, Made] | None] = {}
 
     @cached_property
     def _beside(self) -> _SidesBehind:
         return _SidesBehind(self._mesh, self._rim, self.faces)
 
     def faired(
-        self, energy: str, joint: str, noisy: bool, watchers: dict[str, Any], stands_in: bool = True
+        self, wanted: Wanted, watchers: dict[str, Any], stands_in: bool = True
     ) -> tuple[np.ndarray, Made, np.ndarray]:
         """Positions of the new vertices, how they were computed, and the positions from which a run on
-        better triangles starts: those of the requested energy, even if they fold. `noisy`: whether more
-        rings determine the continuation, none of them exactly. `stands_in`: whether other energies are
-        tried if the requested one folds; the first without folds is taken, or the one with the fewest.
+        better triangles starts: those of the requested energy, even if they fold. `stands_in`: whether
+        other energies are tried if the requested one folds; the first without folds is taken, or the one
+        with the fewest.
         """
         if not len(self.own):
             return self.own, self.as_triangulated(), self.own
         tries: list[tuple[np.ndarray, Made]] = []
         onward: np.ndarray | None = None
-        for functional, meeting in _ways(energy, joint):
-            found = self._solved(functional, meeting, noisy, watchers)
+        for way in wanted.ways:
+            found = self._solved(way, wanted.noisy, watchers)
             if found is not None:
                 onward = found[0] if onward is None else onward
                 tries.append(found)
             if not stands_in or (found and not found[1].folds):
                 break
         else:
-            tries.append((self.own, self.as_triangulated(joint != "position")))
+            tries.append((self.own, self.as_triangulated(wanted.joint != "position")))
         if not tries:
             tries.append((self.own, self.as_triangulated(True)))
         moved, made = min(tries, key=lambda t: t[1].folds)
         return moved, made, moved if onward is None else onward
 
     def other_ways(
-        self, energy: str, joint: str, noisy: bool, watchers: dict[str, Any]
+        self, wanted: Wanted, watchers: dict[str, Any]
     ) -> Iterator[tuple[np.ndarray, Made]]:
         """Positions of the new vertices: by the requested energy, repeated while hold() fixes more of
         them, then by each other energy that gives a surface.
         """
-        for functional, meeting in list(_ways(energy, joint))[: 1 if len(self.own) else 0]:
+        for way in wanted.ways[: 1 if len(self.own) else 0]:
             known = -1
             while self._held.sum() > known:
                 known = int(self._held.sum())
-                found = self._solved(functional, meeting, noisy, watchers)
+                found = self._solved(way, wanted.noisy, watchers)
                 if found is None:
                     break
                 yield found
         self._held[:] = False
-        for functional, meeting in list(_ways(energy, joint))[1:]:
-            found = self._solved(functional, meeting, noisy, watchers)
+        for way in wanted.ways[1:]:
+            found = self._solved(way, wanted.noisy, watchers)
             if found is not None:
                 yield found
-        if joint != "position":
+        if wanted.joint != "position":
             yield self.own, self.as_triangulated(True)
 
     def hold(self, faces: np.ndarray, own: np.ndarray) -> None:
@@ -126,16 +150,16 @@ class NearHole:
         return Made("none", "position", not stands_in, *self._folds(self.own))
 
     def _solved(
-        self, energy: str, joint: str, noisy: bool, watchers: dict[str, Any]
+        self, way: tuple[str, str], noisy: bool, watchers: dict[str, Any]
     ) -> tuple[np.ndarray, Made] | None:
         """None if fair() refuses the filling itself. If fair() refuses faces around the hole, they are
         ignored from then on and do not determine the continuation.
         """
         if self._held.any():
-            return self._solve(energy, joint, noisy, watchers)
-        if (energy, joint) not in self._known:
-            self._known[energy, joint] = self._solve(energy, joint, noisy, watchers)
-        return self._known[energy, joint]
+            return self._solve(*way, noisy, watchers)
+        if way not in self._known:
+            self._known[way] = self._solve(*way, noisy, watchers)
+        return self._known[way]
 
     def _solve(
         self, energy: str, joint: str, noisy: bool, watchers: dict[str, Any]
@@ -271,19 +295,6 @@ class _SidesBehind:
         inside = int(((normals[self._pairs[0]] * normals[self._pairs[1]]).sum(axis=1) < 0.0).sum())
         at_rim = int(((normals[self._at_rim] * self._behind).sum(axis=1) < 0.0).sum())
         return inside + at_rim, inside
-
-
-def _ways(energy: str, joint: str) -> Iterator[tuple[str, str]]:
-    """Pairs (energy, joint) in the order of trial: the requested pair; the thin plate, which needs no
-    steps; the thin plate with joint "tangent", since noise in two rings may spoil their curvature.
-    """
-    if joint == "position":
-        return
-    yield energy, joint
-    if energy != "thin_plate":
-        yield "thin_plate", joint
-    if joint == "curvature":
-        yield "thin_plate", "tangent"
 
 
 @dataclass(frozen=True)

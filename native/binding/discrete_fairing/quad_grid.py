@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from .near_hole import MeshPart, NearHole, angles_between
-from .rounds import Filling, Wanted
+from .near_hole import MeshPart, NearHole, Wanted, angles_between
+from .rounds import Filling
 
 # Sums of four angles that differ by less are equal: the sides then decide between the corners.
 _SAME_ANGLE = 1e-6
@@ -89,7 +89,7 @@ def quad_filling(
     if _joins_again(mesh, loop, quads):
         return "a grid would repeat an existing edge"
     near = NearHole(mesh, own, quads, count)
-    moved, made, _ = near.faired(wanted.energy, wanted.joint, wanted.noisy, watchers)
+    moved, made, _ = near.faired(wanted, watchers)
     least, most = _angles(near.corners(moved))
     if made.folds:
         return "a grid would fold"

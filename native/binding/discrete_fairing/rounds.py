@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import _native
-from .near_hole import Made, MeshPart, NearHole, angles_between
+from .near_hole import Made, MeshPart, NearHole, Wanted, angles_between
 from .watching import SeveralRuns
 
 # A filling is remeshed if fairing has enlarged its area by this factor. Below it the edges are within a
@@ -30,21 +30,6 @@ _MOST_GROWN = 20.0
 # Degrees: a triangle with a smaller angle is a sliver. New triangles on the faired shape have fewer
 # slivers, unless the rim forces them.
 SLIVER = 15.0
-
-
-@dataclass(frozen=True, slots=True)
-class Wanted:
-    """The settings of fill_holes()."""
-
-    energy: str
-    joint: str
-    noisy: bool
-    density: float
-
-    @property
-    def triangles(self) -> tuple[float, bool]:
-        """The density of new triangles, and whether remeshing follows the normals of the faces around."""
-        return self.density, self.joint != "position"
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,9 +71,7 @@ def faired_in_rounds(
         for at, row in enumerate(rows):
             near = nears[row]
             run = watched.run(*shares[at : at + 2].tolist())
-            moved, made, onward[row] = near.faired(
-                wanted.energy, wanted.joint, wanted.noisy, run, stands_in=turn == 0
-            )
+            moved, made, onward[row] = near.faired(wanted, run, stands_in=turn == 0)
             start = near.area(near.own)
             flat.setdefault(row, start)
             last[row] = Filling(moved, near.faces, near.first, made)
