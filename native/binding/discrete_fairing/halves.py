@@ -169,35 +169,35 @@ class Half:
         own = points.copy()
         height = own[..., self._in_plane, self.axis]
         own[..., self._in_plane, self.axis] = np.where(np.abs(height) <= FAR, 0.0, height)
-        images = own[..., self._copied, :].copy()
+        return self._with_copies(own)
+
+    def reflected(self, points: np.ndarray) -> np.ndarray:
+        """The mirror images of points or vectors (…, 3)."""
+        images = points.copy()
         images[..., self.axis] *= -1.0
+        return images
+
+    def _with_copies(self, own: np.ndarray) -> np.ndarray:
+        """One point or vector a vertex (…, n, 3), and the images of those off the plane."""
+        images = self.reflected(own[..., self._copied, :])
         return np.ascontiguousarray(np.concatenate([own, images], axis=-2))
 
     def beside(
         self, points: np.ndarray, corners: np.ndarray, offsets: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """The neighbour of the double: the half's neighbour and its mirror image."""
-        images = points.copy()
-        images[:, self.axis] *= -1.0
-        sizes = np.diff(offsets)
-        place = np.arange(len(corners)) - np.repeat(offsets[:-1], sizes)
-        turned = corners[np.repeat(offsets[1:], sizes) - 1 - place]
-        return (
-            np.concatenate([points, images]),
-            np.concatenate([corners, turned + len(points)]),
-            np.concatenate([offsets, offsets[-1] + offsets[1:]]),
-        )
+        """Another mesh, a neighbour or a scan, with its mirror image."""
+        reverse, twice = _reversed(offsets)
+        both = np.concatenate([points, self.reflected(points)])
+        return both, np.concatenate([corners, corners[reverse] + len(points)]), twice
 
     def faces(self, corners: np.ndarray, offsets: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Corners and offsets of the double, where images are reversed. An id that is not in the mesh
         becomes -1, since it could be an image's id.
         """
-        sizes = np.diff(offsets)
-        place = np.arange(len(corners)) - np.repeat(offsets[:-1], sizes)
-        turned = np.repeat(offsets[1:], sizes) - 1 - place
-        images = np.where(self._known, self._image[np.where(self._known, corners, 0)], -1)[turned]
+        reverse, twice = _reversed(offsets)
+        images = np.where(self._known, self._image[np.where(self._known, corners, 0)], -1)
         own = np.where(self._known, corners, -1)
-        return np.concatenate([own, images]), np.concatenate([offsets, offsets[-1] + offsets[1:]])
+        return np.concatenate([own, images[reverse]]), twice
 
     def settings(self, settings: dict[str, Any]) -> dict[str, Any]:
         """Converts the settings that name vertices, edges or faces to the double's."""
@@ -205,8 +205,7 @@ class Half:
         for name in ("tolerance", *ONE_A_VERTEX):
             values = given.get(name)
             if values is not None and np.ndim(values) == 1 and len(values) == self.vertex_count:
-                values = np.asarray(values)
-                given[name] = np.concatenate([values, values[self._copied]])
+                given[name] = self.values(np.asarray(values))
         normals = given.get("normals")
         if normals is not None and np.shape(normals) == (self.vertex_count, 3):
             given["normals"] = self._normals(normals)
@@ -228,9 +227,7 @@ class Half:
         """Normals of the double; in the plane without the part that no symmetric surface has."""
         own = np.array(normals, float)
         own[self._in_plane, self.axis] *= 0.0  # NaN stays NaN
-        images = own[self._copied].copy()
-        images[:, self.axis] *= -1.0
-        return np.concatenate([own, images])
+        return self._with_copies(own)
 
     def with_images(self, name: str, kind: str, ids: Any) -> np.ndarray:
         """Elements and their images. Refuses ids that only the other half has."""
@@ -339,6 +336,14 @@ def _refuse_unknown(name: str, kind: str, ids: np.ndarray, count: int) -> None:
             unknown,
             kind,
         )
+
+
+def _reversed(offsets: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Places of the corners of faces in the opposite order; offsets of the faces and their images."""
+    sizes = np.diff(offsets)
+    place = np.arange(sizes.sum()) - np.repeat(offsets[:-1], sizes)
+    turned = np.repeat(offsets[1:], sizes) - 1 - place
+    return turned, np.concatenate([offsets, offsets[-1] + offsets[1:]])
 
 
 def _first_of_their_kind(corners: np.ndarray, offsets: np.ndarray) -> np.ndarray:

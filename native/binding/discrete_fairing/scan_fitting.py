@@ -128,7 +128,8 @@ def fit(
     control = Control(vertices, faces, {**border, **options, "levels": levels}, symmetry_plane)
     stays, half = fixed_flags(fixed, control.count), control.half
     if half:
-        scan, outward, sides = _with_images(scan, outward, sides, half.axis)
+        scan, sides, _ = half.beside(scan, sides, np.arange(0, len(sides) + 1, 3))
+        outward = np.concatenate([outward, half.reflected(outward)])
     with control.named():
         found = _native.fit(
             *control.arrays,
@@ -187,17 +188,3 @@ def _positive(name: str, value: float | None) -> float:
     if not found > 0:
         raise fairing_error("BAD_OPTION", f"{name} is {value!r}; it must be over 0, or None.")
     return found
-
-
-def _with_images(
-    points: np.ndarray, normals: np.ndarray, triangles: np.ndarray, axis: int
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The points with their mirror images behind them."""
-    sign = np.ones(3)
-    sign[axis] = -1.0
-    images = triangles.reshape(-1, 3)[:, ::-1] + len(points)
-    return (
-        np.concatenate([points, points * sign]),
-        np.concatenate([normals, normals * sign]),
-        np.ascontiguousarray(np.concatenate([triangles.reshape(-1, 3), images]).reshape(-1)),
-    )
