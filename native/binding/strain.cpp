@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fairing/strain.h"
+#include "strain/strain.h"
 
 #include "binding/arrays.h"
 #include "binding/bindings.h"
 #include "binding/runner.h"
-#include "fairing/ease.h"
+#include "strain/ease.h"
 
 namespace py = pybind11;
 

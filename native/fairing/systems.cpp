@@ -190,6 +190,24 @@ bool FairingSystems::solve_moved(const ControlPositions& control, RecentSurfaces
   return true;
 }
 
+void FairingSystems::solve_under(std::span<const double> forces, const ControlPositions& control,
+                                 Surface& out) {
+  plate().solve_again({control.working, control.working_curves, nullptr, forces},
+                      problem_.options.solve.relative_residual, out.state, out.plate);
+}
+
+Loads FairingSystems::loads_of_moves(std::span<const Vec3> moves) {
+  FeatureCurves none = problem_.basis.working_curves;
+  for (Vec3& p : none.points) p.setZero();
+  PlateState state = plate().unloaded();
+  state.loads.assign(moves.size(), Vec3::Zero());
+  Array<double> x;
+  x.assign(3 * finest().size(), 0.0);
+  // the force at control vertices may be twice the tolerance
+  plate().solve_again({moves, none}, difference_tolerance, state, x, 2 * difference_tolerance);
+  return std::move(state.loads);
+}
+
 void FairingSystems::report_held(Report& report) {
   const Pads* const pads = steps_ && steps_->pads() ? steps_->pads() : plate().pads();
   if (pads)

@@ -38,6 +38,11 @@ class FairingSystems {
   // not succeed: call solve(). `control` must outlive the next call.
   bool solve_moved(const ControlPositions& control, RecentSurfaces& recent, Stopwatch& watch,
                    Report& report);
+  // Solves the plate's finest level again, from a surface of solve(), under external forces.
+  void solve_under(std::span<const double> forces, const ControlPositions& control, Surface& out);
+  // The loads on pads after moves of control vertices alone, from a plate that is zero: a linear
+  // map, the same in x, y and z. With the accuracy of differences.
+  Loads loads_of_moves(std::span<const Vec3> moves);
   // Frees what only solve_moved() needs.
   void forget_steps() { steps_.reset(); }
 

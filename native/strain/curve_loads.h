@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "mesh/control_mesh.h"
-#include "strain/ease.h"
+#include "strain/ease_system.h"
 
 namespace fairing {
 

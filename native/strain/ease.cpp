@@ -1,316 +1,349 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "strain/ease.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <limits>
+#include <new>
+#include <numeric>
+#include <optional>
 
 #include "base/roundoff.h"
+#include "fairing/fair.h"
+#include "fairing/mending.h"
+#include "fairing/systems.h"
 #include "parallel/cancel.h"
+#include "strain/strain.h"
+#include "strain/worst.h"
 
 namespace fairing {
 namespace {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
+// Number of input vertices above which the loads are those of level 1, at a quarter of the cost.
+constexpr std::int64_t on_second_level = 2000;
+// Distance of two vertices in one solve: 81 sets, and so 27 solves, on quads.
+constexpr int rings_between_probes = 9;
 
-// Up to this number of unknowns all eigenvalues are computed, in 0.3 s.
-constexpr Eigen::Index most_dense = 600;
-// for Lanczos
-constexpr int quadrature_nodes = 60;
-// Amounts that are tried, times the mean of G's eigenvalues: ten a decade, up to 1 / the least.
-constexpr double least_amount = 1e-3, ten_a_decade = 1.2589254117941673;
-// Weight of plain cross-validation in the score; 1 is plain. With 35 vertices and little scatter,
-// plain cross-validation chose no amount in three of sixteen cases, this weight in none; smaller
-// weights ease more than is best.
-constexpr double robustness = 0.8;
-// Scatter is faint if the score without easing is less than `faint` times the least score. Then the
-// smallest amount with a score within `leeway` of the least is chosen: the loads of uneven stars
-// are as large as the scatter, and cross-validation does not distinguish them. On eight shapes of
-// 28 to 162 unknowns, scattered by 0.0025 to 0.04 of an edge, errors are on average 1.10 times
-// those of the best amount, and 1.19 times with the least score; a sphere scattered by 0.005 ended
-// with 1.5 times its error.
-constexpr double faint = 2, leeway = 1.15;
-// Relative to the largest bound or free move: the difference between moves and their bounded copies,
-// and their change, at convergence.
-constexpr double bound_tolerance = 1e-3;
-constexpr int most_iterations = 200;  // of the alternating directions
-
-// Random signs by Steele's splitmix64.
-VectorXd random_signs(Eigen::Index n, std::uint64_t seed) {
-  VectorXd out(n);
-  std::uint64_t state = seed;
-  for (double& sign : out) {
-    std::uint64_t z = state += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    sign = (z ^ (z >> 31)) & 1 ? 1.0 : -1.0;
+// Some rows and columns of a matrix with weights: rows are multiplied by them, columns divided.
+LoadMatrix part_of(const LoadMatrix& all, const std::vector<Index>& row_of,
+                   const std::vector<Index>& column_of, const std::vector<double>& row_weight,
+                   const std::vector<double>& column_weight) {
+  LoadMatrix out(Eigen::Index(row_weight.size()), Eigen::Index(column_weight.size()));
+  std::vector<Eigen::Triplet<double, Index>> entries;
+  for (Eigen::Index i = 0; i < all.rows(); ++i) {
+    const Index row = row_of[std::size_t(i)];
+    if (row < 0) continue;
+    for (LoadMatrix::InnerIterator entry(all, i); entry; ++entry)
+      if (const Index column = column_of[std::size_t(entry.col())]; column >= 0)
+        entries.emplace_back(
+            row, column,
+            entry.value() * row_weight[std::size_t(row)] / column_weight[std::size_t(column)]);
   }
+  out.setFromTriplets(entries.begin(), entries.end());
   return out;
 }
 
-// Rows longer than their bounds are shortened to them.
-Columns bounded(Columns rows, const VectorXd& bounds) {
-  for (Eigen::Index j = 0; j < rows.rows(); ++j) {
-    const double length = rows.row(j).norm();
-    if (length > bounds[j]) rows.row(j) *= bounds[j] / length;
+// Differences of rows from the mean of those like them. `number`: of the rows that count.
+LoadMatrix differences_of(const std::vector<std::vector<Index>>& alike,
+                          const std::vector<Index>& number, Eigen::Index count) {
+  LoadMatrix out(count, count);
+  std::vector<Eigen::Triplet<double, Index>> entries;
+  for (std::size_t i = 0; i < alike.size(); ++i) {
+    if (number[i] < 0) continue;
+    std::vector<Index> others;
+    for (const Index row : alike[i])
+      if (number[std::size_t(row)] >= 0) others.push_back(number[std::size_t(row)]);
+    if (others.empty()) continue;
+    entries.emplace_back(number[i], number[i], 1);
+    for (const Index other : others)
+      entries.emplace_back(number[i], other, -1 / double(others.size()));
   }
-  return rows;
-}
-
-}  // namespace
-
-EaseSystem::EaseSystem(LoadMatrix g, Columns loads)
-    : g_(std::move(g)), transposed_(g_.transpose()), loads_(std::move(loads)) {
-  gradient_ = transposed_ * loads_;
-  diagonal_ = VectorXd::Zero(unknowns());
-  for (Eigen::Index j = 0; j < unknowns(); ++j) diagonal_[j] = transposed_.row(j).squaredNorm();
-  if (unknowns() == 0) return;
-  mean_ = std::sqrt(diagonal_.mean());
-  if (!(mean_ > 0)) return;
-  if (unknowns() <= most_dense)
-    find_eigenvalues();
-  else
-    probe_eigenvalues();
-}
-
-void EaseSystem::find_eigenvalues() {
-  const MatrixXd dense = g_;
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> found(MatrixXd(dense.transpose() * dense));
-  values_ = found.eigenvalues().cwiseMax(0.0);
-  vectors_ = found.eigenvectors();
-  const Columns parts = vectors_.transpose() * gradient_;
-  for (Eigen::Index k = 0; k < unknowns(); ++k) {
-    of_gradient_.node.push_back(values_[k]);
-    of_gradient_.weight.push_back(parts.row(k).squaredNorm());
-    of_trace_.weight.push_back(1);
-  }
-  of_trace_.node = of_gradient_.node;
-}
-
-void EaseSystem::probe_eigenvalues() {
-  const auto add = [](const Quadrature& more, double share, Quadrature& all) {
-    all.node.insert(all.node.end(), more.node.begin(), more.node.end());
-    for (const double weight : more.weight) all.weight.push_back(share * weight);
-  };
-  // The trace is estimated by vectors of random signs (Hutchinson 1990). With one a coordinate and
-  // over `most_dense` unknowns the error is within 5 per cent.
-  for (Eigen::Index a = 0; a < gradient_.cols(); ++a) {
-    add(lanczos(gradient_.col(a)), 1, of_gradient_);
-    add(lanczos(random_signs(unknowns(), std::uint64_t(a + 1))), 1.0 / double(gradient_.cols()),
-        of_trace_);
-  }
-}
-
-// Without a second orthogonalization: repeated eigenvalues do not change the sum.
-EaseSystem::Quadrature EaseSystem::lanczos(const VectorXd& from) const {
-  Quadrature out;
-  const double length = from.norm();
-  if (!(length > 0)) return out;
-  VectorXd before = VectorXd::Zero(from.size()), now = from / length;
-  std::vector<double> diagonal, beside;
-  for (int k = 0; k < quadrature_nodes; ++k) {
-    stop_if_cancelled();
-    VectorXd next = transposed_ * (g_ * now).eval();
-    if (k > 0) next -= beside.back() * before;
-    diagonal.push_back(now.dot(next));
-    next -= diagonal.back() * now;
-    const double left = next.norm();
-    if (k + 1 == quadrature_nodes || !(left > roundoff * diagonal.front())) break;
-    beside.push_back(left);
-    before = std::exchange(now, next / left);
-  }
-  Eigen::SelfAdjointEigenSolver<MatrixXd> found;
-  found.computeFromTridiagonal(
-      Eigen::Map<const VectorXd>(diagonal.data(), Eigen::Index(diagonal.size())),
-      Eigen::Map<const VectorXd>(beside.data(), Eigen::Index(beside.size())));
-  for (Eigen::Index k = 0; k < found.eigenvalues().size(); ++k) {
-    out.node.push_back(std::max(0.0, found.eigenvalues()[k]));
-    const double part = length * found.eigenvectors()(0, k);
-    out.weight.push_back(part * part);
-  }
+  out.setFromTriplets(entries.begin(), entries.end());
   return out;
 }
 
-double EaseSystem::squared_moves(double s) const {
+// Square roots of shares whose mean is one.
+std::vector<double> roots(std::vector<double> shares) {
   double sum = 0;
-  for (std::size_t k = 0; k < of_gradient_.node.size(); ++k) {
-    const double filter = s * s / (1 + s * s * of_gradient_.node[k]);
-    sum += of_gradient_.weight[k] * filter * filter;
-  }
-  return sum;
+  for (const double share : shares) sum += share;
+  for (double& share : shares) share = std::sqrt(share * double(shares.size()) / sum);
+  return shares;
 }
 
-double EaseSystem::trace(double s) const {
-  double sum = 0;
-  for (std::size_t k = 0; k < of_trace_.node.size(); ++k) {
-    const double value = s * s * of_trace_.node[k];
-    sum += of_trace_.weight[k] * value / (1 + value);
-  }
-  return sum;
-}
+// Movable vertices of one kind, with their constraints in units of their roots.
+struct Movable {
+  std::vector<Index> vertices;
+  std::vector<double> root;  // roots of the vertices' shares of area or length
+  LoadMatrix g;              // scaled by the roots
+  // Differences of each load from the mean of nearby ones with similar stars. On a regular pattern,
+  // as triangles with alternating diagonals, loads alternate without any scatter, but those of
+  // similar stars differ little.
+  LoadMatrix differences;
 
-double EaseSystem::noise(double s) const {
-  const double all = trace(s);
-  return all > 0 ? std::sqrt(squared_moves(s) / all) : 0;
-}
+  EaseSystem system(Columns loads) const { return {g, std::move(loads)}; }
+};
 
-double EaseSystem::noise_of(const LoadMatrix& differences) const {
-  const LoadMatrix of_moves = differences * g_;
-  return (differences * loads_).norm() / of_moves.norm();
-}
+class Easing {
+ public:
+  // All references must outlive it.
+  Easing(const Mending& mending, const EaseOptions& wanted, Monitor& monitor)
+      : mending_(mending),
+        wanted_(wanted),
+        monitor_(monitor),
+        watch_(report_, monitor),
+        problem_(make_problem(mending.mesh(), mending.options(), watch_, report_)),
+        mesh_(problem_->mesh),
+        systems_(*problem_, monitor),
+        at_(mending.mesh().coordinates.begin(), mending.mesh().coordinates.end()) {}
 
-double EaseSystem::squared_trace(double s) const {
-  double sum = 0;
-  for (std::size_t k = 0; k < of_trace_.node.size(); ++k) {
-    const double kept = 1 / (1 + s * s * of_trace_.node[k]);
-    sum += of_trace_.weight[k] * kept * kept;
-  }
-  return sum;
-}
-
-// The kurtosis of the moves' components along the eigenvectors, in units of the filter, is at most
-// three standard deviations above its mean for n normal numbers about zero, whose squares over
-// their sum have a Dirichlet distribution; for scatter in several directions it is less. If n is so
-// small that a single component with all of the sum would pass, the test says nothing.
-bool EaseSystem::may_be_scatter(double s) const {
-  if (values_.size() == 0) return true;
-  double squares = 0, fourths = 0, moved = 0, moved_squared = 0;
-  for (Eigen::Index k = 0; k < values_.size(); ++k) {
-    const double filter = s * s / (1 + s * s * values_[k]);
-    const double kept = filter * values_[k],
-                 part = of_gradient_.weight[std::size_t(k)] * filter * filter;
-    squares += kept * kept;
-    fourths += kept * kept * kept * kept;
-    moved += part;
-    moved_squared += part * part;
-  }
-  if (!(moved > 0)) return false;
-  const double n = squares * squares / fourths;
-  const double deviation = std::sqrt(24 * (n - 1) / ((n + 4) * (n + 6)));
-  const double most = n / (n + 2) * 3 * (1 + deviation);
-  return n > most && n * moved_squared <= most * moved * moved;
-}
-
-// Uses eigenvectors, or conjugate gradients with the diagonal, for all columns together.
-Columns EaseSystem::solve(double s, double shift, const Columns& wanted,
-                          const Columns& start) const {
-  if (values_.size() > 0) {
-    const VectorXd filter = (s * s * values_.array() + 1 + shift).inverse();
-    return vectors_ * (filter.asDiagonal() * (vectors_.transpose() * wanted)).eval();
-  }
-  const auto multiply = [&](const Columns& d) -> Columns {
-    return s * s * (transposed_ * (g_ * d).eval()) + (1 + shift) * d;
-  };
-  const VectorXd inverse = (s * s * diagonal_.array() + 1 + shift).inverse();
-  Columns d = start, left = wanted - multiply(d), ahead = inverse.asDiagonal() * left;
-  Eigen::RowVector3d energy = left.cwiseProduct(ahead).colwise().sum();
-  const double scale = wanted.cwiseProduct(inverse.asDiagonal() * wanted).sum();
-  const double least = single_roundoff * single_roundoff * scale;
-  for (Eigen::Index k = 0; k < unknowns() && energy.sum() > least; ++k) {
-    stop_if_cancelled();
-    const Columns product = multiply(ahead);
-    const Eigen::RowVector3d curvature = ahead.cwiseProduct(product).colwise().sum();
-    for (int a = 0; a < 3; ++a) {
-      if (!(curvature[a] > 0)) continue;
-      const double step = energy[a] / curvature[a];
-      d.col(a) += step * ahead.col(a);
-      left.col(a) -= step * product.col(a);
+  EaseResult run() {
+    monitor_.enter_part(0, 0.25);
+    StrainGauge::require_room(*problem_, rings_between_probes, report_.predicted_bytes);
+    ControlPositions control = problem_->basis;
+    PlateLoads plate = loads_of(control);
+    measure_matrix();
+    out_.before = gauge_->excess(plate.turned, control);
+    out_.moves.assign(std::size_t(mesh_.input_vertices), Vec3::Zero());
+    if (wanted_.most > 0) {
+      move_worst(std::move(plate.turned), control);
+    } else {
+      find_movable();
+      // Scatter also causes moments on borders, which cannot be distinguished from those of the
+      // shape: with them, results for few vertices with faint scatter are up to a tenth worse.
+      Loads loads = std::move(plate.free);
+      // A curve has too few vertices to estimate scatter: that of inner vertices is a bound, and if
+      // they have an estimate, a curve without one stays.
+      const EaseSystem inner = inner_system(loads, control), curve = curve_system(control);
+      const double read = estimated_amount(inner_, inner);
+      double s = read > 0 ? estimated_amount(curve_, curve) : amount(curve_, curve);
+      if (wanted_.amount < 0 && inner.unknowns() > 0)
+        s = with_noise_up_to(curve, s, inner.noise(read > 0 ? read : amount(inner_, inner)));
+      if (apply(curve_, curve, s)) {
+        control = problem_->control_positions(at_);
+        loads = loads_of(control).free;
+      }
+      const EaseSystem again = inner_system(loads, control);
+      apply(inner_, again, amount(inner_, again));
     }
-    const Columns next = inverse.asDiagonal() * left;
-    for (int a = 0; a < 3; ++a) {
-      const double now = left.col(a).dot(next.col(a));
-      ahead.col(a) = next.col(a) + (energy[a] > 0 ? now / energy[a] : 0.0) * ahead.col(a);
-      energy[a] = now;
+    const ControlPositions after = problem_->control_positions(at_);
+    out_.after = gauge_->excess(loads_of(after).turned, after);
+    restore();
+    return std::move(out_);
+  }
+
+ private:
+  PlateLoads loads_of(const ControlPositions& control) {
+    ++out_.iterations;
+    return solve_loads(*problem_, systems_, control, watch_);
+  }
+
+  bool stays(std::size_t v) const { return !wanted_.fixed.empty() && wanted_.fixed[v]; }
+
+  void measure_matrix() {
+    gauge_.emplace(*problem_, systems_, rings_between_probes, [&](double begin, double end) {
+      monitor_.enter_part(0.25 + 0.625 * begin, 0.25 + 0.625 * end);
+    });
+    monitor_.enter_part(0.875, 1);
+    out_.iterations += gauge_->solves();
+  }
+
+  void find_movable() {
+    std::vector<Index> rows(gauge_->vertices().size(), -1);
+    std::vector<double> shares;
+    for (std::size_t i = 0; i < gauge_->on_pads(); ++i) {
+      const auto v = std::size_t(gauge_->vertices()[i]);
+      if (stays(v)) continue;
+      rows[i] = Index(inner_.vertices.size());
+      inner_rows_.push_back(Eigen::Index(i));
+      inner_.vertices.push_back(Index(v));
+      shares.push_back(systems_.plate().hats()->total(v));
     }
+    inner_.root = roots(std::move(shares));
+    inner_.g = part_of(gauge_->matrix(), rows, rows, inner_.root, inner_.root);
+    inner_.differences = differences_of(gauge_->of_same_star(), rows, inner_.g.rows());
+
+    const CurveLoads& curves = gauge_->curves();
+    for (std::size_t i = 0; i < curves.vertices().size(); ++i) {
+      const Index v = curves.vertices()[i];
+      if (stays(std::size_t(v)) || mesh_.vertex_part(v) != RegionPart::inside) continue;
+      curve_.vertices.push_back(v);
+      curve_.root.push_back(curves.roots()[i]);
+    }
+    const LoadMatrix& differences = curves.differences();
+    const std::vector<Index> columns = numbered(std::size_t(mesh_.vertex_count()), curve_.vertices);
+    std::vector<Index> all_rows(std::size_t(differences.rows()));
+    std::iota(all_rows.begin(), all_rows.end(), Index(0));
+    curve_.g = part_of(differences, all_rows, columns, std::vector<double>(all_rows.size(), 1.0),
+                       curve_.root);
   }
-  return d;
-}
 
-Columns EaseSystem::moves(double s) const {
-  Columns none = Columns::Zero(unknowns(), 3);
-  if (!(mean_ > 0) || !(s > 0)) return none;
-  return solve(s, 0, -s * s * gradient_, none);
-}
-
-// A weight between the extreme eigenvalues of (*) couples the moves and their bounded copies.
-Columns EaseSystem::moves_within(double s, const VectorXd& bounds) const {
-  Columns d = moves(s);
-  const double largest = std::min(bounds.maxCoeff(), d.rowwise().norm().maxCoeff());
-  const double weight = 1 + s * mean_;
-  const Columns wanted = -s * s * gradient_;
-  Columns within = bounded(d, bounds), apart = d - within;
-  if (apart.isZero(0)) return within;
-  for (int round = 0; round < most_iterations; ++round) {
-    stop_if_cancelled();
-    d = solve(s, weight, wanted + weight * (within - apart), d);
-    const Columns next = bounded(d + apart, bounds);
-    const double left = std::max((next - within).rowwise().norm().maxCoeff(),
-                                 (d - next).rowwise().norm().maxCoeff());
-    apart += d - next;
-    within = next;
-    if (left <= bound_tolerance * largest) break;
+  EaseSystem inner_system(const Loads& loads, const ControlPositions& control) const {
+    const Columns all = gauge_->loads(loads, control);
+    Columns own(Eigen::Index(inner_rows_.size()), 3);
+    for (std::size_t i = 0; i < inner_rows_.size(); ++i)
+      own.row(Eigen::Index(i)) = inner_.root[i] * all.row(inner_rows_[i]);
+    return inner_.system(std::move(own));
   }
-  return within;
-}
 
-namespace {
+  EaseSystem curve_system(const ControlPositions& control) const {
+    return curve_.system(gauge_->curves().differences() * columns_of(control.working));
+  }
 
-// All amounts that are tried, ascending; none if G is zero.
-std::vector<double> ladder(const EaseSystem& system) {
-  std::vector<double> out;
-  if (!(system.mean() > 0)) return out;
-  for (double s = least_amount; s * least_amount < ten_a_decade; s *= ten_a_decade)
-    out.push_back(s / system.mean());
-  return out;
-}
+  Eigen::VectorXd bounds_of(const Movable& movable) const {
+    Eigen::VectorXd bounds(Eigen::Index(movable.vertices.size()));
+    for (std::size_t i = 0; i < movable.vertices.size(); ++i)
+      // the margin keeps rounded coordinates within the bound
+      bounds[Eigen::Index(i)] = (1 - roundoff) * movable.root[i] *
+                                wanted_.tolerance[std::size_t(movable.vertices[i])] /
+                                problem_->frame.scale;
+    return bounds;
+  }
 
-}  // namespace
+  // The requested amount, or that from the estimated scatter. Curves and inner vertices may scatter
+  // differently, so each kind has its own.
+  double estimated_amount(const Movable& movable, const EaseSystem& system) const {
+    if (!(system.mean() > 0)) return 0;
+    if (wanted_.amount >= 0) return wanted_.amount / system.mean();
+    const double s = cross_validated(system);
+    if (movable.differences.rows() == 0) return s;
+    // at most the difference between similar stars
+    const double noise = system.noise_of(movable.differences);
+    return std::isfinite(noise) ? with_noise_up_to(system, s, noise) : s;
+  }
 
-double cross_validated(const EaseSystem& system) {
-  const std::vector<double> amount = ladder(system);
-  if (amount.empty()) return 0;
-  std::vector<double> score;
-  for (const double s : amount) {
+  // Without an estimate the largest amount within the bounds.
+  double amount(const Movable& movable, const EaseSystem& system) const {
+    const double s = estimated_amount(movable, system);
+    if (s > 0 || wanted_.tolerance.empty()) return s;
+    return with_moves_within(system, bounds_of(movable));
+  }
+
+  // Moves them. Returns whether any moves.
+  bool apply(const Movable& movable, const EaseSystem& system, double s) {
+    if (!(s > 0)) return false;
+    const Columns moves =
+        wanted_.tolerance.empty() ? system.moves(s) : system.moves_within(s, bounds_of(movable));
+    double squared = 0;
+    for (std::size_t i = 0; i < movable.vertices.size(); ++i) {
+      const Vec3 way =
+          problem_->frame.scale / movable.root[i] * moves.row(Eigen::Index(i)).transpose();
+      squared += way.squaredNorm();
+      move(movable.vertices[i], way);
+    }
+    out_.amount = s * system.mean();
     const double trace = system.trace(s);
-    const double kept = system.squared_trace(s) / double(system.unknowns());
-    score.push_back(system.squared_moves(s) / (trace * trace) *
-                    (robustness + (1 - robustness) * kept));
+    out_.noise = trace > 0 ? std::sqrt(squared / trace) : 0;
+    return squared > 0;
   }
-  const auto best = std::min_element(score.begin(), score.end());
-  if (!std::isfinite(*best)) return 0;
-  const auto chosen = score.front() > faint * *best
-                          ? best
-                          : std::find_if(score.begin(), score.end(),
-                                         [&](double of) { return of <= leeway * *best; });
-  const double s = amount[std::size_t(chosen - score.begin())];
-  return chosen != score.begin() && system.may_be_scatter(s) ? s : 0;
-}
 
-// Moves grow with the amount, so bisection finds it.
-double with_moves_within(const EaseSystem& system, const VectorXd& bounds) {
-  const std::vector<double> amount = ladder(system);
-  const auto fits = [&](double s) {
-    const Columns moves = system.moves(s);
-    for (Eigen::Index j = 0; j < system.unknowns(); ++j)
-      if (bounds[j] > 0 && moves.row(j).norm() > bounds[j]) return false;
-    return true;
-  };
-  const auto outside = std::partition_point(amount.begin(), amount.end(), fits);
-  return outside == amount.begin() ? 0 : *(outside - 1);
-}
+  void move(Index v, const Vec3& way) {
+    out_.moves[std::size_t(v)] += way;
+    for (int a = 0; a < 3; ++a) at_[3 * std::size_t(v) + std::size_t(a)] += way[a];
+  }
 
-// Computes the moves: Lanczos' least eigenvalues are too inaccurate for large amounts.
-double with_noise_up_to(const EaseSystem& system, double s, double noise) {
-  std::vector<double> amount = ladder(system);
-  amount.erase(std::upper_bound(amount.begin(), amount.end(), s), amount.end());
-  const auto fits = [&](double of) {
-    return system.moves(of).squaredNorm() <= noise * noise * system.trace(of);
-  };
-  const auto outside = std::partition_point(amount.begin(), amount.end(), fits);
-  return outside == amount.begin() ? 0 : *(outside - 1);
+  // Releases the vertices of the largest excess. If some of them are on curves, the inner ones are
+  // chosen again with the new curves.
+  void move_worst(Loads loads, ControlPositions control) {
+    const auto inner = Index(gauge_->on_pads());
+    std::vector<Index> worst = worst_of(out_.before, std::size_t(wanted_.most), true);
+    const auto others =
+        std::partition(worst.begin(), worst.end(), [&](Index r) { return r >= inner; });
+    if (others != worst.begin()) {
+      const auto left = std::size_t(worst.end() - others);
+      worst.erase(others, worst.end());
+      release(worst, gauge_->loads(loads, control));
+      control = problem_->control_positions(at_);
+      loads = loads_of(control).turned;
+      worst = worst_of(gauge_->excess(loads, control), left, false);
+    }
+    release(worst, gauge_->loads(loads, control));
+  }
+
+  std::vector<Index> worst_of(const Excess& excess, std::size_t count, bool with_curves) const {
+    std::vector<double> lengths(gauge_->vertices().size());
+    for (std::size_t row = 0; row < (with_curves ? lengths.size() : gauge_->on_pads()); ++row)
+      if (const auto v = std::size_t(gauge_->vertices()[row]); !stays(v))
+        lengths[row] = std::abs(excess.own.lengths[v]);
+    return worst_rows(lengths, count, gauge_->images());
+  }
+
+  // Moves the vertices of these rows, and their images, to where none of them carries a load.
+  void release(const std::vector<Index>& worst, const Columns& loads) {
+    std::vector<Index> rows;
+    for (const Index row : worst)
+      for (const Index image : gauge_->images()[std::size_t(row)])
+        if (!stays(std::size_t(gauge_->vertices()[std::size_t(image)]))) rows.push_back(image);
+    const Columns moves = moves_without_loads(gauge_->matrix(), loads, rows);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      move(gauge_->vertices()[std::size_t(rows[i])],
+           problem_->frame.scale * moves.row(Eigen::Index(i)).transpose());
+  }
+
+  // Merged vertices take the position of the one that remains.
+  void restore() {
+    if (!mending_.mended()) return;
+    const std::vector<Index>& origin = mending_.mended()->vertex_origin;
+    for (std::size_t v = 0; v < std::min(origin.size(), out_.moves.size()); ++v)
+      out_.moves[v] = out_.moves[std::size_t(origin[v])];
+    fairing::restore(out_.before, origin);
+    fairing::restore(out_.after, origin);
+  }
+
+  const Mending& mending_;
+  const EaseOptions& wanted_;
+  Monitor& monitor_;
+  Report report_;
+  Stopwatch watch_;
+  std::unique_ptr<const FairingProblem> problem_;
+  const ControlMesh& mesh_;
+  FairingSystems systems_;
+  std::vector<double> at_;  // positions of input vertices in world coordinates
+  std::optional<StrainGauge> gauge_;
+  Movable inner_, curve_;
+  std::vector<Eigen::Index> inner_rows_;  // numbers of the gauge's rows
+  EaseResult out_;
+};
+
+// Values of vertices, mapped to the remaining ones after merges.
+struct Mapped {
+  std::vector<double> tolerance;
+  std::vector<std::uint8_t> fixed;
+  EaseOptions options;
+
+  Mapped(const EaseOptions& wanted, const MendedMesh* mended)
+      : tolerance(wanted.tolerance.begin(), wanted.tolerance.end()),
+        fixed(wanted.fixed.begin(), wanted.fixed.end()),
+        options(wanted) {
+    if (!mended) return;
+    const std::vector<Index>& origin = mended->vertex_origin;
+    for (std::size_t v = 0; v < origin.size(); ++v) {
+      const auto lead = std::size_t(origin[v]);
+      if (!tolerance.empty()) tolerance[lead] = std::min(tolerance[lead], tolerance[v]);
+      if (!fixed.empty()) fixed[lead] |= fixed[v];
+    }
+    options.tolerance = tolerance;
+    options.fixed = fixed;
+  }
+};
+
+}  // namespace
+
+EaseResult ease_control_mesh(const PolygonMesh& input, const FairOptions& options,
+                             const EaseOptions& wanted, Monitor& monitor) {
+  const CancelScope scope(&monitor);
+  try {
+    FairOptions own = options_of_strain(options);
+    if (input.vertex_count() > on_second_level) own.levels = 1;
+    const MemoryLedger ledger(own.bytes_allowed());
+    const Mending mending(input, own);
+    const Mapped mapped(wanted, mending.mended());
+    EaseResult out =
+        mending.in_input_ids([&] { return Easing(mending, mapped.options, monitor).run(); });
+    monitor.enter_part(0, 1);
+    monitor.report(Phase::done, 1);
+    return out;
+  } catch (const std::bad_alloc&) {
+    throw out_of_memory();
+  }
 }
 
 }  // namespace fairing

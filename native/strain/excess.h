@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "strain/ease.h"
+#include "strain/ease_system.h"
 
 namespace fairing {
 

@@ -6,23 +6,27 @@
 #include "parallel/cancel.h"
 
 namespace fairing {
-ProbedMatrix load_matrix(ThinPlateSolver& solver, const FeatureCurves& curves,
-                         const std::vector<Index>& vertices, int rings_apart,
-                         const OnPart& on_part) {
-  const ControlMesh& mesh = solver.levels().shared().mesh;
-  const std::vector<std::vector<Index>> sets = vertices_apart(mesh, *solver.pads(), rings_apart);
-  std::vector<Index> column(std::size_t(mesh.vertex_count()), -1);
-  for (std::size_t i = 0; i < vertices.size(); ++i) column[std::size_t(vertices[i])] = Index(i);
+std::vector<Index> numbered(std::size_t count, std::span<const Index> vertices) {
+  std::vector<Index> number(count, -1);
+  for (std::size_t i = 0; i < vertices.size(); ++i) number[std::size_t(vertices[i])] = Index(i);
+  return number;
+}
+
+ProbedMatrix load_matrix(FairingSystems& systems, const std::vector<Index>& vertices,
+                         int rings_apart, const OnPart& on_part) {
+  const ControlMesh& mesh = systems.finest().mesh();
+  const std::vector<std::vector<Index>> sets =
+      vertices_apart(mesh, *systems.plate().pads(), rings_apart);
+  const std::vector<Index> column = numbered(std::size_t(mesh.vertex_count()), vertices);
   std::vector<std::vector<std::pair<Index, double>>> rows(vertices.size());
-  probe_loads(solver, curves, sets, on_part,
-              [&](std::size_t set, const std::vector<double>& loads) {
-                const std::vector<Index> nearest = nearest_of(mesh, sets[set]);
-                for (std::size_t i = 0; i < vertices.size(); ++i) {
-                  const auto v = std::size_t(vertices[i]);
-                  const Index from = nearest[v] < 0 ? -1 : column[std::size_t(nearest[v])];
-                  if (from >= 0) rows[i].emplace_back(from, loads[v]);
-                }
-              });
+  probe_loads(systems, sets, on_part, [&](std::size_t set, const std::vector<double>& loads) {
+    const std::vector<Index> nearest = nearest_of(mesh, sets[set]);
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      const auto v = std::size_t(vertices[i]);
+      const Index from = nearest[v] < 0 ? -1 : column[std::size_t(nearest[v])];
+      if (from >= 0) rows[i].emplace_back(from, loads[v]);
+    }
+  });
   ProbedMatrix out;
   out.solves = int((sets.size() + 2) / 3);
   const auto n = Eigen::Index(vertices.size());

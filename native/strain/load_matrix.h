@@ -2,9 +2,10 @@
 // G (probes.h) as a sparse matrix, by one solve for each set of distant vertices.
 #pragma once
 
+#include <span>
 #include <vector>
 
-#include "strain/ease.h"
+#include "strain/ease_system.h"
 #include "strain/probes.h"
 
 namespace fairing {
@@ -18,9 +19,11 @@ struct ProbedMatrix {
 // rings apart. In the result of a set each vertex is attributed to the nearest member. The part of
 // a column beyond that goes to a nearer member, so rows keep their sums and a common move of all
 // vertices has correct loads. Exact if every set has one member.
-ProbedMatrix load_matrix(ThinPlateSolver& solver, const FeatureCurves& curves,
-                         const std::vector<Index>& vertices, int rings_apart,
-                         const OnPart& on_part);
+ProbedMatrix load_matrix(FairingSystems& systems, const std::vector<Index>& vertices,
+                         int rings_apart, const OnPart& on_part);
+
+// The place of each vertex in `vertices`, of so many in all; -1: none.
+std::vector<Index> numbered(std::size_t count, std::span<const Index> vertices);
 
 // Approximate bytes of the matrix.
 std::size_t bytes_of_load_matrix(std::size_t vertices, int rings_apart);

@@ -99,32 +99,23 @@ std::vector<Index> nearest_of(const ControlMesh& mesh, const std::vector<Index>&
   return nearest;
 }
 
-void probe_loads(ThinPlateSolver& solver, const FeatureCurves& curves,
-                 const std::vector<std::vector<Index>>& sets, const OnPart& on_part,
-                 const OnLoads& on_loads) {
-  const ControlMesh& mesh = solver.levels().shared().mesh;
-  FeatureCurves none = curves;
-  for (Vec3& p : none.points) p.setZero();
-  solver.keep_smoother();
+void probe_loads(FairingSystems& systems, const std::vector<std::vector<Index>>& sets,
+                 const OnPart& on_part, const OnLoads& on_loads) {
+  const ControlMesh& mesh = systems.finest().mesh();
+  systems.plate().keep_smoother();
   std::vector<Vec3> targets(std::size_t(mesh.vertex_count()));
   std::vector<double> loads(targets.size());
-  Array<double> x(3 * solver.levels().grid(solver.levels().top()).size());
   for (std::size_t first = 0; first < sets.size(); first += 3) {
     const std::size_t end = std::min(first + 3, sets.size());
     if (on_part) on_part(double(first) / double(sets.size()), double(end) / double(sets.size()));
     std::fill(targets.begin(), targets.end(), Vec3::Zero());
-    std::fill(x.begin(), x.end(), 0.0);
     for (std::size_t s = first; s < end; ++s)
       for (const Index v : sets[s])
         mesh.for_each_copy(v,
                            [&](Index u) { targets[std::size_t(u)][Eigen::Index(s - first)] = 1; });
-    PlateState state = solver.unloaded();
-    state.loads.assign(targets.size(), Vec3::Zero());
-    // the force at control vertices may be twice the tolerance
-    solver.solve_again({targets, none}, difference_tolerance, state, x, 2 * difference_tolerance);
+    const Loads found = systems.loads_of_moves(targets);
     for (std::size_t s = first; s < end; ++s) {
-      for (std::size_t v = 0; v < loads.size(); ++v)
-        loads[v] = state.loads[v][Eigen::Index(s - first)];
+      for (std::size_t v = 0; v < loads.size(); ++v) loads[v] = found[v][Eigen::Index(s - first)];
       on_loads(s, loads);
     }
   }

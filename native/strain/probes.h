@@ -8,7 +8,7 @@
 #include <functional>
 #include <vector>
 
-#include "thin_plate/solver.h"
+#include "fairing/systems.h"
 
 namespace fairing {
 
@@ -28,12 +28,11 @@ void visit_around(
     const std::function<void(std::size_t i, const std::vector<Index>& around)>& visit);
 
 // Calls on_loads(s, loads) for each set s in order. `loads`, one number a control vertex, are those
-// after a move by one of all vertices of the set. `curves` are the solver's; their points do not
-// move. `on_part`, if given, is called before each solve with its part of the whole.
+// after a move by one of all vertices of the set. `on_part`, if given, is called before each solve
+// with its part of the whole.
 using OnPart = std::function<void(double begin, double end)>;
 using OnLoads = std::function<void(std::size_t set, const std::vector<double>& loads)>;
-void probe_loads(ThinPlateSolver& solver, const FeatureCurves& curves,
-                 const std::vector<std::vector<Index>>& sets, const OnPart& on_part,
-                 const OnLoads& on_loads);
+void probe_loads(FairingSystems& systems, const std::vector<std::vector<Index>>& sets,
+                 const OnPart& on_part, const OnLoads& on_loads);
 
 }  // namespace fairing

@@ -1,26 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Releases the few most strained unknowns of strain/ease.h, one after another.
+// The most strained unknowns, and the moves that release them.
 #pragma once
 
-#include "strain/ease.h"
+#include <span>
+
+#include "strain/ease_system.h"
 
 namespace fairing {
 
-struct Candidates {
-  const std::vector<std::uint8_t>& may;  // one a row: positive if it may move
-  // For each row: the row and its mirror images, which move with it and are not counted.
-  const std::vector<std::vector<Index>>& images;
-  Index most;
-};
+// The rows with the largest of these lengths, `count` of them: one of each that are images of each
+// other. Rows whose length is not positive are left out. `images`: of each row, itself and its
+// mirror images.
+std::vector<Index> worst_rows(const std::vector<double>& lengths, std::size_t count,
+                              const std::vector<std::vector<Index>>& images);
 
-struct Worst {
-  std::vector<Index> rows;             // the most strained first
-  std::vector<std::uint8_t> is_image;  // one of each of these
-  Columns moves;                       // likewise
-};
-
-// Each time picks the remaining row with the largest |g_j| / G_jj, and then releases all picked
-// rows together: the loads of their columns become zero. g is square.
-Worst moves_of_worst(const LoadMatrix& g, const Columns& loads, const Candidates& candidates);
+// The moves of these rows after which none of them carries a load, a row each. g is square.
+Columns moves_without_loads(const LoadMatrix& g, const Columns& loads, std::span<const Index> rows);
 
 }  // namespace fairing

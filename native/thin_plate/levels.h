@@ -21,6 +21,8 @@ struct PlateData {
   const FeatureCurves& curves;    // on the finest level
   // The surface of the penalty, on the finest level, if the plate is in the metric of a surface.
   const Array<double>* reference = nullptr;
+  // External forces on the finest level, 3 numbers a point, zero at known points; or empty.
+  std::span<const double> forces{};
 };
 
 // Vectors hold 3 numbers a point of their level. Every solve throws FairingError: cancelled;

@@ -12,11 +12,10 @@ struct ThinPlateSolver::Run {
   ThinPlateSolver& solver;
   const PlateData& data;
   PlateState& state;
-  Array<double>& x;                  // of the level
-  Array<double> r{};                 // of x
-  Array<double> reference{};         // of the penalty; or empty
-  double rough_force = 0;            // force that may be left, as a share of the loads
-  std::span<const double> forces{};  // per point of the finest level; or empty
+  Array<double>& x;           // of the level
+  Array<double> r{};          // of x
+  Array<double> reference{};  // of the penalty; or empty
+  double rough_force = 0;     // force that may be left, as a share of the loads
 
   ThinPlateLevels& levels() const { return solver.levels_; }
   int base() const { return levels().base(); }

@@ -48,7 +48,8 @@ ThinPlateSolver::Run::Solved ThinPlateSolver::Run::solve(int level, const PcgLim
     levels().apply_with(level, hats ? hats->rows() : unknowns, y, out);
     for_each_index(workers, size(level), [&](std::size_t i) { out[i] = -out[i]; });
     levels().add_penalty(level, reference, out);
-    for (std::size_t i = 0; i < forces.size(); ++i) out[i] += forces[i];
+    if (level == top())
+      for (std::size_t i = 0; i < data.forces.size(); ++i) out[i] += data.forces[i];
   };
   int iterations = 0;
   const auto solve_level = [&](const PcgLimits& now, const LinearSystem& system) {

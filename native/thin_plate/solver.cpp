@@ -197,12 +197,10 @@ void ThinPlateSolver::add_difference(const PlateData& before, const PlateData& d
 }
 
 LevelReport ThinPlateSolver::solve_again(const PlateData& data, double tolerance, PlateState& state,
-                                         Array<double>& x, double rough_force,
-                                         std::span<const double> forces) {
+                                         Array<double>& x, double rough_force) {
   const int top = levels_.top();
   Run run{*this, data, state, x};
   run.rough_force = rough_force;
-  run.forces = forces;
   run.r.resize(x.size());
   run.reference = levels_.reference(top, data);
   PcgLimits limits;

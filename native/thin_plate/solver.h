@@ -60,11 +60,9 @@ class ThinPlateSolver {
                    const OnPrediction& on_prediction);
 
   // Solves the finest level again, from x. A force of `rough_force`, as a share of the loads, may
-  // be left at control vertices even if the options ask for less. `forces`: external ones on the
-  // level's points, 3 numbers each, zero on points that are not unknowns.
+  // be left at control vertices even if the options ask for less.
   LevelReport solve_again(const PlateData& data, double tolerance, PlateState& state,
-                          Array<double>& x, double rough_force = 0,
-                          std::span<const double> forces = {});
+                          Array<double>& x, double rough_force = 0);
 
  private:
   struct Run;

@@ -6,9 +6,9 @@
 
 #include <optional>
 
-#include "fairing/strain.h"
 #include "meshes.h"
 #include "parallel/expected_memory.h"
+#include "strain/strain.h"
 
 namespace fairing::test {
 namespace {

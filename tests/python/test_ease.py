@@ -6,7 +6,7 @@ import discrete_fairing as df
 import numpy as np
 import pytest
 from shared_data import SHARED, read_obj
-from test_strain import SHAPES, bump
+from test_strain import SHAPES, bump, half_hull, outwards
 
 NOISE = 0.002
 
@@ -220,6 +220,20 @@ def test_the_worst_are_found_on_curves_and_off_them():
     eased = df.ease(measured, faces, most=2)
     assert set(np.flatnonzero(eased.moves)) == {off_curve, on_curve}
     assert error(eased.vertices, truth) < 0.15 * error(measured, truth)
+
+
+def test_wrong_offsets_of_half_a_hull_go_back():
+    """Those of the largest excess: borders and worse neighbours strain sound vertices as much."""
+    truth, faces, inner = half_hull(15, 9)
+    along, found, left = outwards(truth, faces), [], []
+    for seed in range(5):
+        random, measured = np.random.default_rng(seed), truth.copy()
+        wrong = random.choice(inner, 3, replace=False)
+        measured[wrong] += 0.018 * random.choice([-1, 1], (3, 1)) * along[wrong]
+        eased = df.ease(measured, faces, symmetry_plane="y", most=3)
+        found.append(len(np.intersect1d(np.flatnonzero(eased.moves), wrong)))
+        left.append(error(eased.vertices, truth) / error(measured, truth))
+    assert np.mean(found) > 2.7 and np.mean(left) < 0.1
 
 
 def test_vertices_outside_a_region_stay():

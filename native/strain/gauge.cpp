@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fairing/strain_gauge.h"
+#include "strain/gauge.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,6 @@
 #include "base/median.h"
 #include "mesh/normal.h"
 #include "strain/excess.h"
-#include "strain/load_matrix.h"
-#include "strain/probes.h"
 
 namespace fairing {
 namespace {
@@ -35,17 +33,16 @@ void restore(Excess& excess, const std::vector<Index>& origin) {
     excess.wrong[v] = excess.wrong[std::size_t(origin[v])];
 }
 
-StrainGauge::StrainGauge(const FairingProblem& problem, ThinPlateSolver& solver, int rings_apart,
+StrainGauge::StrainGauge(const FairingProblem& problem, FairingSystems& systems, int rings_apart,
                          const OnPart& on_part)
     : problem_(problem), curves_(problem.mesh, problem.basis.working, problem.exponent) {
   const ControlMesh& mesh = problem.mesh;
-  if (const Pads* const pads = solver.pads()) {
+  if (const Pads* const pads = systems.plate().pads()) {
     for (Index v = 0; v < mesh.input_vertices; ++v)
       if (pads->under(std::size_t(v))) vertices_.push_back(v);
     on_pads_ = vertices_.size();
     counted_.emplace(bytes_of_load_matrix(on_pads_, rings_apart));
-    ProbedMatrix probed =
-        load_matrix(solver, problem.basis.working_curves, vertices_, rings_apart, on_part);
+    ProbedMatrix probed = load_matrix(systems, vertices_, rings_apart, on_part);
     matrix_ = std::move(probed.g);
     solves_ = probed.solves;
   }
@@ -79,14 +76,12 @@ void StrainGauge::add_curve_rows() {
   for (const Index v : curves_.middles())
     if (problem_.mesh.vertex_part(v) == RegionPart::inside) vertices_.push_back(v);
   curve_matrix_ = LoadMatrix(curves_.differences().transpose()) * curves_.differences();
-  std::vector<Index> row(std::size_t(problem_.mesh.vertex_count()), -1);
-  for (std::size_t i = on_pads_; i < vertices_.size(); ++i)
-    row[std::size_t(vertices_[i])] = Index(i);
+  const std::vector<Index> row = row_of_vertices();
   std::vector<Eigen::Triplet<double, Index>> entries;
   const auto n = Eigen::Index(vertices_.size());
   for (Eigen::Index i = Eigen::Index(on_pads_); i < n; ++i)
     for (LoadMatrix::InnerIterator entry(curve_matrix_, vertices_[std::size_t(i)]); entry; ++entry)
-      if (const Index column = row[std::size_t(entry.col())]; column >= 0)
+      if (const Index column = row[std::size_t(entry.col())]; column >= Index(on_pads_))
         entries.emplace_back(Index(i), column, entry.value());
   LoadMatrix own(n, n);
   own.setFromTriplets(entries.begin(), entries.end());
@@ -137,12 +132,6 @@ std::vector<double> StrainGauge::lengths_of(const Columns& ways) const {
   for (Eigen::Index i = 0; i < ways.rows(); ++i)
     if (matrix_.coeff(i, i) > 0) out[std::size_t(i)] = way_length(ways.row(i), normals_.row(i));
   return out;
-}
-
-std::vector<Index> StrainGauge::row_of_vertices() const {
-  std::vector<Index> row(std::size_t(problem_.mesh.vertex_count()), -1);
-  for (std::size_t i = 0; i < vertices_.size(); ++i) row[std::size_t(vertices_[i])] = Index(i);
-  return row;
 }
 
 // On a curve, next to one, or inside: next to a curve shapes have more strain than inside

@@ -4,10 +4,8 @@
 // surface would move if that vertex were released. For the thin plate.
 #pragma once
 
-#include "fairing/options.h"
-#include "fairing/strain_gauge.h"
-#include "fairing/systems.h"
 #include "parallel/monitor.h"
+#include "strain/gauge.h"
 
 namespace fairing {
 

@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
-#include "fairing/problem.h"
+#include "fairing/systems.h"
 #include "strain/curve_loads.h"
-#include "strain/probes.h"
+#include "strain/load_matrix.h"
 
 namespace fairing {
 
@@ -38,9 +38,9 @@ void restore(Excess& excess, const std::vector<Index>& origin);
 
 class StrainGauge {
  public:
-  // For the plate that `solver` has solved, with moves of vertices so many rings apart at once. All
-  // references must outlive this.
-  StrainGauge(const FairingProblem& problem, ThinPlateSolver& solver, int rings_apart,
+  // For the plate that `systems` have solved, with moves of vertices so many rings apart at once.
+  // The problem must outlive this.
+  StrainGauge(const FairingProblem& problem, FairingSystems& systems, int rings_apart,
               const OnPart& on_part = {});
 
   // Throws too_large if the memory limit does not hold the matrix beside the predicted bytes of the
@@ -71,7 +71,9 @@ class StrainGauge {
   Kinds kinds(bool by_neighbours) const;
   std::vector<std::vector<Index>> rows_of_same_kind(const Kinds& kinds) const;
   void add_curve_rows();
-  std::vector<Index> row_of_vertices() const;
+  std::vector<Index> row_of_vertices() const {
+    return numbered(std::size_t(problem_.mesh.vertex_count()), vertices_);
+  }
   Columns ways_of(Columns loads) const;
   Ways in_mesh_units(const Columns& ways) const;
   std::vector<double> lengths_of(const Columns& ways) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "fairing/strain.h"
+#include "strain/strain.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,18 +41,14 @@ PlateLoads solve_loads(const FairingProblem& problem, FairingSystems& systems,
                        const ControlPositions& control, Stopwatch& watch) {
   Report report;
   Surface surface = systems.solve(control, false, watch, report);
-  PlateState& state = surface.state;
-  PlateLoads out{state.loads, {}};
-  ThinPlateSolver& plate = systems.plate();
-  if (plate.pads()) {
-    const std::vector<double> moments = border_moments(
-        systems.finest(), *problem.charts(), *plate.pads(), problem.unknowns, control.working);
+  PlateLoads out{surface.state.loads, {}};
+  if (const Pads* const pads = systems.plate().pads()) {
+    const std::vector<double> moments = border_moments(systems.finest(), *problem.charts(), *pads,
+                                                       problem.unknowns, control.working);
     const CountedBytes counted(moments.size() * sizeof(double));
-    if (!moments.empty())
-      plate.solve_again(PlateData{control.working, control.working_curves},
-                        problem.options.solve.relative_residual, state, surface.plate, 0, moments);
+    if (!moments.empty()) systems.solve_under(moments, control, surface);
   }
-  out.turned = std::move(state.loads);
+  out.turned = std::move(surface.state.loads);
   return out;
 }
 
@@ -73,7 +69,7 @@ Strain strain_once(const PolygonMesh& mesh, const FairOptions& options, Monitor&
   StrainGauge::require_room(*problem, rings_apart, report.predicted_bytes);
   FairingSystems systems(*problem, monitor);
   const PlateLoads loads = solve_loads(*problem, systems, problem->basis, watch);
-  const StrainGauge gauge(*problem, systems.plate(), rings_apart);
+  const StrainGauge gauge(*problem, systems, rings_apart);
   Strain out{gauge.strain(loads.free, problem->basis), gauge.excess(loads.turned, problem->basis),
              std::vector<std::uint8_t>(std::size_t(problem->mesh.input_vertices), 0)};
   for (std::size_t i = gauge.on_pads(); i < gauge.vertices().size(); ++i)
