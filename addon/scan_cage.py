@@ -2,6 +2,7 @@
 """Cages over scans, by QuadriFlow."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any, cast
 
 import bmesh
@@ -28,18 +29,24 @@ POINTS_ASKED = 10_000  # of a scan, whether a cage is near them
 LEFT_OUT = 1e-3
 
 
-def most_cage_faces(scan: Scan) -> int:
-    """Of a cage that is made: one for `POINTS_A_FACE` points."""
-    return max(len(scan.points) // POINTS_A_FACE, LEAST_CAGE_FACES)
+@dataclass(frozen=True)
+class MadeCage:
+    """A cage that was made, and how it differs from what was asked for."""
+
+    object: Object
+    is_whole: bool  # no part of the scan is farther from it than one of its edges
+    is_finer: bool  # it has more faces, as fewer left out a part
+    is_limited: bool  # it has fewer faces: one for `POINTS_A_FACE` points at most
 
 
-def make_cage(context: Context, near: Sequence[Object], faces: int) -> Object:
+def make_cage(context: Context, near: Sequence[Object], faces: int) -> MadeCage:
     """A new object with some `faces` quads over the scans `near`, or as many as their points allow, by
     QuadriFlow: of one scan in its place, of several in the world. It has more faces where fewer leave
     out a part, such as an ear. Raises JobError.
     """
     scan = read_scans(context, near)
-    most = most_cage_faces(scan)
+    most = max(len(scan.points) // POINTS_A_FACE, LEAST_CAGE_FACES)
+    is_limited = faces > most
     faces = min(faces, most)
     names = ", ".join(scan.name for scan in near)
     if not scan.triangles.size:
@@ -49,10 +56,10 @@ def make_cage(context: Context, near: Sequence[Object], faces: int) -> Object:
     cage = _copy_of(context, near, scan)
     select_only(context, [cage])
     mesh = cage.data
-    made = None
+    tried, is_whole = 0, False
     if len(near) == 1 or _unite(cage, faces):
-        made = _quads_near(cage, scan, faces, most)
-    if made is None:
+        tried, is_whole = _make_quads_near(cage, scan, faces, most)
+    if not tried:
         bpy.data.objects.remove(cage)
         bpy.data.meshes.remove(mesh)
         raise JobError(
@@ -60,24 +67,28 @@ def make_cage(context: Context, near: Sequence[Object], faces: int) -> Object:
         )
     name = mesh.name
     bpy.data.meshes.remove(mesh)
-    made.name = name
-    return cage
+    cage.data.name = name
+    return MadeCage(cage, is_whole, tried > 1, is_limited)
 
 
-def _quads_near(cage: Object, scan: Scan, faces: int, most: int) -> Mesh | None:
-    """The cage's new mesh; None where QuadriFlow makes none. Its old one stays."""
-    dense, made = cage.data, None
+def _make_quads_near(cage: Object, scan: Scan, faces: int, most: int) -> tuple[int, bool]:
+    """Gives the cage a new mesh, finer and finer until it is near the scan; the old one stays. How many
+    QuadriFlow has made, and whether the last is near.
+    """
+    dense, made = cage.data, 0
     while True:
-        cage.data = tried = dense.copy()
-        if not _make_quads(tried, faces):
-            cage.data = made or dense
-            bpy.data.meshes.remove(tried)
-            return made
-        if made is not None:
-            bpy.data.meshes.remove(made)
-        made = tried
-        if faces == most or is_near(cage, scan):
-            return made
+        before = cage.data
+        cage.data = dense.copy()
+        if not _make_quads(cage.data, faces):
+            failed, cage.data = cage.data, before
+            bpy.data.meshes.remove(failed)
+            return made, False
+        made += 1
+        if before != dense:
+            bpy.data.meshes.remove(before)
+        is_whole = _is_near(cage, scan)
+        if is_whole or faces == most:
+            return made, is_whole
         faces = min(2 * faces, most)
 
 
@@ -130,7 +141,7 @@ def _make_quads(mesh: Mesh, faces: int) -> bool:
     return True
 
 
-def is_near(cage: Object, scan: Scan) -> bool:
+def _is_near(cage: Object, scan: Scan) -> bool:
     """Whether the scan is no farther from the cage than one of its edges."""
     mesh = cage.data
     points = transformed(column(mesh.vertices, "co", width=3), np.array(world_matrix(cage)))

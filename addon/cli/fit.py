@@ -120,7 +120,7 @@ def read(file: Place, options: FitOptions, merge: bool) -> tuple[list[Object], F
         )
     else:
         name = scans[0].name
-        cages = [make_cage(context, scans, options.cage_faces)]
+        cages = [make_cage(context, scans, options.cage_faces).object]
         for one in scans:
             bpy.data.objects.remove(one)
         cages[0].name = name

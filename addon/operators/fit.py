@@ -10,10 +10,10 @@ from bpy.props import IntProperty
 from ..blender import Context, Object
 from ..errors import JobError
 from ..job import Job
-from ..mesh.scans import Scan, is_scan, read_scans
+from ..mesh.scans import is_scan, read_scans
 from ..poll import in_mode
 from ..properties import FitAmount
-from ..scan_cage import LEAST_CAGE_FACES, is_near, make_cage, most_cage_faces
+from ..scan_cage import LEAST_CAGE_FACES, MadeCage, make_cage
 from ..scan_fit import Fit, FitJob
 from ..settings import Settings
 from ..ui.layout import amount_names
@@ -95,8 +95,8 @@ class OBJECT_OT_fairing_fit(Shown, WholeFairing, FitAmount, bpy.types.Operator):
         scan = read_scans(context, scans)
         note = ""
         if cage is None:
-            cage = make_cage(context, scans, self.cage_faces)
-            note = self._note_of(cage, scan)
+            made = make_cage(context, scans, self.cage_faces)
+            cage, note = made.object, self._note_of(made)
         elif 0 < len(scan.points) < len(cage.data.polygons):
             raise JobError(
                 f"{cage.name}: Select the scan first and the cage last, or make the cage coarser. It has"
@@ -110,14 +110,13 @@ class OBJECT_OT_fairing_fit(Shown, WholeFairing, FitAmount, bpy.types.Operator):
             job.notes.append(note)
         return [job]
 
-    def _note_of(self, cage: Object, scan: Scan) -> str:
+    def _note_of(self, made: MadeCage) -> str:
         """What a cage that was made leaves out, or why it has another number of faces than was asked for."""
-        made = len(cage.data.polygons)
-        faces = counted(made, "face")
-        if not is_near(cage, scan):
+        faces = counted(len(made.object.data.polygons), "face")
+        if not made.is_whole:
             return f"The cage leaves out a part of the scan: draw one over it. It has {faces}."
-        if self.cage_faces > most_cage_faces(scan):
+        if made.is_limited:
             return f"The scan has few points: its cage has {faces}, and not more."
-        if made > 1.5 * self.cage_faces:
+        if made.is_finer:
             return f"With {self.cage_faces} faces the cage left out a part of the scan: it has {faces}."
         return ""
