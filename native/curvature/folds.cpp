@@ -6,6 +6,7 @@
 #include "grid/accumulate.h"
 #include "grid/linear.h"
 #include "grid/ring.h"
+#include "grid/turns.h"
 
 namespace fairing {
 namespace {
@@ -51,35 +52,23 @@ void visit_in_face(Cut cut, bool quad, int n, const double* closed, Visit&& visi
   const auto at = [&](GridPoint p) {
     return closed + 3 * (closed_row(quad, std::size_t(n), std::size_t(p.j)) + std::size_t(p.i));
   };
-  const auto look = [&](GridPoint a, GridPoint b, GridPoint left, GridPoint right) {
-    const bool folded =
-        is_folded(cut, Point(at(a)), Point(at(b)), Point(at(left)), Point(at(right)));
-    if (folded) visit(a, b);
-  };
-  if (!quad) {  // every inner edge belongs to one triangle that points down
-    for (int j = 0; j + 1 < n; ++j)
-      for (int i = 0; i + j + 1 < n; ++i) {
-        const GridPoint a{i + 1, j}, b{i + 1, j + 1}, c{i, j + 1};
-        look(a, b, c, {i + 2, j});
-        look(b, c, a, {i, j + 2});
-        look(c, a, b, {i, j});
-      }
-    return;
-  }
-  const auto look_both = [&](GridPoint a, GridPoint b, GridPoint left, GridPoint right) {
+  for_lines_in_face(quad, n, [&](GridPoint a, GridPoint b, GridPoint left, GridPoint right) {
     const auto beside = [&](GridPoint p) {
+      if (!quad) return Corners{{at(p)}, 1};
       return Corners{{at(p), at({p.i + b.i - a.i, p.j + b.j - a.j})}, 2};
     };
     if (is_folded(cut, at(a), at(b), beside(left), beside(right))) visit(a, b);
-  };
+  });
+  if (!quad) return;
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i) {
       const GridPoint a{i, j}, b{i + 1, j}, c{i + 1, j + 1}, d{i, j + 1};
-      if (cut.any() || is_folded(cut, Point(at(b)), Point(at(d)), Point(at(a)), Point(at(c))))
-        look(a, c, d, b);
-      if (cut.any()) look(b, d, a, c);
-      if (j > 0) look_both(a, b, d, {i, j - 1});
-      if (i > 0) look_both(a, d, {i - 1, j}, b);
+      const auto folded = [&](GridPoint from, GridPoint to, GridPoint left, GridPoint right) {
+        return is_folded(cut, Point(at(from)), Point(at(to)), Point(at(left)), Point(at(right)));
+      };
+      const bool other = folded(b, d, a, c);
+      if ((cut.any() || other) && folded(a, c, d, b)) visit(a, c);
+      if (cut.any() && other) visit(b, d);
     }
 }
 
@@ -90,23 +79,13 @@ void visit_on_edge(Cut cut, const GridLevel& grid, Index e, const double* x,
   const ControlMesh& mesh = grid.mesh();
   const EdgeLanes<double> lanes(grid, x, e, scratch);
   const auto beside = [&](std::size_t h, int k) {
-    const Side& side = mesh.sides[std::size_t(mesh.edges[std::size_t(e)].side[h])];
     const double* row = lanes.lane[1 + h] + 3 * k;
-    return Corners{{row, row + 3}, mesh.faces[std::size_t(side.face)].quad() ? 2 : 1};
+    return Corners{{row, row + 3}, mesh.faces[std::size_t(face_beside(mesh, e, h))].quad() ? 2 : 1};
   };
   for (int k = 0; k < grid.n(); ++k)
     if (is_folded(cut, lanes.lane[0] + 3 * k, lanes.lane[0] + 3 * (k + 1), beside(0, k),
                   beside(1, k)))
       visit(k);
-}
-
-bool is_joined(const ControlMesh& mesh, Index e) {
-  return !mesh.edges[std::size_t(e)].boundary() && !mesh.feature_edge[std::size_t(e)] &&
-         mesh.edge_part(e) != RegionPart::outside;
-}
-
-Index face_beside(const ControlMesh& mesh, Index e, std::size_t h) {
-  return mesh.sides[std::size_t(mesh.edges[std::size_t(e)].side[h])].face;
 }
 
 Folds find_folds(Cut cut, const GridLevel& grid, Workers& workers, const double* x,

@@ -7,7 +7,6 @@
 #include <limits>
 #include <nanoflann.hpp>
 
-#include "base/angle.h"
 #include "base/points.h"
 #include "grid/runs.h"
 #include "parallel/reductions.h"
@@ -284,32 +283,6 @@ void FeetFinder::measure(Array<Foot>& feet) const {
   workers_.for_parts(feet.size(), vertex_grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s) finish(s, feet[s]);
   });
-}
-
-std::vector<double> FeetFinder::turns() const {
-  std::vector<double> out(cells_.grid().mesh().faces.size(), 0.0);
-  const auto turn = [&](Index one, Index other) {
-    const double angle =
-        angle_between(cell_normal_[std::size_t(one)], cell_normal_[std::size_t(other)]);
-    for (const Index cell : {one, other}) {
-      double& most = out[std::size_t(cells_.face(cell))];
-      most = std::max(most, angle);
-    }
-  };
-  for (std::size_t c = 0; c < cells_.size(); ++c) {
-    const std::array<Index, 4>& corner = cells_.corners(Index(c));
-    const std::size_t size = cells_.quad(Index(c)) ? 4 : 3;
-    for (std::size_t k = 0; k < size; ++k) {
-      const Index p = corner[k], q = corner[(k + 1) % size];
-      if (on_curve_[std::size_t(p)] && on_curve_[std::size_t(q)]) continue;
-      for (const auto& [cell, at] : cells_.at_point(p)) {
-        const std::array<Index, 4>& there = cells_.corners(cell);
-        if (cell > Index(c) && std::find(there.begin(), there.end(), q) != there.end())
-          turn(Index(c), cell);
-      }
-    }
-  }
-  return out;
 }
 
 }  // namespace fairing

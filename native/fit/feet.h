@@ -40,10 +40,6 @@ class FeetFinder {
     return foot.offset < 0 ? -far : far;
   }
 
-  // For each control face the largest angle by which the surface turns from a cell to the next,
-  // curves aside.
-  std::vector<double> turns() const;
-
   // Finds all feet, starting at the nearest point of the surface. `any_side`: ignores normals.
   void find(Array<Foot>& feet, bool any_side = false) const;
   // Finds again the feet that are farther away than `distance`, or missing.

@@ -39,6 +39,7 @@ class LevelFit {
   int level() const { return level_; }
   const Cells& cells() const { return cells_; }
   const FeetFinder& finder() const { return finder_; }
+  Workers& workers() const { return problem_.levels.workers(); }
   const Array<double>& surface() const { return x_; }
   const Array<Foot>& feet() const { return feet_; }
   const Scan& scan() const { return problem_.scan; }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "grid/turns.h"
+
 namespace fairing {
 namespace {
 
@@ -34,7 +36,7 @@ void round_off(LevelFit& fit, double weight) {
   const double limit = std::min(std::numbers::pi / 2, 10.0 / grid.n());
   std::vector<double> share(grid.mesh().faces.size(), 1.0);
   for (int pass = 0; pass < 9; ++pass) {
-    const std::vector<double> turn = fit.finder().turns();
+    const std::vector<double> turn = sharpest_turns(grid, fit.workers(), fit.surface().data());
     if (*std::max_element(turn.begin(), turn.end()) <= limit) return;
     lessen(grid.mesh(), turn, limit, share);
     fit.set_shares(share);
