@@ -382,13 +382,15 @@ def test_a_block_with_a_flat_concave_face_has_patches_at_a_fine_level():
 
 
 def test_a_thin_tray_misses_few_faces():
-    """Where they shared patches with many spans, 24 of 94 faces missed."""
+    """Its surface still moves beside the rim, so patches were fitted at level 5 only, where 16 of 94 faces
+    had too few spans and missed by 4.6e-4. Where they shared patches with many spans, 24 missed.
+    """
     tray = thin_walls.phone_case()
-    patches = df.fit_patches(
-        *tray[:2], levels=5, crease_angle=np.radians(30), corner_angle=np.radians(45)
-    )
+    patches = df.fit_patches(*tray[:2], crease_angle=np.radians(30), corner_angle=np.radians(45))
+    assert len(patches.unmet_by_surface) and patches.levels == 6
     assert not len(patches.unresolved) and patches.largest_angle < patches.normal_tolerance
-    assert len(patches.unmet_by_fit) <= 16
+    assert len(patches.unmet_by_fit) <= 8
+    assert patches.largest_residual < 1.2e-4 * patches.size
 
 
 def test_faces_much_longer_than_wide_do_not_fold():

@@ -219,7 +219,7 @@ def _at_own_level(
         done = part
         if best is None or _faults(found, serves) <= _faults(best, serves):
             best = found
-        if last or not any(_faults(found, serves)) or _has_all_spans(found):
+        if last or not any(_faults(found, serves)) or _has_all_spans(found, serves):
             break
     assert best is not None  # the last level fits, or refuses
     return run.checked(best)
@@ -227,16 +227,17 @@ def _at_own_level(
 
 def _faults(patches: SplinePatches, serves: bool) -> tuple[int, int]:
     """How many faces are not resolved, or miss a tolerance that a finer level may meet."""
-    return len(patches.unresolved), len(patches.unmet) if serves else 0
+    missing = patches.unmet if serves else patches.unmet_by_fit
+    return len(patches.unresolved), len(missing)
 
 
-def _has_all_spans(patches: SplinePatches) -> bool:
-    """Whether patches miss what no finer level mends: the surface is fine enough everywhere, and a patch
-    has no more than 16 spans, of four steps of the lattice each; one of a triangle is half as wide.
-    What folds on one level may not on the next.
+def _has_all_spans(patches: SplinePatches, serves: bool) -> bool:
+    """Whether patches miss what no finer level mends: the surface is fine enough everywhere, or never
+    will be, and a patch has no more than 16 spans, of four steps of the lattice each; one of a triangle
+    is half as wide. What folds on one level may not on the next.
     """
     level = 7 if len(patches.result.faces[0]) else 6
-    settled = not len(patches.unresolved) and not len(patches.unmet_by_surface)
+    settled = not len(patches.unresolved) and not (serves and len(patches.unmet_by_surface))
     return patches.levels >= level and settled
 
 
