@@ -239,9 +239,7 @@ Vec3 CurveSource::normal_inside(Index f, double i, double j, const Vec3& at) con
 }
 
 CurveData CurveSource::inner(Index f, int s, const std::vector<FittedCurve>& curves) const {
-  const ChainPlace side =
-      topology_.places[std::size_t(topology_.face_edges[std::size_t(f)][std::size_t(s)])];
-  const FittedCurve& edge = curves[std::size_t(side.chain)];
+  const FittedCurve& edge = curves[std::size_t(topology_.chain_of({f, s}))];
   const int n = lattice_.n(), count = std::max(8, samples() / 2);
   CurveData out;
   for (int k = 0; k <= count; ++k) {

@@ -8,11 +8,14 @@
 #include "splines/assembly.h"
 #include "splines/chains.h"
 #include "splines/curve_data.h"
+#include "splines/kept.h"
 #include "splines/patch_data.h"
 #include "splines/turns.h"
 
 namespace fairing {
 namespace {
+
+bool any(const std::vector<std::uint8_t>& flags) { return std::ranges::count(flags, 1) > 0; }
 
 class Fitting {
  public:
@@ -45,56 +48,33 @@ class Fitting {
  private:
   // Curves and patches that are as they were before some grids became two are not fitted again.
   void take_over(const Topology& before) {
-    const std::size_t chains = topology_.chains.size(), old_chains = before.chains.size();
-    auto curves = std::exchange(curves_, {});
-    auto fitted = std::exchange(fitted_, {});
-    const auto strict = std::exchange(strict_, {}), sharper = std::exchange(sharper_, {}),
-               settled = std::exchange(settled_, {});
-    curves_.resize(std::size_t(topology_.curves(lattice_)));
-    new_curves_.assign(curves_.size(), 1);
-    strict_.assign(curves_.size(), 0);
-    sharper_ = strict_;
-    fitted_.resize(topology_.patches.size());
-    new_patches_.assign(fitted_.size(), 1);
-    settled_.assign(fitted_.size(), 0);
-    if (old_chains == 0) return;
-    const auto keep_curve = [&](std::size_t c, std::size_t old) {
-      curves_[c] = std::move(curves[old]);
-      strict_[c] = strict[old];
-      sharper_[c] = sharper[old];
-      new_curves_[c] = 0;
-    };
-    for (std::size_t c = 0; c < chains; ++c) {
-      const Index old = before.places[std::size_t(topology_.chains[c].edges[0])].chain;
-      if (old >= 0 && before.chains[std::size_t(old)] == topology_.chains[c])
-        keep_curve(c, std::size_t(old));
-    }
-    for (std::size_t k = 0; chains + k < curves_.size(); ++k)
-      if (!new_curves_[std::size_t(chain_of(Index(k / 3), int(k % 3)))])
-        keep_curve(chains + k, old_chains + k);
-    std::vector<std::array<std::size_t, 3>> place_of(std::size_t(lattice_.faces()));
-    const auto place = [&](const PatchPlace& patch) -> std::size_t& {
-      return place_of[std::size_t(patch.grid.faces[0].face)]
-                     [std::size_t(std::max(0, patch.corner))];
-    };
-    for (std::size_t p = 0; p < before.patches.size(); ++p) place(before.patches[p]) = p + 1;
-    for (std::size_t p = 0; p < fitted_.size(); ++p) {
-      const PatchPlace& own = topology_.patches[p];
-      const std::size_t old = place(own);
-      if (old == 0 || !(before.patches[old - 1].grid == own.grid) ||
-          std::any_of(own.side.begin(), own.side.end(),
-                      [&](const PatchSide& side) { return new_curves_[std::size_t(side.curve)]; }))
-        continue;
-      fitted_[p] = std::move(fitted[old - 1]);
-      settled_[p] = settled[old - 1];
-      new_patches_[p] = 0;
-    }
+    const Kept kept = kept_from(lattice_, before, topology_);
+    take(kept.curves, curves_);
+    take(kept.curves, strict_);
+    take(kept.curves, sharper_);
+    take(kept.patches, fitted_);
+    take(kept.patches, settled_);
+    new_curves_ = are_new(kept.curves);
+    new_patches_ = are_new(kept.patches);
+  }
+
+  template <class T>
+  static void take(const std::vector<Index>& from, std::vector<T>& all) {
+    auto old = std::exchange(all, std::vector<T>(from.size()));
+    for (std::size_t k = 0; k < from.size(); ++k)
+      if (from[k] >= 0) all[k] = std::move(old[std::size_t(from[k])]);
+  }
+
+  static std::vector<std::uint8_t> are_new(const std::vector<Index>& from) {
+    std::vector<std::uint8_t> out;
+    for (const Index old : from) out.push_back(old < 0);
+    return out;
   }
 
   void fit_all() {
     fit_curves(new_curves_);
     monitor_.report(Phase::patches, 0.25);
-    fit_patches();
+    fit_patches(new_patches_);
     monitor_.report(Phase::patches, 0.625);
     unfold();
     refine_at_edges();
@@ -128,24 +108,6 @@ class Fitting {
     return lattice_.size() * std::min(options_.tolerance, options_.normal_tolerance / 8) /
            (sharper_[c] ? 8 : 2);
   }
-  // On so many faces' sides of all in a row, or on a third's; of so many steps a span. The equations of
-  // a patch take time by the fourth power of its spans: one face has many, where it needs them, and
-  // several have few on each, in all as many as an edge has samples.
-  int most_on(int faces, bool several, bool third, int steps = steps_a_span) const {
-    int each = std::clamp(lattice_.n() / (third ? 2 * steps : steps), 1,
-                          several ? most_spans / steps_a_span : most_spans);
-    while (each > 1 && faces * each > steps_a_span * most_spans) each /= 2;
-    return faces * each;
-  }
-  int most_of(const PatchPlace& place, int faces, int steps = steps_a_span) const {
-    return most_on(faces, place.several(), place.corner >= 0, steps);
-  }
-
-  // Where neighbours lean, their normals vary faster beside a vertex than a span's steps tell.
-  int most_at_edges(const PatchPlace& place, int faces) const {
-    return most_of(place, faces, steps_a_span / 2);
-  }
-
   template <class Body>
   void for_each(std::size_t size, Body&& body) {
     workers_.for_parts(size, 1, [&](std::size_t begin, std::size_t end) {
@@ -164,8 +126,8 @@ class Fitting {
     const std::size_t chains = topology_.chains.size();
     const auto limits = [&](std::size_t c) {
       const EdgeChain& chain = topology_.chains[c];
-      const int least = least_spans(chain);
-      return SpanLimits{least, std::max(least, most_on(chain.halves() / 2, false, false)),
+      const int least = chain.least_spans();
+      return SpanLimits{least, std::max(least, most_spans_on(lattice_, int(chain.edges.size()))),
                         curve_tolerance(c)};
     };
     const auto fit_kind = [&](bool smooth, auto&& data_of) {
@@ -184,24 +146,12 @@ class Fitting {
     for_each(3 * std::size_t(lattice_.triangle_faces()), [&](std::size_t k) {
       const Index f = Index(k / 3);
       const int s = int(k % 3);
-      if (!which[chains + k] && !which[std::size_t(chain_of(f, s))]) return;
+      if (!which[chains + k] && !which[std::size_t(topology_.chain_of({f, s}))]) return;
       CurveData data = source.inner(f, s, curves_);
       hold_to_line(data, chains + k);
-      curves_[chains + k] =
-          fit_curve(data, SpanLimits{1, most_on(1, false, true), curve_tolerance(chains + k)});
+      curves_[chains + k] = fit_curve(
+          data, SpanLimits{1, most_spans_on(lattice_, 1, true), curve_tolerance(chains + k)});
     });
-  }
-
-  Index chain_of(Index f, int s) const {
-    return topology_.places[std::size_t(topology_.face_edges[std::size_t(f)][std::size_t(s)])]
-        .chain;
-  }
-
-  // Thin plates have poles of curvature at vertices, so all vertices are at knots. Cuts take
-  // degrees of freedom.
-  static int least_spans(const EdgeChain& chain) {
-    const int edges = int(chain.edges.size()), cuts = int(chain.cuts.size()) - 2;
-    return 2 * cuts > edges ? 2 * edges : edges;
   }
 
   void fit_patch_to(std::size_t p, int spans_u, int spans_v, bool to_tolerance) {
@@ -216,8 +166,8 @@ class Fitting {
     data.may_fold = place.several() || turns_sharply(place);  // several are cut in two
     for (const int s : {0, 2}) spans_u = std::max(spans_u, data.side[std::size_t(s)].spans);
     for (const int s : {1, 3}) spans_v = std::max(spans_v, data.side[std::size_t(s)].spans);
-    const int most_u = std::max(most_of(place, place.grid.columns), spans_u),
-              most_v = std::max(most_of(place, place.grid.rows), spans_v);
+    const int most_u = std::max(place.most_spans(lattice_, place.grid.columns), spans_u),
+              most_v = std::max(place.most_spans(lattice_, place.grid.rows), spans_v);
     const auto fit = [&](int u, int v, bool last) {
       choose_fitted(lattice_, place, u, v, data);
       FittedPatch next = fit_patch(data, u, v, last && !place.several());
@@ -242,14 +192,17 @@ class Fitting {
   }
 
   bool turns_sharply(const PatchPlace& place) const {
-    return std::any_of(
-        place.grid.faces.begin(), place.grid.faces.end(),
-        [&](const PlacedFace& face) { return turns_[std::size_t(face.face)] > folded; });
+    return std::ranges::any_of(place.grid.faces, [&](const PlacedFace& face) {
+      return turns_[std::size_t(face.face)] > folded;
+    });
   }
 
-  void fit_patches() {
+  // The flagged patches.
+  void fit_patches(const std::vector<std::uint8_t>& which) {
     for_each(fitted_.size(), [&](std::size_t p) {
-      if (!new_patches_[p]) return;
+      if (!which[p]) return;
+      fitted_[p] = {};
+      settled_[p] = 0;
       fit_patch_to(p, topology_.patches[p].grid.columns, topology_.patches[p].grid.rows, true);
     });
   }
@@ -261,12 +214,12 @@ class Fitting {
     for (const std::uint8_t strict : {1, 2}) {
       std::vector<std::uint8_t> which(curves_.size(), 0);
       for (std::size_t p = 0; p < fitted_.size(); ++p)
-        if (fitted_[p].misses.folds && !topology_.patches[p].several() &&
-            !turns_sharply(topology_.patches[p]))
-          for (const PatchSide& side : topology_.patches[p].side)
-            if (strict_[std::size_t(side.curve)] < strict) {
+        if (const PatchPlace& place = topology_.patches[p];
+            fitted_[p].misses.folds && !place.several() && !turns_sharply(place))
+          for (const PatchSide& side : place.side)
+            if (std::uint8_t& own = strict_[std::size_t(side.curve)]; own < strict) {
               which[std::size_t(side.curve)] = 1;
-              strict_[std::size_t(side.curve)] = strict;
+              own = strict;
             }
       fit_again(which);
     }
@@ -300,27 +253,23 @@ class Fitting {
       const PatchPlace& place = topology_.patches[p];
       for (const PatchSide& side : place.side) blunt(side.curve);
       if (place.corner >= 0)  // the other curves of a triangle follow its sides
-        for (int s = 0; s < 3; ++s) blunt(chain_of(place.grid.faces[0].face, s));
+        for (int s = 0; s < 3; ++s) blunt(topology_.chain_of({place.grid.faces[0].face, s}));
     }
     fit_again(which);
   }
 
   // Fits the flagged curves again, and the patches on both sides.
   bool fit_again(std::vector<std::uint8_t>& which) {
-    if (std::find(which.begin(), which.end(), 1) == which.end()) return false;
+    if (!any(which)) return false;
     fit_curves(which);
     for (std::size_t k = 0; k < 3 * std::size_t(lattice_.triangle_faces()); ++k)
-      if (which[std::size_t(chain_of(Index(k / 3), int(k % 3)))])
+      if (which[std::size_t(topology_.chain_of({Index(k / 3), int(k % 3)}))])
         which[topology_.chains.size() + k] = 1;
-    for_each(fitted_.size(), [&](std::size_t p) {
-      const auto& sides = topology_.patches[p].side;
-      if (std::none_of(sides.begin(), sides.end(),
-                       [&](const PatchSide& side) { return which[std::size_t(side.curve)]; }))
-        return;
-      fitted_[p] = {};
-      settled_[p] = 0;
-      fit_patch_to(p, topology_.patches[p].grid.columns, topology_.patches[p].grid.rows, true);
-    });
+    std::vector<std::uint8_t> beside;
+    for (const PatchPlace& place : topology_.patches)
+      beside.push_back(std::ranges::any_of(
+          place.side, [&](const PatchSide& side) { return which[std::size_t(side.curve)]; }));
+    fit_patches(beside);
     return true;
   }
 
@@ -341,7 +290,8 @@ class Fitting {
       const int spans_u = fitted_[p].patch.spans_u, spans_v = fitted_[p].patch.spans_v;
       const Misses before = fitted_[p].misses;
       const auto more = [&](int spans, int faces) {
-        return (2 * spans <= most_at_edges(place, faces) ? 2 : 1) * spans;
+        // where neighbours lean, normals vary faster beside a vertex than a span's steps tell
+        return (2 * spans <= place.most_spans(lattice_, faces, steps_a_span / 2) ? 2 : 1) * spans;
       };
       const int more_u = more(spans_u, place.grid.columns), more_v = more(spans_v, place.grid.rows);
       const int u = wanted[p].u ? more_u : spans_u, v = wanted[p].v ? more_v : spans_v;
@@ -351,7 +301,7 @@ class Fitting {
       changed[p] = fitted_[p].misses < before;
       settled_[p] = !changed[p];
     });
-    return std::find(changed.begin(), changed.end(), 1) != changed.end();
+    return any(changed);
   }
 
   SplineOptions options_;

@@ -100,6 +100,18 @@ bool Topology::runs_back(HalfEdge h) const {
   return false;
 }
 
+int EdgeChain::least_spans() const {
+  const int all = int(edges.size()), inside = int(cuts.size()) - 2;
+  return 2 * inside > all ? 2 * all : all;
+}
+
+int most_spans_on(const Lattice& lattice, int faces, bool third, bool several, int steps) {
+  int each = std::clamp(lattice.n() / (third ? 2 * steps : steps), 1,
+                        several ? most_spans / steps_a_span : most_spans);
+  while (each > 1 && faces * each > steps_a_span * most_spans) each /= 2;
+  return faces * each;
+}
+
 bool in_tip(const Lattice& lattice, const Topology& topology, Index f, GridPoint p) {
   const int n = lattice.n(), far = n - p.i - p.j;
   const std::array<int, 4> in_quad{std::max(p.i, p.j), std::max(n - p.i, p.j),

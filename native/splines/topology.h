@@ -43,6 +43,9 @@ struct EdgeChain {
   std::vector<int> cuts;               // ends of patches, in half edges; includes both ends
 
   int halves() const { return 2 * int(edges.size()); }
+  // Thin plates have poles of curvature at vertices, so all vertices are at knots. Cuts take
+  // degrees of freedom.
+  int least_spans() const;
   bool operator==(const EdgeChain&) const = default;
 };
 
@@ -51,6 +54,12 @@ struct ChainPlace {
   Index chain = -1;
   int at = 0;
 };
+
+// On so many faces' sides in a row, or on a third's, with so many steps a span. The equations of a
+// patch take time by the fourth power of its spans: one face has many, where it needs them, and
+// `several` have few on each, in all as many as an edge has samples.
+int most_spans_on(const Lattice& lattice, int faces, bool third = false, bool several = false,
+                  int steps = steps_a_span);
 
 // The part of a curve that is a side of a patch, in half edges of `all`. Curves are numbered:
 // chains first, then three for each triangle, from the midpoint of side s to the centroid.
@@ -67,6 +76,10 @@ struct PatchPlace {
   std::array<PatchSide, 4> side;
 
   bool several() const { return grid.faces.size() > 1; }
+  // On so many of its faces in a row.
+  int most_spans(const Lattice& lattice, int faces, int steps = steps_a_span) const {
+    return most_spans_on(lattice, faces, corner >= 0, several(), steps);
+  }
 };
 
 // Whether the creases that bound a sector of a vertex lie in one plane there, as on a smooth
@@ -91,6 +104,10 @@ struct Topology {
   // The same edge from the other side; without a face unless there is exactly one.
   HalfEdge twin(HalfEdge h) const;
   bool runs_back(HalfEdge h) const;  // opposite to its edge
+  // The chain of a side of a triangle; no patch goes on there.
+  Index chain_of(HalfEdge h) const {
+    return places[std::size_t(face_edges[std::size_t(h.face)][std::size_t(h.side)])].chain;
+  }
   Index curves(const Lattice& lattice) const {
     return Index(chains.size()) + 3 * lattice.triangle_faces();
   }
