@@ -110,18 +110,6 @@ def triangle(**attributes):
     )
 
 
-@pytest.mark.parametrize(
-    "threshold, expected",
-    [(0.0, [(0, 1), (1, 2)]), (0.5, [(0, 1), (1, 2)]), (0.6, [(0, 1)]), (None, [])],
-)
-def test_crease_threshold(threshold, expected):
-    weights = np.array([1.0, 0.5, 0.0, 1.0], np.float32)
-    assert [tuple(e) for e in triangle(edge_crease=weights).crease_edges(threshold)] == expected
-    corners = [0, 1] if threshold is not None and threshold <= 0.5 else [0]
-    found = triangle(vertex_crease=weights).corner_vertices(threshold).tolist()
-    assert found[: len(corners)] == ([] if threshold is None else corners)
-
-
 def test_threshold_compares_in_the_precision_of_the_attribute():
     weights = np.full(4, 0.1, np.float32)
     assert len(triangle(edge_crease=weights).crease_edges(0.1)) == 3
@@ -141,16 +129,6 @@ def test_flat_faces_reach_the_core():
     marks.data[2].value = marks.data[5].value = True
     assert arguments(mesh, energy="THIN_PLATE")["flat_faces"].tolist() == [2, 5]
     assert "flat_faces" not in arguments(mesh, energy="TOTAL_CURVATURE")
-
-
-def test_sharp_edges_add_to_creases():
-    arrays = triangle(
-        edge_crease=np.array([1, 0, 0, 0], np.float32),
-        sharp_edge=np.array([True, False, True, True]),
-    )
-    assert [tuple(e) for e in arrays.crease_edges(0.5, use_sharp=True)] == [(0, 1), (0, 2)]
-    assert [tuple(e) for e in arrays.crease_edges(0.5, use_sharp=False)] == [(0, 1)]
-    assert [tuple(e) for e in arrays.crease_edges(None, use_sharp=True)] == [(0, 1), (0, 2)]
 
 
 KINDS = [None, 1, True, 0.5, "x", np.arange(3), np.arange(4), np.zeros(3, int), {"a": 1}, {"b": 1}]

@@ -9,10 +9,8 @@ from pathlib import Path
 import bpy
 import discrete_fairing as df
 import numpy as np
-import one_sided_meshes
 import pytest
 from discrete_fairing.options import OPTIONAL, SETTINGS
-from scenes import CUBE
 
 from addon.preferences import DiscreteFairingPreferences
 from addon.properties import FairingSettings
@@ -173,46 +171,3 @@ def test_examples_run(name, left, tmp_path, monkeypatch):
     for number, block in enumerate(blocks, 1):
         exec(compile(block, f"{name}, example {number}", "exec"), namespace)
     assert [path.name for path in tmp_path.iterdir()] == left
-
-
-def table_rows(text, first):
-    """Cells of the rows of the first table whose head begins with `first`."""
-    lines = text[text.index(f"| {first}") :].split("\n\n")[0].splitlines()
-    return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines[2:]]
-
-
-# Each row of the table of energies: how fair is asked for it.
-ENERGIES = ("thin_plate", "total_curvature", "minimum_variation")
-
-
-NORMALS = np.full((8, 3), np.nan)
-NORMALS[7] = 1.0
-ASKED = {
-    "One-sided sheets": (one_sided_meshes.strip(), {}),
-    "Fixed normals (`normals`)": (CUBE, {"normals": NORMALS}),
-    "Flat faces (`flat_faces`)": (CUBE, {"flat_faces": [0]}),
-    "Tension (`tension`)": (CUBE, {"tension": 0.5}),
-    "`epsilon`": (CUBE, {"epsilon": 0.1}),
-    '`method="back_leg"`': (CUBE, {"method": "back_leg"}),
-    "Tolerance and weights": (CUBE, {"interpolation": "approximate", "tolerance": 0.1}),
-    '`interpolation="limit"`': (CUBE, {"interpolation": "limit"}),
-}
-
-
-def takes(mesh, options, energy):
-    try:
-        df.fair(*mesh, levels=1, energy=energy, **options)
-    except df.FairingError:
-        return False
-    return True
-
-
-def test_the_table_of_energies_is_what_the_core_takes():
-    rows = table_rows((DOCS / "python" / "fair.md").read_text("utf-8"), "| Thin plate")
-    said = {what: [cell == "yes" for cell in cells] for what, *cells in rows}
-    assert said.keys() == ASKED.keys()
-    found = {
-        what: [takes(mesh, options, energy) for energy in ENERGIES]
-        for what, (mesh, options) in ASKED.items()
-    }
-    assert said == found

@@ -3,7 +3,6 @@
 
 import re
 from pathlib import Path
-from types import SimpleNamespace
 
 import bpy
 import pytest
@@ -81,25 +80,3 @@ def test_every_code_has_a_remedy_or_speaks_for_itself():
     away = fairing_error("BAD_OPTION", "1 vertex (3) is to look away.", cure="Free its normal.")
     text = errors.error_text("Box", away)
     assert text == "Box: Free its normal. 1 vertex (3) is to look away."
-
-
-def test_no_remedy_is_given_twice():
-    add("Twice", [(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2), (0, 1, 2)])
-    with pytest.raises(RuntimeError) as refusal:
-        fair(levels=1, repair="REFUSE")
-    said = str(refusal.value)
-    assert said.count("elete") == 1 and "Delete one of each pair." in said
-    assert "same vertices" in said, "and what is wrong"
-
-
-@pytest.mark.parametrize(
-    "energy, tension, said",
-    [("THIN_PLATE", 0.0, True), ("THIN_PLATE", 1.0, False), ("MINIMUM_VARIATION", 0.0, False)],
-)
-def test_more_tension_is_advised_where_there_is_more(energy, tension, said):
-    settings = SimpleNamespace(energy=energy, tension=tension, interpolation="EXACT")
-    assert ("raise Tension" in errors.remedy("UNRESOLVED", settings)) == said
-    assert ("Tension" in errors.faults_remedy(settings)) == (
-        said or energy == "MINIMUM_VARIATION"  # another energy, which has it
-    )
-    assert "Tension" not in errors.remedy("UNRESOLVED")

@@ -16,14 +16,11 @@ from scenes import (
     positions,
     recompute,
     reopen,
-    settings,
     to_object_mode,
 )
 
-from addon import events, freshness, job, memory
+from addon import events, memory
 from addon.freshness import SETTINGS_CHANGED, SOURCE_CHANGED, stale_surfaces, why_stale
-from addon.mesh import read as mesh_read
-from addon.mesh import timed_run
 from addon.mesh.boundary_marks import BOUNDARY
 from addon.mesh.fixed_normals import NORMAL
 from addon.ui import main, outliner
@@ -168,25 +165,6 @@ def test_a_setting_that_is_newer_than_the_surface_has_not_changed():
     assert why_stale(target) == ""
     target.discrete_fairing.pad_size = 0.5
     assert why_stale(target) == SETTINGS_CHANGED
-
-
-def test_a_run_reads_its_mesh_once(monkeypatch):
-    """And keeps with the surface what the look afterwards finds again."""
-    reads, read = [], mesh_read.read_mesh
-
-    def counted(mesh):
-        reads.append(mesh.name)
-        return read(mesh)
-
-    source = add("Box", *CUBE)
-    add_key(source)
-    for module in (timed_run, freshness):
-        monkeypatch.setattr(module, "read_mesh", counted)
-    made = job.Job(bpy.context, source, settings())
-    assert reads == ["Box"]
-    made.compute()
-    target = made.write(bpy.context)
-    assert why_stale(target) == ""
 
 
 def test_a_listener_that_fails_keeps_no_other_from_being_told(capfd):

@@ -43,23 +43,6 @@ def test_symmetry_is_exact(energy):
     assert mirror_defect(positions(result.data) + np.float32(0.0)) == 0
 
 
-def test_symmetry_is_not_exact_by_itself():
-    source = add_suzanne()
-    result = fair(levels=3, energy="THIN_PLATE")
-    assert mirror_defect(positions(result.data) + np.float32(0.0)) == 0
-    loose = again(source, levels=3, energy="THIN_PLATE", keep_symmetry=False)
-    assert mirror_defect(positions(loose.data) + np.float32(0.0)) > 0, "else the test says nothing"
-
-
-def test_a_surface_that_is_not_symmetric_is_noted():
-    job = computed(Job(bpy.context, add("Box", *CUBE), settings(keep_symmetry=False)))
-    assert not any("symmetric" in note for note in job.notes)
-    job.result.vertices[8:, 1] += 0.1
-    job._symmetrize()
-    (note,) = [note for note in job.notes if "its surface is not" in note]
-    assert "symmetric in Y" in note
-
-
 def test_modifiers_are_copied_on_request_only(source):
     source.modifiers.new("Thick", "SOLIDIFY").thickness = 0.25
     assert not fair(levels=1).modifiers
@@ -85,15 +68,6 @@ def test_inspected_surface_stays_inspected(source):
     source.data.vertices[0].co *= 2.0
     bpy.ops.object.fairing_recompute()
     assert inspection_modifier(result) and "fair_gauss_curvature" in result.data.attributes
-
-
-@pytest.mark.parametrize(("peak", "said"), [(30e6, False), (3e9, True)])
-def test_little_memory_is_not_worth_a_word(peak, said):
-    job = computed(Job(bpy.context, add("Box", *CUBE), settings()))
-    notice = {"code": "MEMORY_EXCEEDED", "message": "This took more."}
-    notice |= {"elements": [], "kind": "mesh"}
-    job.result.report.update(warnings=[notice], peak_bytes=int(peak))
-    assert job.warnings() == (["Box: This took more."] if said else [])
 
 
 def test_a_source_that_is_deleted_meanwhile_is_noticed(source):

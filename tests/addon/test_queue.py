@@ -12,7 +12,7 @@ import pytest
 
 from addon.errors import JobCancelled, JobError
 from addon.operators.modal import status_text
-from addon.queue import ConsoleProgress, Queue
+from addon.queue import Queue
 
 pytestmark = pytest.mark.plain
 
@@ -97,14 +97,3 @@ def test_failure_is_kept(error, words):
     first.go_on.set()
     queue.join()
     assert words in queue.error and not second.begun.is_set()
-
-
-def test_console_progress_prints_each_tenth_once(capsys):
-    progress = ConsoleProgress("Box")
-    for fraction in (0.0, 0.04, 0.11, 0.19, 1.0):
-        progress(fraction, "solve")
-    assert capsys.readouterr().out.splitlines() == [
-        "Box: Fairing, 0 %",
-        "Box: Fairing, 10 %",
-        "Box: Fairing, 100 %",
-    ]

@@ -381,6 +381,22 @@ def test_a_block_with_a_flat_concave_face_has_patches_at_a_fine_level():
     assert "STRAIGHT_CURVE" not in [w["code"] for w in patches.result.report["warnings"]]
 
 
+def test_a_finer_level_that_folds_takes_no_patches_away(monkeypatch):
+    fair, folded = fitting.fair, []
+
+    def folded_at_level_6(points, faces, level, **options):
+        result = fair(points, faces, level, **options)
+        if level == 6:
+            result.vertices[-1] = result.vertices[0]
+            folded.append(result)
+        return result
+
+    monkeypatch.setattr(fitting, "fair", folded_at_level_6)
+    patches = df.fit_patches(*block_over_an_l(), **SHARP)
+    assert not len(patches.unresolved) and patches.shell_closed.all()
+    assert folded and patches.levels == 5
+
+
 def test_a_thin_tray_misses_few_faces():
     """Its surface still moves beside the rim, so patches were fitted at level 5 only, where 16 of 94 faces
     had too few spans and missed by 4.6e-4. Where they shared patches with many spans, 24 missed.

@@ -153,25 +153,6 @@ def test_an_open_sheet_keeps_its_corners_by_default(tmp_path, capfd):
     assert (found.faces, found.free_edges) == (1, 4)  # a surface, with a corner at each end
 
 
-def test_a_missed_tolerance_is_said_and_the_file_written(tmp_path, capfd):
-    ball = sphere()
-    assert export(tmp_path / "ball.step", fit_tolerance=1e-7, fit_levels=3) == {"FINISHED"}
-    assert (tmp_path / "ball.step").exists()
-    assert "miss the tolerance" in capfd.readouterr().out
-    assert "PATCH_TOLERANCE" in ball.discrete_fairing.defects
-
-
-def test_a_surface_that_has_not_settled_is_told_from_patches_that_miss(tmp_path, capfd):
-    """A thin plate moves at its control vertices from level to level: no patch cures that."""
-    ball = add("Ball", *CUBE)
-    assert export(tmp_path / "ball.step") == {"FINISHED"}
-    told = capfd.readouterr().out
-    assert "Warning: Ball: Raise Tolerance, or set Fairness to Curvature" in told
-    assert "PATCH_TOLERANCE" not in ball.discrete_fairing.defects
-    assert bpy.ops.object.fairing_select_defect(index=0) == {"FINISHED"}
-    assert sum(face.select for face in ball.data.polygons) == 6
-
-
 def test_refusals(tmp_path):
     with pytest.raises(RuntimeError, match="Select a mesh or a faired surface first"):
         export("never.step")

@@ -6,14 +6,11 @@ from pathlib import Path
 import bmesh
 import bpy
 import pytest
-from fake_layout import draw
 from scenes import CUBE, activate, add, to_object_mode
 
-from addon import errors
 from addon.check import repair
-from addon.check.defects import recall_defects, select_defects
+from addon.check.defects import recall_defects
 from addon.mesh import mesh_changes
-from addon.ui import check as check_panel
 
 BAD = Path(__file__).resolve().parents[4] / "shared" / "data" / "bad"
 
@@ -141,28 +138,6 @@ def test_the_record_goes_stale_when_the_shape_changes():
     mesh_changes._forget()  # as after loading a file: the counts still tell
     box.data.vertices.add(1)
     assert recall_defects(box)[1]
-
-
-def test_select_defects_for_a_failed_run():
-    fan = add("Fan", *FAN)
-    other = add("Other", *CUBE)
-    assert select_defects(bpy.context, fan, "edge", [(1, 0)]) == 1
-    assert (fan.mode, other.mode) == ("EDIT", "OBJECT")
-    assert len(selected(fan, "edges")) == 1
-    assert select_defects(bpy.context, fan, "vertex", [2, 99]) == 1
-    assert select_defects(bpy.context, fan, "mesh", []) == 0
-
-
-def test_every_repair_has_a_remedy():
-    for code in (*repair._REPAIRS, *errors._WHAT):
-        assert errors.remedy(code)
-
-
-def test_the_panel_says_what_is_wrong_and_offers_the_repair():
-    add("Box", *FLIPPED)
-    check()
-    text = " ".join(draw(check_panel.VIEW3D_PT_fairing_check))
-    assert "1 face points against" in text and "Flip Faces" in text and "Shift N" in text
 
 
 LOAD = {

@@ -1,25 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A source with defects: what is mended, said and shown, and that all it carries comes along."""
 
-from pathlib import Path
-
 import bpy
 import numpy as np
 import pytest
-from cli_files import box
-from cli_runs import entries, imported, run
 from live_scenes import live, pull, through
 from refined import corner_vertices, values
 from scenes import CUBE, add, again, fair, positions, recompute, snapshot
 
 from addon.memory import recall
-
-BAD = Path(__file__).resolve().parents[4] / "shared" / "data" / "bad"
-FILES = [
-    p
-    for kind in ("degenerate", "orientation", "soup_seams")
-    for p in sorted((BAD / kind).glob("*.*"))
-]
 
 # two triangles over the edge 0-1, one below it in two parts with the vertex 4 between, and the
 # triangle without area that fills the gap
@@ -94,17 +83,6 @@ def test_uvs_and_attributes_follow():
     assert np.array_equal(corner // 3, face)
 
 
-def test_shape_keys_follow():
-    source = add_defective()
-    source.shape_key_add(name="Basis")
-    key = source.shape_key_add(name="Up")
-    for point in key.data:
-        point.co.z += 1.0
-    keys = fair(levels=1).data.shape_keys.key_blocks
-    moved = [b.co.z - a.co.z for a, b in zip(keys["Basis"].data, keys["Up"].data)]
-    assert np.allclose(moved, 1.0, atol=1e-5)
-
-
 def test_recompute_mends_what_is_there_now():
     source = add_defective()
     result = fair(levels=1)
@@ -138,36 +116,3 @@ def test_symmetry_is_kept_where_a_vertex_was_merged():
     found = positions(fair(levels=2, keep_symmetry=True).data)
     image = found * np.array([-1, 1, 1], np.float32)
     assert set(map(tuple, found + 0.0)) == set(map(tuple, image + 0.0))
-
-
-def write_apart(path, gap=0.0):
-    """A box as an OBJ whose faces have vertices of their own, moved apart by up to `gap`."""
-    points = box()[np.ravel(CUBE[1])] + gap * np.random.default_rng(2).uniform(-1, 1, (24, 3))
-    lines = [f"v {x:.6f} {y:.6f} {z:.6f}" for x, y, z in points]
-    lines += [f"f {4 * f + 1} {4 * f + 2} {4 * f + 3} {4 * f + 4}" for f in range(6)]
-    path.write_text("\n".join(lines) + "\n")
-
-
-def test_the_command_line_welds(tmp_path, monkeypatch, capfd):
-    monkeypatch.chdir(tmp_path)
-    write_apart(tmp_path / "in.obj", gap=1e-4)
-    code, (record,) = entries("in.obj", "out.obj", "--levels", 1, "--weld", 0.001)
-    assert code == 0
-    (act,) = record["objects"][0]["report"]["repairs"]
-    assert act["code"] == "COINCIDENT_VERTICES" and len(act["elements"]) == 16
-    assert "in.obj: mended: 16 vertices merged" in capfd.readouterr().err
-    assert len(imported("out.obj")[0]) == 26, "the surface is closed now"
-    assert run("in.obj", "loose.obj", "--levels", 1) == 0
-    assert len(imported("loose.obj")[0]) == 6 * 9
-
-
-@pytest.mark.skipif(not FILES, reason="no shared meshes")
-@pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)
-def test_files_with_defects(path, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    code, (record,) = entries(path, "out.ply", "--levels", 1, "--weld", 0)
-    if code:  # what mending leaves to others: sheets that meet, and one-sided ones
-        left = {"NONMANIFOLD_EDGE", "NONMANIFOLD_VERTEX", "NON_ORIENTABLE"}
-        assert record["error"]["code"] in left
-        return
-    assert np.isfinite(imported("out.ply")[0]).all()

@@ -1,17 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The command on real files: what goes in comes out finer, with exit codes and a report."""
 
-import json
 import signal
 from pathlib import Path
 
-import bpy
 import numpy as np
 import pytest
 from cli_files import BOX_QUADS, read_obj, write_obj, write_ply, write_stl
-from cli_runs import contains, entries, imported, process, run
+from cli_runs import contains, entries, imported, run
 
-from addon import cli as registration
 from addon import core
 from addon.cli import main as command
 
@@ -99,24 +96,6 @@ def test_settings_reach_the_core():
     near = ("--tolerance", 0.1, "--energy", "thin_plate")
     _, (entry,) = entries("in.obj", "out.obj", "--levels", 1, *near)
     assert 0 < entry["objects"][0]["report"]["largest_deviation"] <= 0.1 * (1 + 1e-6)
-
-
-@pytest.mark.parametrize(
-    "words, measured", [((), True), (("--json", "r.json", "--quiet"), True), (("--quiet",), False)]
-)
-def test_energies_are_measured_where_somebody_reads_them(words, measured, monkeypatch, capfd):
-    asked = []
-
-    class Watched(command.Job):
-        def compute(self, **watchers):
-            asked.append(self.arguments["measure"])
-            super().compute(**watchers)
-
-    monkeypatch.setattr(command, "Job", Watched)
-    write_obj("in.obj")
-    assert run("in.obj", "out.obj", "--levels", 1, *words) == 0
-    assert asked == [measured]
-    assert (capfd.readouterr().err == "") == ("--quiet" in words)
 
 
 def test_an_output_that_exists_is_replaced_unless_it_is_to_be_kept():
@@ -211,13 +190,6 @@ def test_wrong_usage_is_two(words, said, capfd):
     assert not Path("out.obj").exists()
 
 
-def test_help_and_version_are_no_errors(capsys):
-    assert run("--help") == 0
-    assert "exit codes" in capsys.readouterr().out
-    assert run("--version") == 0
-    assert core.module().__version__ in capsys.readouterr().out
-
-
 def test_without_the_native_module_it_is_three(monkeypatch, capfd):
     monkeypatch.setattr(core, "_load", lambda: (None, core.MISSING))
     write_obj("in.obj")
@@ -262,13 +234,6 @@ def test_a_fault_of_ours_spares_the_other_files(monkeypatch, capfd):
     assert "oops" in capfd.readouterr().err
 
 
-def test_standard_output_has_the_report_and_nothing_else():
-    write_obj("in.obj")
-    code, output, _ = process("in.obj", "missing.obj", "out/", "--json", "-", "--quiet")
-    assert code == 1
-    assert [entry["status"] for entry in json.loads(output)["inputs"]] == ["done", "failed"]
-
-
 def test_in_pieces_the_surface_is_the_whole_one():
     points = write_obj("in.obj")
     assert run("in.obj", "whole.obj", "--levels", 2) == 0
@@ -278,21 +243,3 @@ def test_in_pieces_the_surface_is_the_whole_one():
     whole, joined = (imported(name) for name in ("whole.obj", "out.obj"))
     assert joined[1] == whole[1] and contains(joined[0], points, 1e-6)
     assert np.abs(joined[0] - whole[0]).max() < 1e-5
-
-
-def test_half_a_mesh_is_not_cut_into_pieces(capsys):
-    write_obj("in.obj")
-    assert run("in.obj", "out.obj", "--pieces", 2, "--symmetry-plane", "x") == 1
-    assert "symmetry_plane excludes pieces" in capsys.readouterr().err
-
-
-def test_blender_is_told_of_the_command(monkeypatch):
-    told = []
-    monkeypatch.setattr(registration, "_handles", [])
-    monkeypatch.setattr(
-        bpy.utils, "register_cli_command", lambda name, call: told.append(name) or "handle"
-    )
-    monkeypatch.setattr(bpy.utils, "unregister_cli_command", told.append, raising=False)
-    registration.register()
-    registration.unregister()
-    assert told == ["discrete_fairing", "handle"] and not registration._handles

@@ -93,14 +93,6 @@ def test_joint_energy_and_density_are_heard():
     assert len(imported("out.stl")[1])
 
 
-def test_a_flat_cap_has_no_vertices_of_its_own():
-    write_ball("in.obj")
-    code, (entry,) = entries("in.obj", "out.obj", "--fill", "--fill-joint", "flat")
-    (item,) = entry["objects"]
-    assert code == 0 and open_edges("out.obj") == 0
-    assert item["result"]["vertices"] == item["control"]["vertices"]
-
-
 def test_quads_are_heard_and_their_lack_is_warned_of():
     """Open above, and without one quad and one triangle."""
     write_ball("in.obj")

@@ -72,21 +72,6 @@ def test_a_scan_alone_gets_a_cage(capsys):
     assert head.split()[-2:] == ["within", "noise"]
 
 
-@pytest.mark.parametrize(
-    ("change", "code", "sentence"),
-    [
-        (lambda points: 1000 * points, "BAD_SHAPE", "units"),
-        (lambda points: points + [20, 0, 0], "BAD_SHAPE", "Move"),
-        (lambda points: points[:1], "BAD_SHAPE", "1 point"),
-    ],
-)
-def test_scans_that_do_not_fit_are_refused_in_words(blob, change, code, sentence):
-    write_points("scan.ply", change(blob_scan(2000)))
-    exit_code, (entry,) = entries("--fit", "scan.ply", "--cage", "cage.obj", "out.obj")
-    assert (exit_code, entry["error"]["code"]) == (1, code)
-    assert sentence in entry["error"]["message"] and not Path("out.obj").exists()
-
-
 def test_points_alone_need_a_cage(blob):
     _, (entry,) = entries("--fit", "scan.ply", "out.obj")
     assert entry["error"]["code"] == "NO_CAGE" and "give it as --cage" in entry["error"]["message"]

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from cli_files import read_obj, write_obj
-from cli_runs import contains, entries, process, run
+from cli_runs import contains, entries, process
 
 NAMES = ["two words", "Körper", "Ko\u0308rper", "部品", "☃ 🙂", "in.dots.name", "100%"]
 NOT_UTF_8 = os.fsdecode(b"not \xff utf-8")  # as old archives bring them along
@@ -28,14 +28,6 @@ def test_a_name_goes_in_and_out(name):
     assert (entry["input"], entry["output"]) == (f"{name}.obj", str(made))
     assert contains(read_obj(made), points, 1e-6)
     assert materials_of(made).is_file()
-
-
-@pytest.mark.parametrize("kind", ["ply", "stl"])
-@pytest.mark.parametrize("name", ["Körper 部品", NOT_UTF_8], ids=ascii)
-def test_the_other_formats_take_any_name_too(name, kind):
-    write_obj("in.obj")
-    assert run("in.obj", f"{name}.{kind}", "--levels", 1) == 0
-    assert run(f"{name}.{kind}", "again.obj", "--levels", 1) == 0
 
 
 def test_a_pattern_finds_any_name():

@@ -6,7 +6,6 @@ from pathlib import Path
 
 import pytest
 
-from addon.choices import DEFAULT_ENERGY, ENERGIES
 from addon.cli import options
 from addon.cli.options import parser
 from addon.cli.places import BadPlaces, places
@@ -39,11 +38,6 @@ def test_defaults_are_those_of_blender(blender):
         assert value == pytest.approx(getattr(defaults, name)), name
 
 
-def test_an_option_may_stand_anywhere():
-    parsed = parser("").parse_intermixed_args(["a.obj", "b.obj", "--levels", "2", "c.obj", "out/"])
-    assert (parsed.inputs, parsed.output, parsed.levels) == (["a.obj", "b.obj", "c.obj"], "out/", 2)
-
-
 def test_a_value_switches_its_rule_on():
     assert not settings().use_crease_angle
     assert settings("--crease-angle", "40").use_crease_angle
@@ -68,12 +62,6 @@ def test_a_tolerance_needs_no_second_option(option, value, unit):
         settings("--interpolation", "exact", option, value)
 
 
-def test_tolerances_of_nobody():
-    given = settings("--interpolation", "approximate")
-    assert (given.tolerance_unit, given.tolerance) == ("RELATIVE", 0.02)
-    assert settings().interpolation == "EXACT"
-
-
 def test_a_share_of_the_way_to_the_limit_says_that_it_is_meant():
     given = settings("--limit", "0.5")
     assert (given.interpolation, given.limit) == ("LIMIT", 0.5)
@@ -82,13 +70,6 @@ def test_a_share_of_the_way_to_the_limit_says_that_it_is_meant():
         settings("--interpolation", "exact", "--limit", "0.5")
     with pytest.raises(ValueError, match="--tolerance needs --interpolation approximate"):
         settings("--limit", "0.5", "--tolerance", "0.1")
-
-
-def test_energies():
-    assert settings().energy == DEFAULT_ENERGY
-    for key, *_ in ENERGIES:
-        assert settings("--energy", key.lower()).energy == key
-        assert settings("--energy", key.lower().replace("_", "-")).energy == key
 
 
 @pytest.mark.parametrize("number", ["nan", "inf", "-1", "x", "%", "-1%"])

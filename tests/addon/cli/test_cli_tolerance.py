@@ -3,20 +3,8 @@
 
 from pathlib import Path
 
-from cli_files import lopsided, write_obj, write_ply
-from cli_runs import contains, entries, imported, run
-
-from addon.cli import main as command
-
-
-def test_a_length_and_a_share_of_the_edges():
-    write_obj("in.obj")  # edges of 2
-    near = ("--levels", 1, "--energy", "thin_plate")
-    _, (length,) = entries("in.obj", "length.obj", *near, "--tolerance", 0.1)
-    _, (share,) = entries("in.obj", "share.obj", *near, "--tolerance", "5%")
-    assert length["settings"]["tolerance_unit"] == "SCENE"
-    assert share["settings"]["tolerance_unit"] == "RELATIVE"
-    assert Path("length.obj").read_text() == Path("share.obj").read_text()
+from cli_files import lopsided, write_ply
+from cli_runs import contains, imported, run
 
 
 def write_ply_with(name, property_name, values):
@@ -37,10 +25,3 @@ def test_a_group_on_the_command_line():
     assert run("in.ply", "out.ply", "--levels", 1, *group) == 0
     positions, _ = imported("out.ply")
     assert contains(positions, points[:4], 1e-6) and not contains(positions, points[4:], 1e-3)
-
-
-def test_a_group_that_no_file_has_is_refused():
-    write_obj("in.obj")
-    code, (entry,) = entries("in.obj", "out.obj", "--tolerance-group", "loose")
-    assert code == command.SOME_FAILED and entry["error"]["code"] == "REFUSED"
-    assert "named 'loose'" in entry["error"]["message"]

@@ -7,15 +7,12 @@ import numpy as np
 import pytest
 from curve_objects import bezier, poly, scene, surface
 from mathutils import Matrix
-from scenes import TRIANGLE, activate, add, positions, recompute, refused, reopen, shown
+from scenes import TRIANGLE, activate, add, positions, recompute, refused, shown
 
 from addon import curve_cage, freshness
 from addon.curves.cubics import points_at
-from addon.inspection import overlay
 from addon.live import registry, switch
-from addon.mesh.object import Reference, session_key
 from addon.mesh.read_curves import chains, read_curves
-from addon.operators.curves import OBJECT_OT_fairing_curves
 from addon.ui.curves import VIEW3D_PT_fairing_curves
 from addon.ui.main import VIEW3D_PT_fairing
 
@@ -76,15 +73,6 @@ def test_chains_end_where_edges_branch_and_marks_change():
     assert found == [(2, False), (2, False), (2, False), (2, True), (4, False)]
 
 
-def test_wire_edges_alone_make_a_surface():
-    points = [(x, y, networks.crown(x, y)) for x in (-1, 0, 1) for y in (-0.8, 0, 0.8)]
-    rows = [(3 * i + j, 3 * i + j + 1) for i in range(3) for j in range(2)]
-    columns = [(3 * i + j, 3 * i + j + 3) for i in range(2) for j in range(3)]
-    add("Wire", points, [], rows + columns)
-    target = surface(levels=1)
-    assert len(target.discrete_fairing.source.data.polygons) == 4 * 20
-
-
 def test_a_refusal_leaves_nothing_behind():
     made = scene(lambda: networks.bonnet()[:4])
     before = set(bpy.data.objects), set(bpy.data.meshes)
@@ -142,17 +130,6 @@ def test_live_follows_a_handle(no_pause):
     assert len(after) == len(before) and 0.1 < np.abs(after - before)[:, 2].max() < 0.3
 
 
-def test_stripes_are_drawn_anew_where_live_has_written(no_pause):
-    made = scene(square)
-    target = surface(levels=1, energy="THIN_PLATE")
-    target.discrete_fairing_live.on = True
-    key = session_key(target)
-    overlay._entries[key] = object()
-    made["Side 0"].data.splines[0].bezier_points[1].co.z += 0.05
-    bpy.context.view_layer.update()
-    assert not switch.problem(target) and key not in overlay._entries
-
-
 def test_live_says_why_it_waits_and_goes_on(no_pause):
     made = scene(square)
     target = surface(levels=1, energy="THIN_PLATE")
@@ -186,14 +163,6 @@ def test_deleted_curves_are_told(no_pause):
     refused("The curves of .* were deleted", bpy.ops.object.fairing_recompute)
 
 
-def test_the_file_keeps_the_curves(tmp_path):
-    scene(square)
-    name = surface(levels=1).name
-    reopen(tmp_path)
-    cage = bpy.data.objects[name].discrete_fairing.source
-    assert len(curve_cage.curves_of(cage)) == 4
-
-
 def test_curves_have_their_own_panel_alone():
     scene(networks.three_by_four)
     assert not VIEW3D_PT_fairing.poll(bpy.context)
@@ -201,18 +170,3 @@ def test_curves_have_their_own_panel_alone():
     add("Triangle", *TRIANGLE)
     assert not bpy.ops.object.fairing_curves.poll()
     assert VIEW3D_PT_fairing.poll(bpy.context) and not VIEW3D_PT_fairing_curves.poll(bpy.context)
-
-
-def test_a_run_whose_control_mesh_was_undone_ends_well():
-    """Ctrl Z takes the new control mesh in mid-run, ESC then ends the run."""
-
-    class Run:
-        _cage = None
-        _tidied = OBJECT_OT_fairing_curves._tidied
-
-    scene(square)
-    cage = surface(levels=1).discrete_fairing.source
-    run = Run()
-    run._cage = Reference(cage)
-    bpy.data.objects.remove(cage)
-    assert run._tidied({"CANCELLED"}) == {"CANCELLED"} and run._cage is None

@@ -51,13 +51,6 @@ def test_crossings_are_exact():
     assert np.allclose(met.place[:2], (0.3, 0.0), atol=1e-4)
 
 
-def test_two_crossings_of_one_pair():
-    wave = networks.drawn("Wave", lambda t: (t, np.sin(t), 0.0), 0.5, 6.5, 25)
-    line = networks.drawn("Line", lambda t: (t, 0.0, 0.0), 0.0, 7.0, 3)
-    found = [m.place[0] for m in meetings([wave, line], 0.01)]
-    assert found == pytest.approx([np.pi, 2 * np.pi], abs=1e-3)
-
-
 @pytest.mark.parametrize(
     "make, inner, outer",
     [
@@ -73,11 +66,6 @@ def test_cells(make, inner, outer):
     found = find_cells(network(make()))
     assert sizes(found.cells) == inner and len(found.open) == outer
     assert remarks(found.network) == []
-
-
-@pytest.mark.parametrize("sides", [3, 4, 5, 6])
-def test_a_cell_has_as_many_sides_as_corners(sides):
-    assert sizes(find_cells(network(networks.polygon(sides))).cells) == [sides]
 
 
 def test_open_ends_are_filled_on_request():

@@ -64,15 +64,6 @@ def test_all_faces_show_it_and_off_leaves_no_trace(mode):
     assert display.legend(box.data) is None
 
 
-def test_switching_through_all_modes_keeps_one_modifier():
-    box = add("Box", *CUBE)
-    for mode in (*SHOWN, *reversed(SHOWN)):
-        show(box, mode)
-        assert len(box.modifiers) == 1 and len(shown_materials(box)) == 1
-    show(box, "NONE")
-    assert shown_materials(box) == set()
-
-
 def test_every_selected_object_is_switched():
     boxes = [add(name, *CUBE) for name in "AB"]
     for box in boxes:
@@ -114,16 +105,6 @@ def test_curvature_is_a_plain_attribute_with_the_right_numbers():
         ball.data.attributes[f"fair_{name}_curvature"].data.foreach_get("value", values)
         assert np.median(values) == pytest.approx(expected, rel=0.02)
     assert ball.data.attributes[COLOUR].domain == "POINT"
-
-
-def test_refresh_measures_a_replaced_mesh():
-    box = add("Box", *CUBE)
-    show(box, "MEAN")
-    box.data = add_suzanne().data
-    assert COLOUR not in box.data.attributes
-    display.refresh(box, bpy.context.scene.discrete_fairing_inspection)
-    assert len(box.data.attributes[COLOUR].data) == len(box.data.vertices)
-    assert shown_materials(box) == {"Fairing Curvature"}
 
 
 def test_one_mesh_of_two_objects_keeps_its_colours_for_the_other():
@@ -205,34 +186,6 @@ def test_readout_has_before_and_after():
         before, after = rows[label]
         assert before == "" and float(after.split()[0]) > 0, "of a coarse mesh it says nothing"
     assert not [text for row in rows.values() for text in row if "nan" in text]
-
-
-def test_the_panel_says_that_control_vertices_are_no_surface():
-    source, target = faired_pair()
-    activate(target)
-    record = readout.take(bpy.context, target, source)
-    said = " ".join(drawn())
-    assert "too coarse for curvature" in said
-    old = record | {"before": {"largest_curvature": 0.5, "curvature_98": 0.25}}
-    # older files have more
-    assert all(before == "" for _, before, _ in readout.table(old, bpy.context.scene))
-    readout.take(bpy.context, target)
-    assert "too coarse" not in " ".join(drawn())
-
-
-def test_readout_says_how_the_steps_went():
-    source, target = faired_pair()
-    report = recall(target, "report")
-    step = {"energy": 5.0, "decrement": 0.5, "length": 1.0, "iterations": 0}
-    step |= {"residual": 1e-12, "direct": True}
-    last = {"level": 2, "converged": True, "steps": [step, step | {"decrement": 2e-5}]}
-    keep(target, "report", report | {"curvature": [{"level": 1, "steps": [step]}, last]})
-    record = readout.take(bpy.context, target, source)
-    rows = {label: text for label, *text in readout.table(record, bpy.context.scene)}
-    assert rows["Steps"] == ["", "2"] and rows["Left to gain"] == ["", "4e-08 %"]
-    keep(target, "report", report | {"curvature": []})
-    record = readout.take(bpy.context, target, source)
-    assert "Steps" not in [row[0] for row in readout.table(record, bpy.context.scene)]
 
 
 def test_readout_goes_stale_with_the_shape_only():

@@ -42,17 +42,6 @@ def test_moved_vertices_in_edit_mode(source):
     assert source.mode == "EDIT" and session(target).updates == 4
 
 
-def test_another_topology_in_edit_mode(source):
-    source.vertex_groups.new(name="Group").add([0, 1], 0.5, "REPLACE")
-    target = live(source)
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="SELECT")
-    bpy.ops.mesh.subdivide()
-    follow()
-    assert source.mode == "EDIT" and len(target.data.polygons) == 24 * 4**3
-    assert target.vertex_groups["Group"].weight(0) == 0.5
-
-
 def crease(source, _):
     rim = [(1, 3), (3, 7), (7, 5), (5, 1)]
     set_edge_attribute(source.data, "crease_edge", "FLOAT", rim, 1.0)
@@ -282,37 +271,3 @@ def test_thin_plate_stands_in_where_another_energy_is_hopeless():
     assert "Bending while editing" in target.discrete_fairing_live.status
     assert target.discrete_fairing.energy == "TOTAL_CURVATURE" and not session(target).trouble
     assert session(target).solver.energy == "thin_plate"
-
-
-def test_a_recompute_in_between(source):
-    target = live(source)
-    target.discrete_fairing_live.levels = 2
-    activate(target)
-    bpy.ops.object.fairing_recompute()
-    assert len(target.data.polygons) == 6 * 4**3
-    pull(source)
-    assert len(target.data.polygons) == 6 * 4**2
-
-
-def test_shape_keys_come_with_the_full_level(source):
-    source.shape_key_add(name="Basis")
-    source.shape_key_add(name="Up").data[0].co.z += 0.5
-    target = live(source)
-    assert target.data.shape_keys is None
-    bpy.ops.object.fairing_live(state="OFF")
-    assert [block.name for block in target.data.shape_keys.key_blocks] == ["Basis", "Up"]
-    bpy.ops.object.fairing_live(state="ON")
-    assert target.data.shape_keys is None
-    pull(source)
-    assert session(target).updates == 2 or session(target).trouble == ""
-
-
-def test_curvature_colours_follow():
-    source = add_suzanne()
-    target = live(source)
-    activate(target)
-    bpy.ops.object.fairing_inspect(mode="MEAN")
-    follow()
-    before = [item.value for item in target.data.attributes["fair_mean_curvature"].data]
-    pull(source, by=0.2)
-    assert [item.value for item in target.data.attributes["fair_mean_curvature"].data] != before

@@ -13,7 +13,6 @@ from live_scenes import (
     move,
     pull,
     session,
-    surface_of,
     through,
     tick_until,
     whole,
@@ -21,7 +20,6 @@ from live_scenes import (
 from scenes import CUBE, activate, add, fair, positions, recompute, reopen
 
 import addon
-from addon import core
 from addon.blender import scene_of
 from addon.freshness import UNFINISHED, why_stale
 from addon.live import handlers, kept, registry, switch
@@ -86,16 +84,6 @@ def test_undo_takes_live_along():
     assert through(target, source)
     target.discrete_fairing_live.on = False
     assert box_as_it_is()[2] == (False, "TEXTURED", 6 * 4**2)
-
-
-def test_undo_of_switching_off():
-    source, target, on = box_that_undo_switches()
-    target.discrete_fairing_live.on = False
-    bpy.ops.ed.undo_push(message="off")
-    bpy.ops.ed.undo()
-    kept.resume()
-    source, target, again = box_as_it_is()
-    assert again == on and target.discrete_fairing_live.on
 
 
 def test_undo_wakes_no_copy_and_no_surface_of_another_file(tmp_path):
@@ -169,23 +157,6 @@ def test_deleted(which, reason, way):
         assert "source was deleted" in target.discrete_fairing_live.status
 
 
-def test_deleted_while_the_full_level_is_computed(no_pause):
-    _, target = box(levels=6)
-    handlers.on_timer()
-    assert session(target).full_text
-    bpy.data.objects.remove(target)
-    handlers.on_timer()
-    assert registry.sessions() == []
-
-
-def test_renamed():
-    source, target = box()
-    target.name, source.name = "Skin", "Cage"
-    other = add("Box Fair", *CUBE)
-    pull(source)
-    assert through(target, source) and len(other.data.vertices) == 8
-
-
 def test_nothing_is_written_while_rendering(no_pause):
     source, target = box()
     before = positions(target.data)
@@ -245,30 +216,6 @@ def test_linked_surfaces_are_refused(tmp_path):
     assert not target.discrete_fairing_live.on and "linked" in switch.why_not(target)
 
 
-def test_grey_without_a_mesh_and_without_the_core(monkeypatch):
-    assert not bpy.ops.object.fairing_live.poll()
-    add("Box", *CUBE)
-    assert bpy.ops.object.fairing_live.poll()
-    monkeypatch.setattr(core, "_load", lambda: (None, core.MISSING))
-    assert not bpy.ops.object.fairing_live.poll()
-
-
-def test_the_panel_says_how_it_goes(source):
-    assert "object.fairing_live" in draw(main.VIEW3D_PT_fairing)
-    target = live(source)
-    for active in (source, target):
-        activate(active)
-        log = draw(main.VIEW3D_PT_fairing)
-        assert "levels" in log and "Level 3: 768 triangles" in log
-        assert any(line.startswith("Last update: ") for line in log)
-    assert target.discrete_fairing_live.milliseconds > 0.0
-    assert surface_of(source) == target
-    bpy.data.objects.remove(source)
-    handlers.on_timer()
-    activate(target)
-    assert "The source was deleted" in " ".join(draw(main.VIEW3D_PT_fairing))
-
-
 def test_undo_of_a_later_step_says_that_the_surface_is_not_whole(no_pause):
     """The last full level of Live is written after the click's own step, and so undone with the next one."""
     source, target, _ = box_that_undo_switches()
@@ -290,12 +237,6 @@ def test_undo_of_a_later_step_says_that_the_surface_is_not_whole(no_pause):
 def badges(target):
     activate(target)
     return [line for line in draw(main.VIEW3D_PT_fairing) if "out of date" in line.lower()]
-
-
-def test_undo_while_live_leaves_the_surface_to_it():
-    source, target, _ = box_that_undo_switches()
-    pull(source)
-    assert target.discrete_fairing.unfinished and not badges(target)
 
 
 @pytest.mark.parametrize("locked", [True, False])

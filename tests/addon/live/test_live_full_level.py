@@ -96,15 +96,6 @@ def test_an_edit_of_the_surface_itself_waits(no_pause):
     assert through(target, source)
 
 
-def test_switched_off_with_the_full_level():
-    source, target = box()
-    pull(source)
-    target.discrete_fairing_live.on = False
-    assert len(target.data.polygons) == 6 * 4**2 and registry.sessions() == []
-    pull(source)
-    assert positions(target.data)[0][2] != source.data.vertices[0].co.z
-
-
 def test_switched_off_in_a_window(no_pause, monkeypatch):
     _, target = box()
     session(target).ending = True

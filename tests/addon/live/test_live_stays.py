@@ -2,12 +2,11 @@
 """Live over frames, renders and files, and what becomes of the cage meanwhile."""
 
 import bpy
-import numpy as np
 import pytest
 from live_scenes import box, live, pull, session, through
 from scenes import CUBE, activate, add, again, positions, reopen
 
-from addon.live import handlers, kept, registry
+from addon.live import kept, registry
 
 FRAMES = (1, 11)
 
@@ -66,18 +65,6 @@ def test_frames_are_followed(way, hidden):
         assert (height != 0.0) == (frame != 1)
 
 
-def test_renders_are_left_alone_unless_asked():
-    target = animated(animate)
-    before = positions(target.data)
-    handlers._render_begins()
-    bpy.context.scene.frame_set(11)
-    assert np.array_equal(positions(target.data), before)
-    target.discrete_fairing_live.in_renders = True
-    bpy.context.scene.frame_set(10)
-    assert positions(target.data)[0, 2] > before[0, 2]
-    handlers._render_ends()
-
-
 @pytest.mark.parametrize("keep", [False, True])
 @pytest.mark.parametrize("window", [False, True])
 def test_files_keep_it_where_asked(tmp_path, monkeypatch, keep, window):
@@ -98,14 +85,6 @@ def test_files_keep_it_where_asked(tmp_path, monkeypatch, keep, window):
         source = bpy.data.objects["Box"]
         pull(source)
         assert through(target, source)
-
-
-def test_what_was_off_stays_off(tmp_path):
-    _, target = box()
-    target.discrete_fairing_live.keep_on = target.discrete_fairing_live.in_renders = True
-    target.discrete_fairing_live.on = False
-    reopen(tmp_path)
-    assert not registry.sessions()
 
 
 def test_the_cage_is_wire_while_it_is_live():

@@ -4,8 +4,6 @@
 import bpy
 import numpy as np
 import pytest
-from fake_layout import draw
-from live_scenes import live, session
 from mathutils import Euler, Vector
 from scenes import computed, edit, fair, positions, settings, to_object_mode
 from test_boundary_marks import sheet
@@ -16,7 +14,6 @@ from addon.mesh.fixed_normals import NORMAL, read_normals
 from addon.mesh.read import control_mesh, read_mesh
 from addon.mesh.world_shape import world_shape
 from addon.transfer.cut_out import cut_out
-from addon.ui import main
 
 INSIDE = 5  # vertex (1, 1) of the sheet
 TILTED = (0.6, 0.0, 0.8)
@@ -166,35 +163,6 @@ def test_a_new_vertex_between_fixed_and_free_is_free():
     bpy.ops.mesh.subdivide()
     to_object_mode()
     assert set(marks(source)) == {INSIDE}
-
-
-def test_live_follows_normals():
-    source = sheet()
-    surface = fair(levels=3)
-    source.hide_set(False)
-    live(surface)
-    before = positions(surface.data)
-    source.data.normals_split_custom_set_from_vertices([Vector(TILTED)] * len(source.data.vertices))
-    fix(source, INSIDE)
-    bpy.context.view_layer.update()
-    assert session(surface) is not None
-    assert np.abs(positions(surface.data) - before).max() > 1e-2
-
-
-def test_the_panel_counts_them():
-    source = sheet()
-
-    def told():
-        return [line for line in draw(main.VIEW3D_PT_fairing) if str(line).startswith("Normals:")]
-
-    assert told() == []
-    fix(source, INSIDE, 6)
-    assert told() == ["Normals: 2 fixed"]
-    edit(source, "VERT", (INSIDE,))
-    assert told() == ["Normals: 2 fixed"], "in Edit Mode too"
-    to_object_mode()
-    bpy.context.scene.discrete_fairing.energy = "TOTAL_CURVATURE"
-    assert told() == ["Normals: 2 fixed, by Bending only"]
 
 
 def test_a_cut_takes_them_along():

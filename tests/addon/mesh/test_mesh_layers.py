@@ -180,17 +180,6 @@ def test_active_maps_and_colors():
     assert found.attributes.default_color_name == "Last"
 
 
-def test_materials_and_flat_faces():
-    source = cube()
-    source.data.polygons.foreach_set("material_index", [0, 1, 2, 3, 4, 5])
-    source.data.polygons.foreach_set("use_smooth", [True, False] * 3)
-    made = refine(source, 2)
-    index = values(made.mesh, "material_index", dtype=np.int32)
-    assert np.array_equal(index, np.repeat(range(6), 16))
-    flat = values(made.mesh, "sharp_face", dtype=bool)
-    assert np.array_equal(flat, np.repeat([False, True] * 3, 16))
-
-
 RIM = [(0, 1), (1, 3), (3, 2), (2, 0)]
 
 

@@ -56,21 +56,6 @@ def test_positions(source):
         assert np.array_equal(place.reshape(-1, 3), np.float32(expected))
 
 
-def test_value_moves_the_surface(source):
-    made = shaped(source)
-    basis, wide = made.result.vertices, made.shapes[0]
-    assert np.allclose(shown(made.target), basis + 2.5 * (wide - basis), atol=1e-5)
-
-
-def test_absolute_keys(source):
-    source.data.shape_keys.use_relative = False
-    source.data.shape_keys.eval_time = 7.0
-    found = shaped(source).mesh.shape_keys
-    assert not found.use_relative and found.eval_time == 7.0
-    given = source.data.shape_keys.key_blocks
-    assert [k.frame for k in found.key_blocks] == [k.frame for k in given]
-
-
 def test_drivers(source):
     driver = source.data.shape_keys.driver_add('key_blocks["Wide"].value').driver
     driver.expression = "0.75"

@@ -10,7 +10,6 @@ from hole_scenes import ball, is_closed, radii
 from scenes import activate, add, positions, to_object_mode
 
 from addon.check.defects import recall_cleaned, recall_defects
-from addon.cleaning import CleanJob, CleanOptions
 from addon.ui.check import VIEW3D_PT_fairing_check
 
 
@@ -49,15 +48,6 @@ def test_a_spoiled_ball_is_closed():
     assert any("hole" in s for s in said) and any("island" in s for s in said)
     assert recall_defects(target) == ([], False)
     assert not target.data.validate()
-
-
-def test_a_clean_mesh_stays_as_it_is():
-    target = ball()
-    activate(target)
-    before = positions(target.data)
-    assert bpy.ops.object.fairing_clean() == {"FINISHED"}
-    assert np.array_equal(positions(target.data), before)
-    assert recall_cleaned(target)[0] == "Nothing to do"
 
 
 def seams_at(mesh):
@@ -148,17 +138,6 @@ def test_faces_that_cross_are_listed_with_a_button_that_selects_them():
     to_object_mode()
 
 
-def test_a_run_whose_mesh_is_gone_says_so():
-    target = spoiled()
-    job = CleanJob(bpy.context, target, CleanOptions({}, 0.1, 0.0, 0))
-    assert job.why_outdated(bpy.context) == ""
-    target.scale.x = 2.0
-    bpy.context.view_layer.update()
-    assert "was edited during the run" in job.why_outdated(bpy.context)
-    bpy.data.objects.remove(target)
-    assert "was deleted or undone during the run" in job.why_outdated(bpy.context)
-
-
 def test_parts_that_share_an_edge_are_separated_with_their_marks():
     """Two cubes with one edge in common, which is a seam: both have it afterwards."""
     bm = bmesh.new()
@@ -181,35 +160,3 @@ def test_in_edit_mode():
     assert bpy.ops.object.fairing_clean() == {"FINISHED"}
     to_object_mode()
     assert is_closed(target.data)
-
-
-def test_noise_is_taken_off_in_all_shape_keys():
-    target = ball()
-    rng = np.random.default_rng(0)
-    for vertex in target.data.vertices:
-        vertex.co *= 1.0 + 0.01 * rng.normal()
-    activate(target)
-    target.shape_key_add(name="Basis")
-    for point in target.shape_key_add(name="Wide").data:
-        point.co.x += 0.25
-    before = radii(target).std()
-    assert bpy.ops.object.fairing_clean(noise="PASSES", passes=10) == {"FINISHED"}
-    assert radii(target).std() < 0.6 * before
-    basis, wide = positions(target.data), target.data.shape_keys.key_blocks["Wide"]
-    found = np.array([point.co for point in wide.data])
-    assert np.allclose(found - basis, [0.25, 0.0, 0.0], atol=1e-5)
-
-
-def test_edges_are_cut_at_vertices_on_them():
-    """Three quads, two of which have a corner on the first one's side."""
-    flat = [(0, 0), (1, 0), (1, 2), (0, 2), (1, 1), (2, 0), (2, 1), (2, 2)]
-    points = [(*p, 0) for p in flat]
-    target = add("Hanging", points, [(0, 1, 2, 3), (1, 5, 6, 4), (4, 6, 7, 2)])
-    mesh = target.data
-    mesh.attributes.new("mark", "INT", "FACE").data.foreach_set("value", [5, 6, 7])
-    assert bpy.ops.object.fairing_clean(largest=0.0) == {"FINISHED"}
-    assert "1 edge cut at a vertex on it" in recall_cleaned(target)[0]
-    marks = mesh.attributes["mark"].data
-    found = sorted((len(f.vertices), marks[f.index].value) for f in mesh.polygons)
-    assert found == [(4, 6), (4, 7), (5, 5)]
-    assert len(mesh.vertices) == 8 and not mesh.validate()

@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 from scenes import CUBE, add, again, computed, fair, positions, settings
 
-from addon import core, prediction
+from addon import prediction
 from addon.choices import DEFAULT_ENERGY, ENERGIES
 from addon.inspection import measures
 from addon.job import Job
-from addon.memory import recall
 from addon.mesh.read import read_mesh
 from addon.operators import fair as fair_operators
 
@@ -35,17 +34,6 @@ def test_a_cube_becomes_a_sphere_by_total_curvature_only(source):
     assert np.ptp(radii(again(source, levels=3, energy="THIN_PLATE"))) > 0.1
 
 
-def test_report_has_the_steps(source):
-    report = recall(fair(levels=2, energy="TOTAL_CURVATURE"), "report")
-    assert core.has_converged(report)
-    assert core.step_count(report) >= 1 and 0 <= core.last_decrement(report) < 1
-    report = recall(again(source, levels=2, energy="THIN_PLATE"), "report")
-    assert core.has_converged(report)
-    assert core.step_count(report) is None and core.last_decrement(report) is None
-    for report in ({}, {"curvature": []}, {"curvature": [{"converged": True, "steps": []}]}):
-        assert core.has_converged(report) and core.last_decrement(report) is None
-
-
 def job_that_stopped(warnings=(), converged=False):
     job = computed(Job(bpy.context, add("Box", *CUBE), settings(energy="TOTAL_CURVATURE")))
     levels = [{"converged": each, "steps": [STEP]} for each in (not converged, converged)]
@@ -68,26 +56,6 @@ def test_the_thinnest_face_is_named():
     assert face == 1 and ratio == pytest.approx(17 / 4), "the last has no area"
     empty = measures.thinnest_face(read_mesh(add("Nothing", [], []).data))
     assert empty == (-1, 0.0)
-
-
-def test_it_is_told_once():
-    said = {"code": "NOT_CONVERGED", "message": "The solver stopped."}
-    said |= {"elements": [], "kind": "mesh"}
-    (sentence,) = job_that_stopped([said]).warnings()
-    assert sentence.startswith("Box: Use fewer levels") and "solver" not in sentence
-    other = said | {"code": "ISOLATED_VERTICES"}
-    assert len(job_that_stopped([other]).warnings()) == 2
-
-
-def test_a_note_says_that_shape_keys_only_blend(source, capfd):
-    source.shape_key_add(name="Basis")
-    source.shape_key_add(name="Up").data[0].co.z += 1.0
-    assert len(fair(levels=1, energy="TOTAL_CURVATURE").data.shape_keys.key_blocks) == 2
-    assert "Each shape key is faired separately" in capfd.readouterr().out
-    again(source, levels=1, energy="THIN_PLATE")
-    again(source, levels=1, energy="TOTAL_CURVATURE", use_shape_keys=False)
-    again(add("Plain", *CUBE), levels=1, energy="TOTAL_CURVATURE")
-    assert "shape key" not in capfd.readouterr().out
 
 
 @pytest.mark.parametrize("energy", KEYS)

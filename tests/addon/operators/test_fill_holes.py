@@ -9,9 +9,6 @@ from mathutils import Vector
 from polygons import grid
 from scenes import activate, add, edit, positions, refused, to_object_mode
 
-from addon import core, holes
-from addon.errors import JobCancelled
-
 
 def test_all_small_holes_in_object_mode():
     target = without(ball(), lambda c: abs(c[2]) > 0.7)
@@ -86,17 +83,6 @@ def test_what_the_new_faces_take_over():
     assert {round(v.groups[0].weight, 6) for v in target.data.vertices} == {0.5}
 
 
-def test_shape_keys_have_the_new_vertices():
-    target = without(ball(), lambda c: c[2] > 0.7)
-    target.shape_key_add(name="Basis")
-    target.shape_key_add(name="Wide")
-    assert bpy.ops.object.fairing_fill() == {"FINISHED"}
-    keys = target.data.shape_keys.key_blocks
-    places = np.array([p.co for p in keys["Wide"].data])
-    assert len(places) == len(target.data.vertices)
-    assert np.abs(np.linalg.norm(places, axis=1) - 1).max() < 1e-3
-
-
 def place_of_corners(target, layer):
     """Corner by corner: where its vertex is, and its UV."""
     mesh = target.data
@@ -136,42 +122,6 @@ def test_why_one_of_several_cannot_be_filled_is_said(capfd):
     assert bpy.ops.object.fairing_fill() == {"FINISHED"}
     assert is_closed(target.data)
     assert "Whole: Delete faces first: there is no hole" in capfd.readouterr().out
-
-
-def hole_job():
-    target = without(ball(), lambda c: c[2] > 0.7)
-    options = holes.FillOptions("CURVATURE", "TOTAL_CURVATURE", 1.0, 0.0, False)
-    return holes.HoleJob(bpy.context, target, options), target
-
-
-def test_edits_during_a_run_stay():
-    job, target = hole_job()
-    job.compute()
-    assert job.why_outdated(bpy.context) == ""
-    target.data.vertices[0].co[0] += 0.1
-    assert "edited during the run" in job.why_outdated(bpy.context)
-
-
-def test_a_cancelled_run_changes_nothing():
-    job, _ = hole_job()
-    monitor = core.module().Monitor()
-    monitor.cancel()
-    with pytest.raises(JobCancelled):
-        job.compute(monitor=monitor)
-    assert job.result is None and job.error is None
-
-
-def test_noise_of_the_rim_is_not_carried_on():
-    off = []
-    for noisy in (False, True):
-        target = without(ball(), lambda c: c[2] > 0.7)
-        noise = np.random.default_rng(2).standard_normal(len(target.data.vertices))
-        for vertex, share in zip(target.data.vertices, noise, strict=True):
-            vertex.co *= 1 + 0.01 * share
-        count = len(noise)
-        assert bpy.ops.object.fairing_fill(noisy=noisy) == {"FINISHED"}
-        off.append(np.abs(radii(target)[count:] - 1).max())
-    assert off[1] < 0.6 * off[0]
 
 
 @pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])

@@ -1,13 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Borders that are no holes are said, not passed over: in Blender and on the command line."""
 
-from pathlib import Path
-
 import bmesh
 import bpy
 import numpy as np
 import pytest
-from cli_runs import entries
 from fake_layout import draw
 from hole_scenes import ball, borders, is_closed, without
 from scenes import add, edit, refused, to_object_mode
@@ -112,19 +109,6 @@ def test_a_vertex_on_an_edge_is_listed_and_a_button_cuts_that_edge(capfd):
     assert bpy.ops.object.fairing_repair(index=len(defects) - 1) == {"FINISHED"}
     to_object_mode()
     assert len(target.data.polygons) == before + 1 and len(target.data.vertices) == 8
-
-
-def test_the_command_line_warns(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    target = with_a_fin()
-    bpy.ops.wm.obj_export(filepath="in.obj", export_selected_objects=True)
-    assert target.data.polygons and Path("in.obj").exists()
-    code, (entry,) = entries("in.obj", "out.obj", "--fill")
-    assert code == 0 and len(entry["objects"][0]["report"]["holes"]) == 1
-    assert "around no hole" in entry["warnings"][0]
-    code, (entry,) = entries("out.obj", "again.obj", "--fill")
-    assert (code, entry["objects"][0]["report"]) == (0, {"holes": []})
-    assert "around no hole" in entry["warnings"][0]
 
 
 def test_a_slit_is_left_and_listed_with_buttons_to_select_and_mend_it(capfd):

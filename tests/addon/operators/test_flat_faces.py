@@ -5,8 +5,7 @@ import bpy
 import numpy as np
 import pytest
 from fake_layout import draw
-from scenes import add, add_suzanne, edit, fair, positions, refused, settings, to_object_mode
-from shapes import lathe
+from scenes import add_suzanne, edit, fair, positions, refused, settings, to_object_mode
 
 from addon.job import Job
 from addon.mesh import flat_marks
@@ -27,12 +26,6 @@ def box(size=(40.0, 30.0, 20.0), segments=2):
     return made
 
 
-def can(around=12):
-    rim = RIM * np.array([1.0 - 2**-0.5, 2**-0.5])
-    low = [(30 - RIM, 0.0), (30 - rim[0], rim[0]), (30.0, RIM)]
-    return add("Can", *lathe([*low, *((r, 50 - z) for r, z in reversed(low))], around))
-
-
 def shape(name):
     if name == "Suzanne":
         return add_suzanne()
@@ -51,13 +44,6 @@ def marked(source):
     return [] if layer is None else [k for k, item in enumerate(layer.data) if item.value]
 
 
-def on_two_sides(source, faces, axis, at):
-    """Whether the corners of all faces are at ±`at` from the middle along `axis`."""
-    middle = (positions(source.data)[:, axis].max() + positions(source.data)[:, axis].min()) / 2
-    ids = [v for f in faces for v in source.data.polygons[f].vertices]
-    return np.abs(np.abs(positions(source.data)[ids, axis] - middle) - at).max() < 1e-4
-
-
 @pytest.mark.parametrize("segments", [1, 2, 4])
 def test_the_six_flats_of_a_rounded_box_are_found(segments):
     source = box(segments=segments)
@@ -70,19 +56,6 @@ def test_the_six_flats_of_a_rounded_box_are_found(segments):
     bpy.ops.object.fairing_flat_faces(clear=True)
     bpy.ops.object.fairing_flat_faces()
     assert sum(source.data.polygons[f].area for f in marked(source)) == pytest.approx(sum(areas))
-
-
-@pytest.mark.parametrize("size", [(140, 70, 9), (160, 75, 7)])
-def test_so_are_those_of_a_phone_shell_with_sides_as_wide_as_its_rims(size):
-    source = box(size)
-    bpy.ops.object.fairing_flat_faces()
-    assert len(marked(source)) == 6
-
-
-def test_only_the_ends_of_a_can_are_found():
-    source = can()
-    bpy.ops.object.fairing_flat_faces()
-    assert len(marked(source)) == 2 and on_two_sides(source, marked(source), 2, 25.0)
 
 
 @pytest.mark.parametrize("triangles", [False, True])

@@ -172,34 +172,6 @@ def test_a_filled_hole_that_ends_in_a_fold_is_told(capfd):
     assert "folded" not in capfd.readouterr().out, "any angle is right there"
 
 
-@pytest.mark.parametrize("levels", [0, 2])
-@pytest.mark.parametrize("joint", ["POSITION", "TANGENT", "CURVATURE"])
-def test_what_is_sound_in_place_is_not_blamed(levels, joint, capfd):
-    target, _ = cap(noise=0.02)
-    fair(target, levels=levels, joint=joint)
-    assert "what was faired" not in capfd.readouterr().out
-
-
-def test_vertices_that_end_in_a_fold_are_told(monkeypatch, capfd):
-    """No level: the faces are those of the mesh, with their vertices moved."""
-    target, middle = cap(0.0)
-    job = begun(target)
-    fold = np.flatnonzero(middle)[12]
-    made = df.fair
-
-    def folds(*args, **options):
-        result = made(*args, **options)
-        result.vertices[np.flatnonzero(job._part.vertices == fold)[0], 0] += 1.0
-        return result
-
-    monkeypatch.setattr(df, "fair", folds)
-    job.compute()
-    assert job.result.faults.counts["folded"] > 0 and "is folded" in job.warnings()[0]
-    half = begun(target, factor=0.0)
-    half.compute()
-    assert half.warnings() == [], "what was never moved there"
-
-
 def error_of(**options):
     with pytest.raises(RuntimeError) as caught:
         bpy.ops.object.fairing_in_place(**options)
@@ -254,18 +226,6 @@ def test_a_long_run_is_computed_beside_the_window_and_applied_at_its_end():
     job.apply()
     to_object_mode()
     assert np.array_equal(positions(target.data), expected)
-
-
-def test_a_cancelled_run_changes_nothing():
-    target, _ = cap()
-    before = positions(target.data)
-    queue = Queue([begun(target)], df.Monitor)
-    queue.cancel()
-    queue.start()
-    queue.join()
-    assert queue.cancelled and queue.jobs[0].result is None
-    to_object_mode()
-    assert np.array_equal(positions(target.data), before)
 
 
 def move_a_vertex(target):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from fake_layout import draw
 from polygons import grid
-from scenes import activate, add, fair, positions, recompute, refused, to_object_mode
+from scenes import activate, add, fair, positions, recompute, to_object_mode
 
 from addon import core, neighbours
 from addon.check import joints
@@ -14,7 +14,6 @@ from addon.freshness import NEIGHBOUR_CHANGED, NEIGHBOUR_MOVED, why_stale
 from addon.live import registry
 from addon.mesh.object import select_only
 from addon.ui import check as check_panel
-from addon.ui import main
 
 
 def strip(name, first, last, height):
@@ -70,21 +69,6 @@ def test_curvature_too_and_again_by_recompute(panels):
     assert why_stale(fender) == "Settings changed"
     recompute()
     assert np.degrees(check(*panels).kink) > 3
-
-
-def test_live_keeps_the_joint(panels):
-    bonnet, fender = panels
-    select(*panels)
-    bpy.ops.object.fairing_match_border()
-    activate(fender)
-    assert bpy.ops.object.fairing_live() == {"FINISHED"}
-    source = fender.discrete_fairing.source
-    source.data.vertices[6].co.z += 0.1
-    source.data.update()
-    bpy.context.view_layer.update()
-    for session in registry.sessions():
-        session.follow()
-    assert np.degrees(check(*panels).kink) < 0.1
 
 
 def test_live_follows_the_neighbour(panels):
@@ -172,13 +156,3 @@ def test_the_worst_place_is_shown(panels):
     assert target.mode == "EDIT"
     to_object_mode()
     assert [v.index for v in target.data.vertices if v.select] == [row.worst]
-
-
-def test_what_is_to_be_selected_is_said(panels):
-    bonnet, fender = panels
-    activate(fender)
-    refused("Select the other object first", bpy.ops.object.fairing_match_border)
-    refused("Select two mesh objects", bpy.ops.object.fairing_joints)
-    assert "object.fairing_match_border" in draw(main.VIEW3D_PT_fairing)
-    fender.discrete_fairing.neighbour = bonnet
-    assert "neighbour" in draw(main.VIEW3D_PT_fairing)

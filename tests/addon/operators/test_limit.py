@@ -4,7 +4,6 @@
 import bpy
 import numpy as np
 import pytest
-from live_scenes import follow, live
 from scenes import (
     CUBE,
     add,
@@ -16,8 +15,6 @@ from scenes import (
     shown,
     to_object_mode,
 )
-
-from addon.mesh.shape_keys import read_shape_keys
 
 
 def subdivided(source):
@@ -93,13 +90,6 @@ def test_semi_sharp_edges_and_vertices_too(model):
     assert np.abs(limits(source, crease_threshold=0.3) - wanted).max() < 1e-4
 
 
-def test_full_creases():
-    source = add_suzanne()
-    values = np.random.default_rng(4).random(len(source.data.edges)) < 0.2
-    crease(source, "crease_edge", "EDGE", values)
-    assert np.abs(limits(source) - subdivided(source)).max() < 1e-4
-
-
 def with_modifier(source, **settings):
     modifier = source.modifiers.new("Subdivision", "SUBSURF")
     for name, value in settings.items():
@@ -142,42 +132,3 @@ def test_a_mesh_that_is_subdivided_already_is_faired_through_its_vertices(interp
     given = shown(source)
     result = fair(levels=1, mesh_source="EVALUATED", interpolation=interpolation)
     np.testing.assert_allclose(positions(result.data)[: len(given)], given, atol=1e-6)
-
-
-def test_follow_leaves_the_limits_and_moves_what_is_between():
-    source = add_suzanne()
-    count = len(source.data.vertices)
-    free, follows = limits(source, levels=1, limit=0.0), limits(source, levels=1)
-    np.testing.assert_array_equal(free, follows)
-    way = {"levels": 1, "interpolation": "LIMIT"}
-    surfaces = [positions(again(source, **way, limit=limit).data) for limit in (0.0, 1.0)]
-    assert np.abs(surfaces[0] - surfaces[1])[count:].max() > 1e-3
-
-
-def test_shape_keys_go_to_their_own_limits():
-    source = add_suzanne()
-    source.shape_key_add(name="Basis")
-    key = source.shape_key_add(name="Wide")
-    for point in key.data:
-        point.co.x *= 1.5
-    expected = limits(source, use_shape_keys=False)
-    result = again(source, levels=1, interpolation="LIMIT")
-    keys = read_shape_keys(result, len(result.data.vertices))
-    count = len(expected)
-    np.testing.assert_allclose(keys.positions[0][:count], expected, atol=1e-6)
-    np.testing.assert_allclose(keys.positions[1][:count], expected * (1.5, 1, 1), atol=1e-6)
-
-
-def test_a_live_surface_follows_through_its_limits():
-    source = with_modifier(add_suzanne())
-    surface = live(source)
-    assert surface.discrete_fairing.interpolation == "LIMIT"
-    for vertex in source.data.vertices:
-        vertex.co.z *= 1.25
-    source.data.update()
-    follow()
-    count = len(source.data.vertices)
-    found = positions(surface.data)[:count]
-    bpy.ops.object.fairing_live()
-    expected = limits(source)
-    np.testing.assert_allclose(found, expected, atol=1e-5)

@@ -111,16 +111,6 @@ def test_an_edge_marked_sharp_stays_one():
     assert heights[True] < 0.006 < heights[False]
 
 
-def test_refined_too():
-    scan, _ = sphere("normals")
-    count, faces = len(scan.data.vertices), len(scan.data.polygons)
-    assert bpy.ops.object.fairing_in_place(vertices="MEASURED", levels=1) == {"FINISHED"}
-    to_object_mode()
-    assert len(scan.data.polygons) > faces + 3 * 2188
-    points = positions(scan.data)
-    assert off(points) < 0.0005 and len(points) > count
-
-
 def test_polygons_that_are_split_on_the_way():
     bpy.ops.mesh.primitive_grid_add(x_subdivisions=30, y_subdivisions=30)
     scan = bpy.context.object

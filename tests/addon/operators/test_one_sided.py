@@ -1,12 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One-sided surfaces: Bending fairs a Möbius strip, and what lies on it comes with it."""
 
-import bpy
 import numpy as np
 import one_sided_meshes
 import pytest
-from live_scenes import live, pull
-from scenes import add, faces_at_edges, fair, positions, recompute
+from scenes import add, faces_at_edges, fair, positions
 
 AROUND = 8
 
@@ -41,24 +39,3 @@ def test_one_sheet_with_its_uv_map(repair):
         assert (low >= [around / AROUND - 1e-6, across / 2 - 1e-6]).all()
         assert (high <= [(around + 1) / AROUND + 1e-6, (across + 1) / 2 + 1e-6]).all()
         assert np.allclose(high - low, [1 / AROUND / 4, 1 / 8], atol=0.02)
-
-
-def test_live_and_shape_keys_follow():
-    source = strip()
-    source.shape_key_add(name="Basis")
-    source.shape_key_add(name="Bent").data[4].co.z += 0.5
-    target = fair(levels=2)
-    bent = target.data.shape_keys.key_blocks["Bent"]
-    assert np.isclose(bent.data[4].co.z, source.data.shape_keys.key_blocks["Bent"].data[4].co.z)
-    source.shape_key_clear()
-    recompute(target)
-    live(target)
-    pull(source, 1, 0.1)
-    assert np.array_equal(positions(target.data)[: 3 * AROUND], positions(source.data))
-
-
-def test_other_energies_say_what_to_do():
-    strip()
-    refused = "Set Fairness to Bending, or cut it open.*only one side"
-    with pytest.raises(RuntimeError, match=refused):
-        bpy.ops.object.fairing_surface(levels=2, energy="TOTAL_CURVATURE")

@@ -3,9 +3,9 @@
 
 import bpy
 import numpy as np
-from live_scenes import live, pull, through
+from live_scenes import live, pull
 from refined import values
-from scenes import add_attribute, again, fair, positions
+from scenes import add_attribute, fair, positions
 
 from addon.errors import pads_text
 from addon.memory import recall
@@ -24,16 +24,6 @@ def add_crumpled():
     points += 0.5 * rough * random.uniform(-1, 1, points.shape)
     ball.data.vertices.foreach_set("co", points.astype(np.float32).ravel())
     return ball
-
-
-def test_pads_change_the_surface_and_hold_the_vertices(source):
-    needles = fair(levels=2, pad_size=0.0)
-    pads = again(source, levels=2)
-    assert pads.discrete_fairing.pad_size == 1.0
-    assert not np.array_equal(positions(pads.data), positions(needles.data))
-    for surface in (pads, needles):
-        assert "fair_pad_size" not in surface.data.attributes, "none gave way"
-        assert through(surface, source)
 
 
 def test_where_pads_gave_way_is_said_and_kept(capfd):

@@ -9,7 +9,6 @@ from bl_operators.presets import AddPresetOperator
 from scenes import CUBE, add, fair
 
 import addon
-from addon.operators.fair import FairSurface
 from addon.operators.presets import NOT_KEPT
 from addon.properties import FairingSettings
 from addon.purposes import PRESET_FOLDER, preset_values
@@ -73,22 +72,6 @@ def test_a_preset_from_before_still_opens(tmp_path):
     for gone in ("vertex_release", "repair_orientation"):
         assert gone not in FairingSettings.__dict__ and settings.get(gone) is None
     assert settings.repair == "MEND"
-
-
-def test_it_does_in_adjust_last_operation_too(monkeypatch):
-    """Which has the operator itself as the active one."""
-    execute = FairSurface.execute
-
-    def adjusted(self, context):
-        with context.temp_override(active_operator=self):
-            exec(OLD)
-        return execute(self, context)
-
-    monkeypatch.setattr(FairSurface, "execute", adjusted)
-    add("Box", *CUBE)
-    made = fair(levels=1).discrete_fairing
-    assert made.interpolation == "APPROXIMATE"
-    assert (made.tolerance, made.tolerance_unit) == (0.25, "RELATIVE")
 
 
 def test_own_preset(tmp_path, monkeypatch):

@@ -129,13 +129,6 @@ def test_a_scan_with_shape_keys_is_refused_in_object_mode():
     np.testing.assert_array_equal(positions(scan.data), before)
 
 
-def test_a_whole_scan_may_be_refined():
-    bpy.ops.mesh.primitive_grid_add(x_subdivisions=6, y_subdivisions=6)
-    sheet = bpy.context.object
-    assert bpy.ops.object.fairing_scan(levels=1) == {"FINISHED"}
-    assert len(sheet.data.polygons) == 4 * 36 and bpy.context.mode == "OBJECT"
-
-
 def test_a_job_takes_selected_meshes_beside_another_active_object():
     box = add("Box", *CUBE)
     bpy.ops.object.light_add()

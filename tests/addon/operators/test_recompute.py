@@ -71,19 +71,6 @@ def test_without_its_source_it_is_a_mesh_like_any_other(source):
     assert not bpy.ops.object.fairing_show_source.poll()
 
 
-def test_panel_shows_what_is_remembered(source):
-    bpy.context.scene.discrete_fairing.interpolation = "APPROXIMATE"
-    assert "tolerance" in draw(main.VIEW3D_PT_fairing)
-    fair(levels=1)
-    log = draw(main.VIEW3D_PT_fairing)
-    assert "object.fairing_recompute" in log and "object.fairing_surface" not in log
-    assert "source" in log and "tolerance" not in log, "its own settings, not the scene's"
-    assert "48 triangles" in log, "counted from its source"
-    assert bpy.ops.object.fairing_show_source() == {"FINISHED"}
-    assert bpy.context.active_object == source and source.visible_get()
-    assert "object.fairing_surface" in draw(main.VIEW3D_PT_fairing)
-
-
 def test_survives_saving(tmp_path):
     add("Box", *CUBE)
     fair(levels=1, metric_exponent=0.25, boundary="FREE")

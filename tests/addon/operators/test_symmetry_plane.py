@@ -4,14 +4,10 @@
 import bpy
 import numpy as np
 import pytest
-from fake_layout import draw
 from polygons import grid
-from scenes import add, again, faces_at_edges, positions, recompute, settings
+from scenes import add, again, faces_at_edges, positions, recompute
 
-from addon import prediction
-from addon.job import Job
 from addon.live import pace, registry
-from addon.ui import main
 
 
 def half_bowl():
@@ -60,28 +56,6 @@ def test_live_and_recompute_keep_the_half():
     assert len(half.data.vertices) == len(before)
     assert not np.array_equal(positions(half.data), before)
     half.discrete_fairing_live.on = False
-
-
-def test_errors_name_the_plane_and_the_faces_that_are_there():
-    source = half_bowl()
-    with pytest.raises(RuntimeError, match="no border edge lies in the plane y = 0"):
-        bpy.ops.object.fairing_surface(levels=1, symmetry_plane="Y")
-    source.data.polygons[7].flip()
-    with pytest.raises(RuntimeError, match=r"1 face \(7\) points against the neighbours"):
-        bpy.ops.object.fairing_surface(levels=1, symmetry_plane="X", repair="REFUSE")
-
-
-@pytest.mark.parametrize("energy", ["THIN_PLATE", "TOTAL_CURVATURE"])
-def test_seconds_count_both_halves_and_triangles_those_that_come(energy):
-    source = half_bowl()
-    alone = Job(bpy.context, source, settings(levels=6, energy=energy))
-    said = draw(main.VIEW3D_PT_fairing)
-    half = Job(bpy.context, source, settings(symmetry_plane="X"))
-    seconds = half.predict(energy, 6)
-    assert seconds == 2 * alone.predict(energy, 6)
-    assert half.triangles == alone.triangles
-    expected = f"{alone.triangles:,} triangles, {prediction.text(seconds)}"
-    assert expected in draw(main.VIEW3D_PT_fairing) and expected not in said
 
 
 def test_live_counts_both_halves(monkeypatch):

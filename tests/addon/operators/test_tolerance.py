@@ -1,20 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tolerances: a length or a share of the edges, and a group for single vertices."""
 
-from dataclasses import asdict
 from types import SimpleNamespace
 
 import bpy
 import numpy as np
 import pytest
-from live_scenes import follow, live, pull, session, through, whole
+from live_scenes import follow, live, pull, session, whole
 from scenes import (
     CUBE,
-    activate,
     add,
     add_attribute,
     add_group,
-    again,
     fair,
     moved,
     positions,
@@ -23,17 +20,8 @@ from scenes import (
 from addon import vertex_values
 from addon.errors import JobError
 from addon.live import session as live_session
-from addon.memory import recall
 from addon.mesh.read import control_mesh, tolerance_factors
 from addon.properties import FairingSettings, _vertex_values
-from addon.settings import Settings
-
-
-def test_a_setting_changes_no_other():
-    settings = bpy.context.scene.discrete_fairing
-    before = asdict(Settings.of(settings))
-    settings.tolerance = 0.5
-    assert asdict(Settings.of(settings)) == before | {"tolerance": 0.5}
 
 
 @pytest.mark.parametrize(
@@ -48,22 +36,6 @@ def test_near_keeps_the_tolerance_that_was_given(given, most):
     source = add("Box", *CUBE)  # edges of 2
     result = fair(levels=1, interpolation="APPROXIMATE", **given)
     assert 0.9 * most < moved(source, result).max() <= most * (1 + 1e-5)
-
-
-def test_a_relative_tolerance_goes_with_the_size(source):
-    result = fair(levels=1, interpolation="APPROXIMATE", tolerance=0.05)
-    small = positions(result.data)
-    source.modifiers.new("Finer", "SUBSURF").subdivision_type = "SIMPLE"
-    finer = again(
-        source, levels=1, interpolation="APPROXIMATE", tolerance=0.05, mesh_source="EVALUATED"
-    )
-    # a share of edges that are half as long
-    assert 0.045 < recall(finer, "report")["largest_deviation"] <= 0.05 * (1 + 1e-5)
-    source.modifiers.clear()
-    activate(result)
-    source.data.vertices.foreach_set("co", 100 * positions(source.data).ravel())
-    bpy.ops.object.fairing_recompute()
-    assert np.allclose(positions(result.data), 100 * small, atol=1e-3)
 
 
 def test_a_drag_does_not_change_what_the_tolerance_is_a_share_of(source, no_pause):
@@ -115,34 +87,6 @@ def test_a_group_is_read_in_edit_mode(source, make):
         assert tolerance_factors(source, mesh, settings).tolist() == [1.0, 0.5, *[0.0] * 6]
 
 
-def test_recompute_reads_the_group_again(source):
-    loose_by_group(source)
-    result = fair(tolerance=0.1, **LOOSE)
-    source.vertex_groups["Loose"].add([0, 1], 0.0, "REPLACE")
-    source.vertex_groups["Loose"].add([7], 1.0, "REPLACE")
-    bpy.ops.object.fairing_recompute()
-    assert set(np.flatnonzero(moved(source, result))) == {7}
-
-
-def test_shape_keys_are_held_by_the_group_too(source):
-    loose_by_group(source)
-    source.shape_key_add(name="Basis")
-    source.shape_key_add(name="Up").data[7].co.z += 1.0
-    result = fair(tolerance=0.1, **LOOSE)
-    control, up = (o.data.shape_keys.key_blocks["Up"].data for o in (source, result))
-    assert up[7].co == control[7].co and up[0].co != control[0].co
-
-
-def test_live_follows_the_group(source):
-    loose_by_group(source)
-    target = fair(tolerance=0.1, **LOOSE)
-    live(target)
-    source.vertex_groups["Loose"].add([7], 1.0, "REPLACE")
-    source.data.update()
-    follow()
-    assert moved(source, target)[7] > 0 and not session(target).trouble
-
-
 def test_live_waits_for_a_group_that_is_gone(source):
     target = fair(levels=1, interpolation="APPROXIMATE")
     live(target)
@@ -162,11 +106,6 @@ def test_a_name_that_is_nothing_is_refused():
     with pytest.raises(RuntimeError, match="Box: Choose another Tolerance Group.*named 'Loose'"):
         fair(interpolation="APPROXIMATE", tolerance_group="Loose")
     assert len(bpy.data.objects) == 1
-
-
-def test_a_group_means_nothing_where_all_vertices_are_held(source):
-    result = fair(levels=1, interpolation="EXACT", tolerance_group="Loose")
-    assert through(result, source)
 
 
 def test_values_are_from_nothing_to_all(source):

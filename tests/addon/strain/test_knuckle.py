@@ -5,13 +5,10 @@ import bpy
 import hulls
 import numpy as np
 import pytest
-from fake_layout import draw
 from scenes import EXAMPLES, computed, positions, refused, to_object_mode
 
 from addon.mesh.offset_names import read_names
-from addon.strain import known
 from addon.strain.measure import StrainJob
-from addon.ui import strain as strain_panel
 
 
 def chine(without, truth=False):
@@ -77,12 +74,3 @@ def test_worst_vertices_leave_it_alone():
     assert bpy.ops.object.fairing_ease(amount="WORST", count=3, result="COPY") == {"FINISHED"}
     moved = np.linalg.norm(positions(bpy.context.active_object.data) - before, axis=1)
     assert np.count_nonzero(moved) == 3 and not moved[names.index("station 7, Chine")]
-
-
-def test_the_panel_asks():
-    hull = chine([7, 8])
-    known.keep(computed(StrainJob(bpy.context, hull)))
-    log = draw(strain_panel.VIEW3D_PT_fairing_strain)
-    assert "object.fairing_crease_knuckle" in log
-    said = " ".join(log)
-    assert "look like a knuckle" in said and "Station 7, Chine" in log

@@ -84,24 +84,6 @@ def test_control_vertices_keep_their_values(levels):
     assert np.array_equal(transfer.point(given)[: len(given)], given)
 
 
-@pytest.mark.parametrize("levels", LEVELS)
-def test_corners_and_points_agree_where_nothing_is_cut(levels):
-    arrays, result, transfer = mixed(levels)
-    given = np.random.default_rng(2).random((len(POSITIONS), 2), np.float32)
-    corners = transfer.corner(given[arrays.corners])
-    assert np.allclose(corners, transfer.point(given)[refined_corners(result)], rtol=0, atol=1e-7)
-
-
-def test_corners_come_from_their_own_polygon():
-    arrays, result, transfer = mixed()
-    polygon = np.repeat(np.arange(3), np.diff(arrays.offsets)).astype(np.float32)
-    origin = np.concatenate(
-        [np.repeat(result.triangle_polygon, 3), np.repeat(result.quad_polygon, 4)]
-    )
-    assert np.array_equal(transfer.corner(polygon)[:, 0], origin)
-    assert np.array_equal(transfer.pick_corner(polygon), origin)
-
-
 def test_polygon_centre_is_its_centroid():
     arrays, _, transfer = mixed(0)
     centre = transfer.point(arrays.positions)[len(POSITIONS)]
@@ -121,30 +103,6 @@ def test_picked_points_are_the_nearest():
     assert [at[i] for i in range(5)] == [10, 10, 10, 20, 20]
     assert [at[20 + i] for i in range(5)] == [40, 40, 30, 30, 30]
     assert at[12] == 10
-
-
-def test_picked_corners_agree_with_picked_points():
-    arrays, result, transfer = mixed(3)
-    ids = np.arange(len(POSITIONS))
-    points = transfer.pick_point(ids)
-    corners = transfer.pick_corner(arrays.corners)
-    assert np.array_equal(points[refined_corners(result)], corners)
-    assert set(points[refined_corners(result)]) == set(range(9))
-    assert np.array_equal(points[: len(ids)], ids)  # vertex 9 too, which no face uses
-
-
-@pytest.mark.parametrize("levels", LEVELS)
-def test_edges(levels):
-    arrays, result, transfer = mixed(levels)
-    corners = [faces for faces in result.faces if len(faces)]
-    pairs = np.concatenate([np.stack([f, np.roll(f, -1, 1)], 2).reshape(-1, 2) for f in corners])
-    edges, corner_edge = np.unique(np.sort(pairs, axis=1), axis=0, return_inverse=True)
-    origin = transfer.edge_origin(corner_edge.ravel(), len(edges))
-    count = np.bincount(origin[origin >= 0], minlength=len(arrays.edges))
-    assert (count == 2**levels).all()
-    for e, (a, b) in enumerate(arrays.edges):  # each is a path from a to b
-        ends, times = np.unique(edges[origin == e], return_counts=True)
-        assert set(ends[times == 1]) == {a, b}
 
 
 def test_turned_faces():

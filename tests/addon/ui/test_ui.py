@@ -11,14 +11,13 @@ from scenes import CUBE, add, add_suzanne, face_values, fair
 
 import addon
 from addon import core, size
-from addon.choices import ENERGIES, ENERGY_MEANINGS, INTERPOLATIONS
 from addon.operators.fair import FairSurface
 from addon.properties import fill_in
-from addon.purposes import FOLDER, PRESET_FOLDER, PURPOSES
+from addon.purposes import FOLDER, PRESET_FOLDER
 from addon.registration import classes_of
 from addon.settings import NAMES, Settings
 from addon.ui import layout as settings_layout
-from addon.ui import main, menus, pictures
+from addon.ui import main, menus
 from addon.ui.layout import Sidebar
 
 
@@ -84,12 +83,6 @@ def test_a_group_that_is_not_there_is_said():
     assert "Not in Box" not in near(tolerance_group="Made by a modifier", mesh_source="EVALUATED")
 
 
-@pytest.fixture
-def named(monkeypatch):
-    """Pictures by their names: without a window they have no numbers."""
-    monkeypatch.setattr(pictures, "icon", lambda key: f"picture of {key}")
-
-
 @pytest.mark.parametrize("own", [False, True], ids=["none of one's own", "one of one's own"])
 def test_a_preset_can_be_saved(own, tmp_path):
     """Also as the first one: then Blender has no folder for them yet."""
@@ -106,31 +99,6 @@ def test_a_preset_can_be_saved(own, tmp_path):
     log = instance.layout.log
     assert log.count("object.fairing_preset_apply") == own
     assert log[-2:] == ["preset_name", "object.fairing_preset_add"]
-
-
-def test_what_the_surface_is_for_comes_first(named):
-    add("Box", *CUBE)
-    shown = draw(main.VIEW3D_PT_fairing)
-    first = shown[: shown.index("levels")]
-    assert first[0] == "Fair for"
-    each = [(f"picture of {key}", "object.fairing_for") for key, *_ in PURPOSES]
-    pictures = [entry for entry in first if entry in dict(each) or entry == "object.fairing_for"]
-    assert pictures == [entry for pair in each for entry in pair]
-    fair(levels=1)
-    assert "object.fairing_for" not in draw(main.VIEW3D_PT_fairing)
-
-
-@pytest.mark.parametrize("energy", [key for key, *_ in ENERGIES])
-def test_a_beginner_has_fairness_levels_and_vertices_above_the_button(energy):
-    add("Box", *CUBE)
-    bpy.context.scene.discrete_fairing.energy = energy
-    shown = draw(main.VIEW3D_PT_fairing)
-    order = ["levels", "Fairness", "Vertices", "object.fairing_surface", "More", "pad_size"]
-    places = [shown.index(name) for name in order]
-    assert places == sorted(places)
-    assert shown[shown.index("energy") : places[2]][-1] == ENERGY_MEANINGS[energy]
-    grey = {"Used for the start only", "Not with this fairness"} & set(shown)
-    assert len(grey) == (2 if energy == "MINIMUM_VARIATION" else 0)
 
 
 class Given(SimpleNamespace):
@@ -181,9 +149,3 @@ def test_count_is_what_comes(levels):
     bpy.ops.object.fairing_surface(levels=levels, energy="THIN_PLATE")
     fine = face_values(bpy.context.object.data, "loop_total", "i")
     assert size.triangle_count(size.face_sizes(source.data), levels) == int((fine - 2).sum())
-
-
-def test_each_choice_has_its_picture():
-    softly = [f"{key}_SOFTLY" for key in ("THIN_PLATE", "TOTAL_CURVATURE")]
-    keys = [key for key, *_ in (*ENERGIES, *INTERPOLATIONS)] + softly
-    assert {key.title() for key in keys} <= set(pictures._loaded)

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """File > Import > Offsets: the mesh in Blender, its names, and what strain says of them."""
 
-import csv
 from dataclasses import asdict
 
 import bpy
@@ -11,8 +10,6 @@ import pytest
 from scenes import EXAMPLES, activate, computed, fair, positions, settings, to_object_mode
 
 from addon.mesh.offset_names import read_names, stations
-from addon.strain import words
-from addon.strain.drawn import labels
 from addon.strain.measure import StrainJob
 from addon.yard.hull_mesh import hull_mesh
 from addon.yard.offsets import Offset, Offsets
@@ -96,30 +93,6 @@ def test_wrong_offsets_are_found_by_name(make):
     assert named <= listed
     # three stations of a bulb are too few for its shape: that strains, too
     assert listed == named or "bulb" in table.file
-
-
-def test_strain_says_names(tmp_path):
-    hull = imported(EXAMPLES / "offsets_yacht.tsv")
-    found, text = computed(StrainJob(bpy.context, hull)).result, "{:.4f}".format
-    assert "station 6, L5: 0.0" in words.found(found.worst(3), found.lengths, text, found.names)
-    assert labels(found, 1, 1.0, text)[0][1].startswith("station ")
-    path = tmp_path / "strain.csv"
-    assert bpy.ops.object.fairing_strain_table(filepath=str(path)) == {"FINISHED"}
-    rows = list(csv.DictReader(path.open(encoding="utf-8", newline="")))
-    assert (rows[9]["station"], rows[9]["line"], rows[9]["vertex"]) == ("1", "L1", "9")
-    hull.data.vertices[0].select = True
-    bpy.ops.object.mode_set(mode="EDIT")
-    assert bpy.ops.object.fairing_select_strained(by="COUNT", count=3) == {"FINISHED"}
-
-
-def test_a_tolerance_that_is_not_used_up_says_why(capfd):
-    imported(EXAMPLES / "offsets_yacht.tsv")
-    options = {"result": "COPY", "amount": "TOLERANCE"}
-    assert bpy.ops.object.fairing_ease(tolerance=1.0, **options) == {"FINISHED"}
-    assert "The scatter of the vertices explains no more" in capfd.readouterr().out
-    imported(EXAMPLES / "offsets_yacht.tsv")
-    assert bpy.ops.object.fairing_ease(tolerance=1e-4, **options) == {"FINISHED"}
-    assert "explains no more" not in capfd.readouterr().out
 
 
 @pytest.mark.parametrize("make", [hulls.chine, hulls.yacht])
