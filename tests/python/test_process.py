@@ -126,28 +126,6 @@ def test_a_fork_in_mid_run_ends_the_run_in_the_child_alone():
     assert out == ["FORKED", "0", "None", "None", "0"]
 
 
-@forks
-def test_a_solver_at_work_elsewhere_has_stayed_behind_as_well():
-    """It is not busy in the child, where nobody is at work with it."""
-    out = run("""
-        solver, monitor = df.Solver(points, faces, 7), df.Monitor()
-        solve = lambda: code_of(lambda: solver.solve(points, monitor=monitor))
-        thread = threading.Thread(target=solve)
-        thread.start()
-        while monitor.fraction == 0:
-            time.sleep(0.001)
-        print(code_of(solver.solve), flush=True)
-        child = os.fork()
-        if child == 0:
-            print(code_of(solver.solve), code_of(solver.rebase, points), flush=True)
-            sys.exit(0)
-        print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), flush=True)
-        monitor.cancel()
-        thread.join()
-    """)
-    assert out == ["BUSY", "FORKED", "FORKED", "0"]
-
-
 def little_room():
     """Stacks so large that few find room."""
     import resource

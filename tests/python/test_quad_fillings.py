@@ -124,15 +124,3 @@ def test_quads_and_triangles_in_one_call():
         assert report.faces.shape[1] == (4 if is_grid else 3)
     assert not df.check(filled.vertices, filled.faces)
     assert abs(np.hypot(*filled.vertices[:, :2].T) - 1).max() < 0.003
-
-
-@pytest.mark.parametrize("rim", ["exact", "noisy"])
-@pytest.mark.parametrize("joint", ["position", "tangent", "curvature"])
-def test_every_joint_and_rim(joint, rim):
-    points, quads, hole, gone = holed(lambda a, z: (abs(a) < 0.5) & (abs(z) < 0.5))
-    for density in (0, 1, 2):  # that counts for triangles only
-        filled = df.fill_holes(
-            points, quads, holes=[hole], quads=True, joint=joint, rim=rim, density=density
-        )
-        assert len(filled.new_faces) == gone and filled.holes[0].folds == 0
-        assert not df.check(filled.vertices, filled.faces)

@@ -195,16 +195,6 @@ def test_regions(pages, joint):
         assert np.abs(along - (a + (b - a) * np.arange(1, 5)[:, None] / 4)).max() <= 1e-12
 
 
-def test_the_order_of_faces_changes_nothing():
-    vertices, faces, _ = book(3, triangles=True)
-    order = np.random.default_rng(3).permutation(len(faces))
-    here, there = fair(vertices, faces, 2), fair(vertices, faces[order], 2)
-    assert here.vertices.shape == there.vertices.shape
-    for face in range(len(faces)):
-        mine = corners_of(here, [face])
-        assert np.abs(mine - corners_of(there, [np.argmax(order == face)])).max() <= 1e-7
-
-
 def test_orientation_is_a_sheet_s_own_affair():
     vertices, faces, size = book(3)
     turned = faces.copy()

@@ -98,16 +98,6 @@ def test_moved_surfaces_are_those_of_shapes(name):
     assert np.abs(result.vertices - alone.vertices).max() < near * size_of(vertices)
 
 
-@pytest.mark.parametrize("name", ["random_hull", "creature"])
-def test_starting_elsewhere(name):
-    """The first positions need not be those of the charts; folds are filled where they are there."""
-    vertices, faces = sample(name)
-    shape = moved(vertices)
-    expected = tight.fair(vertices, faces, 3, shapes=[shape]).shapes[0]
-    result = tight.Solver(vertices, faces, 3).solve(shape)
-    assert np.abs(result.vertices - expected).max() < 1e-6
-
-
 @pytest.mark.parametrize("kind", [k for k in SETTINGS if "tolerance" in k or k == "epsilon"])
 def test_vertices_that_may_move_stay_near_where_they_have_gone(kind):
     vertices, faces = sample("creature")

@@ -202,19 +202,6 @@ def test_it_is_a_length_and_turns_with_the_mesh():
     np.testing.assert_allclose(moved.ways / 40, found.ways @ turn.T, atol=near)
 
 
-def test_half_a_torus_has_the_strain_of_the_whole():
-    points, faces = control_meshes.torus(12, 8)
-    whole = df.strain(points, faces)
-    in_half = (points[faces][..., 0].min(1) > -1e-9).nonzero()[0]
-    points = points.copy()
-    points[np.abs(points[:, 0]) < 1e-9, 0] = 0
-    used, ids = np.unique(faces[in_half], return_inverse=True)
-    half = df.strain(points[used], ids.reshape(-1, 4), symmetry_plane="x")
-    np.testing.assert_allclose(
-        half.lengths, whole.lengths[used], atol=0.02 * np.abs(whole.lengths).max()
-    )
-
-
 @pytest.mark.parametrize("call", [df.strain, df.ease])
 def test_a_matrix_beyond_the_memory_limit_is_refused(call):
     points, faces = control_meshes.torus(80, 60)

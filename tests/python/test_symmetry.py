@@ -8,7 +8,7 @@ import pytest
 import tight
 from mesh_files import read_mesh, weld
 from shared_data import shared_files
-from sheet_meshes import mirrored_book, mirrored_book_with_a_wall
+from sheet_meshes import mirrored_book_with_a_wall
 from surfaces import assert_same_points, assert_same_positions, random_rotation, size_of
 
 ENERGIES = ["total_curvature", "minimum_variation"]
@@ -163,14 +163,6 @@ def test_folds_are_removed_alike_on_both_sides(kind, seed, scale, exponent):
     vertices, faces = crumpled(kind, seed)
     result = tight.fair(vertices * scale, faces, 1, metric_exponent=exponent)
     assert_symmetric(result.vertices, tolerance=1e-9)
-
-
-@pytest.mark.parametrize("energy", ENERGIES)
-def test_of_sheets_that_meet(energy):
-    vertices, faces = mirrored_book()
-    result = tight.fair(vertices, faces, 2, energy)
-    assert result.report["sheets"]["count"] == 4
-    assert_symmetric(result.vertices)
 
 
 @pytest.mark.parametrize("pad_size", [0.0, 1.0])
