@@ -9,7 +9,6 @@
 #include "curvature/area.h"
 #include "fit/measure.h"
 #include "fit/round_off.h"
-#include "fit/weight_choice.h"
 #include "grid/linear.h"
 #include "parallel/reductions.h"
 
@@ -19,8 +18,6 @@ namespace {
 // The level on which the weight is chosen: the waves that matter are longer than its edges. Coarse
 // control meshes with many points a face use a finer level.
 constexpr int level_of_search = 2;
-// Most cells of that level, since the choice takes some twenty iterations.
-constexpr std::size_t cells_of_search = std::size_t(1) << 14;
 
 // Every `step`-th point.
 Scan thinned(const Scan& scan, std::size_t step) {
@@ -89,7 +86,10 @@ void FitLevels::run(FitReport& report) {
     fit->stay_near(prior(*fit));
     fit_curves(*fit, weight_, 2, true);
     const double left = spread_of(fit->feet(), {}).rms;
-    if (is_automatic && level > search_) weight_ *= std::pow(std::max(left_below / left, 1.0), 2);
+    if (is_automatic && level > search_) {
+      const double grown = weight_ * std::pow(std::max(left_below / left, 1.0), 2);
+      weight_ = std::max(weight_, std::min(grown, fit->stiffest()));
+    }
     left_below = left;
     fit_curves(*fit, weight_, 2, true);
     monitor_.report(Phase::solve, 1 - std::pow(2, level - levels_.top() - 3));

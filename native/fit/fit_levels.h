@@ -5,12 +5,14 @@
 #include "fairing/problem.h"
 #include "fit/curves.h"
 #include "fit/fit_scan.h"
-#include "fit/level_fit.h"
+#include "fit/weight_choice.h"
 
 namespace fairing {
 
-// Number of points for the choice of the weight; more do not improve it.
-constexpr std::size_t enough_points = std::size_t(1) << 18;
+// Most cells of the level on which the weight is chosen: that takes some twenty iterations.
+constexpr std::size_t cells_of_search = std::size_t(1) << 14;
+// Number of points for the choice, points_a_blob for a quarter of each cell; more do not improve it.
+constexpr std::size_t enough_points = std::size_t(points_a_blob * points_a_blob) * cells_of_search;
 
 class FitLevels {
  public:

@@ -101,7 +101,7 @@ double covered_within(const Array<Foot>& feet) {
   for (const Foot& foot : feet)
     if (foot.is_used()) far.push_back(std::abs(foot.offset));
   if (far.empty()) return 0;
-  const auto at = far.begin() + std::ptrdiff_t(0.95 * double(far.size() - 1));
+  const auto at = far.begin() + std::ptrdiff_t((far.size() - 1) * 95 / 100);
   std::nth_element(far.begin(), at, far.end());
   return double(*at);
 }

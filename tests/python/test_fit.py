@@ -83,6 +83,14 @@ def test_without_noise_the_surface_converges_by_four_a_level(cage):
     assert distance[0] > 3.5 * distance[1] > 3.5**2 * distance[2]
 
 
+def test_points_pull_no_more_than_for_waves_as_long_as_they_are_apart(cage):
+    points = blob_scan(4_000, 0.0)
+    fitted = df.fit(*cage, points, levels=4)
+    edges_a_gap = np.sqrt(len(points) / len(cage[1]))
+    assert fitted.weight < 1.5 * edges_a_gap**4
+    assert rms(fitted.distances) < NOISE / 500
+
+
 def test_holes_are_bridged_and_strays_ignored(cage, scan):
     random = np.random.default_rng(5)
     points = scan.copy()
