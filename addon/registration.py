@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Registers in Blender what modules declare.
+"""Registers the declarations of modules in Blender.
 
-Classes are found without a declaration. `ATTACHED`: property groups of data-blocks. `HANDLERS`: listeners
-by the names of Blender's events. `TIMERS`: functions that may be waiting for a timer. A module may have
-functions `register` and `unregister` for the rest, called after these are registered and before they are
-unregistered.
+Classes are found without a declaration. `ATTACHED`: property groups of data-blocks. `HANDLERS`:
+listeners by the names of Blender's events. `TIMERS`: functions that may be waiting for a timer. A
+module may have functions `register` and `unregister` for the rest, called after these are registered
+and before they are unregistered.
 """
 
 from types import ModuleType

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Mix-ins of operators: what they report, and which of their properties they show."""
+"""Mix-ins of operators: reporting of errors, and the list of shown properties."""
 
 from collections.abc import Callable, Iterable
 from functools import wraps
@@ -13,7 +13,7 @@ from ..poll import ExplainedPoll
 
 
 def refusing(call: Callable[..., Answer]) -> Callable[..., Answer]:
-    """A method of an operator, with a context, that reports a JobError and cancels the operator."""
+    """Makes an operator's method report a JobError and cancel the operator."""
 
     @wraps(call)
     def answered(self: Any, context: Context) -> Answer:  # Blender counts the arguments
@@ -27,10 +27,10 @@ def refusing(call: Callable[..., Answer]) -> Callable[..., Answer]:
 
 
 class Action(ExplainedPoll, OperatorBase):
-    """Mix-in of operators that are done at once."""
+    """Mix-in of operators without a background run."""
 
     def act(self, context: Context) -> str | None:
-        """Carries it out and returns what the operator reports, if anything. Raises JobError."""
+        """Carries out the operator and returns its report, if any. Raises JobError."""
         raise NotImplementedError
 
     @refusing
@@ -42,8 +42,8 @@ class Action(ExplainedPoll, OperatorBase):
 
 
 class Shown(OperatorBase):
-    """Mix-in of operators that show some of their properties below one another, in Adjust Last Operation
-    or a file browser.
+    """Mix-in of operators that show some of their properties below one another, in Adjust Last
+    Operation or a file browser.
     """
 
     def shown(self, context: Context) -> Iterable[str]:

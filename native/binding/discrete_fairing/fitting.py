@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""fit_patches(): from a control mesh to spline patches of its fair surface, in one call."""
+"""fit_patches(): spline patches of the fair surface of a control mesh."""
 
 from __future__ import annotations
 
@@ -24,17 +24,18 @@ from .scan_fitting import Fitted, fit
 from .watching import Progress, SeveralRuns, check_watchers
 
 FIRST_LEVEL, LAST_LEVEL, LEAST_LEVEL = 5, 8, 3
-# Points of a surface that is begun with, of a finer one that converges better, and of one whose
-# patches are to meet a tolerance.
+# Largest numbers of points: of the first surface, of a finer one that converges better, and of one
+# whose patches must meet a tolerance.
 MOST_POINTS, MOST_FINER_POINTS, MOST_POINTS_FOR_FACES = 6_000_000, 300_000, 1_200_000
 TURN_LIMIT = np.radians(20.0)  # between neighbouring cells of the refined surface
-HOPELESS_TURN = np.radians(150.0)  # the same, of a coarse level: a fold that stays
+# the same on a coarse level, above which a fold remains on finer ones
+HOPELESS_TURN = np.radians(150.0)
 FOLD_LIMIT = np.radians(45.0)  # between a patch and the refined surface
-# The share of the tolerance that the refined surface itself may be off.
+# The error of the refined surface itself, as a share of the tolerance.
 LATTICE_SHARE = 0.5
-# Of the change from a level to the next, so much is as large as all that follow: order two.
+# The change to the next level over the sum of all later changes, which fall by a factor of four.
 ORDER = 3
-CELLS_AT_ONCE = 1 << 14  # that two surfaces are compared at; or one control face
+CELLS_AT_ONCE = 1 << 14  # at which two surfaces are compared; at least one control face
 
 
 def fit_patches(
@@ -148,7 +149,7 @@ def fit_patches(
 
 
 def _on_one_side(points: np.ndarray, half: Result, options: Mapping[str, Any]) -> np.ndarray:
-    """The points of a scan, mirrored to where `half` is if there is a symmetry_plane."""
+    """The points of a scan; with a symmetry_plane, mirrored to the side of `half`."""
     if options.get("symmetry_plane") is None:
         return points
     axis = "xyz".index(options["symmetry_plane"])
@@ -163,9 +164,9 @@ def _at_own_level(
     count: Callable[[int], int],
     runs: SeveralRuns,
 ) -> SplinePatches:
-    """Finer surfaces (`surface`, of `count` points), until one serves or the next is too large."""
+    """Refines the surface (`surface`, with `count` points) until one serves or the next is too large."""
     level = FIRST_LEVEL
-    turns = np.empty(0)  # of the level before
+    turns = np.empty(0)  # on the previous level
     missing = 0.0
     while level > LEAST_LEVEL and count(level) > MOST_POINTS:
         level -= 1
@@ -184,18 +185,18 @@ def _at_own_level(
             continue
         before, turns = turns, run.turns(result, at, runs.run(done, done))
         if best is not None and not len(best.unresolved) and (turns > TURN_LIMIT).any():
-            break  # finer surfaces fold where that of the level below does not
+            break  # finer surfaces fold where the previous one does not
         folds = folds or run.stays_sharp(result, at, before, turns, finest - at)
         next_count = inf if folds or at == LAST_LEVEL else count(at + 1)
-        assert coarser is not None  # the level before the first
+        assert coarser is not None  # the previous level
         error = change_between(coarser, result, at) / ORDER
         coarser = result
         size = float(np.ptp(result.vertices, axis=0).max(initial=0))
         missing, former = error.max(initial=0) / (run.tolerance * size) if size else 0.0, missing
-        # at the poles of curvature of a thin plate it falls so slowly that no level is fine enough
+        # the change falls so slowly at poles of curvature of a thin plate that no level is fine enough
         falling = min(missing / former, 1.0) if former else 1.0 / (1 + ORDER)
         serves = missing * falling ** (finest - at) <= 1.0
-        # a surface that is off by more than the tolerance itself is worth no fit
+        # a surface whose own error exceeds the tolerance is not worth a fit
         most = MOST_POINTS_FOR_FACES if missing > 1.0 and serves else MOST_FINER_POINTS
         if missing > LATTICE_SHARE and next_count <= most:
             continue
@@ -208,7 +209,7 @@ def _at_own_level(
                 run.refuse(sharp)
             break
         part = 1.0 if last else done + 0.5 * (1 - done)
-        # a whole fit is worth its time only if the faces that had no patches have some now
+        # a whole fit is worthwhile only if faces without patches have some now
         folded: ArrayLike = [] if best is None or run.force else best.unresolved.tolist()
         if folded and run.still_folded(result, at, folded, runs.run(done, part)):
             done = part
@@ -221,20 +222,22 @@ def _at_own_level(
             best = found
         if last or not any(_faults(found, serves)) or _has_all_spans(found, serves):
             break
-    assert best is not None  # the last level fits, or refuses
+    assert best is not None  # the last level is fitted or refused
     return run.checked(best)
 
 
 def _faults(patches: SplinePatches, serves: bool) -> tuple[int, int]:
-    """How many faces are not resolved, or miss a tolerance that a finer level may meet."""
+    """Numbers of faces that are not resolved, and of faces that miss a tolerance which a finer level
+    may meet.
+    """
     missing = patches.unmet if serves else patches.unmet_by_fit
     return len(patches.unresolved), len(missing)
 
 
 def _has_all_spans(patches: SplinePatches, serves: bool) -> bool:
-    """Whether patches miss what no finer level mends: the surface is fine enough everywhere, or never
-    will be, and a patch has no more than 16 spans, of four steps of the lattice each; one of a triangle
-    is half as wide. What folds on one level may not on the next.
+    """Whether no finer level improves the patches that miss a tolerance: the surface is fine enough
+    everywhere, or never will be, and a patch has at most 16 spans, of four steps of the lattice each;
+    one of a triangle is half as wide. A patch that folds on one level may not fold on the next.
     """
     level = 7 if len(patches.result.faces[0]) else 6
     settled = not len(patches.unresolved) and not (serves and len(patches.unmet_by_surface))
@@ -242,20 +245,20 @@ def _has_all_spans(patches: SplinePatches, serves: bool) -> bool:
 
 
 def _finest(count: Callable[[int], int], level: int) -> int:
-    """The last level that `_at_own_level` may come to."""
+    """The last level for `_at_own_level`."""
     while level < LAST_LEVEL and count(level + 1) <= MOST_POINTS_FOR_FACES:
         level += 1
     return level
 
 
 class _Run:
-    """What is asked of patches."""
+    """The settings of fit_patches(), and its fits on a level."""
 
     def __init__(self, tolerance: object, normal_tolerance: object, force: bool):
         self.tolerance = real("tolerance", tolerance)
         self.normal_tolerance = real("normal_tolerance", normal_tolerance)
         self.force = force
-        self.groups = np.empty(0, np.int32)  # of input faces
+        self.groups = np.empty(0, np.int32)  # of the input's faces
         for name in ("tolerance", "normal_tolerance"):
             if getattr(self, name) <= 0:
                 raise fairing_error(
@@ -265,7 +268,7 @@ class _Run:
     def fitted(
         self, result: Result, level: int, lattice_error: np.ndarray, watched: dict[str, Any]
     ) -> SplinePatches:
-        # however soon it is done, whoever watches hears of it
+        # reported even if the fit is quick
         if watched["progress"](0.0, "patches") is False:
             watched["monitor"].cancel()
         polygons = control_polygons(result, level)
@@ -300,7 +303,7 @@ class _Run:
         monitor: _native.Monitor,
         progress: Progress,
     ) -> tuple[dict[str, Any], np.ndarray]:
-        """The core's arrays, and (F,) bool: the control faces whose patches or surface fold."""
+        """The core's arrays, and (F,) bool: control faces whose patches or surface fold."""
         arrays = _native.fit_splines(
             vertices,
             triangles,
@@ -327,14 +330,16 @@ class _Run:
         chosen = np.isin(polygons, faces)
         part = around(result, level, chosen)
         if len(part.control_faces) == len(polygons):
-            return False  # as far as is known; the whole fit itself will tell
+            return False  # as far as is known; the whole fit decides
         chosen_of_part = chosen[part.control_faces]
         groups = self._groups_of(polygons[part.control_faces])
         _, bad = self._fit(*part.arrays, groups, level, **watched)
         return bool(bad[chosen_of_part].any())
 
     def stays_folded(self, result: Result, level: int, finer: int, watched: dict[str, Any]) -> bool:
-        """Whether no finer level mends it, as turns about halve a level; then refused."""
+        """Whether folds will remain on the finest level, since turns halve from level to level; then it
+        is refused.
+        """
         limit = min(HOPELESS_TURN, 1.5 * TURN_LIMIT * 2**finer)
         turns = _native.lattice_turns(
             result.vertices, *result.faces, result.crease_edges, level, 0.0, **watched
@@ -344,7 +349,7 @@ class _Run:
         return bool(bad.any())
 
     def turns(self, result: Result, level: int, watched: dict[str, Any]) -> np.ndarray:
-        """(F,) the sharpest turn of each control face that is not lower than the tolerance."""
+        """(F,) the largest turn of each control face that exceeds the tolerance."""
         least = self.tolerance * float(np.ptp(result.vertices, axis=0).max(initial=0))
         return _native.lattice_turns(
             result.vertices, *result.faces, result.crease_edges, level, least, **watched
@@ -353,8 +358,8 @@ class _Run:
     def stays_sharp(
         self, result: Result, level: int, before: np.ndarray, turns: np.ndarray, finer: int
     ) -> bool:
-        """Whether turns above the limit fall so slowly, from one level to this, that they stay above
-        it at the finest. It is refused then, unless the caller insists.
+        """Whether turns above the limit decrease so slowly, from the previous level to this, that they
+        stay above it on the finest. It is refused then, unless forced.
         """
         bad = np.minimum(before, turns) > TURN_LIMIT
         falling = np.minimum(turns[bad] / before[bad], 1.0)
@@ -363,7 +368,7 @@ class _Run:
         return bool(bad.any())
 
     def sharp_faces(self, result: Result, level: int, watched: dict[str, Any]) -> list[int]:
-        """Those where the refined surface itself folds or turns too sharply: no patch serves."""
+        """Faces whose refined surface folds or turns too sharply for any patch."""
         turns = self.turns(result, level, watched)
         return np.unique(control_polygons(result, level)[turns > TURN_LIMIT]).tolist()
 
@@ -384,10 +389,10 @@ class _Run:
 
 @dataclass(frozen=True)
 class _Part:
-    """Some control faces of a refined surface, as a surface of its own."""
+    """A subset of a refined surface's control faces, as a separate surface."""
 
-    control_faces: np.ndarray  # (K,) their numbers in the whole
-    arrays: tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]  # as fit_splines() takes them
+    control_faces: np.ndarray  # (K,) ids in the whole surface
+    arrays: tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]  # arguments of fit_splines()
 
 
 def around(result: Result, level: int, chosen: np.ndarray) -> _Part:
@@ -416,9 +421,8 @@ def around(result: Result, level: int, chosen: np.ndarray) -> _Part:
 
 
 def change_between(coarse: Result, fine: Result, levels: int) -> np.ndarray:
-    """(F,) float64: of each control face, the largest distance, along normals, between the surface
-    of `levels` and the one of a level less, at the points that both have; mesh units. A few control
-    faces at a time.
+    """(F,) float64: for each control face, the largest distance, along normals, between the surfaces of
+    `levels` and of one level less, at common points; mesh units. Computed in blocks of control faces.
     """
     cells = 4**levels
     found = np.zeros(sum(map(len, fine.faces)) // cells)
@@ -437,7 +441,7 @@ def change_between(coarse: Result, fine: Result, levels: int) -> np.ndarray:
 
 
 def _distances(points: np.ndarray, vertices: np.ndarray, cells: np.ndarray) -> np.ndarray:
-    """Of each point from the plane of its cell's first corner."""
+    """Distance of each point from the plane at its cell's first corner."""
     a, b, c = (vertices[cells[:, :, k]] for k in (0, 1, -1))
     normal = np.cross(b - a, c - a)
     length = np.linalg.norm(normal, axis=2)
@@ -446,7 +450,7 @@ def _distances(points: np.ndarray, vertices: np.ndarray, cells: np.ndarray) -> n
 
 
 def _rows(corners: int, n: int) -> tuple[np.ndarray, np.ndarray]:
-    """Steps i and rows j of the cells of a face with `n` steps a side whose first corner is (i, j)."""
+    """Column i and row j of the first corner of each cell of a face with `n` steps a side."""
     j, i = np.divmod(np.arange(n * n), n)
     kept = i + j < n if corners == 3 else np.ones(n * n, bool)
     return i[kept], j[kept]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""fit(): from a control mesh and a scan to the fairest surface near the scan."""
+"""fit(): the fairest surface near a scan, from a control mesh."""
 
 from __future__ import annotations
 
@@ -123,7 +123,7 @@ def fit(
             "A fit has no pads: fixed vertices are points.",
             cure="Leave pad_size out.",
         )
-    # without the border of a mesh nothing along the surface holds a border curve
+    # without the border of a mesh nothing along the surface fixes a border curve
     border = {"boundary": "free"} if triangles is None else {}
     control = Control(vertices, faces, {**border, **options, "levels": levels}, symmetry_plane)
     stays, half = fixed_flags(fixed, control.count), control.half
@@ -147,7 +147,7 @@ def fit(
 
 
 def _of_half(half: Half, found: dict[str, Any], count: int) -> dict[str, Any]:
-    """What was found for the double, of the half and of the caller's `count` points."""
+    """Converts the result for the double to the half and the caller's `count` points."""
     faces = half.face_count
     found = half.cut(found)
     own = found["faces_of_points"][:count]
