@@ -77,40 +77,58 @@ def fair(mesh, levels, **settings):
     return df.fair(*mesh, levels, corner_angle=CORNERS, **settings)
 
 
+def largest_turn(result):
+    """Degrees, between neighbouring triangles."""
+    triangle, quad = result.faces
+    corners = np.concatenate([triangle, quad[:, :3], quad[:, [0, 2, 3]]])
+    a, b, c = (result.vertices[corners[:, k]] for k in range(3))
+    normal = np.cross(b - a, c - a)
+    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+    edge = np.sort(np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]]), 1)
+    key = edge @ [len(result.vertices), 1]
+    order = np.argsort(key, kind="stable")
+    twin = np.flatnonzero(np.diff(key[order]) == 0)
+    one, other = (normal[order[at] % len(corners)] for at in (twin, twin + 1))
+    return np.degrees(np.arccos(np.clip(np.sum(one * other, axis=1), -1, 1)).max())
+
+
+def quads(mesh):
+    return mesh
+
+
 # degrees: the halves of the bottle met at up to 34, over faces that turn by 30
+@pytest.mark.parametrize("make", [quads, triangles])
 @pytest.mark.parametrize("levels", [3, 4])
 @pytest.mark.parametrize("pair", PAIRS)
-def test_tangents_join(pair, levels):
-    fixed, other = PAIRS[pair]()
+def test_tangents_join(pair, levels, make):
+    """Between triangles kinks were 1.4 degrees, and sides of the bottle folded by 43."""
+    fixed, other = map(make, PAIRS[pair]())
     first, before = fair(fixed, levels), fair(other, levels)
     assert np.degrees(seam(before, first).kink.max()) > 5
     met = fair(other, levels, neighbour=(first.vertices, first.faces))
     joint = seam(met, first)
     assert len(joint.kink) >= 5 * 2**levels - 3 and joint.gap.max() < 1e-12
     assert np.degrees(joint.kink.max()) < 0.05
+    assert largest_turn(met) < 2 * largest_turn(before)
     # ids, faces, and the control vertices, bit for bit
     assert all(np.array_equal(a, b) for a, b in zip(met.faces, before.faces))
     assert np.array_equal(met.vertices[: len(other[0])], other[0])
 
 
+@pytest.mark.parametrize("make", [quads, triangles])
 @pytest.mark.parametrize("levels", [3, 4])
 @pytest.mark.parametrize("pair", PAIRS)
-def test_curvature_joins(pair, levels):
-    """Everywhere, also beside the ends of the joint, where it jumped by 76 to 97 %."""
-    fixed, other = PAIRS[pair]()
+def test_curvature_joins(pair, levels, make):
+    """Everywhere, also beside the ends of the joint, where it jumped by 76 to 99 %."""
+    fixed, other = map(make, PAIRS[pair]())
     first = fair(fixed, levels)
     met = fair(other, levels, neighbour=(first.vertices, first.faces), joint="curvature")
     joint = seam(met, first)
-    assert np.degrees(joint.kink.max()) < 0.05
+    coarse = (
+        pair == "bottle" and make is triangles
+    )  # 0.051 and 0.064 degrees over faces that turn by 30
+    assert np.degrees(joint.kink.max()) < (0.08 if coarse else 0.05)
     assert joint.jump.max() < 0.03
-
-
-def test_curvature_between_triangles_keeps_the_tangents():
-    """Kinks were 0.6 degrees."""
-    fixed, other = map(triangles, bonnet_and_fender())
-    first = fair(fixed, 3)
-    met = fair(other, 3, neighbour=(first.vertices, first.faces), joint="curvature")
-    assert np.degrees(seam(met, first).kink.max()) < 0.1
 
 
 def curved(u, v):

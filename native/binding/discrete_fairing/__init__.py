@@ -8,7 +8,6 @@
 
 from . import whole_files as whole_files  # the add-on uses it too
 from ._native import FairingError, Monitor, __version__
-from .borders import Joint, joint
 from .checking import Defect, check, predicted_size
 from .cleaning import Act, Cleaned, clean, hole_width, holes_to_fill
 from .denoising import Denoised, denoise
@@ -17,6 +16,7 @@ from .fairing import fair
 from .filled import Filled, FilledHole, SkippedHole
 from .filling import fill_holes, find_holes, with_islands
 from .fitting import fit_patches
+from .joining import Joint, joint
 from .options import AllSettings, Settings
 from .patches import SplinePatches, spline_knots
 from .piecewise import Part, Piece, join, largest_jump, pieces

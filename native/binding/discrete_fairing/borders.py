@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A mesh at its border: tangent planes and curvatures there, and how two meshes join."""
+"""A mesh at its border: the curve through its vertices, tangent planes and curvatures there."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -19,6 +20,9 @@ Mesh = tuple[ArrayLike, Any]
 # an analytic sheet with 16 faces a side the measured kink is 0.001 degrees (triangles 0.007); with three
 # rings and cubics it is 0.03.
 RINGS, DEGREE = 5, 5
+# The cosine of the turn at a corner of a border, and steps to the nearest place on its curve.
+STRAIGHT = float(np.cos(np.radians(30)))
+NEWTON = 6
 
 
 @dataclass(frozen=True)
@@ -38,32 +42,121 @@ class Border:
     inward: np.ndarray
     bend: np.ndarray
     slot: np.ndarray  # (n,): the row of each vertex of the mesh; -1 off the border
+    # By vertex: (m,) points, and (2, m) what their moves along the normal change in the slope across the
+    # border and in the curvature across it.
+    fits: list[tuple[np.ndarray, np.ndarray]]
 
-    def at(self, points: np.ndarray) -> Foot:
-        """The nearest points on the border curve, which lie between its vertices too."""
-        start, end = self.slot[self.edge[:, 0]], self.slot[self.edge[:, 1]]
-        first, along = self.point[start], self.point[end] - self.point[start]
+    @cached_property
+    def links(self) -> np.ndarray:
+        """(b, 2): the edges before and after each, -1 at ends and at corners."""
+        out = np.full((len(self.edge), 2), -1)
+        starts = np.full(len(self.slot), -1)
+        starts[self.edge[:, 0]] = np.arange(len(self.edge))
+        after = starts[self.edge[:, 1]]
+        way = unit_vectors(self.point[self.ends[1]] - self.point[self.ends[0]])
+        on = np.flatnonzero((after >= 0) & (np.einsum("ij,ij->i", way, way[after]) > STRAIGHT))
+        out[on, 1], out[after[on], 0] = after[on], on
+        return out
+
+    @cached_property
+    def along(self) -> np.ndarray:
+        """(k, 3): unit tangents of the curve through the vertices; at corners of one of its sides."""
+        rows, weights = self.cubics
+        out = np.empty_like(self.point)
+        for end, slope in ((1, [0, 1, 2, 3]), (0, [0, 1, 0, 0])):
+            out[self.ends[end]] = np.einsum("c,bcs,bsj->bj", slope, weights, self.point[rows])
+        return unit_vectors(out)
+
+    @cached_property
+    def ends(self) -> np.ndarray:
+        """(2, b): the rows of each edge's vertices."""
+        return self.slot[self.edge.T]
+
+    @cached_property
+    def cubics(self) -> tuple[np.ndarray, np.ndarray]:
+        """(b, 4) rows of the vertices before, at and after each edge, and (b, 4, 4): by them the
+        coefficients of the cubic in the edge's share whose slopes are those of parabolas through three.
+        """
+        before, after = self.links.T
+        rows = np.stack(
+            [
+                np.where(before < 0, self.ends[0], self.ends[0, before]),
+                *self.ends,
+                np.where(after < 0, self.ends[1], self.ends[1, after]),
+            ],
+            axis=1,
+        )
+        unit = np.eye(4)
+        length = np.linalg.norm(self.point[self.ends[1]] - self.point[self.ends[0]], axis=1)
+        ratio = length[self.links] / length[:, None]
+        step = unit[2] - unit[1]
+        slopes = np.empty((2, len(rows), 4))
+        for side, beside in enumerate((unit[1] - unit[0], unit[3] - unit[2])):
+            part = ratio[:, side, None]
+            slopes[side] = (beside / part + step * part) / (1 + part)
+        off = self.links.T[..., None] < 0
+        low, high = np.where(off, np.where(off[::-1], step, 2 * step - slopes[::-1]), slopes)
+        first = np.broadcast_to(unit[1], low.shape)
+        return rows, np.stack(
+            [first, low, 3 * step - 2 * low - high, low + high - 2 * step], axis=1
+        )
+
+    def shares(self, edge: np.ndarray, share: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """(p, 4) rows of vertices, and what share each has in a value at shares of edges."""
+        rows, cubics = self.cubics
+        powers = np.clip(share, 0, 1)[:, None] ** np.arange(4)
+        return rows[edge], np.einsum("pc,pcs->ps", powers, cubics[edge])
+
+    def between(self, values: np.ndarray, edge: np.ndarray, share: np.ndarray) -> np.ndarray:
+        """Values at vertices, at shares of edges."""
+        rows, weights = self.shares(edge, share)
+        return np.asarray(np.einsum("ps,ps...->p...", weights, values[rows]))
+
+    def nearest(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """(p,) edge of the nearest place on each edge's chord, and its share."""
+        first, along = self.point[self.ends[0]], self.point[self.ends[1]] - self.point[self.ends[0]]
         length2 = np.maximum(np.einsum("ij,ij->i", along, along), 1e-300)
-        share = np.empty(len(points))
-        nearest = np.empty(len(points), np.int64)
+        share, edge = np.empty(len(points)), np.empty(len(points), np.int64)
         for part in np.array_split(np.arange(len(points)), 1 + len(points) * len(first) // 10**6):
             t = np.einsum("pej,ej->pe", points[part, None] - first, along) / length2
             t = np.clip(t, 0, 1)
             gap = points[part, None] - first - t[..., None] * along
             best = np.argmin(np.einsum("pej,pej->pe", gap, gap), axis=1)
-            nearest[part], share[part] = best, t[np.arange(len(part)), best]
-        a, b, t = start[nearest], end[nearest], share[:, None]
-        chord = along[nearest]
+            edge[part], share[part] = best, t[np.arange(len(part)), best]
+        return edge, share
 
-        def mean(values: np.ndarray) -> np.ndarray:
-            return (1 - t) * values[a] + t * values[b]
+    def feet(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """(p,) edge and share of the nearest place on the curve through the vertices, and (p, 3) that
+        place. Past an end the curve goes straight on, with a share below 0 or above 1.
+        """
+        edge, share = self.nearest(points)
+        rows, weights = self.cubics
+        cubics = np.einsum("bcs,bsj->cbj", weights, self.point[rows])
+        for _ in range(NEWTON):
+            c, t = cubics[:, edge], np.clip(share, 0, 1)[:, None]
+            first = c[1] + t * (2 * c[2] + 3 * t * c[3])
+            second = (2 * c[2] + 6 * t * c[3]) * (t == share[:, None])
+            away = points - (c[0] + t * (c[1] + t * (c[2] + t * c[3])))
+            away -= (share[:, None] - t) * first
+            speed2 = np.einsum("ij,ij->i", first, first)
+            bend = np.einsum("ij,ij->i", away, second)
+            share = share + np.einsum("ij,ij->i", away, first) / np.maximum(
+                speed2 - bend, speed2 / 4
+            )
+            for side, over in enumerate((-share, share - 1)):
+                moved = (over > 0) & (self.links[edge, side] >= 0)
+                edge = np.where(moved, self.links[edge, side], edge)
+                over = np.minimum(over, 1)
+                share = np.where(moved, 1 - over if side == 0 else over, share)
+        return edge, share, points - away
 
-        length = np.sqrt(length2[nearest])[:, None]
-        tangents = [_unit(np.cross(self.inward[end], self.normal[end])) * length for end in (a, b)]
-        swing = (1 - t) * (tangents[0] - chord) - t * (tangents[1] - chord)
-        place = self.point[a] + t * chord + t * (1 - t) * swing  # Hermite's cubic
-        bend = (1 - t[..., None]) * self.bend[a] + t[..., None] * self.bend[b]
-        return Foot(place, _unit(mean(self.normal)), _unit(mean(self.inward)), bend)
+    def at(self, points: np.ndarray) -> Foot:
+        """The nearest points on the border curve, which lie between its vertices too."""
+        edge, share, _ = self.feet(points)
+        place = [
+            self.between(v, edge, share) for v in (self.point, self.normal, self.inward, self.bend)
+        ]
+        return Foot(place[0], unit_vectors(place[1]), unit_vectors(place[2]), place[3])
 
 
 @dataclass(frozen=True)
@@ -114,10 +207,12 @@ def border_of(
     up, near = around.normals(points, vertex), around.rings(vertex, rings)
     normal, inward = np.empty((len(vertex), 3)), np.empty((len(vertex), 3))
     bend = np.empty((len(vertex), 3, 3))
+    fits = []
     for k, v in enumerate(vertex):
-        others = points[near[k][near[k] != v]] - points[v]
-        normal[k], inward[k], bend[k] = _fitted(others, along[k], up[k])
-    return Border(edge, face, vertex, points[vertex], normal, inward, bend, slot)
+        ids = near[k][near[k] != v]
+        normal[k], inward[k], bend[k], rows = _fitted(points[ids] - points[v], along[k], up[k])
+        fits.append((ids, rows))
+    return Border(edge, face, vertex, points[vertex], normal, inward, bend, slot, fits)
 
 
 def _tangents(
@@ -126,7 +221,7 @@ def _tangents(
     """Tangents of the border at its vertices, by the parabola through three vertices."""
     back, on = points[vertex] - points[before], points[after] - points[vertex]
     p, q = (np.linalg.norm(side, axis=1, keepdims=True) for side in (back, on))
-    return _unit(back * q / p + on * p / q)
+    return unit_vectors(back * q / p + on * p / q)
 
 
 class _Around:
@@ -171,8 +266,13 @@ def _ranges(begin: np.ndarray, end: np.ndarray) -> tuple[np.ndarray, np.ndarray]
     return np.repeat(np.arange(len(begin)), end - begin), ranges(begin, end)
 
 
-def _fitted(near: np.ndarray, along: np.ndarray, up: np.ndarray) -> tuple[Any, Any, Any]:
-    """Normal, inward direction and second fundamental form, at the origin, of the fitted polynomial."""
+def _terms(degree: int) -> int:
+    return (degree + 1) * (degree + 2) // 2 - 1
+
+
+def _fitted(near: np.ndarray, along: np.ndarray, up: np.ndarray) -> tuple[Any, ...]:
+    """Normal, inward direction and second fundamental form, at the origin, of the fitted polynomial; and
+    a row of Border.fits."""
     size = np.linalg.norm(near, axis=1).max()
     bend = np.zeros((2, 2))
     for _ in range(3):
@@ -180,11 +280,14 @@ def _fitted(near: np.ndarray, along: np.ndarray, up: np.ndarray) -> tuple[Any, A
         up = up / max(float(np.linalg.norm(up)), 1e-300)
         inward = np.cross(up, along)
         x, y, z = (near @ axis / size for axis in (along, inward, up))
-        degree = max(d for d in range(2, DEGREE + 1) if d == 2 or (d + 1) * (d + 2) <= len(near))
+        # Ends of joints between triangles have few points, and a polynomial of lower degree sees another
+        # curvature there than beside them.
+        degree = max(d for d in range(2, DEGREE + 1) if d == 2 or _terms(d) + 3 <= len(near))
         terms = [x, y, x * x / 2, x * y, y * y / 2]
         terms += [x ** (d - k) * y**k for d in range(3, degree + 1) for k in range(d + 1)]
         weight = 1 / (0.1 + x * x + y * y)
-        solved = np.linalg.lstsq(weight[:, None] * np.stack(terms, 1), weight * z, rcond=None)[0]
+        inverse = np.linalg.pinv(weight[:, None] * np.stack(terms, 1)) * weight
+        solved = inverse @ z
         bend = np.array([[solved[2], solved[3]], [solved[3], solved[4]]]) / size
         along = along + solved[0] * up
         along = along / np.linalg.norm(along)
@@ -192,49 +295,12 @@ def _fitted(near: np.ndarray, along: np.ndarray, up: np.ndarray) -> tuple[Any, A
     up = up - up @ along * along
     up = up / max(float(np.linalg.norm(up)), 1e-300)
     axes = np.stack([along, np.cross(up, along)])
-    return up, axes[1], axes.T @ bend @ axes
+    return up, axes[1], axes.T @ bend @ axes, inverse[[1, 4]] / [[size], [size * size]]
 
 
-def _unit(vectors: np.ndarray) -> np.ndarray:
+def unit_vectors(vectors: np.ndarray) -> np.ndarray:
     length = np.linalg.norm(vectors, axis=-1, keepdims=True)
     return vectors / np.maximum(length, 1e-300)
-
-
-@dataclass(frozen=True)
-class Joint:
-    """A joint of two surfaces along their borders, measured at k places.
-
-    vertex: (k,) border vertices of the first mesh. gap: (k,) the distance to the other's border, mesh
-    units. kink: (k,) the angle between the tangent planes, radians. bend: (k, 2) the normal curvatures
-    across the joint on both sides, 1 / mesh units. largest: the largest of all
-    directions, places and sides.
-    """
-
-    vertex: np.ndarray
-    gap: np.ndarray
-    kink: np.ndarray
-    bend: np.ndarray
-    largest: float
-
-    @property
-    def jump(self) -> np.ndarray:
-        """(k,): the curvature's jump, as a share of the largest curvature."""
-        return np.abs(self.bend[:, 0] - self.bend[:, 1]) / max(self.largest, 1e-300)
-
-
-def joint(first: Mesh, other: Mesh, reach: float | None = None) -> Joint:
-    """Measures gap, kink and curvatures of two surfaces at the border vertices of the first.
-
-    first, other: (vertices, faces), as fair() takes them, or with Result.faces. reach: mesh units, the
-    largest distance of a border vertex of the first from the other's border; None: the mean border edge
-    of the first. Ends of the joint and corners, which have no unique tangent, do not count.
-
-    Raises FairingError BAD_SHAPE, and BAD_OPTION for a mesh without a border.
-    """
-    a, b = (border_of(*mesh_arrays(mesh)) for mesh in (first, other))
-    if reach is None:
-        reach = float(np.linalg.norm(np.diff(a.point[a.slot[a.edge]], axis=1), axis=2).mean())
-    return joint_of(a, b, reach)
 
 
 def mesh_arrays(mesh: Mesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -251,38 +317,3 @@ def mesh_arrays(mesh: Mesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     if not len(border_edges(corners, offsets)[0]):
         raise fairing_error("BAD_OPTION", "A mesh that is to meet another has no border.")
     return points, corners, offsets
-
-
-def joint_of(first: Border, other: Border, reach: float) -> Joint:
-    """The joint where the first border is within `reach` of the other, without ends and corners, which
-    have no unique tangent."""
-    foot = other.at(first.point)
-    gap = np.linalg.norm(foot.point - first.point, axis=1)
-    near = gap <= reach
-    a, b = first.slot[first.edge].T
-    inside = np.zeros(len(near), int)
-    step = first.point[b] - first.point[a]
-    middle = (first.point[a] + first.point[b]) / 2
-    aside = np.einsum("kj,kj->k", other.at(middle).point - middle, step)
-    length2 = np.einsum("kj,kj->k", step, step)
-    both = near[a] & near[b] & (np.abs(aside) < length2 / 4)  # not beyond the end
-    np.add.at(inside, a, both)
-    np.add.at(inside, b, both)
-    turn = np.zeros((2, len(near), 3))
-    turn[0, b], turn[1, a] = _unit(step), _unit(step)
-    straight = np.einsum("kj,kj->k", turn[0], turn[1]) > np.cos(np.radians(30))
-    chosen = np.flatnonzero(near & (inside == 2) & straight)
-    inward, across = first.inward[chosen], foot.inward[chosen]
-    along = np.cross(first.normal[chosen], inward)
-    across = _unit(across - np.einsum("kj,kj->k", across, along)[:, None] * along)
-    lean = np.einsum("kj,kj->k", first.normal[chosen], across)
-    kink = np.abs(np.arctan2(lean, -np.einsum("kj,kj->k", inward, across)))
-    bends = [
-        np.einsum("ki,kij,kj->k", inward, first.bend[chosen], inward),
-        np.einsum("ki,kij,kj->k", across, foot.bend[chosen], across),
-    ]
-    alike = np.sign(np.einsum("kj,kj->k", first.normal[chosen], foot.normal[chosen]))
-    every = np.concatenate([first.bend[chosen], foot.bend[chosen]])
-    largest = float(np.abs(np.linalg.eigvalsh(every)).max(initial=0.0)) if len(every) else 0.0
-    across_both = np.stack([bends[0], alike * bends[1]], axis=1)
-    return Joint(first.vertex[chosen], gap[chosen], kink, across_both, largest)
