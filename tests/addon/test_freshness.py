@@ -144,17 +144,6 @@ def test_a_live_surface_has_no_badge(source):
     assert why_stale(target) == ""
 
 
-def test_pulls_count_where_vertices_are_met_nearly(source):
-    group = source.vertex_groups.new(name="Pull")
-    group.add(range(8), 0.5, "REPLACE")
-    target = fair(levels=1, interpolation="APPROXIMATE", pull_group="Pull")
-    assert why_stale(target) == ""
-    group.add([0], 0.9, "REPLACE")
-    source.data.update()
-    follow()
-    assert why_stale(target) == SOURCE_CHANGED
-
-
 def test_a_setting_that_is_newer_than_the_surface_has_not_changed():
     add("Box", *CUBE)
     target = fair(levels=1)

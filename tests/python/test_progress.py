@@ -145,18 +145,6 @@ def test_runs_beside_each_other():
         assert all(np.array_equal(vertices, alone[name]) for vertices in together[name]), name
 
 
-def test_a_run_from_within_progress():
-    """The callback may fair another mesh."""
-    inner = []
-
-    def nest(fraction, phase):
-        if not inner:
-            inner.append(df.fair(*meshes.octahedron(), 2).vertices)
-
-    df.fair(*meshes.creature(), 3, progress=nest)
-    assert np.array_equal(inner[0], df.fair(*meshes.octahedron(), 2).vertices)
-
-
 @pytest.mark.parametrize("name", CALLS)
 def test_each_call_tells_its_progress_and_can_be_cancelled(name):
     seen = []

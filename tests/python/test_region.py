@@ -243,16 +243,6 @@ def test_only_inside_vertices_move():
             assert np.linalg.norm(result.vertices[: len(vertices)] - vertices, axis=1).max() <= 0.05
 
 
-@pytest.mark.parametrize("boundary", ["curve", "linear", "free"])
-@pytest.mark.parametrize("method", ["multigrid", "back_leg"])
-def test_boundary_modes_and_methods(boundary, method):
-    (vertices, faces), region, (low, high) = ramp()
-    result = fair(vertices, faces, 3, region=region, boundary=boundary, method=method)
-    assert np.isfinite(result.vertices).all()
-    out = (result.vertices[:, 0] <= low) | (result.vertices[:, 0] >= high)
-    assert set(np.unique(result.vertices[out][:, 2])) == {0.0, 1.0}
-
-
 def test_the_energy_is_the_region_s():
     (vertices, faces), region, _ = ramp()
     flat = fair(vertices, faces, 3, region=region).report["energy"]

@@ -135,11 +135,3 @@ def test_every_shape_keeps_the_tolerance_about_its_own_places():
         assert 0.03 < away.max() <= 0.04 and entry["converged"] and entry["constraint_rounds"] > 0
         assert entry["largest_deviation"] == pytest.approx(away.max())
         assert np.array_equal(result.shapes[k], reverse.shapes[2 - k])
-
-
-def test_isolated_vertices_follow_their_shape():
-    vertices, faces = sample("icosahedron")
-    vertices = np.concatenate([vertices, [[5, 5, 5]]])
-    shape = vertices + [1, 0, 0]
-    result = tight.fair(vertices, faces, 2, shapes=[shape])
-    assert np.array_equal(result.shapes[0][:13], shape)

@@ -28,20 +28,6 @@ def test_arrays_are_kept_or_new():
         assert own is other and not own.flags.writeable
 
 
-def test_measuring():
-    vertices, faces = sample("icosahedron")
-    silent = df.Solver(vertices, faces, 2)
-    for _ in range(2):
-        energy = silent.solve(moved(vertices)).report["energy"]
-        assert all(np.isnan(value) for surface in energy.values() for value in surface.values())
-    loud = df.Solver(vertices, faces, 2, measure=True)
-    assert (
-        loud.solve().report["energy"] == df.fair(vertices, faces, 2, measure=True).report["energy"]
-    )
-    energy = loud.solve(moved(vertices)).report["energy"]
-    assert energy["result"]["thin_plate"] < energy["polyhedron"]["thin_plate"]
-
-
 def test_properties_and_bytes():
     vertices, faces = icosphere(2)
     solver = df.Solver(vertices, faces, 3, "thin_plate")
@@ -92,16 +78,6 @@ def test_rebase_keeps_the_faces_where_other_ones_would_be_chosen():
     result = solver.solve()
     assert result.faces[0] is first.faces[0] and result.crease_edges is first.crease_edges
     assert np.array_equal(result.vertices[: len(vertices)], other) and result.report["converged"]
-
-
-@pytest.mark.parametrize("energy", CURVED)
-def test_rebase_of_steps(energy):
-    vertices, faces = icosphere(1)
-    solver = df.Solver(vertices, faces, 2, energy)
-    solver.solve()
-    other = slid(vertices, 0.1, 3)
-    solver.rebase(other)
-    assert np.array_equal(solver.solve().vertices, df.fair(other, faces, 2, energy).vertices)
 
 
 def test_rebase_refuses_bad_geometry_and_goes_on():

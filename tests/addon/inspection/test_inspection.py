@@ -188,17 +188,6 @@ def test_readout_has_before_and_after():
     assert not [text for row in rows.values() for text in row if "nan" in text]
 
 
-def test_readout_goes_stale_with_the_shape_only():
-    box = add("Box", *CUBE)
-    bpy.ops.object.fairing_measure()
-    show(box, "MEAN")
-    assert not readout.is_stale(box, recall(box, "readout"))
-    box.data.vertices[0].co.x += 0.5
-    box.data.update()
-    bpy.context.view_layer.update()
-    assert readout.is_stale(box, recall(box, "readout"))
-
-
 def drawn(shading="SOLID"):
     space = SimpleNamespace(shading=SimpleNamespace(type=shading))
     context = SimpleNamespace(

@@ -118,21 +118,6 @@ def test_uv_of_a_plane_stays_affine():
     assert np.abs(values(made.mesh, "Map", "vector", 2) - expected).max() < 1e-6
 
 
-def test_uv_islands_keep_their_squares():
-    source = cube()
-    made = refine(source, 3)
-    before = values(source.data, "UVMap", "vector", 2).reshape(6, 4, 2)
-    after = values(made.mesh, "UVMap", "vector", 2).reshape(6, 64, 4, 2)
-    assert np.array_equal(before.min(axis=1), after.min(axis=(1, 2)))
-    assert np.array_equal(before.max(axis=1), after.max(axis=(1, 2)))
-
-    def areas(loops):
-        x, y = loops[..., 0], loops[..., 1]
-        return (x * np.roll(y, -1, -1) - np.roll(x, -1, -1) * y).sum(axis=-1) / 2
-
-    assert np.allclose(areas(after).sum(axis=1), areas(before), rtol=1e-6)
-
-
 def test_seams_stay_apart():
     """Where two faces of the control cube have different UVs at a common edge, so have the refined
     ones.
@@ -219,14 +204,6 @@ def on_rim(made):
     found = on_control_edges(made) & (ends[:, :, 0] == -1).all(axis=1)
     assert found.sum() == 16
     return found
-
-
-@pytest.mark.parametrize("name", ["crease_vert", "bevel_weight_vert"])
-def test_vertex_weights_stay_at_their_vertices(name):
-    source = add("Cube", *CUBE)
-    add_attribute(source, np.full(8, 0.75), name)
-    found = values(refine(source).mesh, name)
-    assert (found[:8] == 0.75).all() and not found[8:].any()
 
 
 def test_sculpt_layers_are_carried_and_hidden_faces_are_not():

@@ -95,32 +95,12 @@ def test_place_parent_and_collection():
     assert result.matrix_world == source.matrix_world
 
 
-def test_constrained_object_stays_where_it_is_seen(source):
-    goal = bpy.data.objects.new("Goal", None)
-    bpy.context.collection.objects.link(goal)
-    goal.location = (5, 6, 7)
-    source.constraints.new("COPY_LOCATION").target = goal
-    result = fair(levels=1)
-    bpy.context.view_layer.update()
-    assert tuple(result.matrix_world.translation) == (5, 6, 7)
-
-
 def test_edit_mode_sees_the_latest_edit(source):
     edit(source, "VERT", range(8))
     bpy.ops.transform.resize(value=(2, 2, 2))
     result = fair(levels=1)
     assert np.array_equal(positions(result.data)[:8], 2 * np.float32(CUBE[0]))
     assert bpy.context.mode == "OBJECT" and source.mode == "OBJECT"
-
-
-def test_creases_are_sharp_in_the_result(source):
-    set_edge_attribute(source.data, "crease_edge", "FLOAT", [(1, 3), (3, 7), (5, 7), (1, 5)], 1.0)
-    result = fair(levels=2, shade_smooth=True)
-    sharp = [e for e in result.data.edges if e.use_edge_sharp]
-    assert len(sharp) == 4 * 4
-    ids = np.unique([e.vertices[:] for e in sharp])
-    # a plane loop of creases stays in its plane
-    assert np.allclose(positions(result.data)[ids][:, 2], 1.0)
 
 
 def test_a_border_keeps_its_corners_unless_it_is_a_smooth_curve():
