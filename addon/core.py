@@ -177,7 +177,7 @@ def patch_arguments(fairing: Mapping[str, Any], options: PatchOptions) -> dict[s
     left_out = ("levels", "tolerance", "measure")
     return {name: value for name, value in fairing.items() if name not in left_out} | {
         "fair_tolerance": fairing["tolerance"],
-        "tolerance": options.fit_tolerance,
+        "tolerance": options.fit_tolerance or None,
         "normal_tolerance": options.fit_angle,
         "levels": options.fit_levels or None,
         "force": options.force,

@@ -81,7 +81,7 @@ class Settings:
 class PatchOptions:
     """Settings of spline patches and of their file."""
 
-    fit_tolerance: float  # relative to the surface's size
+    fit_tolerance: float  # relative to the surface's size; 0: the usual one, more near a scan
     fit_angle: float
     fit_levels: int  # 0: as many as the tolerance needs
     # whether faces that fold or turn too sharply get patches; a display without a file always has them

@@ -131,6 +131,11 @@ class PatchJob(Job):
         return float(self._stretch.max() * self.patches.largest_off)
 
     @property
+    def allowed(self) -> float:
+        """How far patches may be from the fair surface, in Blender units of the world."""
+        return float(self._stretch.max() * self.patches.tolerance * self.patches.size)
+
+    @property
     def from_scan(self) -> tuple[float, float]:
         """The distance within which 95 % of a scan's points are from the patches, and the largest
         without strays, in Blender units of the world; (0, 0) without a scan.

@@ -49,12 +49,15 @@ def summary(jobs: Sequence[PatchJob], unit: str, scale: float) -> str:
 
 
 def _scan_text(jobs: Sequence[PatchJob], factor: float, symbol: str) -> str:
-    """The distances of the patches from their scans."""
-    near = [job.from_scan for job in jobs if job.patches.scan_distances is not None]
+    """The distances of the patches from their scans, and what was allowed from their surfaces."""
+    near = [(*job.from_scan, job.allowed) for job in jobs if job.patches.scan_distances is not None]
     if not near:
         return ""
-    within, largest = (words.short(max(each) * factor) for each in zip(*near))
-    return f", within {within} {symbol} of 95 % of the scan, {largest} {symbol} at most"
+    within, largest, allowed = (words.short(max(each) * factor) for each in zip(*near))
+    return (
+        f", within {within} {symbol} of 95 % of the scan, {largest} {symbol} at most: patches were allowed"
+        f" to be {allowed} {symbol} off"
+    )
 
 
 def _finer_text(job: PatchJob) -> str:

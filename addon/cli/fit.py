@@ -131,7 +131,8 @@ def entry(job: FitJob | PatchJob) -> dict[str, Any]:
     """Distances between the scan and a finished job's surface or patches."""
     found = job.result
     near = job.from_scan if isinstance(job, PatchJob) else found.within
-    return {
+    own = {"off_allowed": job.allowed} if isinstance(job, PatchJob) else {}
+    return own | {
         "points": len(found.distances),
         "within": near[0],
         "largest": near[1],
@@ -148,6 +149,8 @@ def said(told: dict[str, Any]) -> str:
         f"within {words.short(told['within'])} of 95 % of {told['points']:,} points, "
         f"largest {words.short(told['largest'])}; noise about {words.short(told['noise'])}"
     )
+    if "off_allowed" in told:
+        text += f"; patches were allowed to be {words.short(told['off_allowed'])} off"
     coarse = len(told["too_coarse"])
     return text + (f"; {coarse} faces of the cage are too coarse" if coarse else "")
 

@@ -314,6 +314,19 @@ def test_patches_near_a_scan_know_how_near_they_are(cage, scan):
     assert df.fit_patches(*cage, levels=2).scan_distances is None
 
 
+@pytest.mark.parametrize(
+    ("noise", "tolerance", "share_of_noise"),
+    [(NOISE, None, 0.98), (NOISE, 2e-3, 0), (0.0, None, 0)],
+)
+def test_patches_near_a_scan_may_be_off_by_half_of_what_it_is(
+    cage, noise, tolerance, share_of_noise
+):
+    given = {"points": blob_scan(12_000, noise)}
+    patches = df.fit_patches(*cage, scan=given, levels=3, tolerance=tolerance)
+    wanted = share_of_noise * noise / patches.size or tolerance or 1e-4
+    assert patches.tolerance == pytest.approx(wanted, rel=0.1)
+
+
 def test_patches_are_evaluated_as_splines_are():
     patches = df.fit_patches(*blob_cage(2), levels=3, tolerance=1e-3)
     ids, t = np.arange(len(patches)), np.array([0, 0.013, 0.4, 0.77, 1])

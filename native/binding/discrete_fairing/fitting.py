@@ -24,6 +24,10 @@ from .scan_fitting import Fitted, fit
 from .watching import Progress, SeveralRuns, check_watchers
 
 FIRST_LEVEL, LAST_LEVEL, LEAST_LEVEL = 5, 8, 3
+USUAL_TOLERANCE = 1e-4  # share of the size
+# Patches may be off from a surface by this share of what the surface is off from 95 % of its scan.
+# The largest of them, as errors that do not depend on each other add, puts a point there 12 % farther.
+SHARE_OF_SCAN = 0.5
 # Largest numbers of points: of the first surface, of a finer one that converges better, and of one
 # whose patches must meet a tolerance.
 MOST_POINTS, MOST_FINER_POINTS, MOST_POINTS_FOR_FACES = 6_000_000, 300_000, 1_200_000
@@ -42,7 +46,7 @@ def fit_patches(
     vertices: ArrayLike,
     faces: ArrayLike | Sequence[Sequence[int]],
     *,
-    tolerance: float = 1e-4,
+    tolerance: float | None = None,
     normal_tolerance: float = 8e-4,
     levels: int | None = None,
     force: bool = False,
@@ -63,7 +67,8 @@ def fit_patches(
         As those of fair().
     tolerance : float, share of the size
         The farthest that a patch may be from the fair surface: from the refined one, and about that
-        from the limit of finer ones, together; the size is the largest extent along an axis.
+        from the limit of finer ones, together; the size is the largest extent along an axis. None: a
+        ten-thousandth; with a scan half of what 95 % of its points are within, if that is more.
     normal_tolerance : float, radians
         The sharpest angle between the normals of two patches along an edge that is no crease.
     levels : int
@@ -120,6 +125,7 @@ def fit_patches(
         else:
             result = fit(points, polygons, levels=level, **given, **options, **watchers)
             given.update(tolerance=None, weight=result.weight)
+            run.allow_for(result)
         if blend is not None:
             result.vertices = np.ascontiguousarray(blend(result, level), np.float64)
         return result
@@ -255,7 +261,8 @@ class _Run:
     """The settings of fit_patches(), and its fits on a level."""
 
     def __init__(self, tolerance: object, normal_tolerance: object, force: bool):
-        self.tolerance = real("tolerance", tolerance)
+        self.is_told = tolerance is not None
+        self.tolerance = real("tolerance", tolerance) if self.is_told else USUAL_TOLERANCE
         self.normal_tolerance = real("normal_tolerance", normal_tolerance)
         self.force = force
         self.groups = np.empty(0, np.int32)  # of the input's faces
@@ -264,6 +271,13 @@ class _Run:
                 raise fairing_error(
                     "BAD_OPTION", f"{name} is {getattr(self, name)}; it must be greater than 0."
                 )
+
+    def allow_for(self, found: Fitted) -> None:
+        """Allows more near a scan, by its first surface, unless a tolerance was given."""
+        size = float(np.ptp(found.vertices, axis=0).max(initial=0))
+        if size and not self.is_told:
+            self.tolerance = max(self.tolerance, SHARE_OF_SCAN * found.within[0] / size)
+        self.is_told = True
 
     def fitted(
         self, result: Result, level: int, lattice_error: np.ndarray, watched: dict[str, Any]

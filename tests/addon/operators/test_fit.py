@@ -393,4 +393,5 @@ def test_patches_of_a_surface_near_a_scan_are_near_it(tmp_path, capsys):
     assert bpy.ops.export_scene.fairing_step(**options) == {"FINISHED"}
     found = step_files.read(path)
     assert (found.valid, found.solids, found.faces) == (True, 1, 6)
-    assert "of 95 % of the scan" in capsys.readouterr().out
+    told = capsys.readouterr().out
+    assert re.search(r"within \S+ mm of 95 % of the scan, .* allowed to be \S+ mm off", told)
