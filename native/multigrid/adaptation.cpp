@@ -43,22 +43,22 @@ int degree_of_hard(std::size_t unknowns, bool is_cheap) {
 // A narrow level, such as a disc of thin faces around one vertex, has a factor with few numbers at
 // any size; the factor of the level below shows it.
 bool Hierarchy::knows_factor_below(std::size_t index) const {
-  return index == cycle_.base + 1 && coarse_->direct();
+  return index == cycle_.base + 1 && cycle_.coarse->direct();
 }
 
 bool Hierarchy::may_factor(std::size_t index, const PcgLimits& limits) const {
   if (limits.may_end_early) return false;
-  if (unknowns_[index] <= direct_limit_of_hard) return true;
+  if (unknowns(index) <= direct_limit_of_hard) return true;
   if (!knows_factor_below(index)) return false;
   const double growth =
-      double(unknowns_[index]) / double(std::max<std::size_t>(unknowns_[index - 1], 1));
-  return growth * double(coarse_->factor_numbers()) <= double(most_factor_numbers);
+      double(unknowns(index)) / double(std::max<std::size_t>(unknowns(index - 1), 1));
+  return growth * double(cycle_.coarse->factor_numbers()) <= double(most_factor_numbers);
 }
 
 bool Hierarchy::factors_cheaply(std::size_t index) const {
-  return unknowns_[index] <= options_.cheap_factor ||
+  return unknowns(index) <= options_.cheap_factor ||
          (knows_factor_below(index) &&
-          coarse_->factor_numbers() <= most_numbers_of_narrow * unknowns_[index - 1]);
+          cycle_.coarse->factor_numbers() <= most_numbers_of_narrow * unknowns(index - 1));
 }
 
 bool Hierarchy::continues(std::size_t index, const PcgResult& so_far, const PcgLimits& limits) {
@@ -67,22 +67,20 @@ bool Hierarchy::continues(std::size_t index, const PcgResult& so_far, const PcgL
 }
 
 bool Hierarchy::fits_factor(std::size_t index, const PcgLimits& limits) const {
-  return may_factor(index, limits) && MemoryLedger::fits(factor_bytes(unknowns_[index]));
+  return may_factor(index, limits) && MemoryLedger::fits(factor_bytes(unknowns(index)));
 }
 
 // A factor only saves time here. Its matrix needs up to half as much memory again.
 bool Hierarchy::is_too_hard(std::size_t index, const PcgLimits& limits) const {
-  return fits_factor(index, limits) && is_expected_memory(3 * factor_bytes(unknowns_[index]) / 2) &&
-         cycle_.degree >= degree_of_hard(unknowns_[index], factors_cheaply(index));
+  return fits_factor(index, limits) && is_expected_memory(3 * factor_bytes(unknowns(index)) / 2) &&
+         cycle_.degree >= degree_of_hard(unknowns(index), factors_cheaply(index));
 }
 
 // Makes this level the coarsest, solved directly.
 void Hierarchy::promote_to_coarsest(std::size_t index) {
-  coarse_ =
-      std::make_unique<CoarseSolver>(*cycle_.levels[index].op, workers_, unknowns_[index], true);
-  factored_ = cycle_.levels[index].op->version();
+  cycle_.coarse =
+      std::make_unique<CoarseSolver>(*cycle_.levels[index].op, workers_, unknowns(index), true);
   ++factors_;
-  cycle_.coarse = coarse_.get();
   cycle_.base = index;
   cycle_.degree = std::min(cycle_.degree, most_degree_over_factor);
 }

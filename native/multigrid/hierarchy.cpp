@@ -48,16 +48,14 @@ Hierarchy::Hierarchy(Workers& workers, const HierarchyOptions& options,
     own.op = &level.op;
     own.transfer = level.to_coarser;
     own.state.resize(level.op.size());
-    unknowns_.push_back(level.unknowns);
+    own.unknowns = level.unknowns;
   }
   std::size_t end = 0;  // the end of the cycle
-  while (end + 1 < unknowns_.size() && unknowns_[end + 1] <= tiny_level) ++end;
-  coarse_ = std::make_unique<CoarseSolver>(*cycle_.levels[end].op, workers_, unknowns_[end],
-                                           options_.always_factor);
-  cycle_.coarse = coarse_.get();
+  while (end + 1 < levels.size() && levels[end + 1].unknowns <= tiny_level) ++end;
+  cycle_.coarse = std::make_unique<CoarseSolver>(levels[end].op, workers_, levels[end].unknowns,
+                                                 options_.always_factor);
   cycle_.base = end;
-  factored_ = cycle_.levels[end].op->version();
-  factors_ += coarse_->direct();
+  factors_ += cycle_.coarse->direct();
 }
 
 // Lines keep their points unless unknowns change. Eigenvalues are derived from those below.
@@ -74,20 +72,11 @@ void Hierarchy::update(std::size_t top) {
   }
 }
 
-bool Hierarchy::is_factor_old() const {
-  return coarse_->direct() && factored_.numbers != cycle_.levels[cycle_.base].op->version().numbers;
-}
-
 bool Hierarchy::may_keep_factor() const {
   const OperatorVersion& now = cycle_.levels[cycle_.base].op->version();
-  return options_.keeps_factors && now.unknowns == factored_.unknowns &&
-         (now.spectrum == factored_.spectrum || unknowns_[cycle_.base] > most_refactored);
-}
-
-void Hierarchy::refactor() {
-  coarse_->refactor();
-  factored_ = cycle_.levels[cycle_.base].op->version();
-  ++factors_;
+  const OperatorVersion& factored = cycle_.coarse->version();
+  return options_.keeps_factors && now.unknowns == factored.unknowns &&
+         (now.spectrum == factored.spectrum || unknowns(cycle_.base) > most_refactored);
 }
 
 LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits, const LinearSystem& system,
@@ -99,20 +88,21 @@ LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits, const Li
     return out;
   }
   update(index);
-  const bool solves = index == cycle_.base && coarse_->direct();
-  if (is_factor_old()) {
+  const bool solves = cycle_.solves(index);
+  if (cycle_.coarse->is_old()) {
     if (solves && may_keep_factor() && solve_by_old_factor(limits, system, out)) return out;
-    refactor();
+    cycle_.coarse->refactor();
+    ++factors_;
   }
   if (solves) {
-    solve_direct(*coarse_, limits, system, out);
+    solve_direct(*cycle_.coarse, limits, system, out);
     if (out.converged) return out;
   }
   PcgResult result = iterate(index, limits, system, each, out);
   if (!result.converged && limits.may_adapt && adapts(out.direct) &&
       (is_too_hard(index, limits) || (result.broke_down && fits_factor(index, limits)))) {
     promote_to_coarsest(index);
-    solve_direct(*coarse_, limits, system, out);
+    solve_direct(*cycle_.coarse, limits, system, out);
     if (out.converged) return out;
     result = conjugate_gradients(cycle_, index, workers_, limits, system, pcg_,
                                  [](const PcgResult&) { return true; });
@@ -146,7 +136,7 @@ PcgResult Hierarchy::iterate(std::size_t index, const PcgLimits& limits, const L
 
 void Hierarchy::seek_lines(std::size_t index) {
   CycleLevel& level = cycle_.levels[index];
-  if (!level.lines && !(index == cycle_.base && coarse_->direct()))
+  if (!level.lines && !cycle_.solves(index))
     level.lines = std::make_unique<LineJacobi>(*level.op, workers_);
 }
 

@@ -58,9 +58,6 @@ class Hierarchy {
   Hierarchy(Workers& workers, const HierarchyOptions& options,
             const std::vector<HierarchyLevel>& levels);
 
-  const Array<float>& inverse_diagonal(std::size_t index) const {
-    return cycle_.levels[index].op->inverse_diagonal();
-  }
   // A work vector of the level in single precision, for use between solves.
   float* room(std::size_t index) { return cycle_.levels[index].state.residual.data(); }
   // Stops the smoother's adaptation.
@@ -82,9 +79,8 @@ class Hierarchy {
  private:
   // Updates the cached data of the operators to their versions, except the factor.
   void update(std::size_t top);
-  bool is_factor_old() const;
   bool may_keep_factor() const;
-  void refactor();
+  std::size_t unknowns(std::size_t index) const { return cycle_.levels[index].unknowns; }
   PcgResult iterate(std::size_t index, const PcgLimits& limits, const LinearSystem& system,
                     const std::function<void(const PcgResult&)>& each, LevelSolve& out);
   bool solve_by_old_factor(const PcgLimits& limits, const LinearSystem& system, LevelSolve& out);
@@ -110,10 +106,7 @@ class Hierarchy {
   Workers& workers_;
   HierarchyOptions options_;
   bool adapts_ = true;
-  std::vector<std::size_t> unknowns_;
   VCycle cycle_;
-  std::unique_ptr<CoarseSolver> coarse_;
-  OperatorVersion factored_;  // the version of the factor
   int factors_ = 0;
   int degree_of_two_ = 0;  // the smoother's, if two cycles precondition (LinearSystem::between)
   PcgState pcg_;

@@ -83,11 +83,12 @@ CoarseSolver::CoarseSolver(LevelOperator& op, Workers& workers, std::size_t unkn
 }
 
 void CoarseSolver::refactor() {
-  if (factors()) return;
-  if (std::exchange(trace_, usual_trace) < usual_trace && factors()) return;
-  throw FairingError(ErrorCode::underdetermined,
-                     {"The surface is not determined: a part of the mesh has too few fixed points.",
-                      "Interpolate more control vertices, or give them weights."});
+  if (!factors() && !(std::exchange(trace_, usual_trace) < usual_trace && factors()))
+    throw FairingError(
+        ErrorCode::underdetermined,
+        {"The surface is not determined: a part of the mesh has too few fixed points.",
+         "Interpolate more control vertices, or give them weights."});
+  version_ = op_.version();
 }
 
 bool CoarseSolver::lessen_trace() {

@@ -22,7 +22,9 @@ class CoarseSolver {
   CoarseSolver(LevelOperator& op, Workers& workers, std::size_t unknowns, bool always_direct);
   ~CoarseSolver();
 
-  // Call after the operator has changed.
+  // The factor is that of this version of K; is_old() if K has changed since.
+  const OperatorVersion& version() const { return version_; }
+  bool is_old() const { return direct() && version_.numbers != op_.version().numbers; }
   void refactor();
   // For a factor whose solves gain too little: factors again, closer to K. Returns whether it
   // could.
@@ -47,6 +49,7 @@ class CoarseSolver {
   Workers& workers_;
   double trace_;  // added to the diagonal
   std::unique_ptr<Factor> factor_;
+  OperatorVersion version_;
   std::size_t factor_numbers_ = 0, factor_bytes_ = 0;
 };
 
@@ -71,7 +74,8 @@ struct CycleLevel {
   double largest_eigenvalue = 0;      // 0: unknown
   OperatorVersion version{};          // the version of the lines
   int spectrum = 0;  // the version of the eigenvalue: counted on all levels up to this one
-  SmootherState state;
+  SmootherState state{};
+  std::size_t unknowns = 0;
 };
 
 // The V-cycle as a preconditioner, in single precision: one linear map, with restriction the
@@ -81,8 +85,8 @@ class VCycle {
  public:
   explicit VCycle(Workers& workers) : workers_(workers) {}
 
-  std::vector<CycleLevel> levels;  // coarsest first
-  CoarseSolver* coarse = nullptr;  // of levels[base]
+  std::vector<CycleLevel> levels;        // coarsest first
+  std::unique_ptr<CoarseSolver> coarse;  // of levels[base]
   std::size_t base = 0;
   int degree = 0;  // of the smoother, before and after
 

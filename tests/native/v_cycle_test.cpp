@@ -28,7 +28,6 @@ struct Cycle {
   std::vector<std::unique_ptr<GridLevel>> grids;
   std::vector<std::unique_ptr<CurvatureLevel>> levels;
   std::vector<std::unique_ptr<QuadraticTransfer<1>>> transfers;
-  std::unique_ptr<CoarseSolver> coarse;
   VCycle cycle{workers};
 
   explicit Cycle(const OwnedPolygonMesh& control)
@@ -56,8 +55,7 @@ struct Cycle {
       own.largest_eigenvalue = 4;
       own.state.resize(grid.size());
     }
-    coarse = std::make_unique<CoarseSolver>(*levels.front(), workers, 0, true);
-    cycle.coarse = coarse.get();
+    cycle.coarse = std::make_unique<CoarseSolver>(*levels.front(), workers, 0, true);
   }
 
   std::size_t size() const { return grids.back()->size(); }
