@@ -35,36 +35,37 @@ GaussNewtonSolver::GaussNewtonSolver(const ControlMesh& mesh, const GridLevels& 
       pads_{pads},
       system_(mesh, grids, base, stencils, unknowns, options,
               constraints_.any() ? &constraints_ : nullptr, std::move(symmetry), workers, monitor),
-      iterate_{system_, constraints_, folded_control_faces(mesh, constraints_.targets(), workers)},
-      next_level_(base) {
+      iterate_{system_, constraints_, folded_control_faces(mesh, constraints_.targets(), workers)} {
   if (base < system_.finest()) thickness_.emplace(mesh, constraints_.targets(), workers);
 }
 
-CurvatureLevelReport GaussNewtonSolver::solve_next_level(const Array<double>& plate,
-                                                         Array<double>& finest) {
-  const int level = next_level_++;
-  CurvatureLevelReport report;
+CurvedSurface GaussNewtonSolver::solve_level(int level, const Array<double>& plate,
+                                             const Array<double>& plate_below,
+                                             CurvatureLevelReport& report) {
   report.level = level;
   const StepWork before = system_.work(level);
   if (pads_.update()) iterate_.current.held.loads.clear();
   const std::span<const Vec3> given =
-      is_finest() ? constraints_.targets() : std::span<const Vec3>{};
-  choose_start(iterate_, level, pads_.now(), plate, below_.plate, given, report);
+      level == system_.finest() ? constraints_.targets() : std::span<const Vec3>{};
+  choose_start(iterate_, level, pads_.now(), plate, plate_below, given, report);
   const StepStart start{iterate_.current.points, iterate_.current.held, report};
   const bool is_plain = solve_total_curvature(start, plate, report);
-  below_ = {
-      plate, is_plain,
-      report.swollen ||
-          (!is_finest() &&
-           thickness_->of(iterate_.grid(), iterate_.workers(), surface().data()).is_bubble())};
+  CurvedSurface out;
   if (is_finest()) {
     report.folds = folds_of(iterate_).count();
-    solved_ = {report.converged && is_plain, report.energy, report.folds};
+    out.is_sound = report.converged && is_plain && !constraints_.any();
+    out.energy = report.energy;
+    out.folds = report.folds;
+  } else {
+    below_ = {
+        is_plain,
+        report.swollen ||
+            thickness_->of(iterate_.grid(), iterate_.workers(), surface().data()).is_bubble()};
   }
   subtract_tension(start, plate, report);
   report.work = system_.work(level) - before;
-  if (is_finest()) finest = std::move(surface());
-  return report;
+  if (is_finest()) out.points = std::move(surface());
+  return out;
 }
 
 bool GaussNewtonSolver::solve_total_curvature(const StepStart& start, const Array<double>& plate,
@@ -100,12 +101,15 @@ bool GaussNewtonSolver::step(const StepStart& start, CurvatureLevelReport& repor
   if (is_plain && is_finest()) report.folds_before = report.folds = folds_of(iterate_).count();
   if (is_lost(is_plain)) return false;
   if (is_plain && report.folds == 0) return true;
-  const Snapshot plain = snapshot(report);
+  const LinearizedSurface plain = iterate_.current;
+  const CurvatureLevelReport of_plain = report;
+  const std::optional<Pads> pads = pads_.own;
   run_fallback(iterate_, pads_.now(), start, report);
-  if (!is_plain ||
-      (report.folds < plain.report.folds && report.converged >= plain.report.converged))
+  if (!is_plain || (report.folds < of_plain.folds && report.converged >= of_plain.converged))
     return false;
-  restore(plain, report);
+  iterate_.current = plain;
+  report = of_plain;
+  pads_.own = pads;
   return true;
 }
 
@@ -114,16 +118,6 @@ bool GaussNewtonSolver::OwnPads::update() {
   own = *given;
   places = given->places();
   return true;
-}
-
-GaussNewtonSolver::Snapshot GaussNewtonSolver::snapshot(const CurvatureLevelReport& report) {
-  return {iterate_.current, report, pads_.own};
-}
-
-void GaussNewtonSolver::restore(const Snapshot& saved, CurvatureLevelReport& report) {
-  iterate_.current = saved.surface;
-  report = saved.report;
-  pads_.own = saved.pads;
 }
 
 StopCriterion GaussNewtonSolver::end() {
@@ -195,29 +189,27 @@ bool GaussNewtonSolver::is_settled(const CurvatureLevelReport& report) {
   return gap_closed && is_near(report, plain_decrement) && report.energy <= energy_bound(report);
 }
 
-// If steps were damped, or control vertices may move, all levels are solved again.
-bool GaussNewtonSolver::can_move() const { return solved_.is_sound && !constraints_.any(); }
-
-bool GaussNewtonSolver::solve_moved(Symmetry symmetry, Array<double>& found,
+void GaussNewtonSolver::solve_moved(Symmetry symmetry, CurvedSurface& moved,
                                     CurvatureLevelReport& report) {
-  std::swap(surface(), found);
-  const bool is_sound = steps_go_well(std::move(symmetry), report);
-  std::swap(surface(), found);
-  return is_sound;
-}
-
-bool GaussNewtonSolver::steps_go_well(Symmetry symmetry, CurvatureLevelReport& report) {
+  std::swap(surface(), moved.points);
   system_.set_symmetry(std::move(symmetry));
   iterate_.folded_faces =
       folded_control_faces(system_.mesh(), constraints_.targets(), iterate_.workers());
+  moved.is_sound = steps_go_well(moved, report);
+  moved.energy = report.energy;
+  std::swap(surface(), moved.points);
+  report.energy -= tension_of(moved.points);
+}
+
+bool GaussNewtonSolver::steps_go_well(const CurvedSurface& before, CurvatureLevelReport& report) {
   system_.symmetrize(iterate_.level, surface());
   iterate_.linearize();
   report.level = iterate_.level;
   report.plate_energy = NAN;  // unknown: the thin plate's surface has not been linearized
   report.start_energy = report.energy = iterate_.op().objective();
-  if (!(report.start_energy <= incomparable_energy * solved_.energy + flat_energy)) return false;
-  iterate_.is_near_earlier = std::max(report.start_energy, solved_.energy) <=
-                             equal_energy * std::min(report.start_energy, solved_.energy);
+  if (!(report.start_energy <= incomparable_energy * before.energy + flat_energy)) return false;
+  iterate_.is_near_earlier = std::max(report.start_energy, before.energy) <=
+                             equal_energy * std::min(report.start_energy, before.energy);
   report.converged = true;
   const double start_tension = tension_of(surface());
   if (varies())
@@ -225,13 +217,11 @@ bool GaussNewtonSolver::steps_go_well(Symmetry symmetry, CurvatureLevelReport& r
   else
     run_plain(iterate_, pads_.now(), accurate_end(iterate_), short_patience, report);
   report.folds_before = report.folds = folds_of(iterate_).count();
-  solved_.is_sound =
-      report.converged && report.folds <= solved_.folds &&
+  const bool is_sound =
+      report.converged && report.folds <= before.folds &&
       (varies() || report.energy <= equal_energy * report.start_energy + flat_energy);
-  solved_.energy = report.energy;
   report.start_energy -= start_tension;
-  report.energy -= tension_of(surface());
-  return solved_.is_sound;
+  return is_sound;
 }
 
 }  // namespace fairing

@@ -11,6 +11,15 @@
 
 namespace fairing {
 
+// The surface on the finest level, and what says whether control vertices may move from there.
+struct CurvedSurface {
+  Array<double> points{};  // 3 numbers a point, in working coordinates; empty: no surface
+  // Plain steps converged to it, and its control vertices are fixed.
+  bool is_sound = false;
+  double energy = 0;
+  std::size_t folds = 0;
+};
+
 class GaussNewtonSolver {
  public:
   // `levels`: all from 0 on; those below `base` have no unknowns. `constraints`: those of control
@@ -22,17 +31,18 @@ class GaussNewtonSolver {
                     const GaussNewtonOptions& options, IntervalConstraints constraints,
                     const Pads* pads, Symmetry symmetry, Workers& workers, Monitor& monitor);
 
-  // Solves the next level, from `base` on. It starts at `plate`, the thin plate's surface (3
-  // numbers a point, in working coordinates), or, above the coarsest level, at one from the level
-  // below. finest <- the surface, on the finest level. Throws ErrorCode::cancelled and
-  // std::bad_alloc; the solver cannot be used afterwards.
-  CurvatureLevelReport solve_next_level(const Array<double>& plate, Array<double>& finest);
+  // Solves one level after another, from `base` on. The first starts at `plate`, the thin plate's
+  // surface (3 numbers a point, in working coordinates), others at that or at one from the level
+  // below, where the plate's surface is `plate_below`. Returns the surface of the finest level,
+  // below it none. Throws ErrorCode::cancelled and std::bad_alloc; the solver cannot be used
+  // afterwards.
+  CurvedSurface solve_level(int level, const Array<double>& plate, const Array<double>& plate_below,
+                            CurvatureLevelReport& report);
 
-  // Solves the finest level again after control vertices have moved, by steps on that level only,
-  // and improves `surface`. False if the steps fail; then another solver must solve level by level.
-  // Requires can_move(). Throws as solve_next_level().
-  bool can_move() const;
-  bool solve_moved(Symmetry symmetry, Array<double>& surface, CurvatureLevelReport& report);
+  // Solves the finest level again after control vertices have moved, by steps on that level only:
+  // improves `surface`, which must be sound. If it is not any more, the steps have failed, and
+  // another solver must solve level by level. Throws as solve_level().
+  void solve_moved(Symmetry symmetry, CurvedSurface& surface, CurvatureLevelReport& report);
 
   // The pads that are active after the levels so far; null: none.
   const Pads* pads() { return pads_.now(); }
@@ -49,27 +59,11 @@ class GaussNewtonSolver {
     // Copies the given pads if they have changed. Returns whether they have.
     bool update();
   };
-  // A surface to go back to, with its pads.
-  struct Snapshot {
-    LinearizedSurface surface;
-    CurvatureLevelReport report;
-    std::optional<Pads> pads;
-  };
   // Results of a level for the next one.
   struct Below {
-    Array<double> plate;   // the thin plate's surface
     bool is_plain = true;  // whether plain steps led to the solution
     bool is_bubble = false;
   };
-  // The solution on the finest level, from which control vertices may move.
-  struct Solved {
-    bool is_sound = false;
-    double energy = 0;
-    std::size_t folds = 0;
-  };
-  Snapshot snapshot(const CurvatureLevelReport& report);
-  void restore(const Snapshot& saved, CurvatureLevelReport& report);
-
   StopCriterion end();
   // Ends the constraints: control vertices are fixed from here on. A few plain steps move the
   // surface accordingly, if they converge.
@@ -87,7 +81,8 @@ class GaussNewtonSolver {
   double energy_bound(const CurvatureLevelReport& report);
   // Whether the steps are near a solution and have less energy than the thin plate.
   bool is_settled(const CurvatureLevelReport& report);
-  bool steps_go_well(Symmetry symmetry, CurvatureLevelReport& report);
+  // Steps from the iterate, whose control vertices have moved from those of `before`.
+  bool steps_go_well(const CurvedSurface& before, CurvatureLevelReport& report);
   // Whether a part of the surface x is far from the mesh.
   bool has_diverged(const Array<double>& x, const Array<double>& plate);
   void keep_start_if_worse(const StepStart& start, const Array<double>& plate,
@@ -103,11 +98,9 @@ class GaussNewtonSolver {
   OwnPads pads_;
   GaussNewtonSystem system_;
   SurfaceIterate iterate_;
-  int next_level_;
   std::optional<Thickness> thickness_;  // only below the finest level
   VariationBelow variation_;
   Below below_;
-  Solved solved_;
 };
 
 }  // namespace fairing

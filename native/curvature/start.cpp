@@ -16,66 +16,24 @@ namespace {
 // tried always, a mirror ends at 2.5 times the energy; never, a bishop at 1.3 times).
 constexpr double polyhedron_above = 10;
 
-// The candidates after the first. `below` is the solution on the level below; an accepted candidate
-// becomes iterate.current.
-class Candidates {
- public:
-  Candidates(SurfaceIterate& iterate, const Array<double>& plate, CurvatureLevelReport& report)
-      : it_(iterate), plate_(plate), diagonal_(iterate.op().diagonal()), report_(report) {
-    it_.trial.points.resize(plate_size());
-  }
-
-  void try_change(const LinearizedSurface& below, const Array<double>& plate_below) {
-    Array<double> change(below.points.size());
-    for_each_index(it_.workers(), change.size(),
-                   [&](std::size_t i) { change[i] = below.points[i] - plate_below[i]; });
-    ElementSlots<double, 3> slots;
-    prolong(coarse(), it_.grid(), it_.system.stencils(), nullptr, it_.workers(), slots,
-            change.data(), trial().data());
-    for_each_index(it_.workers(), plate_size(), [&](std::size_t i) {
-      trial()[i] = plate_[i] + (is_unknown(i / 3) ? trial()[i] : 0.0);
-    });
-    accept_if_lower();
-  }
-
-  // Zero normals give the polyhedron.
-  void try_refined(const Array<double>& below, const Array<double>& normal) {
-    prolong_with_normals(coarse(), it_.grid(), it_.workers(), below.data(), normal.data(),
-                         trial().data());
-    for_each_index(it_.workers(), plate_size(), [&](std::size_t i) {
-      if (!is_unknown(i / 3)) trial()[i] = plate_[i];
-    });
-    accept_if_lower();
-  }
-
-  void try_given(std::span<const Vec3> given) {
-    for_each_index(it_.workers(), plate_size(), [&](std::size_t i) {
-      trial()[i] = is_unknown(i / 3) ? given[i / 3][Eigen::Index(i % 3)] : plate_[i];
-    });
-    accept_if_lower();
-  }
-
- private:
-  const GridLevel& coarse() const { return it_.system.grid(it_.level - 1); }
-  Array<double>& trial() { return it_.trial.points; }
-  std::size_t plate_size() const { return 3 * it_.grid().size(); }
-  bool is_unknown(std::size_t p) const { return diagonal_[p] > 0; }
-
-  void accept_if_lower() {
-    it_.system.symmetrize(it_.level, trial());
-    it_.trial.functional = it_.current.functional;
-    it_.system.linearize(it_.level, it_.trial);
-    const double objective = it_.op().objective();
-    if (!(objective < (1 - roundoff) * report_.start_energy)) return;
-    report_.start_energy = objective;
-    std::swap(it_.current, it_.trial);
-  }
-
-  SurfaceIterate& it_;
-  const Array<double>& plate_;
-  const Array<float>& diagonal_;  // zero, on every surface, for points that are not unknowns
-  CurvatureLevelReport& report_;
-};
+// The surface of `candidate`, from the number of a coordinate, at the unknowns, and of the plate
+// elsewhere becomes iterate.current if it has less energy.
+template <class Candidate>
+void try_candidate(SurfaceIterate& it, const Array<double>& plate, CurvatureLevelReport& report,
+                   Candidate&& candidate) {
+  // zero, on every surface, for points that are not unknowns
+  const Array<float>& diagonal = it.op().diagonal();
+  Array<double>& trial = it.trial.points;
+  for_each_index(it.workers(), plate.size(),
+                 [&](std::size_t i) { trial[i] = diagonal[i / 3] > 0 ? candidate(i) : plate[i]; });
+  it.system.symmetrize(it.level, trial);
+  it.trial.functional = it.current.functional;
+  it.system.linearize(it.level, it.trial);
+  const double objective = it.op().objective();
+  if (!(objective < (1 - roundoff) * report.start_energy)) return;
+  report.start_energy = objective;
+  std::swap(it.current, it.trial);
+}
 
 }  // namespace
 
@@ -94,16 +52,35 @@ void choose_start(SurfaceIterate& iterate, int level, Pads* pads, const Array<do
   report.plate_energy = report.start_energy = iterate.op().objective();
   // Rounding errors would decide between flat surfaces.
   if (report.start_energy < flat_energy) return;
-  Candidates candidates(iterate, plate, report);
+  const GridLevel& grid = iterate.grid();
+  Array<double>& trial = iterate.trial.points;
+  trial.resize(plate.size());
   if (below.points.empty()) {
-    if (given.size() == iterate.grid().size()) candidates.try_given(given);
+    if (given.size() == grid.size())
+      try_candidate(iterate, plate, report,
+                    [&](std::size_t i) { return given[i / 3][Eigen::Index(i % 3)]; });
     return;
   }
-  candidates.try_change(below, plate_below);
+  const GridLevel& coarse = iterate.system.grid(level - 1);
+  {
+    Array<double> change(below.points.size());
+    for_each_index(iterate.workers(), change.size(),
+                   [&](std::size_t i) { change[i] = below.points[i] - plate_below[i]; });
+    ElementSlots<double, 3> slots;
+    prolong(coarse, grid, iterate.system.stencils(), nullptr, iterate.workers(), slots,
+            change.data(), trial.data());
+  }
+  try_candidate(iterate, plate, report, [&](std::size_t i) { return plate[i] + trial[i]; });
+  // Zero normals give the polyhedron.
+  const auto try_refined = [&](const Array<double>& normal) {
+    prolong_with_normals(coarse, grid, iterate.workers(), below.points.data(), normal.data(),
+                         trial.data());
+    try_candidate(iterate, plate, report, [&](std::size_t i) { return trial[i]; });
+  };
   if (report.start_energy > incomparable_energy * below.energy)
-    candidates.try_refined(below.points, below.linearization.normal);
+    try_refined(below.linearization.normal);
   if (report.start_energy > polyhedron_above * below.energy)
-    candidates.try_refined(below.points, Array<double>(below.points.size(), 0.0));
+    try_refined(Array<double>(below.points.size(), 0.0));
   iterate.current.held = below.held;  // densities, which hardly change between levels
 }
 

@@ -37,7 +37,7 @@ void fair_once(FairingSystems& systems, const ControlPositions& control, bool me
                Stopwatch& watch, Report& report, Array<double>& points) {
   Surface surface = systems.solve(control, measured, watch, report);
   systems.forget_steps();
-  if (!surface.curved.empty()) surface.plate = {};
+  if (!surface.curved.points.empty()) surface.plate = {};
   systems.write(control, measured, watch, report, surface, surface.points().data());
   points = std::move(surface.points());
   JoinedSheets(systems.finest()).join(points);
@@ -89,7 +89,6 @@ FairResult fair_all(const PolygonMesh& input, const FairOptions& options,
   FairingSystems systems(*problem, monitor);
   fair_once(systems, problem->basis, true, watch, report, result.vertices);
   warn_unconverged(report, options, "", report);
-  systems.plate().keep_smoother();
   fair_shapes(*problem, systems, input, watch, monitor, result);
 
   monitor.enter_part(0, 1);
@@ -235,7 +234,6 @@ Report FairSolver::solve_mended(std::span<const double> coordinates, double* out
     report.warm = !recent_.empty() && !options.has_tolerance() && solve_warm(watch, report);
     if (!report.warm) solve_cold(watch, report);
     write(watch, report, out);
-    systems_->plate().keep_smoother();
     was_far_out_ = lies_far_out(problem_->mesh, control_);
     warn_of_memory(ledger_, report);
     watch.leave();
@@ -254,16 +252,15 @@ void FairSolver::solve_basis_first(Stopwatch& watch) {
       systems_->positions_of(control_) == systems_->positions_of(basis))
     return;
   Report unused = built_;
-  recent_.surface() = systems_->solve(basis, false, watch, unused);
-  recent_.remember(systems_->positions_of(basis));
+  recent_.remember(systems_->solve(basis, false, watch, unused), systems_->positions_of(basis));
   Array<double> repaired;
   systems_->find_folds_of_basis(recent_.surface().plate.data(), repaired);
 }
 
 void FairSolver::solve_cold(Stopwatch& watch, Report& report) {
   recent_.forget();
-  recent_.surface() = systems_->solve(control_, problem_->options.measure, watch, report);
-  recent_.remember(systems_->positions_of(control_));
+  recent_.remember(systems_->solve(control_, problem_->options.measure, watch, report),
+                   systems_->positions_of(control_));
 }
 
 // False if the solve fails; then it restores the report.

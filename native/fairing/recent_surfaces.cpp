@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <utility>
 
 #include "base/roundoff.h"
 #include "parallel/reductions.h"
@@ -23,7 +24,8 @@ double farthest(std::span<const Vec3> a, std::span<const Vec3> b) {
 
 }  // namespace
 
-void RecentSurfaces::remember(std::span<const Vec3> positions) {
+void RecentSurfaces::remember(Surface surface, std::span<const Vec3> positions) {
+  surface_ = std::move(surface);
   positions_.assign(positions.begin(), positions.end());
   known_ = true;
 }
@@ -73,9 +75,9 @@ void RecentSurfaces::extrapolate(std::span<const Vec3> positions) {
   const bool had_earlier = has_earlier_;
   if (another_kind) {
     earlier_positions_.swap(positions_);
-    positions_ = earlier_positions_;
     has_earlier_ = true;
   }
+  positions_.assign(positions.begin(), positions.end());
   Loads& loads = surface_.state.loads;
   earlier_loads_.resize(loads.size(), Vec3::Zero());
   for (std::size_t v = 0; v < loads.size(); ++v) {

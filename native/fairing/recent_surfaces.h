@@ -37,14 +37,14 @@ class RecentSurfaces {
     earlier_plate_ = {};
   }
 
-  // The last surface; overwrite it with the next one, then call remember().
+  // The last surface.
   Surface& surface() { return surface_; }
-  // surface() is that of these control positions.
-  void remember(std::span<const Vec3> positions);
+  // `surface` is that of these control positions.
+  void remember(Surface surface, std::span<const Vec3> positions);
 
   // surface().plate <- x' for the p' of the form above that is nearest to these positions in least
-  // squares; the loads on pads change likewise, except for translations. May throw
-  // FairingError(cancelled) and bad_alloc.
+  // squares; the loads on pads change likewise, except for translations. The caller solves from
+  // there to the surface of these positions. May throw FairingError(cancelled) and bad_alloc.
   void extrapolate(std::span<const Vec3> positions);
   // That p', to which surface() belongs now.
   const std::vector<Vec3>& extrapolated() const { return extrapolated_; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "curvature/solver.h"
 #include "thin_plate/plate_state.h"
 
 namespace fairing {
@@ -9,10 +10,10 @@ namespace fairing {
 struct Surface {
   Array<double> plate;     // the thin plate's
   PlateState state;        // loads and targets that hold it
-  Array<double> curved{};  // that of a curvature energy, found by steps from the plate; else empty
+  CurvedSurface curved{};  // that of a curvature energy, found by steps from the plate, or none
 
-  Array<double>& points() { return curved.empty() ? plate : curved; }
-  const Array<double>& points() const { return curved.empty() ? plate : curved; }
+  Array<double>& points() { return curved.points.empty() ? plate : curved.points; }
+  const Array<double>& points() const { return curved.points.empty() ? plate : curved.points; }
 };
 
 }  // namespace fairing

@@ -120,19 +120,21 @@ ThinPlateSolver::OnPrediction FairingSystems::on_prediction(bool measured, Stopw
   };
 }
 
-void FairingSystems::solve_levels(const ControlPositions& control,
-                                  const ThinPlateSolver::OnPrediction& predicted, Report& report,
-                                  Surface& out) {
+Surface FairingSystems::solve_levels(const ControlPositions& control,
+                                     const ThinPlateSolver::OnPrediction& predicted,
+                                     Report& report) {
   const PlateData data = data_of(control);
   BallConstraints constraints =
       plate().begin(problem_.constraints_of(control, problem_.units.weight));
-  PlateSurface surface;
+  PlateSurface surface, below;
+  CurvedSurface curved;
   for (int level = plate().levels().base(); level <= plate().levels().top(); ++level) {
-    surface = plate().solve_level(level, data, constraints, surface, report.levels, predicted);
-    if (steps_) report.curvature.push_back(steps_->solve_next_level(surface.x, out.curved));
+    below = std::exchange(surface, {});
+    surface = plate().solve_level(level, data, constraints, below, report.levels, predicted);
+    if (steps_)
+      curved = steps_->solve_level(level, surface.x, below.x, report.curvature.emplace_back());
   }
-  out.plate = std::move(surface.x);
-  out.state = std::move(surface.state);
+  return {std::move(surface.x), std::move(surface.state), std::move(curved)};
 }
 
 Surface FairingSystems::solve(const ControlPositions& control, bool measured, Stopwatch& watch,
@@ -147,7 +149,7 @@ Surface FairingSystems::solve(const ControlPositions& control, bool measured, St
     solve_back_leg(plate().levels(), data_of(control), paper.sweeps, monitor_, out.plate,
                    report.levels, predicted);
   else
-    solve_levels(control, predicted, report, out);
+    out = solve_levels(control, predicted, report);
   for (const LevelReport& level : report.levels)
     report.constraint_rounds += level.constraint_rounds;
   report.constraint_gap = report.levels.back().constraint_gap;
@@ -164,11 +166,12 @@ bool FairingSystems::solve_moved(const ControlPositions& control, RecentSurfaces
                                  Stopwatch& watch, Report& report) {
   const FairOptions& options = problem_.options;
   watch.enter(Phase::solve, 0);
-  if (steps_ && !steps_->can_move()) return false;
   Surface& surface = recent.surface();
+  Array<double>& curved = surface.curved.points;
+  if (steps_ && !surface.curved.is_sound) return false;
   const auto add_plate = [&](double sign) {
-    for_each_index(*problem_.workers, surface.curved.size(),
-                   [&](std::size_t i) { surface.curved[i] += sign * surface.plate[i]; });
+    for_each_index(*problem_.workers, curved.size(),
+                   [&](std::size_t i) { curved[i] += sign * surface.plate[i]; });
   };
   add_plate(-1);
   const std::vector<Vec3> positions = positions_of(control);
@@ -181,11 +184,11 @@ bool FairingSystems::solve_moved(const ControlPositions& control, RecentSurfaces
   plate().solve_moved({held, control.working_curves, &reference}, data_of(control), tolerance,
                       surface.state, surface.plate, report.levels,
                       on_prediction(options.measure, watch, report));
-  recent.remember(positions);
   add_plate(1);
-  if (steps_ && !steps_->solve_moved(problem_.symmetry_of(control), surface.curved,
-                                     report.curvature.emplace_back()))
-    return false;
+  if (steps_)
+    steps_->solve_moved(problem_.symmetry_of(control), surface.curved,
+                        report.curvature.emplace_back());
+  if (steps_ && !surface.curved.is_sound) return false;
   report_held(report);
   return true;
 }
@@ -288,6 +291,7 @@ void FairingSystems::write(const ControlPositions& control, bool measured, Stopw
            *problem_.workers, x, world);
   require_finite(problem_.mesh, control, *problem_.workers, 3 * finest().size(), world);
   report.largest_deviation = largest_deviation(control.cage, world);
+  plate().keep_smoother();
 }
 
 }  // namespace fairing

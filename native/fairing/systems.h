@@ -22,7 +22,7 @@ class FairingSystems {
   FairingSystems(const FairingProblem& problem, Monitor& monitor);
 
   // The thin plate's solver, built again if it was dropped. Its smoother adapts to the solved
-  // surfaces until keep_smoother().
+  // surfaces until the first is written, so that the others depend on their own shapes alone.
   ThinPlateSolver& plate();
   // The positions on which a surface depends, in working coordinates: the held ones, and the cage
   // if the distance from its limit surface is penalized.
@@ -75,8 +75,8 @@ class FairingSystems {
   // at their held positions; empty without a penalty.
   Array<double> reference_of(std::span<const Vec3> cage, std::span<const Vec3> held);
   std::unique_ptr<GaussNewtonSolver> make_steps(const ControlPositions& control);
-  void solve_levels(const ControlPositions& control, const ThinPlateSolver::OnPrediction& predicted,
-                    Report& report, Surface& out);
+  Surface solve_levels(const ControlPositions& control,
+                       const ThinPlateSolver::OnPrediction& predicted, Report& report);
   // Reports the pad widths of the latest surface and the errors of its fixed normals.
   void report_held(Report& report);
   SurfaceEnergies energies(const double* x);
