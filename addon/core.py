@@ -178,7 +178,7 @@ def patch_arguments(fairing: Mapping[str, Any], options: PatchOptions) -> dict[s
     return {name: value for name, value in fairing.items() if name not in left_out} | {
         "fair_tolerance": fairing["tolerance"],
         "tolerance": options.fit_tolerance or None,
-        "normal_tolerance": options.fit_angle,
+        "normal_tolerance": options.fit_angle or None,
         "levels": options.fit_levels or None,
         "force": options.force,
     }

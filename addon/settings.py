@@ -82,7 +82,7 @@ class PatchOptions:
     """Settings of spline patches and of their file."""
 
     fit_tolerance: float  # relative to the surface's size; 0: the usual one, more near a scan
-    fit_angle: float
+    fit_angle: float  # radians; 0: the usual one, more near a scan
     fit_levels: int  # 0: as many as the tolerance needs
     # whether faces that fold or turn too sharply get patches; a display without a file always has them
     force: bool = True

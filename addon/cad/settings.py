@@ -33,9 +33,10 @@ class PatchSettings:
     )
     fit_angle: FloatProperty(
         name="Angle",
-        description="Largest angle between two patches where there is no crease",
-        default=radians(0.05),
-        min=radians(0.001),
+        description="Largest angle between two patches where there is no crease; 0: 0.05°, near a scan the angle "
+        "of the tolerance over a mean edge of the cage if that is more",
+        default=0.0,
+        min=0.0,
         max=radians(10.0),
         precision=3,
         subtype="ANGLE",

@@ -2,6 +2,7 @@
 """Writes finished jobs to one CAD file, and summarizes them."""
 
 from collections.abc import Sequence
+from math import degrees
 
 from .. import core
 from . import colours, words
@@ -50,13 +51,15 @@ def summary(jobs: Sequence[PatchJob], unit: str, scale: float) -> str:
 
 def _scan_text(jobs: Sequence[PatchJob], factor: float, symbol: str) -> str:
     """The distances of the patches from their scans, and what was allowed from their surfaces."""
-    near = [(*job.from_scan, job.allowed) for job in jobs if job.patches.scan_distances is not None]
-    if not near:
+    jobs = [job for job in jobs if job.patches.scan_distances is not None]
+    if not jobs:
         return ""
-    within, largest, allowed = (words.short(max(each) * factor) for each in zip(*near))
+    lengths = zip(*((*job.from_scan, job.allowed) for job in jobs))
+    within, largest, allowed = (words.short(max(each) * factor) for each in lengths)
+    angle = words.short(degrees(max(job.patches.normal_tolerance for job in jobs)))
     return (
         f", within {within} {symbol} of 95 % of the scan, {largest} {symbol} at most: patches were allowed"
-        f" to be {allowed} {symbol} off"
+        f" to be {allowed} {symbol} off and to meet at {angle}°"
     )
 
 

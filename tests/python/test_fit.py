@@ -325,6 +325,15 @@ def test_patches_near_a_scan_may_be_off_by_half_of_what_it_is(
     patches = df.fit_patches(*cage, scan=given, levels=3, tolerance=tolerance)
     wanted = share_of_noise * noise / patches.size or tolerance or 1e-4
     assert patches.tolerance == pytest.approx(wanted, rel=0.1)
+    corners = np.asarray(cage[0])[np.asarray(cage[1])]
+    edge = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).mean() / patches.size
+    assert patches.normal_tolerance == pytest.approx(max(8e-4, patches.tolerance / edge), rel=0.1)
+
+
+def test_a_given_angle_of_patches_near_a_scan_stays(cage):
+    given = {"points": blob_scan(12_000, NOISE)}
+    patches = df.fit_patches(*cage, scan=given, levels=3, normal_tolerance=1e-3)
+    assert patches.normal_tolerance == 1e-3
 
 
 def test_patches_are_evaluated_as_splines_are():

@@ -16,7 +16,7 @@ from .fairing import fair
 from .filled import Filled, FilledHole, SkippedHole
 from .filling import fill_holes, find_holes, with_islands
 from .fitting import fit_patches
-from .joining import Joint, joint
+from .joints import Joint, joint
 from .options import AllSettings, Settings
 from .patches import SplinePatches, spline_knots
 from .piecewise import Part, Piece, join, largest_jump, pieces

@@ -20,7 +20,7 @@ Mesh = tuple[ArrayLike, Any]
 # an analytic sheet with 16 faces a side the measured kink is 0.001 degrees (triangles 0.007); with three
 # rings and cubics it is 0.03.
 RINGS, DEGREE = 5, 5
-# The cosine of the turn at a corner of a border, and steps to the nearest place on its curve.
+# The cosine of the turn at a corner of a border, and iterations for the nearest point on its curve.
 STRAIGHT = float(np.cos(np.radians(30)))
 NEWTON = 6
 
@@ -42,8 +42,8 @@ class Border:
     inward: np.ndarray
     bend: np.ndarray
     slot: np.ndarray  # (n,): the row of each vertex of the mesh; -1 off the border
-    # By vertex: (m,) points, and (2, m) what their moves along the normal change in the slope across the
-    # border and in the curvature across it.
+    # By vertex: (m,) points, and (2, m) the changes of the slope and of the curvature across the border
+    # per move of each point along the normal.
     fits: list[tuple[np.ndarray, np.ndarray]]
 
     @cached_property
@@ -60,7 +60,7 @@ class Border:
 
     @cached_property
     def along(self) -> np.ndarray:
-        """(k, 3): unit tangents of the curve through the vertices; at corners of one of its sides."""
+        """(k, 3): unit tangents of the curve through the vertices; at a corner the tangent of one side."""
         rows, weights = self.cubics
         out = np.empty_like(self.point)
         for end, slope in ((1, [0, 1, 2, 3]), (0, [0, 1, 0, 0])):
@@ -74,8 +74,9 @@ class Border:
 
     @cached_property
     def cubics(self) -> tuple[np.ndarray, np.ndarray]:
-        """(b, 4) rows of the vertices before, at and after each edge, and (b, 4, 4): by them the
-        coefficients of the cubic in the edge's share whose slopes are those of parabolas through three.
+        """(b, 4) rows of the vertices before, at and after each edge, and (b, 4, 4): the matrix from
+        them to the coefficients of the edge's cubic, whose slopes are those of parabolas through three
+        vertices.
         """
         before, after = self.links.T
         rows = np.stack(
@@ -102,18 +103,18 @@ class Border:
         )
 
     def shares(self, edge: np.ndarray, share: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """(p, 4) rows of vertices, and what share each has in a value at shares of edges."""
+        """(p, 4) rows of vertices, and their weights in interpolated values at parameters of edges."""
         rows, cubics = self.cubics
         powers = np.clip(share, 0, 1)[:, None] ** np.arange(4)
         return rows[edge], np.einsum("pc,pcs->ps", powers, cubics[edge])
 
     def between(self, values: np.ndarray, edge: np.ndarray, share: np.ndarray) -> np.ndarray:
-        """Values at vertices, at shares of edges."""
+        """Values at vertices, interpolated at parameters of edges."""
         rows, weights = self.shares(edge, share)
         return np.asarray(np.einsum("ps,ps...->p...", weights, values[rows]))
 
     def nearest(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """(p,) edge of the nearest place on each edge's chord, and its share."""
+        """(p,) edge of the nearest point on the chords, and its parameter."""
         first, along = self.point[self.ends[0]], self.point[self.ends[1]] - self.point[self.ends[0]]
         length2 = np.maximum(np.einsum("ij,ij->i", along, along), 1e-300)
         share, edge = np.empty(len(points)), np.empty(len(points), np.int64)
@@ -126,8 +127,8 @@ class Border:
         return edge, share
 
     def feet(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """(p,) edge and share of the nearest place on the curve through the vertices, and (p, 3) that
-        place. Past an end the curve goes straight on, with a share below 0 or above 1.
+        """(p,) edge and parameter of the nearest point on the curve through the vertices, and (p, 3)
+        that point. Beyond an end the curve is straight, with a parameter below 0 or above 1.
         """
         edge, share = self.nearest(points)
         rows, weights = self.cubics
@@ -280,8 +281,8 @@ def _fitted(near: np.ndarray, along: np.ndarray, up: np.ndarray) -> tuple[Any, .
         up = up / max(float(np.linalg.norm(up)), 1e-300)
         inward = np.cross(up, along)
         x, y, z = (near @ axis / size for axis in (along, inward, up))
-        # Ends of joints between triangles have few points, and a polynomial of lower degree sees another
-        # curvature there than beside them.
+        # Ends of joints between triangles have few points, where a polynomial of lower degree would
+        # have another curvature than those beside.
         degree = max(d for d in range(2, DEGREE + 1) if d == 2 or _terms(d) + 3 <= len(near))
         terms = [x, y, x * x / 2, x * y, y * y / 2]
         terms += [x ** (d - k) * y**k for d in range(3, degree + 1) for k in range(d + 1)]

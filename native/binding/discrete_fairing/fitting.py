@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
-from .arrays import face_arrays, numbers, vertex_array
+from .arrays import face_arrays, following, numbers, vertex_array
 from .checking import predicted_size
 from .errors import fairing_error
 from .fairing import fair
@@ -24,7 +24,7 @@ from .scan_fitting import Fitted, fit
 from .watching import Progress, SeveralRuns, check_watchers
 
 FIRST_LEVEL, LAST_LEVEL, LEAST_LEVEL = 5, 8, 3
-USUAL_TOLERANCE = 1e-4  # share of the size
+USUAL_TOLERANCE, USUAL_ANGLE = 1e-4, 8e-4  # share of the size; radians
 # Patches may be off from a surface by this share of what the surface is off from 95 % of its scan.
 # The largest of them, as errors that do not depend on each other add, puts a point there 12 % farther.
 SHARE_OF_SCAN = 0.5
@@ -47,7 +47,7 @@ def fit_patches(
     faces: ArrayLike | Sequence[Sequence[int]],
     *,
     tolerance: float | None = None,
-    normal_tolerance: float = 8e-4,
+    normal_tolerance: float | None = None,
     levels: int | None = None,
     force: bool = False,
     fair_tolerance: float | ArrayLike | None = None,
@@ -70,7 +70,8 @@ def fit_patches(
         from the limit of finer ones, together; the size is the largest extent along an axis. None: a
         ten-thousandth; with a scan half of what 95 % of its points are within, if that is more.
     normal_tolerance : float, radians
-        The sharpest angle between the normals of two patches along an edge that is no crease.
+        The sharpest angle between the normals of two patches along an edge that is no crease. None:
+        8e-4; with a scan the angle of `tolerance` over a mean control edge, if that is more.
     levels : int
         How often the mesh is refined before patches are fitted. None: 5, or more where a tolerance
         asks for it and the surface stays below 300 000 points, or 1 200 000 where faces miss the
@@ -125,7 +126,7 @@ def fit_patches(
         else:
             result = fit(points, polygons, levels=level, **given, **options, **watchers)
             given.update(tolerance=None, weight=result.weight)
-            run.allow_for(result)
+            run.allow_for(result, polygons)
         if blend is not None:
             result.vertices = np.ascontiguousarray(blend(result, level), np.float64)
         return result
@@ -261,9 +262,14 @@ class _Run:
     """The settings of fit_patches(), and its fits on a level."""
 
     def __init__(self, tolerance: object, normal_tolerance: object, force: bool):
-        self.is_told = tolerance is not None
-        self.tolerance = real("tolerance", tolerance) if self.is_told else USUAL_TOLERANCE
-        self.normal_tolerance = real("normal_tolerance", normal_tolerance)
+        self.left_open = {
+            "tolerance": tolerance is None,
+            "normal_tolerance": normal_tolerance is None,
+        }
+        self.tolerance = USUAL_TOLERANCE if tolerance is None else real("tolerance", tolerance)
+        self.normal_tolerance = (
+            USUAL_ANGLE if normal_tolerance is None else real("normal_tolerance", normal_tolerance)
+        )
         self.force = force
         self.groups = np.empty(0, np.int32)  # of the input's faces
         for name in ("tolerance", "normal_tolerance"):
@@ -272,12 +278,18 @@ class _Run:
                     "BAD_OPTION", f"{name} is {getattr(self, name)}; it must be greater than 0."
                 )
 
-    def allow_for(self, found: Fitted) -> None:
-        """Allows more near a scan, by its first surface, unless a tolerance was given."""
+    def allow_for(self, found: Fitted, polygons: tuple[np.ndarray, np.ndarray]) -> None:
+        """Allows more near a scan where no tolerance was given. The angle is that of a patch which is off
+        by the tolerance over a control edge.
+        """
         size = float(np.ptp(found.vertices, axis=0).max(initial=0))
-        if size and not self.is_told:
-            self.tolerance = max(self.tolerance, SHARE_OF_SCAN * found.within[0] / size)
-        self.is_told = True
+        corners, offsets = polygons
+        ends = found.vertices[corners] - found.vertices[corners[following(offsets)]]
+        edge = float(np.linalg.norm(ends, axis=1).mean())
+        if size and self.left_open["tolerance"]:
+            self.tolerance = max(USUAL_TOLERANCE, SHARE_OF_SCAN * found.within[0] / size)
+        if edge and self.left_open["normal_tolerance"]:
+            self.normal_tolerance = max(USUAL_ANGLE, self.tolerance * size / edge)
 
     def fitted(
         self, result: Result, level: int, lattice_error: np.ndarray, watched: dict[str, Any]

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A border that meets a neighbour's: fair() with `neighbour`.
 
-The surface is changed in the faces that touch the border, by angles about it. From v = 0 on the border to
-v = 1 on the sides that do not touch it, Hermite's quintics take what differs from the neighbour, position,
-slope and curvature, to nothing: all control vertices stay, and so do all other faces. Distances to both are
-smooth, so no side between the faces folds.
+The faces that touch the border change, by rotations about it. From v = 0 on the border to v = 1 on the
+sides that do not touch it, quintic Hermite polynomials fade the differences from the neighbour in
+position, slope and curvature to zero: all control vertices and all other faces stay. The distances to
+both are smooth, so no side between the faces folds.
 """
 
 from __future__ import annotations
@@ -22,20 +22,21 @@ from .halves import Control
 from .options import vertex_pairs
 from .piecewise.lattice import Lattice
 
-# Share of a border edge: ends that are nearer to the neighbour's border lie on it.
+# Ends nearer to the neighbour's border than this share of a border edge lie on it.
 NEAR = 0.05
-# Passes: on levels 3 and 4 two halves of a bottle of 60 faces, at 34 degrees without, need them with curvature.
+# Passes: needed with curvature by two halves of a bottle of 60 faces, which meet at 34 degrees before,
+# on levels 3 and 4.
 PASSES = {
     "position": {"position": 1},
     "tangent": {"position": 1, "tangent": 4},
     "curvature": {"position": 1, "curvature": 12},
 }
-# Steps of conjugate gradients in a pass, and the share of what is missed at which they end.
+# Steps of conjugate gradients in a pass, and the relative residual at which they end.
 STEPS, LEFT = 400, 0.001
 
 
 def require_matchable(settings: dict[str, Any], shapes: int) -> None:
-    """Refuses what a border with a neighbour does not go with."""
+    """Refuses settings that exclude a neighbour."""
     refused = {
         "shapes": shapes > 0,
         "region": settings.get("region") is not None,
@@ -52,8 +53,8 @@ def match_border(
     neighbour: tuple[np.ndarray, np.ndarray, np.ndarray],
     border: ArrayLike | None,
 ) -> None:
-    """Changes the points of what the core has `found` for a mesh. `neighbour`: of
-    mesh_arrays(). `border`: (k, 2) vertex pairs, None: the edges whose ends lie on the neighbour's.
+    """Changes the points of the core's result `found`. `neighbour`: from mesh_arrays(). `border`: (k,
+    2) vertex pairs, None: the edges whose ends lie on the neighbour's border.
     """
     other = border_of(*neighbour)
     points = found["vertices"]
@@ -74,8 +75,8 @@ def match_border(
 def _settled(
     points: np.ndarray, change: Callable[[np.ndarray], np.ndarray], passes: int
 ) -> np.ndarray:
-    """Where the change is nothing, by Anderson's acceleration; if it does not settle, from where the
-    change was least.
+    """The points at which `change` vanishes, by Anderson's acceleration; without convergence, those
+    with the least change.
     """
     seen: list[tuple[np.ndarray, np.ndarray]] = []
     found = []
@@ -95,7 +96,9 @@ def _settled(
 
 
 class _Strip:
-    """The faces at a border that meets a neighbour: they alone change, and their sides off it stay."""
+    """The faces at a border that meets a neighbour: only they change, except their sides off the
+    border.
+    """
 
     def __init__(self, faces: list[_Face], edge: np.ndarray):
         joint = set(edge.ravel().tolist())
@@ -119,8 +122,9 @@ class _Strip:
         self.rim = list(rim.values())
 
     def away(self, points: np.ndarray) -> np.ndarray:
-        """Of each point the distance to the sides that stay: zero there, smooth elsewhere, and that to a
-        straight line if they are one (Belyaev, Fayolle, Pasko, Signed Lp-distance fields, 2013).
+        """Distance of each point from the sides that stay: zero there, smooth elsewhere, and the
+        distance from the line if they form a straight one (Belyaev, Fayolle, Pasko, Signed Lp-distance
+        fields, 2013).
         """
         weight = np.zeros(len(points))
         for side in self.rim:
@@ -136,7 +140,9 @@ class _Strip:
         return out
 
     def inner_gap(self, own: Border, foot: Foot) -> np.ndarray:
-        """(k, 3): to the neighbour's border, less what is linear along each side: its ends stay."""
+        """(k, 3): difference from the neighbour's border, minus the linear part along each side, since
+        ends stay.
+        """
         gap = foot.point - own.point
         out = gap.copy()
         share = np.linspace(0, 1, self.joint.shape[1])[:, None]
@@ -147,7 +153,7 @@ class _Strip:
     def changes(
         self, points: np.ndarray, own: Callable[[np.ndarray], Border], other: Border, joint: str
     ) -> Callable[[np.ndarray], np.ndarray]:
-        """(N, 3) of (N, 3): what takes points near these to the neighbour."""
+        """(N, 3) → (N, 3): changes that move points near `points` to the neighbour."""
         start = own(points)
         edge, share, place = start.feet(points[self.ids])
         offset = points[self.ids] - place
@@ -176,17 +182,17 @@ class _Strip:
             lift = np.cross(axis, arm)
             angles = _Angles(now, self.ids, lift, profiles, shares, float(t.mean()))
             out[self.ids] = _rotation(arm, axis, angles.for_(_needed(now, foot)))
-            out[self.corners] = 0  # but for rounding it is
+            out[self.corners] = 0  # removes rounding
             return out
 
         return change
 
 
 class _Angles:
-    """Angles about a border: values at its vertices, times a profile for each kind of value.
+    """Rotations about a border: an angle at each vertex, times a profile for each kind of value.
 
-    What the fits at the border see of them is a sparse matrix: each fit reaches over several vertices, so
-    to correct each vertex by its own error would not settle beside the ends.
+    The response of the fits at the border to the angles is a sparse matrix: each fit covers several
+    vertices, so correcting each vertex by its own error would not converge near ends.
     """
 
     def __init__(
@@ -198,8 +204,8 @@ class _Angles:
         shares: tuple[np.ndarray, np.ndarray],
         reach: float,
     ):
-        """ids: (p,) points; lift: (p, 3) their moves for an angle of one; profiles: (p,) each; shares: of
-        Border.shares; reach: the length that makes angles of curvatures.
+        """ids: (p,) points; lift: (p, 3) their moves for a unit angle; profiles: (p,) each; shares:
+        from Border.shares; reach: the length that converts curvatures to angles.
         """
         where = np.full(len(own.slot), -1)
         where[ids] = np.arange(len(ids))
@@ -225,8 +231,8 @@ class _Angles:
         self.row, self.column, self.value = map(np.concatenate, zip(*entries))
 
     def _from_lines(self, rows: np.ndarray, weights: np.ndarray) -> np.ndarray:
-        """At ends the angles' distances from the line through the two vertices beside them: a joint that
-        went on to angles of nothing would fold.
+        """At ends the differences of the angles from the line through the two adjacent vertices: with
+        zero angles beyond the end a joint would fold.
         """
         weights = weights.copy()
         for column, way in ((0, 1), (1, 1), (3, -1), (2, -1)):
@@ -236,8 +242,8 @@ class _Angles:
         return weights
 
     def for_(self, wanted: tuple[np.ndarray, np.ndarray]) -> np.ndarray:
-        """(p, 1): angles that the fits see as turns and changes of curvature; by conjugate gradients on
-        the normal equations, which end before what hardly shows grows.
+        """(p, 1): angles with the `wanted` turns and changes of curvature in the fits; by conjugate
+        gradients on the normal equations, stopped before insensitive components grow.
         """
         parts = [np.where(self.inside, w * unit, 0) for w, unit in zip(wanted, self.units)]
         left = np.concatenate(parts)
@@ -270,7 +276,7 @@ def _needed(own: Border, foot: Foot) -> tuple[np.ndarray, np.ndarray]:
     before, after = across(own), -across(foot)  # away from the neighbour
     turn = np.arctan2(_dot(own.along, np.cross(before, after)), _dot(before, after))
     side = np.sign(_dot(np.cross(own.along, after), foot.normal))
-    # Across the border alone: along it both have the same curve, and what is fitted to that would count.
+    # Across the border only: along it both have the same curve, and errors of the fits would matter.
     old, new = (
         np.einsum("ki,kij,kj->k", way, of.bend, way) for way, of in ((before, own), (after, foot))
     )
@@ -278,7 +284,7 @@ def _needed(own: Border, foot: Foot) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _rotation(vectors: np.ndarray, axis: np.ndarray, angle: np.ndarray) -> np.ndarray:
-    """What a rotation adds to vectors."""
+    """The displacement of vectors by a rotation."""
     stays = _dot(vectors, axis)[:, None] * axis
     return (np.cos(angle) - 1) * (vectors - stays) + np.sin(angle) * np.cross(axis, vectors)
 
@@ -289,7 +295,7 @@ def _dot(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 @dataclass(frozen=True)
 class _Face:
-    """A refined control face: its points, in the order of its lattice."""
+    """A refined control face with its points in lattice order."""
 
     lattice: Lattice
     ids: np.ndarray
@@ -299,14 +305,14 @@ class _Face:
         return enumerate(zip(self.corners, self.corners[1:] + self.corners[:1]))
 
     def side_ids(self, k: int) -> np.ndarray:
-        """(n + 1,): along side k, from its corner on."""
+        """(n + 1,): ids along side k, from its first corner."""
         u, v = _along(self.lattice, k)
         on = np.flatnonzero(v == 0)
         return np.asarray(self.ids[on[np.argsort(u[on])]])
 
 
 def _closed_faces(found: dict[str, Any], n: int) -> list[_Face]:
-    """All control faces, split polygons as they were split."""
+    """All control faces, with split polygons in their pieces."""
     out = []
     for name, quad in (("triangles", False), ("quads", True)):
         lattice = Lattice(n, quad)
@@ -318,7 +324,7 @@ def _closed_faces(found: dict[str, Any], n: int) -> list[_Face]:
 
 
 def _along(lattice: Lattice, side: int) -> tuple[np.ndarray, np.ndarray]:
-    """Steps along this side, from the foot of the median in a triangle, and across it."""
+    """Steps along this side, in a triangle from the foot of the median, and steps across it."""
     i, j, n = lattice.i, lattice.j, lattice.n
     if lattice.quad:
         return [(i, j), (j, n - i), (n - i, n - j), (n - j, i)][side]
@@ -329,7 +335,7 @@ def _along(lattice: Lattice, side: int) -> tuple[np.ndarray, np.ndarray]:
 def _chosen(
     points: np.ndarray, edge: np.ndarray, other: Border, border: ArrayLike | None
 ) -> np.ndarray:
-    """Which border edges meet the neighbour: those named, or all whose ends lie on its border."""
+    """The border edges that meet the neighbour: the given ones, or all whose ends lie on its border."""
     if border is not None:
         pairs = np.sort(vertex_pairs("border", border), axis=1)
         size = len(points)
