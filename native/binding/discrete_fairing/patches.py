@@ -216,7 +216,7 @@ class SplinePatches:
 
     @property
     def scan_within(self) -> tuple[float, float]:
-        """The 95th percentile of |scan_distances|, and the largest without outliers; (0, 0) if no scan."""
+        """Of absolute scan_distances the 95th percentile and the largest but outliers; (0, 0) without."""
         if self.scan_distances is None:
             return 0.0, 0.0
         far = np.abs(self.scan_distances)
