@@ -25,7 +25,7 @@ class PatchSettings:
     fit_tolerance: FloatProperty(
         name="Tolerance",
         description="Largest distance of a patch from the fair surface, as a share of its size; 0: 0.0001, "
-        "near a scan half of what the surface is off from 95 % of its points if that is more",
+        "near a scan half of the distance of 95 % of its points from the surface if that is more",
         default=0.0,
         min=0.0,
         max=0.1,

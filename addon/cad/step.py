@@ -50,7 +50,7 @@ def summary(jobs: Sequence[PatchJob], unit: str, scale: float) -> str:
 
 
 def _scan_text(jobs: Sequence[PatchJob], factor: float, symbol: str) -> str:
-    """The distances of the patches from their scans, and what was allowed from their surfaces."""
+    """The distances of the patches from their scans, and the allowed distance from their surfaces."""
     jobs = [job for job in jobs if job.patches.scan_distances is not None]
     if not jobs:
         return ""
