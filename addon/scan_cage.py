@@ -31,7 +31,7 @@ LEFT_OUT = 1e-3
 
 @dataclass(frozen=True)
 class MadeCage:
-    """A cage that was made, and how it differs from what was asked for."""
+    """A new cage, and its differences from the requested one."""
 
     object: Object
     is_whole: bool  # no part of the scan is farther from it than one of its edges
@@ -72,8 +72,8 @@ def make_cage(context: Context, near: Sequence[Object], faces: int) -> MadeCage:
 
 
 def _make_quads_near(cage: Object, scan: Scan, faces: int, most: int) -> tuple[int, bool]:
-    """Gives the cage a new mesh, finer and finer until it is near the scan; the old one stays. How many
-    QuadriFlow has made, and whether the last is near.
+    """Gives the cage a new mesh by QuadriFlow, finer and finer until it is near the scan; the old mesh
+    stays in the file. Returns the number of meshes made, and whether the last one is near.
     """
     dense, made = cage.data, 0
     while True:

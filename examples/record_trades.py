@@ -15,7 +15,6 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests" / "blender"))
 sys.path.insert(0, str(Path(__file__).parent))
 
-import bmesh
 import bpy
 import harness
 import jobs
@@ -150,14 +149,7 @@ def drag(film, source, vertex, way):
     """Grabs a vertex of the source with the mouse, while Live is on; a generator."""
     with bpy.context.temp_override(**harness.view()):
         bpy.ops.object.fairing_show_source()
-        bpy.ops.object.mode_set(mode="EDIT")
-        bpy.ops.mesh.select_mode(type="VERT")
-        bpy.ops.mesh.select_all(action="DESELECT")
-        mesh = bmesh.from_edit_mesh(source.data)
-        mesh.verts.ensure_lookup_table()
-        mesh.verts[vertex].select_set(True)
-        bmesh.update_edit_mesh(source.data)
-        bpy.ops.ed.undo_push(message="a vertex is selected")
+    harness.select_vertex(source, vertex)
     yield from film.shoot(HOLD // 2)
     region, space = harness.view()["region"], harness.view()["area"].spaces.active
     seen_at = (

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "base/points.h"
@@ -13,7 +12,6 @@
 #include "fairing/warnings.h"
 #include "fit/fit_levels.h"
 #include "parallel/cancel.h"
-#include "parallel/reductions.h"
 
 namespace fairing {
 namespace {

@@ -17,6 +17,7 @@ import traceback
 from pathlib import Path
 from time import perf_counter
 
+import bmesh
 import bpy
 
 EXTENSION = "bl_ext.user_default.discrete_fairing"
@@ -146,6 +147,19 @@ def view():
     area = next(area for area in window.screen.areas if area.type == "VIEW_3D")
     region = next(region for region in area.regions if region.type == "WINDOW")
     return {"window": window, "screen": window.screen, "area": area, "region": region}
+
+
+def select_vertex(source, vertex):
+    """Selects one vertex of the active object in Edit Mode, as a step of undo."""
+    with bpy.context.temp_override(**view()):
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.mesh.select_mode(type="VERT")
+        bpy.ops.mesh.select_all(action="DESELECT")
+        edit = bmesh.from_edit_mesh(source.data)
+        edit.verts.ensure_lookup_table()
+        edit.verts[vertex].select_set(True)
+        bmesh.update_edit_mesh(source.data)
+        bpy.ops.ed.undo_push(message="one vertex is selected")
 
 
 def add_suzanne():

@@ -8,7 +8,6 @@ from time import perf_counter
 
 sys.path.insert(0, str(Path(__file__).parent))
 
-import bmesh
 import bpy
 import harness
 import numpy as np
@@ -72,15 +71,7 @@ def open_scene(levels, live_levels, energy="THIN_PLATE", add=harness.add_suzanne
     yield from wait_for_the_full_level(target, levels)
     with bpy.context.temp_override(**harness.view()):
         bpy.ops.ed.undo_push(message="live")
-        bpy.ops.object.mode_set(mode="EDIT")
-        bpy.ops.mesh.select_mode(type="VERT")
-        bpy.ops.mesh.select_all(action="DESELECT")
-    edit = bmesh.from_edit_mesh(source.data)
-    edit.verts.ensure_lookup_table()
-    edit.verts[vertex].select_set(True)
-    bmesh.update_edit_mesh(source.data)
-    with bpy.context.temp_override(**harness.view()):
-        bpy.ops.ed.undo_push(message="one vertex is selected")
+    harness.select_vertex(source, vertex)
     yield 0.5
     return source, target
 

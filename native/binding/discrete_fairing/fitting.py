@@ -25,8 +25,8 @@ from .watching import Progress, SeveralRuns, check_watchers
 
 FIRST_LEVEL, LAST_LEVEL, LEAST_LEVEL = 5, 8, 3
 USUAL_TOLERANCE, USUAL_ANGLE = 1e-4, 8e-4  # share of the size; radians
-# Patches may be off from a surface by this share of what the surface is off from 95 % of its scan.
-# The largest of them, as errors that do not depend on each other add, puts a point there 12 % farther.
+# The allowed distance of patches from a surface, as a share of the distance of 95 % of the scan from it.
+# Independent errors add by squares, so patches at this distance put points 12 % farther away.
 SHARE_OF_SCAN = 0.5
 # Largest numbers of points: of the first surface, of a finer one that converges better, and of one
 # whose patches must meet a tolerance.
@@ -68,7 +68,7 @@ def fit_patches(
     tolerance : float, share of the size
         The farthest that a patch may be from the fair surface: from the refined one, and about that
         from the limit of finer ones, together; the size is the largest extent along an axis. None: a
-        ten-thousandth; with a scan half of what 95 % of its points are within, if that is more.
+        ten-thousandth; with a scan half of the distance of 95 % of its points, if that is more.
     normal_tolerance : float, radians
         The sharpest angle between the normals of two patches along an edge that is no crease. None:
         8e-4; with a scan the angle of `tolerance` over a mean control edge, if that is more.
@@ -262,10 +262,8 @@ class _Run:
     """The settings of fit_patches(), and its fits on a level."""
 
     def __init__(self, tolerance: object, normal_tolerance: object, force: bool):
-        self.left_open = {
-            "tolerance": tolerance is None,
-            "normal_tolerance": normal_tolerance is None,
-        }
+        self._has_tolerance = tolerance is not None
+        self._has_angle = normal_tolerance is not None
         self.tolerance = USUAL_TOLERANCE if tolerance is None else real("tolerance", tolerance)
         self.normal_tolerance = (
             USUAL_ANGLE if normal_tolerance is None else real("normal_tolerance", normal_tolerance)
@@ -286,9 +284,9 @@ class _Run:
         corners, offsets = polygons
         ends = found.vertices[corners] - found.vertices[corners[following(offsets)]]
         edge = float(np.linalg.norm(ends, axis=1).mean())
-        if size and self.left_open["tolerance"]:
+        if size and not self._has_tolerance:
             self.tolerance = max(USUAL_TOLERANCE, SHARE_OF_SCAN * found.within[0] / size)
-        if edge and self.left_open["normal_tolerance"]:
+        if edge and not self._has_angle:
             self.normal_tolerance = max(USUAL_ANGLE, self.tolerance * size / edge)
 
     def fitted(
