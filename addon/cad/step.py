@@ -2,7 +2,6 @@
 """Writes finished jobs to one CAD file, and summarizes them."""
 
 from collections.abc import Sequence
-from math import degrees
 
 from .. import core
 from . import colours, words
@@ -55,12 +54,9 @@ def _scan_text(jobs: Sequence[PatchJob], factor: float, symbol: str) -> str:
     if not jobs:
         return ""
     lengths = zip(*((*job.from_scan, job.allowed) for job in jobs))
-    within, largest, allowed = (words.short(max(each) * factor) for each in lengths)
-    angle = words.short(degrees(max(job.patches.normal_tolerance for job in jobs)))
-    return (
-        f", within {within} {symbol} of 95 % of the scan, {largest} {symbol} at most: patches were allowed"
-        f" to be {allowed} {symbol} off and to meet at {angle}°"
-    )
+    within, largest, off = (f"{words.short(max(each) * factor)} {symbol}" for each in lengths)
+    allowed = words.allowed(off, max(job.patches.normal_tolerance for job in jobs))
+    return f", within {within} of 95 % of the scan, {largest} at most: {allowed}"
 
 
 def _finer_text(job: PatchJob) -> str:

@@ -17,6 +17,11 @@ def summary(patches: int, off: float, unit: str, angle: float, apart: float | No
     return text if apart is None else f"{text}, {short(apart)} {unit} from the mesh shown"
 
 
+def allowed(off: str, angle: float) -> str:
+    """What patches near a scan may miss: `off`, a length in words, and `angle` in radians."""
+    return f"patches were allowed to be {off} off and to meet at {short(degrees(angle))}°"
+
+
 def short(value: float) -> str:
     """Two significant digits, without an exponent: 0.0082, 12, 3,400."""
     digits = float(f"{value:.1e}")

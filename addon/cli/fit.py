@@ -131,7 +131,9 @@ def entry(job: FitJob | PatchJob) -> dict[str, Any]:
     """Distances between the scan and a finished job's surface or patches."""
     found = job.result
     near = job.from_scan if isinstance(job, PatchJob) else found.within
-    own = {"off_allowed": job.allowed} if isinstance(job, PatchJob) else {}
+    own = {}
+    if isinstance(job, PatchJob):
+        own = {"off_allowed": job.allowed, "angle_allowed": job.patches.normal_tolerance}
     return own | {
         "points": len(found.distances),
         "within": near[0],
@@ -150,7 +152,7 @@ def said(told: dict[str, Any]) -> str:
         f"largest {words.short(told['largest'])}; noise about {words.short(told['noise'])}"
     )
     if "off_allowed" in told:
-        text += f"; patches were allowed to be {words.short(told['off_allowed'])} off"
+        text += "; " + words.allowed(words.short(told["off_allowed"]), told["angle_allowed"])
     coarse = len(told["too_coarse"])
     return text + (f"; {coarse} faces of the cage are too coarse" if coarse else "")
 

@@ -48,13 +48,15 @@ def test_points_and_a_cage_become_a_step_file_whose_distances_are_told(blob, cap
     assert (found.valid, found.solids, found.faces) == (True, 1, patches)
 
 
-def test_patches_may_be_off_by_half_of_what_the_scan_is(blob):
+def test_patches_may_be_off_by_half_of_what_the_scan_is(blob, capsys):
     words = ("--fit", "scan.ply", "--cage", "cage.obj", "out.step", "--levels", 3)
-    for more, share in (((), 0.5), (("--fit-tolerance", 0.01), None)):
+    for more, share in (((), 0.5), (("--fit-tolerance", 0.01, "--fit-angle", 0.2), None)):
         _, (entry,) = entries(*words, *more)
         told = entry["objects"][0]["fit"]
         wanted = share * told["within"] if share else 0.01 * entry["objects"][0]["report"]["size"]
         assert told["off_allowed"] == pytest.approx(wanted, rel=0.1)
+    assert told["angle_allowed"] == pytest.approx(np.radians(0.2))
+    assert "off and to meet at 0.2°" in capsys.readouterr().err
 
 
 def test_a_tolerance_is_a_length_or_a_share_of_the_cages_edge(blob):
