@@ -231,7 +231,8 @@ _CURES = {
 
 def _thickness_text(warning: Mapping[str, Any]) -> tuple[str, str]:
     """What to do and the cause, for the core's warning of a change of thickness."""
-    words = listed([words for setting, words in _CURES.items() if setting in warning["cure"]], "or")
+    settings = core.module().errors.settings_to_change(warning)
+    words = listed([_CURES[setting] for setting in settings], "or")
     return words[0].upper() + words[1:], warning["cause"]
 
 

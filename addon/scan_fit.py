@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The fair surface of a cage near scans, an ordinary surface of its cage that remembers its scans."""
 
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any, cast
@@ -24,7 +23,6 @@ from .units import Units
 from .words import counted
 
 TOO_COARSE, UNCOVERED, OUTLIERS = "FIT_TOO_COARSE", "FIT_NO_POINTS", "FIT_OUTLIERS"
-_LENGTH = re.compile(r"\b\d+(?:\.\d+)?(?:e[+-]\d+)?\b(?!\.\d| %| points? )")
 
 
 @dataclass(frozen=True)
@@ -112,22 +110,15 @@ class FitJob(Job):
         try:
             found = module.fit(**core.of_fits(self.arguments), **self._near, **watchers)
         except module.FairingError as error:
-            if error.code == "BAD_SHAPE":
-                error.cause = self._with_units(error.cause)
-            raise
-        for warning in found.report["warnings"]:
-            if warning["code"] == "TOLERANCE_NOT_KEPT":
-                warning["message"] = self._with_units(warning["message"])
+            raise module.errors.error_with_lengths(error, self._length) from None
+        report = found.report
+        report["warnings"] = [
+            module.errors.with_lengths(warning, self._length) for warning in report["warnings"]
+        ]
         return found
 
-    def _with_units(self, text: str) -> str:
-        """What the core says of a scan, its lengths as the scene says them: all numbers but shares and counts."""
-
-        def told(found: re.Match[str]) -> str:
-            length = float(found.group())
-            return self._units.lengths(length)(length)
-
-        return _LENGTH.sub(told, text)
+    def _length(self, length: float) -> str:
+        return self._units.lengths(length)(length)
 
     def _is_inside_out(self) -> bool:
         corners, offsets = self.arrays.corners, self.arrays.offsets

@@ -28,9 +28,13 @@ std::string listed(const Noun& noun, ElementKind kind, std::span<const std::int6
   return out + (count > shown ? ", …)" : ")");
 }
 
-// The replacement of a placeholder; nothing if the braces are ordinary text.
+// The replacement of a placeholder, "12 faces (0, 4, 9, 11, 12, …)" for "face", or "4-9" for an
+// edge; nothing if the braces are ordinary text.
 std::optional<std::string> filled(std::string_view place, ElementKind kind,
                                   std::span<const std::int64_t> ids) {
+  for (const std::string_view field : {"length:", "setting:"})
+    if (place.starts_with(field)) return std::string(place.substr(field.size()));
+  if (ids.empty()) return std::nullopt;
   if (const std::size_t bar = place.find('|'); bar != place.npos) {
     const bool single = ids.size() == (kind == ElementKind::edge ? 2u : 1u);
     return std::string(single ? place.substr(0, bar) : place.substr(bar + 1));
@@ -119,9 +123,9 @@ ElementKind usual_kind(ErrorCode code) {
 std::string text(const std::string& sentence, ElementKind kind, std::span<const std::int64_t> ids) {
   std::string out;
   std::size_t from = 0;
-  while (!ids.empty()) {
+  while (true) {
     const std::size_t open = sentence.find('{', from), close = sentence.find('}', open);
-    if (close == std::string::npos) break;
+    if (open == std::string::npos || close == std::string::npos) break;
     const auto place = std::string_view(sentence).substr(open + 1, close - open - 1);
     const std::optional<std::string> words = filled(place, kind, ids);
     out.append(sentence, from, words ? open - from : close + 1 - from);

@@ -53,9 +53,9 @@ ElementKind kind_named(std::string_view text);
 // The usual kind of elements of such an error.
 ElementKind usual_kind(ErrorCode code);
 
-// A message as data: its text is made last, so that ids can be translated on the way to the caller.
-// "{face}", "{vertex}", "{edge}" or "{crease}" is replaced by the elements, "12 faces (0, 4, 9, 11,
-// 12, …)", and "{has|have}" by the word that agrees with their number. Edges are shown as "4-9".
+// A message as data, whose text is made last, when ids are the caller's. "{face}" is replaced by the
+// elements, "{has|have}" by the word for their number; callers can replace "{length:0.25}" by a
+// length in their unit, and "{setting:tension}" by their own name of the setting.
 struct Message {
   Message(const char* sentence) : cause(sentence) {}
   Message(std::string sentence, std::string advice = {})

@@ -107,14 +107,15 @@ Warning of_steps(const CurvatureLevelReport& level, const FairOptions& options) 
 // (measured: a wing, with 0.25), while tension would make them deeper.
 std::string cure_of_thickness(const FairOptions& options, bool is_thicker) {
   std::vector<std::string> cures;
-  if (options.energy != Energy::thin_plate) cures.push_back("energy=\"thin_plate\"");
-  if (!is_thicker && options.metric_exponent > 0.25) cures.push_back("metric_exponent=0.25");
+  if (options.energy != Energy::thin_plate) cures.push_back("{setting:energy=\"thin_plate\"}");
+  if (!is_thicker && options.metric_exponent > 0.25)
+    cures.push_back("{setting:metric_exponent=0.25}");
   if (is_thicker && options.energy != Energy::minimum_variation && options.membrane.tension < 1)
-    cures.push_back("more tension");
+    cures.push_back("more {setting:tension}");
   if (is_thicker && options.interpolation == Interpolation::exact)
-    cures.push_back("interpolation=\"limit\"");
-  if (is_thicker) cures.push_back("creases where it turns");
-  cures.push_back("more vertices there");
+    cures.push_back("{setting:interpolation=\"limit\"}");
+  if (is_thicker) cures.push_back("{setting:creases} where it turns");
+  cures.push_back("more {setting:vertices} there");
   std::string text = "Use " + cures[0];
   for (std::size_t i = 1; i < cures.size(); ++i)
     text += (i + 1 < cures.size() ? ", " : " or ") + cures[i];

@@ -132,7 +132,7 @@ Array<Index> in_order_of_place(const ScanInput& input) {
 
 std::string length_text(double length) {
   char text[32];
-  std::snprintf(text, sizeof(text), "%.3g", length);
+  std::snprintf(text, sizeof(text), "{length:%.3g}", length);
   return text;
 }
 

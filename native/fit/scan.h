@@ -45,7 +45,7 @@ Scan make_scan(const ScanInput& input, const Frame& frame, Workers& workers);
 // units do, or if they are too far apart. Both in working coordinates.
 void require_same_place(const Scan& scan, std::span<const Vec3> control, const Frame& frame);
 
-// Three digits, for messages.
+// A length as a place in a message, with three digits.
 std::string length_text(double length);
 
 }  // namespace fairing

@@ -5,6 +5,8 @@ import re
 from pathlib import Path
 
 import bpy
+import discrete_fairing as df
+import numpy as np
 import pytest
 from discrete_fairing.errors import fairing_error
 from scenes import CUBE, add, fair
@@ -80,3 +82,13 @@ def test_every_code_has_a_remedy_or_speaks_for_itself():
     away = fairing_error("BAD_OPTION", "1 vertex (3) is to look away.", cure="Free its normal.")
     text = errors.error_text("Box", away)
     assert text == "Box: Free its normal. 1 vertex (3) is to look away."
+
+
+def test_a_swollen_body_names_the_settings_as_the_panel_does():
+    plate = np.array(CUBE[0]) * (1, 1, 0.2)
+    report = df.fair(plate, CUBE[1], levels=2, energy="total_curvature").report
+    (warning,) = [w for w in report["warnings"] if w["code"] == "THICKNESS_CHANGED"]
+    assert 'energy="thin_plate"' in warning["cure"] and "{" not in warning["message"]
+    text = errors.warning_text("Box", warning)
+    assert text.startswith("Box: Set Fairness to Bending, raise Tension, set Vertices to Limit,")
+    assert "energy" not in text

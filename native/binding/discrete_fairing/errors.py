@@ -3,11 +3,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import re
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from . import _native
 from ._native import FairingError
+
+_LENGTH = re.compile(r"\{length:([^}]*)\}")
+_SETTING = re.compile(r"\{setting:(\w+)[^}]*\}")
 
 
 def fairing_error(
@@ -18,7 +22,7 @@ def fairing_error(
     cure: str = "",
 ) -> FairingError:
     """A FairingError. In `cause` and `cure` "{face}", "{vertex}" and "{edge}" stand for the elements,
-    "{has|have}" for the word that agrees with their number.
+    "{has|have}" for the word that agrees with their number, "{length:0.25}" for a length.
     """
     return _native.error(code, cause, cure, list(elements), kind)
 
@@ -30,11 +34,35 @@ def about(error: FairingError, elements: Sequence[int], prefix: str = "") -> Fai
 
 
 def written(entry: Mapping[str, Any]) -> dict[str, Any]:
-    """A warning or repair of the core's report for callers: its sentences, and both as "message"."""
+    """A warning or repair of the core's report for callers: its sentences, and both as "message".
+    "sentences" has them with their places.
+    """
     kind, elements = entry["kind"], entry["elements"]
-    cause, cure = (_native.text(entry[name], kind, elements) for name in ("cause", "cure"))
+    sentences = entry["cause"], entry["cure"]
+    cause, cure = (_native.text(sentence, kind, elements) for sentence in sentences)
     message = f"{cause} {cure}".rstrip()
-    return {**entry, "cause": cause, "cure": cure, "message": message}
+    return {**entry, "cause": cause, "cure": cure, "message": message, "sentences": sentences}
+
+
+def with_lengths(entry: Mapping[str, Any], length: Callable[[float], str]) -> dict[str, Any]:
+    """The same warning of a report, each length in it as `length` writes it."""
+    cause, cure = (_with(length, sentence) for sentence in entry["sentences"])
+    return written({**entry, "cause": cause, "cure": cure})
+
+
+def error_with_lengths(error: FairingError, length: Callable[[float], str]) -> FairingError:
+    """The same error, each length in it as `length` writes it."""
+    cause, cure = (_with(length, sentence) for sentence in error._sentences)
+    return fairing_error(error.code, cause, error.elements, error.kind, cure)
+
+
+def _with(length: Callable[[float], str], sentence: str) -> str:
+    return _LENGTH.sub(lambda found: length(float(found[1])), sentence)
+
+
+def settings_to_change(entry: Mapping[str, Any]) -> list[str]:
+    """The names of the settings in the cure of a warning, the best cure first."""
+    return _SETTING.findall(entry["sentences"][1])
 
 
 def written_report(found: dict[str, Any]) -> dict[str, Any]:
