@@ -130,6 +130,41 @@ def test_curvature_joins(pair, levels, make):
     assert joint.jump.max() < (0.04 if coarse else 0.03)
 
 
+@pytest.mark.parametrize("levels", [3, 4])
+@pytest.mark.parametrize("pair", PAIRS)
+def test_both_meet_half_way(pair, levels):
+    """Each turns by half of the kink, towards the other as it was."""
+    meshes = PAIRS[pair]()
+    free = [fair(mesh, levels) for mesh in meshes]
+    before = seam(*free)
+    met = [
+        fair(mesh, levels, neighbour=(other.vertices, other.faces), halfway=True)
+        for mesh, other in zip(meshes, free[::-1])
+    ]
+    joint = seam(*met)
+    assert len(joint.kink) >= 5 * 2**levels - 3 and joint.gap.max() < 1e-12
+    assert np.degrees(before.kink.max()) > 7 and np.degrees(joint.kink.max()) < 0.05
+    for surface, own, other in zip(met, free, free[::-1]):
+        turned = np.degrees(seam(surface, other).kink)
+        assert turned == pytest.approx(np.degrees(seam(own, other).kink) / 2, abs=0.05)
+
+
+def flipped(mesh):
+    return mesh[0], mesh[1][:, ::-1]
+
+
+def test_both_meet_half_way_in_curvature_whichever_way_their_faces_turn():
+    bonnet, fender = bonnet_and_fender()
+    free = [fair(mesh, 3) for mesh in (bonnet, flipped(fender))]
+    met = [
+        fair(mesh, 3, neighbour=(o.vertices, o.faces), halfway=True, joint="curvature")
+        for mesh, o in zip((bonnet, flipped(fender)), free[::-1])
+    ]
+    joint, before = seam(*met), seam(*free)
+    assert np.degrees(joint.kink.max()) < 0.05 and joint.jump.max() < 0.03
+    assert joint.bend[:, 0] == pytest.approx(before.bend.mean(axis=1), abs=0.03 * joint.largest)
+
+
 def curved(u, v):
     return (
         u,

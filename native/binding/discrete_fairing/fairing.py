@@ -29,6 +29,7 @@ def fair(
     symmetry_plane: str | None = None,
     neighbour: tuple[ArrayLike, Any] | None = None,
     border: ArrayLike | None = None,
+    halfway: bool = False,
     shapes: ArrayLike | Sequence[ArrayLike] | None = None,
     strain: bool = False,
     progress: Progress | None = None,
@@ -63,6 +64,9 @@ def fair(
     border : (k, 2) int
         Vertex pairs of the border edges that meet the neighbour. None: those whose ends lie on its border
         within a twentieth of their length.
+    halfway : bool
+        The border meets the mean of both surfaces, so that two meshes that are each the other's neighbour
+        share the change. The neighbour is then as it is without a neighbour of its own.
     shapes : (k, n, 3) float, or a list of (n, 3)
         Further positions of the same control vertices, such as shape keys. Their surfaces
         (result.shapes) use the charts and stencils of `vertices`, so the surface is linear in the
@@ -108,7 +112,7 @@ def fair(
     with control.named():
         found = _native.fair(*control.arrays, others, control.options, watch, progress)
         if beside is not None:
-            match_border(found, control, beside, border)
+            match_border(found, control, beside, border, halfway)
     result = Result(written_report(control.cut(found)))
     if strain:
         strained = strain_of(control, watch)

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Rotations about a border that give it another surface's tangent planes and curvatures."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .borders import Border, Foot, unit_vectors
+
+# Steps of conjugate gradients, and the relative residual at which they end.
+STEPS, LEFT = 400, 0.001
+
+
+class Angles:
+    """Rotations about a border: an angle at each vertex, times a profile for each kind of value.
+
+    The response of the fits at the border to the angles is a sparse matrix: each fit covers several
+    vertices, so correcting each vertex by its own error would not converge near ends.
+    """
+
+    def __init__(
+        self,
+        own: Border,
+        ids: np.ndarray,
+        lift: np.ndarray,
+        profiles: list[np.ndarray],
+        shares: tuple[np.ndarray, np.ndarray],
+        reach: float,
+    ):
+        """ids: (p,) points; lift: (p, 3) their moves for a unit angle; profiles: (p,) each; shares:
+        from Border.shares; reach: the length that converts curvatures to angles.
+        """
+        where = np.full(len(own.slot), -1)
+        where[ids] = np.arange(len(ids))
+        self.count = len(own.point)
+        self.inside = np.zeros(self.count, bool)
+        self.inside[own.ends[1, own.links[:, 1] >= 0]] = True
+        self.units = [1, reach][: len(profiles)]
+        self.profiles = [profile / unit for profile, unit in zip(profiles, self.units)]
+        self.rows, self.weights = shares[0], self._from_lines(*shares)
+        entries = []
+        for k in np.flatnonzero(self.inside):
+            near, fit = own.fits[k]
+            on = np.flatnonzero(where[near] >= 0)
+            p = where[near[on]]
+            for row, unit in enumerate(self.units):
+                seen = unit * fit[row, on] * (lift[p] @ own.normal[k])
+                for column, profile in enumerate(self.profiles):
+                    values = (seen * profile[p])[:, None] * self.weights[p]
+                    sums = np.bincount(self.rows[p].ravel(), values.ravel())
+                    at = np.flatnonzero(sums)
+                    whole = np.full(len(at), row * self.count + k)
+                    entries.append((whole, column * self.count + at, sums[at]))
+        self.row, self.column, self.value = map(np.concatenate, zip(*entries))
+
+    def _from_lines(self, rows: np.ndarray, weights: np.ndarray) -> np.ndarray:
+        """At ends the differences of the angles from the line through the two adjacent vertices: with
+        zero angles beyond the end a joint would fold.
+        """
+        weights = weights.copy()
+        for column, way in ((0, 1), (1, 1), (3, -1), (2, -1)):
+            part = np.where(self.inside[rows[:, column]], 0, weights[:, column])
+            weights[:, column + way] += 2 * part
+            weights[:, column + 2 * way] -= part
+        return weights
+
+    def for_(self, wanted: tuple[np.ndarray, np.ndarray]) -> np.ndarray:
+        """(p, 1): angles with the `wanted` turns and changes of curvature in the fits; by conjugate
+        gradients on the normal equations, stopped before insensitive components grow.
+        """
+        parts = [np.where(self.inside, w * unit, 0) for w, unit in zip(wanted, self.units)]
+        left = np.concatenate(parts)
+        found, enough = np.zeros(len(left)), LEFT * np.linalg.norm(left)
+        way = slope = self._back(left)
+        for _ in range(STEPS):
+            if np.linalg.norm(left) <= enough:
+                break
+            seen = np.bincount(self.row, self.value * way[self.column], len(left))
+            length = (slope @ slope) / max(seen @ seen, 1e-300)
+            found, left = found + length * way, left - length * seen
+            before, slope = slope @ slope, self._back(left)
+            way = slope + (slope @ slope) / max(before, 1e-300) * way
+        angle = np.zeros(len(self.rows))
+        for profile, part in zip(self.profiles, np.split(found, len(self.units))):
+            angle += profile * np.einsum("ps,ps->p", self.weights, part[self.rows])
+        return angle[:, None]
+
+    def _back(self, left: np.ndarray) -> np.ndarray:
+        return np.bincount(self.column, self.value * left[self.row], len(left))
+
+
+def needed(own: Border, foot: Foot) -> tuple[np.ndarray, np.ndarray]:
+    """(k,) the angles about the border to the neighbour's tangent plane, and the change of curvature."""
+
+    def across(of: Border | Foot) -> np.ndarray:
+        inward = unit_vectors(np.cross(of.normal, own.along))
+        return inward * np.sign(_dot(inward, of.inward))[:, None]
+
+    before, after = across(own), -across(foot)  # away from the neighbour
+    turn = np.arctan2(_dot(own.along, np.cross(before, after)), _dot(before, after))
+    side = np.sign(_dot(np.cross(own.along, after), foot.normal))
+    # Across the border only: along it both have the same curve, and errors of the fits would matter.
+    old, new = (
+        np.einsum("ki,kij,kj->k", way, of.bend, way) for way, of in ((before, own), (after, foot))
+    )
+    return turn, side * new - old
+
+
+def rotation(vectors: np.ndarray, axis: np.ndarray, angle: np.ndarray) -> np.ndarray:
+    """The displacement of vectors by a rotation."""
+    stays = _dot(vectors, axis)[:, None] * axis
+    return (np.cos(angle) - 1) * (vectors - stays) + np.sin(angle) * np.cross(axis, vectors)
+
+
+def _dot(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    return np.asarray(np.einsum("ij,ij->i", a, b))
