@@ -18,7 +18,7 @@ PARTS = {
     "window_surface": ("window_run.py", "redo", VIEWPORT, 945),
     "window_live": ("window_live.py", "live", VIEWPORT, 945),
     "window_job": ("window_jobs.py", "job_mechanical_zebra", VIEWPORT, 945),
-    "window_badge": ("window_follows.py", "badge", "560x720+1040+24", 560),
+    "window_badge": ("window_undo.py", "badge", "560x720+1040+24", 560),
 }
 COLOURS = ("-dither", "None", "-colors", "128", "-strip")
 

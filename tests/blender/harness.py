@@ -19,6 +19,7 @@ from time import perf_counter
 
 import bmesh
 import bpy
+import numpy as np
 
 EXTENSION = "bl_ext.user_default.discrete_fairing"
 _BUTTON = 12  # pixels: less than a button is high
@@ -44,14 +45,14 @@ def running():
 
 
 def until_it_ends(patience=300.0):
-    """Waits for the run; a generator that returns how often the window had its turn meanwhile."""
-    begun, turns = perf_counter(), 0
+    """Waits for the run; a generator that returns its (fraction, phase) each time that the window had its turn."""
+    begun, seen = perf_counter(), []
     while running():
         assert perf_counter() - begun < patience, "the run does not end"
-        turns += 1
+        seen.append((running().fraction, running().phase))
         yield 0.05
     yield 0.5
-    return turns
+    return seen
 
 
 def fresh_scene(empty=True):
@@ -149,6 +150,17 @@ def view():
     return {"window": window, "screen": window.screen, "area": area, "region": region}
 
 
+def call(operator, *how, target=None, **properties):
+    """Calls an operator in the viewport; only `target` is selected and active, if it is given."""
+    alone = {"active_object": target, "object": target, "selected_objects": [target]}
+    with bpy.context.temp_override(**view(), **(alone if target else {})):
+        return operator(*how, **properties)
+
+
+def undo():
+    call(bpy.ops.ed.undo)
+
+
 def select_vertex(source, vertex):
     """Selects one vertex of the active object in Edit Mode, as a step of undo."""
     with bpy.context.temp_override(**view()):
@@ -193,19 +205,16 @@ def unfold_panels(*panels):
 
 def open_sidebar(category):
     """Opens the viewport's sidebar at a tab; a generator, as the sidebar has to be drawn once before."""
-    area = view()["area"]
-    area.spaces.active.show_region_ui = True
+    view()["area"].spaces.active.show_region_ui = True
     yield 0.5
-    sidebar = next(region for region in area.regions if region.type == "UI")
-    sidebar.active_panel_category = category
-    sidebar.tag_redraw()
+    sidebar().active_panel_category = category
+    sidebar().tag_redraw()
     yield 0.5
 
 
 def show_the_end_of_the_sidebar():
     """Scrolls to the last panels; a generator."""
-    sidebar = next(region for region in view()["area"].regions if region.type == "UI")
-    with bpy.context.temp_override(**{**view(), "region": sidebar}):
+    with bpy.context.temp_override(**{**view(), "region": sidebar()}):
         for _ in range(4):
             bpy.ops.view2d.scroll_down(page=True)
     yield 0.5
@@ -219,6 +228,16 @@ def photograph(name):
     path = Path(os.environ["DF_SCREENSHOTS"]) / f"{name}.png"
     subprocess.run(["import", "-window", "root", path], check=True, timeout=60)
     return path
+
+
+def pixels(name):
+    """(h, w, 3) uint8 of the viewport, as X shows it."""
+    path, region = photograph(name), view()["region"]
+    top = view()["window"].height - region.y - region.height
+    crop = f"{region.width}x{region.height}+{region.x}+{top}"
+    command = ["convert", path, "-crop", crop, "-depth", "8", "rgb:-"]
+    done = subprocess.run(command, check=True, capture_output=True, timeout=60)
+    return np.frombuffer(done.stdout, np.uint8).reshape(region.height, region.width, 3)
 
 
 def photograph_until(name, is_ready, patience):

@@ -41,11 +41,6 @@ def scan():
     return target
 
 
-def call(operator, **options):
-    with bpy.context.temp_override(**harness.view()):
-        return getattr(bpy.ops.object, operator)("INVOKE_DEFAULT", True, **options)
-
-
 def border_edges(target):
     bm = bmesh.new()
     bm.from_mesh(target.data)
@@ -58,7 +53,7 @@ def test_a_scan_is_closed_and_undo_brings_it_back():
     target = yield from scan()
     before = len(target.data.polygons)
     yield from harness.unfold_panels("VIEW3D_PT_fairing_inspect", "VIEW3D_PT_fairing_check")
-    call("fairing_clean")
+    harness.call(bpy.ops.object.fairing_clean, "INVOKE_DEFAULT", True)
     yield from harness.until_it_ends()
     target = bpy.context.object
     said = harness.module("check.defects").recall_cleaned(target)
@@ -69,8 +64,7 @@ def test_a_scan_is_closed_and_undo_brings_it_back():
     assert np.abs(np.array(radii) - 1.0).max() < 0.02
     yield from harness.show_the_end_of_the_sidebar()
     harness.photograph("clean_done")
-    with bpy.context.temp_override(**harness.view()):
-        bpy.ops.ed.undo()
+    harness.undo()
     yield 0.5
     assert len(bpy.context.object.data.polygons) == before
 

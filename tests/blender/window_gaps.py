@@ -6,7 +6,6 @@ without a run, and the run is granted that besides.
 """
 
 import contextlib
-import importlib
 import sys
 from pathlib import Path
 from time import perf_counter
@@ -66,8 +65,7 @@ def draw_as_in_a_run():
     harness.view()["area"].tag_redraw()
     for step in range(15):
         bpy.context.workspace.status_text_set(f"Step {step}")
-        redraw = importlib.import_module(f"{harness.EXTENSION}.redraw")
-        redraw.tag_sidebars(bpy.context)
+        harness.module("redraw").tag_sidebars(bpy.context)
         yield 0.2
     bpy.context.workspace.status_text_set(None)
 
@@ -116,8 +114,7 @@ def test_the_view_can_be_used_and_cancel_is_a_button():
     yield 2.0
     assert not view["area"].spaces.active.show_region_ui, "N: the sidebar"
     assert harness.running()
-    with bpy.context.temp_override(**harness.view()):
-        assert bpy.ops.object.fairing_cancel() == {"FINISHED"}
+    assert harness.call(bpy.ops.object.fairing_cancel) == {"FINISHED"}
     yield from harness.until_it_ends()
     assert list(bpy.data.objects.keys()) == ["Suzanne"]
 

@@ -43,8 +43,7 @@ def noisy_grid():
 
 
 def start(**options):
-    with bpy.context.temp_override(**harness.view()):
-        return bpy.ops.object.fairing_in_place("INVOKE_DEFAULT", **options)
+    return harness.call(bpy.ops.object.fairing_in_place, "INVOKE_DEFAULT", **options)
 
 
 def test_a_long_run_leaves_the_window_alive_and_is_undone_in_one_step():
@@ -53,12 +52,11 @@ def test_a_long_run_leaves_the_window_alive_and_is_undone_in_one_step():
     assert start() == {"RUNNING_MODAL"}
     yield 0.3
     harness.photograph("in_place_progress")
-    turns = yield from harness.until_it_ends()
-    assert turns > 5, f"the window had {turns} turns"
+    seen = yield from harness.until_it_ends()
+    assert len(seen) > 5, f"the window had {len(seen)} turns"
     after = positions(target)
     assert target.mode == "EDIT" and np.abs(after - before).max() > 0.01
-    with bpy.context.temp_override(**harness.view()):
-        bpy.ops.ed.undo()
+    harness.undo()
     yield 0.5
     assert np.array_equal(positions(bpy.context.object), before)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Inspect in a real window."""
+"""Inspect and Compare in a real window."""
 
 import subprocess
 import sys
@@ -33,31 +33,37 @@ def contrast(path, crop):
 def test_zebra_and_curvature_are_seen():
     source = harness.add_suzanne()
     yield from harness.unfold_panels("VIEW3D_PT_fairing_inspect")
-    with bpy.context.temp_override(
-        **harness.view(), active_object=source, selected_objects=[source]
-    ):
-        assert bpy.ops.object.fairing_surface(levels=3) == {"FINISHED"}
+    operators, done = bpy.ops.object, {"FINISHED"}
+    assert harness.call(operators.fairing_surface, target=source, levels=3) == done
     result = bpy.data.objects["Suzanne Fair"]
-    view = harness.view()
-    with bpy.context.temp_override(
-        **view, active_object=result, object=result, selected_objects=[result]
-    ):
-        assert bpy.ops.object.fairing_inspect(mode="ZEBRA") == {"FINISHED"}
-        assert bpy.ops.object.fairing_viewport() == {"FINISHED"}
-        assert bpy.ops.object.fairing_measure() == {"FINISHED"}
+    assert harness.call(operators.fairing_inspect, target=result, mode="ZEBRA") == done
+    assert harness.call(operators.fairing_viewport, target=result) == done
+    assert harness.call(operators.fairing_measure, target=result) == done
     yield from wait_for_shading("inspect", STRIPES)
-    with bpy.context.temp_override(
-        **view, active_object=result, object=result, selected_objects=[result]
-    ):
-        assert bpy.ops.object.fairing_inspect(mode="MEAN") == {"FINISHED"}
+    assert harness.call(operators.fairing_inspect, target=result, mode="MEAN") == done
     yield 2.0
     harness.photograph("curvature")
-    with bpy.context.temp_override(
-        **view, active_object=result, object=result, selected_objects=[result]
-    ):
-        assert bpy.ops.object.fairing_inspect(mode="NONE") == {"FINISHED"}
+    assert harness.call(operators.fairing_inspect, target=result, mode="NONE") == done
     yield 0.5
     assert not result.modifiers
+
+
+def test_one_click_puts_the_energies_side_by_side():
+    harness.add_suzanne()
+    bpy.context.scene.discrete_fairing.levels = 2
+    yield from harness.unfold_panels("VIEW3D_PT_fairing_inspect", "VIEW3D_PT_fairing_compare")
+    assert harness.call(bpy.ops.object.fairing_compare, "INVOKE_DEFAULT") == {"RUNNING_MODAL"}
+    yield from harness.until_it_ends()
+    names = ["Suzanne Bending", "Suzanne Curvature", "Suzanne Flow Lines"]
+    places = [bpy.data.objects[name].location.x for name in names]
+    assert 0.0 < places[0] < places[1] < places[2]
+    with bpy.context.temp_override(**harness.view()):
+        bpy.ops.object.fairing_show_source()
+        bpy.ops.view3d.view_axis(type="FRONT")
+        bpy.ops.view3d.view_all()
+    yield 1.0
+    yield from harness.show_the_end_of_the_sidebar()
+    harness.photograph("compare")
 
 
 harness.run_in_window(globals())

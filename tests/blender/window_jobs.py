@@ -183,8 +183,7 @@ def test_undo_takes_a_job_back():
     yield from harness.Clicks().press(name_of_call("panel"), *PLACES["panel"])
     yield from jobs.waited()
     assert sorted(o.name for o in bpy.data.objects) != before
-    with bpy.context.temp_override(**harness.view()):
-        bpy.ops.ed.undo()
+    harness.undo()
     yield 1.0
     assert sorted(o.name for o in bpy.data.objects) == before
     assert not bpy.data.objects[before[0]].hide_get(), "its source is to be seen again"
@@ -198,8 +197,7 @@ def test_the_menu_on_the_button():
     harness.xdotool("mousemove", region.x + region.width // 2, region.y + region.height // 2)
     yield 0.5
     before = harness.colours(harness.photograph("job_menu"))
-    with bpy.context.temp_override(**harness.view()):
-        bpy.ops.wm.call_menu(name="VIEW3D_MT_fairing_for")
+    harness.call(bpy.ops.wm.call_menu, name="VIEW3D_MT_fairing_for")
     yield 1.5
     assert harness.colours(harness.photograph("job_menu")) > before, "pictures have colours"
     harness.xdotool("key", "Escape")

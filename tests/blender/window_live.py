@@ -1,10 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Live in a real window: vertices are grabbed with keyboard and mouse, and the surface follows. Prints how long updates take."""
 
-import importlib
 import sys
 from pathlib import Path
-from time import perf_counter
 
 sys.path.insert(0, str(Path(__file__).parent))
 
@@ -12,17 +10,11 @@ import bpy
 import harness
 import numpy as np
 
-PATIENCE = 120.0  # seconds until a full level must be there
 MOVES = 24  # of the mouse, in one grab
 
 
-def live(name):
-    """A module of the extension's folder live/."""
-    return importlib.import_module(f"{harness.EXTENSION}.live.{name}")
-
-
 def session(target):
-    return live("registry").session_of(target)
+    return harness.module("live.registry").session_of(target)
 
 
 def positions(mesh):
@@ -40,11 +32,9 @@ def positions_of(source):
 
 def wait_for_the_full_level(target, level):
     """Until the surface is shown at that level and nothing is waiting; a generator."""
-    waited = 0.0
-    while session(target).is_waiting or session(target).level != level:
-        assert waited < PATIENCE, f"no full level: {target.discrete_fairing_live.status}"
-        waited += 0.1
-        yield 0.1
+    yield from harness.until(
+        lambda: not session(target).is_waiting and session(target).level == level
+    )
     yield 0.3
 
 
@@ -64,13 +54,11 @@ def open_scene(levels, live_levels, energy="THIN_PLATE", add=harness.add_suzanne
     settings = bpy.context.scene.discrete_fairing
     settings.levels, settings.energy = levels, energy
     yield from harness.open_sidebar("Fairing")
-    with bpy.context.temp_override(**harness.view()):
-        assert bpy.ops.object.fairing_live(state="ON") == {"FINISHED"}
+    assert harness.call(bpy.ops.object.fairing_live, state="ON") == {"FINISHED"}
     target = bpy.data.objects[f"{source.name} Fair"]
     target.discrete_fairing_live.levels = live_levels
     yield from wait_for_the_full_level(target, levels)
-    with bpy.context.temp_override(**harness.view()):
-        bpy.ops.ed.undo_push(message="live")
+    harness.call(bpy.ops.ed.undo_push, message="live")
     harness.select_vertex(source, vertex)
     yield 0.5
     return source, target
@@ -146,8 +134,7 @@ def test_a_grab_is_followed_and_the_full_level_comes_after():
         "through its vertices"
     )
     harness.photograph("live_full")
-    with bpy.context.temp_override(**harness.view()):
-        bpy.ops.ed.undo()
+    harness.undo()
     source, target = bpy.data.objects["Suzanne"], bpy.data.objects["Suzanne Fair"]
     yield from wait_for_the_full_level(target, 4)
     source.update_from_editmode()
@@ -166,8 +153,7 @@ def test_total_curvature_is_followed():
 
 def test_rendering_meanwhile():
     source, target = yield from open_scene(3, 2)
-    with bpy.context.temp_override(**harness.view()):
-        bpy.ops.object.mode_set(mode="OBJECT")
+    harness.call(bpy.ops.object.mode_set, mode="OBJECT")
     scene = bpy.context.scene
     scene.render.engine = "CYCLES"
     scene.cycles.samples, scene.cycles.use_denoising = 1, False
@@ -176,8 +162,7 @@ def test_rendering_meanwhile():
     scene.collection.objects.link(scene.camera)
     source.data.vertices[0].co.z += 1.0
     source.data.update()
-    with bpy.context.temp_override(**harness.view()):
-        bpy.ops.render.render()
+    harness.call(bpy.ops.render.render)
     yield from wait_for_the_full_level(target, 3)
     assert np.array_equal(positions(target.data)[0], positions_of(source)[0])
 
@@ -185,11 +170,8 @@ def test_rendering_meanwhile():
 def test_quitting_while_live():
     """The last one: Blender has to end by itself afterwards, which the time limit of the script sees to."""
     _, target = yield from open_scene(5, 2)
-    start = perf_counter()
     target.discrete_fairing.metric_exponent = 1.0
-    while not session(target).full_text:
-        assert perf_counter() - start < PATIENCE
-        yield 0.1
+    yield from harness.until(lambda: session(target).full_text)
 
 
 harness.run_in_window(globals())

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Stripes, also in Edit Mode; section curves and combs over the viewport."""
 
-import subprocess
 import sys
 from pathlib import Path
 
@@ -15,15 +14,12 @@ COMPILED = 120.0  # seconds until shaders must be there
 
 
 def pixels(name):
-    """(h, w, 3) uint8 of the middle of the viewport, as X shows it."""
-    path = harness.photograph(name)
-    region = harness.view()["region"]
-    bottom = harness.view()["window"].height - region.y
-    side = min(region.width, region.height) // 2
-    left, top = region.x + (region.width - side) // 2, bottom - (region.height + side) // 2
-    crop = ["-crop", f"{side}x{side}+{left}+{top}", "-depth", "8", "rgb:-"]
-    done = subprocess.run(["convert", path, *crop], check=True, capture_output=True, timeout=60)
-    return np.frombuffer(done.stdout, np.uint8).reshape(side, side, 3)
+    """(n, n, 3) uint8 of the middle of the viewport, as X shows it."""
+    picture = harness.pixels(name)
+    height, width, _ = picture.shape
+    side = min(width, height) // 2
+    left, top = (width - side) // 2, (height - side) // 2
+    return picture[top : top + side, left : left + side]
 
 
 def changes(picture):
@@ -43,15 +39,11 @@ def coloured(picture):
 
 
 def inspect(target, mode):
-    with bpy.context.temp_override(
-        **harness.view(), active_object=target, selected_objects=[target]
-    ):
-        bpy.ops.object.fairing_inspect("INVOKE_DEFAULT", mode=mode)
+    harness.call(bpy.ops.object.fairing_inspect, "INVOKE_DEFAULT", target=target, mode=mode)
 
 
 def change_mode(mode):
-    with bpy.context.temp_override(**harness.view()):
-        bpy.ops.object.mode_set(mode=mode)
+    harness.call(bpy.ops.object.mode_set, mode=mode)
 
 
 def ball():

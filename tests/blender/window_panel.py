@@ -32,8 +32,7 @@ def test_presets_are_chosen_by_pictures():
     region = harness.view()["region"]
     harness.xdotool("mousemove", region.x + region.width // 2, region.y + region.height // 2)
     yield 0.5
-    with bpy.context.temp_override(**harness.view()):
-        bpy.ops.wm.call_panel(name="VIEW3D_PT_fairing_presets")
+    harness.call(bpy.ops.wm.call_panel, name="VIEW3D_PT_fairing_presets")
     yield from with_colours("presets", before)
     harness.xdotool("key", "Escape")
     yield 0.5

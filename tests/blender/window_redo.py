@@ -73,13 +73,11 @@ def test_redo_shows_a_small_surface_and_recompute_the_whole_one():
     print(f"longest stop of the window in the meantime: {max(gaps):.2f} s")
     harness.photograph("redo_small")
     assert surface().discrete_fairing.unfinished
-    with bpy.context.temp_override(**harness.view()):
-        bpy.ops.object.fairing_recompute("INVOKE_DEFAULT", True)
+    harness.call(bpy.ops.object.fairing_recompute, "INVOKE_DEFAULT", True)
     yield from harness.until(lambda: not surface().discrete_fairing.unfinished)
     assert len(surface().data.polygons) >= SUZANNE * 4**4
     for _ in range(2):
-        with bpy.context.temp_override(**harness.view()):
-            bpy.ops.ed.undo()
+        harness.undo()
         yield 1.0
     assert not [o for o in bpy.data.objects if o.name.startswith("Suzanne F")], "a step each"
 

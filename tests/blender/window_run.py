@@ -31,7 +31,7 @@ def sidebar_at_rest(name):
     """A picture of the sidebar, as `pixels`, that another one equals: panels read their pictures beside drawing.
     A generator.
     """
-    sidebar = next(region for region in harness.view()["area"].regions if region.type == "UI")
+    sidebar = harness.sidebar()
     begun, last = perf_counter(), None
     while True:
         yield 0.5
@@ -65,29 +65,6 @@ def press(settings):
     yield 0.3
 
 
-def wait_for_the_end():
-    """Until the run is over; a generator. The number of times that progress was seen to advance."""
-    waited, seen = 0.0, [0.0]
-    while harness.running():
-        if harness.running().fraction > seen[-1]:
-            seen.append(harness.running().fraction)
-        assert waited < PATIENCE, "the run does not end"
-        waited += 0.2
-        yield 0.2
-    yield 0.5
-    return len(seen) - 1
-
-
-def wait_for_faces(count):
-    """Until the surface has so many faces; a generator. A busy machine takes its time to redo."""
-    waited = 0.0
-    while len(bpy.data.objects["Suzanne Fair"].data.polygons) != count:
-        assert waited < PATIENCE, "the surface was not redone with one level more"
-        waited += 0.2
-        yield 0.2
-    yield 0.5
-
-
 def open_panel(levels):
     """Suzanne and the sidebar, as a user would have them; a generator that returns the source and the settings."""
     source = harness.add_suzanne()
@@ -100,7 +77,7 @@ def open_panel(levels):
 def test_a_click_makes_the_surface():
     source, settings = yield from open_panel(3)
     yield from press(settings)
-    yield from wait_for_the_end()
+    yield from harness.until_it_ends()
     result = bpy.data.objects["Suzanne Fair"]
     assert bpy.context.view_layer.objects.active == result and source.hide_get()
     assert len(result.data.polygons) >= 500 * 4**3
@@ -113,11 +90,10 @@ def test_progress_is_shown_and_the_surface_comes():
     assert harness.running(), "a long run does not block"
     yield 1.0
     harness.photograph("progress")
-    advanced = yield from wait_for_the_end()
-    assert advanced > 3, f"progress was seen to advance {advanced} times only"
+    seen = yield from harness.until_it_ends()
+    assert len({fraction for fraction, _ in seen}) > 3, f"progress was {seen}"
     assert len(bpy.data.objects["Suzanne Fair"].data.polygons) >= 500 * 4**LONG
-    with bpy.context.temp_override(**harness.view()):
-        bpy.ops.ed.undo()
+    harness.undo()
     yield 0.5
     assert list(bpy.data.objects.keys()) == ["Suzanne"], "undone in one step"
 
@@ -129,30 +105,31 @@ def test_escape_leaves_the_scene_as_it_was():
     yield 0.5
     assert harness.running()
     harness.xdotool("key", "Escape")
-    yield from wait_for_the_end()
+    yield from harness.until_it_ends()
     assert list(bpy.data.objects) == [source] and set(bpy.data.meshes) == meshes
     assert not source.hide_get() and source.select_get()
     yield from press(bpy.context.scene.discrete_fairing)
     assert harness.running(), "the button works again"
     harness.xdotool("key", "Escape")
-    yield from wait_for_the_end()
+    yield from harness.until_it_ends()
 
 
 def test_redo_with_another_level_then_undo():
     _, settings = yield from open_panel(2)
     yield from press(settings)
-    yield from wait_for_the_end()
+    yield from harness.until_it_ends()
     yield 0.5
     faces = len(bpy.data.objects["Suzanne Fair"].data.polygons)
     prediction = harness.module("prediction")
     patience = prediction.PATIENCE
     prediction.PATIENCE = PATIENCE  # a busy machine is not to show fewer levels
     yield from harness.raise_levels(lambda: bpy.data.objects["Suzanne Fair"])
-    yield from wait_for_faces(4 * faces)
+    there = bpy.data.objects
+    yield from harness.until(lambda: len(there["Suzanne Fair"].data.polygons) == 4 * faces)
+    yield 0.5
     prediction.PATIENCE = patience
     harness.photograph("redo")
-    with bpy.context.temp_override(**harness.view()):
-        bpy.ops.ed.undo()
+    harness.undo()
     yield 0.5
     assert "Suzanne Fair" not in bpy.data.objects
     assert not bpy.data.objects["Suzanne"].hide_get()
@@ -166,10 +143,11 @@ def test_several_objects_queue():
     second.location.x = 4.0
     for source in (first, second):
         source.select_set(True)
-    with bpy.context.temp_override(**harness.view()):
-        assert bpy.ops.object.fairing_surface("INVOKE_DEFAULT", levels=4) == {"RUNNING_MODAL"}
+    assert harness.call(bpy.ops.object.fairing_surface, "INVOKE_DEFAULT", levels=4) == {
+        "RUNNING_MODAL"
+    }
     assert harness.running().position == (1, 2)
-    yield from wait_for_the_end()
+    yield from harness.until_it_ends()
     assert {o.name for o in bpy.context.view_layer.objects.selected} == {
         "Suzanne Fair",
         "Suzanne.001 Fair",
@@ -194,7 +172,7 @@ def test_another_file_is_opened_meanwhile():
     assert harness.running() is None, "the run ends with its file"
     _, settings = yield from open_panel(2)
     yield from press(settings)
-    yield from wait_for_the_end()
+    yield from harness.until_it_ends()
     assert "Suzanne Fair" in bpy.data.objects
 
 

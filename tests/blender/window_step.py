@@ -4,14 +4,12 @@
 import sys
 import tempfile
 from pathlib import Path
-from time import perf_counter
 
 sys.path.insert(0, str(Path(__file__).parent))
 
 import bpy
 import harness
 
-PATIENCE = 240.0  # seconds
 LONG = 7  # levels that take long enough to be cancelled
 FOLDER = tempfile.mkdtemp()
 
@@ -24,8 +22,7 @@ def alone(*targets):
     for target in targets:
         target.select_set(True)
     bpy.context.view_layer.objects.active = targets[0]
-    with bpy.context.temp_override(**harness.view()):
-        bpy.ops.view3d.view_selected()
+    harness.call(bpy.ops.view3d.view_selected)
 
 
 def add_balls(*places):
@@ -42,8 +39,9 @@ def add_balls(*places):
 
 def browse(path, **settings):
     """Opens the file browser as the menu does, photographs it and presses Export; a generator."""
-    with bpy.context.temp_override(**harness.view()):
-        bpy.ops.export_scene.fairing_step("INVOKE_DEFAULT", filepath=str(path), **settings)
+    harness.call(
+        bpy.ops.export_scene.fairing_step, "INVOKE_DEFAULT", filepath=str(path), **settings
+    )
     yield 2.0
     harness.photograph("step_browser")
     for window in bpy.context.window_manager.windows:
@@ -53,17 +51,6 @@ def browse(path, **settings):
                 with bpy.context.temp_override(window=window, area=area, region=region):
                     bpy.ops.file.execute()
     yield 0.3
-
-
-def wait_for_the_end():
-    """Until the run is over; a generator. The phases and fractions that were seen."""
-    seen, begun = [], perf_counter()
-    while harness.running():
-        seen.append((harness.running().fraction, harness.running().phase))
-        assert perf_counter() - begun < PATIENCE, "the run does not end"
-        yield 0.1
-    yield 0.5
-    return seen
 
 
 def parts(path):
@@ -84,7 +71,7 @@ def test_several_objects_by_the_file_browser():
     yield from browse(path, fit_levels=6)
     assert harness.running(), "a long run does not block"
     assert harness.running().position[1] == 2
-    seen = yield from wait_for_the_end()
+    seen = yield from harness.until_it_ends()
     fractions = [fraction for fraction, _ in seen]
     assert fractions == sorted(fractions) and len(set(fractions)) > 2
     assert parts(path) == ["Ball 1", "Ball 2"] and not left_over(path)
@@ -104,20 +91,18 @@ def test_escape_leaves_the_old_file():
     assert harness.running(), "too short to be photographed"
     harness.photograph("step_progress")
     harness.xdotool("key", "Escape")
-    yield from wait_for_the_end()
+    yield from harness.until_it_ends()
     assert path.read_text() == "old" and not left_over(path)
     assert list(bpy.data.objects) == sources and all(o.select_get() for o in sources)
 
 
 def test_the_button_and_the_patches_of_a_surface():
     add_balls(0)
-    with bpy.context.temp_override(**harness.view()):
-        bpy.ops.object.fairing_surface(levels=3, energy="TOTAL_CURVATURE")
+    harness.call(bpy.ops.object.fairing_surface, levels=3, energy="TOTAL_CURVATURE")
     yield from harness.open_sidebar("Fairing")
     harness.photograph("step_button")
-    with bpy.context.temp_override(**harness.view()):
-        bpy.ops.object.fairing_show_patches("INVOKE_DEFAULT")
-    yield from wait_for_the_end()
+    harness.call(bpy.ops.object.fairing_show_patches, "INVOKE_DEFAULT")
+    yield from harness.until_it_ends()
     patches = bpy.context.view_layer.objects.active
     assert patches.type == "SURFACE" and len(patches.data.splines) == 6
     bpy.data.objects["Ball 1 Fair"].hide_set(True)

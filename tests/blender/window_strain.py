@@ -1,11 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Dots, needles and labels of strain over the viewport: in Object and Edit Mode, and while Live is on."""
 
-import importlib
-import subprocess
 import sys
 from pathlib import Path
-from time import perf_counter
 
 sys.path.insert(0, str(Path(__file__).parent))
 
@@ -15,23 +12,11 @@ import harness
 import numpy as np
 
 ROWS, COLUMNS, WRONG = 9, 7, 31
-PATIENCE = 20.0  # seconds until strain must have been measured
 
 
-def pixels(name):
-    """(h, w, 3) uint8 of the viewport, as X shows it."""
-    path = harness.photograph(name)
-    region = harness.view()["region"]
-    top = harness.view()["window"].height - region.y - region.height
-    crop = f"{region.width}x{region.height}+{region.x}+{top}"
-    command = ["convert", path, "-crop", crop, "-depth", "8", "rgb:-"]
-    done = subprocess.run(command, check=True, capture_output=True, timeout=60)
-    return np.frombuffer(done.stdout, np.uint8).reshape(region.height, region.width, 3)
-
-
-def blue(picture):
-    """How many pixels have the colour of the longest needle, inwards, as it shines through the sheet."""
-    r, g, b = (picture[:, :, i].astype(int) for i in range(3))
+def blue(name):
+    """How many pixels of the viewport have the colour of the longest needle, inwards, seen through the sheet."""
+    r, g, b = harness.pixels(name).astype(int).transpose(2, 0, 1)
     return int(np.count_nonzero((b > 120) & (b - r > 60) & (g > r) & (g < b)))
 
 
@@ -60,50 +45,47 @@ def sheet():
 
 
 def room():
-    return importlib.import_module(f"{harness.EXTENSION}.strain.known")
+    return harness.module("strain.known")
 
 
 def until_measured(target):
     """Waits for what is shown to be up to date; a generator."""
-    begun = perf_counter()
     yield 0.5
-    while room().is_behind(target) or room().found_of(target) is None:
-        assert perf_counter() - begun < PATIENCE, room().trouble(target) or "not measured"
-        yield 0.1
+    yield from harness.until(
+        lambda: not room().is_behind(target) and room().found_of(target) is not None
+    )
     yield 1.0
 
 
 def show(target):
-    with bpy.context.temp_override(**harness.view(), active_object=target):
-        bpy.ops.object.fairing_strain("INVOKE_DEFAULT")
+    harness.call(bpy.ops.object.fairing_strain, "INVOKE_DEFAULT", target=target)
 
 
 def test_dots_needles_and_labels():
     target = sheet()
     yield from harness.open_sidebar("Fairing")
     yield 0.5
-    before = blue(pixels("strain_before"))
+    before = blue("strain_before")
     show(target)
     yield from until_measured(target)
-    shown = blue(pixels("strain"))
+    shown = blue("strain")
     assert shown > before + 60, (before, shown)
     assert room().found_of(target).wrong.tolist() == [WRONG]
     with bpy.context.temp_override(**harness.view(), active_object=target):
         bpy.ops.ed.undo_push(message="Strain")
         bpy.ops.ed.undo()
     yield 1.0
-    assert blue(pixels("strain_undone")) <= before + 5
+    assert blue("strain_undone") <= before + 5
 
 
 def test_edit_mode_follows_the_edit():
     target = sheet()
     yield 0.5
-    before = blue(pixels("strain_edit_before"))
+    before = blue("strain_edit_before")
     show(target)
-    with bpy.context.temp_override(**harness.view()):
-        bpy.ops.object.mode_set(mode="EDIT")
+    harness.call(bpy.ops.object.mode_set, mode="EDIT")
     yield from until_measured(target)
-    assert blue(pixels("strain_edit_mode")) > before + 40
+    assert blue("strain_edit_mode") > before + 40
     edited = bmesh.from_edit_mesh(target.data)
     edited.verts.ensure_lookup_table()
     edited.verts[WRONG].co.z -= 0.1
@@ -111,9 +93,8 @@ def test_edit_mode_follows_the_edit():
     bmesh.update_edit_mesh(target.data)
     yield from until_measured(target)
     assert room().found_of(target).wrong.tolist() == [24]
-    assert blue(pixels("strain_edited")) > before + 40
-    with bpy.context.temp_override(**harness.view()):
-        bpy.ops.object.mode_set(mode="OBJECT")
+    assert blue("strain_edited") > before + 40
+    harness.call(bpy.ops.object.mode_set, mode="OBJECT")
 
 
 harness.run_in_window(globals())

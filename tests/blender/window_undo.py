@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Undo beside runs that write outside of any step, and what else a run must leave alone in a window."""
+"""Undo beside runs that write outside of any step; what else a run must leave alone in a window; the badge."""
 
 import sys
 import tempfile
@@ -17,11 +17,6 @@ def surface():
     return bpy.data.objects.get("Suzanne Fair")
 
 
-def undo():
-    with bpy.context.temp_override(**harness.view()):
-        bpy.ops.ed.undo()
-
-
 def move_apart(name):
     """A step of undo that has nothing to do with surfaces."""
     bpy.ops.object.empty_add()
@@ -31,8 +26,7 @@ def move_apart(name):
 
 def press(operator, **properties):
     """As a button does it."""
-    with bpy.context.temp_override(**harness.view()):
-        return operator("INVOKE_DEFAULT", True, **properties)
+    return harness.call(operator, "INVOKE_DEFAULT", True, **properties)
 
 
 def test_fair_for_is_undone_alone():
@@ -44,15 +38,14 @@ def test_fair_for_is_undone_alone():
         press(bpy.ops.object.fairing_for, purpose=purpose)
         yield from harness.until(surface)
         yield 1.0
-        undo()
+        harness.undo()
         yield 0.5
         assert surface() is None and bpy.data.objects["Suzanne"].location.x == 3.0, purpose
 
 
 def test_what_undo_takes_from_the_last_full_level_of_live_is_said():
     harness.add_suzanne()
-    with bpy.context.temp_override(**harness.view()):
-        bpy.ops.object.fairing_surface(levels=3)
+    harness.call(bpy.ops.object.fairing_surface, levels=3)
     surface().discrete_fairing_live.levels = 1
     bpy.ops.ed.undo_push(message="made")
     press(bpy.ops.object.fairing_live, state="ON")
@@ -63,7 +56,7 @@ def test_what_undo_takes_from_the_last_full_level_of_live_is_said():
     assert whole >= SUZANNE * 4**3 and not surface().discrete_fairing.unfinished
     with bpy.context.temp_override(**harness.view()):
         move_apart("Later")
-        undo()
+        bpy.ops.ed.undo()
     assert "Later" not in bpy.data.objects
     yield 1.0
     assert surface().discrete_fairing.unfinished or len(surface().data.polygons) == whole
@@ -86,7 +79,7 @@ def begin_run(energy):
     settings = bpy.context.scene.discrete_fairing
     settings.levels, settings.energy = 3, energy
     press(bpy.ops.object.fairing_surface)
-    assert harness.module("queue").running() is not None
+    assert harness.running() is not None
 
 
 def test_a_run_over_two_workspaces():
@@ -101,7 +94,24 @@ def test_a_run_over_two_workspaces():
     window.workspace = bpy.data.workspaces["Layout"]
     yield 1.0
     harness.photograph("status_of_the_first_workspace")
-    assert harness.module("queue").running() is None
+    assert harness.running() is None
+
+
+def test_a_badge_and_one_button_for_all():
+    source = harness.add_suzanne()
+    yield from harness.open_sidebar("Fairing")
+    harness.call(bpy.ops.object.fairing_surface, levels=2)
+    yield 0.5
+    target = surface()
+    source.data.vertices[0].co.z += 1.0
+    source.data.update()
+    stale = harness.module("freshness").stale_surfaces
+    yield from harness.until(lambda: list(stale()) == [target])
+    yield 1.0
+    harness.photograph("badge")
+    harness.call(bpy.ops.object.fairing_recompute_stale, "INVOKE_DEFAULT")
+    yield from harness.until(lambda: harness.running() is None and not list(stale()))
+    assert (target.data.vertices[0].co - source.data.vertices[0].co).length == 0.0
 
 
 def test_overlays_begin_where_blender_opens_with_a_file():
