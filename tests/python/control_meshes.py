@@ -3,6 +3,7 @@
 4) or a list)."""
 
 import numpy as np
+from lattices import lattice_faces
 from scipy.spatial import ConvexHull
 
 
@@ -61,30 +62,14 @@ def torus(around: int = 8, across: int = 6, radius: float = 2**0.5):
     a, b = 2 * np.pi * u / around, 2 * np.pi * v / across
     ring = radius + np.cos(b)
     points = np.stack([ring * np.cos(a), ring * np.sin(a), np.sin(b)], -1).reshape(-1, 3)
-    return points, np.stack(
-        [
-            u * across + v,
-            (u + 1) % around * across + v,
-            (u + 1) % around * across + (v + 1) % across,
-            u * across + (v + 1) % across,
-        ],
-        -1,
-    ).reshape(-1, 4)
-
-
-def lattice_faces(rows: int, columns: int) -> np.ndarray:
-    """Quads of rows of vertices, row by row."""
-    at = np.arange(rows * columns).reshape(rows, columns)
-    return np.stack([at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]], -1).reshape(-1, 4)
+    return points, lattice_faces(around, across, (True, True))
 
 
 def grid(columns: int = 4, rows: int = 4):
     """A flat sheet of unit squares; vertex (i, j) is number j * (columns + 1) + i."""
     x, y = np.meshgrid(np.arange(columns + 1.0), np.arange(rows + 1.0))
     points = np.stack([x, y, np.zeros_like(x)], -1).reshape(-1, 3)
-    i, j = np.meshgrid(np.arange(columns), np.arange(rows))
-    first = (j * (columns + 1) + i).reshape(-1)
-    return points, np.stack([first, first + 1, first + columns + 2, first + columns + 1], -1)
+    return points, lattice_faces(rows + 1, columns + 1)[:, [0, 3, 2, 1]]
 
 
 def wavy_patch(columns: int = 4, rows: int = 4, height: float = 0.7):

@@ -3,6 +3,7 @@
 (n, 3), faces)."""
 
 import numpy as np
+from lattices import lattice_faces
 from scipy.spatial import Delaunay
 
 
@@ -47,12 +48,8 @@ def rounded_box(around: int = 16, apart: float = 4.0):
     """A sphere of radius 1, its octants moved apart: long faces beside tiny ones."""
     quarter, rings = around // 4, around // 2
     polar = (np.arange(rings) + 0.5) * np.pi / rings
-    turn = (
-        2
-        * np.pi
-        * np.concatenate([q * quarter + np.arange(quarter + 1) for q in range(4)])
-        / around
-    )
+    steps = np.concatenate([q * quarter + np.arange(quarter + 1) for q in range(4)])
+    turn = 2 * np.pi * steps / around
     moved = np.repeat([[1, 1], [-1, 1], [-1, -1], [1, -1]], quarter + 1, axis=0) * apart
     points = []
     for angle in polar:
@@ -60,9 +57,7 @@ def rounded_box(around: int = 16, apart: float = 4.0):
         height = np.cos(angle) + np.copysign(apart, np.cos(angle))
         points.append(np.c_[ring, np.full(len(ring), height)])
     size = len(turn)
-    first = np.arange(size * (rings - 1))
-    after = first - first % size + (first + 1) % size
-    walls = np.stack([first, after + size, after, first, first + size, after + size], -1)
+    walls = lattice_faces(rings, size, (False, True))[:, [0, 2, 3, 0, 1, 2]]
     cap = []
     for q in range(4):
         start = q * (quarter + 1)
@@ -82,9 +77,7 @@ def chamfered_drum(around: int = 32, height: float = 4.0, bevel: float = 0.12):
         np.c_[radius * np.cos(angle), radius * np.sin(angle), np.full(around, z)]
         for radius, z in ((1 - bevel, 0), (1, bevel), (1, height - bevel), (1 - bevel, height))
     ]
-    first = np.arange(3 * around)
-    after = first - first % around + (first + 1) % around
-    walls = np.stack([first, after, after + around, first, after + around, first + around], -1)
+    walls = lattice_faces(4, around, (False, True))[:, [0, 3, 2, 0, 2, 1]]
     fan = np.array([[0, k, k + 1] for k in range(1, around - 1)])
     return np.concatenate(points), np.concatenate(
         [walls.reshape(-1, 3), fan[:, ::-1], fan + 3 * around]

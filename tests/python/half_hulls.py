@@ -2,6 +2,7 @@
 """Half a boat, and both halves joined by hand."""
 
 import numpy as np
+from lattices import lattice_faces
 
 COUNT = 7  # of frames
 
@@ -12,12 +13,7 @@ def hull(jitter=0.0):
     beam = (1 - (along / 3.5) ** 2) * np.sin(up * 1.4)
     points = np.stack([along, beam, up + 0.1 * along**2 / 9], axis=-1).reshape(-1, 3)
     points[points[:, 1] < 1e-12, 1] = jitter
-    faces = [
-        [4 * i + j, 4 * i + j + 1, 4 * i + j + 5, 4 * i + j + 4]
-        for i in range(COUNT - 1)
-        for j in range(3)
-    ]
-    return points, np.array(faces)
+    return points, lattice_faces(COUNT, 4)[:, [0, 3, 2, 1]]
 
 
 def whole(points, faces):

@@ -5,19 +5,13 @@ import control_meshes as meshes
 import numpy as np
 import one_sided_meshes
 import sheet_meshes
+from lattices import lattice_faces
 
 
 def torus(around=24, across=12, noise=0.0, triangles=False):
-    u = np.arange(around)[:, None] * 2 * np.pi / around
-    w = np.arange(across) * 2 * np.pi / across
-    radius = 2 + 0.7 * np.cos(w)
-    points = np.stack([radius * np.cos(u), radius * np.sin(u), 0 * u + 0.7 * np.sin(w)], -1)
-    points = points.reshape(-1, 3)
-    points = points + noise * np.random.default_rng(3).normal(size=points.shape)
-    at = np.arange(around * across).reshape(around, across)
-    up, right = np.roll(at, -1, 0), np.roll(at, -1, 1)
-    mesh = points, np.stack([at, up, np.roll(up, -1, 1), right], -1).reshape(-1, 4)
-    return meshes.cut_quads(mesh) if triangles else mesh
+    points, faces = meshes.torus(around, across, 2 / 0.7)
+    points = 0.7 * points + noise * np.random.default_rng(3).normal(size=points.shape)
+    return meshes.cut_quads((points, faces)) if triangles else (points, faces)
 
 
 def sheet(rows=16, columns=14, stretched=False):
@@ -26,7 +20,7 @@ def sheet(rows=16, columns=14, stretched=False):
     height = 0.3 * np.sin(2 * x) * np.cos(3 * y)
     if stretched:
         y = 0.2 * y + 0.3 * y**2
-    return np.stack([x, y, height], -1).reshape(-1, 3), meshes.lattice_faces(rows, columns)
+    return np.stack([x, y, height], -1).reshape(-1, 3), lattice_faces(rows, columns)
 
 
 def ring(around=24, across=12, every=1):

@@ -3,6 +3,7 @@
 
 import discrete_fairing as df
 import numpy as np
+from lattices import lattice_faces
 
 
 def largest_piece(faces):
@@ -62,13 +63,8 @@ def cut(vertices, faces, gone):
 
 def lattice(n, m, closed=(False, False)):
     """Triangles (t, 3) of a grid of n by m points."""
-    i, j = np.meshgrid(
-        np.arange(n - (not closed[0])), np.arange(m - (not closed[1])), indexing="ij"
-    )
-    i, j = i.ravel(), j.ravel()
-    a, b = i * m + j, (i + 1) % n * m + j
-    c, d = (i + 1) % n * m + (j + 1) % m, i * m + (j + 1) % m
-    return np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)])
+    quads = lattice_faces(n, m, closed)
+    return np.concatenate([quads[:, :3], quads[:, [0, 2, 3]]])
 
 
 def mapped(surface, n, m, closed=(False, False)):

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import numpy as np
+from lattices import lattice_faces
 
 CENTRES = np.array(
     [[-1.1, 0, 0], [-0.35, 0.25, 0.15], [0.4, 0.1, -0.1], [1.0, -0.15, 0.1], [0.1, -0.5, 0.3]]
@@ -102,6 +103,4 @@ def rms(values: np.ndarray) -> float:
 def sheet(along: np.ndarray, across: np.ndarray, height) -> tuple[np.ndarray, np.ndarray]:
     """The graph of a function over a grid: points and quads."""
     x, y = np.meshgrid(along, across, indexing="ij")
-    ids = np.arange(x.size).reshape(x.shape)
-    quads = np.stack([ids[:-1, :-1], ids[1:, :-1], ids[1:, 1:], ids[:-1, 1:]], -1).reshape(-1, 4)
-    return np.stack([x, y, height(x, y)], -1).reshape(-1, 3), quads
+    return np.stack([x, y, height(x, y)], -1).reshape(-1, 3), lattice_faces(*x.shape)

@@ -3,6 +3,7 @@
 (vertices (n, 3), faces (m, 3))."""
 
 import numpy as np
+from lattices import lattice_faces
 from scipy.spatial import Delaunay
 
 
@@ -30,9 +31,7 @@ def prism(sides: int = 240, height: float = 1.0, cap=zigzag, rings: int = 1):
     angle = 2 * np.pi * np.arange(sides) / sides
     around = np.stack([np.cos(angle), np.sin(angle), np.zeros(sides)], -1)
     points = np.concatenate([around + [0, 0, height * k / rings] for k in range(rings + 1)])
-    first = np.arange(sides * rings)
-    after = first - first % sides + (first + 1) % sides
-    walls = np.stack([first, after, after + sides, first, after + sides, first + sides], -1)
+    walls = lattice_faces(rings + 1, sides, (False, True))[:, [0, 3, 2, 0, 2, 1]]
     top = list(range(sides * rings, sides * (rings + 1)))
     return points, np.concatenate([walls.reshape(-1, 3), cap(top), cap(list(range(sides))[::-1])])
 

@@ -90,12 +90,7 @@ def _grid_volume(points: np.ndarray, found, step: int) -> float:
     """Of the cone from the origin over a grid's cells, `step` points wide."""
     corners, grid = found
     grid = grid[:, ::step, ::step]
-    a, b, c, d = (
-        grid[:, :-1, :-1],
-        grid[:, :-1, 1:],
-        grid[:, 1:, 1:],
-        grid[:, 1:, :-1],
-    )
+    a, b, c, d = (grid[:, :-1, :-1], grid[:, :-1, 1:], grid[:, 1:, 1:], grid[:, 1:, :-1])
     if corners == 3:
         return _cones(points, a, b, d) + _cones(points, b, c, d)
     # the mean of both ways to cut a quad is its bilinear surface

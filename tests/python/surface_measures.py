@@ -56,19 +56,26 @@ def rim(triangles: np.ndarray) -> np.ndarray:
     return np.unique(unique[uses == 1])
 
 
+def turns(points: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The edges inside a mesh of triangles or quads, as vertices (k, 2), the faces (k, 2) at each, and the
+    angles (k,) in radians between their normals. An edge of more than two faces is listed more than once."""
+    corner, size = points[faces], faces.shape[1]
+    normal = np.cross(corner[:, 2] - corner[:, 0], corner[:, -1] - corner[:, 1])
+    sides = np.sort(np.stack([faces, np.roll(faces, -1, axis=1)], -1).reshape(-1, 2), axis=1)
+    order = np.lexsort(sides.T)
+    sides, owner = sides[order], order // size
+    twice = np.flatnonzero((sides[1:] == sides[:-1]).all(axis=1))
+    pairs = np.stack([owner[twice], owner[twice + 1]], -1)
+    a, b = normal[pairs].swapaxes(0, 1)
+    _, sine = rows_cross(a, b)
+    return sides[twice], pairs, np.arctan2(sine, (a * b).sum(1))
+
+
 def dihedrals(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
     """The angles between the normals of neighbours, in degrees; faces without an area left out."""
     corner = points[triangles]
-    normal, length = rows_cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
-    edges = triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
-    key = edges.min(1) * len(points) + edges.max(1)
-    order = np.argsort(key, kind="stable")
-    pair = np.nonzero(key[order][1:] == key[order][:-1])[0]
-    a, b = order[pair] // 3, order[pair + 1] // 3
-    whole = (length[a] > 0) & (length[b] > 0)
-    a, b = a[whole], b[whole]
-    product, sine = rows_cross(normal[a], normal[b])
-    return np.degrees(np.arctan2(sine, (normal[a] * normal[b]).sum(1)))
+    _, length = rows_cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+    return np.degrees(turns(points, triangles[length > 0])[2])
 
 
 def largest_dihedral(points: np.ndarray, triangles: np.ndarray) -> float:

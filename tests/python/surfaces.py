@@ -100,22 +100,6 @@ def face_normals(points: np.ndarray, faces: np.ndarray) -> np.ndarray:
     return normal / np.linalg.norm(normal, axis=1)[:, None]
 
 
-def dihedral_angles(points: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Interior edges (k, 2) and by how much, in radians, the faces turn across each."""
-    normal, owner = face_normals(points, faces), {}
-    edges, pairs = [], []
-    for f, face in enumerate(faces.tolist()):
-        for a, b in zip(face, [*face[1:], face[0]]):
-            if (b, a) in owner:
-                edges.append((a, b))
-                pairs.append((f, owner[b, a]))
-            owner[a, b] = f
-    pairs = np.array(pairs)
-    cosine = np.einsum("ei,ei->e", normal[pairs[:, 0]], normal[pairs[:, 1]])
-    sine = np.linalg.norm(np.cross(normal[pairs[:, 0]], normal[pairs[:, 1]]), axis=1)
-    return np.array(edges), np.arctan2(sine, cosine)
-
-
 def boundary_vertices(faces) -> np.ndarray:
     directed = half_edges(faces)
     return np.unique([v for e in directed if e[::-1] not in directed for v in e])

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from control_meshes import cube
 from ragged_holes import lattice, mapped, sheet_with_hanging_vertices, sphere
+from refusing import refusal
 from surfaces import assert_oriented_manifold
 
 BALL = sphere()
@@ -75,9 +76,10 @@ def test_duplicate_and_empty_faces():
 
 def test_what_cannot_be_read_is_refused_without_mending():
     points, faces = BALL
-    with pytest.raises(df.FairingError) as error:
-        df.clean(points, np.concatenate([faces, faces[:1]]), mend=False)
-    assert error.value.code == "DUPLICATE_FACE"
+    assert (
+        refusal(df.clean, points, np.concatenate([faces, faces[:1]]), mend=False).code
+        == "DUPLICATE_FACE"
+    )
 
 
 @pytest.mark.parametrize("size", [0.05, 0.15])

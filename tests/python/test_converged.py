@@ -6,7 +6,6 @@ import control_meshes as meshes
 import discrete_fairing as df
 import numpy as np
 import pytest
-from shared_data import read_obj, shared_files
 from sliver_meshes import prism, stretched_sheet
 from surfaces import size_of
 
@@ -70,14 +69,6 @@ def test_a_tighter_surface_is_the_same_or_says_so(noise, seed, pad_size):
 @pytest.mark.parametrize("name", WILD)
 def test_wild_meshes_say_how_they_ended(name, energy):
     assert_honest(df.fair(*WILD[name], 2, energy=energy))
-
-
-@pytest.mark.parametrize("path", shared_files("good/cages"))
-def test_cages_say_how_they_ended(path):
-    mesh = read_obj(path)
-    if len(mesh[1]) > 400:
-        pytest.skip("too large for a test")
-    assert_honest(df.fair(*mesh, 2, energy="total_curvature", repair="mend"))
 
 
 @pytest.mark.parametrize("energy", STEPS)

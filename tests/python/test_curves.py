@@ -5,14 +5,8 @@ import control_meshes as meshes
 import numpy as np
 import pytest
 import tight
-from surfaces import (
-    as_lists,
-    boundary_vertices,
-    dihedral_angles,
-    output_faces,
-    random_rotation,
-    size_of,
-)
+from surface_measures import turns
+from surfaces import boundary_vertices, output_faces, random_rotation, size_of
 
 MODES = ("curve", "linear", "free")
 
@@ -92,22 +86,6 @@ def test_a_crease_and_a_boundary_of_the_same_polyline_are_the_same_curve():
     assert rows(boundary_points(half)) <= rows(whole.vertices)
 
 
-def test_linear_boundary_is_straight():
-    vertices, faces = meshes.wavy_patch()
-    found = boundary_points(tight.fair(vertices, faces, 3, boundary="linear"))
-    rim = boundary_vertices(as_lists(faces))
-    edges = {tuple(sorted(e)) for f in as_lists(faces) for e in zip(f, [*f[1:], f[0]])}
-    edges = [
-        e
-        for e in edges
-        if set(e) <= set(rim) and sum(set(e) <= set(f) for f in as_lists(faces)) == 1
-    ]
-    steps = np.arange(8)[:, None] / 8
-    expected = np.concatenate([vertices[a] * (1 - steps) + vertices[b] * steps for a, b in edges])
-    expected = np.unique(np.concatenate([expected, vertices[rim]]).round(12), axis=0)
-    assert np.abs(np.unique(found.round(12), axis=0) - expected).max() < 1e-11
-
-
 def test_curve_boundary_is_smooth_and_linear_is_not():
     """The turn at a control vertex halves with each level on a curve, and stays on the polyline."""
     vertices, faces = meshes.fan(8)
@@ -164,21 +142,6 @@ def test_corners_split_a_curve(ends):
     assert off_the_square(corner_angle=1.6) > 0.01
 
 
-def test_a_side_depends_on_nothing_beyond_its_corners():
-    vertices, faces = meshes.wavy_patch()
-    corners = [0, 4, 20, 24]
-    moved = vertices.copy()
-    moved[22] += [0.2, 0.5, 0.3]
-    still, after = (tight.fair(v, faces, 3, corner_vertices=corners) for v in (vertices, moved))
-    bottom = [v for v in boundary_vertices(output_faces(still)) if still.vertices[v, 1] < 0.05]
-    assert len(bottom) >= 33 - 4
-    assert still.vertices[bottom].tobytes() == after.vertices[bottom].tobytes()
-    loop = tight.fair(moved, faces, 3)
-    assert (
-        loop.vertices[bottom].tobytes() != tight.fair(vertices, faces, 3).vertices[bottom].tobytes()
-    )
-
-
 @pytest.mark.parametrize("flip", [False, True])
 def test_moving_one_side_of_a_crease_loop_leaves_the_other(flip):
     """The curve to the last bit, the far side as far as it is solved: one system serves both
@@ -205,7 +168,7 @@ def test_moving_one_side_of_a_crease_loop_leaves_the_other(flip):
 
 def crease_and_inner_angles(result, on_crease):
     faces = result.faces[1]
-    edges, angle = dihedral_angles(result.vertices, faces)
+    edges, _, angle = turns(result.vertices, faces)
     crease = on_crease(result.vertices[edges]).all(1)
     return angle[crease], angle[~crease]
 

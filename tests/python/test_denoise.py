@@ -4,7 +4,7 @@
 import discrete_fairing as df
 import numpy as np
 import pytest
-from control_meshes import lattice_faces
+from lattices import lattice_faces
 
 NOISE = 0.1  # of an edge, rms
 
@@ -26,6 +26,10 @@ def smooth_and_detailed(x, y):
     """A wide hill, and ripples of seven edges on a third of it."""
     ripples = 0.4 * np.sin(0.9 * x) / (1 + np.exp(10 - x))
     return 8 * np.exp(-(x**2 + y**2) / 500) + ripples
+
+
+def sphere(x, y):
+    return np.sqrt(90.0**2 - x**2 - y**2)
 
 
 def noisy(truth, seed=1, size=NOISE):
@@ -55,27 +59,19 @@ def inside(truth):
     return (np.abs(truth[:, :2]) < 26).all(axis=1)
 
 
-def test_as_near_to_the_truth_as_taubin_with_the_steps_that_suit_best():
-    truth, faces = sheet(70, smooth_and_detailed)
+@pytest.mark.parametrize("shape, share", [(smooth_and_detailed, 1.1), (sphere, 1.0)])
+def test_as_near_to_the_truth_as_taubin_with_the_steps_that_suit_best(shape, share):
+    truth, faces = sheet(70, shape)
     measured, chosen = noisy(truth), inside(truth)
-    best = min(
-        error(taubin(measured, faces, steps), truth, chosen) for steps in (1, 2, 4, 8, 16, 32)
-    )
+    steps = (1, 2, 4, 8, 16, 32, 64)
+    best = min(error(taubin(measured, faces, count), truth, chosen) for count in steps)
     found = df.denoise(measured, faces)
-    assert error(found.vertices, truth, chosen) < 1.1 * best < 0.5 * NOISE
-
-
-def test_on_a_smooth_shape_too():
-    """It was 7 % farther off."""
-    truth, faces = sheet(70, lambda x, y: np.sqrt(90.0**2 - x**2 - y**2))
-    measured, chosen = noisy(truth), inside(truth)
-    best = min(error(taubin(measured, faces, steps), truth, chosen) for steps in (8, 16, 32, 64))
-    assert error(df.denoise(measured, faces).vertices, truth, chosen) < best
+    assert error(found.vertices, truth, chosen) < share * best < 0.5 * NOISE
 
 
 def test_passes_are_the_fast_choice():
     """Those of Taubin's filter: nothing shrinks, borders stay, no spike is sought."""
-    truth, faces = sheet(40, lambda x, y: np.sqrt(90.0**2 - x**2 - y**2))
+    truth, faces = sheet(40, sphere)
     measured, border = noisy(truth), ~(np.abs(truth[:, :2]) < 16).all(axis=1)
     found = df.denoise(measured, faces, passes=10)
     assert error(found.vertices, truth, ~border) < 0.5 * NOISE

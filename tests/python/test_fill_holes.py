@@ -6,6 +6,7 @@ import random
 import discrete_fairing as df
 import numpy as np
 import pytest
+from lattices import lattice_faces
 from ragged_holes import (
     cut,
     mapped,
@@ -18,6 +19,7 @@ from ragged_holes import (
     torus,
     uses,
 )
+from refusing import refusal
 from surface_measures import dihedrals
 
 
@@ -188,24 +190,16 @@ def test_a_rim_inside_another_one_is_an_island():
     height = outer[:, 2:] / 2
     vessel = outer * np.hstack([0.2 + 0.8 * height, 0.2 + 0.8 * height, 4 + 0 * height])
     assert [len(hole) for hole in df.with_islands(vessel, faces)] == [1, 1]
-    assert refused_islands(outer, faces, [[0, 1, 30]]).code == "BAD_OPTION"
-
-
-def refused_islands(*arguments):
-    with pytest.raises(df.FairingError) as caught:
-        df.with_islands(*arguments)
-    return caught.value
+    assert refusal(df.with_islands, outer, faces, [[0, 1, 30]]).code == "BAD_OPTION"
 
 
 def tube(low, high, n, rings=9):
     """Of radius 1 along z, open at both ends."""
     i, k = np.meshgrid(np.arange(n), np.arange(rings), indexing="ij")
     angle, z = 2 * np.pi * i.T.ravel() / n, np.linspace(low, high, rings)[k.T.ravel()]
-    first = np.arange(n * (rings - 1))
-    beside = first // n * n + (first + 1) % n
-    faces = [[first, beside, beside + n], [first, beside + n, first + n]]
-    vertices = np.stack([np.cos(angle), np.sin(angle), z], 1)
-    return vertices, np.concatenate([np.stack(f, 1) for f in faces])
+    quads = lattice_faces(rings, n, (False, True))
+    faces = np.concatenate([quads[:, [0, 3, 2]], quads[:, [0, 2, 1]]])
+    return np.stack([np.cos(angle), np.sin(angle), z], 1), faces
 
 
 @pytest.mark.parametrize("gap", [1.0, 3.0, 5.0])
@@ -325,17 +319,6 @@ def test_faces_of_any_size_and_loops_in_either_direction():
     assert not [d for d in df.check(filled.vertices, filled.faces) if d.severity == "error"]
 
 
-def test_density():
-    vertices, quads = quads_with_a_hole()
-    hole = min(df.find_holes(vertices, quads), key=len)
-    counts = [
-        len(df.fill_holes(vertices, quads, holes=[hole], density=d).new_faces)
-        for d in (0, 0.5, 1, 2)
-    ]
-    assert counts[0] == len(hole) - 2
-    assert counts[0] <= counts[1] < counts[2] and 2.5 < counts[3] / counts[2] < 6
-
-
 @pytest.mark.parametrize("joint", ["position", "tangent", "curvature"])
 @pytest.mark.parametrize("energy", ["thin_plate", "total_curvature", "minimum_variation"])
 def test_joints_and_energies(joint, energy):
@@ -418,12 +401,11 @@ def test_what_is_no_hole_is_skipped_and_says_why():
 
 def open_grid(n=12, gone=()):
     """Vertices and quads [k][l] of a bent sheet, without some."""
-    at = np.arange(n * n).reshape(n, n)
     x, y = np.divmod(np.arange(n * n), n)
     kept = np.ones((n - 1, n - 1), bool)
     for k, row in gone:
         kept[k, row] = False
-    quads = np.stack([at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]], -1)
+    quads = lattice_faces(n, n).reshape(n - 1, n - 1, 4)
     return np.stack([x, y, 0.2 * np.cos(0.7 * x)], 1).astype(float), quads, kept
 
 
@@ -454,14 +436,6 @@ def test_one_bad_hole_stops_no_other():
     assert skipped(vertices, faces, holes=torn).code == "NONMANIFOLD_EDGE"
     turned = [quads[2, 8].tolist()]
     assert skipped(vertices, faces, holes=turned).code == "INCONSISTENT_ORIENTATION"
-
-
-def test_a_vertex_on_an_edge_is_named():
-    """A rim that leads to and fro along a line more than once."""
-    vertices = [(x, 0, 0) for x in (0, 3, 1, 2)] + [(1.5, y, z) for y in (-1, 1) for z in (-1, 1)]
-    faces = [[b, a, 4 + k] for k, (a, b) in enumerate([(0, 1), (1, 2), (2, 3), (3, 0)])]
-    left = skipped(np.array(vertices, float), faces, holes=[[0, 1, 2, 3]])
-    assert (left.code, left.cure) == ("DEGENERATE_FACE", "cut") and set(left.elements) <= {2, 3}
 
 
 @pytest.mark.parametrize("defect", ["point", "twice", "turned"])

@@ -6,6 +6,7 @@ import discrete_fairing as df
 import numpy as np
 import pytest
 from half_hulls import COUNT, hull, whole
+from refusing import refusal
 
 TIGHT = {"relative_residual": 1e-11, "step_tolerance": 1e-10}
 HALF = {"symmetry_plane": "y"}
@@ -14,16 +15,18 @@ KEEL = [4 * i for i in range(COUNT)]
 ENDS = [KEEL[0], KEEL[-1]]
 
 
-@pytest.mark.parametrize("energy", ["thin_plate", "total_curvature"])
-def test_the_half_is_that_of_the_whole(energy):
+@pytest.mark.parametrize(
+    "options", [{}, {"energy": "total_curvature"}, {"interpolation": "limit"}], ids=str
+)
+def test_the_half_is_that_of_the_whole(options):
     points, faces = hull()
-    half = df.fair(points, faces, 3, energy, **HALF, **TIGHT)
-    both = df.fair(*whole(points, faces), 3, energy, **TIGHT)
+    half = df.fair(points, faces, 3, **options, **HALF, **TIGHT)
+    both = df.fair(*whole(points, faces), 3, **options, **TIGHT)
     own = both.quad_polygon < len(faces)
     assert np.array_equal(half.quad_polygon, both.quad_polygon[own])
     there = both.vertices[both.faces[1][own]]
     assert np.allclose(half.vertices[half.faces[1]], there, atol=1e-7)
-    assert np.array_equal(half.vertices[: len(points)], points)
+    assert np.array_equal(half.vertices[: len(points)], points) != ("interpolation" in options)
     assert len(half.vertices) == half.faces[1].max() + 1
 
 
@@ -116,12 +119,6 @@ def test_a_keel_that_is_creased_stays_sharp():
 
 
 # --- refusals and repairs ---
-
-
-def refusal(call, *arguments, **options):
-    with pytest.raises(df.FairingError) as caught:
-        call(*arguments, **options)
-    return caught.value
 
 
 def told(error):

@@ -6,13 +6,7 @@ import discrete_fairing as df
 import numpy as np
 import pytest
 import tight
-from surfaces import (
-    as_lists,
-    assert_same_points,
-    assert_same_positions,
-    random_rotation,
-    size_of,
-)
+from surfaces import as_lists, assert_same_points, assert_same_positions, random_rotation, size_of
 
 # How near, as a share of the size: what is solved to its end, and what ends in steps.
 TOLERANCE, OF_STEPS = 1e-9, 1e-7
@@ -122,10 +116,7 @@ def test_creases_and_corners_are_relabelled_along():
 def test_weights_and_tolerance_commute_with_scaling():
     vertices, faces = meshes.creature()
     weights = np.random.default_rng(0).uniform(0.1, 20, len(vertices))
-    options = [
-        lambda scale: {"weights": weights},
-        lambda scale: {"tolerance": 0.05 * scale},
-    ]
+    options = [lambda scale: {"weights": weights}, lambda scale: {"tolerance": 0.05 * scale}]
     for option in options:
         plain, scaled = (
             tight.fair(s * vertices, faces, 2, interpolation="approximate", **option(s)).vertices

@@ -41,15 +41,6 @@ def test_a_limit_is_that_of_the_subdivided_mesh(sharp, corners):
         np.testing.assert_allclose(limits(*state[:2], own, state[3])[:10], here, rtol=0, atol=1e-12)
 
 
-def test_subdivision_converges_to_the_limits():
-    state, off = HOUSE, []
-    here = limits(*HOUSE)
-    for _ in range(5):
-        state = subdivide(*state)
-        off.append(np.abs(state[0][:10] - here).max())
-    assert off[-1] < 2e-3 and all(b < 0.6 * a for a, b in zip(off, off[1:]))
-
-
 def test_always_sharp_edges_are_creases_and_two_of_them_a_curve():
     vertices, faces = HOUSE
     pairs = [[4, 8], [8, 5]]
@@ -206,22 +197,6 @@ def test_a_rebase_to_limits_without_shape_is_refused():
     np.testing.assert_allclose(solver.solve(vertices).vertices, before, atol=1e-12)
 
 
-def test_shapes_mix_linearly():
-    vertices, faces = HOUSE
-    other = vertices + 0.2 * RANDOM.standard_normal(vertices.shape)
-    result = df.fair(
-        vertices,
-        faces,
-        2,
-        interpolation="limit",
-        shapes=[other, 0.5 * (vertices + other)],
-        pad_size=0.0,  # loads on pads are found to a tolerance of their own
-    )
-    mean = 0.5 * (result.vertices + result.shapes[0])
-    np.testing.assert_allclose(result.shapes[1], mean, atol=1e-12)
-    np.testing.assert_allclose(result.shapes[0][:10], limits(other, faces), atol=1e-15)
-
-
 def test_outside_a_region_and_on_its_rim_nothing_moves():
     vertices, faces = grid(7, 7)
     vertices = vertices + 0.1 * RANDOM.standard_normal(vertices.shape)
@@ -236,17 +211,3 @@ def test_outside_a_region_and_on_its_rim_nothing_moves():
     np.testing.assert_array_equal(
         result.vertices[: len(vertices)][inner], limits(vertices, faces)[inner]
     )
-
-
-def test_half_a_mesh_is_the_half_of_the_whole():
-    whole, faces = grid(6, 4)
-    whole = np.asarray(whole) - np.asarray(whole).mean(axis=0)
-    whole[:, 2] = 0.3 * np.cos(whole[:, 0]) + 0.1 * whole[:, 1] ** 2
-    faces = np.asarray(faces)
-    right = faces[(whole[faces][:, :, 0] > -1e-9).all(axis=1)]
-    used = np.unique(right)
-    row = np.zeros(len(whole), int)
-    row[used] = np.arange(len(used))
-    half = df.fair(whole[used], row[right], 1, interpolation="limit", symmetry_plane="x")
-    full = df.fair(whole, faces, 1, interpolation="limit")
-    np.testing.assert_allclose(half.vertices[: len(used)], full.vertices[used], atol=1e-12)

@@ -11,6 +11,7 @@ import sheet_meshes
 from half_hulls import hull
 from mesh_files import SUFFIXES, read_mesh
 from one_sided_meshes import strip
+from refusing import refusal
 from shared_data import shared_files
 from sliver_meshes import uneven_drum
 
@@ -160,9 +161,9 @@ def test_sizes_are_predicted_from_faces_alone(name):
 
 def test_what_is_over_the_limit_by_shapes_alone_is_refused():
     size = df.predicted_size(len(BALL[0]), BALL[1], 4)["bytes"]
-    with pytest.raises(df.FairingError) as caught:
-        df.fair(*BALL, 4, shapes=[BALL[0]] * 4, memory_limit=size + 1)
-    assert caught.value.code == "TOO_LARGE"
+    assert (
+        refusal(df.fair, *BALL, 4, shapes=[BALL[0]] * 4, memory_limit=size + 1).code == "TOO_LARGE"
+    )
 
 
 def test_the_mended_mesh_is_counted():

@@ -6,6 +6,7 @@ import discrete_fairing as df
 import numpy as np
 import pytest
 import tight
+from lattices import lattice_faces
 
 
 def on_unit_sphere(mesh):
@@ -45,9 +46,7 @@ def test_a_patch_of_a_sphere_is_found():
     middle is compared."""
     at = np.linspace(-0.6, 0.6, 7)
     vertices = np.array([(x, y, np.sqrt(1 - x * x - y * y)) for x in at for y in at])
-    faces = [
-        (7 * i + j, 7 * i + j + 7, 7 * i + j + 8, 7 * i + j + 1) for i in range(6) for j in range(6)
-    ]
+    faces = lattice_faces(7, 7)
 
     def error(energy):
         points = tight.fair(vertices, faces, 3, energy).vertices

@@ -6,6 +6,7 @@ import discrete_fairing as df
 import numpy as np
 import pytest
 import tight
+from refusing import refusal
 from surfaces import boundary_vertices, output_faces
 
 NAMES = ("icosahedron", "creature", "wavy_patch", "torus_quads", "random_hull", "house")
@@ -189,20 +190,14 @@ def test_epsilon_takes_cusps_off(name):
 
 def test_weights_that_leave_a_closed_surface_nowhere_to_be():
     """Nothing holds it: any one point would do, and that is no surface."""
-    with pytest.raises(df.FairingError) as caught:
-        near(meshes.icosahedron(), weights=np.zeros(12))
-    assert caught.value.code == "UNDERDETERMINED" and caught.value.elements == list(range(12))
+    error = refusal(near, meshes.icosahedron(), weights=np.zeros(12))
+    assert error.code == "UNDERDETERMINED" and error.elements == list(range(12))
 
 
 def test_a_flat_mesh_with_a_tolerance_has_nothing_to_settle():
     vertices = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], float)
     report = near((vertices, [[0, 1, 2, 3]]), boundary="free", tolerance=0.1).report
     assert report["constraint_gap"] <= 1e-3 and report["largest_deviation"] <= 1e-9
-
-
-def test_back_leg_interpolates_only():
-    with pytest.raises(df.FairingError, match="back_leg"):
-        near(meshes.cube(), method="back_leg", tolerance=0.1)
 
 
 @pytest.mark.parametrize("energy", ["thin_plate", "total_curvature"])
@@ -253,16 +248,6 @@ def test_values_of_another_shape_are_refused(name, each):
     with pytest.raises(df.FairingError, match=name) as caught:
         near(meshes.icosahedron(), **{name: each})
     assert caught.value.code in ("BAD_OPTION", "BAD_SHAPE")
-
-
-@pytest.mark.parametrize("name", ["tolerance", "weights"])
-@pytest.mark.parametrize("bad", [-1e-9, -np.inf, np.nan])
-def test_a_bad_value_is_named(name, bad):
-    each = np.full(12, 0.1)
-    each[[4, 7]] = bad
-    with pytest.raises(df.FairingError) as caught:
-        near(meshes.icosahedron(), **{name: each})
-    assert caught.value.code == "BAD_OPTION" and caught.value.elements == [4, 7]
 
 
 @pytest.mark.parametrize("option", [{"tolerance": 0.02}, {"weights": np.full(98, 30.0)}], ids=str)

@@ -4,6 +4,9 @@
 import discrete_fairing as df
 import numpy as np
 import pytest
+from control_meshes import cut_quads as triangles
+from lattices import lattice_faces
+from surface_measures import dihedrals
 
 CORNERS = np.radians(30)
 
@@ -11,9 +14,7 @@ CORNERS = np.radians(30)
 def sheet(place, us, vs):
     """(vertices, quads) of place(u, v) → (3, k), u slowly."""
     u, v = np.meshgrid(us, vs, indexing="ij")
-    at = np.arange(u.size).reshape(u.shape)
-    quads = np.stack([at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]], axis=-1)
-    return np.stack(place(u.ravel(), v.ravel()), axis=1), quads.reshape(-1, 4)
+    return np.stack(place(u.ravel(), v.ravel()), axis=1), lattice_faces(*u.shape)
 
 
 def bonnet_and_fender():
@@ -61,11 +62,6 @@ def bottle_halves():
     return half(0.0), half(np.pi)
 
 
-def triangles(mesh):
-    quads = mesh[1]
-    return mesh[0], np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
-
-
 def seam(first, other):
     return df.joint((first.vertices, first.faces), (other.vertices, other.faces))
 
@@ -78,18 +74,10 @@ def fair(mesh, levels, **settings):
 
 
 def largest_turn(result):
-    """Degrees, between neighbouring triangles."""
+    """Between neighbouring triangles, in degrees."""
     triangle, quad = result.faces
     corners = np.concatenate([triangle, quad[:, :3], quad[:, [0, 2, 3]]])
-    a, b, c = (result.vertices[corners[:, k]] for k in range(3))
-    normal = np.cross(b - a, c - a)
-    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
-    edge = np.sort(np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]]), 1)
-    key = edge @ [len(result.vertices), 1]
-    order = np.argsort(key, kind="stable")
-    twin = np.flatnonzero(np.diff(key[order]) == 0)
-    one, other = (normal[order[at] % len(corners)] for at in (twin, twin + 1))
-    return np.degrees(np.arccos(np.clip(np.sum(one * other, axis=1), -1, 1)).max())
+    return dihedrals(result.vertices, corners).max()
 
 
 def quads(mesh):
@@ -173,7 +161,7 @@ def curved(u, v):
     )
 
 
-@pytest.mark.parametrize("make", [lambda mesh: mesh, triangles])
+@pytest.mark.parametrize("make", [quads, triangles])
 def test_one_surface_in_two_parts_has_no_kink(make):
     """What `joint` finds on an analytic surface falls at least with the third power of the step."""
     kinks = []

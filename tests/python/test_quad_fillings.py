@@ -4,6 +4,7 @@
 import discrete_fairing as df
 import numpy as np
 import pytest
+from lattices import lattice_faces
 from ragged_holes import cut
 
 
@@ -13,10 +14,7 @@ def tube(n=72, m=47):
         np.linspace(0, 2 * np.pi, n, endpoint=False), np.linspace(-2, 2, m), indexing="ij"
     )
     points = np.stack([np.cos(angle), np.sin(angle), height], -1).reshape(-1, 3)
-    at = np.arange(n * m).reshape(n, m)
-    right = np.roll(at, -1, axis=0)
-    quads = np.stack([at[:, :-1], right[:, :-1], right[:, 1:], at[:, 1:]], -1)
-    return points, quads.reshape(-1, 4)
+    return points, lattice_faces(n, m, (True, False))
 
 
 def holed(chosen):
@@ -107,20 +105,3 @@ def test_islands():
     filled = df.fill_holes(points, kept, holes=[[rim, island]], quads=True)
     assert "islands" in filled.holes[0].why_triangles
     assert not df.check(filled.vertices, filled.faces)
-
-
-def test_quads_and_triangles_in_one_call():
-    points, quads = tube()
-    centre = points[quads].mean(axis=1)
-    angle, height = np.arctan2(centre[:, 1], centre[:, 0]), centre[:, 2]
-    rectangle = (abs(angle) < 0.4) & (abs(height) < 0.5)
-    round_hole = (abs(angle) - np.pi) ** 2 + height**2 < 0.3
-    points, kept = cut(points, quads, rectangle | round_hole)
-    holes = [h for h in df.find_holes(points, kept) if abs(points[h][:, 2]).max() < 1.9]
-    filled = df.fill_holes(points, kept, holes=holes, quads=True)
-    for report, hole in zip(filled.holes, holes, strict=True):
-        is_grid = points[hole][:, 0].mean() > 0
-        assert bool(report.why_triangles) != is_grid
-        assert report.faces.shape[1] == (4 if is_grid else 3)
-    assert not df.check(filled.vertices, filled.faces)
-    assert abs(np.hypot(*filled.vertices[:, :2].T) - 1).max() < 0.003

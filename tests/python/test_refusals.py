@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from piece_meshes import torus
 from ragged_holes import quads_with_a_hole
+from refusing import refusal
 from scans import blob_cage, blob_scan
 from test_neighbour import bonnet_and_fender
 from test_soft_creases import roof
@@ -23,15 +24,20 @@ CAGE, SCAN = blob_cage(6, off=0.02), blob_scan(500)
 TILTED = np.where(np.arange(49)[:, None] == 24, [1.0, 0, 1], NAN)
 THREE = np.zeros((3, 3))
 
+
+def each(code, has="", /, **values):
+    """A case of one setting for each of its values."""
+    return [({name: value}, code, has) for name, given in values.items() for value in given]
+
+
 # name: call, [(settings, code, what the message has)]
 REFUSED = {
     "region": (
         partial(df.fair, *BALL, 1),
         [
-            ({"region": []}, OPTION, ""),
-            ({"region": [0, 20, -1]}, RANGE, [20, -1]),
-            ({"region": [0.5]}, SHAPE, ""),
-            ({"region": [[0, 1]]}, SHAPE, ""),
+            *each(OPTION, region=[[]]),
+            *each(RANGE, [20, -1], region=[[0, 20, -1]]),
+            *each(SHAPE, region=[[0.5], [[0, 1]]]),
         ],
     ),
     "normals": (
@@ -40,33 +46,20 @@ REFUSED = {
             ({"normals": TILTED, "energy": "total_curvature"}, OPTION, "thin plate"),
             ({"normals": TILTED, "energy": "minimum_variation"}, OPTION, "thin plate"),
             ({"normals": TILTED, "method": "back_leg"}, OPTION, "multigrid"),
-            ({"normals": THREE}, OPTION, ""),
-            ({"normals": np.zeros(147)}, SHAPE, ""),
-            ({"normals": np.zeros((49, 2))}, SHAPE, ""),
-            ({"normals": np.full((49, 3), INF)}, OPTION, ""),
-            ({"normals": "up"}, SHAPE, ""),
+            *each(OPTION, normals=[THREE, np.full((49, 3), INF)]),
+            *each(SHAPE, normals=[np.zeros(147), np.zeros((49, 2)), "up"]),
         ],
     ),
     "flat faces": (
-        partial(df.fair, *BALL, 1),
-        [
-            ({"flat_faces": [0], "energy": "total_curvature"}, OPTION, "thin plate"),
-            ({"flat_faces": [0], "energy": "minimum_variation"}, OPTION, "thin plate"),
-        ],
+        partial(df.fair, *BALL, 1, flat_faces=[0]),
+        each(OPTION, "thin plate", energy=["total_curvature", "minimum_variation"]),
     ),
     "shapes": (
         partial(df.fair, *BALL, 1),
         [
-            ({"shapes": np.zeros((12, 3))}, SHAPE, ""),
-            ({"shapes": np.zeros((1, 11, 3))}, SHAPE, ""),
-            ({"shapes": [np.zeros((12, 3)), np.zeros((5, 3))]}, SHAPE, ""),
-            ({"shapes": 7}, SHAPE, ""),
-            ({"shapes": "ab"}, SHAPE, ""),
-            (
-                {"shapes": [BALL[0], np.where(BALL[0] == BALL[0][3], NAN, BALL[0])]},
-                "NON_FINITE",
-                "1",
-            ),
+            *each(SHAPE, shapes=[np.zeros((12, 3)), np.zeros((1, 11, 3)), 7, "ab"]),
+            *each(SHAPE, shapes=[[np.zeros((12, 3)), np.zeros((5, 3))]]),
+            *each("NON_FINITE", "1", shapes=[[BALL[0], np.where(BALL[0] == BALL[0][3], NAN, 1.0)]]),
         ],
     ),
     "border edges": (
@@ -88,140 +81,110 @@ REFUSED = {
     "soft creases": (
         partial(df.fair, *roof()),
         [
-            ({"soft_creases": ([[4, 13]], [1.5])}, OPTION, "soft_creases must be from 0 to 1"),
-            ({"soft_creases": ([[4, 13]], [-0.5])}, OPTION, "soft_creases must be from 0 to 1"),
-            ({"soft_creases": ([[4, 14]], 0.5)}, "BAD_FEATURE_EDGE", "no edge"),
-            ({"soft_creases": ([[4, 999]], 0.5)}, RANGE, [999]),
-            ({"soft_creases": ([[4, 13]], [0.5, 0.5])}, SHAPE, "soft_creases"),
+            *each(OPTION, "from 0 to 1", soft_creases=[([[4, 13]], [w]) for w in (1.5, -0.5)]),
+            *each("BAD_FEATURE_EDGE", "no edge", soft_creases=[([[4, 14]], 0.5)]),
+            *each(RANGE, [999], soft_creases=[([[4, 999]], 0.5)]),
+            *each(SHAPE, "soft_creases", soft_creases=[([[4, 13]], [0.5, 0.5])]),
         ],
     ),
     "limit": (
         partial(df.fair, *meshes.HOUSE, 1, interpolation="limit"),
         [
-            ({"limit": 1.5}, OPTION, "limit is 1.5"),
-            ({"weights": np.ones(10)}, OPTION, "weights"),
-            ({"edge_sharpness": ([[4, 5]], [-1.0])}, OPTION, "edge_sharpness must be zero"),
-            ({"edge_sharpness": ([[4, 99]], 1.0)}, RANGE, "99"),
-            ({"edge_sharpness": ([[4, 5]], [1.0, 2.0])}, SHAPE, "edge_sharpness"),
-            ({"edge_sharpness": 3}, OPTION, "edge_sharpness"),
-            ({"vertex_sharpness": [1.0, 2.0]}, OPTION, "vertex_sharpness"),
+            *each(OPTION, "limit is 1.5", limit=[1.5]),
+            *each(OPTION, "weights", weights=[np.ones(10)]),
+            *each(OPTION, "edge_sharpness", edge_sharpness=[([[4, 5]], [-1.0]), 3]),
+            *each(RANGE, "99", edge_sharpness=[([[4, 99]], 1.0)]),
+            *each(SHAPE, "edge_sharpness", edge_sharpness=[([[4, 5]], [1.0, 2.0])]),
+            *each(OPTION, "vertex_sharpness", vertex_sharpness=[[1.0, 2.0]]),
         ],
     ),
     "neighbour": (
         lambda **more: df.fair(*OTHER, **{"levels": 2, "neighbour": FIXED} | more),
         [
-            ({"region": [0]}, OPTION, ""),
-            ({"border": [(0, 5)]}, OPTION, ""),
-            ({"levels": 1}, OPTION, ""),
-            ({"shapes": [OTHER[0]]}, OPTION, ""),
-            ({"neighbour": (FIXED[0] + [0, 5, 0], FIXED[1])}, OPTION, "No border edge meets"),
+            *each(OPTION, region=[[0]], border=[[(0, 5)]], levels=[1], shapes=[[OTHER[0]]]),
+            *each(OPTION, "No border edge meets", neighbour=[(FIXED[0] + [0, 5, 0], FIXED[1])]),
         ],
     ),
     "pieces": (
-        partial(df.pieces, *torus(), 2),
+        lambda **more: df.pieces(*torus(), 2, **{"count": 3} | more),
         [
-            ({"symmetry_plane": "x", "count": 3}, OPTION, "symmetry_plane "),
-            ({"measure": True, "count": 3}, OPTION, "measure "),
-            ({"threads": 2, "count": 3}, OPTION, "threads "),
-            ({"memory_limit": 10**9, "count": 3}, OPTION, "memory_limit "),
-            ({"progress": print, "count": 3}, OPTION, "progress "),
-            ({"monitor": df.Monitor(), "count": 3}, OPTION, "monitor "),
-            ({"count": 0}, OPTION, "count is 0"),
-            ({"count": 3, "crease_edges": [(0, 200)]}, "BAD_FEATURE_EDGE", "no edge"),
+            *each(OPTION, "symmetry_plane ", symmetry_plane=["x"]),
+            *each(OPTION, "measure ", measure=[True]),
+            *each(OPTION, "threads ", threads=[2]),
+            *each(OPTION, "memory_limit ", memory_limit=[10**9]),
+            *each(OPTION, "progress ", progress=[print]),
+            *each(OPTION, "monitor ", monitor=[df.Monitor()]),
+            *each(OPTION, "count is 0", count=[0]),
+            *each("BAD_FEATURE_EDGE", "no edge", crease_edges=[[(0, 200)]]),
         ],
     ),
-    "weld": (
-        partial(df.fair, *BALL, 1),
-        [
-            ({"weld": 0}, OPTION, "weld"),
-            ({"weld": -1, "repair": "mend"}, OPTION, "weld"),
-            ({"weld": "far", "repair": "mend"}, OPTION, "weld"),
-        ],
+    "weld": (partial(df.fair, *BALL, 1), each(OPTION, "weld", weld=[0])),
+    "weld and mend": (
+        partial(df.fair, *BALL, 1, repair="mend"),
+        each(OPTION, "weld", weld=[-1, "far"]),
     ),
     "strain": (
         partial(df.strain, *CUBE),
         [
-            ({"energy": "minimum_variation"}, OPTION, "no pads"),
-            ({"energy": "total_curvature"}, OPTION, "thin plate"),
+            *each(OPTION, "no pads", energy=["minimum_variation"]),
+            *each(OPTION, "thin plate", energy=["total_curvature"]),
             ({"interpolation": "approximate", "tolerance": 0.1}, OPTION, "exact"),
-            ({"pad_size": 0.0}, OPTION, "pads"),
+            *each(OPTION, "pads", pad_size=[0.0]),
         ],
     ),
     "ease": (
         partial(df.ease, *CUBE),
         [
-            ({"tolerance": -1.0}, OPTION, "length"),
-            ({"tolerance": [1.0, 2.0]}, OPTION, "length"),
-            ({"most": 0}, OPTION, "1 or more"),
+            *each(OPTION, "length", tolerance=[-1.0, [1.0, 2.0]]),
+            *each(OPTION, "1 or more", most=[0]),
             ({"most": 1, "tolerance": 1.0}, OPTION, "exclude"),
-            ({"fixed": [True]}, OPTION, "bools"),
-            ({"energy": "minimum_variation"}, OPTION, "no pads"),
+            *each(OPTION, "bools", fixed=[[True]]),
+            *each(OPTION, "no pads", energy=["minimum_variation"]),
         ],
     ),
     "clean": (
         partial(df.clean, *BALL),
-        [
-            ({"islands": 2.0}, OPTION, ""),
-            ({"largest": -1.0}, OPTION, ""),
-            ({"noise": 1001}, OPTION, ""),
-            ({"noise": 1.5}, OPTION, ""),
-            ({"noise": "much"}, OPTION, ""),
-            ({"fixed": [True]}, SHAPE, ""),
-            ({"progress": 1}, OPTION, ""),
-        ],
+        each(OPTION, islands=[2.0], largest=[-1.0], noise=[1001, 1.5, "much"], progress=[1])
+        + each(SHAPE, fixed=[[True]]),
     ),
     "denoise": (
         lambda faces=BALL[1], **more: df.denoise(BALL[0], faces, **more),
         [
-            ({"passes": -1}, OPTION, ""),
-            ({"passes": 1001}, OPTION, ""),
+            *each(OPTION, passes=[-1, 1001], amount=[0.0, NAN, "much"], fixed=[[True]]),
             ({"passes": 1, "amount": 1.0}, OPTION, ""),
-            ({"amount": 0.0}, OPTION, ""),
-            ({"amount": NAN}, OPTION, ""),
-            ({"amount": "much"}, OPTION, ""),
-            ({"fixed": [True]}, OPTION, ""),
-            ({"faces": BALL[1] + 100}, RANGE, ""),
+            *each(RANGE, faces=[BALL[1] + 100]),
         ],
     ),
     "fill_holes": (
         partial(df.fill_holes, *HOLED),
         [
-            ({"holes": [RIM[:2]]}, OPTION, ""),
-            ({"holes": [[0, 1, 10**6]]}, RANGE, [10**6]),
-            ({"joint": "loose"}, OPTION, ""),
-            ({"density": -1}, OPTION, ""),
-            ({"energy": "none"}, OPTION, ""),
-            ({"rim": "rough"}, OPTION, ""),
-            ({"quads": 1}, OPTION, "quads is 1"),
+            *each(OPTION, holes=[[RIM[:2]]], joint=["loose"], density=[-1], energy=["none"]),
+            *each(OPTION, rim=["rough"], quads=[1]),
+            *each(RANGE, [10**6], holes=[[[0, 1, 10**6]]]),
         ],
     ),
     "fit_patches": (
         partial(df.fit_patches, *CUBE),
-        [
-            ({"tolerance": 0}, OPTION, ""),
-            ({"normal_tolerance": -1}, OPTION, ""),
-            ({"levels": 1}, OPTION, ""),
-        ],
+        each(OPTION, tolerance=[0], normal_tolerance=[-1], levels=[1]),
     ),
     "fit": (
         lambda points=SCAN, **more: df.fit(*CAGE, points, **more),
         [
-            ({"tolerance": -1.0}, OPTION, "tolerance"),
-            ({"weight": 0.0}, OPTION, "weight"),
+            *each(OPTION, "tolerance", tolerance=[-1.0]),
+            *each(OPTION, "weight", weight=[0.0]),
             ({"weight": 1.0, "tolerance": 1.0}, OPTION, "exclude"),
-            ({"energy": "total_curvature"}, OPTION, "thin_plate"),
-            ({"interpolation": "limit"}, OPTION, "interpolation"),
-            ({"fixed": [0, 1]}, OPTION, "fixed"),
-            ({"pad_size": 1.0}, OPTION, "no pads"),
-            ({"triangles": [[0, 1, 99_999]]}, RANGE, "99999"),
-            ({"normals": THREE}, SHAPE, "normal"),
-            ({"points": np.empty((0, 3))}, SHAPE, "no points"),
-            ({"points": THREE[:1] + [0, 0, 0.8]}, SHAPE, "1 point"),
-            ({"points": np.array([[0, 0, 1.0]] * 20 + [[0, NAN, 0]])}, "NON_FINITE", "Point 20"),
-            ({"points": 1000 * SCAN}, SHAPE, "units"),
-            ({"points": SCAN / 1000}, SHAPE, "units"),
-            ({"points": SCAN + [9, 0, 0]}, SHAPE, "Move"),
-            ({"points": np.zeros((5, 2))}, SHAPE, "(S, 3)"),
+            *each(OPTION, "thin_plate", energy=["total_curvature"]),
+            *each(OPTION, "interpolation", interpolation=["limit"]),
+            *each(OPTION, "fixed", fixed=[[0, 1]]),
+            *each(OPTION, "no pads", pad_size=[1.0]),
+            *each(RANGE, "99999", triangles=[[[0, 1, 99_999]]]),
+            *each(SHAPE, "normal", normals=[THREE]),
+            *each(SHAPE, "no points", points=[np.empty((0, 3))]),
+            *each(SHAPE, "1 point", points=[THREE[:1] + [0, 0, 0.8]]),
+            *each("NON_FINITE", "Point 20", points=[[[0, 0, 1.0]] * 20 + [[0, NAN, 0]]]),
+            *each(SHAPE, "units", points=[1000 * SCAN, SCAN / 1000]),
+            *each(SHAPE, "Move", points=[SCAN + [9, 0, 0]]),
+            *each(SHAPE, "(S, 3)", points=[np.zeros((5, 2))]),
         ],
     ),
 }
@@ -233,8 +196,6 @@ REFUSED = {
     ids=lambda value: "-".join(value) if isinstance(value, dict) else None,
 )
 def test_what_is_refused(name, settings, code, has):
-    with pytest.raises(df.FairingError) as caught:
-        REFUSED[name][0](**settings)
-    error = caught.value
+    error = refusal(REFUSED[name][0], **settings)
     assert error.code == code
     assert error.elements == has if isinstance(has, list) else has in str(error)

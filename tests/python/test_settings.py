@@ -49,6 +49,7 @@ def test_one_number_a_vertex_is_checked_by_the_core(name, values):
     with pytest.raises(df.FairingError, match=f"^{name} (has 3 entries|must be)") as caught:
         df.fair(square, [(0, 1, 2, 3)], **{name: values})
     assert caught.value.code == "BAD_OPTION"
+    assert caught.value.elements == ([3] if len(values) == 4 else [])
 
 
 def test_a_name_that_is_no_setting_is_refused():

@@ -7,8 +7,12 @@ import pytest
 import tight
 from mesh_files import SUFFIXES, read_mesh
 from shared_data import creases_of, shared_files
+from test_converged import assert_honest
+from test_folds import own_folds
 
 MOST_FACES = 1200
+# What is left at level 2 (docs/developers/notes/steps.md).
+FOLDS_LEFT = {"catmark_lefthanded": 2, "catmark_righthanded": 15}
 CODES = {
     "EMPTY_MESH",
     "NO_FACES",
@@ -53,8 +57,13 @@ def test_good_meshes_converge(path):
         assert max(result.report["iterations"]) <= 40
         curved = tight.fair(vertices, faces, 2, "total_curvature", **option)
         assert_sound(curved, vertices)
+        assert_honest(curved)
         finest = curved.report["curvature"][-1]
         assert 0 <= finest["energy"] <= finest["plate_energy"]
+        assert finest["folds"] <= finest["folds_before"]
+        if not option:
+            left = FOLDS_LEFT.get(path.stem.rpartition("__")[2], 0)
+            assert own_folds(curved, (vertices, faces)) <= left
 
 
 @pytest.mark.parametrize("path", shared_files("bad", *SUFFIXES))

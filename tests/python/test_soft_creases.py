@@ -5,6 +5,7 @@ import control_meshes as meshes
 import discrete_fairing as df
 import numpy as np
 import pytest
+from surface_measures import turns
 
 COLUMNS, ROWS = 8, 10
 CENTRE = COLUMNS // 2
@@ -36,23 +37,6 @@ def bonnet():
 
 
 WEIGHTS = [1.0, 0.8, 0.6, 0.4, 0.2]
-
-
-def turns(result):
-    """(middles of lattice edges (k, 3), the turn there in degrees), inside the surface."""
-    triangles, quads = result.faces
-    faces = np.concatenate([triangles, quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
-    points = result.vertices
-    a, b, c = points[faces].transpose(1, 0, 2)
-    normals = np.cross(b - a, c - a)
-    normals /= np.linalg.norm(normals, axis=1)[:, None]
-    sides = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
-    order = np.lexsort(sides.T)
-    sides, owner = sides[order], np.tile(np.arange(len(faces)), 3)[order]
-    twice = np.flatnonzero((sides[1:] == sides[:-1]).all(axis=1))
-    pair = normals[owner[twice]], normals[owner[twice + 1]]
-    angles = np.degrees(2 * np.arcsin(np.linalg.norm(pair[0] - pair[1], axis=1) / 2))
-    return points[sides[twice]].mean(axis=1), angles
 
 
 def section(result, y):
@@ -94,7 +78,10 @@ def test_the_turn_is_one_hump_as_wide_as_the_radius(weight, cut):
 
 def largest_turns(found):
     """The largest turn beside each edge of the feature line, and elsewhere off the border."""
-    places, angles = turns(found)
+    quads = found.faces[1]
+    triangles = np.concatenate([found.faces[0], quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    edges, _, angles = turns(found.vertices, triangles)
+    places, angles = found.vertices[edges].mean(axis=1), np.degrees(angles)
     on = np.abs(places[:, 0]) < 0.5
     beside = [angles[on & (places[:, 1] > k) & (places[:, 1] < k + 1)].max() for k in range(ROWS)]
     return np.array([*beside, angles[~on].max()])

@@ -5,6 +5,7 @@ import control_meshes
 import discrete_fairing as df
 import numpy as np
 import pytest
+from lattices import lattice_faces
 
 
 def bump(across=9, along=7, seed=1, noise=0.0):
@@ -14,7 +15,7 @@ def bump(across=9, along=7, seed=1, noise=0.0):
     points = np.stack([x, y, z], -1).reshape(-1, 3)
     points[:, 2] += noise * np.random.default_rng(seed).normal(size=len(points))
     inner = np.arange(across * along).reshape(across, along)[1:-1, 1:-1].ravel()
-    return points, control_meshes.lattice_faces(across, along), inner
+    return points, lattice_faces(across, along), inner
 
 
 def rough(mesh, size, seed):

@@ -8,6 +8,7 @@ import discrete_fairing as df
 import flat_parts
 import numpy as np
 import pytest
+from lattices import lattice_faces
 from ragged_holes import sphere
 
 CURVED = ("total_curvature", "minimum_variation")
@@ -34,18 +35,9 @@ def wing(count: int = 9, sections: int = 6):
         np.insert((1 - 0.5 * share) * section, 1, 8 * share, axis=1)
         for share in np.linspace(0, 1, sections)
     ]
-    faces = [
-        [
-            k * size + i,
-            (k + 1) * size + i,
-            (k + 1) * size + (i + 1) % size,
-            k * size + (i + 1) % size,
-        ]
-        for k in range(sections - 1)
-        for i in range(size)
-    ]
+    faces = lattice_faces(sections, size, (False, True))
     edge = [(k * size, (k + 1) * size) for k in range(sections - 1)]
-    return np.concatenate(points), np.array(faces), edge
+    return np.concatenate(points), faces, edge
 
 
 def told(result, code="THICKNESS_CHANGED"):
@@ -171,12 +163,7 @@ def tube(sides, lengths):
     rings = [
         np.c_[np.cos(angle), np.sin(angle), np.full(sides, z)] for z in np.cumsum([0, *lengths])
     ]
-    k = np.arange(sides)
-    after = (k + 1) % sides
-    faces = [
-        np.stack([k, after, after + sides, k + sides], -1) + sides * r for r in range(len(lengths))
-    ]
-    return np.concatenate(rings), np.concatenate(faces)
+    return np.concatenate(rings), lattice_faces(len(rings), sides, (False, True))[:, [0, 3, 2, 1]]
 
 
 @pytest.mark.parametrize("lengths", [(4,) * 4, (0.2, 2, 0.2, 2, 0.2)])

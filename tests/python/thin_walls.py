@@ -9,6 +9,7 @@ from collections.abc import Sequence
 import discrete_fairing as df
 import numpy as np
 from catmull_clark import subdivide
+from lattices import lattice_faces
 
 Model = tuple[
     np.ndarray, list[list[int]], list[int]
@@ -35,8 +36,7 @@ def thickened(grid: np.ndarray, thickness: float | np.ndarray) -> Model:
     normal *= 0.5 * np.atleast_3d(thickness) / np.linalg.norm(normal, axis=2, keepdims=True)
     rows, columns = grid.shape[:2]
     count = rows * columns
-    at = np.arange(count).reshape(rows, columns)
-    upper = np.stack([at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]], axis=2).reshape(-1, 4)
+    upper = lattice_faces(rows, columns)
     rim = border(rows, columns)
     sides = [[a, b, b + count, a + count] for a, b in zip(rim, rim[1:] + rim[:1], strict=True)]
     faces = [*upper.tolist(), *(upper[:, ::-1] + count).tolist(), *sides]
