@@ -2,11 +2,11 @@
 """A sheet of quads with one vertex out of line, for tests of strain and easing."""
 
 import numpy as np
-from polygons import grid
+from lattices import lattice_faces
 from scenes import add
 
 ROWS, COLUMNS = 9, 7
-FACES = grid(ROWS, COLUMNS)
+FACES = lattice_faces(ROWS, COLUMNS)
 WRONG, OFF = 31, 0.1  # the vertex that is out of line, and by how much, upwards
 
 

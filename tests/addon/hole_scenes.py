@@ -3,7 +3,7 @@
 
 import bmesh
 import numpy as np
-from scenes import activate, add, positions
+from scenes import activate, add, bmesh_of, faces_at_edges, positions
 
 
 def ball(name="Ball"):
@@ -18,12 +18,9 @@ def ball(name="Ball"):
 
 def without(target, chosen):
     """The faces for which chosen(centre) holds are erased."""
-    bm = bmesh.new()
-    bm.from_mesh(target.data)
-    gone = [f for f in bm.faces if chosen(f.calc_center_median())]
-    bmesh.ops.delete(bm, geom=gone, context="FACES")
-    bm.to_mesh(target.data)
-    bm.free()
+    with bmesh_of(target.data) as bm:
+        gone = [f for f in bm.faces if chosen(f.calc_center_median())]
+        bmesh.ops.delete(bm, geom=gone, context="FACES")
     activate(target)
     return target
 
@@ -41,8 +38,6 @@ def is_closed(mesh):
 
 
 def borders(target, chosen=lambda z: True):
-    bm = bmesh.new()
-    bm.from_mesh(target.data)
-    found = [e.index for e in bm.edges if e.is_boundary and chosen(e.verts[0].co[2])]
-    bm.free()
-    return found
+    mesh, faces = target.data, faces_at_edges(target.data)
+    low = [mesh.vertices[e.vertices[0]].co[2] for e in mesh.edges]
+    return [k for k, count in enumerate(faces) if count == 1 and chosen(low[k])]

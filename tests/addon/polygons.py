@@ -6,12 +6,6 @@ import numpy as np
 from addon.core import ControlArrays
 
 
-def grid(rows, columns):
-    """((rows - 1) (columns - 1), 4): faces of a grid of vertices, row by row."""
-    at = np.arange(rows * columns).reshape(rows, columns)
-    return np.stack([at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]], axis=2).reshape(-1, 4)
-
-
 def polygons(positions, faces, sharp=None, boundary_edge=None):
     """From lists; `sharp`: pairs of vertices, `boundary_edge`: a mark for each edge, in their order."""
     sizes = np.array([len(face) for face in faces], np.int64)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Small scenes and what tests ask of them."""
 
+from contextlib import contextmanager
 from pathlib import Path
 
 import bmesh
@@ -144,13 +145,22 @@ def weights(target, name):
     return found
 
 
-def faces_at_edges(mesh):
-    """How many faces each edge has."""
+@contextmanager
+def bmesh_of(mesh):
+    """A BMesh of a mesh, written back at the end."""
     bm = bmesh.new()
     bm.from_mesh(mesh)
-    counts = [len(edge.link_faces) for edge in bm.edges]
+    yield bm
+    bm.to_mesh(mesh)
     bm.free()
-    return counts
+
+
+def faces_at_edges(mesh):
+    """How many faces each edge has."""
+    counts = np.zeros(len(mesh.edges), int)
+    for polygon in mesh.polygons:
+        counts[[mesh.loops[k].edge_index for k in polygon.loop_indices]] += 1
+    return counts.tolist()
 
 
 def edit(target, kind, chosen=()):

@@ -5,7 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from polygons import grid, polygons
+from lattices import lattice_faces
+from polygons import polygons
 from scenes import CUBE, add, set_edge_attribute, settings
 
 from addon import core
@@ -144,7 +145,7 @@ def test_arguments_are_equal_to_themselves_alone():
 def sheet(columns=3, rows=2):
     """Points and quads, row by row."""
     points = [(x, y, 0) for x in range(columns + 1) for y in range(rows + 1)]
-    return points, grid(columns + 1, rows + 1).tolist()
+    return points, lattice_faces(columns + 1, rows + 1).tolist()
 
 
 @pytest.mark.parametrize("diagonal", ["none", "one way", "the other way", "by turns"])

@@ -16,11 +16,7 @@ WINDOWS = Binary("x86_64", ["KERNEL32.dll", "python311.dll", "api-ms-win-crt-mat
 WINDOWS.exports = INIT
 LINUX = Binary("arm64", ["libc.so.6", "ld-linux-aarch64.so.1"], (2, 28), INIT)
 MACOS = Binary("arm64", ["/usr/lib/libSystem.B.dylib"], (11, 0), signed=True)
-GOOD = {
-    "win_amd64": WINDOWS,
-    "manylinux_2_28_aarch64": LINUX,
-    "macosx_11_0_arm64": MACOS,
-}
+GOOD = {"win_amd64": WINDOWS, "manylinux_2_28_aarch64": LINUX, "macosx_11_0_arm64": MACOS}
 BUILT = sorted(wheels.WHEELS.glob("*/*.whl"))
 
 

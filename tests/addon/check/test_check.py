@@ -140,11 +140,7 @@ def test_the_record_goes_stale_when_the_shape_changes():
     assert recall_defects(box)[1]
 
 
-LOAD = {
-    ".obj": bpy.ops.wm.obj_import,
-    ".ply": bpy.ops.wm.ply_import,
-    ".stl": bpy.ops.wm.stl_import,
-}
+LOAD = {".obj": bpy.ops.wm.obj_import, ".ply": bpy.ops.wm.ply_import, ".stl": bpy.ops.wm.stl_import}
 FILES = sorted(p for p in BAD.rglob("*") if p.suffix.lower() in LOAD and p.stat().st_size < 3e6)
 
 

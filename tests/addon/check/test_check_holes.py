@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from fake_layout import draw
 from hole_scenes import ball, borders, is_closed, without
-from polygons import grid
+from lattices import lattice_faces
 from scenes import add, refused, to_object_mode
 
 from addon.check.defects import recall_defects, recall_holes
@@ -78,7 +78,7 @@ def test_a_hole_that_is_gone_is_said():
 def test_of_many_holes_the_largest_are_kept():
     points = [(x, y, 0.0) for x in range(41) for y in range(29)]
     missing = [28 * x + y for x in range(1, 40, 4) for y in range(1, 28, 4)]
-    target = add("Sieve", points, np.delete(grid(41, 29), missing, axis=0).tolist())
+    target = add("Sieve", points, np.delete(lattice_faces(41, 29), missing, axis=0).tolist())
     holes = checked(target)
     assert len(holes) == 50 and holes[0]["edges"] == 136  # the border of the sheet
     assert holes[0]["width"] == pytest.approx(np.hypot(40, 28))

@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A source with defects: what is mended, said and shown, and that all it carries comes along."""
 
-import bpy
 import numpy as np
-import pytest
 from live_scenes import live, pull, through
 from refined import corner_vertices, values
 from scenes import CUBE, add, again, fair, positions, recompute, snapshot
@@ -81,21 +79,6 @@ def test_uvs_and_attributes_follow():
     face = np.repeat(number - 10, [len(p.vertices) for p in mesh.polygons])
     corner = values(mesh, "corner", dtype=np.int32)
     assert np.array_equal(corner // 3, face)
-
-
-def test_recompute_mends_what_is_there_now():
-    source = add_defective()
-    result = fair(levels=1)
-    faces = len(result.data.polygons)
-    source.data.clear_geometry()
-    source.data.from_pydata(VERTICES, [], FACES[:4])
-    recompute(result)
-    assert [a["code"] for a in recall(result, "report")["repairs"]] == ["DEGENERATE_FACE"]
-    assert len(result.data.polygons) == faces
-    result.discrete_fairing.repair = "REFUSE"
-    with pytest.raises(RuntimeError):
-        bpy.ops.object.fairing_recompute()
-    assert len(result.data.polygons) == faces
 
 
 def test_a_live_surface_of_a_source_with_defects():

@@ -115,19 +115,6 @@ def test_an_output_that_cannot_be_written():
     assert run("in.obj", "out.obj", "--json", "file/report.json") == command.SOME_FAILED
 
 
-def test_the_table_says_accuracy_as_the_energy_has_it(capfd):
-    write_obj("in.obj")
-    run("in.obj", "out.obj", "--levels", 2, "--energy", "thin_plate")
-    head, *_, line = capfd.readouterr().err.splitlines()
-    assert head.split()[0] == "file" and line.split()[:3] == ["in.obj", "6", "96"]
-    assert "→" in line and "nan" not in line
-    assert head.split()[-1] == "residual" and float(line.split()[-1]) < 1e-6
-    run("in.obj", "out.obj", "--levels", 1, "--energy", "total_curvature")
-    head, *_, line = capfd.readouterr().err.splitlines()
-    assert head.split()[-2:] == ["steps", "decrement"] and len(head) == len(line)
-    assert int(line.split()[-2]) >= 1 and float(line.split()[-1]) < 0.1
-
-
 TO = "in.obj out.obj"
 
 
@@ -232,14 +219,3 @@ def test_a_fault_of_ours_spares_the_other_files(monkeypatch, capfd):
     code, (a, b) = entries("a.obj", "b.obj", "out/")
     assert (code, a["error"]["code"], b["status"]) == (1, "INTERNAL", "done")
     assert "oops" in capfd.readouterr().err
-
-
-def test_in_pieces_the_surface_is_the_whole_one():
-    points = write_obj("in.obj")
-    assert run("in.obj", "whole.obj", "--levels", 2) == 0
-    code, (entry,) = entries("in.obj", "out.obj", "--levels", 2, "--pieces", 3)
-    assert code == 0
-    assert entry["objects"][0]["report"]["pieces"]["count"] == 3
-    whole, joined = (imported(name) for name in ("whole.obj", "out.obj"))
-    assert joined[1] == whole[1] and contains(joined[0], points, 1e-6)
-    assert np.abs(joined[0] - whole[0]).max() < 1e-5

@@ -32,12 +32,6 @@ def test_a_scan_is_closed():
     assert told["volume"] == pytest.approx(4.05, abs=0.1)
     # plain numbers: nobody knows what the file means by 1
     assert told["said"][-1] == f"Watertight: yes; volume {told['volume']:.3g}; left: nothing"
-    assert entry["settings"] == {
-        "clean_without": [],
-        "clean_islands": 0.1,
-        "clean_noise": 0,
-        "largest_hole": 0.0,
-    }
 
 
 def test_what_is_left_is_warned_of_and_is_no_failure(capsys):

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The control mesh over a network of curves, and the surface through it. No Blender."""
 
-from dataclasses import replace
-
 import networks
 import numpy as np
 import pytest
@@ -79,32 +77,6 @@ def test_the_missing_section_comes_back():
     surface = faired(covered(networks.bonnet(), CoverOptions()).mesh)
     x, y, z = surface.vertices.T
     assert np.abs(z - networks.crown(x, y)).max() < 2e-3
-
-
-def test_a_sharp_curve_is_an_edge():
-    curves = networks.three_by_four()
-    bent = [replace(c, pieces=_folded(c.pieces), sharp=c.name == "Row 1") for c in curves]
-    mesh = covered(bent, CoverOptions()).mesh
-    assert len(mesh.sharp) and mesh.held[mesh.sharp].all()
-    assert np.abs(mesh.points[mesh.sharp][..., 1]).max() < 1e-6
-    soft = covered([replace(c, sharp=False) for c in bent], CoverOptions()).mesh
-    # beside the fold the sharp surface follows the planes, the smooth one is round
-    off = [_off_the_fold(faired(m).vertices) for m in (mesh, soft)]
-    assert off[0] < 1e-3 < 4e-3 < off[1]
-
-
-def _folded(pieces):
-    pieces = pieces.copy()
-    pieces[..., 2] = -0.5 * np.abs(pieces[..., 1])
-    return pieces
-
-
-def _off_the_fold(points):
-    """How far points next to the fold are from its two planes, away from the outer columns."""
-    x, y, z = points.T
-    near = (np.abs(y) < 0.15) & (np.abs(x) < 0.7)
-    assert near.sum() > 20
-    return np.abs(z + 0.5 * np.abs(y))[near].max()
 
 
 def test_it_looks_outwards_and_up():

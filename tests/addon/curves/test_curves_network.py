@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 
 from addon.curves.cells import find_cells
-from addon.curves.crossings import meetings
 from addon.curves.cubics import Curve, points_at, through
 from addon.curves.network import network
-from addon.curves.words import none_text, remarks
+from addon.curves.words import remarks
 
 pytestmark = pytest.mark.plain
 
@@ -41,14 +40,6 @@ def test_points_on_one_place_count_once():
     twice = np.array([(0, 0, 0), (0, 0, 0), (1, 0, 0), (2, 0, 0), (2, 0, 0)], float)
     assert len(through(twice, False)) == 2
     assert len(through(twice[:2], False)) == 0
-
-
-def test_crossings_are_exact():
-    a = networks.along("A", 0.0)
-    b = networks.across("B", 0.3)
-    [met] = meetings([a, b], 0.01)
-    assert met.distance < 1e-4
-    assert np.allclose(met.place[:2], (0.3, 0.0), atol=1e-4)
 
 
 @pytest.mark.parametrize(
@@ -92,15 +83,6 @@ def test_a_short_tail_is_snapped():
     assert sizes(found.cells) == [4] * 7 and remarks(found.network) == []
 
 
-def test_a_loose_end_is_named():
-    loose = networks.along("Loose", 0.4, -1.0, 0.1)
-    found = find_cells(network([*networks.three_by_four(), loose]))
-    assert sizes(found.cells) == [4] * 7
-    [said] = remarks(found.network)
-    assert said.startswith("'Loose' ends loose at (0.1, 0.4, ")
-    assert "0.45" in said and "'Column 2' is 0.3" in said
-
-
 def test_a_near_miss_is_named_with_its_cure():
     high = networks.across("High", 0.4)
     high = replace(high, pieces=high.pieces + (0, 0, 0.03))
@@ -121,10 +103,3 @@ def test_a_bridge_between_two_parts_is_named():
     found = find_cells(network([*left, *right, bridge]))
     assert sizes(found.cells) == [4, 4]
     assert any("'Bridge' encloses nothing" in s for s in remarks(found.network))
-
-
-def test_sections_alone_enclose_nothing():
-    found = find_cells(network(networks.bonnet()[:4]))
-    assert not found.cells
-    assert "No two of them come nearer" in none_text(found.network)
-    assert "'Section 1' encloses nothing" in none_text(found.network)

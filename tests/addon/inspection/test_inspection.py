@@ -96,17 +96,6 @@ def test_stays_switchable_after_saving(tmp_path):
     assert slots(box) == before and not box.modifiers and COLOUR not in box.data.attributes
 
 
-def test_curvature_is_a_plain_attribute_with_the_right_numbers():
-    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=5, radius=2.0)
-    ball = bpy.context.object
-    show(ball, "GAUSS")
-    for name, expected in (("mean", 0.5), ("gauss", 0.25), ("total", 0.5)):
-        values = np.empty(len(ball.data.vertices), np.float32)
-        ball.data.attributes[f"fair_{name}_curvature"].data.foreach_get("value", values)
-        assert np.median(values) == pytest.approx(expected, rel=0.02)
-    assert ball.data.attributes[COLOUR].domain == "POINT"
-
-
 def test_one_mesh_of_two_objects_keeps_its_colours_for_the_other():
     one = add("One", *CUBE)
     two = bpy.data.objects.new("Two", one.data)

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import bpy
 import numpy as np
 import pytest
-from polygons import grid
+from lattices import lattice_faces
 from refined import values
 from scenes import CUBE, activate, add, edit
 
@@ -116,9 +116,7 @@ def pointed(length=6.0, rows=60, around=48):
     angle = np.linspace(0.0, 2.0 * np.pi, around, endpoint=False)
     breadth = (1.0 - (x / length) ** 2) ** 2 * np.cos(angle)
     points = np.stack(np.broadcast_arrays(x, breadth, np.sin(angle)), axis=-1).reshape(-1, 3)
-    at = np.arange(len(points)).reshape(rows + 1, around)
-    after = np.roll(at, -1, axis=1)
-    faces = np.stack([at[:-1], after[:-1], after[1:], at[1:]], axis=-1).reshape(-1, 4)
+    faces = lattice_faces(rows + 1, around, (False, True))[:, [0, 3, 2, 1]]
     target = add("Hull", points.tolist(), faces.tolist())
     bpy.ops.object.shade_smooth()
     return target
@@ -155,7 +153,7 @@ def test_combs_of_the_axis_that_bends_less_are_as_long():
     """A half cylinder of 1 by 20: sections along it are straight but for a bend of a hundredth."""
     x, angle = np.meshgrid(np.linspace(-10, 10, 41), np.linspace(0, np.pi, 17), indexing="ij")
     points = np.stack([x, np.cos(angle), np.sin(angle) - 0.001 * x**2], axis=-1).reshape(-1, 3)
-    target = add("Half Tube", points.tolist(), grid(*x.shape).tolist())
+    target = add("Half Tube", points.tolist(), lattice_faces(*x.shape).tolist())
     bpy.ops.object.shade_smooth()
     lines = overlay_arrays.lines_of(surface(target), asked({"X", "Y"}, 4))
     _, across, _, along, _ = (points for points, _ in lines)

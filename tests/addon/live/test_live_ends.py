@@ -7,16 +7,7 @@ import bpy
 import numpy as np
 import pytest
 from fake_layout import draw
-from live_scenes import (
-    box,
-    live,
-    move,
-    pull,
-    session,
-    through,
-    tick_until,
-    whole,
-)
+from live_scenes import box, live, move, pull, session, through, tick_until, whole
 from scenes import CUBE, activate, add, fair, positions, recompute, reopen
 
 import addon

@@ -5,8 +5,8 @@ import bpy
 import numpy as np
 import pytest
 from fake_layout import draw
+from lattices import lattice_faces
 from live_scenes import live, session
-from polygons import grid
 from scenes import add, add_attribute, edit, faces_at_edges, fair, positions, to_object_mode
 
 from addon.mesh.boundary_marks import BOUNDARY, summary
@@ -21,7 +21,7 @@ BOTTOM = [(0, 1), (1, 2), (2, 3)]
 def sheet(name="Sheet"):
     i, j = (ids.ravel() for ids in np.meshgrid(np.arange(4), np.arange(4), indexing="ij"))
     points = np.stack([i, j, 0.4 * np.sin(1.7 * i + j)], axis=1)
-    return add(name, points.tolist(), grid(4, 4).tolist())
+    return add(name, points.tolist(), lattice_faces(4, 4).tolist())
 
 
 def edges(target, *pairs):

@@ -4,7 +4,7 @@
 import bpy
 import numpy as np
 import pytest
-from polygons import grid
+from lattices import lattice_faces
 from refined import corner_vertices, edge_vertices, refine, values
 from scenes import CUBE, add, add_attribute, set_edge_attribute
 
@@ -83,7 +83,7 @@ def on_control_edges(made):
 @pytest.mark.parametrize("domain", ["POINT", "CORNER", "FACE", "EDGE"])
 def test_all_256_byte_colors_come_through(domain):
     points = [(x, y, 0) for x in range(65) for y in range(2)]
-    source = add("Row", points, grid(65, 2).tolist())
+    source = add("Row", points, lattice_faces(65, 2).tolist())
     given = source.data.attributes.new("given", "BYTE_COLOR", domain)
     bytes_ = np.arange(4 * len(given.data)) % 256
     given.data.foreach_set("color_srgb", (bytes_ / 255).astype(np.float32))
@@ -108,7 +108,7 @@ def test_byte_colors_mix_as_light():
 def test_uv_of_a_plane_stays_affine():
     """On a grid of equal squares with straight borders the refined vertices are evenly spaced."""
     points = [(x, y, 0) for x in range(4) for y in range(4)]
-    source = add("Grid", points, grid(4, 4).tolist())
+    source = add("Grid", points, lattice_faces(4, 4).tolist())
     layer = source.data.uv_layers.new(name="Map")
     place = np.array(points, float)[corner_vertices(source.data)]
     matrix = np.array([(0.3, 0.1), (-0.2, 0.25), (0, 0)])

@@ -5,7 +5,6 @@ import bpy
 import numpy as np
 import pytest
 from hole_scenes import ball, borders, is_closed, without
-from scenes import edit, to_object_mode
 
 from addon.mesh.layers import fill_layer, layer_values, read_attributes
 
@@ -112,12 +111,3 @@ def test_marks_of_vertices_are_not_spread(keys):
     assert bpy.ops.object.fairing_fill() == {"FINISHED"}
     values = attributes(target.data)["crease_vert"]
     assert (values[:count] == 1.0).all() and not values[count:].any()
-
-
-def test_in_edit_mode_only_what_is_new_is_selected():
-    target = open_ball()
-    edit(target, "EDGE", borders(target, lambda z: z > 0)[:1])
-    faces = len(target.data.polygons)
-    assert bpy.ops.object.fairing_fill() == {"FINISHED"}
-    to_object_mode()
-    assert selected(target.data)[2] == set(range(faces, len(target.data.polygons)))

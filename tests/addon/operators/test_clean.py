@@ -6,8 +6,8 @@ import bpy
 import numpy as np
 import pytest
 from fake_layout import draw
-from hole_scenes import ball, is_closed, radii
-from scenes import activate, add, positions, to_object_mode
+from hole_scenes import ball, is_closed, radii, without
+from scenes import add, bmesh_of, positions, to_object_mode
 
 from addon.check.defects import recall_cleaned, recall_defects
 from addon.ui.check import VIEW3D_PT_fairing_check
@@ -15,25 +15,13 @@ from addon.ui.check import VIEW3D_PT_fairing_check
 
 def spoiled():
     """A ball with a hole, a spike, faces turned over, a fin and a speck."""
-    target = ball()
-    bm = bmesh.new()
-    bm.from_mesh(target.data)
-    bm.faces.ensure_lookup_table()
-    bmesh.ops.delete(
-        bm, geom=[f for f in bm.faces if f.calc_center_median().z > 0.9], context="FACES"
-    )
-    bmesh.ops.reverse_faces(bm, faces=[f for f in bm.faces if f.calc_center_median().x > 0.8])
-    bm.verts.ensure_lookup_table()
-    tip = min(bm.verts, key=lambda v: v.co.z)
-    tip.co *= 1.7
-    edge = min((e for e in bm.edges if e.is_manifold), key=lambda e: e.verts[0].co.y)
-    bm.faces.new([*edge.verts, bm.verts.new(edge.verts[0].co * 1.3)])
-    bm.faces.new(
-        [bm.verts.new((3.0, 3.0, z)) for z in (0.0, 0.1)] + [bm.verts.new((3.1, 3.0, 0.0))]
-    )
-    bm.to_mesh(target.data)
-    bm.free()
-    activate(target)
+    target = without(ball(), lambda c: c.z > 0.9)
+    with bmesh_of(target.data) as bm:
+        bmesh.ops.reverse_faces(bm, faces=[f for f in bm.faces if f.calc_center_median().x > 0.8])
+        min(bm.verts, key=lambda v: v.co.z).co *= 1.7
+        edge = min((e for e in bm.edges if e.is_manifold), key=lambda e: e.verts[0].co.y)
+        bm.faces.new([*edge.verts, bm.verts.new(edge.verts[0].co * 1.3)])
+        bm.faces.new([bm.verts.new(co) for co in ((3, 3, 0), (3, 3, 0.1), (3.1, 3, 0))])
     return target
 
 
@@ -119,13 +107,9 @@ def test_each_step_can_be_turned_off(step):
 def test_faces_that_cross_are_listed_with_a_button_that_selects_them():
     """Two balls, one through the other: both are closed, and stay."""
     target = ball()
-    bm = bmesh.new()
-    bm.from_mesh(target.data)
-    for vertex in bmesh.ops.create_icosphere(bm, subdivisions=3, radius=1.0)["verts"]:
-        vertex.co.x += 1.5
-    bm.to_mesh(target.data)
-    bm.free()
-    activate(target)
+    with bmesh_of(target.data) as bm:
+        for vertex in bmesh.ops.create_icosphere(bm, subdivisions=3, radius=1.0)["verts"]:
+            vertex.co.x += 1.5
     assert bpy.ops.object.fairing_clean(inner=False) == {"FINISHED"}
     (defect,), stale = recall_defects(target)
     assert defect["code"] == "CROSSING_FACES" and not stale
@@ -140,15 +124,13 @@ def test_faces_that_cross_are_listed_with_a_button_that_selects_them():
 
 def test_parts_that_share_an_edge_are_separated_with_their_marks():
     """Two cubes with one edge in common, which is a seam: both have it afterwards."""
-    bm = bmesh.new()
-    bmesh.ops.create_cube(bm, size=1.0)
-    for vertex in bmesh.ops.create_cube(bm, size=1.0)["verts"]:
-        vertex.co += type(vertex.co)((1.0, 1.0, 0.0))
-    bmesh.ops.remove_doubles(bm, verts=bm.verts, dist=1e-6)
-    next(e for e in bm.edges if len(e.link_faces) == 4).seam = True
     mesh = add("Two", [], []).data
-    bm.to_mesh(mesh)
-    bm.free()
+    with bmesh_of(mesh) as bm:
+        bmesh.ops.create_cube(bm, size=1.0)
+        for vertex in bmesh.ops.create_cube(bm, size=1.0)["verts"]:
+            vertex.co += type(vertex.co)((1.0, 1.0, 0.0))
+        bmesh.ops.remove_doubles(bm, verts=bm.verts, dist=1e-6)
+        next(e for e in bm.edges if len(e.link_faces) == 4).seam = True
     assert bpy.ops.object.fairing_clean() == {"FINISHED"}
     assert is_closed(mesh)
     assert len(mesh.vertices) == 16 and sum(e.use_seam for e in mesh.edges) == 2

@@ -5,6 +5,7 @@ import bpy
 import numpy as np
 import pytest
 from hole_scenes import borders, is_closed
+from lattices import lattice_faces
 from scenes import activate, add, edit, positions, to_object_mode
 
 
@@ -16,9 +17,7 @@ def tube(chosen):
     a, b = np.meshgrid(2 * np.pi * np.arange(n) / n, 2 * np.pi * np.arange(m) / m, indexing="ij")
     away = 1 + 0.5 * np.cos(b)
     points = np.stack([away * np.cos(a), away * np.sin(a), 0.5 * np.sin(b)], -1).reshape(-1, 3)
-    at = np.arange(n * m).reshape(n, m)
-    right, up = np.roll(at, -1, axis=0), np.roll(at, -1, axis=1)
-    quads = np.stack([at, right, np.roll(right, -1, axis=1), up], -1).reshape(-1, 4)
+    quads = lattice_faces(n, m, (True, True))
     i, j = np.meshgrid(np.arange(n), np.arange(m), indexing="ij")
     return add("Ring", points, quads[~chosen(i, j).ravel()].tolist())
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from fake_layout import draw
 from hole_scenes import ball, borders, is_closed, without
-from scenes import add, edit, refused, to_object_mode
+from scenes import add, bmesh_of, edit, refused, to_object_mode
 
 from addon.check import repair
 from addon.check.defects import recall_defects
@@ -17,14 +17,10 @@ from addon.ui.check import VIEW3D_PT_fairing_check
 def with_a_fin():
     """A ball with two holes; at the rim of one a third face stands on an edge."""
     target = without(ball(), lambda c: abs(c[2]) > 0.7)
-    bm = bmesh.new()
-    bm.from_mesh(target.data)
-    edge = next(e for e in bm.edges if e.is_boundary and e.verts[0].co[2] > 0)
-    inner = next(e for v in edge.verts for e in v.link_edges if not e.is_boundary)
-    tip = bm.verts.new(2 * inner.verts[0].co)
-    bm.faces.new([*inner.verts, tip])
-    bm.to_mesh(target.data)
-    bm.free()
+    with bmesh_of(target.data) as bm:
+        edge = next(e for e in bm.edges if e.is_boundary and e.verts[0].co[2] > 0)
+        inner = next(e for v in edge.verts for e in v.link_edges if not e.is_boundary)
+        bm.faces.new([*inner.verts, bm.verts.new(2 * inner.verts[0].co)])
     return target
 
 
@@ -114,16 +110,10 @@ def test_a_vertex_on_an_edge_is_listed_and_a_button_cuts_that_edge(capfd):
 def test_a_slit_is_left_and_listed_with_buttons_to_select_and_mend_it(capfd):
     target = without(ball(), lambda c: c[2] > 0.7)
     mesh = target.data
-    bm = bmesh.new()
-    bm.from_mesh(mesh)
-    low = min(bm.edges, key=lambda e: sum(v.co.z for v in e.verts))
-    a, b = low.verts
-    bm.edges.ensure_lookup_table()
-    beside = [f for f in a.link_faces if b not in f.verts]
-    bmesh.ops.split_edges(bm, edges=[low, next(e for e in b.link_edges if e != low)])
-    bm.to_mesh(mesh)
-    bm.free()
-    assert beside
+    with bmesh_of(mesh) as bm:
+        low = min(bm.edges, key=lambda e: sum(v.co.z for v in e.verts))
+        beside = next(e for e in low.verts[1].link_edges if e != low)
+        bmesh.ops.split_edges(bm, edges=[low, beside])
     before = len(mesh.polygons)
     assert bpy.ops.object.fairing_fill() == {"FINISHED"}
     assert len(mesh.polygons) > before

@@ -11,7 +11,17 @@ import step_files
 from fake_layout import draw
 from mathutils import Matrix
 from scans import blob_cage, blob_scan
-from scenes import CUBE, activate, add, positions, recompute, refused, to_object_mode
+from scenes import (
+    CUBE,
+    activate,
+    add,
+    bmesh_of,
+    faces_at_edges,
+    positions,
+    recompute,
+    refused,
+    to_object_mode,
+)
 
 from addon.check.defects import recall_defects
 from addon.freshness import SCAN_CHANGED, SCAN_MOVED, SOURCE_CHANGED, why_stale
@@ -49,6 +59,14 @@ def select(*objects):
         other.select_set(True)
 
 
+def fit(*objects, **options):
+    """The surface on the scans, drawn to the cage that is the last of `objects`, if there is one."""
+    if objects:
+        select(*objects)
+    assert bpy.ops.object.fairing_fit(**options) == {"FINISHED"}
+    return bpy.context.active_object
+
+
 def world(target):
     matrix = np.array(target.matrix_world)
     return positions(target.data) @ matrix[:3, :3].T + matrix[:3, 3]
@@ -59,10 +77,9 @@ def test_places_and_scales_of_both_count():
     scan.location, scan.scale, scan.rotation_euler = (5, 1, 0), (2, 1, 1), (0.3, 0, 0.2)
     cage.location, cage.scale = (5, 1, 0), (3, 2, 2)
     bpy.context.view_layer.update()
-    select(scan, cage)
-    assert bpy.ops.object.fairing_fit(levels=3) == {"FINISHED"}
+    made = fit(scan, cage, levels=3)
     back = np.linalg.inv(np.array(scan.matrix_world))
-    points = world(bpy.context.active_object)
+    points = world(made)
     radii = np.linalg.norm(points @ back[:3, :3].T + back[:3, 3], axis=1)
     assert np.abs(radii - 1).max() < 0.03
 
@@ -72,9 +89,7 @@ def test_modifiers_of_the_scan_count():
     scan.modifiers.new("Size", "CAST").factor = 0.0
     grow = scan.modifiers.new("Grow", "DISPLACE")
     grow.strength, grow.mid_level = 0.2, 0.0
-    select(scan, cage)
-    assert bpy.ops.object.fairing_fit(levels=2) == {"FINISHED"}
-    assert np.linalg.norm(world(bpy.context.active_object), axis=1).mean() > 1.1
+    assert np.linalg.norm(world(fit(scan, cage, levels=2)), axis=1).mean() > 1.1
 
 
 def test_the_border_near_a_cloud_stays_as_far_as_the_cage(capsys):
@@ -83,9 +98,7 @@ def test_the_border_near_a_cloud_stays_as_far_as_the_cage(capsys):
     points[:, 2] = 0.6 * np.cos(1.5 * points[:, 0]) - 0.1
     cloud = add("Cloud", points.tolist(), [])
     bpy.ops.mesh.primitive_grid_add(x_subdivisions=5, y_subdivisions=5, size=1.9)
-    select(cloud, bpy.context.object)
-    assert bpy.ops.object.fairing_fit(levels=2) == {"FINISHED"}
-    made = bpy.context.object
+    made = fit(cloud, bpy.context.object, levels=2)
     assert np.abs(world(made)[:, :2]).max() == pytest.approx(0.95, abs=0.03)
     assert made.discrete_fairing.boundary == "FREE" and "stays as far" in capsys.readouterr().out
     assert why_stale(made) == ""
@@ -99,10 +112,10 @@ def test_a_cage_reaches_into_every_part_of_a_scan(capsys):
     bpy.ops.object.join()
     scan.data.remesh_voxel_size = 0.04
     bpy.ops.object.voxel_remesh()
-    assert bpy.ops.object.fairing_fit(levels=2, cage_faces=40) == {"FINISHED"}
+    made = fit(levels=2, cage_faces=40)
     assert "With 40 faces the cage left out a part of the scan" in capsys.readouterr().out
     assert positions(bpy.data.objects["Scan Cage"].data)[:, 2].max() > 2.5
-    assert world(bpy.context.active_object)[:, 2].max() == pytest.approx(3, abs=0.05)
+    assert world(made)[:, 2].max() == pytest.approx(3, abs=0.05)
     assert len([mesh for mesh in bpy.data.meshes if "Cage" in mesh.name]) == 2  # and the surface's
 
 
@@ -112,12 +125,9 @@ def part(name, keep, **place):
     for key, value in place.items():
         setattr(made, key, value)
     bpy.context.view_layer.update()
-    bm = bmesh.new()
-    bm.from_mesh(made.data)
-    lost = [vertex for vertex in bm.verts if not keep(vertex.co)]
-    bmesh.ops.delete(bm, geom=lost, context="VERTS")
-    bm.to_mesh(made.data)
-    bm.free()
+    with bmesh_of(made.data) as bm:
+        lost = [vertex for vertex in bm.verts if not keep(vertex.co)]
+        bmesh.ops.delete(bm, geom=lost, context="VERTS")
     made.data.transform(made.matrix_world.inverted())
     return made
 
@@ -126,12 +136,9 @@ def test_scans_alone_get_one_cage():
     place = {"location": (1, 2, 3), "scale": (2, 0.5, 3), "rotation_euler": (1, 0.3, 0)}
     above = part("Above", lambda co: co.z > -0.3, **place)
     below = part("Below", lambda co: co.z < 0.2, scale=(0.01, 0.01, 0.01))
-    select(above, below)
-    assert bpy.ops.object.fairing_fit(levels=2, cage_faces=80) == {"FINISHED"}
-    made, cage = bpy.context.object, bpy.data.objects["Above Cage"]
+    made, cage = fit(above, below, levels=2, cage_faces=80), bpy.data.objects["Above Cage"]
     assert made.name == "Above Cage Fit" and 40 < len(cage.data.polygons) < 160
-    uses = np.bincount([e for p in cage.data.polygons for e in mesh_edges(cage.data, p)])
-    assert (uses == 2).all()  # one closed cage, where the scans overlap
+    assert set(faces_at_edges(cage.data)) == {2}  # one closed cage, where the scans overlap
     assert off(made) < 0.004
     assert [scan.target for scan in made.discrete_fairing_fit.scans] == [above, below]
     assert why_stale(made) == ""
@@ -142,16 +149,10 @@ def test_scans_alone_get_one_cage():
     assert (len(bpy.data.objects), len(bpy.data.meshes)) == count
 
 
-def mesh_edges(mesh, polygon):
-    return [mesh.loops[k].edge_index for k in polygon.loop_indices]
-
-
 def test_a_sparse_scan_gets_a_cage_that_does_not_follow_its_noise():
     scan = ball("Scan", 5, noise=0.003)
     off = np.linalg.norm(positions(scan.data), axis=1) - 1
-    activate(scan)
-    assert bpy.ops.object.fairing_fit() == {"FINISHED"}
-    made = bpy.context.active_object
+    made = fit(scan)
     assert len(scan.data.vertices) / len(bpy.data.objects["Scan Cage"].data.polygons) > 20
     left = np.linalg.norm(world(made), axis=1) - 1
     assert np.sqrt((left**2).mean()) < 0.7 * np.sqrt((off**2).mean())
@@ -159,8 +160,7 @@ def test_a_sparse_scan_gets_a_cage_that_does_not_follow_its_noise():
 
 def test_a_tolerance_that_is_not_kept_is_said_with_units(capsys):
     scan, cage = ball("Scan", 4, noise=0.01), cage_of_cube()
-    select(scan, cage)
-    assert bpy.ops.object.fairing_fit(levels=1, amount="TOLERANCE", tolerance=1e-4) == {"FINISHED"}
+    fit(scan, cage, levels=1, amount="TOLERANCE", tolerance=1e-4)
     said = capsys.readouterr().out
     assert re.search(r"95 % of the points are within [\d.]+ (m|cm|mm) of", said)
     assert re.search(r"their noise is about [\d.]+ (m|cm|mm)\.", said)
@@ -198,21 +198,17 @@ def test_a_scan_that_is_inside_out_is_said(capsys):
     scan = ball("Scan", 4)
     scan.scale = (1, -1, 1)  # which turns nothing inside out
     bpy.context.view_layer.update()
-    activate(scan)
-    assert bpy.ops.object.fairing_fit(levels=1, cage_faces=40) == {"FINISHED"}
+    fit(scan, levels=1, cage_faces=40)
     assert "inside out" not in capsys.readouterr().out
     scan.data.flip_normals()
-    activate(scan)
-    assert bpy.ops.object.fairing_fit(levels=1, cage_faces=40) == {"FINISHED"}
+    fit(scan, levels=1, cage_faces=40)
     said = capsys.readouterr().out
     assert "Flip the normals of scan and cage" in said and "They point inwards" in said
 
 
 def fitted():
     scan, cage = ball("Scan", 5, noise=0.01), cage_of_cube()
-    select(scan, cage)
-    assert bpy.ops.object.fairing_fit(levels=3) == {"FINISHED"}
-    return scan, cage, bpy.context.active_object
+    return scan, cage, fit(scan, cage, levels=3)
 
 
 def off(target, centre=(0, 0, 0)):
@@ -295,23 +291,21 @@ def test_live_follows_the_scan():
     assert radii == pytest.approx(1.2, abs=0.03) and why_stale(made) == ""
 
 
+def deviation(made):
+    display.show(made, "DEVIATION", bpy.context.scene.discrete_fairing_inspection)
+    return layer_values(made.data.attributes["fair_deviation"])
+
+
 def test_deviation_is_from_the_scan():
     scan, _, made = fitted()
-    settings = bpy.context.scene.discrete_fairing_inspection
-    display.show(made, "DEVIATION", settings)
-    values = layer_values(made.data.attributes["fair_deviation"])
-    assert 0.001 < np.abs(values).mean() < 0.01
+    assert 0.001 < np.abs(deviation(made)).mean() < 0.01
     # a scan whose points are all off by as much
     scan.scale = (0.9, 0.9, 0.9)
     bpy.context.view_layer.update()
-    display.show(made, "DEVIATION", settings)
-    values = layer_values(made.data.attributes["fair_deviation"])
-    assert values.mean() == pytest.approx(0.1, abs=0.01)
+    assert deviation(made).mean() == pytest.approx(0.1, abs=0.01)
     scan.data.clear_geometry()
     scan.data.from_pydata((1.2 * world(made)).tolist(), [], [])
-    display.show(made, "DEVIATION", settings)
-    values = layer_values(made.data.attributes["fair_deviation"])
-    assert values.mean() == pytest.approx(-0.08, abs=0.01)  # points, inwards
+    assert deviation(made).mean() == pytest.approx(-0.08, abs=0.01)  # points, inwards
 
 
 def test_faces_that_are_too_coarse_and_strays_are_listed_in_check():
@@ -319,8 +313,7 @@ def test_faces_that_are_too_coarse_and_strays_are_listed_in_check():
     points[7] *= 1.5
     scan = add("Scan", points.tolist(), [])
     cage = add("Cage", vertices.tolist(), faces.tolist())
-    select(scan, cage)
-    assert bpy.ops.object.fairing_fit(levels=1) == {"FINISHED"}
+    fit(scan, cage, levels=1)
     defects, _ = recall_defects(cage)
     (coarse,) = [defect for defect in defects if defect["code"] == TOO_COARSE]
     activate(cage)
@@ -337,9 +330,7 @@ def test_faces_without_points_are_grey_and_can_be_selected():
     points, (vertices, faces) = blob_scan(26_000, 0.002), blob_cage(6)
     scan = add("Scan", points[points[:, 0] < 0.9].tolist(), [])  # its end is not scanned
     cage = add("Cage", vertices.tolist(), faces.tolist())
-    select(scan, cage)
-    assert bpy.ops.object.fairing_fit(levels=2) == {"FINISHED"}
-    made = bpy.context.object
+    made = fit(scan, cage, levels=2)
     bare = np.repeat([polygon.index for polygon in cage.data.polygons], 16)
     (uncovered,) = [d for d in recall_defects(cage)[0] if d["code"] == UNCOVERED]
     bare = np.isin(bare, uncovered["elements"])
@@ -379,9 +370,7 @@ def test_instances_and_point_clouds_count():
     assert (np.einsum("ij,ij->i", np.cross(b - a, c - a), a - (3, 0, 0)) > 0).all()
     cage = cage_of_cube()
     cage.location, cage.scale = (3, 0, 0), (2, 2, 2)
-    select(empty, cage)
-    assert bpy.ops.object.fairing_fit(levels=3) == {"FINISHED"}
-    radii = np.linalg.norm(world(bpy.context.active_object) - (3, 0, 0), axis=1)
+    radii = np.linalg.norm(world(fit(empty, cage, levels=3)) - (3, 0, 0), axis=1)
     assert np.abs(radii - 2).max() < 0.05
 
 

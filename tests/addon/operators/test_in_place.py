@@ -6,8 +6,8 @@ import bpy
 import discrete_fairing as df
 import numpy as np
 import pytest
-from polygons import grid
-from scenes import CUBE, add, edit, faces_at_edges, positions, settings, to_object_mode
+from lattices import lattice_faces
+from scenes import CUBE, add, edit, faces_at_edges, positions, refused, settings, to_object_mode
 
 from addon import prediction
 from addon.in_place import InPlaceJob, InPlaceOptions
@@ -29,7 +29,7 @@ def cap(noise=0.1):
     points = np.stack([x, y, np.sqrt(RADIUS**2 - x**2 - y**2)], axis=1)
     middle = (np.abs(x) < 0.4) & (np.abs(y) < 0.4)
     points[middle] += np.random.default_rng(1).uniform(-noise, noise, (int(middle.sum()), 3))
-    target = add("Cap", points.tolist(), grid(SIZE + 1, SIZE + 1).tolist())
+    target = add("Cap", points.tolist(), lattice_faces(SIZE + 1, SIZE + 1).tolist())
     select(target, lambda ids: middle[ids].any())
     return target, middle
 
@@ -59,19 +59,6 @@ def test_only_what_is_inside_moves_and_the_noise_goes(joint):
     assert off_sphere(before[middle]).max() > 0.05
     limit = {"POSITION": 0.05, "TANGENT": 0.012, "CURVATURE": 0.012}[joint]
     assert off_sphere(after[middle]).max() < limit
-
-
-def test_it_is_the_surface_that_the_whole_mesh_has():
-    """What is cut out for speed changes nothing but rounding where the joint is the rim itself."""
-    target, middle = cap()
-    before = positions(target.data)
-    faces = [tuple(p.vertices) for p in target.data.polygons if p.select]
-    ids, corners = np.unique(faces, return_inverse=True)
-    weights = np.where(middle[ids], 0.0, np.inf)
-    near = {"interpolation": "approximate", "weights": weights}
-    whole = df.fair(before[ids], corners.reshape(-1, 4), levels=2, **near)
-    after = fair(target, joint="POSITION")
-    assert np.allclose(after[ids], whole.vertices[: len(ids)], atol=1e-5)
 
 
 def test_factor_goes_part_of_the_way():
@@ -146,10 +133,8 @@ def funnel(rows=3, count=4):
         for x, y in ring
     ]
     n = len(ring)
-    at = np.arange(len(points)).reshape(-1, n)
-    after = np.roll(at, -1, axis=1)
-    faces = np.stack([at[:-1], after[:-1], after[1:], at[1:]], axis=-1).reshape(-1, 4).tolist()
-    target = add("Funnel", points, [*faces, at[-1].tolist()])
+    faces = lattice_faces(rows + 1, n, (False, True))[:, [0, 3, 2, 1]]
+    target = add("Funnel", points, [*faces.tolist(), list(range(rows * n, len(points)))])
     select(target, lambda ids: len(ids) == n)
     return target
 
@@ -172,20 +157,14 @@ def test_a_filled_hole_that_ends_in_a_fold_is_told(capfd):
     assert "folded" not in capfd.readouterr().out, "any angle is right there"
 
 
-def error_of(**options):
-    with pytest.raises(RuntimeError) as caught:
-        bpy.ops.object.fairing_in_place(**options)
-    return str(caught.value)
-
-
 def test_refusals_say_what_to_do_and_change_nothing():
     box = add("Box", *CUBE)
     select(box, lambda _ids: False)
-    assert "Select the faces" in error_of()
+    refused("Select the faces", bpy.ops.object.fairing_in_place)
     bpy.ops.mesh.select_all(action="SELECT")
-    assert "Leave out some faces of each part" in error_of()
+    refused("Leave out some faces of each part", bpy.ops.object.fairing_in_place)
     select(box, lambda ids: 0 in ids and 1 in ids and 2 in ids)
-    assert "Select more faces" in error_of(levels=0)
+    refused("Select more faces", bpy.ops.object.fairing_in_place, levels=0)
     assert np.array_equal(positions(box.data), np.array(CUBE[0], np.float32))
     to_object_mode()
     assert not bpy.ops.object.fairing_in_place.poll()
@@ -268,13 +247,21 @@ def test_adjust_last_operation_lets_a_long_run_begin_anew(monkeypatch):
 def test_corners_of_the_mesh_stay(slant, scale):
     """Also where only the object's scale makes them: at 125 degrees the border would go round."""
     points = [(x - slant * y, y, 0.5 * (x == 2 and y == 2)) for y in range(5) for x in range(5)]
-    target = add("Sheet", points, grid(5, 5)[:, ::-1].tolist())
+    target = add("Sheet", points, lattice_faces(5, 5)[:, ::-1].tolist())
     target.scale.y = scale
     select(target, lambda ids: max(max(v % 5, v // 5) for v in ids) < 3)
     after = fair(target, levels=2)
     after[:, 0] += slant * after[:, 1]
     border = after[(after[:, :2] < 0.1).any(axis=1)]
     assert len(border) > 16 and np.abs(border[:, :2].min(axis=1)).max() < 1e-6
+
+
+def cap_with_keys(*names):
+    target, middle = cap()
+    to_object_mode()
+    for name in ("Basis", *names):
+        target.shape_key_add(name=name)
+    return target, middle
 
 
 def keys_of(target):
@@ -286,14 +273,11 @@ def keys_of(target):
 @pytest.mark.parametrize("release", [False, True])
 @pytest.mark.parametrize("levels", [0, 1, 2])
 def test_shape_keys_follow_what_is_faired(levels, release):
-    target, middle = cap()
-    to_object_mode()
-    target.shape_key_add(name="Basis")
-    for name, shift in (("Shift", 1.0), ("Twice", 2.0)):
-        key = target.shape_key_add(name=name)
-        for point in key.data:
-            point.co.x += shift
+    target, middle = cap_with_keys("Shift", "Twice")
     keys = target.data.shape_keys.key_blocks
+    for name, shift in (("Shift", 1.0), ("Twice", 2.0)):
+        for point in keys[name].data:
+            point.co.x += shift
     keys["Twice"].relative_key = keys["Shift"]
     target.active_shape_key_index = 0
     select(target, lambda ids: middle[ids].any())
@@ -305,10 +289,7 @@ def test_shape_keys_follow_what_is_faired(levels, release):
 
 
 def test_fairing_one_shape_key_leaves_its_basis():
-    target, middle = cap()
-    to_object_mode()
-    target.shape_key_add(name="Basis")
-    target.shape_key_add(name="Other")
+    target, middle = cap_with_keys("Other")
     target.active_shape_key_index = 1
     select(target, lambda ids: middle[ids].any())
     before = positions(target.data)

@@ -4,17 +4,7 @@
 import bpy
 import numpy as np
 import pytest
-from scenes import (
-    CUBE,
-    add,
-    add_suzanne,
-    again,
-    edit,
-    fair,
-    positions,
-    shown,
-    to_object_mode,
-)
+from scenes import CUBE, add, add_suzanne, again, edit, fair, positions, shown, to_object_mode
 
 
 def subdivided(source):

@@ -5,7 +5,7 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from scenes import edit, positions, to_object_mode
+from scenes import bmesh_of, edit, positions, to_object_mode
 
 NOISE = 0.004  # rms
 
@@ -117,12 +117,9 @@ def test_polygons_that_are_split_on_the_way():
     points = positions(scan.data).astype(float)
     points[:, 2] += 0.02 * np.random.default_rng(5).standard_normal(len(points))
     move(scan, points)
-    edited = bmesh.new()
-    edited.from_mesh(scan.data)
-    edited.verts.ensure_lookup_table()
-    bmesh.ops.dissolve_verts(edited, verts=[edited.verts[465]])  # one face of eight corners
-    edited.to_mesh(scan.data)
-    edited.free()
+    with bmesh_of(scan.data) as bm:
+        bm.verts.ensure_lookup_table()
+        bmesh.ops.dissolve_verts(bm, verts=[bm.verts[465]])  # one face of eight corners
     count = len(scan.data.polygons)
     points = positions(scan.data)
     edit(scan, "FACE", range(count))

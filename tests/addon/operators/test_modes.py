@@ -3,7 +3,7 @@
 
 import bpy
 import numpy as np
-from polygons import grid
+from lattices import lattice_faces
 from scenes import CUBE, add, again, edit, fair, positions, refused
 
 from addon.mesh.object import select_only
@@ -25,23 +25,6 @@ def with_mirror():
     modifier = source.modifiers.new("Subdivision", "SUBSURF")
     modifier.levels, modifier.subdivision_type = 1, "SIMPLE"
     return source
-
-
-def test_mesh_with_its_modifiers():
-    source = with_mirror()
-    assert len(fair(levels=1, mesh_source="EVALUATED").data.polygons) == 4 * 6 * 4
-    assert len(again(source, levels=1).data.polygons) == 6 * 4
-    assert len(source.data.polygons) == 6, "the source is only read"
-
-
-def test_hidden_source_is_evaluated_all_the_same():
-    source = with_mirror()
-    result = fair(levels=1, mesh_source="EVALUATED")
-    assert source.hide_get()
-    source.modifiers["Subdivision"].levels = 2
-    assert bpy.ops.object.fairing_recompute() == {"FINISHED"}
-    assert len(result.data.polygons) == 16 * 6 * 4
-    assert source.hide_get(), "as it was"
 
 
 def test_modifiers_in_edit_mode():
@@ -68,7 +51,7 @@ def test_one_bad_mesh_leaves_the_scene_as_it_was():
 def pyramid(size=6):
     """A flat grid of quads with a pyramid's top in the midst, no face selected."""
     points = [(x, y, 1.0 * (x == y == size // 2)) for x in range(size + 1) for y in range(size + 1)]
-    source = add("Grid", points, grid(size + 1, size + 1).tolist())
+    source = add("Grid", points, lattice_faces(size + 1, size + 1).tolist())
     source.data.polygons.foreach_set("select", [False] * size**2)
     return source
 

@@ -21,10 +21,7 @@ def test_one_sheet_with_its_uv_map(repair):
     for polygon in source.data.polygons:  # u runs on to 1 in the face before the seam
         for k, corner in enumerate(polygon.loop_indices):
             around, across = divmod(polygon.index, 2)
-            uv[corner].vector = (
-                (around + (k in (1, 2))) / AROUND,
-                (across + (k in (2, 3))) / 2,
-            )
+            uv[corner].vector = ((around + (k in (1, 2))) / AROUND, (across + (k in (2, 3))) / 2)
     target = fair(levels=2, repair=repair)
     counts = faces_at_edges(target.data)
     assert set(counts) == {1, 2} and counts.count(1) == 4 * 2 * AROUND

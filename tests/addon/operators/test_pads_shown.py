@@ -3,7 +3,6 @@
 
 import bpy
 import numpy as np
-from live_scenes import live, pull
 from refined import values
 from scenes import add_attribute, fair, positions
 
@@ -49,13 +48,3 @@ def test_recompute_replaces_where_pads_gave_way():
     add_attribute(source, [0.75] * len(source.data.vertices), "fair_pad_size")
     bpy.ops.object.fairing_recompute()
     assert "fair_pad_size" not in result.data.attributes, "of the source, not of this surface"
-
-
-def test_a_live_surface_says_where_pads_gave_way():
-    source = add_crumpled()
-    result = fair(**CRUMPLED)
-    result.discrete_fairing_live.levels = 1
-    live(result)
-    pull(source, by=0.01)
-    assert len(result.data.polygons) == 4 * len(source.data.polygons)
-    assert "fair_pad_size" in result.data.attributes

@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 import pytest
 from fake_layout import draw
-from polygons import grid
+from lattices import lattice_faces
 from scenes import CUBE, TRIANGLE, activate, add, add_suzanne, fair, positions, refused, shown
 
 from addon.purposes import EASED_FIRST, PURPOSES, job_of, name_of_purpose, preset_file
@@ -47,7 +47,7 @@ def test_measured_points_lose_their_scatter(seed):
     x, y = np.meshgrid(even, even, indexing="ij")
     z = dome(x, y) + np.random.default_rng(seed).normal(0, 0.012, x.shape)
     points = np.stack([x, y, z], axis=2).reshape(-1, 3)
-    source = add("Dome", points.tolist(), grid(9, 9).tolist())
+    source = add("Dome", points.tolist(), lattice_faces(9, 9).tolist())
 
     def off(surface):
         places = shown(surface)

@@ -2,9 +2,9 @@
 """Sheets that meet: one mesh comes out, and what lies on the control mesh comes with it."""
 
 import numpy as np
-from live_scenes import live, move, pull, through
+from live_scenes import through
 from refined import control_arrays, core_run
-from scenes import add, faces_at_edges, fair, positions, recompute, weights
+from scenes import add, faces_at_edges, fair, positions, weights
 
 from addon.transfer.mirror import find_mirrors
 
@@ -55,31 +55,6 @@ def test_uv_maps_groups_and_shape_keys_come_along():
     spine = weights(target, "Spine")
     assert {spine[v] for e in target.data.edges if e.use_edge_sharp for v in e.vertices} == {1.0}
     assert np.isnan(spine[3:12]).any()
-
-
-def test_recompute_and_live_follow():
-    source = book()
-    target = fair(levels=2)
-    move(source, 1, 0.25)
-    recompute(target)
-    assert through(target, source)
-    live(target)
-    before = positions(target.data)
-    pull(source, 1, 0.1)
-    after = positions(target.data)
-    assert after.shape == before.shape and not np.array_equal(after, before)
-    assert np.array_equal(after[:12], positions(source.data))
-
-
-def test_a_region_of_one_page():
-    source = book()
-    for polygon in source.data.polygons:
-        polygon.select = polygon.index < 2
-    target = fair(levels=2, use_selection=True)
-    spine = [v for e in target.data.edges if e.use_edge_sharp for v in e.vertices]
-    y, z = positions(target.data)[np.unique(spine), 1:].T
-    assert len(y) == 9
-    assert np.allclose(y, 0.3 * (1 - np.abs(z - 1)))  # straight, as the other pages want it
 
 
 def test_exact_symmetry():

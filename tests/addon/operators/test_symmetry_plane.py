@@ -4,7 +4,7 @@
 import bpy
 import numpy as np
 import pytest
-from polygons import grid
+from lattices import lattice_faces
 from scenes import add, again, faces_at_edges, positions, recompute
 
 from addon.live import pace, registry
@@ -18,7 +18,7 @@ def half_bowl():
     x, y = np.cos(heights) * np.cos(angles), 2 * np.cos(heights) * np.sin(angles)
     points = np.stack([x, y, np.sin(heights)], axis=-1).reshape(-1, 3)
     points[:4, 0] = points[-4:, 0] = 0.0
-    return add("Bowl", points.tolist(), grid(7, 4).tolist())
+    return add("Bowl", points.tolist(), lattice_faces(7, 4).tolist())
 
 
 @pytest.mark.parametrize("scale", [(1, 1, 1), (2, 0.5, 1)])
@@ -77,7 +77,7 @@ def half_boat():
     breadth = np.sqrt(stations / 6) * (0.15 + 0.85 * levels)
     breadth[0] = breadth[:, 0] = 0.0
     points = np.stack([stations, breadth, levels + 0.02 * (6 - stations)], axis=-1)
-    return add("Boat", points.reshape(-1, 3).tolist(), grid(7, 4).tolist())
+    return add("Boat", points.reshape(-1, 3).tolist(), lattice_faces(7, 4).tolist())
 
 
 def seam(target, axis):
@@ -115,4 +115,7 @@ def test_a_seam_that_was_faired_across_is_not_sharp_and_none_that_is_tangent():
     assert seam(again(half_bowl(), levels=3, symmetry_plane="X"), 0) == (0, 48)
     x, y = np.meshgrid(np.linspace(0, 1, 5), np.linspace(-1, 1, 5), indexing="ij")
     points = np.stack([x, y, 0.3 * (x**2 + y**2)], axis=-1).reshape(-1, 3)
-    assert seam(again(add("Dish", points.tolist(), grid(5, 5).tolist()), levels=3), 0) == (0, 32)
+    assert seam(again(add("Dish", points.tolist(), lattice_faces(5, 5).tolist()), levels=3), 0) == (
+        0,
+        32,
+    )

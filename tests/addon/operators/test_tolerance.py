@@ -7,15 +7,7 @@ import bpy
 import numpy as np
 import pytest
 from live_scenes import follow, live, pull, session, whole
-from scenes import (
-    CUBE,
-    add,
-    add_attribute,
-    add_group,
-    fair,
-    moved,
-    positions,
-)
+from scenes import CUBE, add, add_attribute, add_group, fair, moved, positions
 
 from addon import vertex_values
 from addon.errors import JobError

@@ -8,15 +8,7 @@ import discrete_fairing
 import numpy as np
 import pytest
 from dunes import OFF, WRONG, add_dune, dune
-from scenes import (
-    activate,
-    fair,
-    positions,
-    recompute,
-    refused,
-    shown,
-    snapshot,
-)
+from scenes import activate, fair, positions, recompute, refused, shown, snapshot
 
 from addon.mesh.shape_keys import EASED
 
@@ -79,14 +71,6 @@ def test_again_it_is_the_same_key_of_the_same_mesh(core):
     assert list(source.data.shape_keys.key_blocks.keys()) == ["Basis", EASED]
     assert np.allclose(core["vertices"], dune(), atol=1e-6), "of the mesh, not of what was eased"
     assert (key(source) - dune())[WRONG, 2] == pytest.approx(-0.02, abs=1e-5)
-
-
-def test_or_it_goes_on_from_there(core):
-    source = add_dune()
-    eased(amount="TOLERANCE", tolerance=0.02)
-    eased(amount="TOLERANCE", tolerance=0.03, go_on=True)
-    assert (core["vertices"] - dune())[WRONG, 2] == pytest.approx(-0.02, abs=1e-5)
-    assert (key(source) - dune())[WRONG, 2] == pytest.approx(-0.05, abs=1e-5)
 
 
 def test_other_shape_keys_stay(core):

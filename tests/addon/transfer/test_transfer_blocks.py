@@ -3,7 +3,8 @@
 
 import numpy as np
 import pytest
-from polygons import grid, polygons
+from lattices import lattice_faces
+from polygons import polygons
 
 from addon import measured
 from addon.core import module
@@ -17,7 +18,7 @@ def sheet(count, noise=0.0):
     at = np.linspace(-1, 1, count + 1)
     x, y = (values.ravel() for values in np.meshgrid(at, at, indexing="ij"))
     z = 0.3 * np.cos(x) * np.cos(y) + noise * np.random.default_rng(0).standard_normal(len(x))
-    return polygons(np.stack([x, y, z], axis=1), grid(count + 1, count + 1))
+    return polygons(np.stack([x, y, z], axis=1), lattice_faces(count + 1, count + 1))
 
 
 @pytest.mark.parametrize("weight", [0.1, 0.003])

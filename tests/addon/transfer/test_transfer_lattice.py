@@ -4,9 +4,10 @@
 import discrete_fairing as df
 import numpy as np
 import pytest
+from lattices import lattice_faces
 
 from addon.mesh.write import write_mesh
-from addon.transfer.lattice import edge_table, fine_edges, make_cells
+from addon.transfer.lattice import edge_table, fine_edges
 
 # two levels of a triangle: rows of 4, 3, 2, 1 upward cells, vertices numbered row by row
 TRIANGLE_ROWS = ((0, 1, 2, 3, 4), (5, 6, 7, 8), (9, 10, 11), (12, 13), (14,))
@@ -23,9 +24,7 @@ def triangle_cells():
 
 
 def quad_cells():
-    ids = np.arange(25).reshape(5, 5)
-    corners = ids[:-1, :-1], ids[:-1, 1:], ids[1:, 1:], ids[1:, :-1]
-    return np.stack([c.ravel() for c in corners], axis=1).astype(np.int32)
+    return lattice_faces(5, 5)[:, [0, 3, 2, 1]].astype(np.int32)
 
 
 NO_TRIANGLES, NO_QUADS = np.empty((0, 3), np.int32), np.empty((0, 4), np.int32)
@@ -48,32 +47,6 @@ def test_sides(faces, run):
     for given in ((run[0], run[-1]), (run[-1], run[0])):
         assert [tuple(e) for e in fine_edges(faces, [given], 2)] == expected
     assert fine_edges(faces, np.empty((0, 2), np.int32), 2).shape == (0, 2)
-
-
-TRIANGLE_POINTS = [(i, j) for j, row in enumerate(TRIANGLE_ROWS) for i in range(len(row))]
-QUAD_POINTS = [(i, j) for j in range(5) for i in range(5)]
-
-
-@pytest.mark.parametrize(
-    "corners, cells, points",
-    [(3, triangle_cells(), TRIANGLE_POINTS), (4, quad_cells(), QUAD_POINTS)],
-)
-def test_points_and_cells(corners, cells, points):
-    made = make_cells(corners, 2)
-    assert [tuple(p) for p in made.points] == points
-    assert np.array_equal(made.corner_point, cells.ravel())
-    assert np.array_equal(made.corner_point[made.first_corner], np.arange(len(points)))
-
-
-@pytest.mark.parametrize(
-    "corners, places", [(3, [(0, 0), (4, 0), (0, 4)]), (4, [(0, 0), (4, 0), (4, 4), (0, 4)])]
-)
-def test_weights_give_the_points_back(corners, places):
-    made = make_cells(corners, 2)
-    assert np.array_equal(made.weights @ np.array(places), made.points)
-    assert (made.weights.sum(axis=1) == 1).all()
-    made = make_cells(corners, 0)
-    assert np.array_equal(made.weights[made.corner_point], np.eye(corners))
 
 
 @pytest.mark.parametrize("levels", [0, 2])

@@ -3,6 +3,7 @@
 
 import numpy as np
 import pytest
+from lattices import lattice_faces
 
 from addon.yard.hydrostatics import NotClosed, hydrostatics, open_edges, solid
 
@@ -14,9 +15,8 @@ LENGTH, BEAM, DRAUGHT = 10.0, 1.0, 0.625  # of Wigley's hull
 def sheet(place, along, up):
     """Triangles over a grid of `place(u, v)`, u and v from 0 to 1."""
     u, v = np.meshgrid(np.linspace(0, 1, along + 1), np.linspace(0, 1, up + 1), indexing="ij")
-    at = np.arange(u.size).reshape(u.shape)
-    a, b, c, d = (x.ravel() for x in (at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]))
-    triangles = np.concatenate([np.stack([a, c, b], 1), np.stack([a, d, c], 1)])
+    quads = lattice_faces(*u.shape)
+    triangles = np.concatenate([quads[:, [0, 2, 1]], quads[:, [0, 3, 2]]])
     return np.stack(place(u.ravel(), v.ravel()), axis=1), triangles
 
 
