@@ -5,9 +5,8 @@ import bpy
 
 
 class Layout:
-    """Stands for bpy.types.UILayout: remembers labels and properties, refuses properties and
-    operators that do not exist.
-    """
+    """Stands for bpy.types.UILayout: remembers labels and properties, refuses properties and operators that do not
+    exist."""
 
     def __init__(self, log=None):
         self.log = log if log is not None else []
@@ -56,9 +55,7 @@ class Layout:
 
 
 def draw(cls, context=None):
-    """What a panel class draws in the present context, or another, as a list of labels, properties and
-    operators.
-    """
+    """What a panel class draws in the present context, or another, as a list of labels, properties and operators."""
 
     class Instance:
         layout = Layout()

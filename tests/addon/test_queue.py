@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The thread that computes: order, progress, cancel, failure.
 
-(The window's side is tested in a real window.)
-"""
+(The window's side is tested in a real window.)"""
 
 import os
 import sys

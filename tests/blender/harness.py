@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the scripts in this folder share: they run inside a real Blender, which knows no test framework.
 
-A script ends with `harness.run(globals())`, or `harness.run_in_window(globals())`. Every function named `test_…`
-is run in a fresh scene; `PASS name`, or `FAIL name`, with its seconds is printed for it and `RAN n` at the end, which
-build_tools/blender_suite.py counts. In a window a test may be a generator: at each `yield SECONDS` the window
-gets that time to draw and to take events.
-"""
+A script ends with `harness.run(globals())`, or `harness.run_in_window(globals())`. Every function named `test_…` is
+run in a fresh scene; `PASS name`, or `FAIL name`, with its seconds is printed for it and `RAN n` at the end, which
+build_tools/blender_suite.py counts. In a window a test may be a generator: at each `yield SECONDS` the window gets
+that time to draw and to take events."""
 
 import contextlib
 import importlib
@@ -110,8 +109,7 @@ def run_in_window(namespace):
 def drawn():
     """Until the viewport has been drawn, of which operators that turn it ask sizes and matrices; a generator.
 
-    At first there is no window: it opens after the scripts have been read.
-    """
+    At first there is no window: it opens after the scripts have been read."""
     begun, seen = perf_counter(), []
     add = bpy.types.SpaceView3D.draw_handler_add
     handle = add(lambda: seen.append(True), (), "WINDOW", "POST_PIXEL")
@@ -223,8 +221,7 @@ def show_the_end_of_the_sidebar():
 def photograph(name):
     """Saves a picture of the whole screen, as X shows it, among the screenshots; returns its path.
 
-    Blender's own operator for screenshots gives a black picture here.
-    """
+    Blender's own operator for screenshots gives a black picture here."""
     path = Path(os.environ["DF_SCREENSHOTS"]) / f"{name}.png"
     subprocess.run(["import", "-window", "root", path], check=True, timeout=60)
     return path
@@ -268,9 +265,8 @@ def sidebar():
 
 
 def button_at(region, x, y):
-    """The call in Python of the button under the mouse, once that is at a place on the screen; a
-    generator. Blender says of a button what it would copy.
-    """
+    """The call in Python of the button under the mouse, once that is at a place on the screen; a generator. Blender
+    says of a button what it would copy."""
     manager = bpy.context.window_manager
     xdotool("mousemove", x, y)
     yield 0.1
@@ -284,9 +280,8 @@ def button_at(region, x, y):
 
 def find_button(region, call, share, below):
     """Where on the screen the button is whose call begins with `call`, as "bpy.ops.object.fairing_for(
-    purpose='HULL'"; a generator. It is looked for up and down from `below`, in pixels from the top of
-    the region, at a `share` of its width.
-    """
+    purpose='HULL'"; a generator. It is looked for up and down from `below`, in pixels from the top of the region,
+    at a `share` of its width."""
     top, x = (
         view()["window"].height - (region.y + region.height),
         int(region.x + share * region.width),
@@ -328,9 +323,8 @@ def line_of(region, number):
 
 
 def unfold():
-    """Opens Adjust Last Operation, where it is closed, by a click on its title; a generator.
-    A busy machine may lose the click, or open the panel late: no second click before that is sure.
-    """
+    """Opens Adjust Last Operation, where it is closed, by a click on its title; a generator. A busy machine may
+    lose the click, or open the panel late: no second click before that is sure."""
     assert redo_panel().width > 50, "Adjust Last Operation is not shown"
     for _ in range(5):
         if redo_panel().height >= 60:
@@ -346,9 +340,8 @@ def unfold():
 
 
 def raise_levels(surface):
-    """Ctrl and the wheel over Levels in Adjust Last Operation, until what `surface()` finds has one
-    more; a generator. A busy machine takes its time to notice where the mouse is.
-    """
+    """Ctrl and the wheel over Levels in Adjust Last Operation, until what `surface()` finds has one more; a
+    generator. A busy machine takes its time to notice where the mouse is."""
     before = surface().discrete_fairing.levels
     yield from unfold()
     for way in range(10):

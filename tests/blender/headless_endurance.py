@@ -39,10 +39,9 @@ class Heap(ctypes.Structure):
 
 
 def bytes_in_use():
-    """Bytes allocated and not freed, exact where the C library's allocator serves the process
-    (`counting_allocator` in build_tools/blender_suite.py). Resident memory would not do: what
-    allocators keep in reserve comes and goes by megabytes.
-    """
+    """Bytes allocated and not freed, exact where the C library's allocator serves the process (`counting_allocator`
+    in build_tools/blender_suite.py). Resident memory would not do: what allocators keep in reserve comes and goes
+    by megabytes."""
     mallinfo2 = ctypes.CDLL("libc.so.6").mallinfo2
     mallinfo2.restype = Heap
     heap = mallinfo2()
@@ -72,9 +71,8 @@ def once(source, **settings):
 
 
 def level_of(run):
-    """Mostly 1: what a run leaves behind does not depend on its size, and memory is compared after each. Level 2 has
-    another level between the coarsest and the finest.
-    """
+    """Mostly 1: what a run leaves behind does not depend on its size, and memory is compared after each. Level 2
+    has another level between the coarsest and the finest."""
     return 2 if run % 9 == 0 else 1
 
 

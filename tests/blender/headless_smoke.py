@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The installed extension without a window.
 
-The modules of the project are not on the path here, only what the extension's zip brought.
-"""
+The modules of the project are not on the path here, only what the extension's zip brought."""
 
 import importlib
 import sys

@@ -2,8 +2,7 @@
 """The window during a run of a million triangles: how long events wait, what still works in it, how a run is ended.
 
 Here the window is drawn by the processor, which others may be using too. So the same drawing is timed beforehand
-without a run, and the run is granted that besides.
-"""
+without a run, and the run is granted that besides."""
 
 import contextlib
 import sys
@@ -60,8 +59,7 @@ def open_window():
 
 def draw_as_in_a_run():
     """The view once, as after any operator, then sidebar and status bar five times a second; a generator of three
-    seconds.
-    """
+    seconds."""
     harness.view()["area"].tag_redraw()
     for step in range(15):
         bpy.context.workspace.status_text_set(f"Step {step}")

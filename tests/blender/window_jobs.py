@@ -55,9 +55,7 @@ def selected(name):
 
 
 def one_click(name):
-    """A generator that returns the model and what is active afterwards, in stripes; the rivals stand
-    beside.
-    """
+    """A generator that returns the model and what is active afterwards, in stripes; the rivals stand beside."""
     model = yield from selected(name)
     clicks = harness.Clicks()
     yield from clicks.press(name_of_call(name), *PLACES[name])

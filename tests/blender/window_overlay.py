@@ -79,9 +79,8 @@ def test_stripes_and_back():
 
 
 def striped(name, least, last=0):
-    """The picture, once it is another than the `last` one and lines across it change so often: shaders take
-    their time to compile. A generator.
-    """
+    """The picture, once it is another than the `last` one and lines across it change so often: shaders take their
+    time to compile. A generator."""
 
     def there(_path):
         picture = pixels(name)

@@ -28,9 +28,8 @@ def pixels(path):
 
 
 def sidebar_at_rest(name):
-    """A picture of the sidebar, as `pixels`, that another one equals: panels read their pictures beside drawing.
-    A generator.
-    """
+    """A picture of the sidebar, as `pixels`, that another one equals: panels read their pictures beside drawing. A
+    generator."""
     sidebar = harness.sidebar()
     begun, last = perf_counter(), None
     while True:

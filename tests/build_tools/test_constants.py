@@ -1,14 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The core's tuning constants: how many there are, that none stands twice, and that they are
-explained.
+"""The core's tuning constants: how many there are, that none stands twice, and that they are explained.
 
-A tuning constant is a number that somebody chose: a threshold, a gain, a tolerance, a limit. Counted
-are `constexpr` numbers, each name of a list by itself, and numbers that stand bare in the code where
-neither arithmetic nor geometry gives them: fractions other than eighths, and whole numbers from ten
-on that something is compared with. Settings have pages of their own, and are left out; so are FACTS
-and numbers of ten digits, which are coefficients. Reads the text of native/ only, so nothing has to
-be built.
-"""
+A tuning constant is a number that somebody chose: a threshold, a gain, a tolerance, a limit. Counted are
+`constexpr` numbers, each name of a list by itself, and numbers that stand bare in the code where neither arithmetic
+nor geometry gives them: fractions other than eighths, and whole numbers from ten on that something is compared
+with. Settings have pages of their own, and are left out; so are FACTS and numbers of ten digits, which are
+coefficients. Reads the text of native/ only, so nothing has to be built."""
 
 import re
 from collections import Counter

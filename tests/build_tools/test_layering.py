@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The rooms of the core stand in one order: a file includes its own room and those before it.
 
-import-linter does the same for Python (pyproject.toml).
-"""
+import-linter does the same for Python (pyproject.toml)."""
 
 import re
 from pathlib import Path

@@ -1,10 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Random calls of fair() and of the writers until time is up: python3 build_tools/dev.py fuzz --minutes N.
 
-Each runs in a child process, which leaves the case in a file before it starts: one that kills the
-process is not lost. What fails is shrunk and kept as JSON under out/fuzz/; put it into
-tests/fuzz/corpus/ with the mending.
-"""
+Each runs in a child process, which leaves the case in a file before it starts: one that kills the process is not
+lost. What fails is shrunk and kept as JSON under out/fuzz/; put it into tests/fuzz/corpus/ with the mending."""
 
 import argparse
 import collections

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Boxes with bevelled edges, as every modeller draws them: long faces beside edges of a hundredth
-of their length. A surface through them is not to swell."""
+"""Boxes with bevelled edges, as modellers draw them: long faces beside edges a hundred times shorter. A surface
+through their vertices must not swell."""
 
 from itertools import product
 
@@ -23,13 +23,13 @@ PROPORTIONS = (
     (1, 0.1, 0.02),
     (1, 0.05, 0.05),
 )
-# Widths of the bevel along the faces, of the shortest side; from a half on nothing is left of it.
+# Widths of the bevel along the faces, as shares of the shortest side; a half leaves nothing of it.
 BEVELS = (0.002, 0.005, 0.01, 0.02, 0.035, 0.05, 0.075, 0.1, 0.15, 0.2, 0.43)
 
 
 def bevelled_box(sides, bevel: float):
-    """Vertices (24, 3) and 26 faces as lists: a quad on each side and along each edge, a triangle
-    at each corner. `bevel`: how far the faces on the sides end before the box's edges."""
+    """Vertices (24, 3) and 26 faces as lists: a quad on each side and along each edge, a triangle at each corner.
+    `bevel`: the distance from the end of a side's face to the box's edge."""
     half = np.asarray(sides, float) / 2
     if not 0 < bevel < half.min():
         raise ValueError("The bevel has to leave something of every side.")
@@ -68,7 +68,7 @@ def outwards(points: np.ndarray, face: list[int]) -> list[int]:
 
 
 def family() -> dict[str, tuple[tuple[float, float, float], float]]:
-    """By name: sides and bevel of the 154 boxes."""
+    """The 154 boxes: {name: (sides, bevel)}."""
     return {
         f"{' x '.join(f'{side:g}' for side in sides)}, {share:g}": (sides, share * min(sides))
         for sides in PROPORTIONS

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One step of Catmull-Clark subdivision with semi-sharp creases, written down as the papers have it
-[Catmull, Clark 1978; DeRose, Kass, Truong 1998], vertex by vertex: what limit positions are judged by.
-"""
+"""One step of Catmull-Clark subdivision with semi-sharp creases, written down as the papers have it [Catmull, Clark
+1978; DeRose, Kass, Truong 1998], vertex by vertex: what limit positions are judged by."""
 
 from collections import defaultdict
 
@@ -11,8 +10,7 @@ import numpy as np
 def subdivide(vertices, faces, sharp_edges=(), sharp_vertices=()):
     """(vertices, faces, sharp_edges, sharp_vertices) after one step; the old vertices come first.
 
-    `sharp_edges`: {(a, b): sharpness} with a < b, infinity for ever; `sharp_vertices`: {v: sharpness}.
-    """
+    `sharp_edges`: {(a, b): sharpness} with a < b, infinity for ever; `sharp_vertices`: {v: sharpness}."""
     vertices = np.asarray(vertices, float)
     sharp, corner = dict(sharp_edges), dict(sharp_vertices)
     beside = defaultdict(list)  # edge: faces

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Small control meshes that the project makes itself: each a pair (vertices (n, 3), faces (m, 3 |
-4) or a list)."""
+"""Small control meshes that the project makes itself: each a pair (vertices (n, 3), faces (m, 3 | 4) or a list)."""
 
 import numpy as np
 from lattices import lattice_faces
@@ -8,8 +7,7 @@ from scipy.spatial import ConvexHull
 
 
 def hull(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The convex hull of points that all lie on it, its triangles counter-clockwise from
-    outside."""
+    """The convex hull of points that all lie on it, its triangles counter-clockwise from outside."""
     faces = ConvexHull(points).simplices.astype(int)
     corner = points[faces]
     normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
@@ -149,8 +147,7 @@ def dodecahedron():
 
 
 def mixed_house():
-    """Five quads, a pentagon wall either side, a roof of quad and triangles: every size of face,
-    closed."""
+    """Five quads, a pentagon wall either side, a roof of quad and triangles: every size of face, closed."""
     points = [[x, y, z] for z in (0, 1) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
     points += [[0, -1, 1.7], [0, 1, 1.7]]
     faces = [[3, 2, 1, 0], [0, 1, 5, 8, 4], [2, 3, 7, 9, 6], [1, 2, 6, 5], [3, 0, 4, 7]]
@@ -198,8 +195,7 @@ def refine_quads(points, quads):
 
 
 def drum(count: int = 8):
-    """A closed can whose rim is a crease loop: (mesh, loop (k, 2), vertices above, vertices
-    below)."""
+    """A closed can whose rim is a crease loop: (mesh, loop (k, 2), vertices above, vertices below)."""
     angle = 2 * np.pi * np.arange(count) / count
     ring = np.stack([np.cos(angle), np.sin(angle), np.zeros(count)], -1)
     rings = np.concatenate(
@@ -227,9 +223,7 @@ def drum(count: int = 8):
 def creature(seed: int = 5):
     """An irregular closed mesh of quads and triangles, mirror-symmetric in x to the last bit.
 
-    A box of quads, its points moved about at random but alike on both sides, with a few quads of
-    either side cut.
-    """
+    A box of quads, its points moved about at random but alike on both sides, with a few quads of either side cut."""
     points, quads = cube()
     for _ in range(2):
         points, quads = refine_quads(points, quads)

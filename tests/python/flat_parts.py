@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Parts with large flat faces between tight rims: (vertices (n, 3), faces, flat faces, side faces). `flat`: ids of
-the faces that are meant flat; `sides`: of those that are meant on a cylinder about z. Lengths in millimetres."""
+"""Parts with large flat faces between tight rims: (vertices (n, 3), faces, flat faces, side faces). Flat faces lie
+in planes, side faces on a cylinder about z; both are ids. Lengths in millimetres."""
 
 import numpy as np
 

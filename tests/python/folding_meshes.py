@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Control meshes without a fold on which the thin plate alone makes some: each a pair (vertices
-(n, 3), faces)."""
+"""Control meshes without a fold on which the thin plate alone makes some: each a pair (vertices (n, 3), faces)."""
 
 import numpy as np
 from lattices import lattice_faces
@@ -70,8 +69,7 @@ def rounded_box(around: int = 16, apart: float = 4.0):
 
 
 def chamfered_drum(around: int = 32, height: float = 4.0, bevel: float = 0.12):
-    """A cylinder of radius 1 with chamfers of 45°, single faces for its walls, caps fanned from a
-    rim."""
+    """A cylinder of radius 1 with chamfers of 45°, single faces for its walls, caps fanned from a rim."""
     angle = 2 * np.pi * np.arange(around) / around
     points = [
         np.c_[radius * np.cos(angle), radius * np.sin(angle), np.full(around, z)]
@@ -85,8 +83,7 @@ def chamfered_drum(around: int = 32, height: float = 4.0, bevel: float = 0.12):
 
 
 def octahedron_with_a_hanging_vertex():
-    """One side has a vertex that the face beside it does not have: a border loop of three vertices in a
-    line."""
+    """One side has a vertex that the face beside it does not have: a border loop of three vertices in a line."""
     points = np.concatenate([np.eye(3), -np.eye(3), [[0.5, 0.5, 0.0]]])
     faces = [[0, 6, 2], [6, 1, 2], [1, 3, 2], [3, 4, 2], [4, 0, 2]]
     return points, [*faces, [1, 0, 5], [3, 1, 5], [4, 3, 5], [0, 4, 5]]

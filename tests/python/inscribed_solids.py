@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Control meshes whose vertices lie on the unit sphere, in numbers or as they come from a hull: for
-total curvature their surface is known, the sphere."""
+"""Control meshes with all vertices on the unit sphere, written as numbers or made as hulls. Their surface of least
+total curvature is the sphere."""
 
 import control_meshes as meshes
 import numpy as np
@@ -13,8 +13,8 @@ def pyramid():
 
 
 def cube(cut: int = 0):
-    """As quads (0), cut along diagonals that follow each other (1), or into a tetrahedron's six
-    edges (2)."""
+    """A cube of quads (0), or of triangles: by diagonals that follow each other (1), by the six edges of a
+    tetrahedron (2)."""
     points, quads = meshes.cube()
     if cut == 2:
         even = (points > 0).sum(1) % 2 == 0

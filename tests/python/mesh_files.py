@@ -1,9 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Polygons out of OBJ, PLY, STL and OFF files, as they are stored; ValueError for files that cannot
-be read.
-
-STL triangles share the vertices that agree to the last bit; nothing else is merged.
-"""
+"""Reads polygons from OBJ, PLY, STL and OFF files as they are stored; ValueError for files that cannot be read.
+Triangles of STL share the vertices that agree to the last bit; other files are not merged."""
 
 import struct
 from pathlib import Path
@@ -123,8 +120,8 @@ def read_off(path: Path) -> tuple[np.ndarray, list[list[int]]]:
 def weld(
     vertices: np.ndarray, faces: list[list[int]], digits: int
 ) -> tuple[np.ndarray, list[list[int]]]:
-    """Merges vertices that agree to so many digits; where that makes sheets touch in a vertex, each
-    has its own."""
+    """Merges vertices that agree to so many digits; where sheets would then touch in a vertex, each gets a vertex
+    of its own."""
     points, number = np.unique(vertices.round(digits), axis=0, return_inverse=True)
     faces = [number.reshape(-1)[face].tolist() for face in faces]
     points = list(points)

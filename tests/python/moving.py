@@ -13,12 +13,12 @@ def sample(name):
 
 
 def moved(points, size=0.05, seed=1):
-    """Each vertex elsewhere, at random."""
+    """The vertices, each moved at random."""
     return points + size * np.random.default_rng(seed).normal(size=points.shape)
 
 
 def icosphere(subdivisions):
-    """A sphere's triangles, so that its surface of least total curvature is known."""
+    """Triangles of a sphere, which is their surface of least total curvature."""
     points, faces = meshes.icosahedron()
     for _ in range(subdivisions):
         points, faces = meshes.refine_triangles(points, faces)

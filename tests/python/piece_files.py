@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a worker of a cluster does with a piece: in a module of its own, so that it can be imported
-there.
-"""
+"""What a worker of a cluster does with a piece, in a module that the worker can import."""
 
 import os
 import signal
@@ -11,8 +9,8 @@ import discrete_fairing as df
 
 
 def fair_file(path: Path, dies_once: Path | None = None) -> Path:
-    """Reads a piece, writes its part and returns the file's name; with a file `dies_once`, which it
-    takes away, its process is killed."""
+    """Reads a piece, writes its part and returns the file's name. If the file `dies_once` exists, it deletes that
+    file and kills its own process."""
     if dies_once is not None and dies_once.exists():
         dies_once.unlink()
         os.kill(os.getpid(), signal.SIGKILL)

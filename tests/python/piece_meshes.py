@@ -15,7 +15,7 @@ def torus(around=24, across=12, noise=0.0, triangles=False):
 
 
 def sheet(rows=16, columns=14, stretched=False):
-    """With a border; `stretched`: with columns that become wider from left to right."""
+    """A sheet with a border; with `stretched`, its columns become wider from left to right."""
     x, y = np.meshgrid(np.arange(rows) / 4.0, np.arange(columns) / 4.0, indexing="ij")
     height = 0.3 * np.sin(2 * x) * np.cos(3 * y)
     if stretched:
@@ -42,7 +42,7 @@ def hexagons(around=24, across=12):
 
 
 def with_defects():
-    """A face twice, one turned over, a seam of vertices that are there twice, and one far away."""
+    """A mesh with a duplicate face, a flipped face, a seam of duplicate vertices and a vertex far away."""
     points, faces = torus()
     faces = np.concatenate([faces, faces[5:6]])
     faces[40] = faces[40, ::-1]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Triangle meshes of known surfaces, and holes such as scans have: faces that hang together, taken away at random."""
+"""Triangle meshes of known surfaces, and holes like those of scans: connected faces, taken away at random."""
 
 import discrete_fairing as df
 import numpy as np
@@ -7,7 +7,7 @@ from lattices import lattice_faces
 
 
 def largest_piece(faces):
-    """(m,) bool: faces of the largest piece that hangs together by edges."""
+    """(m,) bool: the faces of the largest part that edges connect."""
     owner = {}
     label = np.arange(len(faces))
 
@@ -26,9 +26,8 @@ def largest_piece(faces):
 
 
 def ragged(faces, size, rng, wander=0.0):
-    """(m,) bool: some `size` faces that hang together, and what they cut off. `wander`: how often the
-    newest face goes on, not any.
-    """
+    """(m,) bool: about `size` connected faces, and those that they cut off. `wander`: how often the next face is a
+    neighbour of the newest face, not of any."""
     around = {}
     for k, t in enumerate(faces.tolist()):
         for v in t:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How tests read errors."""
+"""The error of a call that is refused."""
 
 import discrete_fairing as df
 import pytest

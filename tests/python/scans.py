@@ -61,7 +61,7 @@ def cube_sphere(pieces: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 def blob_cage(pieces: int = 6, off: float = 0.0, seed: int = 0) -> tuple[np.ndarray, np.ndarray]:
-    """A cage of 6 pieces² quads on the blob, its vertices `off` it by so much along its normals."""
+    """A cage of 6 pieces² quads, its vertices `off` the blob along its normals."""
     sphere, quads = cube_sphere(pieces)
     points = on_blob(sphere * [1.9, 1.2, 1.1])
     random = np.random.default_rng(seed)

@@ -44,8 +44,7 @@ def read_obj(path: Path) -> tuple[np.ndarray, list[list[int]]]:
 
 
 def creases_of(path: Path, sharper_than: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
-    """Crease edges (k, 2) and corner vertices (c,) of the list beside a mesh; both empty without
-    one."""
+    """Crease edges (k, 2) and corner vertices (c,) of the list beside a mesh; both empty without one."""
     listed = path.with_name(path.stem + ".creases.json")
     found = json.loads(listed.read_text()) if listed.is_file() else {}
     edges = [edge[:2] for edge in found.get("edges", []) if edge[2] > sharper_than]

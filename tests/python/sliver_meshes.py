@@ -55,9 +55,8 @@ def stretched_sheet(count: int = 400, stretch: float = 100.0, seed: int = 1, she
 
 
 def uneven_drum(counts=(8, 11), seed=17, rings=3, rim=0.3, height=2.0):
-    """Two rims of so many vertices at unrelated angles, joined by long triangles; each end goes over a
-    rounded rim into a flat cap.
-    """
+    """Two rims of so many vertices at unrelated angles, joined by long triangles; each end goes over a rounded rim
+    into a flat cap."""
     rng = np.random.default_rng(seed)
     points, faces, rims = [], [], []
     angles = [np.sort(rng.uniform(0, 2 * np.pi, n)) for n in counts]

@@ -54,9 +54,8 @@ def side_curve(patches, p: int, side: int, t: np.ndarray) -> np.ndarray:
 
 
 def lattice_volume(result, levels: int) -> float:
-    """Inside the smooth surface that a refined mesh's points lie on: extrapolated from the volumes
-    within all points, every second and every fourth one each way, whose errors are powers of 4.
-    """
+    """The volume inside the smooth surface through a refined mesh's points, extrapolated from the volumes inside
+    all points, every second and every fourth one: their errors are powers of 4."""
     fine, middle, coarse = (
         sum(_grid_volume(result.vertices, grid, step) for grid in _grids(result, levels))
         for step in (1, 2, 4)
@@ -66,9 +65,8 @@ def lattice_volume(result, levels: int) -> float:
 
 
 def _grids(result, levels: int):
-    """(corners, (F, n + 1, n + 1) point ids by row and column) of triangles and of quads; -1 beyond
-    a triangle's long side.
-    """
+    """(corners, (F, n + 1, n + 1) point ids by row and column) of triangles and of quads; -1 beyond a triangle's
+    long side."""
     n = 2**levels
     for corners, faces in zip((3, 4), result.faces):
         cells = faces.reshape(-1, n * n, corners)

@@ -19,9 +19,7 @@ ABSENT = "Open CASCADE is missing: pip install cadquery-ocp-novtk, as build_tool
 
 @dataclass(frozen=True)
 class ReadFile:
-    """What Open CASCADE found, measured where somebody asks; lengths in millimetres, which it
-    converts all units to.
-    """
+    """What Open CASCADE has read, measured on demand; lengths in millimetres, to which it converts all units."""
 
     shape: Any
 
@@ -120,7 +118,7 @@ def read(path: Path | str) -> ReadFile:
 
 
 def parts(shape: Any, kind: Any) -> Iterator[Any]:
-    """What of that kind a shape has."""
+    """The parts of a shape that are of one kind."""
     from OCP.TopExp import TopExp_Explorer
 
     explorer = TopExp_Explorer(shape, kind)

@@ -10,9 +10,8 @@ STEPS = 8  # of an edge, between two samples
 
 
 def gap_and_borders(path: Path) -> tuple[float, np.ndarray]:
-    """The farthest that an edge is from the rim of a face at it, and (f, 3) the middles of the edges
-    with one face only; in the file's unit times its millimetres.
-    """
+    """The farthest that an edge is from the rim of a face at it, and (f, 3) the middles of the edges with one face
+    only; in the file's unit times its millimetres."""
     from OCP.BRepAdaptor import BRepAdaptor_Curve, BRepAdaptor_Surface
     from OCP.collections import IndexedMap_TopoDS_Shape_TopTools_ShapeMapHasher as ShapeMap
     from OCP.TopExp import TopExp
@@ -36,9 +35,7 @@ def gap_and_borders(path: Path) -> tuple[float, np.ndarray]:
 
 
 def names_and_colours(path: Path) -> list[tuple[str, list[tuple[float, ...]]]]:
-    """Of each part its name, and what its solid and its faces are coloured with, red, green and blue
-    as the file has them.
-    """
+    """For each part its name and the colours of its solid and its faces: red, green and blue as the file has them."""
     from OCP.collections import Sequence_TDF_Label
     from OCP.TDataStd import TDataStd_Name
     from OCP.XCAFDoc import XCAFDoc_DocumentTool

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How fair is a triangle mesh, whoever made it? Plain NumPy, and nothing of the core's."""
+"""Measures of triangle meshes in plain NumPy, without the core."""
 
 import numpy as np
 
@@ -13,8 +13,7 @@ def rows_cross(a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 def total_curvature(points: np.ndarray, triangles: np.ndarray) -> float:
     """∫ κ₁² + κ₂² = ∫ 4 H² − 2 K: cotangent Laplacian and angle defect, boundaries left out.
 
-    H is measured over mixed Voronoi areas [Meyer, Desbrun, Schröder, Barr 2003], and K needs none.
-    """
+    H is measured over mixed Voronoi areas [Meyer, Desbrun, Schröder, Barr 2003], and K needs none."""
     count = len(points)
     area, defect = np.zeros(count), np.full(count, 2 * np.pi)
     laplacian = np.zeros((count, 3))

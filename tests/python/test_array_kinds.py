@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Arrays of any layout, type and protection just work, give the same result, and are not
-changed."""
+"""Arrays of any layout, type and protection just work, give the same result, and are not changed."""
 
 import control_meshes as meshes
 import discrete_fairing as df
@@ -85,7 +84,7 @@ def test_any_integers(kind):
     "kind", ["float16", "float32", "float64", "longdouble", "int16", "int64", "uint8"]
 )
 def test_any_numbers(kind):
-    """The values as they are: a float32 is no other number as float64."""
+    """A float32 and the same number as float64 give the same surface."""
     points = (8 * (POINTS + 3)).astype(kind)
     assert_same(df.fair(points, FACES, 2), df.fair(points.astype(float), FACES, 2))
 
@@ -107,7 +106,7 @@ def test_polygons_of_any_size_in_any_container():
 
 
 def test_two_triangles_in_a_tuple_are_two_triangles():
-    """And no pair of flat arrays."""
+    """They are no pair of flat arrays."""
     points = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0.2]])
     for faces in (((0, 1, 2), (2, 1, 3)), ((0, 3, 1), (0, 2, 3))):
         assert_same(df.fair(points, faces, 2), df.fair(points, np.array(faces), 2))

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every defect ends in a FairingError with its code and elements; nothing is changed, the process
-lives on."""
+"""Every defect ends in a FairingError with its code and elements; nothing is changed, the process lives on."""
 
 import control_meshes as meshes
 import discrete_fairing as df

@@ -12,7 +12,8 @@ BOXES = list(bevelled_boxes.family().items())[::EVERY]
 
 
 def extents(mesh, levels: int) -> tuple[df.Result, float, float]:
-    """The surface on pads; how far it and that on point forces reach, over the control mesh."""
+    """The surface on pads; the extents of this surface and of the one on point forces, over those of the control
+    mesh."""
     middle = (mesh[0].min(0) + mesh[0].max(0)) / 2
     pads, points = (df.fair(*mesh, levels, pad_size=size, measure=False) for size in (1.0, 0.0))
     own, *reached = (
@@ -23,7 +24,7 @@ def extents(mesh, levels: int) -> tuple[df.Result, float, float]:
 
 
 def test_a_bevel_of_a_fiftieth_does_not_swell():
-    """Pads that reached across each face made this one swell to many times the mesh."""
+    """Pads that reached across each face once made this surface swell to many times the mesh."""
     mesh = bevelled_boxes.bevelled_box((1, 0.2, 0.1), 0.002)
     _, pads, points = extents(mesh, 1)
     assert pads <= SWOLLEN * max(points, 1)

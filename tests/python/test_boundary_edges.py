@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Single boundary edges that are curved, straight or free, whatever the others are."""
+"""Each boundary edge can be curved, straight or free, independent of the others."""
 
 import control_meshes as meshes
 import discrete_fairing as df
@@ -130,7 +130,7 @@ def test_a_one_sided_strip():
 
 
 def test_half_a_mesh():
-    """The seam is no boundary, whatever it is called, and the other half is the image."""
+    """The seam is no boundary under any name, and the other half is the image."""
     points, quads = meshes.grid(4, 4)
     points[:, 2] = 0.3 * np.sin(points[:, 0] + points[:, 1])
     edges = {"linear": [(4, 9), (9, 14)], "free": [(0, 5), (20, 21), (21, 22)]}  # 0-5: on the seam
@@ -154,7 +154,7 @@ def test_mended_meshes():
 
 @pytest.mark.parametrize("kind", ["linear", "free"])
 def test_edges_on_one_side_break_the_symmetry(kind):
-    """Steps keep the symmetry that the mesh has with its edges, no other."""
+    """Steps keep only the symmetry that the mesh has together with its edges."""
     points, quads = meshes.grid(4, 4)
     points -= [2, 2, 0]
     points[:, 2] = 0.2 * np.cos(points[:, 0]) * (1 + points[:, 1]) ** 2

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Files for CAD are whole or not there: after any failure the old one stays, and nothing is left
-beside it."""
+"""Files for CAD are whole or not there: after any failure the old one stays, and nothing is left beside it."""
 
 import errno
 import os
@@ -39,7 +38,7 @@ def only(path):
 
 @contextmanager
 def failing(error, path):
-    """What is inside fails so and names the file; all that was in its folder is there, and nothing else."""
+    """The body fails with this error, which names the file; afterwards the folder holds what it held before."""
 
     def there():
         files = path.parent.glob("*")
@@ -54,9 +53,8 @@ def failing(error, path):
 
 @contextmanager
 def full_disk():
-    """Inside the `with` no file may be longer than this, nor may the log of the tests; Python's own
-    files are buffered, so the last bytes fail at the end.
-    """
+    """In the body no file may grow longer than this, the log of the tests included. Python buffers its files, so
+    the last bytes fail at the end."""
     before = resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (2000, before[1]))
     try:
@@ -74,7 +72,7 @@ def test_a_full_disk_leaves_the_old_file_and_no_part_of_a_new_one(cube, old, nam
 
 
 def test_a_folder_without_permission(cube, old):
-    """For root, too: as somebody who has no rights there."""
+    """Also for root, who takes the identity of a user without rights there."""
     user = os.geteuid()
     old.parent.chmod(0o555)
     with failing(PermissionError, old):
@@ -184,7 +182,7 @@ def test_patches_are_moved_by_finite_matrices_alone(cube, matrix):
 
 
 def test_a_large_part_keeps_looking_outward(cube, tmp_path):
-    """Its volume is no number any more; its coordinates are."""
+    """Its volume overflows; its coordinates do not."""
     large = cube.transformed(np.diag([1e150, 1e150, 1e150, 1]))
     df.write_step(tmp_path / "a.file", large)
     with pytest.raises(df.FairingError, match="finite coordinates"):

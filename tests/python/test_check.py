@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The check report: all kinds of defect at once, nothing raised, and the same verdict as a
-run's."""
+"""The check report: all kinds of defect at once, nothing raised, and the same verdict as a run's."""
 
 import control_meshes as meshes
 import discrete_fairing as df

@@ -18,7 +18,7 @@ def told(cleaned, step):
 
 
 def only(cleaned, step, count):
-    """That this step alone has done something, to so many elements."""
+    """Asserts that only this step has done something, to so many elements."""
     assert [(act.step, act.count) for act in cleaned.done if "without a face" not in act.text] == [
         (step, count)
     ]
@@ -49,7 +49,7 @@ def test_loose_triangles_are_joined():
 @pytest.mark.parametrize("bend", [0.0, -0.05])
 @pytest.mark.parametrize(("triangles", "count"), [(True, 240), (False, 112)])
 def test_edges_are_cut_at_vertices_that_lie_on_them(bend, triangles, count):
-    """They were split off as a part of their own, and the ring between was filled."""
+    """They were once split off as a part, and the ring between was filled."""
     vertices, faces = sheet_with_hanging_vertices(bend, triangles)
     found = df.clean(vertices, faces)
     only(found, "join", 16)
@@ -241,7 +241,7 @@ def spoiled(seed=0):
 
 
 def test_the_width_of_a_hole_is_a_length_whichever_way_it_is_turned():
-    """Of a circle its diameter, as with a ruler across; the diagonal of its box is by up to 41 % longer."""
+    """The width of a circle is its diameter, as a ruler has it; the diagonal of its box is up to 41 % longer."""
     angles = np.linspace(0.0, 2.0 * np.pi, 1001)[:-1]
     circle = np.stack([np.cos(angles), np.sin(angles), 0.0 * angles], axis=1)
     rng = np.random.default_rng(1)
@@ -254,7 +254,7 @@ def test_the_width_of_a_hole_is_a_length_whichever_way_it_is_turned():
 
 
 def test_holes_are_chosen_by_their_width():
-    """Two, 1.2 and 1.6 wide in a ball of radius 1."""
+    """Two holes, 1.2 and 1.6 wide, in a ball of radius 1."""
     points, faces = BALL
     middle = points[faces].mean(axis=1)[:, 2]
     kept = faces[(middle < 0.8) & (middle > -0.6)]

@@ -34,7 +34,7 @@ def told(result) -> list[str]:
 
 
 def assert_honest(result):
-    """What is said of every level, and of the surface."""
+    """The report says the truth about each level and about the surface."""
     finest = result.report["curvature"][-1]
     assert result.report["converged"] == finest["converged"] == (not told(result))
     assert all(f"level {finest['level']}" in message for message in told(result))
@@ -112,7 +112,7 @@ def leaning(points, faces, degrees, seed):
 @pytest.mark.parametrize("name", ["creature", "torus_quads"])
 @pytest.mark.parametrize("degrees", [30, 60, 79])
 def test_a_normal_on_the_other_side_is_told(name, degrees):
-    """Couples hold a plane, and do not know its sides."""
+    """Couples fix a plane, but not which side of it is outside."""
     points, faces = meshes.ALL[name]()
     turned = 0
     for seed in range(3):

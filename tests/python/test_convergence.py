@@ -33,8 +33,8 @@ def test_converges(name, exponent):
 
 
 def counted(level) -> float:
-    """Iterations by what they cost, in those of degree six: a V-cycle of degree d takes 2 d + 1 products
-    with the matrix."""
+    """Iterations weighted by their cost, in those of degree six: a V-cycle of degree d takes 2 d + 1 products with
+    the matrix."""
     return level["iterations"] * (2 * level["smoother_degree"] + 1) / 13
 
 
@@ -65,7 +65,7 @@ def test_says_when_it_stops_early():
 
 @pytest.mark.parametrize("name", ["house", "random_hull", "wavy_patch", "roof"])
 def test_a_looser_solution_is_near_the_tight_one(name):
-    """And never of lower energy, where no folds are filled."""
+    """Its energy is never lower, where no folds are filled."""
     vertices, faces = meshes.ALL[name]()
     tightest = tight.fair(vertices, faces, 3, relative_residual=1e-12)
     for residual in (1e-2, 1e-4, 1e-6, 1e-8):
@@ -88,12 +88,8 @@ def test_result_beats_prediction_beats_polyhedron(name, exponent):
 @pytest.mark.parametrize("name", [name for name in TRIANGLES if name != "random_hull"])
 @pytest.mark.parametrize("levels", [1, 2, 3])
 def test_energy_is_least(name, levels):
-    """Read as a control mesh of its own, the uniform result has the energy reported, and no slope
-    to roll down.
-
-    With every control edge of length one the refined mesh is its own control metric, four times as
-    large in all.
-    """
+    """The uniform result, measured as a control mesh of its own, has the reported energy, and no slope. With
+    control edges of length one the refined mesh is its own control metric, up to a factor of 4 a level."""
     vertices, faces = meshes.ALL[name]()
     result = tight.fair(vertices, faces, levels, metric_exponent=0.0, relative_residual=1e-12)
     here = uniform_energy(result.vertices, result.triangles)
@@ -177,8 +173,7 @@ def test_nothing_to_solve():
 
 
 def test_residual_where_the_polyhedron_is_the_solution():
-    """A box whose every edge is a crease: flat sides, nothing to improve; the residual is no
-    2.7."""
+    """Each edge of the box is a crease, so its flat sides are the solution; the residual was once 2.7."""
     vertices, faces = meshes.cube()
     edges = np.concatenate([faces[:, [k, (k + 1) % 4]] for k in range(4)])
     finest = tight.fair(vertices, faces, 2, crease_edges=edges).report["levels"][-1]
@@ -186,8 +181,8 @@ def test_residual_where_the_polyhedron_is_the_solution():
 
 
 def test_loads_settle_where_they_are_small():
-    """Forces were read again and again from a surface that no solve had moved: 19 corrections, and
-    the loads still changed by all that they were."""
+    """Loads were once read again and again from a surface that no solve had moved: they changed by their full size
+    in 19 corrections."""
     report = tight.fair(*meshes.torus(96, 48), 2, relative_residual=1e-4).report
     assert report["converged"]
     assert all(level["pad_corrections"] <= 10 for level in report["levels"])

@@ -49,7 +49,7 @@ def test_a_flatter_filling_stays_below_what_is_in_the_way():
 
 
 def test_what_crosses_all_the_same_is_told():
-    """A needle through the middle of the hole."""
+    """A needle stands in the middle of the hole."""
     points, faces, hole = with_square(1.5)
     needle = np.array([[0.1, 0, -0.5], [0.1, 0, 1.4], [0.12, 0.02, 1.4]])
     faces = np.concatenate([faces, [len(points) + np.arange(3)]])
@@ -59,7 +59,7 @@ def test_what_crosses_all_the_same_is_told():
 
 
 def test_two_fillings_do_not_cross():
-    """Two halves of spheres, mouth to mouth, nearer than twice their radius: one gives way."""
+    """Two halves of spheres stand mouth to mouth, nearer than twice their radius: one filling gives way."""
     points, faces = half_ball([0, 0, 0])
     other = points * [1, 1, -1] + [0, 0, 1.7]
     both = np.concatenate([points, other])
@@ -72,7 +72,7 @@ def test_two_fillings_do_not_cross():
 
 
 def test_the_count_is_that_of_the_definition():
-    """Against all pairs of triangles, at random."""
+    """It is compared with all pairs of triangles, at random."""
     random = np.random.default_rng(3)
     corner = random.uniform(0, 1, (80, 1, 3)) + random.uniform(-0.15, 0.15, (80, 3, 3))
     points, triangles = corner.reshape(-1, 3), np.arange(240, dtype=np.int32).reshape(-1, 3)
@@ -96,7 +96,7 @@ def test_the_count_is_that_of_the_definition():
     ],
 )
 def test_corners_that_do_not_exist_are_refused(triangles, first, code):
-    """Memory beyond the points was read."""
+    """Memory beyond the points was once read."""
     native = crossings._native
     assert (
         refusal(
@@ -112,7 +112,7 @@ def test_corners_that_do_not_exist_are_refused(triangles, first, code):
 
 
 def test_calls_on_one_filler_wait_for_each_other():
-    """Two threads wrote over each other's holes, and the process ended."""
+    """Two threads once wrote over each other's holes, and the process ended."""
     native = crossings._native
     points, faces = half_ball([0, 0, 0])
     count = len(points)
@@ -131,8 +131,7 @@ def test_calls_on_one_filler_wait_for_each_other():
 
 
 def pierced(start, end, triangle):
-    """Whether the ends (…, 3) lie on both sides of triangles (…, 1, 3, 3), which their line passes, by
-    volumes."""
+    """Whether the line between the ends (…, 3) passes through the triangles (…, 1, 3, 3), by volumes."""
 
     def volume(p, q, r, s):
         return np.linalg.det(np.stack(np.broadcast_arrays(q - p, r - p, s - p), axis=-2))

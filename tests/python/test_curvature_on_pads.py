@@ -69,7 +69,7 @@ def test_a_drag_goes_on_from_the_surface_and_its_loads():
 
 @pytest.mark.parametrize("name", ["icosahedron", "torus", "creature"])
 def test_what_is_left_cannot_be_seen(name):
-    """Of steps by default."""
+    """Steps with default tolerances leave it."""
     mesh = meshes.torus(10, 8) if name == "torus" else getattr(meshes, name)()
     usual, exact = (
         df.fair(*mesh, 3, "total_curvature", **options)

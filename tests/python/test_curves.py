@@ -27,8 +27,7 @@ def polygon(count: int = 9) -> np.ndarray:
 
 
 def caps(rim: np.ndarray):
-    """Three surfaces of different faces, valences and order of vertices that end in the same
-    polyline."""
+    """Three surfaces of different faces, valences and order of vertices that end in the same polyline."""
     n = len(rim)
     k = np.arange(n)
     after = (k + 1) % n
@@ -65,7 +64,7 @@ def test_the_same_polyline_gives_the_same_curve(exponent, corners):
     "surface", [{}, {"pad_size": 0.5}, {"tension": 1}, {"energy": "total_curvature"}], ids=str
 )
 def test_the_same_polyline_under_other_rules(option, surface):
-    """Whatever the surface is, the curve is that of the thin plate on point forces."""
+    """The curve is that of the thin plate on point forces, whatever the surface is."""
     found = [
         rows(boundary_points(tight.fair(*cap, 2, **option, **options)))
         for cap in caps(polygon())
@@ -87,7 +86,7 @@ def test_a_crease_and_a_boundary_of_the_same_polyline_are_the_same_curve():
 
 
 def test_curve_boundary_is_smooth_and_linear_is_not():
-    """The turn at a control vertex halves with each level on a curve, and stays on the polyline."""
+    """On a curve the turn at a control vertex halves with each level; on the polyline it stays."""
     vertices, faces = meshes.fan(8)
 
     def turn(levels, boundary):
@@ -144,8 +143,7 @@ def test_corners_split_a_curve(ends):
 
 @pytest.mark.parametrize("flip", [False, True])
 def test_moving_one_side_of_a_crease_loop_leaves_the_other(flip):
-    """The curve to the last bit, the far side as far as it is solved: one system serves both
-    sides."""
+    """The curve stays to the last bit, and the far side as far as it is solved: one system serves both sides."""
     (vertices, faces), loop, above, below = meshes.drum()
     here, there = (below, above) if flip else (above, below)
     moved = vertices.copy()
@@ -214,7 +212,7 @@ def test_crease_angle_finds_the_same_creases():
 
 
 def test_a_corner_inside_a_surface_is_the_tip_of_a_cone():
-    """The surface may come to a point there, at lower energy, and elsewhere it does not."""
+    """The surface may come to a point there, with less energy; elsewhere it does not."""
     vertices, faces = meshes.closed_pole(12)
     smooth, tip = (tight.fair(vertices, faces, 3, corner_vertices=c) for c in (None, [12]))
     assert (

@@ -70,7 +70,7 @@ def test_as_near_to_the_truth_as_taubin_with_the_steps_that_suit_best(shape, sha
 
 
 def test_passes_are_the_fast_choice():
-    """Those of Taubin's filter: nothing shrinks, borders stay, no spike is sought."""
+    """They are those of Taubin's filter: nothing shrinks, borders stay, and no spike is looked for."""
     truth, faces = sheet(40, sphere)
     measured, border = noisy(truth), ~(np.abs(truth[:, :2]) < 16).all(axis=1)
     found = df.denoise(measured, faces, passes=10)

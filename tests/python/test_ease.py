@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""ease(): scatter goes, shapes stay, within what is asked for."""
+"""ease() removes scatter, keeps shapes and stays within its bounds."""
 
 import control_meshes
 import discrete_fairing as df
@@ -53,7 +53,7 @@ def test_scatter_is_read():
 
 @pytest.mark.parametrize("shape", ["bump", "saddle"])
 def test_a_bound_above_all_moves_changes_none(shape):
-    """The border, whose scatter cannot be read, moved by the whole bound."""
+    """Once the border, whose scatter cannot be read, moved by the whole bound."""
     truth, faces, inner = sheet(shape)
     measured = scattered(truth, inner, 0)
     free = df.ease(measured, faces)
@@ -118,7 +118,7 @@ def vase(rings=7, around=8):
 
 @pytest.mark.parametrize("designed", [vase, control_meshes.tetrahedron])
 def test_what_is_in_few_eigenvectors_is_no_scatter(designed):
-    """By a quarter and a fourteenth of an edge they moved."""
+    """Vertices once moved by a quarter and a fourteenth of an edge."""
     points, faces = designed()
     eased = df.ease(points, faces)
     assert (eased.amount, eased.moves.max()) == (0, 0)
@@ -164,7 +164,7 @@ def test_many_vertices_are_eased_without_all_eigenvalues():
 
 
 def curved_sheet():
-    """Quads 9 x 7 whose borders are cubics, so that they have no loads; faces, and border vertices."""
+    """9 x 7 quads whose borders are cubics, which need no loads: (vertices, faces, border vertices)."""
     points, faces, inner = sheet("saddle")
     return points, faces, np.setdiff1d(np.arange(len(points)), inner)
 
@@ -213,7 +213,7 @@ def test_the_worst_are_found_on_curves_and_off_them():
 
 
 def test_wrong_offsets_of_half_a_hull_go_back():
-    """Those of the largest excess: borders and worse neighbours strain sound vertices as much."""
+    """Those of the largest excess go back; borders and worse neighbours strain sound vertices as much."""
     truth, faces, inner = half_hull(15, 9)
     along, found, left = outwards(truth, faces), [], []
     for seed in range(5):
@@ -284,7 +284,7 @@ def dome_of_alternating_diagonals(across=27):
 
 
 def test_strain_of_a_pattern_of_the_mesh_is_no_scatter():
-    """Vertices of an exact dome moved by half an edge."""
+    """Vertices of an exact dome once moved by half an edge."""
     points, faces = dome_of_alternating_diagonals()
     edge = 2 / 26
     assert df.ease(points, faces).moves.max() < 2e-3 * edge

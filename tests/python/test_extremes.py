@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Numbers far apart: a surface is finite, or there is none; and none harms the next."""
+"""Extreme coordinates: a surface is finite or refused, and no call harms the next one."""
 
 import control_meshes as meshes
 import discrete_fairing as df
@@ -8,7 +8,7 @@ import pytest
 from refusing import refusal
 
 CURVED = ["total_curvature", "minimum_variation"]
-# mesh, vertex, how far out it is taken, options: steps from these ran to infinity, and were believed
+# mesh, vertex, its distance, options: steps from these once ran to infinity without a warning
 RUNAWAYS = [
     ("octahedron", 2, 1e6, "total_curvature", 2, {"pad_size": 0.0, "crease_edges": [[5, 4]]}),
     ("tetrahedron", 0, 1e7, "minimum_variation", 3, {}),
@@ -38,7 +38,7 @@ def test_steps_never_end_at_infinity(name, vertex, factor, energy, levels, optio
 @pytest.mark.parametrize("energy", ["thin_plate", *CURVED])
 @pytest.mark.parametrize("factor", [1e6, 1e9, 1e12])
 def test_a_solver_forgets_a_vertex_that_went_far_away(energy, factor):
-    """What comes after is what a solver finds that has never seen it, to the last bit."""
+    """Its next surfaces are those of a solver that never saw that vertex, to the last bit."""
     vertices, faces = meshes.cube()
     expected = df.fair(vertices, faces, 2, energy).vertices
     solver = df.Solver(vertices, faces, 2, energy)

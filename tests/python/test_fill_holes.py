@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Holes closed: against surfaces that are known, and ragged ones that only must be sound."""
+"""Fillings against known surfaces, and fillings of ragged holes, which only must be sound."""
 
 import random
 
@@ -155,7 +155,7 @@ def test_three_islands_in_a_hole():
 
 
 def test_a_rim_inside_another_one_is_an_island():
-    """Of a ball, of a flat sheet with a hole, whose border is none, and at the ends of a pipe."""
+    """In a ball, in a flat sheet, whose border is no hole, and at the ends of a pipe."""
     whole, all_faces = sphere(5)
     away = np.linalg.norm(whole[all_faces].mean(1) - [0, 0, 1], axis=1)
     vertices, faces = cut(whole, all_faces, (away > 0.12) & (away < 0.75))
@@ -222,7 +222,7 @@ def test_a_bridge_between_tubes_has_no_waist(gap):
 
 @pytest.mark.parametrize(("n", "m"), [(24, 9), (32, 13), (96, 25)])
 def test_half_a_torus_gets_a_ring(n, m):
-    """No two discs on one another, whichever rim comes first."""
+    """The filling is no pair of discs on one another, whichever rim comes first."""
     whole, all_faces = torus(n, 2 * m - 2, 1.0, 3.0)
     vertices, faces = cut(whole, all_faces, whole[all_faces].mean(1)[:, 2] < 0)
     loops = df.find_holes(vertices, faces)
@@ -252,7 +252,7 @@ def test_half_a_torus_gets_a_ring(n, m):
 
 @pytest.mark.parametrize("bend", [0.0, -0.05])
 def test_hanging_nodes_are_holes_of_three(bend):
-    """Each gap is a hole, or a vertex on an edge."""
+    """Each gap is a hole of three vertices, or a vertex on an edge."""
     vertices, quads = sheet_with_hanging_vertices(bend, False)
     loops = df.find_holes(vertices, quads)
     assert sorted(map(len, loops)) == [3] * 16 + [32]
@@ -265,7 +265,7 @@ def test_hanging_nodes_are_holes_of_three(bend):
 
 
 def strip(*widths):
-    """Triangles above and below a line, of rows of these lengths; no vertex in common but at its ends."""
+    """Triangles above and below a line, in rows of these lengths; the rows share only the ends of the line."""
     points, faces = [(0.0, 0.0, 0.0), (6.0, 0.0, 0.0)], []
     for y, row in zip((1.0, -1.0), widths):
         inner = np.cumsum(row)[:-1]
@@ -331,7 +331,7 @@ def test_joints_and_energies(joint, energy):
 
 
 def test_long_loops():
-    """Of more vertices than all pairs are looked at for."""
+    """They have more vertices than the search among all pairs takes."""
     angle = np.linspace(0, 2 * np.pi, 3000, endpoint=False)
     circle = np.stack([np.cos(angle), np.sin(angle), 0.2 * np.sin(3 * angle)], 1)
     vertices = np.concatenate([circle, circle * [1.01, 1.01, 1]])
@@ -363,7 +363,7 @@ def test_a_noisy_rim_is_not_carried_on():
 
 
 def test_a_filling_that_crosses_somewhere_is_fair_elsewhere():
-    """At a ragged rim with noise of half an edge: only faces in the way stay as they were triangulated."""
+    """The rim is ragged, with noise of half an edge: only the faces in the way stay as they were triangulated."""
     whole, all_faces = sphere(4)
     noise = np.random.default_rng(4).standard_normal((len(whole), 1))
     gone = ragged(all_faces, 200, random.Random(4))
@@ -440,7 +440,7 @@ def test_one_bad_hole_stops_no_other():
 
 @pytest.mark.parametrize("defect", ["point", "twice", "turned"])
 def test_what_is_wrong_beside_a_hole_stops_nothing(defect):
-    """In the second ring: what fair() refuses there is ignored, and named."""
+    """It is in the second ring: fair() would refuse it, here it is ignored and named."""
     vertices, quads, kept = open_grid(12, [(k, row) for k in (4, 5, 6) for row in (4, 5, 6)])
     bad = quads[2, 4]
     if defect == "point":
@@ -456,7 +456,7 @@ def test_what_is_wrong_beside_a_hole_stops_nothing(defect):
 
 
 def test_a_face_through_a_hole_beside_a_face_that_is_there_twice():
-    """The filling has no vertex of its own: another way is tried, which fair() refuses."""
+    """The filling has no vertex of its own, so another way is tried, which fair() refuses."""
     vertices, quads, kept = open_grid(8, [(3, 3)])
     spike = [(3.3, 3.4, -1), (3.7, 3.6, -1), (3.5, 3.5, 4)]
     vertices = np.concatenate([vertices, spike])

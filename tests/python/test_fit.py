@@ -169,7 +169,7 @@ def test_border_curves_come_to_the_border_of_the_scan():
 
 @pytest.mark.parametrize("seed", range(6))
 def test_a_scan_of_ten_points_has_a_surface(seed):
-    """Few enough that often none of them is held out."""
+    """The points are so few that often none is held out."""
     vertices, faces = sheet(*2 * [np.linspace(-1, 1, 3)], dome)
     x, y = np.random.default_rng(seed).uniform(-0.9, 0.9, (2, 10))
     fitted = df.fit(vertices, faces, np.stack([x, y, dome(x, y)], 1))
@@ -283,8 +283,8 @@ def test_patches_near_a_scan_know_how_near_they_are(cage, scan):
     patches = df.fit_patches(*cage, scan={"points": scan}, levels=3, tolerance=1e-3)
     fitted, found = patches.result, patches.scan_distances
     assert patches.shell_closed.all() and isinstance(fitted, df.Fitted)
-    # patches are off the surface by so much, and its triangles off the limit, which both is in `off`;
-    # `off` is measured at samples, between which a few of the points lie
+    # `off` has the distance of patches from the surface and of its triangles from the limit; it is
+    # measured at samples, and a few points between them are farther off
     assert np.quantile(np.abs(found - fitted.distances), 0.999) < patches.largest_off
     assert patches.scan_within == pytest.approx(fitted.within, abs=patches.largest_residual)
     assert rms(found - distance_to_blob(scan)) < NOISE / 3
@@ -363,7 +363,7 @@ def test_memory_is_predicted(cage, scan):
 
 
 def test_a_lone_point_over_a_face_has_a_distance(cage):
-    """Its nearest sample is the only one that counts."""
+    """Only its nearest sample counts."""
     patches = df.fit_patches(*cage, levels=2)
     away = 1.02 * cage[0][cage[1]].mean(axis=1)
     for face, point in enumerate(away):

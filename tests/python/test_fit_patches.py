@@ -76,7 +76,7 @@ def test_a_sharper_tolerance_is_met():
     ids=["cube", "cube of triangles", "octahedron", "triangles and quads"],
 )
 def test_patches_follow_the_poles_of_curvature_at_vertices(mesh, levels):
-    """Thin plates have one at every control vertex."""
+    """A thin plate has a pole of curvature at each control vertex."""
     patches = df.fit_patches(*mesh, levels=levels)
     assert patches.levels == levels and not len(patches.unmet_by_fit)
     assert patches.largest_residual <= 1e-4 * patches.size
@@ -91,7 +91,7 @@ def test_patches_meet_at_vertices_of_any_valence(valence):
 
 
 def star(valence):
-    """So many triangles around the top of a dome, and quads around them."""
+    """So many triangles around the top of a dome, with quads around them."""
     turn = 2 * np.pi * np.arange(valence) / valence
     ring = np.stack([np.cos(turn), np.sin(turn)], axis=1)
     flat = np.concatenate([[(0, 0)], ring, 2 * ring])
@@ -113,9 +113,8 @@ SAID = [pytest.param(example_meshes.hull, id="hull")] + [
 
 @pytest.mark.parametrize("mesh", SAID)
 def test_what_is_said_is_what_others_find(mesh):
-    """Patches may swing between the lattice's points: distances from the flat triangles, at 13 x 13
-    points of each patch by a basis of NumPy's own, are those of the report.
-    """
+    """Patches may swing between the lattice's points. The report's distances are those from the flat triangles, at
+    13 x 13 points of each patch, by a basis in NumPy."""
     (points, faces), creases = mesh()
     patches = df.fit_patches(points, faces, levels=5, crease_edges=creases, force=True)
     t = np.linspace(0, 1, 13)
@@ -130,9 +129,8 @@ def test_what_is_said_is_what_others_find(mesh):
 
 
 def test_one_number_is_held_against_the_tolerance():
-    """What patches are off by is what they are from the refined surface, and what that is from finer
-    ones: a plate's poles of curvature take more levels than there are, and this is said.
-    """
+    """It has the distance of patches from the refined surface and that of this surface from finer ones. A plate's
+    poles of curvature take more levels than there are, and the report says so."""
     patches = df.fit_patches(*control_meshes.cube())
     assert patches.largest_residual < 1e-4 * patches.size < patches.largest_off
     assert patches.unmet.tolist() == list(range(6)) and not len(patches.unmet_by_fit)
@@ -148,7 +146,7 @@ def test_what_a_given_level_is_off_by_is_measured_too(levels):
 
 
 def test_half_a_hull_is_refused():
-    """Where its deck has a corner it turns by 39 degrees at every level, at any tolerance."""
+    """Its deck has a corner that turns by 39 degrees at each level and tolerance."""
     kept = {"symmetry_plane": "y", "corner_angle": np.radians(60)}
     for tolerance in (1e-4, 1e-5):
         error = refusal(df.fit_patches, *half_hulls.hull(), tolerance=tolerance, **kept)
@@ -169,9 +167,8 @@ def test_patches_in_narrow_corners_do_not_fold():
 
 
 def test_a_tip_lower_than_the_tolerance_is_no_fold():
-    """A thin plate's last cells around a vertex of three triangles turn by 105 degrees at any level,
-    ever smaller ones.
-    """
+    """The last cells of a thin plate around a vertex of three triangles turn by 105 degrees at any level; the cells
+    become ever smaller."""
     points, faces = control_meshes.tetrahedron()
     exact = df.fit_patches(points, faces, levels=7, force=True)
     assert exact.unresolved.tolist() == [0, 1, 2, 3]
@@ -181,7 +178,7 @@ def test_a_tip_lower_than_the_tolerance_is_no_fold():
 
 
 def test_edges_may_leave_the_lattices_lines_within_the_surface():
-    """These lines wind; curves that follow them need many spans."""
+    """These lines wind, and curves along them would need many spans."""
     patches = df.fit_patches(*control_meshes.random_hull(), levels=5, **CURVED)
     assert not len(patches.unmet)
     assert np.abs(radii(patches) - 1).max() < 1e-4 * patches.size
@@ -219,7 +216,7 @@ def test_creases_are_edges(fitted):
 @pytest.mark.parametrize("energy", ["thin_plate", "total_curvature"])
 @pytest.mark.parametrize("height", [0.0, 0.2, 0.7])
 def test_straight_borders_may_meet_at_corners(height, energy):
-    """Where they are out of the surface's plane it has a kink, the tip of a cone; nothing folds."""
+    """Where they leave the surface's plane it has a kink, the tip of a cone; nothing folds."""
     mesh = control_meshes.wavy_patch(height=height)
     patches = df.fit_patches(*mesh, levels=5, boundary="linear", energy=energy)
     assert not len(patches.unresolved)
@@ -236,7 +233,7 @@ def test_straight_borders_may_meet_at_corners(height, energy):
 
 @pytest.mark.parametrize("axis", [(1, 1, 1), (-1, -1, -1), (-1, -1, 1)])
 def test_kinks_are_the_same_whichever_way_they_look(axis):
-    """A tip has no normals, and so no angle with a patch, whatever its signs."""
+    """A tip has no normal, so it has no angle with a patch, whatever its signs."""
     points, faces = control_meshes.wavy_patch(height=0.2)
     up = np.divide(axis, np.linalg.norm(axis))
     across = np.cross(up, [1, 0, 0]) / np.linalg.norm(np.cross(up, [1, 0, 0]))
@@ -248,9 +245,8 @@ def test_kinks_are_the_same_whichever_way_they_look(axis):
 
 @pytest.mark.parametrize("height", [0.02, 0.03])
 def test_slight_kinks_are_met_and_their_angles_told(height):
-    """A straight border that bends a little at its vertices, out of the surface, bends that too:
-    no patch can take that back, and none leaves the surface for it.
-    """
+    """A straight border that bends a little at its vertices, out of the surface, bends the surface too. No patch
+    can take that back, and no patch leaves the surface for it."""
     points, faces = control_meshes.grid()
     points[:, 2] = height * (points[:, 0] - 2) ** 2
     patches = df.fit_patches(points, faces, levels=5, boundary="linear")
@@ -261,7 +257,7 @@ def test_slight_kinks_are_met_and_their_angles_told(height):
 
 
 def test_creases_may_have_corners_all_along():
-    """Curves that end in the kinks there run on; once some turned back, and patches folded."""
+    """Curves that end in the kinks there run on; once some turned back, and their patches folded."""
     mesh, creases = example_meshes.hull()
     patches = df.fit_patches(*mesh, levels=5, crease_edges=creases, corner_angle=0.1)
     assert np.degrees(patches.turned.max()) < 20
@@ -275,13 +271,13 @@ def test_creases_may_have_corners_all_along():
 
 @pytest.mark.skipif(not STRIPS.is_file(), reason="no shared meshes")
 def test_curves_that_end_at_a_corner_do_not_cross_there():
-    """Curves that left their lines by 50 degrees at their ends made patches fold."""
+    """Curves that left their lines by 50 degrees at their ends once made patches fold."""
     patches = df.fit_patches(*read_obj(STRIPS), levels=5, corner_angle=np.radians(60))
     assert np.degrees(patches.turned.max()) < 20
 
 
 def block_over_an_l():
-    """Finer levels are tried for it: it has edges off its flat faces' lines."""
+    """A block with edges off the lines of its flat faces, so that finer levels are tried for it."""
     flat, _ = folding_meshes.corner()
     walls = [[i, (i + 1) % 6, 6 + (i + 1) % 6, 6 + i] for i in range(6)]
     return np.vstack([flat, flat + [0, 0, 1]]), [list(range(6))[::-1], list(range(6, 12)), *walls]
@@ -314,9 +310,8 @@ def test_a_finer_level_that_folds_takes_no_patches_away(monkeypatch):
 
 
 def test_a_thin_tray_misses_few_faces():
-    """Its surface still moves beside the rim, so patches were fitted at level 5 only, where 16 of 94 faces
-    had too few spans and missed by 4.6e-4. Where they shared patches with many spans, 24 missed.
-    """
+    """Its surface still moves beside the rim, so patches were fitted at level 5 only, where 16 of 94 faces had too
+    few spans and missed by 4.6e-4. Where they shared patches with many spans, 24 missed."""
     tray = thin_walls.phone_case()
     patches = df.fit_patches(*tray[:2], crease_angle=np.radians(30), corner_angle=np.radians(45))
     assert len(patches.unmet_by_surface) and patches.levels == 6
@@ -326,7 +321,7 @@ def test_a_thin_tray_misses_few_faces():
 
 
 def test_faces_much_longer_than_wide_do_not_fold():
-    """Normals along their sides outweighed all that keeps the rows of a narrow patch apart."""
+    """Normals along their sides once outweighed all that keeps the rows of a narrow patch apart."""
     corners = np.array(list(np.ndindex(2, 2, 2)), float) * (0.1, 0.02, 1.0)
     faces = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
     patches = df.fit_patches(corners, faces, levels=5, force=True)
@@ -335,9 +330,8 @@ def test_faces_much_longer_than_wide_do_not_fold():
 
 
 def test_a_tip_between_two_creases_is_no_fold():
-    """At the foot of a boss on a round wall two creases make a corner of 270 degrees, which the wall comes
-    to as a tip, at every level: it was refused.
-    """
+    """At the foot of a boss on a round wall two creases make a corner of 270 degrees, which the wall comes to as a
+    tip, at every level: it was refused."""
     angle, height = np.radians([-45, -15, 15, 45]), (-24.0, 6.0, 30.0, 54.0)
     wall = np.array([(40 * np.cos(a), 40 * np.sin(a), z) for z in height for a in angle])
     cells = [[4 * i + j, 4 * i + j + 1, 4 * i + j + 5, 4 * i + j + 4] for i, j in np.ndindex(3, 3)]
@@ -360,9 +354,8 @@ def test_a_tip_between_two_creases_is_no_fold():
 
 
 def test_curves_fitted_more_sharply_make_no_patch_fold():
-    """Beside needles patches that met their tolerance were fitted anew to sharper curves, and turned over.
-    The drum was refused, after a level more and three times the work.
-    """
+    """Beside needles, patches that met their tolerance were once fitted anew to sharper curves, and turned over.
+    The drum was refused, after a level more and three times the work."""
     run = fitting._Run(1e-4, 8e-4, False)
     result = df.fair(*uneven_drum(), 6, threads=1)
     watched = {"threads": 1, "monitor": df.Monitor(), "progress": None}
@@ -387,8 +380,7 @@ def test_rows_of_quads_are_one_patch_whose_curvature_does_not_jump():
 
 
 def test_patches_end_where_others_need_it():
-    """From a vertex of three quads lines run on through the regular faces beside it; half a hull is
-    one patch."""
+    """From a vertex of three quads lines run on through the regular faces beside it; half a hull is one patch."""
     assert len(df.fit_patches(*half_hulls.hull(), levels=5)) == 1
     points, faces = control_meshes.cube()
     fine = df.fair(points, faces, 1, energy="total_curvature")

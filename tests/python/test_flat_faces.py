@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Faces that are meant flat stay so beside tight rims, and the rest blends into them."""
+"""Faces meant to be flat stay flat beside tight rims, and the rest blends into them."""
 
 import discrete_fairing as df
 import flat_parts
@@ -13,8 +13,7 @@ LEVEL = 3
 def flatness(part, points, faces, owner):
     """(how far flat faces are off their planes as a share of the size, their largest turn in degrees).
 
-    `faces`: lists of arrays (k, 3 | 4), `owner`: of each, the control face of every one.
-    """
+    `faces`: lists of arrays (k, 3 | 4), `owner`: of each, the control face of every one."""
     vertices, polygons, flat, _ = part
     off = turn = 0.0
     for refined, of in zip(faces, owner):

@@ -17,8 +17,7 @@ from surfaces import comes_near
 
 
 def folds(points, triangles):
-    """Edges across which normals turn by over 90 degrees: their ends (k, 2), and the two triangles (k, 2) at
-    each."""
+    """Edges across which normals turn by over 90 degrees: their ends (k, 2), and the two triangles (k, 2) at each."""
     edges, pairs, angle = turns(points, triangles)
     folded = angle > np.pi / 2
     return edges[folded], pairs[folded]
@@ -30,8 +29,7 @@ def polygons_of(result):
 
 
 def own_folds(result, mesh) -> int:
-    """How many folds are in no polygon of the control mesh that has a vertex at one of its own
-    folds."""
+    """The number of folds outside the polygons with a vertex at a fold of the control mesh."""
     control = tight.fair(*mesh, 0)
     ends, _ = folds(control.vertices, control.triangles)
     touched = np.isin(control.triangles, ends).any(1)
@@ -67,7 +65,7 @@ CRUMPLED = [p for p in shared_files("good", *SUFFIXES) if "handed" in p.id or p.
 
 @pytest.mark.parametrize("path", CRUMPLED)
 def test_no_spike_is_thrown_far_off(path):
-    """One of 158 folds, 3.6 sizes long, cost so little energy that it stood."""
+    """One of 158 folds, 3.6 sizes long, once cost so little energy that it remained."""
     vertices, faces = read_mesh(path)
     result = df.fair(vertices, faces, 2, energy="total_curvature", repair="mend")
     middle = (vertices.max(0) + vertices.min(0)) / 2

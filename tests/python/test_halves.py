@@ -174,7 +174,7 @@ def test_warnings_and_repairs_name_the_half_too():
 
 
 def test_faces_that_name_absent_vertices_are_mended_in_both_halves():
-    """An id of the image is no id of the half; what is dropped leaves a border in the plane one."""
+    """An id of the image is absent from the half; a face dropped at the plane leaves a border there."""
     points, faces = hull()
     absent = [[0, 4, len(points)], [8, -1, 9], [5, 6, 2 * len(points)]]
     mended = df.fair(points, [*faces.tolist(), *absent], 2, **MEND, **HALF)
@@ -198,7 +198,7 @@ def test_offsets_that_cut_no_faces(call, repair, offsets):
 @pytest.mark.parametrize("vertex", [0, 9], ids=["in the plane", "elsewhere"])
 @pytest.mark.parametrize("value", [np.nan, np.inf, 1e120], ids=str)
 def test_positions_that_are_none(vertex, value):
-    """They are no border that has left the plane."""
+    """A position that is NaN is no border that has left the plane."""
     points, faces = hull()
     solver = df.Solver(points, faces, 1, **HALF)
     points[vertex] = value

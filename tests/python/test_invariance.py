@@ -8,7 +8,7 @@ import pytest
 import tight
 from surfaces import as_lists, assert_same_points, assert_same_positions, random_rotation, size_of
 
-# How near, as a share of the size: what is solved to its end, and what ends in steps.
+# Bounds, as shares of the size, for what is solved to its end and for what ends in steps.
 TOLERANCE, OF_STEPS = 1e-9, 1e-7
 EXPONENTS = [{"metric_exponent": exponent} for exponent in (0.5, 1.0, 0.0)]
 OPTIONS = [
@@ -66,8 +66,8 @@ def test_rigid_motion_scaling_relabelling_and_mirroring(name, options):
         region = {"region": np.flatnonzero(np.isin(order, options["region"]))}
     found = fair(moved, turned, **region)
     if steps:
-        # Of the smoother's lines, those that close are cut somewhere. Where hangs on the numbering; then
-        # the steps' errors differ, and points come to lie elsewhere along the surface.
+        # The smoother cuts its lines that close at a place that depends on the numbering. Then
+        # the errors of steps differ, and points lie elsewhere along the surface.
         assert_same_positions(found, plain, 5e-6 * size if name == "creature" else near)
     else:
         assert_same_points(found, plain, near)
@@ -93,7 +93,7 @@ def test_energies_scale_as_documented(exponent):
 
 @pytest.mark.parametrize("name", ["single_triangle", "grid"])
 def test_rounding_decides_nothing_on_flat_meshes(name):
-    """Of two flat surfaces neither bends less: the start and the pads are not to hang on rounding."""
+    """No flat surface bends less than another, so start and pads must not depend on rounding."""
     vertices, faces = meshes.ALL[name]()
     vertices = vertices * [1, 1, 0]
     plain = df.fair(vertices, faces, 2, energy="total_curvature")

@@ -78,7 +78,7 @@ def test_the_surface_passes_exactly_through_them():
 
 @pytest.mark.parametrize("name", thin_walls.MODELS)
 def test_rims_turn_as_they_do_when_subdivided(name):
-    """Waves add to how far a rim turns; free, by a half and more on most."""
+    """Waves add to the turn of a rim: on a free rim of most meshes by a half and more."""
     model = thin_walls.MODELS[name]()
     subdivided = thin_walls.of_subdivision(model, 2)
     assert thin_walls.of_surface(model, 2, interpolation="limit") < 1.006 * subdivided
@@ -86,8 +86,8 @@ def test_rims_turn_as_they_do_when_subdivided(name):
 
 @pytest.mark.parametrize("mesh", [CUBE, HOUSE, octahedron()], ids=["cube", "house", "triangles"])
 def test_the_surface_comes_near_to_the_subdivided_one(mesh):
-    """On quads, triangles and pentagons; the nearer the more it follows, and passes through the limit
-    positions however far it does."""
+    """On quads, triangles and pentagons: the nearer the larger the share that it follows. It passes through the
+    limit positions at any share."""
     state = mesh
     for _ in range(4):
         state = subdivide(*state)
@@ -155,8 +155,8 @@ def test_other_energies_do_not_follow(energy):
 
 
 def test_a_release_goes_down_the_energy_that_is_solved():
-    """Each vertex by epsilon down the slope of the energy in the metric of the surface. It is quadratic,
-    so differences on both sides give the slope."""
+    """Each vertex moves by epsilon down the slope of the energy, in the surface's metric. The energy is quadratic,
+    so central differences give the slope."""
     vertices, faces = octahedron()
     vertices = vertices + 0.3 * np.random.default_rng(3).normal(size=vertices.shape)
     given = {"interpolation": "limit", "limit": 0.0, "pad_size": 0.0, "relative_residual": 1e-11}

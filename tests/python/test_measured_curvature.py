@@ -24,7 +24,7 @@ THIN = {
 
 
 def both(mesh, levels: int) -> tuple[float, float]:
-    """As reported, on point forces; and as NumPy has it."""
+    """The total curvature that is reported on point forces, and NumPy's."""
     result = df.fair(*mesh, levels, pad_size=0, measure=True)
     own = measures.total_curvature_of_faces(result.vertices, *result.faces)
     return result.report["energy"]["result"]["total_curvature"], own
@@ -45,6 +45,6 @@ def test_agrees_on_thin_triangles(name, levels):
 
 @pytest.mark.parametrize("stretch", [1, 3, 100])
 def test_agrees_on_the_control_mesh_itself(stretch):
-    """Of 400 random points: fits there said up to a million times what there is."""
+    """Of 400 random points, fits once gave up to a million times the true curvature."""
     reported, own = both(slivers.stretched(meshes.random_hull(400), stretch), 0)
     assert reported == pytest.approx(own, rel=0.1)

@@ -30,20 +30,20 @@ def assert_bounded(report):
 
 
 def poles():
-    """Thin faces, so that levels prove hard."""
+    """Thin faces, which make levels hard."""
     parts = [meshes.closed_pole(360) for _ in range(4)]
     vertices = np.concatenate([points + [3 * k, 0, 0] for k, (points, _) in enumerate(parts)])
     return vertices, np.concatenate([faces + k * 362 for k, (_, faces) in enumerate(parts)])
 
 
 def egg():
-    """Even faces; nothing varies on a sphere, where no step to less variation is taken."""
+    """Even faces of an egg: on a sphere nothing varies, and no step to less variation is taken."""
     vertices, faces = meshes.icosahedron()
     return vertices * [1, 1, 1.5], faces
 
 
 def apart(mesh, count=None):
-    """So many faces of a mesh, none joined to another, as STL has them."""
+    """The first `count` faces of a mesh, none joined to another, as in STL."""
     points, faces = mesh
     faces = faces[:count]
     return points[faces.reshape(-1)], np.arange(faces.size).reshape(faces.shape)
@@ -111,7 +111,7 @@ def test_so_it_is_of_real_meshes(path):
 @pytest.mark.parametrize("levels", [1, 2, 4])
 @pytest.mark.parametrize("name", ["icosahedron", "torus_quads", "wavy_patch", "dodecahedron"])
 def test_prediction_bounds_the_peak_of_limit(name, levels):
-    """With the subdivision surface, which the plate is drawn to; in later solves too."""
+    """It includes the subdivision surface that the plate follows, in later solves too."""
     vertices, faces = meshes.ALL[name]()
     solver = df.Solver(vertices, faces, levels, interpolation="limit", threads=1)
     first = solver.solve(vertices).report
@@ -178,7 +178,7 @@ def test_the_mended_mesh_is_counted():
 
 
 def hard():
-    """A run on a level that is factored on the way, which nobody knows before."""
+    """A run with a level that is factored on the way, which cannot be predicted."""
     points, faces = meshes.torus(10, 8)
     rough = points + 0.15 * np.random.default_rng(1).normal(size=points.shape)
     return rough, faces, 3, "total_curvature"
@@ -191,7 +191,7 @@ def test_a_run_that_takes_more_says_so():
 
 
 def test_a_factor_that_only_saves_time_keeps_to_twice_the_prediction():
-    """It took 3.4 times as much, for a level that 25 iterations solve."""
+    """It once took 3.4 times as much, for a level that 25 iterations solve."""
     report = df.fair(*uneven_drum((40, 47), 1, 5, 0.15, 3.0), 3, threads=1).report
     assert report["converged"]
     assert report["peak_bytes"] <= 2 * report["predicted_bytes"]
@@ -204,7 +204,7 @@ def test_what_goes_as_predicted_says_nothing():
 
 
 def test_vertices_merged_away_make_no_run_too_large():
-    """Of an STL file there are six times as many as of the mesh."""
+    """An STL file has six times as many vertices as its mesh."""
     points, faces = apart(BALL)
     options = {**MEND, "threads": 1}
     peak = df.fair(points, faces, 2, **options).report["peak_bytes"]

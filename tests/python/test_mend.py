@@ -14,7 +14,7 @@ POINTS, FACES = meshes.icosahedron()
 
 
 def mend(vertices, faces, levels=1, **options):
-    """The result, and (code, elements) of all that was done."""
+    """The result, and (code, elements) of each repair."""
     result = tight.fair(vertices, faces, levels, repair="mend", **options)
     return result, [(r["code"], list(r["elements"])) for r in result.report["repairs"]]
 
@@ -31,7 +31,7 @@ def assert_same_surface(result, other):
 
 
 def open_edges(faces):
-    """Sides without a side that runs against them."""
+    """Sides that no other side opposes."""
     sides = half_edges(faces)
     return sorted(set(sides) - {(b, a) for a, b in sides})
 

@@ -103,7 +103,7 @@ def damaged(seed):
 
 
 def mended(points, faces, **options):
-    """The mended faces, and what was done; None where that is not all."""
+    """The result; None where a defect remains that mending leaves to others."""
     try:
         result = df.fair(points, faces, 0, repair="mend", **options)
     except df.FairingError as error:

@@ -27,7 +27,7 @@ def thin_plate(result) -> float:
 
 
 def bent(result) -> float:
-    """What steps to less total curvature have come to."""
+    """The total curvature at the end of the steps."""
     return result.report["curvature"][-1]["energy"]
 
 
@@ -77,8 +77,8 @@ def test_more_tolerance_less_energy(name):
 
 @pytest.mark.parametrize("name", SMOOTH)
 def test_more_tolerance_less_total_curvature(name):
-    """But for what lies across the normals, where the plate decides: it takes a house from 24.411 to
-    24.439 between 0.01 and 0.1, however exactly it is solved."""
+    """Except across the normals, where the plate decides: a house goes from 24.411 to 24.439 between 0.01 and 0.1,
+    however exactly it is solved."""
     options = [EXACT, *({"tolerance": t} for t in (1e-3, 1e-2, 0.1))]
     energies = [
         bent(near(meshes.ALL[name](), pad_size=1.0, **STEPS, **option)) for option in options
@@ -87,8 +87,7 @@ def test_more_tolerance_less_total_curvature(name):
 
 
 def test_the_least_energy_within_the_tolerance():
-    """No better point in the ball: other feasible control positions, interpolated, cost more or as
-    much."""
+    """No other point in the balls is better: other allowed control positions, interpolated, cost as much or more."""
     vertices, faces = meshes.ALL["three_handles"]()  # no folds, whose repair would cost energy
     tolerance = 0.05
     result = near((vertices, faces), tolerance=tolerance, **UNIFORM)
@@ -133,8 +132,7 @@ def test_more_weight_is_closer(name, options):
 
 
 def test_weights_are_one_a_vertex():
-    """Infinite: stays to the last bit. Zero: goes where the surface likes it best. One more: nearer
-    by itself."""
+    """An infinite weight holds a vertex to the last bit, zero leaves it free, and a larger weight pulls it nearer."""
     vertices, faces = meshes.creature()
     weights = np.full(len(vertices), np.inf)
     weights[:3] = 0
@@ -148,7 +146,7 @@ def test_weights_are_one_a_vertex():
 
 
 def test_a_free_vertex_does_not_matter():
-    """With uniform charts its place is nothing to the surface."""
+    """With uniform charts the surface does not depend on its position."""
     vertices, faces = meshes.cut_quads(meshes.torus())
     weights = np.full(len(vertices), np.inf)
     weights[7] = 0
@@ -174,7 +172,7 @@ def test_vertices_on_curves_stay(option):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_epsilon_takes_cusps_off(name):
-    """No control vertex further than epsilon; energy falls, the more the larger epsilon; 0 does
+    """No control vertex moves farther than epsilon; the energy falls, more with a larger epsilon; 0 changes
     nothing."""
     vertices, faces = meshes.ALL[name]()
     exact, energies = tight.fair(vertices, faces, 2), []
@@ -189,7 +187,7 @@ def test_epsilon_takes_cusps_off(name):
 
 
 def test_weights_that_leave_a_closed_surface_nowhere_to_be():
-    """Nothing holds it: any one point would do, and that is no surface."""
+    """Nothing holds it, so any single point would do, and that is no surface."""
     error = refusal(near, meshes.icosahedron(), weights=np.zeros(12))
     assert error.code == "UNDERDETERMINED" and error.elements == list(range(12))
 
@@ -202,7 +200,7 @@ def test_a_flat_mesh_with_a_tolerance_has_nothing_to_settle():
 
 @pytest.mark.parametrize("energy", ["thin_plate", "total_curvature"])
 def test_each_vertex_has_a_tolerance_of_its_own(energy):
-    """Zero: stays to the last bit. Infinity: goes where the surface likes it best."""
+    """Zero holds a vertex to the last bit; with infinity it goes where the surface bends least."""
     vertices, faces = meshes.creature()
     each = np.linspace(0.002, 0.05, len(vertices))
     each[5:9], each[20] = 0, np.inf
@@ -252,8 +250,8 @@ def test_values_of_another_shape_are_refused(name, each):
 
 @pytest.mark.parametrize("option", [{"tolerance": 0.02}, {"weights": np.full(98, 30.0)}], ids=str)
 def test_no_force_is_left_at_a_point(option):
-    """Where the vertices have gone, pads hold them, a little wider or narrower: interpolated on pads
-    they give the surface."""
+    """Pads, a little wider or narrower, hold the vertices where they have gone: interpolated on pads they give the
+    same surface."""
     vertices, faces = meshes.creature()
     uniform = {"relative_residual": 1e-10, **UNIFORM}
     loose = near((vertices, faces), **option, **uniform, **PADS)
@@ -292,8 +290,8 @@ def test_fixed_bound_weighted_and_free_vertices_together():
 
 @pytest.mark.parametrize("refined, tolerance", [(1, 0.2), (2, 0.03), (2, 0.06), (2, 0.2)])
 def test_a_sphere_shrinks_as_a_whole(refined, tolerance):
-    """All vertices go together, in waves that the surface hardly resists: soft springs overshoot there.
-    The surface through the vertices, scaled to the balls' inner ends, is one that is allowed."""
+    """All vertices move together, in waves that the surface hardly resists; soft springs overshoot there. One
+    allowed surface is that through the vertices, scaled to the inner ends of the balls."""
     points, faces = meshes.icosahedron()
     for _ in range(refined):
         points, faces = meshes.refine_triangles(points, faces)
@@ -345,8 +343,8 @@ def test_no_marks_at_control_vertices(tolerance):
 
 
 def test_steps_on_crumpled_balls_do_not_burst():
-    """In sum they end hardly more bent than on point forces; steps do not settle on any of them, so a
-    single one may end anywhere (measured: from 0.95 to 1.16 times as bent)."""
+    """In sum they end hardly more bent than on point forces. Steps settle on none of them, so a single one may end
+    anywhere (measured: from 0.95 to 1.16 times as bent)."""
     energy = np.zeros((4, 2))
     for seed, row in enumerate(energy, 1):
         vertices, faces = meshes.rough_ball(seed, roughness=1.2)
@@ -368,8 +366,8 @@ def test_steps_on_crumpled_balls_do_not_burst():
 
 
 def test_steps_end_once_the_vertices_are_fixed():
-    """Some pads have gone by then, and vertices that were unknowns no longer are. While the smoother and
-    the factor still knew them, these steps left by 3e-3, or ran off and were taken back."""
+    """By then some pads are gone and some unknowns are fixed. While the smoother and the factor still had them,
+    these steps were 3e-3 off, or diverged and were taken back."""
     vertices, faces = meshes.random_hull(90, seed=3)
     bumps = 1 + 0.1 * np.random.default_rng(3).normal(size=(len(vertices), 1))
     options = {"interpolation": "approximate", "tolerance": 0.06}

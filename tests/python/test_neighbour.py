@@ -89,7 +89,7 @@ def quads(mesh):
 @pytest.mark.parametrize("levels", [3, 4])
 @pytest.mark.parametrize("pair", PAIRS)
 def test_tangents_join(pair, levels, make):
-    """Between triangles kinks were 1.4 degrees, and sides of the bottle folded by 43."""
+    """Triangles once had kinks of 1.4 degrees, and sides of the bottle folded by 43."""
     fixed, other = map(make, PAIRS[pair]())
     first, before = fair(fixed, levels), fair(other, levels)
     assert np.degrees(seam(before, first).kink.max()) > 5
@@ -107,7 +107,7 @@ def test_tangents_join(pair, levels, make):
 @pytest.mark.parametrize("levels", [3, 4])
 @pytest.mark.parametrize("pair", PAIRS)
 def test_curvature_joins(pair, levels, make):
-    """Everywhere, also beside the ends of the joint, where it jumped by 76 to 99 %."""
+    """Also beside the ends of the joint, where curvature once jumped by 76 to 99 %."""
     fixed, other = map(make, PAIRS[pair]())
     first = fair(fixed, levels)
     met = fair(other, levels, neighbour=(first.vertices, first.faces), joint="curvature")

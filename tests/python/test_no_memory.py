@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Allocations of the native module that fail, one after another: an error in words each time, and
-never the end of the process. In a process of its own, whose operator new is this test's."""
+"""Allocations of the native module fail one after another: each call gives an error in words, and the process goes
+on. It is a process of its own, with an operator new of this test."""
 
 import shutil
 import subprocess

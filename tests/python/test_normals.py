@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Normals that the surface has at control vertices because the caller says so."""
+"""Normals that the caller fixes at control vertices."""
 
 import control_meshes as meshes
 import discrete_fairing as df
@@ -29,7 +29,7 @@ def angle(a, b) -> float:
 
 
 def vertex_normal(result, vertex) -> np.ndarray:
-    """Of the faces around, as Max (1999) weighs them: exact on spheres."""
+    """From the faces around, with the weights of Max (1999): exact on spheres."""
     points, normal = result.vertices, np.zeros(3)
     for face in output_faces(result):
         if vertex in face:
@@ -41,7 +41,7 @@ def vertex_normal(result, vertex) -> np.ndarray:
 
 
 def ball(subdivisions=1, noise=0.0, seed=2):
-    """Points of the unit sphere, moved along it, which are their own normals."""
+    """Points of the unit sphere, moved along it; they are their own normals."""
     points, faces = icosphere(subdivisions)
     return slid(points, noise, seed), faces
 

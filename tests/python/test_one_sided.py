@@ -159,7 +159,7 @@ def test_beside_other_sheets():
 
 
 def test_as_smooth_where_it_closes_as_anywhere():
-    """The default accuracy leaves the two halves of the cover apart: no step may be seen."""
+    """With the default accuracy the two halves of the cover differ, but no step may be seen."""
     vertices, faces = strip(AROUND, ACROSS)
     result = df.fair(vertices, faces, 4)
     _, pairs, angle = turns(result.vertices, result.faces[1])

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What comes back: control vertices to the last bit, the same topology refined, its counts and types,
-and from which polygon each face is."""
+"""The result has the control vertices to the last bit, the refined topology, its counts and types, and the polygon
+of each face."""
 
 import control_meshes as meshes
 import discrete_fairing as df
@@ -59,7 +59,7 @@ def test_the_same_surface_refined(name, levels):
 @pytest.mark.parametrize("offset, scale", [(0.1, 1 / 3), (1e5, 7.7), (-123.456, 1e-4)])
 @pytest.mark.parametrize("boundary", ["curve", "linear", "free"])
 def test_vertices_are_kept_wherever_the_mesh_lies(offset, scale, boundary):
-    """Coordinates that no working frame can carry there and back without rounding."""
+    """No working frame carries these coordinates there and back without rounding."""
     (vertices, faces), ridge = meshes.roof()
     vertices = vertices * scale + [offset, 2 * offset, -offset]
     result = df.fair(vertices, faces, 2, boundary=boundary, crease_edges=ridge)
@@ -84,7 +84,7 @@ def test_outside_stays_outside(name):
 
 
 def test_components_do_not_see_each_other():
-    """Two meshes in one call come out as they do alone."""
+    """Two meshes in one call give the surfaces that they give alone."""
     one, two = meshes.icosahedron(), meshes.random_hull(15)
     vertices = np.concatenate([one[0], two[0] + 10])
     result = tight.fair(vertices, np.concatenate([one[1], two[1] + 12]), 2, relative_residual=1e-12)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pads in place of point forces: what they do to the surface, and where they are refused."""
+"""Pads in place of point forces: their surfaces, and where they are refused."""
 
 import control_meshes as meshes
 import discrete_fairing as df
@@ -62,7 +62,7 @@ def test_inscribed_meshes_are_nearer_to_the_sphere(name, most):
 
 
 def ball_and_its_images():
-    """A round ball, and of each vertex the one on the other side of x = 0."""
+    """A round ball, and for each vertex its image across x = 0."""
     vertices, faces = meshes.rough_ball(roughness=0)
     distance = np.linalg.norm(vertices[:, None] * [-1, 1, 1] - vertices[None], axis=2)
     assert distance.min(1).max() < 1e-12
@@ -105,7 +105,7 @@ def test_widths_are_lengths_of_the_mesh(name):
 
 @pytest.mark.parametrize("name", ("icosahedron", "octahedron", "cube"))
 def test_inscribed_meshes_have_whole_pads(name):
-    """However sharp their corners are: the mesh turns along each edge as an arc does."""
+    """Also at sharp corners: the mesh turns along each edge as an arc does."""
     mesh = getattr(meshes, name)()
     shortest, _ = shortest_and_longest_edges(*mesh)
     widths = np.array(df.fair(*mesh, levels=2).report["pads"]["widths"])
@@ -128,7 +128,7 @@ def test_pads_are_narrow_between_a_corner_and_a_flat_place():
 
 
 def test_nothing_beyond_a_crease_changes_a_pad():
-    """A wavy sheet is bent along a crease, on one side alone: the other stays as it is."""
+    """A wavy sheet is bent along a crease on one side; the other side stays as it is."""
     vertices, faces = meshes.grid(6, 4)
     vertices[:, 2] = 0.4 * np.sin(2 * vertices[:, 0]) * np.cos(vertices[:, 1])
     middle = 3.0
@@ -175,7 +175,7 @@ def test_widths_stay_while_vertices_move():
 @pytest.mark.parametrize("levels", (4, 5))
 @pytest.mark.parametrize("name", ("icosahedron", "rough_ball"))
 def test_as_little_is_left_at_the_vertices_on_every_level(name, levels):
-    """On fine levels more was left, since the polyhedron's own forces grow."""
+    """The polyhedron's own forces grow with the level, and once left more there."""
     mesh = getattr(meshes, name)()
     pads = df.fair(*mesh, levels)
     assert pads.report["levels"][-1]["pad_force"] <= 2e-3
@@ -185,7 +185,7 @@ def test_as_little_is_left_at_the_vertices_on_every_level(name, levels):
 
 
 def test_stiff_rows_at_a_free_border_do_not_mislead_loads():
-    """Loads ended elsewhere, 3.4e-3 away, after 211 iterations, and to 1e-11 they did not converge."""
+    """Loads once ended 3.4e-3 away after 211 iterations, and did not converge to 1e-11."""
     usual, exact = (
         df.fair(*sheet(stretched=True), 3, boundary="free", relative_residual=residual)
         for residual in (1e-4, 1e-11)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Surfaces in pieces against those that are faired as a whole."""
+"""Surfaces in pieces against surfaces of the whole mesh."""
 
 import pickle
 from functools import cache
@@ -11,11 +11,11 @@ from piece_meshes import MESHES, ring, sheet, torus
 from refusing import refusal
 from shared_data import creases_of, read_obj, shared_files
 
-TIGHT = {"relative_residual": 1e-11}  # so that loads on pads end far below what is compared
+TIGHT = {"relative_residual": 1e-11}  # loads on pads then end far below the differences here
 
 
 def bound(rings):
-    """Of the difference to the whole, as a share of its size (docs/how-to/pieces.md)."""
+    """The largest difference from the whole, as a share of its size (docs/how-to/pieces.md)."""
     return 5e-3 * 2.6**-rings
 
 
@@ -57,8 +57,8 @@ def test_pieces_are_the_whole(name, count, rings):
     jump = joined.report["pieces"]["jump"]
     assert joined.report["pieces"]["count"] == count
     assert 0 <= jump["share"] < 2 * bound(rings)  # of two that both may be off
-    # Seams are where pieces are worst, and neighbours' opinions tell how bad; but on the even strip
-    # pieces are images of each other, and err alike.
+    # Pieces are worst at their seams, where two pieces differ by about their errors; but on the even strip
+    # pieces are images of each other and have the same error.
     assert name == "one-sided" or difference(joined, whole, points) < 5 * jump["share"] + 1e-8
 
 
@@ -168,7 +168,7 @@ NEAR = {"interpolation": "approximate"}
         ({"pad_size": 0.0}, 5, bound(5)),
         ({"energy": "total_curvature", "relative_residual": 1e-7}, 5, bound(5)),
         ({"energy": "minimum_variation", "relative_residual": 1e-7}, 5, 3 * bound(5)),
-        # Vertices that give way pass on more than such that stay.
+        # Vertices that give way pass changes on farther than fixed ones.
         ({**NEAR, "weights": np.linspace(1, 3, N)}, 6, 3e-4),
         ({**NEAR, "tolerance": np.linspace(0.002, 0.004, N)}, 6, 3e-4),
         ({"region": np.arange(60, 150)}, 5, bound(5)),
@@ -187,7 +187,7 @@ def test_settings_are_cut_out_with_pieces(settings, rings, most):
 
 
 def test_weights_along_normals_have_the_unit_of_the_whole():
-    """Pieces measured that of their own edges: 2.1e-4 off in place of 5e-6."""
+    """Pieces once measured the unit of their own edges: 2.1e-4 off in place of 5e-6."""
     points, faces = sheet(stretched=True)
     settings = {**NEAR, "weights": np.full(len(points), 10.0), "energy": "total_curvature"}
     settings["relative_residual"] = 1e-7
@@ -287,7 +287,7 @@ def test_one_piece_needs_no_library(monkeypatch):
 
 
 def test_a_crease_is_felt_by_its_own_piece_only():
-    """The crease's ring of vertices is on one side of the torus: the other side keeps its bits."""
+    """The crease's ring of vertices is on one side of the torus; the other side keeps its bits."""
     plain = {p.index: p for p in cut(*torus(48, 8), count=6, rings=1)}
     creased = {
         p.index: p for p in cut(*torus(48, 8), count=6, rings=1, crease_edges=ring(48, 8)[:3])
@@ -297,7 +297,7 @@ def test_a_crease_is_felt_by_its_own_piece_only():
 
 
 def shapes_of(points):
-    """One that is bent, the mesh itself, and one that is bent more and more along x."""
+    """A bent shape, the mesh itself, and a shape that bends more and more along x."""
     points = np.where(np.isfinite(points), points, 0.0)
     bent = points + 0.2 * np.sin(2 * points[:, [1, 2, 0]])
     share = (1 + np.tanh(points[:, :1])) / 2

@@ -46,7 +46,7 @@ def test_a_cluster_of_two_workers(client, pieces, joined):
 
 
 def test_a_worker_is_killed_in_mid_run(client, pieces, joined, tmp_path):
-    """Workers read pieces and write parts; one of them dies over its piece."""
+    """Workers read pieces and write parts; one of them is killed at its piece."""
     paths = []
     for piece in pieces:
         paths.append(tmp_path / f"piece-{piece.index}.npz")

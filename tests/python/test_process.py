@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What happens to the process: threads that cannot be started, its end in mid-run, forks. Each in a
-process of its own."""
+"""Threads that cannot be started, the end of the process in mid-run, and forks; each in a process of its own."""
 
 import subprocess
 import sys
@@ -29,7 +28,7 @@ limits = pytest.mark.skipif(sys.platform != "linux", reason="limits of memory ar
 
 
 def run(script, before=None):
-    """What a script prints; fails the test where it does not end well, and soon."""
+    """The words that a script prints; the test fails if the script does not end well within a minute."""
     paths = [str(Path(__file__).parent), str(Path(discrete_fairing.__file__).parents[1])]
     code = f"import sys; sys.path[:0] = {paths!r}\n" + BEGIN + textwrap.dedent(script)
     done = subprocess.run(
@@ -41,8 +40,8 @@ def run(script, before=None):
 
 @pytest.mark.parametrize("body", ["check", "fair", "solver", "loop", "watched", "update"])
 def test_a_daemon_thread_at_work_does_not_spoil_the_end(body):
-    """It is cancelled, and the interpreter waits for it; a thread that tries again and again gets
-    the same answer."""
+    """The run is cancelled, and the interpreter waits for it; a thread that tries again and again gets the same
+    answer."""
     assert run(f"""
         def loop():
             while True:
@@ -73,8 +72,7 @@ def test_a_daemon_thread_at_work_does_not_spoil_the_end(body):
 
 @forks
 def test_a_solver_says_that_it_has_stayed_behind_in_the_parent():
-    """It can be asked, deleted and left over at exit in the forked process, and serves the parent
-    as before."""
+    """The forked process can call it, delete it and leave it over at exit; it serves the parent as before."""
     out = run("""
         solver, spare = df.Solver(points, faces, 2), df.Solver(points, faces, 1)
         expected = solver.solve().vertices
@@ -95,7 +93,7 @@ def test_a_solver_says_that_it_has_stayed_behind_in_the_parent():
 
 @forks
 def test_a_fork_in_mid_run_ends_the_run_in_the_child_alone():
-    """Whether the callback forks, or another thread does; and the child ends at once."""
+    """The callback forks, or another thread does; the child ends at once."""
     out = run("""
         children = []
 
@@ -127,7 +125,7 @@ def test_a_fork_in_mid_run_ends_the_run_in_the_child_alone():
 
 
 def little_room():
-    """Stacks so large that few find room."""
+    """Stacks so large that only few threads find room."""
     import resource
 
     resource.setrlimit(resource.RLIMIT_STACK, (1 << 29, resource.RLIM_INFINITY))
@@ -153,7 +151,7 @@ def test_threads_that_cannot_be_started_are_done_without():
 
 @limits
 def test_not_even_one_thread():
-    """fair() runs on the caller's; a solver, which needs its own, says so."""
+    """fair() runs on the caller's thread; a solver needs its own, and says so."""
     out = run(
         """
         import resource

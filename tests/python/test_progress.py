@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Progress, cancelling, and runs beside each other and beside Python."""
+"""Progress, cancelling, runs at the same time, and Python at work beside a run."""
 
 import threading
 import time
@@ -13,7 +13,7 @@ from refusing import refusal
 
 
 def long_run():
-    """Takes long enough to be watched."""
+    """A mesh whose run takes long enough to be watched."""
     return meshes.torus(40, 30)
 
 
@@ -48,7 +48,7 @@ def test_returning_false_cancels(options):
 
 @pytest.mark.parametrize("reports", [1, 4])
 def test_cancelling_while_patches_are_fitted(reports):
-    """At once, and the same call goes through afterwards, with the same bits."""
+    """The call ends at once, and the same call gives the same bits afterwards."""
     mesh, options = meshes.random_hull(), {"levels": 5, "tolerance": 1e-7, "force": True}
     before, began = df.fit_patches(*mesh, **options), []
 
@@ -84,8 +84,7 @@ def test_monitor_cancels_from_another_thread():
 
 
 def test_monitor_is_watched_from_another_thread():
-    """Python runs while the core does: another thread counts and sees fractions between nought and
-    one."""
+    """Python runs beside the core: another thread sees fractions between 0 and 1."""
     monitor, seen, stop = df.Monitor(), [], threading.Event()
 
     def watch():
@@ -104,7 +103,7 @@ def test_monitor_is_watched_from_another_thread():
 
 
 def test_runs_beside_each_other():
-    """Several threads, each its own mesh: every one gets what it gets alone."""
+    """Several threads fair a mesh each, and each gets the surface that it gets alone."""
     jobs = {
         name: (*meshes.ALL[name](), 3)
         for name in ("creature", "torus_quads", "random_hull", "wavy_patch", "house")

@@ -18,7 +18,7 @@ def tube(n=72, m=47):
 
 
 def holed(chosen):
-    """The tube without the quads whose centre's angle and height are `chosen`, and its hole."""
+    """The tube without the quads that `chosen` takes by angle and height of their centres, and its hole."""
     points, quads = tube()
     centre = points[quads].mean(axis=1)
     gone = chosen(np.arctan2(centre[:, 1], centre[:, 0]), centre[:, 2])

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Ragged holes: closed by a manifold without a fold, but for those that any triangles over the rim would
-have.
-"""
+"""Ragged holes get a manifold without folds, except those that any triangles over the rim would have."""
 
 import random
 
@@ -14,7 +12,7 @@ from shared_data import SHARED
 
 
 def assert_sound(vertices, faces, least_angle=0.0):
-    """Closed, and folded only where the rim alone makes that so; the holes."""
+    """Closed, and folded only where the rim alone makes it so. Returns the holes."""
     filled = df.fill_holes(vertices, faces)
     assert smallest_angle(filled.vertices, filled.faces[filled.new_faces]) > least_angle
     assert (uses(filled.faces) == 2).all()
@@ -28,7 +26,7 @@ def assert_sound(vertices, faces, least_angle=0.0):
 @pytest.mark.parametrize("wander", [0.0, 0.9])
 @pytest.mark.parametrize("seed", range(4))
 def test_on_a_torus_total_curvature_closes_them_without_a_fold(seed, wander):
-    """The mean of a vertex's neighbours often lies beyond such a rim, in the mesh."""
+    """The mean of a vertex's neighbours often lies beyond such a rim, within the mesh."""
     rng = random.Random(seed)
     points, faces = torus(120, 60)
     taken = ragged(faces, rng.choice([100, 300, 900]), rng, wander)
@@ -80,7 +78,7 @@ def test_a_first_triangulation_that_folds_is_unfolded():
 
 
 def test_holes_in_rounds_of_their_own_share_no_edge():
-    """One hole is done after the first round, the other, around the same vertices, is not."""
+    """One hole is done after the first round; the other one, around the same vertices, is not."""
     points, faces, gone, i, j = ragged_end()
     vertices, kept = cut(points, faces, gone | ((i >= 36) & (i < 38) & (j < 9)))
     filled = df.fill_holes(vertices, kept)
@@ -89,7 +87,7 @@ def test_holes_in_rounds_of_their_own_share_no_edge():
 
 
 def test_noise_at_a_rim_leaves_no_more_folds_than_any_triangles():
-    """A third of an edge: fillings fold, and bare triangles take the place of those that would not."""
+    """Noise is a third of an edge. Where a filling folds and bare triangles do not, bare triangles take its place."""
     rng = random.Random(0)
     points, faces = torus(120, 60)
     gone = np.any([ragged(faces, rng.choice([60, 150]), rng, 0.9) for _ in range(4)], axis=0)

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Regions: what is outside stays on the control polygon to the last bit, and the joint keeps its
-promise."""
+"""Regions: the outside stays on the control polygons to the last bit, and the joint keeps its promise."""
 
 import control_meshes as meshes
 import numpy as np
@@ -12,8 +11,7 @@ JOINTS = ("position", "tangent", "curvature")
 
 
 def ramp(columns=6, gap=2, triangles=False):
-    """The planes z = 0 and z = 1 with a slope between: (vertices, faces), the slope's faces, its
-    ends in x."""
+    """The planes z = 0 and z = 1 with a slope between: (vertices, faces), the slope's faces, its ends in x."""
     points, quads = meshes.grid(columns, 4)
     low = (columns - gap) // 2
     high = low + gap
@@ -116,8 +114,7 @@ def test_flat_stays_flat(joint, cut):
 
 
 def slopes_and_curvatures(gap, joint, levels, **options):
-    """At the joint, in the middle of a ramp's line: turn (radians), and second difference of the
-    first row inside."""
+    """At the joint, in the middle of a ramp's line: turn (radians), and second difference of the first row inside."""
     turns, curvatures = [], []
     for level in levels:
         mesh, region, (low, _) = ramp(6 if gap == 2 else 7, gap)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The table of settings in the package, and the core's: one list."""
+"""The package's settings are those of the core."""
 
 import inspect
 from typing import get_args, get_type_hints

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Shapes: further positions of the control vertices, solved on the charts of the first ones, so by
-one linear map."""
+"""Shapes are further positions of the control vertices. They are solved on the charts of the first ones, so by one
+linear map."""
 
 import control_meshes as meshes
 import numpy as np
@@ -72,7 +72,7 @@ def test_an_affine_image_has_the_affine_surface(name):
 
 
 def test_a_shape_is_not_the_mesh_of_its_own():
-    """Its charts are those of the basis: what a separate run makes of it is another surface."""
+    """Its charts are those of the basis; a run of its own gives another surface."""
     vertices, faces = sample("creature")
     shape = vertices * [1, 1, 6.0]
     together = tight.fair(vertices, faces, 2, shapes=[shape]).shapes[0]

@@ -34,8 +34,7 @@ def assert_sound(result, vertices):
 
 
 def creases_in(path, faces):
-    """The listed ones that are there: some lists name an edge of a face that the file does not
-    have."""
+    """The listed ones that are there: some lists name an edge of a face that the file does not have."""
     edges, corners = creases_of(path, sharper_than=2.0)
     there = {frozenset(e) for f in faces for e in zip(f, [*f[1:], f[0]])}
     return [e for e in edges.tolist() if frozenset(e) in there], corners

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sheets that meet: each is faired as if alone, and the result is one welded mesh."""
+"""Sheets that meet: each is faired as if it were alone, and the result is one welded mesh."""
 
 import control_meshes as meshes
 import discrete_fairing as df
@@ -114,8 +114,8 @@ def test_a_box_with_a_wall():
 
 
 def test_no_triangle_is_cut_from_two_polygons():
-    """A pentagon and a quad have two edges in common, where others meet them. If both were cut
-    between these, curves would leave no room between the halves."""
+    """A pentagon and a quad share two edges, where others meet them. If both were cut between these, curves would
+    leave no room between the halves."""
     vertices = [
         [-0.85, 1.22, -1.36],
         [0.99, -0.02, -1.47],

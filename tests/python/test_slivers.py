@@ -7,8 +7,8 @@ import sliver_meshes as slivers
 from control_meshes import random_hull
 from discrete_fairing import fair
 
-# Mesh, levels, the most iterations of the finest level with point forces. All three had their two
-# finest levels factored when the smoother knew the diagonal only.
+# Mesh, levels, the most iterations of the finest level with point forces. With the diagonal as the
+# smoother, the two finest levels of all three were factored.
 HARD = {
     "strips across the caps": (lambda: slivers.prism(), 3, 45),
     "fans from the rim": (lambda: slivers.prism(height=0.2, cap=slivers.rim_fan), 3, 45),
@@ -17,7 +17,7 @@ HARD = {
 
 
 def above_the_coarsest(result):
-    """Reports of the levels that are too large to be solved directly as a matter of course."""
+    """Reports of the levels that are too large for a direct solution."""
     return [level for level in result.report["levels"][1:] if level["unknowns"] > 1200]
 
 
@@ -34,8 +34,7 @@ def test_no_level_is_factored(name, pad_size):
 
 
 def test_lines_follow_weights():
-    """A tolerance changes the weights of control vertices, and so the matrix, from round to
-    round."""
+    """A tolerance changes the weights of control vertices, and so the matrix, from round to round."""
     vertices, faces = slivers.stretched(random_hull(300), 30)
     result = fair(vertices, faces, 3, interpolation="approximate", tolerance=1e-2, measure=False)
     finest = result.report["levels"][-1]
@@ -44,7 +43,7 @@ def test_lines_follow_weights():
 
 
 def test_lines_serve_total_curvature():
-    """It took 78 iterations with the diagonal, of a degree that rose to forty."""
+    """With the diagonal it took 78 iterations, of a degree that rose to forty."""
     hull = random_hull(40)  # 39,000 unknowns on level 5
     result = fair(*hull, 5, energy="total_curvature", measure=False)
     level = result.report["curvature"][-1]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Soft creases: the surface turns within their radius, in one hump, and ever less at one place."""
+"""Soft creases: the surface turns within their radius, in one hump, and less and less at any one place."""
 
 import control_meshes as meshes
 import discrete_fairing as df
@@ -52,7 +52,7 @@ def section(result, y):
 
 
 def width(x, curvature):
-    """Of the part about 0 where curvature is above half of its largest."""
+    """The width of the part about 0 where curvature is above half of its largest."""
     top = curvature.max() / 2
     above = np.flatnonzero(curvature > top)
     assert np.array_equal(above, np.arange(above[0], above[-1] + 1))  # one hump

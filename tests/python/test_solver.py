@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Solver: which surface comes out, the first time and after the vertices have moved."""
+"""Surfaces of a Solver, the first time and after the vertices have moved."""
 
 import control_meshes as meshes
 import numpy as np
@@ -77,7 +77,7 @@ def test_the_first_surface_is_that_of_fair(name):
 
 @pytest.mark.parametrize("name", [name for name, (_, _, near) in CASES.items() if near])
 def test_moved_surfaces_are_those_of_shapes(name):
-    """One linear map of the positions, however the solver came there, even at first."""
+    """They are one linear map of the positions, whichever way the solver came there, also at first."""
     (vertices, faces), settings, near = CASES[name]
     way = [moved(vertices, 0.05, k) for k in range(3)] + [vertices, vertices * [1, 2, 0.5] + 3]
     expected = tight.fair(vertices, faces, 3, shapes=way, **settings).shapes
@@ -138,7 +138,7 @@ def test_a_sphere_stays_that_sphere(energy):
 
 @pytest.mark.parametrize("energy", CURVED)
 def test_a_dragged_cage_comes_to_the_least_energy(energy):
-    """As low as level by level: another run's points lie elsewhere on the same surface."""
+    """Its energy is as low as level by level; the points of another run lie elsewhere on the same surface."""
     vertices, faces = icosphere(1)
     vertices = vertices * [1, 1.4, 0.8]
     pulled = np.exp(-6 * np.linalg.norm(vertices - vertices[0], axis=1) ** 2)[:, None]

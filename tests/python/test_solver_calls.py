@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Solver as an object: its arrays and properties, rebase, errors, cancelling, calls from several
-threads."""
+"""Solver as an object: its arrays and properties, rebase, errors, cancelling, calls from several threads."""
 
 import threading
 

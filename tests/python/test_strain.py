@@ -24,7 +24,7 @@ def rough(mesh, size, seed):
 
 
 def let_go(points, faces, vertex):
-    """The way by which a vertex moves where all but it are held."""
+    """The move of a vertex that is free while all others are held."""
     weights = np.full(len(points), np.inf)
     weights[vertex] = 0.0
     result = df.fair(
@@ -254,12 +254,12 @@ def terrain(across, wrong=()):
 
 @pytest.mark.parametrize("across", [15, 26])
 def test_of_exact_terrain_nothing_is_wrong(across):
-    """70 of 225 and 171 of 676 were."""
+    """Once 70 of 225 and 171 of 676 vertices were."""
     assert df.strain(*terrain(across)).wrong.tolist() == []
 
 
 def test_among_gross_errors_they_alone_are_wrong():
-    """287 of 676 were: what a gross error leaves beside it is above what exact vertices strain."""
+    """Once 287 of 676 were: beside a gross error strain exceeds that of exact vertices."""
     planted = {26 * 13 + 13, 26 * 3 + 4, 26 * 22 + 5, 26 * 2 + 24}
     found = df.strain(*terrain(26, planted))
     assert set(found.wrong[:4].tolist()) == planted and len(found.wrong) <= 8

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Arguments that no caller should pass, and arrays that change in mid-run: errors with a code, and
-never a crash."""
+"""Arguments that no caller should pass, and arrays that change in mid-run: errors with a code, and never a crash."""
 
 import threading
 
@@ -61,7 +60,7 @@ def test_sizes_beyond_any_machine_are_large_and_no_less():
 
 @pytest.mark.parametrize("watcher", [{"progress": 5}, {"progress": "print"}, {"monitor": 0}])
 def test_watchers_are_looked_at_before_the_run(watcher):
-    """The mesh, which has nothing to fair, is not even looked at."""
+    """The mesh has nothing to fair, and is not even read."""
     error = code_of(df.fair, POINTS[:0], FACES[:0], 2, **watcher)
     assert error == "BAD_OPTION"
     solver = df.Solver(POINTS, FACES, 1)
@@ -111,7 +110,7 @@ class Scribbler(threading.Thread):
 
 @pytest.mark.parametrize("what", ["fair", "check", "mend", "solver", "predicted"])
 def test_arrays_that_change_in_mid_run(what):
-    """The call sees one state of them, be it nonsense: an error, or the surface."""
+    """The call sees one state of the arrays, even if it is nonsense: an error, or the surface."""
     points, corners, offsets = POINTS.copy(), CORNERS.copy(), OFFSETS.copy()
     calls = {
         "fair": lambda: df.fair(points, (corners, offsets), 1),
@@ -137,7 +136,7 @@ NUMBERS = sorted(set(SETTINGS) - {"measure"})
 )
 @pytest.mark.parametrize("name", NUMBERS)
 def test_true_is_no_number(name, value):
-    """As a length weld=True would be 1, and levels=True one level."""
+    """weld=True would be a length of 1, and levels=True one level."""
     options = {"levels": 1, "repair": "mend", "interpolation": "approximate", name: value}
     for call in (df.fair, df.Solver):
         assert code_of(call, POINTS, FACES, **options) in ("BAD_OPTION", "BAD_SHAPE")

@@ -119,8 +119,7 @@ def arch():
 @pytest.mark.parametrize("side", [1, -1])
 @pytest.mark.parametrize("option", ["weights", "corner_vertices", "region", "crease_edges"])
 def test_what_is_given_on_one_side_only_acts_on_that_side(option, side):
-    """As it does where a vertex is too far off for the mesh to be symmetric, which is all that is
-    known of it there."""
+    """So it does where a vertex is too far off for the mesh to be symmetric."""
     vertices, faces = arch()
     at = {tuple(p): k for k, p in enumerate(vertices[:, :2].tolist())}
     weights = np.ones(len(vertices))

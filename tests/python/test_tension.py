@@ -36,7 +36,7 @@ def energies(result):
 @pytest.mark.parametrize("energy", ENERGIES)
 @pytest.mark.parametrize("name", CLOSED)
 def test_area_falls_and_the_surface_passes_through_every_vertex(name, energy):
-    """Steps between point forces do not settle on a cube or on handles as taut as 1, and say so."""
+    """On a cube and on handles with tension 1, steps between point forces do not settle, and say so."""
     vertices, faces = mesh_of(name)
     found = {
         tension: tight.fair(vertices, faces, levels=2, energy=energy, tension=tension)

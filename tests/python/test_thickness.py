@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Surfaces thicker or thinner than their control mesh: said, with what to do, and no steps into a
-bubble. And what is as round as its mesh is not spoken of."""
+"""A surface thicker or thinner than its control mesh is reported with a cure, and no steps lead into a bubble. A
+surface as round as its mesh is not reported."""
 
 import bevelled_boxes
 import control_meshes as meshes
@@ -60,7 +60,7 @@ def test_a_thin_box_that_swells_says_so_and_names_the_cure(sides, energy):
 
 @pytest.mark.parametrize("sides", [(1, 1, 0.5), (1, 0.5, 0.5), (1, 0.2, 0.2)])
 def test_a_box_is_told_of_where_it_swells_but_not_where_its_edges_are_rounded_off(sides):
-    """By 1.95, 1.72 and 1.53 times, as a cube does, by 1.59; steps make balls of 2.4 to 5.2 of them."""
+    """The plate grows by 1.95, 1.72 and 1.53 times, as a cube by 1.59; steps make balls of 2.4 to 5.2 of them."""
     plate = df.fair(*box(*sides), 3, threads=1)
     assert thicker(plate, sides).max() > 1.5 and not told(plate)
     ball = df.fair(*box(*sides), 3, "total_curvature", threads=1)
@@ -69,7 +69,7 @@ def test_a_box_is_told_of_where_it_swells_but_not_where_its_edges_are_rounded_of
 
 @pytest.mark.parametrize("size, is_told", [(1, True), (3, False)])
 def test_a_thin_part_of_a_body_that_swells_is_told_of_where_it_is_a_fifth_of_it(size, is_told):
-    """As ears and lips are not: beside a cube, the large faces of a thin box are 24 or 4 % of the area."""
+    """Ears and lips are not: beside a cube, the large faces of a thin box are 24 or 4 % of the area."""
     thin, faces = box(1, 1, 0.1)
     points = np.concatenate([thin, box(size, size, size)[0] + 2])
     both = df.fair(points, np.concatenate([faces, faces + len(thin)]), 3, threads=1)
@@ -79,7 +79,7 @@ def test_a_thin_part_of_a_body_that_swells_is_told_of_where_it_is_a_fifth_of_it(
 @pytest.mark.parametrize("energy", CURVED)
 @pytest.mark.parametrize("sides", [(1, 1, 0.1), (1, 1, 0.02), (1, 0.2, 0.05), (1, 0.05, 0.05)])
 def test_no_steps_are_taken_into_a_bubble(sides, energy):
-    """They took seven to twenty times as long as the thin plate, to 9 to 45 times the thickness."""
+    """Such steps took seven to twenty times as long as the thin plate, and ended at 9 to 45 times the thickness."""
     result = df.fair(*box(*sides), 3, energy, threads=1)
     plate = df.fair(*box(*sides), 3, threads=1)
     assert not result.report["converged"]
@@ -98,7 +98,7 @@ def test_bevelled_bodies_are_told_of():
 
 @pytest.mark.parametrize("size, tension", [((33, 120), 0), ((40, 50), 0), ((50, 20), 1)])
 def test_flats_that_total_curvature_lifts_are_told_of_and_limit_is_a_cure(size, tension):
-    """Cans grow by 76, 18 and 9 % in the mean, without a word: their faces are narrower than they are."""
+    """Cans once grew by 76, 18 and 9 % in the mean without a warning: each face is narrower than the can is thick."""
     points, faces, *_ = flat_parts.can(*size)
     settings = {"energy": "total_curvature", "tension": tension, "threads": 1}
     (warning,) = told(df.fair(points, faces, 2, **settings))
@@ -115,7 +115,7 @@ def test_tension_is_a_cure():
 
 @pytest.mark.parametrize("thickness", [0.2, 0.1, 0.05])
 def test_a_plate_whose_flats_swell_by_a_seventh_is_told_of_under_every_energy(thickness):
-    """With some tension the thin plate lifted these by 15 % without a word; without flats it may."""
+    """With some tension the thin plate lifted these by 15 % without a warning; without flats it may."""
     sides = (0.45, 0.39, thickness)
     result = df.fair(
         *bevelled_boxes.bevelled_box(sides, 0.17 * thickness), 3, tension=0.5, threads=1
@@ -137,7 +137,7 @@ def coin(count, thickness):
 
 @pytest.mark.parametrize("count, thickness", [(16, 0.7), (32, 0.5), (32, 0.4)])
 def test_whether_a_body_is_thin_does_not_depend_on_the_faces_of_its_flat_sides(count, thickness):
-    """Each face is narrower than these are thick: they grew by 64 to 90 % without a word."""
+    """Each face is narrower than these bodies are thick: they once grew by 64 to 90 % without a warning."""
     result = df.fair(*coin(count, thickness), 2, threads=1)
     assert thicker(result, (2, 2, thickness))[2] > 1.6 and told(result)
 
@@ -151,7 +151,7 @@ def off_section(points):
 
 @pytest.mark.parametrize("count, sections", [(9, 6), (14, 6), (14, 11)])
 def test_long_faces_along_a_tight_edge_are_not_hollow(count, sections):
-    """They were by 0.039, 0.032 and 0.023, and a warning said so."""
+    """Once they were, by 0.039, 0.032 and 0.023, with a warning."""
     points, faces, trailing = wing(count, sections)
     result = df.fair(points, faces, 2, crease_edges=trailing, threads=1)
     assert not told(result)
@@ -168,13 +168,13 @@ def tube(sides, lengths):
 
 @pytest.mark.parametrize("lengths", [(4,) * 4, (0.2, 2, 0.2, 2, 0.2)])
 def test_long_faces_of_tubes_are_not_hollow(lengths):
-    """They were by 0.045 and 0.012."""
+    """Once they were, by 0.045 and 0.012."""
     result = df.fair(*tube(8, lengths), 3, threads=1)
     assert np.abs(np.hypot(*result.vertices[:, :2].T) - 1).max() < 0.006
 
 
 def test_a_hollow_edge_is_told_of_and_a_smaller_exponent_is_the_cure():
-    """Triangles at its tip: so its strips of quads are no ridges, and count as long as they are."""
+    """Its tip has triangles, so its strips of quads are no ridges, and count with their full length."""
     points, quads, trailing = wing()
     size = len(airfoil(9))
     tip = quads[-size:]

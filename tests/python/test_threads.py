@@ -29,7 +29,7 @@ CASES = {
 TIGHT = {"pad_size": 0.0, "relative_residual": 1e-8, "measure": True}
 STEPS = {**TIGHT, "energy": "total_curvature"}
 NEAR = {"interpolation": "approximate", "tolerance": 0.01}
-# With what else a surface may be asked for; by the residual that the tests of it have.
+# Further settings, each with the residual of its own tests.
 MORE = {
     "pads": (meshes.creature, 3, TIGHT | {"pad_size": 0.5}),
     "wide_pads": (meshes.creature, 3, TIGHT | {"pad_size": 1.0}),
@@ -82,7 +82,7 @@ def test_any_number_of_threads_with_more(name):
 
 
 def bits(result) -> dict:
-    """Of all its arrays, pairs of them too."""
+    """The bytes of all its arrays, pairs included."""
     values = {name: getattr(result, name) for name in dir(result) if not name.startswith("_")}
     arrays = {
         f"{name} {k}": one

@@ -64,14 +64,14 @@ def test_random_hulls_become_spheres(name, levels):
 
 @pytest.mark.parametrize("degree", [4, 6])
 def test_fine_levels_are_as_exact(degree):
-    """Loads are not corrected by what a solve leaves: read in the control vertices' own rows alone,
-    it left the cube 2e-6 off here, and 4e-4 at level 7."""
+    """Loads are not corrected by the residual of a solve: read in the control vertices' own rows alone, that left
+    the cube 2e-6 off here, and 4e-4 at level 7."""
     assert radius_error(SOLIDS["cube"](), 6, smoother_degree=degree) <= 5e-7
 
 
 @pytest.mark.parametrize("name", ["icosahedron", "cube", "J1"])
 def test_the_sphere_stays_where_it_is(name):
-    """Of any size, anywhere."""
+    """At any size and place."""
     vertices, faces = SOLIDS[name]()
     centre = np.array([30.0, -20, 7])
     result = fair((250 * vertices + centre, faces), 3, **TIGHT)

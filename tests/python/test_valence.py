@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Control vertices of many faces: time and memory grow as the faces do."""
+"""Control vertices of many faces: time and memory grow with the number of faces."""
 
 import discrete_fairing as df
 import numpy as np
@@ -36,8 +36,7 @@ def test_memory_of_a_free_vertex_is_linear_in_valence(levels):
 
 
 def test_a_large_ring_is_solved_as_a_small_one():
-    """One more face than a ring may have whose points are coupled directly: hardly another
-    surface."""
+    """The surface hardly changes at the first ring that is too large for its points to be coupled directly."""
     few, many = (tight.fair(*disc(n), 2) for n in (64, 65))
     assert few.report["converged"] and many.report["converged"]
     assert few.vertices[64] == pytest.approx(many.vertices[65])
@@ -52,7 +51,7 @@ def test_level_beyond_the_direct_limit_is_solved():
 
 
 def test_steps_end_where_rounding_begins():
-    """Faces of 1 by 1/1500 leave their factor few digits. What it left was iterated on, to no avail."""
+    """Faces of 1 by 1/1500 leave their factor few digits; iterations on the rest were in vain."""
     report = df.fair(*disc(4000), 2, energy="total_curvature", measure=False).report
     coarse, fine = report["curvature"]
     assert coarse["converged"] and fine["energy"] < 0.01 * fine["plate_energy"]

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Models with thin walls and fins, and how much their rims wave: the angle by which a rim turns, once
-around. A flat convex rim turns by 360 degrees; each wave adds to that.
-"""
+"""Models with thin walls and fins, and how much their rims wave: the angle by which a rim turns, once around. A
+flat convex rim turns by 360 degrees; each wave adds to that."""
 
 from collections import defaultdict, deque
 from collections.abc import Sequence
@@ -98,9 +97,8 @@ MODELS = {"cup": cup, "sheet": sheet, "wing": wing}
 
 
 def along_edges(quads: np.ndarray, rim: list[int], pieces: int) -> list[int]:
-    """The points of a refined mesh along the control edges of a rim: where rows of quads meet, the way
-    from vertex to vertex that has so many steps is the only one.
-    """
+    """The points of a refined mesh along the control edges of a rim: where rows of quads meet, the way from vertex
+    to vertex that has so many steps is the only one."""
     beside: dict[int, list[int]] = defaultdict(list)
     for quad in quads.tolist():
         for a, b in zip(quad, quad[1:] + quad[:1], strict=True):
@@ -124,7 +122,7 @@ def along_edges(quads: np.ndarray, rim: list[int], pieces: int) -> list[int]:
 
 
 def turning(points: np.ndarray) -> float:
-    """Of a closed polygon, degrees."""
+    """The turn of a closed polygon, in degrees."""
     side = np.roll(points, -1, axis=0) - points
     side /= np.linalg.norm(side, axis=1, keepdims=True)
     cosine = (side * np.roll(side, -1, axis=0)).sum(axis=1)
@@ -132,7 +130,7 @@ def turning(points: np.ndarray) -> float:
 
 
 def of_subdivision(model: Model, levels: int) -> float:
-    """That of the limit surface."""
+    """The turn of the limit surface's rim."""
     vertices, faces, rim = model
     state = (vertices, faces, {}, {})
     for _ in range(levels):
@@ -142,7 +140,7 @@ def of_subdivision(model: Model, levels: int) -> float:
 
 
 def of_surface(model: Model, levels: int, **settings) -> float:
-    """That of ours."""
+    """The turn of our surface's rim."""
     vertices, faces, rim = model
     found = df.fair(vertices, faces, levels, **settings)
     return turning(found.vertices[along_edges(found.faces[1], rim, 2**levels)])

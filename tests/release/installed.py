@@ -29,8 +29,7 @@ def keep_preset():
     """Saves the panel's settings as the user's preset.
 
     Blender 4.3's own saving of presets fails with Python 3.13, which only Debian builds it with: there the file is
-    written as Blender would.
-    """
+    written as Blender would."""
     if sys.version_info < (3, 13) or bpy.app.version >= (5, 1):
         bpy.context.scene.discrete_fairing.tolerance = 0.125
         bpy.ops.object.fairing_preset_add(name=PRESET)

@@ -15,9 +15,7 @@ from addon.mesh.read import read_mesh
 
 
 def grid(shape, n, m, close_u, close_v, diagonals=True):
-    """`shape(u, v)` of parameters in [0, 1), sampled n × m, in triangles or quads with the normal
-    along ∂u × ∂v.
-    """
+    """`shape(u, v)` of parameters in [0, 1), sampled n × m, in triangles or quads with the normal along ∂u × ∂v."""
     u = np.arange(n) / (n if close_u else n - 1)
     v = np.arange(m) / (m if close_v else m - 1)
     positions = np.stack(shape(*np.meshgrid(u, v, indexing="ij")), axis=-1).reshape(-1, 3)

@@ -113,9 +113,7 @@ def test_the_source_is_only_read():
 
 
 def test_what_the_mesh_carries(source):
-    """UV maps, weights and material indices at the live level too; the object keeps materials and
-    modifiers.
-    """
+    """UV maps, weights and material indices at the live level too; the object keeps materials and modifiers."""
     source.data.materials.append(bpy.data.materials.new("Paint"))
     source.data.uv_layers.new(name="Map")
     source.vertex_groups.new(name="Group").add([0, 1], 0.5, "REPLACE")

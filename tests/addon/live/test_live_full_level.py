@@ -24,9 +24,7 @@ def test_the_full_level_comes_when_the_edit_pauses(no_pause):
 
 
 def test_the_next_edit_starts_from_the_shape_that_is_there(no_pause):
-    """A fresh solver comes with the full level: charts of the new shape, and its surface to start
-    from.
-    """
+    """A fresh solver comes with the full level: charts of the new shape, and its surface to start from."""
     source, target = box()
     pull(source)
     before = session(target).solver

@@ -72,9 +72,7 @@ def stays(data_type, domain):
 
 
 def on_control_edges(made):
-    """(refined edges,) bool, found by the positions of a cube: two coordinates of either end are 1
-    in size.
-    """
+    """(refined edges,) bool, found by the positions of a cube: two coordinates of either end are 1 in size."""
     linear = made.transfer.point(made.arrays.positions)
     a, b = linear[edge_vertices(made.mesh)].transpose(1, 0, 2)
     return ((np.abs(a) == 1) & (a == b)).sum(axis=1) >= 2
@@ -119,9 +117,7 @@ def test_uv_of_a_plane_stays_affine():
 
 
 def test_seams_stay_apart():
-    """Where two faces of the control cube have different UVs at a common edge, so have the refined
-    ones.
-    """
+    """Where two faces of the control cube have different UVs at a common edge, so have the refined ones."""
     source = cube()
     made = refine(source, 2)
     on_seam = on_control_edges(made)

@@ -10,9 +10,8 @@ from scenes import activate, add, edit, positions, to_object_mode
 
 
 def tube(chosen):
-    """A closed ring of quads with the radius 1 in the middle of its tube of 0.5, without those whose
-    angle around and angle along the tube are `chosen`.
-    """
+    """A closed ring of quads with the radius 1 in the middle of its tube of 0.5, without those whose angle around
+    and angle along the tube are `chosen`."""
     n, m = 48, 24
     a, b = np.meshgrid(2 * np.pi * np.arange(n) / n, 2 * np.pi * np.arange(m) / m, indexing="ij")
     away = 1 + 0.5 * np.cos(b)

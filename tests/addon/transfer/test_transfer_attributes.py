@@ -37,9 +37,7 @@ def refined_corners(result):
 
 
 def by_hand(cells):
-    """A transfer for one face whose 16 cells are written down; its control vertices have the ids of
-    its corners.
-    """
+    """A transfer for one face whose 16 cells are written down; its control vertices have the ids of its corners."""
     size = cells.shape[1]
     own = [0, 4, 14] if size == 3 else [0, 4, 24, 20]
     others = [i for i in range(cells.max() + 1) if i not in own]
