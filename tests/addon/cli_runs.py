@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The command in this process, and what it has written."""
+"""Runs the command in this process, and reads its files."""
 
 import json
 import os

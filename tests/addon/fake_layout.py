@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A layout that only remembers: drawing for real needs a window."""
+"""A layout that only remembers, since real drawing needs a window."""
 
 import bpy
 
@@ -55,7 +55,7 @@ class Layout:
 
 
 def draw(cls, context=None):
-    """What a panel class draws in the present context, or another, as a list of labels, properties and operators."""
+    """The labels, properties and operators that a panel class draws in the present context or another one."""
 
     class Instance:
         layout = Layout()

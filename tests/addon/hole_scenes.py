@@ -17,7 +17,7 @@ def ball(name="Ball"):
 
 
 def without(target, chosen):
-    """The faces for which chosen(centre) holds are erased."""
+    """Erases the faces for which chosen(centre) holds."""
     with bmesh_of(target.data) as bm:
         gone = [f for f in bm.faces if chosen(f.calc_center_median())]
         bmesh.ops.delete(bm, geom=gone, context="FACES")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What tests of Live share. Nothing redraws here: `follow` lets Blender see what has changed."""
+"""Helpers for tests of Live. Nothing redraws here: `follow` lets Blender see changes."""
 
 from time import monotonic, sleep
 
@@ -30,7 +30,7 @@ def live(active):
 
 
 def session(target):
-    """What keeps `target` live, or None."""
+    """The session that keeps `target` live, or None."""
     return registry.session_of(target)
 
 

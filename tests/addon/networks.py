@@ -9,7 +9,7 @@ TURN = 2 * np.pi
 
 
 def drawn(name, way, start, end, count=9, closed=False):
-    """The curve through `count` points of `way`, a function of one number."""
+    """The curve through `count` points of the function `way` of one number."""
     at = np.linspace(start, end, count, endpoint=not closed)
     return Curve(name, through(np.array([way(t) for t in at]), closed), closed)
 
@@ -82,7 +82,7 @@ def tube():
 
 
 def polygon(sides):
-    """So many arcs around a place in the middle, whose ends are up and down."""
+    """So many arcs around a middle, whose ends alternate between up and down."""
 
     def corner(k):
         a = TURN * (k % sides) / sides

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Polygons as the plain arrays that are read of a mesh."""
+"""Polygons as the plain arrays that are read from a mesh."""
 
 import numpy as np
 

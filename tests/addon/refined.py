@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A mesh object, refined and given its data without the operator."""
+"""Refines a mesh object and writes its data without the operator."""
 
 from types import SimpleNamespace
 
@@ -35,7 +35,7 @@ def core_run(arrays, levels, **settings):
 
 
 def control_arrays(positions, polygons):
-    """What AttributeTransfer needs of a control mesh that is given by hand."""
+    """The arrays that AttributeTransfer needs of a control mesh given by hand."""
     sides = {tuple(sorted(s)) for p in polygons for s in zip(p, (*p[1:], p[0]))}
     return SimpleNamespace(
         positions=np.array(positions, float),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Small scenes and what tests ask of them."""
+"""Small scenes, and questions about them."""
 
 from contextlib import contextmanager
 from pathlib import Path
@@ -61,7 +61,7 @@ def face_values(mesh, name, dtype):
 
 
 def snapshot(source):
-    """Everything about an object and its mesh that must not change, as bytes and plain values."""
+    """All of an object and its mesh that must not change, as bytes and plain values."""
     mesh = source.data
     attributes = {}
     for attribute in mesh.attributes:
@@ -96,7 +96,7 @@ def set_edge_attribute(mesh, name, data_type, pairs, value, domain="EDGE"):
 
 
 def again(source, **settings):
-    """A further surface of a source that the last one has hidden."""
+    """Another surface of a source that the last surface has hidden."""
     source.hide_set(False)
     activate(source)
     return fair(**settings)
@@ -117,7 +117,7 @@ def reopen(tmp_path):
 
 
 def settings(**changes):
-    """Those of the scene, some changed there."""
+    """The settings of the scene, after these changes."""
     scene = bpy.context.scene.discrete_fairing
     for name, value in changes.items():
         setattr(scene, name, value)
@@ -130,7 +130,7 @@ def computed(job):
 
 
 def shown(target):
-    """What modifiers and shape keys make of an object: its vertices."""
+    """The vertices of an object after modifiers and shape keys."""
     return positions(target.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh())
 
 
@@ -164,7 +164,7 @@ def faces_at_edges(mesh):
 
 
 def edit(target, kind, chosen=()):
-    """Edit Mode, with those of its vertices, edges or faces selected that these numbers name."""
+    """Enters Edit Mode with these vertices, edges or faces selected."""
     activate(target)
     bpy.ops.object.mode_set(mode="EDIT")
     bpy.ops.mesh.select_mode(type=kind)
@@ -182,7 +182,7 @@ def to_object_mode():
 
 
 def moved(source, result):
-    """How far each control vertex was missed."""
+    """The distance of the surface from each control vertex."""
     count = len(source.data.vertices)
     return np.linalg.norm(positions(result.data)[:count] - positions(source.data), axis=1)
 

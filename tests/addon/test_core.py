@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The settings arrive at the core under its own names; creases and corners from plain arrays."""
+"""Settings reach the core under its own names; creases and corners come from plain arrays."""
 
 from dataclasses import replace
 

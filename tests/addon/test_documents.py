@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The documents keep what they say: links, names, explained settings, examples that run."""
+"""The documents are true: their links, names, explained settings and examples."""
 
 import inspect
 import re
@@ -51,7 +51,7 @@ def code_blocks(text, language):
 
 
 def prose(text):
-    """The text without its code, whose brackets are no links and whose hashes are no headings."""
+    """The text without code, whose brackets are no links and whose hashes are no headings."""
     return FENCE.sub("", text)
 
 
@@ -83,7 +83,7 @@ def broken_links(text, folder, own):
 
 
 def wrong(judge):
-    """What `judge` finds in each document, of its text and its path; only where it finds something."""
+    """The faults that `judge` finds, by document, from its text and path."""
     found = {named(path): judge(path.read_text("utf-8"), path) for path in DOCUMENTS}
     return {name: faults for name, faults in found.items() if faults}
 
@@ -107,7 +107,7 @@ def settings_page():
 
 
 def is_said(words):
-    """Whether they stand in the page of the settings as whole words."""
+    """Whether the page of settings has these words as whole words."""
     return re.search(rf"(?<![\w-]){re.escape(words)}(?![\w-])", settings_page()) is not None
 
 
@@ -134,7 +134,7 @@ def test_settings_are_explained_with_their_defaults():
 
 
 def default_argument(name):
-    """Of an argument of fair(); None where it has none."""
+    """The default of an argument of fair(); None if it has none."""
     if name in SETTINGS:
         core = getattr(df._native.Options(), name)
         plain = core[0] if isinstance(core, list) and core else core

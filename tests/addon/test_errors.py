@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Bad input: a sentence that names what is wrong, and nothing made."""
+"""Bad input gives a sentence that names the fault, and makes nothing."""
 
 import re
 from pathlib import Path

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Files may hold anything in the place of what objects remember: panels, timers and buttons go on."""
+"""A file may hold anything in place of an object's records: panels, timers and buttons go on."""
 
 import json
 
@@ -22,7 +22,7 @@ RECORDS = ("report", "readout", "carried", "made", "defects")
 
 
 def surface():
-    """A surface that remembers all that there is."""
+    """A surface with all records."""
     add("Box", *CUBE)
     target = fair(levels=1, energy="TOTAL_CURVATURE")
     activate(target)
@@ -33,7 +33,7 @@ def surface():
 
 
 def redraw():
-    """What Blender does again and again while a surface is active."""
+    """Draws as Blender does all the time while a surface is active."""
     for panel in PANELS:
         if panel is not main.VIEW3D_PT_fairing_presets:
             draw(panel)
@@ -43,7 +43,7 @@ def redraw():
 
 
 def spoilt(record):
-    """The record with one value after another, at any depth, in the place of which is another; of lists the first."""
+    """The record with a wrong value in place of each of its values in turn, at any depth; of lists the first."""
     for key in list(record) if isinstance(record, dict) else range(len(record[:1])):
         value = record[key]
         for other in VALUES:

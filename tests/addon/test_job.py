@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The operator from end to end: what the source carries arrives on the new object."""
+"""The operator from end to end: the new object gets the data of the source."""
 
 import bpy
 import numpy as np
@@ -29,7 +29,7 @@ def test_shape_keys_are_faired_too(source):
 
 
 def mirror_defect(points):
-    """How far the points are from being their own mirror images in x, exactly."""
+    """The largest distance of a point from the mirror image of another in x."""
     there, back = {tuple(p) for p in points.tolist()}, {(-x, y, z) for x, y, z in points.tolist()}
     return len(there ^ back)
 
@@ -79,7 +79,7 @@ def test_a_source_that_is_deleted_meanwhile_is_noticed(source):
 
 @pytest.mark.parametrize("again", [False, True])
 def test_undo_meanwhile_is_no_deletion(again):
-    """As in a second window: references of before are dead, the objects are not."""
+    """As in a second window: old references are dead, but the objects are there."""
     bpy.context.preferences.edit.use_global_undo = True
     source = add("Box", *CUBE)
     target = fair(levels=1) if again else None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The source moves in Object Mode: the surface follows, as far as nobody has moved it by itself."""
+"""The surface follows when its source moves in Object Mode, unless somebody has moved the surface itself."""
 
 import bpy
 import pytest

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Seconds that a run will take, and what is done where nobody can cancel it."""
+"""The predicted seconds of a run, and what happens where nobody can cancel it."""
 
 import bpy
 import numpy as np
@@ -61,13 +61,13 @@ def test_a_run_is_noted_and_the_panel_says_seconds(source, monkeypatch):
 
 @pytest.fixture
 def redo(monkeypatch):
-    """As if Adjust Last Operation called, where no run is late, however busy the machine is."""
+    """Runs as Adjust Last Operation does; no run is late, however busy the machine is."""
     monkeypatch.setattr(fairing.Fairing, "is_redone", lambda self: True)
     monkeypatch.setattr(fairing, "Deadline", lambda seconds: None)
 
 
 def by_its_button(operator):
-    """What has been shown with fewer levels, made whole."""
+    """Completes a surface that is shown with fewer levels."""
     assert why_stale(bpy.context.active_object) == UNFINISHED
     assert operator() == {"FINISHED"}
     assert why_stale(bpy.context.active_object) == ""
@@ -84,7 +84,7 @@ def test_a_run_that_takes_longer_than_predicted_is_broken_off(redo, monkeypatch)
 
 
 def test_where_even_a_small_surface_takes_too_long(redo, monkeypatch):
-    """Nothing is made, so that Blender puts back what was there."""
+    """Nothing is made, so Blender puts back what was there."""
 
     def compute(self, **_):
         raise JobCancelled(self.name)
@@ -120,7 +120,7 @@ def test_a_slow_energy_is_stood_in_for(source, redo, monkeypatch):
 
 @pytest.mark.parametrize("energy, levels", [("THIN_PLATE", 6), (ENERGY, 4)])
 def test_a_quick_redo_is_whole_at_once(redo, energy, levels):
-    """On a machine without runs of its own: 49,152 and 3,072 triangles, said to take 1.0 and 1.8 s."""
+    """The machine has no runs of its own: 49,152 and 3,072 triangles are predicted to take 1.0 and 1.8 s."""
     add("Box", *CUBE)
     target = fair(levels=levels, energy=energy)
     assert len(target.data.polygons) == 6 * 4**levels and why_stale(target) == ""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the user prefers reaches scenes and the core."""
+"""The user's preferences reach scenes and the core."""
 
 from threading import current_thread, main_thread
 from types import SimpleNamespace
@@ -47,7 +47,7 @@ def test_memory_and_threads_reach_the_core(monkeypatch):
 
 
 def test_blender_is_asked_on_its_own_thread_alone(monkeypatch):
-    """Whatever computes has all that it needs beforehand."""
+    """Jobs have all that they need before they compute."""
     asked = []
     now = preferences.current_context
 

@@ -17,7 +17,7 @@ pytestmark = pytest.mark.plain
 
 
 class Monitor:
-    """The core's, as far as a queue knows it."""
+    """The core's monitor, as far as a queue uses it."""
 
     def __init__(self):
         self.fraction, self.phase, self.cancelled = 0.0, "check", Event()
@@ -27,7 +27,7 @@ class Monitor:
 
 
 class Job:
-    """Waits in the midst of its work until it may go on."""
+    """Waits in the middle of its work until it may go on."""
 
     def __init__(self, name, triangles=100, error=None):
         self.name, self.triangles, self.error = name, triangles, error

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Lengths as the scene says them, those of a list in one unit."""
+"""Lengths in the units of the scene; a list has one unit."""
 
 from types import SimpleNamespace
 
@@ -48,7 +48,7 @@ def test_a_list_has_one_unit():
 
 
 def test_every_unit_of_blender_is_known():
-    """A name that Blender gives a unit of length, and nobody here knows, would pass for ADAPTIVE."""
+    """Otherwise a name of a unit that nobody here knows would pass for ADAPTIVE."""
     settings = bpy.context.scene.unit_settings
     for system, smallest in (("METRIC", "MICROMETERS"), ("IMPERIAL", "THOU")):
         settings.system = system

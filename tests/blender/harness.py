@@ -26,12 +26,12 @@ DRAWN = 60.0  # seconds until the viewport must have been drawn: on a busy machi
 
 
 def module(name):
-    """One of the extension's own."""
+    """A module of the extension."""
     return importlib.import_module(f"{EXTENSION}.{name}")
 
 
 def until(done, patience=120.0):
-    """Waits, at most so many seconds; a generator."""
+    """Waits until `done()`, at most `patience` seconds; a generator."""
     begun = perf_counter()
     while not done():
         assert perf_counter() - begun < patience, "it does not come"
@@ -107,9 +107,8 @@ def run_in_window(namespace):
 
 
 def drawn():
-    """Until the viewport has been drawn, of which operators that turn it ask sizes and matrices; a generator.
-
-    At first there is no window: it opens after the scripts have been read."""
+    """Waits until the viewport has been drawn: operators that turn it ask for sizes and matrices. A generator. At
+    first there is no window: it opens after the scripts have been read."""
     begun, seen = perf_counter(), []
     add = bpy.types.SpaceView3D.draw_handler_add
     handle = add(lambda: seen.append(True), (), "WINDOW", "POST_PIXEL")
@@ -255,7 +254,7 @@ def colours(path):
 
 
 def xdotool(*words):
-    """Mouse and keyboard of the X server."""
+    """Controls mouse and keyboard of the X server."""
     subprocess.run(["xdotool", *map(str, words)], check=True, timeout=30)
 
 
@@ -265,8 +264,8 @@ def sidebar():
 
 
 def button_at(region, x, y):
-    """The call in Python of the button under the mouse, once that is at a place on the screen; a generator. Blender
-    says of a button what it would copy."""
+    """The Python call of the button at a place on the screen, as Blender would copy it; moves the mouse there. A
+    generator."""
     manager = bpy.context.window_manager
     xdotool("mousemove", x, y)
     yield 0.1
@@ -279,9 +278,9 @@ def button_at(region, x, y):
 
 
 def find_button(region, call, share, below):
-    """Where on the screen the button is whose call begins with `call`, as "bpy.ops.object.fairing_for(
-    purpose='HULL'"; a generator. It is looked for up and down from `below`, in pixels from the top of the region,
-    at a `share` of its width."""
+    """The place on the screen of the button whose call begins with `call`, such as
+    "bpy.ops.object.fairing_for(purpose='HULL'". The search goes up and down from `below`, in pixels from the top of
+    the region, at a `share` of its width. A generator."""
     top, x = (
         view()["window"].height - (region.y + region.height),
         int(region.x + share * region.width),
@@ -301,7 +300,7 @@ class Clicks:
         self.count = 0
 
     def press(self, call, share, below):
-        """One click on a button; a generator. Looking for it is not counted: users see it."""
+        """One click on a button; a generator. The search for it is not counted, since users see it."""
         place = yield from find_button(sidebar(), call, share, below)
         xdotool("mousemove", *place)
         yield 0.3
@@ -316,7 +315,7 @@ def redo_panel():
 
 
 def line_of(region, number):
-    """Where the value of a panel's line is on the screen; its title is line 0."""
+    """The place on the screen of a value in a panel's line; the title is line 0."""
     unit = bpy.context.preferences.system.ui_scale
     top = view()["window"].height - (region.y + region.height)
     return int(region.x + 0.75 * region.width), int(top + (20 + 24 * number) * unit)

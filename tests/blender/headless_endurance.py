@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Two hundred runs in one process: memory stays where it is, and no mesh ever needs mending."""
+"""Two hundred runs in one process: memory does not grow, and no mesh needs mending."""
 
 import ctypes
 import sys
@@ -13,8 +13,8 @@ import harness
 import numpy as np
 
 RUNS = 200
-# Runs in which memory is compared. Before the first 40 are over, caches fill. The least of many runs
-# is what a leak would raise.
+# Memory is compared over so many runs, after caches have filled in the first ones. A leak would raise
+# the least value of many runs.
 WINDOW = 40
 # Bytes that a run may leave behind, on average: Python's own tables grow a little. One array of
 # Suzanne's vertices is 12 KB.
@@ -49,7 +49,7 @@ def bytes_in_use():
 
 
 def assert_steady(memory, what):
-    """`memory` in bytes after each run: no more in the last WINDOW runs than when it had settled."""
+    """`memory` in bytes after each run: the last WINDOW runs use no more than the runs after it had settled."""
     settled, end = min(memory[WINDOW : 2 * WINDOW]), min(memory[-WINDOW:])
     left = (end - settled) / (len(memory) - 2 * WINDOW)
     print(f"{what}: {settled / 2**20:.2f} MB, then {end / 2**20:.2f} MB: {left:.0f} bytes a run")
@@ -71,8 +71,8 @@ def once(source, **settings):
 
 
 def level_of(run):
-    """Mostly 1: what a run leaves behind does not depend on its size, and memory is compared after each. Level 2
-    has another level between the coarsest and the finest."""
+    """Mostly 1, since a run's leak does not depend on its size and memory is compared after each run. Level 2 has a
+    level between the coarsest and the finest."""
     return 2 if run % 9 == 0 else 1
 
 
@@ -93,7 +93,7 @@ def a_surface():
 
 
 def test_what_is_left_behind_is_seen():
-    """Whether Blender, NumPy or the native module leaves it: each may ask another allocator."""
+    """Blender, NumPy and the native module may use different allocators; each is counted."""
     for make in (a_mesh, an_array, a_surface):
         before = bytes_in_use()
         kept = make()

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The window during a run of a million triangles: how long events wait, what still works in it, how a run is ended.
-
-Here the window is drawn by the processor, which others may be using too. So the same drawing is timed beforehand
-without a run, and the run is granted that besides."""
+"""The window during a run of a million triangles: how long events wait, which controls work, how a run is ended.
+The processor draws the window and may be busy, so the same drawing is timed first without a run; the run is allowed
+that time besides."""
 
 import contextlib
 import sys
@@ -118,7 +117,7 @@ def test_the_view_can_be_used_and_cancel_is_a_button():
 
 
 def test_what_is_begun_meanwhile_goes_on():
-    """Edit Mode is kept when the surface is written; a drag is waited for."""
+    """The run keeps Edit Mode when it writes the surface, and waits for a drag."""
     yield from open_window()
     start(4)
     with bpy.context.temp_override(**harness.view()):

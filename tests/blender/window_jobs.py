@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Each job from defaults in a window, pressed with the mouse on a model of its kind, beside what Blender has for it.
-
-The clicks are counted from the selection to the result and to the first stripes. The models, and
-what stands beside, are those of examples/jobs.py.
-"""
+"""Each job from defaults in a window, pressed with the mouse on a model of its kind, beside Blender's own tool for
+it. Clicks are counted from the selection to the result and to the first stripes. Models and rivals are those of
+examples/jobs.py."""
 
 import sys
 import tempfile
@@ -34,7 +32,7 @@ STEP = (0.25, 230)
 
 
 def name_of_call(name):
-    """How the button of a job says what it runs."""
+    """The Python call of a job's button."""
     job = jobs.JOBS[name]
     options = ", ".join(f"{key}='{value}'" for key, value in job.options.items())
     return f"bpy.ops.{job.operator}({options}"
@@ -55,7 +53,7 @@ def selected(name):
 
 
 def one_click(name):
-    """A generator that returns the model and what is active afterwards, in stripes; the rivals stand beside."""
+    """A generator that returns the model and the active object afterwards, in stripes, with the rivals beside."""
     model = yield from selected(name)
     clicks = harness.Clicks()
     yield from clicks.press(name_of_call(name), *PLACES[name])

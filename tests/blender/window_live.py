@@ -24,7 +24,7 @@ def positions(mesh):
 
 
 def positions_of(source):
-    """Of the control vertices, as its mesh has them, which lists no attributes in Edit Mode."""
+    """Positions of the control vertices from the mesh, which has no attribute for them in Edit Mode."""
     values = np.empty(3 * len(source.data.vertices), np.float32)
     source.data.vertices.foreach_get("co", values)
     return values.reshape(-1, 3)
@@ -72,7 +72,7 @@ def centre():
 
 
 class Recorder:
-    """Hears of each update, and how long Blender takes for the whole of it: from one redraw to the next."""
+    """Notes the parts of each update; the time between two redraws is the whole update."""
 
     def __init__(self, target):
         self.session, self.parts, self.seen = session(target), [], session(target).updates

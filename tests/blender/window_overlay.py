@@ -23,7 +23,7 @@ def pixels(name):
 
 
 def changes(picture):
-    """How often a line from top to bottom goes from dark to light, at most."""
+    """The largest number of changes from dark to light along a line from top to bottom."""
     grey = picture.astype(float).mean(axis=2)
     light = np.where(grey > 160, 1, np.where(grey < 70, 0, -1))
     counts = []
@@ -34,7 +34,7 @@ def changes(picture):
 
 
 def coloured(picture):
-    """How many pixels are not grey, as combs are, each axis' in a colour of its own."""
+    """The number of pixels that are not grey: combs have a colour for each axis."""
     return int(np.count_nonzero(np.ptp(picture.astype(int), axis=2) > 80))
 
 
@@ -79,8 +79,8 @@ def test_stripes_and_back():
 
 
 def striped(name, least, last=0):
-    """The picture, once it is another than the `last` one and lines across it change so often: shaders take their
-    time to compile. A generator."""
+    """The picture, once it differs from the `last` one and has `least` changes along a line: shaders take time to
+    compile. A generator."""
 
     def there(_path):
         picture = pixels(name)

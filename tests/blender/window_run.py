@@ -28,8 +28,8 @@ def pixels(path):
 
 
 def sidebar_at_rest(name):
-    """A picture of the sidebar, as `pixels`, that another one equals: panels read their pictures beside drawing. A
-    generator."""
+    """A picture of the sidebar, as `pixels`, once two in a row are equal: panels read their pictures beside
+    drawing. A generator."""
     sidebar = harness.sidebar()
     begun, last = perf_counter(), None
     while True:
@@ -43,7 +43,7 @@ def sidebar_at_rest(name):
 
 
 def find_button(settings):
-    """Where the button is on the screen: its text is all that changes with this setting. A generator; returns (x, y)."""
+    """The place of the button on the screen: only its text changes with this setting. A generator; returns (x, y)."""
     left, before = yield from sidebar_at_rest("button_before")
     settings.use_selection = True
     _, after = yield from sidebar_at_rest("button_after")

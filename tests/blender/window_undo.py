@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Undo beside runs that write outside of any step; what else a run must leave alone in a window; the badge."""
+"""Undo beside runs that write outside of any step, the things that a run must leave alone in a window, and the
+badge."""
 
 import sys
 import tempfile

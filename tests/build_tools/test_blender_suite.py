@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which scripts run in which of the real Blenders."""
+"""Which scripts run in which real Blender."""
 
 from time import sleep
 
@@ -19,7 +19,7 @@ def test_every_long_script_runs_in_one_blender():
 
 
 def test_two_lanes_never_run_in_one_another(monkeypatch):
-    """Each lane has one script at a time, and the results stand in the order of the scripts."""
+    """Each lane has one script at a time, and the results are in the order of the scripts."""
     busy, most = set(), []
 
     def run_script(lane, script):
@@ -36,7 +36,7 @@ def test_two_lanes_never_run_in_one_another(monkeypatch):
 
 
 def test_a_blender_that_cannot_be_had_is_one_failure(monkeypatch):
-    """And no reason to leave the others out."""
+    """The others run all the same."""
 
     def of_debian(root):
         if root == ROOTS[0]:
@@ -51,7 +51,7 @@ def test_a_blender_that_cannot_be_had_is_one_failure(monkeypatch):
 
 
 def test_all_are_installed_before_the_first_test(monkeypatch):
-    """Compilers use all cores: scripts in windows ran out of time beside them."""
+    """Compilers use all cores; beside them scripts in windows ran out of time."""
     seen = []
 
     def install(blender):

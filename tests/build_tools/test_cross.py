@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cross compilation, as far as it needs no compiler: names, pinned sources, how wheels are packed."""
+"""Cross compilation without a compiler: names, pinned sources and the packing of wheels."""
 
 import hashlib
 import io
@@ -37,7 +37,7 @@ def test_a_module_is_called_as_its_python_looks_for_it(name, suffix):
 
 
 def source_of(path, texts):
-    """A source that is an archive of these files, made at `path`."""
+    """A source whose archive, at `path`, has these files."""
     with tarfile.open(path, "w") as archive:
         for name, text in texts.items():
             entry = tarfile.TarInfo(name)
@@ -48,7 +48,7 @@ def source_of(path, texts):
 
 @pytest.fixture
 def served(tmp_path, monkeypatch):
-    """A source whose archive is on this machine."""
+    """A source with its archive on this machine."""
     monkeypatch.setattr(sources, "FOLDER", tmp_path / "cache")
     monkeypatch.setattr(sources, "debian", lambda file, to: shutil.copy(tmp_path / file, to))
     return source_of(tmp_path / "thing.tar", {"thing/wanted.h": "1", "thing/other.c": "2"})
@@ -89,7 +89,7 @@ def test_which_of_pythons_files_are_headers(name, wanted):
 
 @pytest.mark.usefixtures("served")
 def test_headers_keep_their_times(tmp_path, monkeypatch):
-    """Else the second run would compile everything again."""
+    """Otherwise the second run would compile everything again."""
     monkeypatch.setattr(python_parts, "FOLDER", tmp_path / "cache")
     texts = {"Python-3/Include/Python.h": "", "Python-3/PC/pyconfig.h": "windows"}
     source = source_of(tmp_path / "python.tar", texts)
@@ -138,7 +138,7 @@ def test_a_packed_wheel_is_named_and_tagged_alike(packed):
 
 
 def test_gcc_is_refused_for_windows(tmp_path):
-    """It lays the packs of the inner loops where the instructions fault."""
+    """GCC aligns the packs of the inner loops so that instructions fault."""
     if shutil.which("g++") is None:
         pytest.skip("no GCC here")
     windows = ["-DCMAKE_SYSTEM_NAME=Windows", "-DCMAKE_TRY_COMPILE_TARGET_TYPE=STATIC_LIBRARY"]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The inspection of cross-compiled modules: what it reads, what it objects to, and the wheels that were built."""
+"""The inspection of cross-compiled modules: its reading, its objections, and the wheels that were built."""
 
 import struct
 import zipfile
@@ -58,7 +58,7 @@ def dylib(command, name):
 
 
 def test_a_module_for_macos_is_read(tmp_path):
-    """It is a shared library, whose own name is none that it needs."""
+    """It is a shared library; its own name is no library that it needs."""
     path = tmp_path / "module.so"
     build_version = struct.pack("<6I", 0x32, 24, 1, 11 << 16, 12 << 16, 0)
     names = dylib(0xD, b"_native.so"), dylib(0xC, b"/usr/lib/libSystem.B.dylib")
@@ -86,7 +86,7 @@ def test_another_file_is_refused(tmp_path):
 
 
 def test_a_wheel_that_cannot_be_loaded_is_refused(tmp_path):
-    """By the program that looks at cross-compiled ones."""
+    """The inspection of cross-compiled wheels refuses it."""
     wheel = tmp_path / "ours-1-cp311-cp311-manylinux_2_17_x86_64.whl"
     with zipfile.ZipFile(wheel, "w") as archive:
         archive.write(installed_module(), "discrete_fairing/_native.so")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where Eigen, nanoflann and OpenMesh come from when none is installed: CMake is configured, nothing is compiled."""
+"""Sources of Eigen, nanoflann and OpenMesh where none is installed. CMake is configured; nothing is compiled."""
 
 import re
 import shutil

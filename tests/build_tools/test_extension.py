@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is staged for Blender, on wheels that are empty but for their names."""
+"""The folder staged for Blender, with wheels that are empty but for their names."""
 
 import tomllib
 from pathlib import Path

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The documents' pictures: each is dated, has a script that is there, stands on a page, and is of this version."""
+"""Each picture of the documents has a date, a script and a page, and shows this version."""
 
 import re
 

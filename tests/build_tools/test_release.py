@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a release is made of, without compiling: zips, page, components, notes, sums."""
+"""The parts of a release, without compiling: zips, page, components, notes, sums."""
 
 import json
 import re

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What comes from outside is what we know: versions are exact, and files have known hashes."""
+"""All that comes from outside is known: versions are exact, and files have known hashes."""
 
 import re
 

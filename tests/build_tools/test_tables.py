@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The tables of the documents are those of benchmarks/results, wherever they stand."""
+"""The tables of the documents are those of benchmarks/results."""
 
 import tables
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The wheel that is installed here: that it needs nothing but itself, and what it says of itself."""
+"""The installed wheel needs nothing but itself, and has the right version and licences."""
 
 import subprocess
 import sys

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What builds wheels on machines of their own kind, which has never run here: GitHub's workflow and cibuildwheel."""
+"""GitHub's workflow and cibuildwheel, which build wheels on machines of their own kind and have never run here."""
 
 import re
 import subprocess
@@ -23,7 +23,7 @@ MACHINES = {
 
 
 def checked(path):
-    """Exit code and words of a check against GitHub's own schema, which the tool carries."""
+    """Exit code and words of a check against GitHub's schema, which the tool carries."""
     words = ["--builtin-schema", "vendor.github-workflows", path]
     done = subprocess.run(
         [sys.executable, "-m", "check_jsonschema", *words], capture_output=True, text=True
@@ -53,7 +53,7 @@ def test_there_is_a_machine_for_every_platform():
 
 
 def test_what_runs_is_dev_py():
-    """But for what a bare container lacks, and for GitHub's own program."""
+    """Except to set up a bare container, and for GitHub's own program."""
     jobs = yaml.safe_load(CHECKS.read_text())["jobs"].values()
     lines = [step["run"] for job in jobs for step in job["steps"] if "run" in step]
     assert len(lines) > 4

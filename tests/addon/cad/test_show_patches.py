@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Show Patches: the control points that CAD gets, as a NURBS surface."""
+"""Show Patches: the control points of the patches for CAD, as a NURBS surface."""
 
 import bpy
 import numpy as np

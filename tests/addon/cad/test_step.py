@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""File > Export > Fair Surface (.step): what is written, what is said, what is refused."""
+"""File > Export > Fair Surface (.step): the file, the messages and the refusals."""
 
 import re
 from math import pi, sqrt

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Check Mesh: what it finds, selects, says and mends, on the core itself."""
+"""Check Mesh finds, selects, describes and mends defects, with the core itself."""
 
 from pathlib import Path
 

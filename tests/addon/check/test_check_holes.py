@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Check Mesh lists holes, shows one, fills one."""
+"""Check Mesh lists holes, shows one and fills one."""
 
 import bmesh
 import bpy

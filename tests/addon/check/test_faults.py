@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Surfaces that broke say so, in words and places, although their steps have converged."""
+"""A surface that broke is reported in words and places, although its steps have converged."""
 
 import bmesh
 import bpy
@@ -67,7 +67,7 @@ def test_a_sound_surface_is_not_blamed(energy):
 
 
 def test_suzanne_is_not_blamed_for_what_her_mesh_does():
-    """Her eyes stand in her head, and her nostrils are folded over."""
+    """Her eyes stand inside her head, and her nostrils fold over."""
     assert job_of(add_suzanne(), levels=3).faults.counts == {}
 
 

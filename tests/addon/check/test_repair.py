@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A source with defects: what is mended, said and shown, and that all it carries comes along."""
+"""A source with defects: the repairs, their report, and the data that comes along."""
 
 import numpy as np
 from live_scenes import live, pull, through
@@ -16,7 +16,7 @@ SAID = "1 duplicate face dropped, 1 face without area dissolved; Check Mesh show
 
 
 def add_defective():
-    """With UVs that are the positions, a colour a face, and an attribute of each corner's number."""
+    """UVs are the positions; each face has a colour, and each corner its number as an attribute."""
     source = add("Bad", VERTICES, FACES)
     mesh = source.data
     corners = np.array([v for face in FACES for v in face])

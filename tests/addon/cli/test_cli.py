@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The command on real files: what goes in comes out finer, with exit codes and a report."""
+"""The command on real files: finer meshes, exit codes and a report."""
 
 import signal
 from pathlib import Path

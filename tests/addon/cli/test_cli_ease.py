@@ -83,7 +83,7 @@ def test_the_table_is_that_of_the_panel():
 
 
 def test_symmetry_and_borders_are_heard():
-    """Options of the surface are those of its easing too."""
+    """Options of the surface also apply to its easing."""
     write_dunes("in.obj", scattered() * (1, 0.5, 1))
     found = []
     for words in ((), ("--symmetry-plane", "y"), ("--boundary", "linear")):

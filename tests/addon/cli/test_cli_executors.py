@@ -20,7 +20,7 @@ from addon.cli import main as command
 
 @pytest.fixture(autouse=True)
 def no_blender(monkeypatch):
-    """What starts the command once more is not Blender here."""
+    """The command starts itself again without Blender here."""
     program = f"import sys; sys.path[:0] = {[str(ROOT), str(CORE)]}\n{PROCESS}"
     monkeypatch.setattr(executors, "blender_again", lambda: [sys.executable, "-c", program])
 
@@ -56,7 +56,7 @@ def three_files():
 
 
 def without_seconds(value):
-    """What two runs have in common."""
+    """The part of a report that two runs have in common."""
     if isinstance(value, dict):
         own = ("seconds", "threads", "peak_bytes", "output")
         return {key: without_seconds(item) for key, item in value.items() if key not in own}

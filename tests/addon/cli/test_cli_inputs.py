@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Types that are only read, and the log of a line a file."""
+"""File types that are only read, and the log with a line for each file."""
 
 from pathlib import Path
 

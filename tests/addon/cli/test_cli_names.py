@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The command line on files whose names are not plain English, and on consoles that know nothing else."""
+"""The command line on file names that are not plain English, and on consoles with ASCII alone."""
 
 import os
 from pathlib import Path

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Outputs of the command line: whole, or as they were before."""
+"""Outputs of the command line are whole, or as they were before."""
 
 import os
 import stat
@@ -89,7 +89,7 @@ def test_the_materials_of_an_obj_keep_its_name(named):
 
 @pytest.mark.parametrize("more", [[], ["--no-overwrite"]], ids=str)
 def test_materials_of_others_are_kept(more):
-    """They are not those of the output: that is not there, or names others."""
+    """They do not belong to the output, which is absent or names other materials."""
     write_obj("in.obj", materials=("red", "blue"))
     Path("out.mtl").write_text("foreign")
     Path("out-1.mtl").symlink_to("nowhere.mtl")
@@ -119,7 +119,7 @@ def test_a_report_destroys_no_input_and_no_output(capsys):
 
 @pytest.mark.parametrize("kind", ["obj", "ply", "stl", "step"])
 def test_no_link_leads_the_writing_astray(kind, monkeypatch):
-    """Links planted at any name that is not the output's own, as far as one can foresee them."""
+    """Links are planted at all names, other than the output's own, that one can foresee."""
     write_obj("in.obj")
     Path("victim").write_text("kept")
     for name in (f".out.{os.getpid()}.part.{kind}", f"out.{kind}.part", f"out.{kind}~"):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fair Surface from Curves: which curves are read, what is made of them, and what follows them."""
+"""Fair Surface from Curves: the curves that it reads, its surface, and how that follows them."""
 
 import bpy
 import networks

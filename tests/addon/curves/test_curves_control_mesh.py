@@ -112,7 +112,7 @@ def test_a_mesh_keeps_its_faces_while_curves_are_drawn_about():
 
 
 def test_a_closed_end_does_not_swell():
-    """A tube of radius 1 with both its ends filled: free, minimum variation swells them by 1.03."""
+    """A tube of radius 1 with filled ends: without held vertices, minimum variation swells them by 1.03."""
     mesh = covered(networks.tube(), CoverOptions(closed=True)).mesh
     surface = faired(mesh, levels=1)
     low, high = mesh.points.min(axis=0), mesh.points.max(axis=0)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Curves, where they meet, and what they enclose. No Blender."""
+"""Curves, their meetings, and the cells that they enclose. No Blender."""
 
 from dataclasses import replace
 

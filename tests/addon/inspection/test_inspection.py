@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Zebra, curvature colours and the read-out on real objects: shown, saved, put back exactly."""
+"""Zebra, curvature colours and the read-out on real objects: shown, saved, and put back exactly."""
 
 from math import radians
 from types import SimpleNamespace
@@ -30,13 +30,13 @@ def evaluated(target):
 
 
 def shown_materials(target):
-    """Names of the materials that the faces have in the end."""
+    """Names of the materials that the faces show."""
     mesh = evaluated(target)
     return {mesh.materials[p.material_index].name for p in mesh.polygons if mesh.materials}
 
 
 def two_materials(target):
-    """One slot linked to the mesh, one to the object with another one hidden behind it."""
+    """One slot is linked to the mesh; one is linked to the object and hides another material."""
     red, green, blue = (bpy.data.materials.new(n) for n in ("Red", "Green", "Blue"))
     target.data.materials.append(red)
     target.data.materials.append(green)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Deviation in colours: the right distances, and none that a drag would wait for."""
+"""Deviation in colours: correct distances, and none that a drag would wait for."""
 
 import bpy
 import numpy as np

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is drawn over the viewport, as arrays: section curves and combs; and deviation."""
+"""Drawings over the viewport as arrays: section curves, combs and deviation."""
 
 from types import SimpleNamespace
 
@@ -111,7 +111,7 @@ def test_sections_end_at_borders_and_break_at_sharp_edges():
 
 
 def pointed(length=6.0, rows=60, around=48):
-    """A body like a hull's under water and above: round amidships, its ends drawn out to a stem."""
+    """A body like a hull, mirrored at the water: round amidships, its ends drawn out to a stem."""
     x = length * np.sin(np.linspace(-1.57, 1.57, rows + 1))[:, None]
     angle = np.linspace(0.0, 2.0 * np.pi, around, endpoint=False)
     breadth = (1.0 - (x / length) ** 2) ** 2 * np.cos(angle)

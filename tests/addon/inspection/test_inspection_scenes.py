@@ -10,7 +10,7 @@ from addon.mesh.modifiers import inspection_modifier
 
 
 def stripes_of(target):
-    """How many stripes the material has that `target` is shown in."""
+    """The number of stripes of the material that shows `target`."""
     group = inspection_modifier(target).node_group
     material = group.nodes["Material"].inputs["Material"].default_value
     return material.node_tree.nodes["Stripes"].inputs[1].default_value / 2.0
@@ -60,7 +60,7 @@ def viewports():
 
 
 def viewport(shading="SOLID", colour="MATERIAL"):
-    """That of a screen: none is drawn without a window."""
+    """The viewport of a screen, which is not drawn without a window."""
     space = viewports()[0]
     space.shading.type, space.shading.color_type = shading, colour
     return space
@@ -85,7 +85,7 @@ def test_a_click_is_seen_and_off_leads_back(before):
 
 
 def test_the_way_back_goes_with_the_viewport_and_its_file(tmp_path):
-    """Nothing is kept by the address of a viewport, which another one of the next file may have."""
+    """Nothing depends on the address of a viewport, since one of the next file may have the same."""
     viewport_shading.show(viewport("WIREFRAME"), "ZEBRA")
     path = str(tmp_path / "shown.blend")
     bpy.ops.wm.save_as_mainfile(filepath=path)

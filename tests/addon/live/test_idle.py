@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the add-on does while nothing is asked of it: next to nothing."""
+"""While no one uses the add-on it does next to nothing."""
 
 from types import SimpleNamespace
 
@@ -17,7 +17,7 @@ from addon.ui import main
 
 @pytest.fixture
 def counted(monkeypatch):
-    """How often faces are counted."""
+    """The calls that count faces."""
     calls, count = [], size.face_sizes
     monkeypatch.setattr(size, "face_sizes", lambda mesh: calls.append(mesh) or count(mesh))
     return calls
@@ -33,7 +33,7 @@ def test_faces_are_counted_once(source, counted):
 
 
 class Update:
-    """A depsgraph in which nobody may look."""
+    """A depsgraph that fails when it is read."""
 
     @property
     def updates(self):
@@ -73,7 +73,7 @@ def test_no_operator_is_called_in_a_handler(source, monkeypatch):
 
 
 def test_panels_measure_a_mesh_once_for_each_change(monkeypatch):
-    """In a window, where panels are drawn all the time; large meshes wait for a pause."""
+    """A window draws panels all the time; large meshes wait for a pause."""
     timers, drawn = SimpleNamespace(is_registered=lambda _: bool(waiting)), []
     waiting = []
     timers.register = lambda timer, **_: waiting.append(timer)

@@ -49,7 +49,7 @@ def crease(source, _):
 
 
 def turn_an_edge(source, _):
-    """As many vertices, edges and faces as before."""
+    """The mesh has as many vertices, edges and faces as before."""
     points, faces = positions(source.data).tolist(), [p.vertices[:] for p in source.data.polygons]
     source.data.clear_geometry()
     source.data.from_pydata(points, [], [*faces[:-2], (1, 5, 3), (5, 7, 3)])
@@ -113,7 +113,7 @@ def test_the_source_is_only_read():
 
 
 def test_what_the_mesh_carries(source):
-    """UV maps, weights and material indices at the live level too; the object keeps materials and modifiers."""
+    """The live level has UV maps, weights and material indices; the object keeps materials and modifiers."""
     source.data.materials.append(bpy.data.materials.new("Paint"))
     source.data.uv_layers.new(name="Map")
     source.vertex_groups.new(name="Group").add([0, 1], 0.5, "REPLACE")
@@ -198,7 +198,7 @@ def test_an_error_leaves_the_last_surface_and_it_goes_on(source):
 
 
 def test_what_cannot_be_faired_anew_is_said_with_the_full_level(source):
-    """A face that collapses in passing does not stop the edit: charts are those of its beginning."""
+    """A face that collapses for a moment does not stop the edit, since charts are those of its beginning."""
     bpy.context.scene.discrete_fairing.repair = "REFUSE"
     target = live(source)
     source.data.vertices[0].co = source.data.vertices[1].co
@@ -213,7 +213,7 @@ def test_what_cannot_be_faired_anew_is_said_with_the_full_level(source):
 
 
 def test_vertices_that_were_together_part_again(source):
-    """The solver made while they were together has merged them."""
+    """The solver built while they were together has merged them."""
     target = live(source)
     source.data.vertices[0].co = source.data.vertices[1].co
     source.data.update()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Live and everything that ends or interrupts it: undo, files, deleting, rendering, disabling."""
+"""The ends and interruptions of Live: undo, files, deleting, rendering, disabling."""
 
 from types import SimpleNamespace
 
@@ -19,7 +19,7 @@ from addon.ui import main
 
 
 def registered():
-    """All of the add-on's own that Blender would call, by their lists."""
+    """All handlers of the add-on, by Blender's lists."""
     return {
         name: [f for f in getattr(bpy.app.handlers, name) if f.__module__ == "addon.events"]
         for name in handlers.HANDLERS
@@ -54,7 +54,7 @@ def box_that_undo_switches():
 
 
 def box_as_it_is():
-    """Undo makes all objects anew."""
+    """The box after undo, which makes all objects anew."""
     source, target = bpy.data.objects["Box"], bpy.data.objects["Box Fair"]
     return source, target, (source.hide_get(), source.display_type, len(target.data.polygons))
 
@@ -208,7 +208,7 @@ def test_linked_surfaces_are_refused(tmp_path):
 
 
 def test_undo_of_a_later_step_says_that_the_surface_is_not_whole(no_pause):
-    """The last full level of Live is written after the click's own step, and so undone with the next one."""
+    """Live writes its last full level after the step of the click, so the next step's undo takes it back."""
     source, target, _ = box_that_undo_switches()
     session(target).ending = True  # what the click does where there is a window
     registry.note(target, False)
@@ -250,7 +250,7 @@ def test_renders_write_only_while_no_window_draws(monkeypatch, locked):
 
 
 def test_each_surface_is_shown_as_its_own_scene_says():
-    """Two windows, two scenes: handlers are called with either."""
+    """Two windows show two scenes, and handlers are called with either scene."""
     source, target = box()
     first = bpy.context.scene
     target.discrete_fairing_inspection.mode = "MEAN"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The full level of a live surface: when it comes, what ends it, what the next edit begins with."""
+"""The full level of a live surface: when it comes, how it ends, and where the next edit begins."""
 
 from types import SimpleNamespace
 
@@ -24,7 +24,7 @@ def test_the_full_level_comes_when_the_edit_pauses(no_pause):
 
 
 def test_the_next_edit_starts_from_the_shape_that_is_there(no_pause):
-    """A fresh solver comes with the full level: charts of the new shape, and its surface to start from."""
+    """A fresh solver comes with the full level, with charts of the new shape and its surface as the start."""
     source, target = box()
     pull(source)
     before = session(target).solver
@@ -60,7 +60,7 @@ def test_an_edit_cancels_the_full_level_and_it_comes_after_all(no_pause):
 
 
 def test_the_full_level_in_edit_mode(source, no_pause):
-    """With weights, which only an operator of Blender's writes."""
+    """Also with weights, which only an operator of Blender writes."""
     source.vertex_groups.new(name="Group").add([0, 1], 0.5, "REPLACE")
     target = fair(levels=2)
     live(target)

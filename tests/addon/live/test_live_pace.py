@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What decides on level and energy: plain values."""
+"""The pace of Live chooses level and energy from plain values."""
 
 import pytest
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Live over frames, renders and files, and what becomes of the cage meanwhile."""
+"""Live over frames, renders and files, and the display of its cage."""
 
 import bpy
 import pytest
@@ -35,7 +35,7 @@ def hang(source):
 
 
 def drive(source):
-    """A driver on a vertex's way: an array whose offset follows the frame."""
+    """A driver moves a vertex: a modifier whose strength follows the frame."""
     modifier = source.modifiers.new("Displace", "DISPLACE")
     modifier.direction, modifier.mid_level = "Z", 0.0
     driver = modifier.driver_add("strength").driver
@@ -54,7 +54,7 @@ def animated(way):
 @pytest.mark.parametrize("hidden", [False, True])
 @pytest.mark.parametrize("way", [animate, hang, drive])
 def test_frames_are_followed(way, hidden):
-    """Without a window: no timer comes back to a source that Blender does not evaluate."""
+    """Without a window no timer comes back to a source that Blender does not evaluate."""
     target = animated(way)
     target.discrete_fairing.source.hide_viewport = hidden
     before = positions(target.data)[0, 2]

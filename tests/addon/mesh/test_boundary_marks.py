@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Border edges with a boundary of their own: marked in Edit Mode, read, shown and carried on."""
+"""Border edges with a boundary of their own are marked in Edit Mode, read, shown and carried on."""
 
 import bpy
 import numpy as np
@@ -47,7 +47,7 @@ def marks(target):
 
 
 def straight(target, source, a, b):
-    """How many points of the surface's border lie on the straight line between two vertices."""
+    """The number of border points of the surface on the straight line between two vertices."""
     start, end = positions(source.data)[[a, b]].astype(float)
     way = end - start
     faces = faces_at_edges(target.data)

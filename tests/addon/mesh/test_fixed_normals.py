@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Vertices with a normal of somebody's choice: marked in Edit Mode, read, shown and carried on."""
+"""Vertices with a fixed normal are marked in Edit Mode, read, shown and carried on."""
 
 import bpy
 import numpy as np
@@ -48,7 +48,7 @@ def empty(rotation):
 
 
 def slope(surface, source, vertex, axis=0):
-    """Of the surface in z along x at a vertex, from the points next to it on both sides."""
+    """The slope of the surface at a vertex, dz/dx, from its neighbours on both sides."""
     points, at = positions(surface.data).astype(float), positions(source.data)[vertex]
     ends = [set(e.vertices) for e in surface.data.edges if vertex in e.vertices]
     along = points[sorted(set.union(*ends) - {vertex})] - at

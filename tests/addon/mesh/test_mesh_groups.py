@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Vertex groups: names, members and weights, and what an armature makes of them."""
+"""Vertex groups: names, members and weights, and how an armature bends the result."""
 
 import bpy
 import numpy as np

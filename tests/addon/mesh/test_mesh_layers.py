@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Attributes, UV maps, colours, materials and marks, from a mesh object to the refined one."""
+"""Attributes, UV maps, colours, materials and marks go from a mesh object to the refined one."""
 
 import bpy
 import numpy as np
@@ -117,7 +117,7 @@ def test_uv_of_a_plane_stays_affine():
 
 
 def test_seams_stay_apart():
-    """Where two faces of the control cube have different UVs at a common edge, so have the refined ones."""
+    """Where two faces of the control cube have different UVs at an edge, the refined faces have too."""
     source = cube()
     made = refine(source, 2)
     on_seam = on_control_edges(made)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Modifiers of the source on another object."""
+"""Modifiers of the source, copied to another object."""
 
 import bpy
 import pytest

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Shape keys: their settings come over, and positions are what they are given."""
+"""Shape keys keep their settings, and get the positions that they are given."""
 
 import bpy
 import numpy as np
@@ -75,7 +75,7 @@ def test_animation_is_noted(source):
 
 @pytest.mark.parametrize("kinds", ["LLLL", "CCCC", "RRRR", "BBBB", "LCRB", "BLBL", "RLCB"])
 def test_absolute_keys_are_mixed_as_blender_does(kinds):
-    """As the mesh that Blender shows, by each kind of curve between keys, and of two kinds."""
+    """The mix is the mesh that Blender shows, for each kind of curve between keys, also between two kinds."""
     names = {"L": "LINEAR", "C": "CARDINAL", "R": "CATMULL_ROM", "B": "BSPLINE"}
     made = add("Cube", *CUBE)
     rng = np.random.default_rng(1)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a surface has of its own stays when it is computed anew."""
+"""A surface keeps its own data when it is computed anew."""
 
 import bpy
 import numpy as np
@@ -17,7 +17,7 @@ def raise_vertex(source, by=0.5):
 
 
 def adorn(target):
-    """Gives a surface something of every kind that its source has not."""
+    """Gives a surface data of each kind, none of them from its source."""
     mesh = target.data
     target.vertex_groups.new(name="Mine").add([0, 5, 20], 0.25, "REPLACE")
     target.modifiers.new("Dents", "DISPLACE").vertex_group = "Mine"
@@ -151,7 +151,7 @@ def names_of_keys(target):
 
 
 def drag():
-    """Live, in mid-edit, over a surface with an animated key of its own."""
+    """A live surface in the middle of an edit, with an animated key of its own."""
     source = add("Box", *CUBE)
     target = fair(levels=2)
     animated_key(target)

@@ -14,7 +14,7 @@ UNEVEN = (1.0, 3.0, 0.4)
 
 
 def stretched(source):
-    """Its vertices in the shape of the world."""
+    """The source's vertices, stretched by its scale."""
     return world_shape(source).of(positions(source.data).astype(float))
 
 

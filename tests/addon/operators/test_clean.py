@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Clean Scan: from a spoiled ball to a closed one, and what lies on the mesh stays on it."""
+"""Clean Scan closes a spoiled ball, and the mesh keeps its data."""
 
 import bmesh
 import bpy
@@ -39,7 +39,7 @@ def test_a_spoiled_ball_is_closed():
 
 
 def seams_at(mesh):
-    """Where the creased ones are."""
+    """The places of the creased seams."""
     creases = mesh.attributes["crease_edge"].data
     seams = [e for e in mesh.edges if e.use_seam and creases[e.index].value == 0.75]
     return {
@@ -123,7 +123,7 @@ def test_faces_that_cross_are_listed_with_a_button_that_selects_them():
 
 
 def test_parts_that_share_an_edge_are_separated_with_their_marks():
-    """Two cubes with one edge in common, which is a seam: both have it afterwards."""
+    """Two cubes share an edge that is a seam: both keep the seam."""
     mesh = add("Two", [], []).data
     with bmesh_of(mesh) as bm:
         bmesh.ops.create_cube(bm, size=1.0)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The choice of energy: what it makes, where it is remembered, what is said of unfinished runs."""
+"""The choice of energy: where it is remembered, and the report of unfinished runs."""
 
 import bpy
 import numpy as np

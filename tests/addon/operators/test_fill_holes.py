@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fill Hole Fair: which holes are filled, with what, and what the new faces take over."""
+"""Fill Hole Fair: the holes that it fills, its surfaces, and the data of the new faces."""
 
 import bpy
 import numpy as np
@@ -24,7 +24,7 @@ def test_larger_holes_stay_open():
 
 
 def test_the_border_of_a_sheet_stays_open():
-    """Its holes are filled: those of few edges, as the sheet has itself."""
+    """Its holes, which have few edges, are filled."""
     points = [(x, y, 0.0) for x in range(7) for y in range(7)]
     faces = np.delete(lattice_faces(7, 7), 2 * 6 + 3, axis=0)
     target = add("Sheet", points, faces.tolist())
@@ -46,7 +46,7 @@ def test_one_edge_names_its_hole():
 
 
 def test_selected_faces_are_replaced():
-    """Erase and fill: a dent disappears."""
+    """Erase and fill removes a dent."""
     target = ball()
     for vertex in target.data.vertices:
         if vertex.co[2] > 0.8:
@@ -75,7 +75,7 @@ def test_what_the_new_faces_take_over():
 
 
 def place_of_corners(target, layer):
-    """Corner by corner: where its vertex is, and its UV."""
+    """For each corner the place of its vertex, and its UV."""
     mesh = target.data
     at = np.array([mesh.vertices[loop.vertex_index].co for loop in mesh.loops])
     return at, np.array([corner.uv for corner in mesh.uv_layers[layer].data])

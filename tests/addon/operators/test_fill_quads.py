@@ -51,7 +51,7 @@ def test_a_rectangle_of_quads_comes_back(way):
 
 
 def test_a_grid_beside_triangles():
-    """Of two holes one has no grid: both kinds of faces are appended."""
+    """One of two holes has no grid, so both kinds of faces are appended."""
     target = tube(lambda i, j: rectangle(i, j) | ((i - 30) ** 2 + (j - 14) ** 2 < 12))
     activate(target)
     assert bpy.ops.object.fairing_fill(quads=True) == {"FINISHED"}

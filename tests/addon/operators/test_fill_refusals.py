@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Borders that are no holes are said, not passed over: in Blender and on the command line."""
+"""Borders that are no holes are reported, in Blender and on the command line."""
 
 import bmesh
 import bpy
@@ -52,7 +52,7 @@ def test_a_fin_is_listed_and_a_button_deletes_it():
 
 
 def with_a_map(name, points, faces):
-    """Whose UV map is its plan."""
+    """Its UV map is its plan."""
     target = add(name, points, faces)
     uv = target.data.uv_layers.new(name="Map")
     for loop in target.data.loops:
@@ -89,7 +89,7 @@ def test_edges_are_cut_at_the_vertices_on_them(triangles, sizes, edit_mode, capf
 
 
 def test_a_vertex_on_an_edge_is_listed_and_a_button_cuts_that_edge(capfd):
-    """A rim that leads to and fro along a line more than once is no hole, and no cut closes it."""
+    """A rim that runs to and fro along a line more than once is no hole, and no cut closes it."""
     points = [(x, 0, 0) for x in (0, 3, 1, 2)] + [(1.5, y, z) for y in (-1, 1) for z in (-1, 1)]
     faces = [(b, a, 4 + k) for k, (a, b) in enumerate([(0, 1), (1, 2), (2, 3), (3, 0)])]
     target = with_a_map("Fold", points, faces)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fair Surface on Scan: scans and cages where they stand, and cages that are made."""
+"""Fair Surface on Scan: scans and cages in their places, and cages that it makes."""
 
 import re
 
@@ -53,7 +53,7 @@ def cage_of_cube():
 
 
 def select(*objects):
-    """The last one active."""
+    """Selects objects; the last one is active."""
     activate(objects[-1])
     for other in objects:
         other.select_set(True)

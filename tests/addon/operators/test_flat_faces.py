@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Faces that stay flat: found by their shape, selected, cleared, kept by Bending alone."""
+"""Flat faces are found by shape, selected and cleared; only Bending keeps them flat."""
 
 import bpy
 import numpy as np
@@ -103,7 +103,7 @@ def test_selected_faces_are_marked_and_cleared(old, monkeypatch):
 
 
 def flatness(surface):
-    """How far points over the middle of the top are off its plane."""
+    """The largest distance of points over the top's middle from its plane."""
     points = positions(surface.data)
     over = (np.abs(points[:, :2]) < 10.0).all(axis=1) & (points[:, 2] > 0)
     return np.abs(points[over, 2] - 10.0).max()

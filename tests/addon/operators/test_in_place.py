@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fair Selected Faces in Place: what moves, what stays, how it joins, and that it is the fair one."""
+"""Fair Selected Faces in Place: the moves, the joint, and that the surface is the core's."""
 
 import bmesh
 import bpy
@@ -23,7 +23,7 @@ SIZE = 12  # faces a side
 
 
 def cap(noise=0.1):
-    """A piece of a sphere with noise in the middle, whose faces are selected; and what is inside."""
+    """A noisy piece of a sphere whose middle faces are selected; the object, and the mask of the noisy vertices."""
     axis = np.linspace(-1, 1, SIZE + 1)
     x, y = (values.ravel() for values in np.meshgrid(axis, axis, indexing="ij"))
     points = np.stack([x, y, np.sqrt(RADIUS**2 - x**2 - y**2)], axis=1)
@@ -91,7 +91,7 @@ def test_refined_in_place_joins_without_a_gap(release):
 
 @pytest.mark.parametrize("noise", [0.0, 0.1])
 def test_refined_points_are_those_of_the_core(noise):
-    """With noise quads are warped, so that it splits them."""
+    """Noise warps quads, so that the core splits them."""
     target, middle = cap(noise)
     before = positions(target.data)
     faces = [tuple(p.vertices) for p in target.data.polygons]
@@ -245,7 +245,7 @@ def test_adjust_last_operation_lets_a_long_run_begin_anew(monkeypatch):
 
 @pytest.mark.parametrize("slant, scale", [(0, 1), (0.7, 3)])
 def test_corners_of_the_mesh_stay(slant, scale):
-    """Also where only the object's scale makes them: at 125 degrees the border would go round."""
+    """Also where only the object's scale makes them: a border at 125 degrees would run around."""
     points = [(x - slant * y, y, 0.5 * (x == 2 and y == 2)) for y in range(5) for x in range(5)]
     target = add("Sheet", points, lattice_faces(5, 5)[:, ::-1].tolist())
     target.scale.y = scale

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Match Border and Check Joints, as a stylist presses them."""
+"""Match Border and Check Joints as a stylist uses them."""
 
 import bpy
 import numpy as np

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Through the limit positions: they are those of Blender's own Subdivision Surface modifier."""
+"""Through the limit positions, which are those of Blender's Subdivision Surface modifier."""
 
 import bpy
 import numpy as np

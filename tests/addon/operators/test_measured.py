@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A measured patch in place: its vertices are data, the noise comes off, and what is around stays."""
+"""A measured patch in place: its vertices are data, noise is removed, and the rest stays."""
 
 import bmesh
 import bpy
@@ -20,7 +20,7 @@ def corners(scan):
 
 
 def inner(faces, chosen, count):
-    """(n,) bool: vertices all of whose faces are chosen."""
+    """(n,) bool: the vertices with all faces chosen."""
     return np.bincount(faces[chosen].ravel(), minlength=count) == np.bincount(
         faces.ravel(), minlength=count
     )

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A long run in a window: where it says how far it is."""
+"""A long run in a window shows its progress."""
 
 from types import SimpleNamespace
 

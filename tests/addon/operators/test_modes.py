@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is faired: several objects, Edit Mode, modifiers; and what becomes of the source."""
+"""Several objects, Edit Mode, modifiers and selections; and the source afterwards."""
 
 import bpy
 import numpy as np
@@ -17,7 +17,7 @@ def test_source_is_hidden_and_shown_again_on_demand(source):
 
 
 def with_mirror():
-    """Half a box whose other half is a modifier's."""
+    """A box with a modifier that subdivides it."""
     source = add("Half", *CUBE)
     for vertex in source.data.vertices:
         vertex.co.x += 1.0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One-sided surfaces: Bending fairs a Möbius strip, and what lies on it comes with it."""
+"""Bending fairs a Möbius strip, and its data comes along."""
 
 import numpy as np
 import one_sided_meshes

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pads under the vertices of the source: that they hold them, and where they gave way."""
+"""Pads under the vertices of the source hold them; vertices whose pads gave way are shown."""
 
 import bpy
 import numpy as np
@@ -13,7 +13,7 @@ CRUMPLED = {"levels": 2, "pad_size": 1.0, "energy": "TOTAL_CURVATURE"}
 
 
 def add_crumpled():
-    """A ball half of whose vertices are off it at random: steps to total curvature leave out pads there."""
+    """A ball with half of its vertices off at random: steps to total curvature leave out pads there."""
     bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=2)
     ball = bpy.context.object
     points = positions(ball.data)

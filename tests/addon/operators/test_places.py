@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where surfaces go: excluded collections, library overrides, modes that somebody has begun meanwhile."""
+"""Surfaces in excluded collections, in library overrides, and in modes begun meanwhile."""
 
 import bpy
 import pytest
@@ -17,7 +17,7 @@ def counts():
 
 
 def exclude(*objects):
-    """Puts them into a collection of their own, which is excluded."""
+    """Puts objects into an excluded collection of their own."""
     hidden = bpy.data.collections.new("Hidden")
     bpy.context.scene.collection.children.link(hidden)
     for one in objects:
@@ -85,7 +85,7 @@ def test_an_object_of_a_library_override_is_faired(tmp_path):
 
 
 def test_an_error_leaves_nothing_behind(monkeypatch):
-    """The second of two fails unexpectedly: the first is not kept either, as no step of undo has it."""
+    """The second of two fails unexpectedly: the first is removed too, since no step of undo has it."""
     box, crate = add("Box", *CUBE), add("Crate", *CUBE)
     box.select_set(True)
     write = Job.write

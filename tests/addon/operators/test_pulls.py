@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How strongly each vertex draws the surface to itself: a group or an attribute."""
+"""A group or an attribute says how strongly each vertex pulls the surface."""
 
 import bpy
 import numpy as np

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fair for …: one click from a selection to the surface that its purpose asks for."""
+"""Fair for …: one click makes the surface for the purpose of a selection."""
 
 import bpy
 import numpy as np
@@ -147,7 +147,7 @@ def test_a_job_takes_selected_meshes_beside_another_active_object():
     ],
 )
 def test_undo_takes_the_surface_and_nothing_before_it(purpose, how):
-    """As a button calls it: with a step of undo of its own."""
+    """The operator is called as by a button, with a step of undo of its own."""
     bpy.context.preferences.edit.use_global_undo = True
     scan = noisy_sphere(subdivisions=3)
     bpy.ops.ed.undo_push(message="there")

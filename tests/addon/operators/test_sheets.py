@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sheets that meet: one mesh comes out, and what lies on the control mesh comes with it."""
+"""Sheets that meet become one mesh, which gets the data of the control mesh."""
 
 import numpy as np
 from live_scenes import through

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which object can be the source of a surface, and what is said of one that cannot."""
+"""Objects that can be the source of a surface, and the messages for those that cannot."""
 
 import bpy
 import numpy as np

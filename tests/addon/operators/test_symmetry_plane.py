@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Half a mesh with a symmetry plane, as an object: the half of what the whole becomes."""
+"""Half a mesh with a symmetry plane, as an object: the half of the whole mesh's surface."""
 
 import bpy
 import numpy as np
@@ -81,7 +81,7 @@ def half_boat():
 
 
 def seam(target, axis):
-    """Sharp and all edges of the border that lie in the plane of that axis."""
+    """The numbers of sharp edges and of all edges at the border in the plane of that axis."""
     mesh, faces = target.data, faces_at_edges(target.data)
     flat = np.abs(positions(mesh)[:, axis]) < 1e-6
     own = {e.index for e in mesh.edges if faces[e.index] == 1 and flat[list(e.vertices)].all()}

@@ -31,7 +31,7 @@ def test_near_keeps_the_tolerance_that_was_given(given, most):
 
 
 def test_a_drag_does_not_change_what_the_tolerance_is_a_share_of(source, no_pause):
-    """Else each update would build a solver."""
+    """Otherwise each update would build a solver."""
     target = fair(levels=2, interpolation="APPROXIMATE")
     target.discrete_fairing_live.levels = 1
     live(target)

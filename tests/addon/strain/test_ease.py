@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Ease Control Mesh: what the core is asked for, where its answer goes, and what is said of it."""
+"""Ease Control Mesh: its call of the core, the place of the answer, and the messages."""
 
 from types import SimpleNamespace
 
@@ -15,7 +15,7 @@ from addon.mesh.shape_keys import EASED
 
 @pytest.fixture
 def core(monkeypatch):
-    """Stands for the core's ease: lets the wrong vertex go back, and remembers what it was asked."""
+    """Replaces the core's ease: it moves the wrong vertex back and remembers its arguments."""
     asked = {}
 
     def ease(vertices, faces, *, tolerance=None, most=None, fixed=None, amount=None, **options):

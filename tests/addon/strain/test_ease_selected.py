@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Ease Selected: in Edit Mode, vertices go where the surface through all others wants them."""
+"""Ease Selected: in Edit Mode vertices go where the surface through all others wants them."""
 
 import bmesh
 import bpy

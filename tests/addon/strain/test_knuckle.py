@@ -68,7 +68,7 @@ def test_one_click_creases_it(mode):
 
 
 def test_worst_vertices_leave_it_alone():
-    """It would have moved by 130 mm."""
+    """It once moved by 130 mm."""
     hull = chine([7, 8])
     before, names = positions(hull.data), read_names(hull.data)
     assert bpy.ops.object.fairing_ease(amount="WORST", count=3, result="COPY") == {"FINISHED"}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is drawn, said and written of strain, as plain arrays and texts."""
+"""Needles, dots, labels and texts of strain, as plain arrays."""
 
 import numpy as np
 import pytest

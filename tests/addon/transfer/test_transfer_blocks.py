@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Large meshes in blocks: what is local comes out as if they were one."""
+"""Large meshes in blocks give what they give as a whole."""
 
 import numpy as np
 import pytest

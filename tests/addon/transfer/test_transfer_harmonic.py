@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Values spread over a filling: constants stay, none is beyond those of the rim, each is a mean."""
+"""Values spread over a filling: constants stay, and each value is a mean within those of the rim."""
 
 import numpy as np
 import pytest

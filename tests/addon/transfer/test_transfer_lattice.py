@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The lattice of a refined face, and control edges found again in it, against faces by hand."""
+"""The lattice of a refined face and the control edges in it, against faces by hand."""
 
 import discrete_fairing as df
 import numpy as np

@@ -119,7 +119,7 @@ def test_keys_that_are_not_symmetric_are_left_alone():
 
 
 def test_coincident_vertices_are_told_apart():
-    """Two strips that touch along x = 0 without sharing vertices: each end lies where another one does."""
+    """Two strips touch along x = 0 without shared vertices: each end lies on an end of the other."""
     points = [(s * x, y, x / 2) for s in (1, -1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))]
     made = run(control_arrays(points, [[0, 1, 2, 3], [4, 7, 6, 5]]))
     assert [m.axis for m in made.mirrors] == [0]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the panel computes and draws, on a layout that only remembers."""
+"""The panel's texts and operators, on a layout that only remembers."""
 
 from dataclasses import asdict
 from types import SimpleNamespace
@@ -22,7 +22,7 @@ from addon.ui.layout import Sidebar
 
 
 def test_an_operator_shows_all_of_it_too(monkeypatch):
-    """In Adjust Last Operation, with what is folded open."""
+    """Adjust Last Operation shows all settings, folded ones open."""
     drawn = []
     monkeypatch.setattr(
         FairSurface,
@@ -85,7 +85,7 @@ def test_a_group_that_is_not_there_is_said():
 
 @pytest.mark.parametrize("own", [False, True], ids=["none of one's own", "one of one's own"])
 def test_a_preset_can_be_saved(own, tmp_path):
-    """Also as the first one: then Blender has no folder for them yet."""
+    """Also the first one, before Blender has a folder for presets."""
     (tmp_path / "Mine.py").write_text("")
     instance = SimpleNamespace(layout=Layout(), bl_idname="VIEW3D_PT_fairing_presets")
     shipped = str(FOLDER / PRESET_FOLDER)
@@ -102,7 +102,7 @@ def test_a_preset_can_be_saved(own, tmp_path):
 
 
 class Given(SimpleNamespace):
-    """An operator's properties, some of them set by whoever calls it."""
+    """An operator's properties, some of them set by the caller."""
 
     def is_property_set(self, name):
         return name in self.given
@@ -119,7 +119,7 @@ def test_what_is_not_said_is_that_of_the_panel():
 
 
 def test_menus_have_every_operator():
-    """Blender's search finds what stands in a menu."""
+    """Blender's search finds the entries of menus."""
     add("Box", *CUBE)
     log = draw(menus.VIEW3D_MT_fairing) + draw(menus.VIEW3D_MT_fairing_boundary)
     log += draw(menus.VIEW3D_MT_fairing_normals) + draw(menus.VIEW3D_MT_fairing_for)

@@ -71,7 +71,7 @@ def test_an_ellipsoid_whole_and_afloat():
 
 @pytest.mark.parametrize("trim", [0.1, -0.25])
 def test_trim_turns_the_waterplane(trim):
-    """A box through whose middle the waterplane passes stays half under it."""
+    """The waterplane passes through the middle of a box, which stays half under it."""
     points, triangles = sheet(lambda u, v: (u, v, 0 * u), 1, 1)
     box = np.concatenate([points, points + [0, 0, 1]]) * [4.0, 1.0, 2.0]
     faces = [(0, 2, 6, 4), (1, 5, 7, 3), (0, 4, 5, 1), (2, 3, 7, 6), (0, 1, 3, 2), (4, 6, 7, 5)]

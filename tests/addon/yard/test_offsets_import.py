@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""File > Import > Offsets: the mesh in Blender, its names, and what strain says of them."""
+"""File > Import > Offsets: the mesh in Blender, its names, and its strain."""
 
 from dataclasses import asdict
 
@@ -124,7 +124,7 @@ def test_between_offsets_of_a_knuckled_hull_the_surface_is_within_a_millimetre(t
 
 
 def folds(surface):
-    """Degrees by which both halves turn at each edge of the keel and the bulb's underside."""
+    """The angles in degrees between the two halves, at each edge of the keel and of the bulb's underside."""
     middle = positions(surface.data)[:, 1] == 0.0
     low = positions(surface.data)[:, 2] < -1.2
     found = [
