@@ -146,8 +146,7 @@ def surface_hash(vertices: np.ndarray, faces: Any, options: dict[str, Any]) -> s
 
 
 def dragged() -> Iterator[tuple[str, str]]:
-    """A Solver's surfaces while a vertex is dragged, and after it was built again about the last
-    positions."""
+    """A Solver's surfaces during a drag, and after it was built again about the last positions."""
     vertices, faces = from_tests.small_meshes().creature()
     for energy in ENERGIES[:2]:
         moved = np.array(vertices, float)

@@ -45,8 +45,9 @@ def edge_point(points, rings, a, b):
 
 
 def half_stencil(points, rings, v, w):
-    """What v's side of a regular edge gives: the ten-point stencil, halved where both ends share a
-    point."""
+    """The contribution of v's side of a regular edge: the ten-point stencil, halved where both ends share a
+    point.
+    """
     ring = rings[v]
     k = ring.index(w)
     left, right = points[ring[(k + 1) % 6]], points[ring[k - 1]]

@@ -27,13 +27,13 @@ def roughened(vertices: np.ndarray, faces: np.ndarray, share: float, seed: int =
 
 
 def welded(points: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Points that coincide made one."""
+    """Merges points that coincide."""
     _, first, place = np.unique(np.round(points, 9), axis=0, return_index=True, return_inverse=True)
     return points[first], place.reshape(-1)[faces]
 
 
 def icosahedron_faces() -> np.ndarray:
-    """The 20 faces: all triples at the least distance, turned outwards."""
+    """The 20 faces: all triples at the least distance, oriented outwards."""
     distance = np.linalg.norm(ICOSAHEDRON[:, None] - ICOSAHEDRON, axis=2)
     near = (distance > 0) & (distance < 2.1)
     triples = [

@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Is there a peak of curvature at the control vertices? Its size there over that one ring away, for
-each energy.
-
-One is none; vertices on boundaries, and next to them, are left out. Real
-meshes are read from the collection that may lie beside the project.
+"""Is there a peak of curvature at the control vertices? The measure is curvature there over curvature one
+ring away, for each energy; 1 is no peak. Boundary vertices and their neighbours are left out. Real meshes
+are read from the collection that may lie beside the project.
 """
 
 from collections.abc import Iterator

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A vertex moves: what a warm solver takes for the next surface, on pads and on point forces.
-
-Three vertices in turn, twelve moves each, by a hundredth of the mesh's size; CPU time on one
-thread, default settings.
+"""A vertex moves: the time of a warm solver for the next surface, on pads and on point forces. Three vertices
+in turn, twelve moves each, by a hundredth of the mesh's size; CPU time on one thread, default settings.
 """
 
 import json
@@ -92,7 +90,7 @@ def drag_table(result: dict[str, Any]) -> str:
 
 
 def kept_table(result: dict[str, Any]) -> str:
-    """What CHOLMOD takes for the same moves."""
+    """The time of CHOLMOD for the same moves."""
     heads = ["control mesh, level", "CHOLMOD, whole", "each move, factor kept"]
     rows = [
         [name, f"{d['whole']:.0f} ms", f"{d['kept']:.0f} ms"] for name, d in result["kept"].items()

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Panels and half hulls as they are drawn, coarse, with rows that turn quickly: which surface is calm,
-and which swings beside a row? Nobody knows the true surface; Subdivision Surface is what a stylist has.
+"""Panels and half hulls as drawn: coarse, with rows that turn quickly. Which surface is calm, and which
+swings beside a row? The true surface is unknown; Subdivision Surface is the stylist's.
 """
 
 from typing import Any

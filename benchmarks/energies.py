@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What total curvature costs beside the thin plate, and pads beside point forces: default settings,
-CPU time on one thread, in turns.
+"""The cost of total curvature beside the thin plate, and of pads beside point forces: default settings, CPU
+time on one thread, in turns.
 """
 
 from collections.abc import Callable
@@ -31,7 +31,7 @@ def collected(name: str) -> Any:
 
 
 def cases() -> dict[str, tuple[Callable[[], Any], int]]:
-    """By name: what makes the mesh, and levels."""
+    """{name: (maker of the mesh, levels)}."""
     bob, cat, hand = "bob_small.ply", "cat_head.obj", "hand_lowres.obj"
     return {
         "rough sphere, 80 faces, 4": (partial(meshes.sphere, 2), 4),
@@ -47,7 +47,7 @@ def cases() -> dict[str, tuple[Callable[[], Any], int]]:
 
 
 def measure(mesh: Any, levels: int) -> dict[str, Any]:
-    """Seconds of each competitor, and what the finest level of total curvature took."""
+    """Seconds of each competitor, and the figures of the finest level of total curvature."""
     vertices, faces = mesh
     run = partial(df.fair, vertices, faces, levels=levels, threads=1, repair="mend")
     turns = timing.in_turns(

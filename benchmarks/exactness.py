@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Surfaces whose answer is known, on point forces and on pads: spheres, the Clifford torus, caps."""
+"""Surfaces with known answers, on point forces and on pads: spheres, the Clifford torus, caps."""
 
 from collections.abc import Iterator
 from itertools import pairwise
@@ -124,7 +124,7 @@ def caps() -> list[tuple[Any, ...]]:
 
 
 def run() -> dict[str, Any]:
-    """What all tables are made of."""
+    """The data of all tables."""
     result = {"spheres": spheres(2) + spheres(3), "clifford": clifford(), "caps": caps()}
     return result
 

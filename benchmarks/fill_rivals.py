@@ -156,7 +156,7 @@ MAKERS: dict[str, Callable[[Arrays], Made]] = {
 
 
 def made(name: str, given: Arrays, limit: float) -> Made | str:
-    """In a fresh process; a word where that fails, or takes longer than `limit` seconds."""
+    """The result of a fresh process; a message where it fails, or takes longer than `limit` seconds."""
     with tempfile.TemporaryDirectory() as folder:
         source, target = Path(folder, "in.npz"), Path(folder, "out.npz")
         np.savez(source, vertices=given[0], faces=given[1], hole=given[2])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Known surfaces with a hole, and how far points are from them."""
+"""Known surfaces with a hole, and distances of points from them."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

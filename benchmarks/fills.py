@@ -58,7 +58,7 @@ def _off(corners: np.ndarray, holed: fill_shapes.Holed) -> float:
 
 
 def _rim(vertices: np.ndarray, faces: np.ndarray, new: np.ndarray) -> dict[str, Any]:
-    """Degrees between normals: across the rim at most, and of the mesh beside it."""
+    """Degrees between normals: the largest across the rim, and that of the mesh beside it."""
     a, b, angle = fill_shapes.turns_at_edges(vertices, faces)
     across, old = angle[new[a] != new[b]], angle[~new[a] & ~new[b]]
     own = float(np.percentile(old, 99))

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Noisy scans of known shapes, and one cage each: how near to the truth are surfaces put onto the scan?
-
-The rivals are those of Blender's users: the cage's Subdivision Surface with the modifier Shrinkwrap, its
-best mode, onto the scan as it is, and onto the scan after Taubin's filter.
+"""Noisy scans of known shapes with a cage each: the errors of surfaces on the scan. The rivals are those of
+Blender's users: the cage's Subdivision Surface with the modifier Shrinkwrap, its best mode, onto the scan
+itself, and onto the scan after Taubin's filter.
 """
 
 from typing import Any

@@ -28,7 +28,7 @@ class Shape:
         return float(np.ptp(self.scan[0], axis=0).max())
 
     def scanned(self, noise: float, seed: int) -> Mesh:
-        """With noise along the normals, a share of the size; points and triangles."""
+        """Points and triangles of a scan with noise along the normals, a share of the size."""
         points, quads = self.scan
         off = np.random.default_rng(seed).normal(0, noise * self.size, (len(points), 1))
         return (
@@ -49,14 +49,14 @@ class Shape:
 
 
 def shaken(cage: Mesh, nearest: Callable[[np.ndarray], Feet], off: float, seed: int = 0) -> Mesh:
-    """A cage as drawn by hand: off the shape by so much along the normals."""
+    """A cage as drawn by hand, off the shape by so much along the normals."""
     points, quads = cage
     random = np.random.default_rng(seed)
     return points + off * random.standard_normal((len(points), 1)) * nearest(points)[1], quads
 
 
 def blob() -> Shape:
-    """Five balls, blended."""
+    """Five balls, blended into one."""
 
     def nearest(points: np.ndarray) -> Feet:
         feet = points.copy()

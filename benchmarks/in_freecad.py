@@ -19,7 +19,7 @@ OFFSET = 0.01  # of the size
 
 
 def section(shape, middle, _size):
-    """The plane z through the middle: the area within."""
+    """The area within the plane z through the middle."""
     wires = shape.slice(FreeCAD.Vector(0, 0, 1), middle.z)
     if not all(wire.isClosed() for wire in wires):
         return "open", sum(wire.Length for wire in wires)
@@ -28,13 +28,13 @@ def section(shape, middle, _size):
 
 
 def cut(shape, middle, size):
-    """Without an octant: the volume."""
+    """The volume without an octant."""
     rest = shape.cut(Part.makeBox(size, size, size, middle))
     return rest.isValid(), rest.Volume
 
 
 def offset(shape, _middle, size):
-    """The parallel surface outside: its volume."""
+    """The volume of the parallel surface outside."""
     moved = shape.makeOffsetShape(OFFSET * size, 1e-4 * size)
     return moved.isValid(), moved.Volume
 
@@ -50,7 +50,7 @@ def attempt(operation, *arguments):
 
 
 def row(path):
-    """One file's."""
+    """The row of one file."""
     shape = Part.Shape()
     shape.read(str(path))
     if len(shape.Solids) == 1:

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Control meshes whose vertices lie on the unit sphere: for total curvature their surface is known,
-the sphere."""
+"""Control meshes with vertices on the unit sphere, which is their surface of least total curvature."""
 
 import from_tests
 import numpy as np
@@ -18,8 +17,7 @@ def on_sphere(points: np.ndarray) -> np.ndarray:
 
 
 def hull_polygons(points: np.ndarray) -> list[list[int]]:
-    """The faces of a convex hull, what lies in one plane as one polygon, counter-clockwise from
-    outside."""
+    """The faces of a convex hull, coplanar triangles joined, counter-clockwise from outside."""
     _, triangles = meshes.hull(points)
     corner = points[triangles]
     normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Panels and hulls that are known everywhere, sampled at a few vertices: which energy gives the
-surface back? Stripes show normals, so normals are what is judged, over all and at the corners.
+"""Known panels and hulls, sampled at a few vertices: which energy gives the surface back? Stripes show
+normals, so the measure is the angle of normals, over all points and at the corners.
 """
 
 import time

@@ -23,7 +23,7 @@ SETTINGS = {
 
 
 def judged(points: np.ndarray, triangles: np.ndarray) -> dict[str, float]:
-    """The four figures, and how many triangles cross others."""
+    """The four figures, and the number of triangles that cross others."""
     return {**figures(points, triangles), "crossing": crossing_triangles(points, triangles)}
 
 

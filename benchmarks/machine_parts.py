@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Machine parts that are known: how far off are surfaces over their coarse cages? Sharp at folds from 30°
-on, for ours and for Subdivision Surface alike.
+"""Machine parts with known surfaces: the distances of surfaces over their coarse cages. Folds from 30° on are
+sharp, for ours and for Subdivision Surface alike.
 """
 
 import math
@@ -23,7 +23,7 @@ TOOLS = (*SUBDIVISION, *ENERGIES)
 
 
 def folds(vertices: np.ndarray, faces: list[tuple[int, ...]]) -> list[tuple[int, int]]:
-    """Edges whose faces turn by more."""
+    """Edges whose faces turn by more than that."""
     normal: dict[tuple[int, int], np.ndarray] = {}
     for face in faces:
         a, b, c = vertices[list(face[:3])]

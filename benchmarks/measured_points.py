@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Points of a known dome, measured with an error: how far off is the surface through or near them?"""
+"""Points of a known dome, measured with an error: the distance from the dome of surfaces through or near
+them.
+"""
 
 from collections.abc import Iterator
 from typing import Any
@@ -55,7 +57,7 @@ def run() -> dict[str, Any]:
 
 
 def measured_points_table(result: dict[str, Any]) -> str:
-    """How far surfaces are off a dome whose points were measured."""
+    """Distances of surfaces from a dome whose points were measured."""
     tools = ("through", "Subdivision Surface", "near", "eased")
     rows = [
         [*dome.split(" · "), *(f"{found[tool]:.2g}" for tool in tools)]

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scattered offsets: what Near and easing do to their error, and when strain finds the wrong one.
-
-All inner vertices are off by a normal scatter along the shape's normal. With one more of them off by
-six times as much, the most strained one is released. Lengths are in control edges, of hulls in metres.
+"""Scattered offsets: the effect of Near and easing on their error, and when strain finds the wrong one. All
+inner vertices are off by a normal scatter along the shape's normal. With one more of them off by six times
+as much, the most strained one is released. Lengths are in control edges, of hulls in metres.
 """
 
 from collections.abc import Callable
@@ -145,8 +144,9 @@ def errors_of(mesh: Mesh, scatter: float, seed: int) -> dict[str, Any]:
 
 
 def planted_in(mesh: Mesh, scatter: float, seed: int) -> tuple[bool, float]:
-    """Whether the wrong vertex is the most strained, and how much of the way it goes back when the
-    worst is released; NaN where that is another."""
+    """Whether the wrong vertex is the most strained, and the share of the way that it goes back when the
+    worst is released; NaN if that is another vertex.
+    """
     truth, faces = mesh
     random, ids = np.random.default_rng(seed), inside(mesh)
     measured, along = truth.copy(), normals(mesh)

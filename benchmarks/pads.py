@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pads instead of needles: what they do to the curvature, and what they cost.
-
-`fender` is 9 x 5 vertices over a wheel arch: nine columns at x = -4 … 4, in each five rows evenly
-from the arch (straight pieces) to the upper border (a slight arc), and a depth that swells in a
-shoulder and turns out again to a lip.
+"""Pads in place of needles: their effect on curvature, and their cost. `fender` is 9 x 5 vertices over a
+wheel arch: nine columns at x = -4 … 4, in each five rows evenly from the arch (straight pieces) to the
+upper border (a slight arc), and a depth that swells in a shoulder and turns out again to a lip.
 """
 
 from typing import Any
@@ -33,7 +31,7 @@ def fender() -> tuple[np.ndarray, np.ndarray]:
 
 
 def step() -> tuple[np.ndarray, np.ndarray]:
-    """An extrusion that should stay one: 13 x 13 vertices, a step along x, constant along y."""
+    """An extrusion that should remain one: 13 x 13 vertices, a step along x, constant along y."""
     along = np.linspace(-3, 3, 13)
     x, y = np.meshgrid(along, along)
     points = np.stack([x, y, 0.6 * np.tanh(x)], axis=2).reshape(-1, 3)
@@ -101,9 +99,8 @@ def calm(result: df.Result, levels: int = LEVELS) -> dict[str, float]:
 
 
 def scallop(result: df.Result) -> float:
-    """How far the middle of the step is from being straight along y.
-
-    Measured between a row of control vertices and half-way to the next.
+    """The largest distance of the middle of the step from a straight line along y, between a row of control
+    vertices and half-way to the next.
     """
     points = result.vertices
     profiles = []

@@ -84,7 +84,7 @@ def ours(size: int, levels: int, repeats: int, threads: int) -> dict[str, Any]:
 
 
 def defaults(size: int, levels: int, repeats: int, threads: int) -> dict[str, Any]:
-    """From arrays to arrays, as a user gets it who sets nothing: on pads, to what can be seen."""
+    """From arrays to arrays with default settings: on pads, to visible accuracy."""
     import discrete_fairing as df
 
     mesh = control_meshes.sphere(size)
@@ -127,7 +127,7 @@ CHILDREN = {
 
 
 def finished(words: list[str], repeats: int, **variables: str) -> dict[str, Any]:
-    """What a program prints; a note where it takes too long or fails."""
+    """The output of a program; a note if it takes too long or fails."""
     try:
         done = subprocess.run(
             words,
@@ -171,7 +171,7 @@ def same_system(case: tuple[int, int], repeats: int, threads: int, ldlt: bool) -
 
 
 def measure(case: tuple[int, int], slow: set[str]) -> dict[str, Any]:
-    """Everybody on one mesh; those in `slow` are left out."""
+    """All competitors on one mesh, except those in `slow`."""
     triangles = 20 * case[0] ** 2 * 4 ** case[1]
     repeats = REPEATS[triangles]
     found: dict[str, Any] = {}

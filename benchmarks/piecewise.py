@@ -172,7 +172,7 @@ def meshes() -> dict[str, tuple[Any, Any]]:
 def rings(
     energies: tuple[str, ...] = ("thin_plate", "total_curvature", "minimum_variation"),
 ) -> list[dict[str, Any]]:
-    """The largest difference to the whole, as a share of its size, with four pieces, L = 2."""
+    """The largest difference from the whole, as a share of its size, for four pieces and L = 2."""
     import discrete_fairing as df
     import numpy as np
 
@@ -235,7 +235,7 @@ def pieces_table(result: dict[str, Any]) -> str:
 
 
 def rings_table(result: dict[str, Any]) -> str:
-    """How far pieces are from the whole, by rings."""
+    """Differences of pieces from the whole, by rings."""
     found = result["rings"]
     rings = sorted({r["rings"] for r in found})
     rows: dict[str, list[str]] = {}

@@ -58,7 +58,7 @@ def load_early() -> None:
 
 
 def versions() -> dict[str, str]:
-    """Of everything that takes part."""
+    """The versions of all tools that take part."""
     found = {}
     for package in ("discrete-fairing", "manifold3d", "libigl", "bpy", "numpy"):
         try:
@@ -69,7 +69,7 @@ def versions() -> dict[str, str]:
 
 
 def triangulate(points: np.ndarray, polygons: list[list[int]]) -> np.ndarray:
-    """(m, 3): quads cut along their shorter diagonal, larger polygons as fans."""
+    """(m, 3): quads are cut along their shorter diagonal, larger polygons become fans."""
     triangles = []
     for p in polygons:
         p = list(p)

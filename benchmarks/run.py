@@ -58,7 +58,7 @@ BENCHMARKS = {
 
 
 def circumstances() -> dict:
-    """What the figures depend on besides the program."""
+    """The conditions of the figures, besides the program."""
     cpu = Path("/proc/cpuinfo")
     names = (
         [

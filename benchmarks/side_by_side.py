@@ -69,8 +69,7 @@ def suzanne() -> tuple[np.ndarray, list[list[int]]]:
 
 
 def projected(points: np.ndarray, polygons: list[list[int]], levels: int) -> rivals.Surface:
-    """The flat faces refined and pushed out to the sphere: what the measures say of a perfect
-    answer."""
+    """The flat faces refined and pushed out to the sphere: the figures of a perfect answer."""
     triangles = rivals.triangulate(points, polygons)
     for _ in range(levels):
         points, triangles = halved(points, triangles)
@@ -151,7 +150,7 @@ def run(without: Collection[str] = ()) -> dict[str, Any]:
 
 
 def main() -> None:
-    """The same without the other benchmarks."""
+    """Runs this benchmark without the others."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawTextHelpFormatter
     )

@@ -41,7 +41,7 @@ def exponent(sizes: list[float], seconds: list[float]) -> float:
 
 
 def measure(case: tuple[str, int, int]) -> dict[str, Any]:
-    """One size on one thread and on two, in turns."""
+    """One size on one thread and on two threads, in turns."""
     repeats = 1 if triangles(case) >= ONCE_FROM else REPEATS
     found: dict[int, list[dict[str, Any]]] = {1: [], 2: []}
     for _ in range(repeats):

@@ -32,7 +32,7 @@ CURVED = {"energy": "total_curvature"}
 
 
 def surfaces():
-    """Name, mesh, options."""
+    """(name, mesh, options) of each surface."""
     yield "cube", shapes.cube(), CURVED
     yield "cube, 1e-5", shapes.cube(), {"tolerance": 1e-5, **CURVED}
     yield "octahedron", shapes.octahedron(), CURVED

@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How far STEP files are from the surfaces that they stand for: Open CASCADE reads each file and
-evaluates its faces; the distance is that to the triangles of the refined surface.
-
-Nothing of it is our own evaluation. The triangles are flat: where they bend, their own sag, some
-1e-6 of the size at level 6, is part of the distance.
+"""Distances of STEP files from their surfaces: Open CASCADE reads each file and evaluates its faces, with no
+evaluation of our own; the distance is that from the triangles of the refined surface. The triangles are
+flat: where they bend, their own sag, some 1e-6 of the size at level 6, is part of the distance.
 """
 
 import tempfile

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Beside Blender's Subdivision Surface, on organic cages: ours passes every vertex within half of the
-largest distance at which the other misses one. Which bends less, and has the smaller folds?"""
+"""Beside Blender's Subdivision Surface on organic cages: our surface passes each vertex within half of the
+largest distance by which the other misses one. Which bends less, and which has smaller folds?
+"""
 
 from collections.abc import Iterator, Sequence
 from typing import Any

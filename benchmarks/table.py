@@ -10,7 +10,7 @@ OUT = Path(__file__).resolve().parent.parent / "out" / "bench"
 
 
 def measured(name: str) -> Any:
-    """What another benchmark has measured on this machine."""
+    """The figures of another benchmark on this machine."""
     return json.loads((OUT / f"{name}.json").read_text("utf-8"))["result"]
 
 

@@ -20,7 +20,7 @@ def ear() -> Model:
 
 
 def leaf() -> Model:
-    """Broad in the middle, narrow at both ends, arched."""
+    """A leaf: broad in the middle, narrow at both ends, arched."""
     x, y = plane(9, 4, (100, 40))
     wide = 0.15 + 0.85 * (1 - (x / 50) ** 2)
     return thickened(np.stack([x, y * wide, 0.01 * y**2 - 0.002 * x**2], axis=2), 1.2)
@@ -49,13 +49,13 @@ def handle() -> Model:
 
 
 def bottle() -> Model:
-    """Of 10 sides; its lip is 2 mm of edges of 9."""
+    """A bottle of 10 sides; its lip is 2 mm thick with edges of 9 mm."""
     profile = ((25, 0), (30, 5), (30, 90), (14, 120), (14, 140), (12, 140), (12, 120), (10, 110))
     return turned(profile, 10, 4)
 
 
 def knob() -> Model:
-    """Of 16 sides with a skirt of 1.5 mm."""
+    """A knob of 16 sides with a skirt of 1.5 mm."""
     profile = ((24, 0), (30, 0), (30, 1.5), (18, 4), (16, 18), (12, 20))
     return turned(profile, 16, 1)
 

@@ -30,7 +30,7 @@ def error(hull: hulls.Hull, target: bpy.types.Object) -> tuple[float, float]:
 
 
 def day(hull: hulls.Hull, out: Path) -> dict[str, float]:
-    """All of it for one table; files go to `out`. What was measured."""
+    """Runs the whole day for one table, writes files to `out`, and returns the measurements."""
     clicks = 0
     stem = Path(hull.file).stem
 

@@ -7,7 +7,7 @@ POINTS = 7  # of a row or a column
 
 
 def crossing():
-    """Three curves over four."""
+    """Three curves across four."""
     rows = [_row(f"Row {k}", y, _wave) for k, y in enumerate((-0.8, 0.0, 0.8))]
     return rows + [_column(f"Column {k}", x, _wave) for k, x in enumerate((-1.2, -0.4, 0.4, 1.2))]
 
@@ -36,7 +36,7 @@ def hull():
 
 
 def star():
-    """A corner where five cells meet around one of five sides."""
+    """Five cells meet at a corner, around one cell of five sides."""
     turn = 2 * np.pi * np.arange(5) / 5
     outer = np.stack([1.3 * np.cos(turn), 1.3 * np.sin(turn), np.zeros(5)], axis=1)
     inner = np.stack([0.6 * np.cos(turn), 0.6 * np.sin(turn), np.full(5, 0.5)], axis=1)

@@ -70,7 +70,7 @@ def main(names):
 
 
 def show(exhibit, tiles):
-    """Fairs, saves and renders one exhibit: its row of the table and its two pictures."""
+    """Fairs, saves and renders one exhibit; returns its row of the table and its two pictures."""
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     control = make(exhibit.name)
     start = time.perf_counter()

@@ -18,7 +18,7 @@ class ControlMesh:
 
 
 class _Builder:
-    """Collects vertices by name, so that faces can be written as one would say them."""
+    """Collects vertices by name, so that faces are written by names."""
 
     def __init__(self):
         self.positions = []

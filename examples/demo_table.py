@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The demo's table: what went in, what came out, and how hard it was."""
+"""The demo's table: inputs, results and effort."""
 
 # heading, width; a row is a dict of texts by heading
 COLUMNS = (

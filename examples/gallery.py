@@ -82,7 +82,7 @@ def main():
 
 
 def picture(name, options):
-    """One picture; left out, with a word, where its mesh is not here."""
+    """One picture; a message in its place if its mesh is absent."""
     every_energy = {ENERGIES[energy]: {"energy": energy} for energy in options.energies}
     shape_name, looks, surfaces = SPECIAL.get(name, (name, None, every_energy))
     shape = SHAPES[shape_name]
@@ -112,7 +112,7 @@ def picture(name, options):
 
 
 def fair(control, levels, settings):
-    """The surface, or None where total curvature or its variation cannot be had."""
+    """The surface; None if total curvature or its variation is impossible."""
     creases = control.crease_edges if len(control.crease_edges) else None
     try:
         return df.fair(

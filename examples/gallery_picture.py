@@ -105,7 +105,7 @@ def _measure(columns, targets, view):
 
 
 def _place(targets, view):
-    """All turned and scaled alike, each on the floor."""
+    """Turns and scales all alike, and stands each on the floor."""
     turn = Matrix.Rotation(radians(view.turn), 4, "Z")
     points = [np.array([(turn @ v.co)[:] for v in t.data.vertices]) for t in targets]
     low = np.min([p.min(0) for p in points], axis=0)

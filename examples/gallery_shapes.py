@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the gallery shows, and from where."""
+"""The shapes of the gallery, and their sources."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -49,7 +49,7 @@ def octahedron(_folder):
 
 
 def torus(_folder, around=8, across=6):
-    """The Clifford torus: of all tori the one that bends least."""
+    """The Clifford torus, which bends least of all tori."""
     a, b = np.meshgrid(
         2 * np.pi * np.arange(around) / around,
         2 * np.pi * np.arange(across) / across,
@@ -66,7 +66,7 @@ def torus(_folder, around=8, across=6):
 
 
 def suzanne(_folder):
-    """Blender's own."""
+    """Blender's monkey."""
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     bpy.ops.mesh.primitive_monkey_add()
     mesh = bpy.context.active_object.data

@@ -18,8 +18,8 @@ SCATTER = 1.0  # mm, standard deviation
 
 
 class Hull(NamedTuple):
-    """`points`: (station, line) to (x, y, z) in millimetres, as the hull is; `wrong`: how far outwards
-    three of them were read off.
+    """`points`: {(station, line): (x, y, z)} in millimetres, of the true hull; `wrong`: how far outwards
+    three of them were misread.
     """
 
     file: str
@@ -115,7 +115,7 @@ HULLS: tuple[Callable[[], Hull], ...] = (bulb, chine, yacht)
 
 
 def measured(hull: Hull) -> dict[tuple[str, str], tuple[float, float, float]]:
-    """As taken off, in whole millimetres: with scatter, and some wrong."""
+    """The offsets in whole millimetres, with scatter and some misread ones."""
     rng = np.random.default_rng(1794)
     found = {}
     for key, (x, y, z) in hull.points.items():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Small PNG files: a picture in a palette of its own, in plain NumPy."""
+"""Small PNG files: each picture has its own palette, in plain NumPy."""
 
 import struct
 import zlib

@@ -70,7 +70,7 @@ def ball():
 
 
 def dome():
-    """9 × 9 points, measured with an error, on a dome over a square."""
+    """9 × 9 points on a dome over a square, measured with an error."""
     even = np.linspace(-1, 1, 9)
     x, y = np.meshgrid(even, even, indexing="ij")
     z = 0.55 * np.cos(1.2 * x) * np.cos(1.2 * y)
@@ -84,7 +84,7 @@ def dome():
 
 
 def bezier(name, points, closed=False):
-    """A curve with automatic handles, as it is drawn by hand."""
+    """A curve with automatic handles, as drawn by hand."""
     data = bpy.data.curves.new(name, "CURVE")
     data.dimensions = "3D"
     spline = data.splines.new("BEZIER")
@@ -108,12 +108,12 @@ def drawn(network):
 
 
 def cage():
-    """Suzanne, as the modeller of a cage has her."""
+    """Suzanne as a cage."""
     return subdivided(settings_meshes.suzanne())
 
 
 def subdivided(control):
-    """Blender's own, with its modifier's settings."""
+    """Blender's Subdivision Surface, with the modifier's own settings."""
     modifier = control.modifiers.new("Subdivision", "SUBSURF")
     modifier.levels = modifier.render_levels = LEVELS
     shade_smooth(control)
@@ -121,7 +121,9 @@ def subdivided(control):
 
 
 def creased(control):
-    """Subdivision Surface with the edges that Mechanical keeps, folded by 30° and more, creased and sharp."""
+    """Subdivision Surface, creased and sharp at the edges that Mechanical keeps: those folded by 30° and
+    more.
+    """
     bpy.ops.object.mode_set(mode="EDIT")
     bpy.ops.mesh.select_all(action="DESELECT")
     bpy.ops.mesh.select_mode(type="EDGE")
@@ -151,7 +153,7 @@ def shrinkwrapped(control):
 
 
 def grid_filled(control):
-    """Grid Fill between the four outer curves, which is all that it looks at, of as many segments."""
+    """Grid Fill between the four outer curves, which are all that it uses, with as many segments."""
     outer = [curve for curve in bpy.context.selected_objects if curve.type == "CURVE"]
     ways = {"Row 0": False, "Column 3": False, "Row 2": True, "Column 0": True}
     points = np.concatenate([_along(bpy.data.objects[name], back) for name, back in ways.items()])
@@ -236,14 +238,16 @@ def begin(name):
 
 
 def press(name):
-    """What the job's button does."""
+    """Runs the operator of the job's button."""
     job = JOBS[name]
     folder, operator = job.operator.split(".")
     return getattr(getattr(bpy.ops, folder), operator)("INVOKE_DEFAULT", **job.options)
 
 
 def add_rivals(name, ours):
-    """What Blender has, each on a model of its own, in a row beside ours; returned. In Object Mode."""
+    """Adds Blender's own results, each on a model of its own, in a row beside ours, in Object Mode; returns
+    them.
+    """
     found = []
     size = ours.dimensions
     across = 1 if size.z < size.y < size.x else 0  # beside what is long, if it hides nothing
@@ -273,7 +277,7 @@ def view():
 
 
 def show(name):
-    """The whole of it, in a window that is there: a generator, which waits at each yield."""
+    """Runs the whole job in a window: a generator that waits at each yield."""
     with bpy.context.temp_override(**view()):
         begin(name)
         bpy.ops.view3d.view_selected()
@@ -289,7 +293,7 @@ def show(name):
 
 
 def waited():
-    """Until what was pressed has come to its end: one run may begin another."""
+    """Waits until all runs have ended, since one run may begin another."""
     queue = next(m for n, m in sys.modules.items() if n.endswith("discrete_fairing.queue"))
     calm = 0
     while calm < 10:

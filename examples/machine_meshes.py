@@ -28,7 +28,7 @@ def _from_segments(points, outline):
 
 
 def _turned(profile, truth=None):
-    """About z: (r, z) from the lower pole to the upper one."""
+    """A body about z through (r, z), from the lower pole to the upper one."""
     turn = 2 * np.pi * np.arange(SIDES) / SIDES
     vertices = [[(r * np.cos(a), r * np.sin(a), z) for a in turn] for r, z in profile[1:-1]]
     vertices = [*np.reshape(vertices, (-1, 3)), (0, 0, profile[0][1]), (0, 0, profile[-1][1])]
@@ -103,14 +103,14 @@ def bevelled_bar():
 
 
 def bracket():
-    """An angle with a fillet inside."""
+    """An angle bracket with a fillet inside."""
     fillet = ((0.7, 0.7), 0.4, 270, 180)
     outer = [(0.3, 1.5), (0, 1.5), (0, 0.75), (0, 0), (0.75, 0), (1.5, 0), (1.5, 0.3)]
     return _extruded([*outer, *_arc(*fillet, 6)], [*outer, *_arc(*fillet, 400)])
 
 
 def elbow():
-    """A pipe that turns by a right angle, open at its ends."""
+    """A pipe that bends by a right angle, open at its ends."""
     turn, around = np.radians(np.linspace(0, 90, 6)), 2 * np.pi * np.arange(12) / 12
     tube = [(1.5 + 0.5 * np.cos(b), 0.5 * np.sin(b)) for b in around]
     vertices = [(r * np.cos(a), r * np.sin(a), z) for a in turn for r, z in tube]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a modeller begins with: a fender and a mug as they are blocked out by hand, in plain NumPy."""
+"""A fender and a mug as modellers block them out by hand, in plain NumPy."""
 
 import numpy as np
 from demo_meshes import ControlMesh

@@ -47,9 +47,7 @@ def mesh(offsets: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def fair_hull() -> np.ndarray:
-    """(stations, lines, 3) mm: the hull that the table was taken off, half ellipses between the keel
-    and the sheer.
-    """
+    """(stations, lines, 3) mm: the true hull of the table, half ellipses between the keel and the sheer."""
     x = np.linspace(0.0, 1.0, STATIONS)[:, None]
     t = 0.5 * np.pi * np.linspace(0.0, 1.0, len(LINES))[None, :]
     along = 1.0 - np.abs(2.0 * x - 1.0 - 0.1) ** 2.4 / 1.1**2.4 * 0.82
@@ -61,7 +59,7 @@ def fair_hull() -> np.ndarray:
 
 
 def taken_off(hull: np.ndarray) -> np.ndarray:
-    """The same as measured. The keel lies in the middle, whatever is measured."""
+    """The measured hull. The keel lies in the middle plane, whatever is measured."""
     rng = np.random.default_rng(1794)
     measured = hull.copy()
     measured[:, :, 1:] += rng.normal(0.0, SCATTER, hull[:, :, 1:].shape)

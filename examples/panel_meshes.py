@@ -62,7 +62,7 @@ def _lofted(stations, creases=()):
 
 
 def bonnet():
-    """With a power bulge in the middle, whose flanks turn within one row."""
+    """A bonnet with a power bulge in the middle, whose flanks turn within one row."""
     x = (0.0, 0.3, 0.6, 0.9, 1.2)
     crown = np.array([0.0, 0.10, 0.16, 0.19, 0.20])
     bulge = np.array([0.02, 0.05, 0.06, 0.06, 0.05])
@@ -74,7 +74,7 @@ def bonnet():
 
 
 def door():
-    """With a character line, a crease, over the handles, and a tuck at the sill."""
+    """A door with a creased character line over the handles, and a tuck at the sill."""
     x = (0.0, 0.25, 0.55, 0.85, 1.1)
     bow = np.array([0.0, 0.012, 0.018, 0.014, 0.004])
     rows = [(y + bow, z) for y, z in (

@@ -67,7 +67,7 @@ def edges(patches, kinds, colour, thickness):
 
 
 def _tints(patches):
-    """(P,) numbers of colours; greedy, so that patches at one edge differ where four colours do."""
+    """(P,) numbers of colours, chosen greedily: patches at an edge differ where four colours suffice."""
     beside = [set() for _ in range(len(patches))]
     owner = np.repeat(np.arange(len(patches)), np.diff(patches.loop_offsets))
     for e in range(len(patches.edge_spans)):

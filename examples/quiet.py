@@ -34,7 +34,7 @@ def quiet():
 
 
 def _flush():
-    """Python's buffers and those of the C library, which would otherwise come out later."""
+    """Writes out the buffers of Python and of the C library, which otherwise come later."""
     sys.stdout.flush()
     sys.stderr.flush()
     ctypes.CDLL(None).fflush(None)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The recordings of the pages: the first clicks of each trade in a window, picture by picture.
-
-Run by build_tools/recordings.py, as `blender … --python record_trades.py -- NAME`. Time stands still while Blender
-works, so a recording says nothing about speed. The pictures have no pointer: where it was is in frames.json.
+"""Records the pages' first clicks of each trade in a window, picture by picture. Run by
+build_tools/recordings.py, as `blender … --python record_trades.py -- NAME`. Time stands still while
+Blender works, so a recording says nothing about speed. The pictures have no pointer; its places are in
+frames.json.
 """
 
 import json
@@ -38,7 +38,7 @@ class Film:
         self.frames, self.pictures, self.pointer = [], 0, (480, 400)
 
     def note(self, stays=1, pressed=False):
-        """The last picture once more."""
+        """Adds the last picture once more."""
         picture = f"{self.pictures - 1:03}.png"
         self.frames.append([picture, *self.pointer, stays, pressed])
 
@@ -51,7 +51,7 @@ class Film:
         self.note(stays, pressed)
 
     def glide(self, place):
-        """The pointer goes there on the last picture."""
+        """Moves the pointer there over the last picture."""
         start = self.pointer
         for step in range(1, GLIDE + 1):
             share = step / GLIDE
@@ -61,7 +61,7 @@ class Film:
             self.note()
 
     def click(self, call, below, share=0.5):
-        """A button of the sidebar; a generator that ends when nothing runs any more."""
+        """Clicks a button of the sidebar; a generator that ends when no run is left."""
         place = yield from harness.find_button(
             harness.sidebar(), f"bpy.ops.object.{call}", share, below
         )
@@ -76,7 +76,7 @@ class Film:
         yield from self.shoot(HOLD)
 
     def orbit(self):
-        """Around the model, a little; a generator."""
+        """Turns the view a little around the model; a generator."""
         for way in ("ORBITLEFT", "ORBITRIGHT"):
             for _ in range(ORBIT // 2):
                 with bpy.context.temp_override(**harness.view()):
@@ -93,7 +93,7 @@ class Film:
 
 
 def viewport_alone():
-    """No other areas, so that a small window has room; a generator."""
+    """Closes the other areas, so that a small window has room; a generator."""
     preferences = bpy.context.preferences
     preferences.view.show_splash, preferences.view.ui_scale = False, SCALE
     preferences.system.use_region_overlap = False
@@ -139,7 +139,7 @@ def zebra(film):
 
 
 def scan_of(page):
-    """What a page's first script makes."""
+    """The object that a page's first script makes."""
     for other in list(bpy.data.objects):
         bpy.data.objects.remove(other)
     return scripted(page)
@@ -179,7 +179,7 @@ def drag(film, source, vertex, way):
 
 
 def record_start(film):
-    """From a coarse mesh to a surface that follows it."""
+    """A coarse mesh becomes a surface that follows it."""
     for other in list(bpy.data.objects):
         bpy.data.objects.remove(other)
     source = settings_meshes.torus()
@@ -202,7 +202,7 @@ def record_job(film, model, purpose, turn=0.6):
 
 
 def record_hull(film):
-    """A misread offset found by its strain, corrected, and the even hull."""
+    """Strain finds a misread offset, which is corrected; the hull is even."""
     hull = scan_of("trades/hull")
     yield from seen(hull, turn=3.5, up=0.25)
     yield from film.shoot(HOLD)
@@ -241,7 +241,7 @@ def record_panel(film):
 
 
 def record_scan(film):
-    """A hole filled, and the noise removed."""
+    """A hole is filled and the noise removed."""
     yield from seen(scan_of("trades/scan"), turn=0.4)
     yield from film.shoot(HOLD)
     with bpy.context.temp_override(**harness.view()):

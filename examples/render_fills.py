@@ -65,7 +65,7 @@ def scan():
 
 
 def mug():
-    """Without its bottom, and upside down."""
+    """A mug without its bottom, upside down."""
     control = from_tests.modelled().mug()
     result = df.fair(control.vertices, control.faces, levels=2, measure=False)
     vertices, faces = result.vertices, result.triangles.astype(np.int64)

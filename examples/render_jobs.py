@@ -25,7 +25,7 @@ OUT = ROOT / "docs" / "images" / "jobs"
 
 
 def pressed(name):
-    """What the job makes of its model."""
+    """The result of the job on its model."""
 
     def faired(_control):
         job = jobs.JOBS[name]
@@ -37,7 +37,7 @@ def pressed(name):
     return faired
 
 
-# how the model is seen
+# the view of the model
 VIEWS = {
     "hull": MODELS["hull"][1],
     "panel": MODELS["fender"][1],
@@ -49,7 +49,7 @@ VIEWS = {
 
 
 def words_of(name):
-    """What the job is called in the menu."""
+    """The name of the job in the menu."""
     purpose = jobs.JOBS[name].options["purpose"]
     words = next(words for key, words, *_ in PURPOSES if key == purpose)
     return words.split(" (")[0]

@@ -47,7 +47,7 @@ SECTIONS = {
     "Exact": (("exact", 1.0),),
     "Approximate": (("approximate", 1.0),),
     "Limit": (("limit", 1.0),),
-    "Auto": (("limit", 0.45), ("exact", 1.0)),  # how strongly each is drawn
+    "Auto": (("limit", 0.45), ("exact", 1.0)),  # the strength of each line
 }
 SURFACE, VERTEX, CAGE = (0.25, 0.58, 0.92), (0.96, 0.55, 0.14), (0.55, 0.55, 0.55)
 SAMPLES = 4  # a pixel's side
@@ -92,7 +92,7 @@ def draw_ring(settings, path):
 
 
 def sheet():
-    """Vertices and faces of a sheet that is as HEIGHTS along x, and the same for all y."""
+    """Vertices and faces of a sheet with HEIGHTS along x, the same for all y."""
     across = range(-2, 3)
     points = [
         (x, y, z) for x, z in zip(np.linspace(0.07, 0.93, len(HEIGHTS)), HEIGHTS) for y in across
@@ -134,7 +134,7 @@ def draw_section(parts, path):
 
 
 def along(line, radius):
-    """How much of each pixel is within `radius` of a polygon (n, 2), the picture being of height 1."""
+    """The share of each pixel within `radius` of a polygon (n, 2); the picture has height 1."""
     fine = SIZE * SAMPLES
     places = (np.arange(fine) + 0.5) / fine
     pixels = np.stack(np.meshgrid(places, 1 - places), axis=-1)
@@ -148,7 +148,7 @@ def along(line, radius):
 
 
 def lay(picture, cover, colour, strength):
-    """`colour` over the picture, where `cover` has it."""
+    """Lays `colour` over the picture where `cover` is."""
     alpha = strength * cover
     total = alpha + picture[..., 3] * (1 - alpha)
     share = np.divide(alpha, total, out=np.zeros_like(total), where=total > 0)[..., None]

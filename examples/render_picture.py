@@ -47,7 +47,7 @@ def compose(pairs, path):
 
 
 def _lay(paper, tile):
-    """`tile` on `paper`; long shadows fade out towards its sides instead of being cut off there."""
+    """`tile` on `paper`; long shadows fade out at its sides."""
     across = np.linspace(0.0, 1.0, tile.shape[1], dtype=np.float32)
     fade = np.clip(np.minimum(across, 1 - across) / FADE, 0, 1)
     alpha = tile[..., 3:] * fade[:, None]

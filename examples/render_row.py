@@ -27,7 +27,7 @@ MARKED = (0.0, 0.30, 0.62)  # edges that are marked sharp
 
 @dataclass(frozen=True)
 class View:
-    """How all tiles of a row are seen: `span` of the mesh's units fit into a tile's width."""
+    """The view of all tiles of a row: `span` units of the mesh fit into a tile's width."""
 
     span: float
     turn: float = 25.0  # degrees about the vertical

@@ -68,7 +68,7 @@ def render(path, samples):
 
 
 def dress(target, material):
-    """`material` and no other on every face."""
+    """Gives each face `material` and no other."""
     target.data.materials.clear()
     target.data.materials.append(material)
 

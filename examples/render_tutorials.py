@@ -29,7 +29,7 @@ MISREAD, MEANT = 22, 0.70  # the vertex of the hull, and its half-breadth
 
 
 def centred(target):
-    """`target` with its middle above the origin, where the camera looks."""
+    """Puts the middle of `target` above the origin, where the camera looks."""
     corners = [vertex.co for vertex in target.data.vertices]
     for axis in (0, 1):
         values = [co[axis] for co in corners]

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Zebra stripes: the surface as a mirror in a room of light tubes that moves with the view.
-
-A stripe that breaks shows a fold, one with a kink a jump in curvature; on a fair surface they run evenly.
+"""Zebra stripes: the surface is a mirror in a room of light tubes that moves with the view. A broken stripe
+shows a fold, a kinked stripe a jump of curvature; on a fair surface stripes run evenly.
 """
 
 import bpy

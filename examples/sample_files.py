@@ -64,7 +64,7 @@ SAMPLES = {
 
 
 def look_at(target):
-    """Every viewport of the file shows the whole object."""
+    """Sets each viewport of the file to show the whole object."""
     corners = [target.matrix_world @ vertex.co for vertex in target.data.vertices]
     low, high = (type(corners[0])(map(which, zip(*corners, strict=True))) for which in (min, max))
     for screen in bpy.data.screens:
@@ -75,7 +75,7 @@ def look_at(target):
 
 
 def write(name, folder):
-    """One file; returns its path."""
+    """Writes one file and returns its path."""
     make, what_to_try = SAMPLES[name]
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     bpy.context.scene.discrete_fairing.levels = LEVELS

@@ -21,7 +21,7 @@ def add(vertices, faces, name="Control"):
 
 
 def set_creases(control, weight):
-    """`weight(a, b)`: the crease of the edge between two points."""
+    """`weight(a, b)` is the crease of the edge between two points."""
     points = [v.co for v in control.data.vertices]
     values = [weight(*(points[v] for v in edge.vertices)) for edge in control.data.edges]
     control.data.attributes.new("crease_edge", "FLOAT", "EDGE").data.foreach_set("value", values)
@@ -129,7 +129,7 @@ def tent(height=1.5):
 
 
 def tent_with_side(boundary):
-    """The same with a boundary of its own along the side in front: 2 straight, 3 free."""
+    """A tent whose front side has a boundary of its own: 2 straight, 3 free."""
     control = tent()
     points = [v.co for v in control.data.vertices]
     values = [boundary * all(points[v].y == -1 for v in e.vertices) for e in control.data.edges]
@@ -138,7 +138,7 @@ def tent_with_side(boundary):
 
 
 def sheet_with_normal(degrees=None):
-    """A flat sheet of four quads with the normal in its middle fixed, so far from upright."""
+    """A flat sheet of four quads; the normal in its middle is fixed at this angle from upright."""
     control = tent(0)
     if degrees is not None:
         layer = control.data.attributes.new("fair_normal", "FLOAT_VECTOR", "POINT")
@@ -147,12 +147,12 @@ def sheet_with_normal(degrees=None):
 
 
 def _lifted(vertices, height):
-    """One more vertex, of no face, which stands on the floor, so that what lies flat does not."""
+    """The points and one more, of no face, on the floor, so that the mesh stands above it."""
     return [*vertices, (0, 0, -height)]
 
 
 def scan():
-    """A ball as a bad scanner sees it."""
+    """A ball as a poor scanner sees it."""
     bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=3, radius=1.0)
     control = bpy.context.object
     random = np.random.default_rng(5)
@@ -172,7 +172,7 @@ def finned():
 
 
 def uneven():
-    """A bottle of eight sides whose rings stand close together here and far apart there."""
+    """A bottle of eight sides, its rings close together at some places and far apart at others."""
     profile = (
         (0.30, 0.0),
         (0.62, 0.06),
@@ -227,7 +227,7 @@ def suzanne():
 
 
 def half_suzanne():
-    """One half, and a Mirror modifier for the other."""
+    """One half of Suzanne, with a Mirror modifier for the other."""
     control = suzanne()
     bpy.ops.object.mode_set(mode="EDIT")
     bpy.ops.mesh.select_all(action="SELECT")
@@ -241,7 +241,7 @@ def half_suzanne():
 
 
 def suzanne_with_key():
-    """A shape key that draws the ears out."""
+    """Suzanne with a shape key that draws her ears out."""
     control = suzanne()
     control.shape_key_add(name="Basis")
     key = control.shape_key_add(name="Long Ears")
@@ -284,7 +284,7 @@ def bent_column():
 
 
 def offsets():
-    """Half a hull from its table of offsets, some of which are wrong; upside down, as on a mould."""
+    """Half a hull from its table of offsets, with some wrong ones; upside down, as on a mould."""
     example_offsets.add_to_scene()
     control = bpy.data.objects["Offsets"]
     control.location.x = -0.5 * example_offsets.LENGTH / 1000
@@ -297,7 +297,7 @@ def offsets():
 
 
 def eased_offsets():
-    """The same with the shape key Eased: first the three that are wrong, then all."""
+    """The same hull with the shape key Eased: first the three wrong offsets, then all."""
     control = offsets()
     bpy.ops.object.fairing_ease(amount="WORST", count=len(example_offsets.WRONG))
     bpy.ops.object.fairing_ease(amount="AUTOMATIC", go_on=True)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The scripts of docs/trades/ and docs/how-to/, for pictures and sample files of the same meshes."""
+"""Runs the scripts of docs/trades/ and docs/how-to/ for pictures and sample files of the same meshes."""
 
 import re
 from pathlib import Path

@@ -43,7 +43,7 @@ def faired(control, energy):
 
 
 def control_lines(control):
-    """The edges alone: faces would come out as triangles."""
+    """The edges alone: a file would have faces as triangles."""
     mesh = bpy.data.meshes.new("Control mesh")
     edges = [tuple(edge.vertices) for edge in control.data.edges]
     mesh.from_pydata([vertex.co for vertex in control.data.vertices], edges, [])
@@ -57,7 +57,7 @@ def linked(made):
 
 
 def surface(make, name):
-    """One surface under its name, with the modifiers applied, the control mesh gone."""
+    """One surface under its name, with modifiers applied and without its control mesh."""
     control = make()
     made = WAYS[name](control)
     depsgraph = bpy.context.evaluated_depsgraph_get()
