@@ -226,11 +226,15 @@ def photograph(name):
     return path
 
 
-def pixels(name):
-    """(h, w, 3) uint8 of the viewport, as X shows it."""
-    path, region = photograph(name), view()["region"]
-    top = view()["window"].height - region.y - region.height
-    crop = f"{region.width}x{region.height}+{region.x}+{top}"
+def top_of(region):
+    """The first row of a region on the screen."""
+    return view()["window"].height - region.y - region.height
+
+
+def pixels(name, region=None):
+    """(h, w, 3) uint8 of a region, by default the viewport, as X shows it."""
+    path, region = photograph(name), region or view()["region"]
+    crop = f"{region.width}x{region.height}+{region.x}+{top_of(region)}"
     command = ["convert", path, "-crop", crop, "-depth", "8", "rgb:-"]
     done = subprocess.run(command, check=True, capture_output=True, timeout=60)
     return np.frombuffer(done.stdout, np.uint8).reshape(region.height, region.width, 3)
@@ -251,6 +255,21 @@ def colours(path):
         ["identify", "-format", "%k", path], capture_output=True, check=True, text=True, timeout=60
     )
     return int(found.stdout)
+
+
+def execute_browser(path=None):
+    """Presses the button of the file browser, with this file if it is given. Returns whether there is a browser."""
+    for window in bpy.context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "FILE_BROWSER":
+                region = next(region for region in area.regions if region.type == "WINDOW")
+                if path:
+                    area.spaces.active.params.directory = str(path.parent).encode()
+                    area.spaces.active.params.filename = path.name
+                with bpy.context.temp_override(window=window, area=area, region=region):
+                    bpy.ops.file.execute()
+                return True
+    return False
 
 
 def xdotool(*words):
@@ -281,10 +300,7 @@ def find_button(region, call, share, below):
     """The place on the screen of the button whose call begins with `call`, such as
     "bpy.ops.object.fairing_for(purpose='HULL'". The search goes up and down from `below`, in pixels from the top of
     the region, at a `share` of its width. A generator."""
-    top, x = (
-        view()["window"].height - (region.y + region.height),
-        int(region.x + share * region.width),
-    )
+    top, x = top_of(region), int(region.x + share * region.width)
     steps = sorted(range(_BUTTON, region.height, _BUTTON), key=lambda y: abs(y - below))
     for y in steps:
         found = yield from button_at(region, x, top + y)
@@ -317,8 +333,7 @@ def redo_panel():
 def line_of(region, number):
     """The place on the screen of a value in a panel's line; the title is line 0."""
     unit = bpy.context.preferences.system.ui_scale
-    top = view()["window"].height - (region.y + region.height)
-    return int(region.x + 0.75 * region.width), int(top + (20 + 24 * number) * unit)
+    return int(region.x + 0.75 * region.width), int(top_of(region) + (20 + 24 * number) * unit)
 
 
 def unfold():

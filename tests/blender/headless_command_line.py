@@ -5,18 +5,20 @@ Prints `PASS name` or `FAIL name` for each test and exits with 1 if any failed. 
 the files it writes, and looks at exit codes, outputs and the report.
 """
 
+import contextlib
 import json
-import os
 import re
 import signal
 import subprocess
 import sys
 import tempfile
 import time
-import traceback
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).parent))
+
 import bpy
+import harness
 
 POINTS = [(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 2)]
 FACES = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
@@ -111,27 +113,12 @@ def test_ctrl_c_ends_it_with_130():
     assert not Path("out.obj").exists()
 
 
-def main():
-    """Every test in a folder of its own; the number of failures."""
-    failures = 0
-    start = Path.cwd()
-    tests = [item for item in globals().items() if item[0].startswith("test_")]
-    for name, test in tests:
-        with tempfile.TemporaryDirectory() as folder:
-            os.chdir(folder)
-            try:
-                test()
-            except Exception:
-                failures += 1
-                traceback.print_exc(file=sys.stdout)
-                print(f"FAIL {name}", flush=True)
-            else:
-                print(f"PASS {name}", flush=True)
-            finally:
-                os.chdir(start)
-    print(f"RAN {len(tests)}", flush=True)
-    return failures
+def in_a_folder(test):
+    def run():
+        with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
+            test()
+
+    return run
 
 
-if __name__ == "__main__":
-    sys.exit(1 if main() else 0)
+harness.run({name: in_a_folder(test) for name, test in harness.tests_in(globals()).items()})

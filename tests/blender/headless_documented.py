@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Calls that the documents show, as they stand there, in this Blender and its Python."""
 
+import contextlib
 import os
 import re
 import sys
@@ -19,15 +20,11 @@ def test_the_page_on_scripts():
         r"^```python\n(.*?)^```", (DOCS / "how-to" / "scripting.md").read_text("utf-8"), re.M | re.S
     )
     assert len(blocks) > 5
-    before, namespace = Path.cwd(), {}
-    with tempfile.TemporaryDirectory() as folder:
-        os.chdir(folder)
+    namespace = {}
+    with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
         os.environ["PWD"] = folder
-        try:
-            for number, block in enumerate(blocks, 1):
-                exec(compile(block, f"scripting.md, example {number}", "exec"), namespace)
-        finally:
-            os.chdir(before)
+        for number, block in enumerate(blocks, 1):
+            exec(compile(block, f"scripting.md, example {number}", "exec"), namespace)
 
 
 harness.run(globals())

@@ -150,27 +150,13 @@ def test_cad():
     yield from clicks.press("bpy.ops.export_scene.fairing_step(", *STEP)
     yield 2.0
     path = Path(tempfile.mkdtemp()) / "hull.step"
-    assert written_by_browser(path), "the file browser is open"
+    assert harness.execute_browser(path), "the file browser is open"
     clicks.count += 1
     yield 0.5
     yield from jobs.waited()
     assert clicks.count <= MOST_CLICKS
     harness.photograph("job_cad")
     assert path.read_text(encoding="ascii").startswith("ISO-10303-21;")
-
-
-def written_by_browser(path):
-    """Presses Export in the file browser, with a name of ours."""
-    for window in bpy.context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "FILE_BROWSER":
-                region = next(region for region in area.regions if region.type == "WINDOW")
-                area.spaces.active.params.directory = str(path.parent).encode()
-                area.spaces.active.params.filename = path.name
-                with bpy.context.temp_override(window=window, area=area, region=region):
-                    bpy.ops.file.execute()
-                return True
-    return False
 
 
 def test_undo_takes_a_job_back():

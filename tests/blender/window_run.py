@@ -17,42 +17,33 @@ TOO_LONG = 7  # and to be cancelled
 PATIENCE = 120.0  # seconds until a run must have ended
 
 
-def pixels(path):
-    """A picture as (height, width) brightness, first row at the top."""
-    image = bpy.data.images.load(str(path))
-    width, height = image.size
-    values = np.empty(4 * width * height, np.float32)
-    image.pixels.foreach_get(values)
-    bpy.data.images.remove(image)
-    return values.reshape(height, width, 4)[::-1, :, :3].sum(axis=2)
-
-
 def sidebar_at_rest(name):
-    """A picture of the sidebar, as `pixels`, once two in a row are equal: panels read their pictures beside
-    drawing. A generator."""
-    sidebar = harness.sidebar()
+    """Brightness (h, w) of the sidebar, once two pictures in a row are equal: panels read their pictures beside
+    drawing. A generator.
+    """
     begun, last = perf_counter(), None
     while True:
         yield 0.5
-        now = pixels(harness.photograph(name))[:, sidebar.x : sidebar.x + sidebar.width]
+        now = harness.pixels(name, harness.sidebar()).sum(axis=2, dtype=int)
         if last is not None and np.array_equal(now, last):
             (Path(os.environ["DF_SCREENSHOTS"]) / f"{name}.png").unlink()
-            return sidebar.x, now
+            return now
         assert perf_counter() - begun < PATIENCE, "the sidebar does not come to rest"
         last = now
 
 
 def find_button(settings):
     """The place of the button on the screen: only its text changes with this setting. A generator; returns (x, y)."""
-    left, before = yield from sidebar_at_rest("button_before")
+    before = yield from sidebar_at_rest("button_before")
     settings.use_selection = True
-    _, after = yield from sidebar_at_rest("button_after")
+    after = yield from sidebar_at_rest("button_after")
     settings.use_selection = False
     yield 0.5
-    rows, columns = np.nonzero(np.abs(after - before) > 0.5)
+    rows, columns = np.nonzero(np.abs(after - before) > 127)
     assert len(rows), "the button's text has not changed"
     assert np.ptp(rows) < 40, "more than one line has changed"
-    return left + int(columns.mean()), int(rows.mean())
+    sidebar = harness.sidebar()
+    return sidebar.x + int(columns.mean()), harness.top_of(sidebar) + int(rows.mean())
 
 
 def press(settings):

@@ -44,12 +44,7 @@ def browse(path, **settings):
     )
     yield 2.0
     harness.photograph("step_browser")
-    for window in bpy.context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "FILE_BROWSER":
-                region = next(region for region in area.regions if region.type == "WINDOW")
-                with bpy.context.temp_override(window=window, area=area, region=region):
-                    bpy.ops.file.execute()
+    harness.execute_browser()
     yield 0.3
 
 
