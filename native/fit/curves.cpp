@@ -3,6 +3,7 @@
 
 #include <Eigen/Dense>
 #include <Eigen/SparseCholesky>
+#include <numbers>
 
 #include "base/points.h"
 #include "parallel/cancel.h"
@@ -10,9 +11,30 @@
 namespace fairing {
 namespace {
 
-template <class Visit>
-void for_curve_points(const GridLevel& grid, Index e, Visit&& visit) {
-  for (int k = 0; k <= grid.n(); ++k) visit(grid.edge_point(e, k), double(k) / grid.n());
+// A plate on springs follows its border over this length, in waves that the springs halve.
+const double yield_of_plate = std::numbers::sqrt2 / (2 * std::numbers::pi);
+
+// Shares of a side from its first corner, and of the way from it across the face.
+struct SidePlace {
+  double along, across;
+};
+
+// The place (u, v) of a closed face against a side, the inverse of closed_point().
+SidePlace beside(bool quad, int side, double u, double v) {
+  if (quad) {
+    constexpr auto other = [](double t) { return 1 - t; };
+    switch (side) {
+      case 0: return {u, v};
+      case 1: return {v, other(u)};
+      case 2: return {other(u), other(v)};
+      default: return {other(v), u};
+    }
+  }
+  const double w = 1 - u - v;
+  const std::array<double, 3> corner{w, u, v};
+  const double first = corner[std::size_t(side)], second = corner[std::size_t((side + 1) % 3)],
+               both = first + second;
+  return {both > 0 ? second / both : 0, 1 - both};
 }
 
 }  // namespace
@@ -47,65 +69,85 @@ void CurveFit::find_bends() {
         return (place[std::size_t(of[a + 1])] - place[std::size_t(of[a])]).norm();
       };
       const double before = length(0), after = length(1), sum = before + after;
-      bends_.push_back({of, {2 * after / sum, -2, 2 * before / sum}});
+      const double square = problem_.units.edge_in_space * problem_.units.edge_in_space;
+      bends_.push_back({of,
+                        {2 * square / (before * sum), -2 * square / (before * after),
+                         2 * square / (after * sum)}});
     }
   }
 }
 
-// Uses the feet on cells next to a curve.
-std::vector<CurveFit::MoveEquations> CurveFit::equations(const LevelFit& fit) const {
-  const Cells& cells = fit.cells();
-  const GridLevel& grid = cells.grid();
+// Gives the equation of a place on edge `e` to the edge's ends.
+void CurveFit::add(Index e, double along, double weight, const Eigen::Matrix3d& rows,
+                   const Vec3& offset, std::vector<MoveEquations>& equations) const {
   const ControlMesh& mesh = problem_.mesh;
-  std::vector<std::uint8_t> on_curve(grid.size(), 0);
-  for (std::size_t e = 0; e < mesh.edges.size(); ++e)
-    if (mesh.feature_edge[e])
-      for_curve_points(grid, Index(e), [&](Index p, double) { on_curve[std::size_t(p)] = 1; });
-  std::vector<MoveEquations> out(grid.size());
+  for (const int end : {0, 1}) {
+    const Index v = mesh.edges[std::size_t(e)].vertex[std::size_t(end)];
+    if (moves_[std::size_t(v)])
+      equations[std::size_t(mesh.original_vertex(v))].add(rows, offset,
+                                                          weight * (end == 0 ? 1 - along : along));
+  }
+}
+
+// Uses the feet beside a curve as far as the surface under points of this `weight` follows it, by
+// shares of a face, but at least those on cells next to it. (Fewer feet follow the noise, and the
+// normals of these cells turn with the curve.)
+void CurveFit::add_points(const LevelFit& fit, double weight,
+                          std::vector<MoveEquations>& equations) const {
+  const Cells& cells = fit.cells();
+  const ControlMesh& mesh = problem_.mesh;
+  const double n = cells.grid().n(), reach = yield_of_plate / std::pow(weight, 0.25),
+               width = std::clamp(reach, 1 / n, 1.0);
   for (std::size_t s = 0; s < fit.feet().size(); ++s) {
     stop_if_cancelled(s);
     const Foot& foot = fit.feet()[s];
     const double share = foot.is_used() ? robust_weight(double(foot.offset), fit.spread().rms) : 0;
     if (!(share > 0)) continue;
-    const auto& corner = cells.corners(foot.cell);
-    for (std::size_t k = 0; k < 4; ++k) {
-      if (corner[k] < 0 || !on_curve[std::size_t(corner[k])]) continue;
+    const FacePlace place = cells.place(foot.cell, foot.shares);
+    const Face& face = mesh.faces[std::size_t(place.face)];
+    for (int k = 0; k < face.size; ++k) {
+      const Side& side = mesh.sides[std::size_t(face.first_side + k)];
+      if (!mesh.feature_edge[std::size_t(side.edge)]) continue;
+      const SidePlace at = beside(face.quad(), k, place.i / n, place.j / n);
+      if (!(at.across < width)) continue;
       const Vec3 normal = fit.finder().normal_at(foot);
-      out[std::size_t(corner[k])].add(normal * normal.transpose(), double(foot.offset) * normal,
-                                      share * double(foot.shares[k]));
+      add(side.edge, side.reversed ? 1 - at.along : at.along, share * (1 - at.across / width),
+          normal * normal.transpose(), double(foot.offset) * normal, equations);
     }
   }
-  return out;
 }
 
 // Projects the scan's border points perpendicularly to the nearest border edges of the level.
 void CurveFit::add_borders(const LevelFit& fit, std::vector<MoveEquations>& equations) const {
   const GridLevel& grid = fit.cells().grid();
   const ControlMesh& mesh = problem_.mesh;
-  struct Side {
+  struct Piece {
+    Index edge;
+    int first;
     Index from, to;
   };
-  std::vector<Side> sides;
+  std::vector<Piece> pieces;
   for (std::size_t e = 0; e < mesh.edges.size(); ++e)
     if (mesh.feature_edge[e] && mesh.edges[e].boundary())
       for (int k = 0; k < grid.n(); ++k)
-        sides.push_back({grid.edge_point(Index(e), k), grid.edge_point(Index(e), k + 1)});
+        pieces.push_back(
+            {Index(e), k, grid.edge_point(Index(e), k), grid.edge_point(Index(e), k + 1)});
   const double* const x = fit.surface().data();
   // A border of the scan that is farther away is the rim of a hole.
   const double reach = problem_.units.edge_in_space / 2;
   for (std::size_t b = 0; b < scan_.border.size(); ++b) {
     stop_if_cancelled();
     double least = reach * reach;
-    const Side* nearest = nullptr;
+    const Piece* nearest = nullptr;
     double share = 0;
-    for (const Side& side : sides) {
-      const Vec3 from = point_at(x, side.from), along = point_at(x, side.to) - from;
+    for (const Piece& piece : pieces) {
+      const Vec3 from = point_at(x, piece.from), along = point_at(x, piece.to) - from;
       const double t =
           std::clamp((scan_.border[b] - from).dot(along) / along.squaredNorm(), 0.0, 1.0);
       const double square = (scan_.border[b] - from - t * along).squaredNorm();
       if (!(square < least)) continue;
       least = square;
-      nearest = &side;
+      nearest = &piece;
       share = t;
     }
     if (!nearest) continue;
@@ -113,30 +155,8 @@ void CurveFit::add_borders(const LevelFit& fit, std::vector<MoveEquations>& equa
     const Vec3 tangent = along.normalized();
     const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - tangent * tangent.transpose();
     const Vec3 offset = scan_.border[b] - from - share * along;
-    equations[std::size_t(nearest->from)].add(across, offset, 1 - share);
-    equations[std::size_t(nearest->to)].add(across, offset, share);
+    add(nearest->edge, (nearest->first + share) / grid.n(), 1, across, offset, equations);
   }
-}
-
-std::vector<CurveFit::MoveEquations> CurveFit::control_equations(
-    const std::vector<MoveEquations>& points, const GridLevel& grid) const {
-  const ControlMesh& mesh = problem_.mesh;
-  std::vector<MoveEquations> sum(std::size_t(mesh.input_vertices));
-  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
-    if (!mesh.feature_edge[e]) continue;
-    const auto& ends = mesh.edges[e].vertex;
-    for_curve_points(grid, Index(e), [&](Index p, double t) {
-      for (const int end : {0, 1}) {
-        if (!moves_[std::size_t(ends[std::size_t(end)])]) continue;
-        const MoveEquations& equation = points[std::size_t(p)];
-        const double share = end == 0 ? 1 - t : t;
-        MoveEquations& own = sum[std::size_t(mesh.original_vertex(ends[std::size_t(end)]))];
-        own.square += share * equation.square;
-        own.rest += share * equation.rest;
-      }
-    });
-  }
-  return sum;
 }
 
 // In the frame's unit, one a control vertex; directions without enough points stay.
@@ -185,13 +205,13 @@ std::vector<Vec3> CurveFit::moves(const std::vector<MoveEquations>& equations, d
 }
 
 void CurveFit::move(const LevelFit& fit, double weight, ControlPositions& control) const {
-  std::vector<MoveEquations> points = equations(fit);
-  add_borders(fit, points);
+  std::vector<MoveEquations> equations(std::size_t(problem_.mesh.input_vertices));
+  add_points(fit, weight, equations);
+  add_borders(fit, equations);
   const double scale = problem_.frame.scale;
   std::vector<Vec3> place(std::size_t(problem_.mesh.input_vertices));
   for (std::size_t v = 0; v < place.size(); ++v) place[v] = control.world[v] / scale;
-  const std::vector<Vec3> move =
-      moves(control_equations(points, fit.cells().grid()), weight, place);
+  const std::vector<Vec3> move = moves(equations, weight, place);
   std::vector<double> world(3 * place.size());
   for (std::size_t v = 0; v < place.size(); ++v)
     put_point(control.world[v] + scale * move[v], world.data() + 3 * v);

@@ -32,19 +32,19 @@ class CurveFit {
     }
   };
   // The second divided difference of a chain at its vertex at[1], by the lengths of the given
-  // control edges: it also keeps the spacing of the vertices, of which the points know nothing.
+  // control edges in mean ones: it also keeps the spacing of the vertices, of which the points
+  // know nothing.
   struct Bend {
     std::array<Index, 3> at;
     std::array<double, 3> row;
   };
   void find_bends();
-  // One a control vertex of the input.
-  std::vector<MoveEquations> control_equations(const std::vector<MoveEquations>& points,
-                                               const GridLevel& grid) const;
   std::vector<Vec3> moves(const std::vector<MoveEquations>& equations, double weight,
                           std::span<const Vec3> place) const;
-  // By the numbers of the curves' points.
-  std::vector<MoveEquations> equations(const LevelFit& fit) const;
+  // All add to one set of equations for each control vertex of the input.
+  void add(Index e, double along, double weight, const Eigen::Matrix3d& rows, const Vec3& offset,
+           std::vector<MoveEquations>& equations) const;
+  void add_points(const LevelFit& fit, double weight, std::vector<MoveEquations>& equations) const;
   void add_borders(const LevelFit& fit, std::vector<MoveEquations>& equations) const;
 
   const FairingProblem& problem_;

@@ -197,10 +197,33 @@ def test_border_curves_follow_no_noise():
     assert rms(np.degrees(np.arccos(np.clip(cosine, -1, 1)))) < 2
 
 
-def test_crease_curves_come_to_where_both_sides_meet():
-    def roof(x: np.ndarray, y: np.ndarray) -> np.ndarray:
-        return -0.6 * np.abs(y) + 0.1 * np.cos(2 * x)
+def roof(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    return -0.6 * np.abs(y) + 0.1 * np.cos(2 * x)
 
+
+@pytest.mark.parametrize("corners", [3, 4])
+def test_curves_follow_no_noise_where_edges_are_short(corners):
+    """A fine control mesh, whose edges along the crease are from 0.008 to 0.24 long."""
+    along, dense = 2 * np.linspace(0, 1, 17) ** 2 - 1, np.linspace(-1, 1, 101)
+    vertices, faces = sheet(along, np.linspace(-1, 1, 13), roof)
+    if corners == 3:
+        faces = np.concatenate([faces[:, [0, 1, 2]], faces[:, [0, 2, 3]]])
+    points, quads = sheet(dense, dense, roof)
+    points[:, 2] += np.random.default_rng(1).normal(0, 4 * NOISE, len(points))
+    triangles = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    ridge, border = (np.flatnonzero(np.abs(vertices[:, 1] - y) < 1e-9) for y in (0, 1))
+    options = {
+        "crease_edges": np.stack([ridge[:-1], ridge[1:]], 1),
+        "corner_vertices": [0, 12, 208, 220],
+    }
+    fitted = df.fit(vertices, faces, points, triangles=triangles, levels=3, **options)
+    x, y, z = fitted.vertices[ridge].T
+    assert np.abs([y, z - roof(x, 0 * x)]).max() < 3 * NOISE
+    for curve in (ridge, border):
+        assert (np.diff(fitted.vertices[curve, 0]) > 0.8 * np.diff(along)).all()
+
+
+def test_crease_curves_come_to_where_both_sides_meet():
     even = np.linspace(-1, 1, 7)
     vertices, faces = sheet(even, even, roof)
     ridge = np.flatnonzero(vertices[:, 1] == 0)
