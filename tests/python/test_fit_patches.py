@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 import thin_walls
 from discrete_fairing import fitting
+from discrete_fairing.patch_fits import PatchFits
 from mesh_files import read_mesh
 from refusing import refusal
 from shared_data import SHARED, read_obj
@@ -356,10 +357,10 @@ def test_a_tip_between_two_creases_is_no_fold():
 def test_curves_fitted_more_sharply_make_no_patch_fold():
     """Beside needles, patches that met their tolerance were once fitted anew to sharper curves, and turned over.
     The drum was refused, after a level more and three times the work."""
-    run = fitting._Run(1e-4, 8e-4, False)
+    fits = PatchFits(1e-4, 8e-4, False)
     result = df.fair(*uneven_drum(), 6, threads=1)
     watched = {"threads": 1, "monitor": df.Monitor(), "progress": None}
-    assert not run.still_folded(result, 6, [82, 89, 90], watched)
+    assert not fits.still_folded(result, 6, [82, 89, 90], watched)
 
 
 def test_rows_of_quads_are_one_patch_whose_curvature_does_not_jump():

@@ -1,0 +1,192 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Patches fitted to the surface of one level: what they may miss, and surfaces that are refused."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _native
+from .arrays import following, numbers
+from .errors import fairing_error
+from .options import real
+from .patches import SplinePatches, control_polygons
+from .result import Result
+from .scan_fitting import Fitted
+
+USUAL_TOLERANCE, USUAL_ANGLE = 1e-4, 8e-4  # share of the size; radians
+# The allowed distance of patches from a surface, as a share of the distance of 95 % of the scan from it.
+# Independent errors add by squares, so patches at this distance put points 12 % farther away.
+SHARE_OF_SCAN = 0.5
+TURN_LIMIT = np.radians(20.0)  # between neighbouring cells of the refined surface
+# the same on a coarse level, above which a fold remains on finer ones
+HOPELESS_TURN = np.radians(150.0)
+FOLD_LIMIT = np.radians(45.0)  # between a patch and the refined surface
+
+# vertices, triangles, quads and crease edges of a refined surface
+Arrays = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
+
+
+class PatchFits:
+    """The settings of fit_patches(), and its fits on a level."""
+
+    def __init__(self, tolerance: object, normal_tolerance: object, force: bool):
+        self._has_tolerance = tolerance is not None
+        self._has_angle = normal_tolerance is not None
+        self.tolerance = _positive("tolerance", tolerance, USUAL_TOLERANCE)
+        self.normal_tolerance = _positive("normal_tolerance", normal_tolerance, USUAL_ANGLE)
+        self.force = force
+        self._groups = np.empty(0, np.int32)  # of the input's faces
+
+    def keep_apart(self, groups: ArrayLike, faces: int) -> None:
+        """Faces of different numbers are in different patches. Raises FairingError BAD_SHAPE."""
+        self._groups = numbers(groups, "groups", "iu").astype(np.int32)
+        if self._groups.shape != (faces,):
+            raise fairing_error(
+                "BAD_SHAPE", f"groups has shape {self._groups.shape}; it must be ({faces},)."
+            )
+
+    def allow_for(self, found: Fitted, polygons: tuple[np.ndarray, np.ndarray]) -> None:
+        """Allows more near a scan where no tolerance was given. The angle is that of a patch which is off
+        by the tolerance over a control edge.
+        """
+        size = float(np.ptp(found.vertices, axis=0).max(initial=0))
+        corners, offsets = polygons
+        ends = found.vertices[corners] - found.vertices[corners[following(offsets)]]
+        edge = float(np.linalg.norm(ends, axis=1).mean())
+        if size and not self._has_tolerance:
+            self.tolerance = max(USUAL_TOLERANCE, SHARE_OF_SCAN * found.within[0] / size)
+        if edge and not self._has_angle:
+            self.normal_tolerance = max(USUAL_ANGLE, self.tolerance * size / edge)
+
+    def fitted(
+        self, result: Result, level: int, lattice_error: np.ndarray, watched: dict[str, Any]
+    ) -> SplinePatches:
+        # reported even if the fit is quick
+        if watched["progress"](0.0, "patches") is False:
+            watched["monitor"].cancel()
+        polygons = control_polygons(result, level)
+        arrays, bad = self._fit(_arrays(result), polygons, level, watched)
+        arrays.update(
+            tolerance=self.tolerance,
+            normal_tolerance=self.normal_tolerance,
+            lattice_error=lattice_error,
+            unresolved=np.unique(polygons[bad]).astype(np.int64),
+        )
+        return SplinePatches(arrays, result, level)
+
+    def _fit(
+        self, arrays: Arrays, polygons: np.ndarray, level: int, watched: dict[str, Any]
+    ) -> tuple[dict[str, Any], np.ndarray]:
+        """The core's arrays, and (F,) bool: control faces whose patches or surface fold. `polygons`: the
+        input faces of the control faces.
+        """
+        groups = self._groups[polygons] if len(self._groups) else self._groups
+        allowed = self.tolerance, self.normal_tolerance
+        found = _native.fit_splines(*arrays, groups, level, *allowed, **watched)
+        bad = (found["lattice_turn"] > TURN_LIMIT) | (found["face_angle"] > TURN_LIMIT)
+        folded = np.repeat(~(found["turned"] <= FOLD_LIMIT), np.diff(found["patch_face_offsets"]))
+        bad[found["patch_faces"][folded]] = True
+        return found, bad
+
+    def still_folded(
+        self, result: Result, level: int, faces: ArrayLike, watched: dict[str, Any]
+    ) -> bool:
+        """Whether patches of the input `faces`, fitted with their neighbours alone, still fold."""
+        polygons = control_polygons(result, level)
+        chosen = np.isin(polygons, faces)
+        kept, arrays = _around(result, level, chosen)
+        if kept.all():
+            return False  # as far as is known; the whole fit decides
+        _, bad = self._fit(arrays, polygons[kept], level, watched)
+        return bool(bad[chosen[kept]].any())
+
+    def turns(self, result: Result, level: int, watched: dict[str, Any]) -> np.ndarray:
+        """(F,) the largest turn of each control face that exceeds the tolerance."""
+        least = self.tolerance * float(np.ptp(result.vertices, axis=0).max(initial=0))
+        return _native.lattice_turns(*_arrays(result), level, least, **watched)
+
+    def stays_folded(self, result: Result, level: int, finer: int, watched: dict[str, Any]) -> bool:
+        """Whether folds will remain on the finest level, since turns halve from level to level; then it
+        is refused.
+        """
+        limit = min(HOPELESS_TURN, 1.5 * TURN_LIMIT * 2**finer)
+        turns = _native.lattice_turns(*_arrays(result), level, 0.0, **watched)
+        return self._refuses(result, level, turns > limit)
+
+    def stays_sharp(
+        self, result: Result, level: int, before: np.ndarray, turns: np.ndarray, finer: int
+    ) -> bool:
+        """Whether turns above the limit decrease so slowly, from the previous level to this, that they
+        stay above it on the finest. It is refused then, unless forced.
+        """
+        bad = np.minimum(before, turns) > TURN_LIMIT
+        falling = np.minimum(turns[bad] / before[bad], 1.0)
+        bad[bad] = turns[bad] * falling**finer > TURN_LIMIT
+        return self._refuses(result, level, bad)
+
+    @staticmethod
+    def sharp_faces(result: Result, level: int, turns: np.ndarray) -> list[int]:
+        """Faces whose refined surface folds or turns too sharply for any patch."""
+        return _faces_of(result, level, turns > TURN_LIMIT)
+
+    def checked(self, patches: SplinePatches) -> SplinePatches:
+        self.refuse(patches.unresolved.tolist())
+        return patches
+
+    def refuse(self, faces: list[int]) -> None:
+        if faces and not self.force:
+            raise fairing_error(
+                "UNRESOLVED",
+                "{face} {has|have} a surface that folds or turns too sharply for patches.",
+                faces,
+                "face",
+                "Move or add control vertices, crease the edges there, or give force=True.",
+            )
+
+    def _refuses(self, result: Result, level: int, bad: np.ndarray) -> bool:
+        """Whether any control face is `bad`: refuses them."""
+        self.refuse(_faces_of(result, level, bad))
+        return bool(bad.any())
+
+
+def _positive(name: str, given: object, usual: float) -> float:
+    value = usual if given is None else real(name, given)
+    if value <= 0:
+        raise fairing_error("BAD_OPTION", f"{name} is {value}; it must be greater than 0.")
+    return value
+
+
+def _arrays(result: Result) -> Arrays:
+    return (result.vertices, *result.faces, result.crease_edges)
+
+
+def _faces_of(result: Result, level: int, control_faces: np.ndarray) -> list[int]:
+    """The input faces of a mask of control faces."""
+    return np.unique(control_polygons(result, level)[control_faces]).tolist()
+
+
+def _around(result: Result, level: int, chosen: np.ndarray) -> tuple[np.ndarray, Arrays]:
+    """The control faces of the mask `chosen` (F,) and all that share a vertex with them, as a mask and
+    as a surface of their own.
+    """
+    cells = 4**level
+    blocks = [faces.reshape(-1, cells * faces.shape[1]) for faces in result.faces]
+    masks = np.split(chosen, [len(blocks[0])])
+    touched = np.zeros(len(result.vertices), bool)
+    for block, mask in zip(blocks, masks):
+        touched[block[mask]] = True
+    kept = [touched[block].any(axis=1) for block in blocks]
+    used = np.zeros_like(touched)
+    for block, keep in zip(blocks, kept):
+        used[block[keep]] = True
+    number = np.cumsum(used, dtype=np.int32) - 1
+    triangles, quads = (
+        number[block[keep]].reshape(-1, corners)
+        for block, keep, corners in zip(blocks, kept, (3, 4))
+    )
+    creases = result.crease_edges
+    creases = number[creases[used[creases].all(axis=1)]]
+    return np.concatenate(kept), (result.vertices[used], triangles, quads, creases)

@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The level on which a surface serves for patches."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import inf
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .errors import fairing_error
+from .level_change import change_between
+from .patch_fits import PatchFits
+from .patches import SplinePatches
+from .result import Result
+from .watching import SeveralRuns
+
+FIRST_LEVEL, LAST_LEVEL, LEAST_LEVEL = 5, 8, 3
+# Largest numbers of points: of the first surface, of a finer one that converges better, and of one
+# whose patches must meet a tolerance.
+MOST_POINTS, MOST_FINER_POINTS, MOST_POINTS_FOR_FACES = 6_000_000, 300_000, 1_200_000
+# The error of the refined surface itself, as a share of the tolerance.
+LATTICE_SHARE = 0.5
+# The change to the next level over the sum of all later changes, which fall by a factor of four.
+ORDER = 3
+
+
+def at_level(
+    fits: PatchFits, surface: Callable[..., Result], level: int, runs: SeveralRuns
+) -> SplinePatches:
+    """Patches of the surface of this level."""
+    if level < 2:
+        raise fairing_error("BAD_OPTION", f"levels is {level}; it must be 2 or more, or None.")
+    coarser = surface(level - 1, **runs.run(0.0, 0.1))
+    result = surface(level, **runs.run(0.1, 0.6))
+    turns = fits.turns(result, level, runs.run(0.6, 0.6))
+    fits.refuse(fits.sharp_faces(result, level, turns))
+    error = change_between(coarser, result, level) / ORDER
+    return fits.checked(fits.fitted(result, level, error, runs.run(0.6, 1.0)))
+
+
+def at_own_level(
+    fits: PatchFits,
+    surface: Callable[..., Result],
+    count: Callable[[int], int],
+    runs: SeveralRuns,
+) -> SplinePatches:
+    """Refines the surface (`surface`, with `count` points) until one serves or the next is too large."""
+    level = FIRST_LEVEL
+    turns = np.empty(0)  # on the previous level
+    missing = 0.0
+    while level > LEAST_LEVEL and count(level) > MOST_POINTS:
+        level -= 1
+    done, folds = 0.0, False
+    coarser: Result | None = None
+    best: SplinePatches | None = None
+    finest = _finest(count, level)
+    for at in range(level - 1, LAST_LEVEL + 1):
+        part = done + 0.4 * (1 - done)
+        result = surface(at, **runs.run(done, part))
+        done = part
+        if at < level:
+            coarser = result
+            folds = fits.stays_folded(result, at, finest - at, runs.run(done, done))
+            turns = fits.turns(result, at, runs.run(done, done))
+            continue
+        before, turns = turns, fits.turns(result, at, runs.run(done, done))
+        sharp = fits.sharp_faces(result, at, turns)
+        if sharp and best is not None and not len(best.unresolved):
+            break  # finer surfaces fold where the previous one does not
+        folds = folds or fits.stays_sharp(result, at, before, turns, finest - at)
+        next_count = inf if folds or at == LAST_LEVEL else count(at + 1)
+        assert coarser is not None  # the previous level
+        error = change_between(coarser, result, at) / ORDER
+        coarser = result
+        size = float(np.ptp(result.vertices, axis=0).max(initial=0))
+        missing, former = error.max(initial=0) / (fits.tolerance * size) if size else 0.0, missing
+        # the change falls so slowly at poles of curvature of a thin plate that no level is fine enough
+        falling = min(missing / former, 1.0) if former else 1.0 / (1 + ORDER)
+        serves = missing * falling ** (finest - at) <= 1.0
+        # a surface whose own error exceeds the tolerance is not worth a fit
+        most = MOST_POINTS_FOR_FACES if missing > 1.0 and serves else MOST_FINER_POINTS
+        if missing > LATTICE_SHARE and next_count <= most:
+            continue
+        last = next_count > MOST_POINTS_FOR_FACES
+        if sharp and not fits.force:  # its patches would be refused
+            if not last:
+                continue
+            if best is None:
+                fits.refuse(sharp)
+            break
+        part = 1.0 if last else done + 0.5 * (1 - done)
+        # a whole fit is worthwhile only if faces without patches have some now
+        folded: ArrayLike = [] if best is None or fits.force else best.unresolved.tolist()
+        if folded and fits.still_folded(result, at, folded, runs.run(done, part)):
+            done = part
+            if last:
+                break
+            continue
+        found = fits.fitted(result, at, error, runs.run(done, part))
+        done = part
+        if best is None or _faults(found, serves) <= _faults(best, serves):
+            best = found
+        if last or not any(_faults(found, serves)) or _has_all_spans(found, serves):
+            break
+    assert best is not None  # the last level is fitted or refused
+    return fits.checked(best)
+
+
+def _faults(patches: SplinePatches, serves: bool) -> tuple[int, int]:
+    """Numbers of faces that are not resolved, and of faces that miss a tolerance which a finer level
+    may meet.
+    """
+    missing = patches.unmet if serves else patches.unmet_by_fit
+    return len(patches.unresolved), len(missing)
+
+
+def _has_all_spans(patches: SplinePatches, serves: bool) -> bool:
+    """Whether no finer level improves the patches that miss a tolerance: the surface is fine enough
+    everywhere, or never will be, and a patch has at most 16 spans, of four steps of the lattice each;
+    one of a triangle is half as wide. A patch that folds on one level may not fold on the next.
+    """
+    level = 7 if len(patches.result.faces[0]) else 6
+    settled = not len(patches.unresolved) and not (serves and len(patches.unmet_by_surface))
+    return patches.levels >= level and settled
+
+
+def _finest(count: Callable[[int], int], level: int) -> int:
+    """The last level for `at_own_level`."""
+    while level < LAST_LEVEL and count(level + 1) <= MOST_POINTS_FOR_FACES:
+        level += 1
+    return level
