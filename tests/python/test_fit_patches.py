@@ -194,6 +194,14 @@ def test_torus(fitted):
     assert np.abs(np.hypot(ring, at[:, 2]) - 1).max() < 1e-4 * patches.size
 
 
+def test_edges_end_at_vertices_and_patches_cover_all_polygons(fitted):
+    patches = fitted("triangles and quads")
+    ends = np.stack([patches.edge_offsets[:-1], patches.edge_offsets[1:] - 1], axis=1)
+    assert np.allclose(patches.edge_points[ends], patches.vertices[patches.edge_vertices])
+    assert len(patches.vertices) - len(patches.edge_spans) + len(patches) == 2
+    assert set(patches.patch_polygon) == set(range(len(SMOOTH["triangles and quads"][0][1])))
+
+
 @pytest.mark.parametrize("name", SMOOTH)
 def test_tolerances_are_met_and_said(fitted, name):
     patches = fitted(name)

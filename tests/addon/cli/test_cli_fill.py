@@ -78,6 +78,14 @@ def test_joint_energy_and_density_are_heard():
     assert len(imported("out.stl")[1])
 
 
+def test_what_passes_through_the_mesh_is_warned_of():
+    spike = "v 0.1 0 0.3\nv 0.1 0 1.4\nv 0.12 0.02 1.4\nf -3 -2 -1\n"
+    write_ball("in.obj", spoiled=spike)
+    _, (entry,) = entries("in.obj", "out.obj", "--fill")
+    assert entry["objects"][0]["report"]["holes"][0]["crossings"] > 0
+    assert any("passes through other faces" in warning for warning in entry["warnings"])
+
+
 def test_quads_are_heard_and_their_lack_is_warned_of():
     """Open above, and without one quad and one triangle."""
     write_ball("in.obj")

@@ -213,5 +213,6 @@ def test_what_is_measured_is_that_of_the_world():
     bpy.context.scene.unit_settings.system = "NONE"
     assert display.value_text(bpy.context.scene, "MEAN", 0.5) == "0.5"
     display.write_values(ball, "MEAN", bpy.context.scene.discrete_fairing_inspection)
-    mean = [value.value for value in ball.data.attributes["fair_mean_curvature"].data]
-    assert np.median(mean) == pytest.approx(0.5, rel=0.02)
+    for name, expected in (("mean", 0.5), ("gauss", 0.25), ("total", 0.5)):
+        found = [value.value for value in ball.data.attributes[f"fair_{name}_curvature"].data]
+        assert np.median(found) == pytest.approx(expected, rel=0.04), name

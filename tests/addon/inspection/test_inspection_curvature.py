@@ -52,6 +52,7 @@ def test_sphere_bulges_with_curvature_one():
     assert np.abs(bent.gauss - 1).max() < 0.06
     assert np.abs(bent.total - 2).max() < 0.15
     assert bent.area.sum() == pytest.approx(4 * np.pi, rel=0.01)
+    assert measures.total_curvature(bent) == pytest.approx(8 * np.pi, rel=0.01)
 
 
 def test_inside_out_sphere_is_hollow():

@@ -73,6 +73,14 @@ def test_again_it_is_the_same_key_of_the_same_mesh(core):
     assert (key(source) - dune())[WRONG, 2] == pytest.approx(-0.02, abs=1e-5)
 
 
+def test_or_it_goes_on_from_there(core):
+    source = add_dune()
+    eased(amount="TOLERANCE", tolerance=0.02)
+    eased(amount="TOLERANCE", tolerance=0.03, go_on=True)
+    assert (core["vertices"] - dune())[WRONG, 2] == pytest.approx(-0.02, abs=1e-5)
+    assert (key(source) - dune())[WRONG, 2] == pytest.approx(-0.05, abs=1e-5)
+
+
 def test_other_shape_keys_stay(core):
     source = add_dune()
     source.shape_key_add(name="Basis")

@@ -74,6 +74,12 @@ def test_quad_is_bilinear():
     assert np.array_equal(found, [at[v] for v in range(25)])
 
 
+def test_control_vertices_keep_their_values_with_or_without_faces():
+    _, _, transfer = mixed(1)
+    given = np.random.default_rng(1).normal(size=(len(POSITIONS), 3)).astype(np.float32)
+    assert np.array_equal(transfer.point(given)[: len(given)], given)
+
+
 def test_polygon_centre_is_its_centroid():
     arrays, _, transfer = mixed(0)
     centre = transfer.point(arrays.positions)[len(POSITIONS)]
