@@ -27,7 +27,9 @@ Couples::Couples(const ControlMesh& mesh, const ChartMaker& charts,
   first_row_.assign(1, 0);
   for (const FixedNormal& fixed : normals_) {
     first_arm_.push_back(first_arm_.back() + mesh.ring(fixed.vertex).size());
-    first_row_.push_back(first_row_.back() + std::size_t(ring_size(mesh, fixed.vertex)));
+    const bool half = !mesh.vertex_fit(fixed.vertex);
+    first_row_.push_back(first_row_.back() + (half ? mesh.ring(fixed.vertex).size()
+                                                   : std::size_t(ring_size(mesh, fixed.vertex))));
   }
   arms_.resize(first_arm_.back());
   rows_.resize(first_row_.back());
@@ -36,12 +38,47 @@ Couples::Couples(const ControlMesh& mesh, const ChartMaker& charts,
       Chart chart = charts.vertex(normals_[c].vertex);
       const double radius = mean_radius(chart);
       for (Vec2& p : chart.ring) p /= radius;
+      if (on_border(c)) {
+        fill_border_rows(c, chart);
+        fill_arms(c, chart, charts.flat());
+        continue;
+      }
       fill_arms(c, chart, charts.flat());
       const FitRows rows = fit(chart);
       for (std::size_t k = first_row_[c]; k < first_row_[c + 1]; ++k)
         rows_[k] = rows.col(Eigen::Index(k - first_row_[c])).head<2>();
     }
   });
+}
+
+// From the slopes D_s along spokes d_s, of length one in the chart's plane. Along the border: the mean
+// of both sides. Across: least squares, with x_u given.
+//
+//   x_u = (D_first / |d_first| - D_last / |d_last|) / 2,
+//   x_v = sum_s v_s (D_s - u_s x_u) / sum_s v_s^2, over the spokes inside
+//
+// Leaves (0, v) in the chart.
+void Couples::fill_border_rows(std::size_t c, Chart& chart) {
+  const auto ring = mesh_.ring(normals_[c].vertex);
+  const Vec2 first = chart.ring.front(), last = chart.ring.back();
+  const Vec2 along = (first - last).normalized(), across(-along.y(), along.x());
+  Vec2* const rows = rows_.data() + first_row_[c];
+  std::size_t at = 0;
+  double squares = 0, shear = 0;
+  for (std::size_t s = 0; s < ring.size(); ++s) {
+    const Vec2 spoke(along.dot(chart.ring[at]), across.dot(chart.ring[at]));
+    rows[s] = Vec2::Zero();
+    if (s > 0 && s + 1 < ring.size()) {
+      rows[s].y() = spoke.y();
+      squares += spoke.y() * spoke.y();
+      shear += spoke.x() * spoke.y();
+    }
+    at += ring[s].face >= 0 && mesh_.faces[std::size_t(ring[s].face)].quad() ? 2 : 1;
+  }
+  for (std::size_t s = 0; s < ring.size(); ++s) rows[s] /= squares;
+  rows[0] = Vec2(1, -shear / squares) / (2 * first.norm());
+  rows[ring.size() - 1] = Vec2(-1, shear / squares) / (2 * last.norm());
+  for (Vec2& p : chart.ring) p = Vec2(0, across.dot(p));
 }
 
 void Couples::fill_arms(std::size_t c, const Chart& chart, const std::vector<FlatFace>& flat) {
@@ -73,7 +110,8 @@ void LevelCouples::visit_points(std::size_t c, Visit&& visit) const {
   for (std::size_t s = 0; s < ring.size(); ++s) {
     const Spoke& spoke = ring[s];
     const Couples::Arm& arm = couples_.arms_[couples_.first_arm_[c] + s];
-    for (int k = 1; k < reach; ++k)
+    const bool curve = mesh.feature_edge[std::size_t(spoke.edge)] != 0;
+    for (int k = 1; k < reach && !curve; ++k)
       visit(grid_.edge_point(spoke.edge, spoke.outward ? k : n - k), share * arm.edge_weight,
             Vec2(k * step * arm.ahead), 1 - k * fall);
     if (spoke.face < 0) continue;
@@ -134,21 +172,41 @@ Couple LevelCouples::slopes(std::size_t c, const double* x) const {
   const Index v = couples_.normals_[c].vertex;
   const Eigen::Map<const Vec3> own(x + 3 * std::size_t(v));
   std::size_t k = couples_.first_row_[c];
+  if (couples_.on_border(c)) {
+    for (const Spoke& spoke : grid_.mesh().ring(v)) {
+      const auto step = [&](int i) -> Vec3 {
+        const Index p = grid_.edge_point(spoke.edge, spoke.outward ? i : grid_.n() - i);
+        return Eigen::Map<const Vec3>(x + 3 * std::size_t(p)) - own;
+      };
+      out += (2 * step(1) - 0.5 * step(2)) * couples_.rows_[k++].transpose();
+    }
+    return grid_.n() * out;
+  }
   visit_ring(grid_, v, [&](Index p, std::size_t) {
     out += (Eigen::Map<const Vec3>(x + 3 * std::size_t(p)) - own) * couples_.rows_[k++].transpose();
   });
   return grid_.n() * out;
 }
 
+// The nearest normal that the border curve allows; elsewhere the given one.
+Vec3 LevelCouples::goal(std::size_t c, const Couple& slopes) const {
+  const Vec3& normal = couples_.normal(c);
+  if (!couples_.on_border(c)) return normal;
+  const Vec3 along = slopes.col(0).normalized();
+  return (normal - along.dot(normal) * along).normalized();
+}
+
 double LevelCouples::angle(std::size_t c, const double* x) const {
   const Couple slope = slopes(c, x);
   const Vec3 own = slope.col(0).cross(slope.col(1));
-  const Vec3& normal = couples_.normal(c);
+  const Vec3 normal = goal(c, slope);
   return std::atan2(own.cross(normal).norm(), own.dot(normal));
 }
 
 Compliance LevelCouples::compliance(std::vector<Eigen::Matrix2d> slopes) const {
-  for (Eigen::Matrix2d& slope : slopes) {
+  for (std::size_t c = 0; c < slopes.size(); ++c) {
+    Eigen::Matrix2d& slope = slopes[c];
+    if (couples_.on_border(c)) slope(0, 0) = slope(1, 1);  // no couple turns the curve
     const double mean = 0.5 * slope.trace();
     // a weak direction is ignored if its slope is within the error of the solves
     if (!(slope.determinant() > coarse_force_tolerance * mean * mean))
@@ -163,7 +221,8 @@ Moments LevelCouples::correction(const Compliance& compliance, const double* x) 
     for (std::size_t c = begin; c < end; ++c) {
       if (!(compliance.slopes[c].trace() > 0) || !(total_[c] > 0)) continue;
       const Eigen::Matrix2d made = total_[c] / compliance.totals[c] * compliance.slopes[c];
-      out[c] = -(made.inverse() * (slopes(c, x).transpose() * couples_.normal(c)));
+      const Couple slope = slopes(c, x);
+      out[c] = -(made.inverse() * (slope.transpose() * goal(c, slope)));
     }
   });
   return out;

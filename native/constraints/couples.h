@@ -9,6 +9,10 @@
 //
 // with phi_c the hat of half the faces around the vertex. Over whole faces couples would do nearly
 // what loads do. Half hats of two vertices do not overlap.
+//
+// At a vertex of a border curve, which nothing here moves, the curve fixes one tangent. Then v runs
+// across the border and psi_c = (0, v) phi_c; x_u and x_v come from parabolas along the spokes, as a
+// half ring determines no quadratic; and n means the nearest normal at a right angle to x_u.
 #pragma once
 
 #include <vector>
@@ -18,7 +22,7 @@
 namespace fairing {
 
 struct FixedNormal {
-  Index vertex;  // off all curves and inside the region
+  Index vertex;  // inside the region, and off all curves or on a smooth border
   Vec3 normal;   // of length one
 };
 
@@ -53,6 +57,8 @@ class Couples {
     double edge_weight, face_weight;
   };
 
+  bool on_border(std::size_t c) const { return !mesh_.vertex_fit(normals_[c].vertex); }
+  void fill_border_rows(std::size_t c, Chart& chart);
   void fill_arms(std::size_t c, const Chart& chart, const std::vector<FlatFace>& flat);
 
   const ControlMesh& mesh_;
@@ -60,7 +66,8 @@ class Couples {
   std::vector<FixedNormal> normals_;
   std::vector<std::size_t> first_arm_, first_row_;  // per normal, and the end
   Array<Arm> arms_;
-  Array<Vec2> rows_;  // of the first divided differences, one per neighbour
+  // Of the first divided differences, one per neighbour; on borders of slopes, one per spoke.
+  Array<Vec2> rows_;
 };
 
 // The slopes of a unit couple, one matrix per normal, and sum Omega psi_c . (u, v) on the level
@@ -100,6 +107,7 @@ class LevelCouples {
   const std::vector<double>& totals() const { return total_; }
 
  private:
+  Vec3 goal(std::size_t c, const Couple& slopes) const;
   template <class Visit>
   void visit_points(std::size_t c, Visit&& visit) const;
 

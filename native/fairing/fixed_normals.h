@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "constraints/couples.h"
+#include "fairing/control_positions.h"
 #include "fairing/options.h"
 #include "fairing/report.h"
 
@@ -14,7 +15,10 @@ namespace fairing {
 struct ChosenNormals {
   std::vector<FixedNormal> fixed;  // at input vertices and their copies
   std::size_t vertices = 0;        // number of input vertices among them
-  std::vector<std::int64_t> left;  // input vertices on curves and where sheets touch: not fixed
+  // Input vertices on creases, at ends of curves and where sheets touch: not fixed.
+  std::vector<std::int64_t> left;
+  std::vector<std::int64_t> leaning{};  // input vertices of borders: not at right angles to them
+  double largest_lean = 0;              // of these, radians
 };
 
 constexpr double degree = std::numbers::pi / 180;
@@ -23,12 +27,15 @@ constexpr double degree = std::numbers::pi / 180;
 // FairingError(cancelled).
 ChosenNormals choose_normals(const ControlMesh& mesh, const FairOptions& options);
 
+// Turns normals at borders to the nearest ones at right angles to the curve there.
+void set_upright(const ControlMesh& mesh, const ControlPositions& control, ChosenNormals& normals);
+
 // Throws FairingError(bad_option), naming the vertices, if a normal is so far from that of the
 // control faces around it that the surface would have to stand on edge.
 void require_near(const ControlMesh& mesh, const std::vector<FixedNormal>& normals);
 
 // Reports the normals of a surface that ended with `finest`: their number, the largest remaining
-// angle, and a warning for those that are not fixed.
+// angle, and warnings for those that are not fixed, or not as given.
 void report_normals(const ChosenNormals& normals, const LevelReport& finest, Report& report);
 
 }  // namespace fairing

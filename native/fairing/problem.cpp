@@ -86,7 +86,9 @@ void make_about(std::vector<Vec3> world, std::vector<Vec3> cage, Stopwatch& watc
 
   watch.enter(Phase::hierarchy, 0);
   mesh.positions = problem.basis.working;
+  problem.normals = choose_normals(mesh, options);
   require_near(mesh, problem.normals.fixed);
+  set_upright(mesh, problem.basis, problem.normals);
   problem.units = units_in_working(problem);
   problem.stencils =
       make_stencils(mesh, *problem.charts(), options.paper, *problem.workers, membrane_of(problem));
@@ -133,7 +135,6 @@ std::unique_ptr<const FairingProblem> make_problem(const PolygonMesh& input,
                      {}});
   report.sheets = sheets_of(problem->mesh);
   problem->unknowns = choose_unknowns(problem->mesh, options);
-  problem->normals = choose_normals(problem->mesh, options);
   const auto& given = problem->mesh.positions;
   std::vector<Vec3> cage(given.begin(), given.begin() + problem->mesh.input_vertices);
   HeldMesh held_mesh = held_positions(input, problem->mesh, options);
@@ -145,8 +146,8 @@ std::unique_ptr<const FairingProblem> make_problem(const PolygonMesh& input,
 std::unique_ptr<const FairingProblem> make_problem_about(const PolygonMesh& input,
                                                          const FairingProblem& like,
                                                          Stopwatch& watch) {
-  auto problem = std::make_unique<FairingProblem>(FairingProblem{
-      like.options, like.workers, like.mesh, like.exponent, like.unknowns, like.normals});
+  auto problem = std::make_unique<FairingProblem>(
+      FairingProblem{like.options, like.workers, like.mesh, like.exponent, like.unknowns, {}});
   problem->held = like.held;
   check_held(like.held, input, like.options.repair);
   ControlPositions next = like.control_positions(input.coordinates);

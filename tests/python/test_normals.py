@@ -204,12 +204,12 @@ def test_a_region_has_only_the_normals_inside():
     assert result.report["normals"]["largest_angle"] <= LARGEST
 
 
-def test_vertices_on_curves_are_left_and_named(plate):
+def test_vertices_on_creases_are_left_and_named(plate):
     points, faces = plate
-    normals = tilted(points, [0, 3, MIDDLE], [0.2, 0, 1])
-    result = df.fair(points, faces, 2, normals=normals)
+    normals = tilted(points, [0, MIDDLE, MIDDLE + 8], [0.2, 0, 1])
+    result = df.fair(points, faces, 2, normals=normals, crease_edges=[[MIDDLE, MIDDLE + 1]])
     (warning,) = result.report["warnings"]
-    assert warning["code"] == "NORMAL_NOT_FIXED" and warning["elements"] == [0, 3]
+    assert warning["code"] == "NORMAL_NOT_FIXED" and warning["elements"] == [0, MIDDLE]
     assert warning["kind"] == "vertex" and result.report["normals"]["fixed"] == 1
 
 
