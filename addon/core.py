@@ -129,6 +129,15 @@ def keeps_marks(settings: AnySettings) -> bool:
     return settings.energy == "THIN_PLATE"
 
 
+def with_partner(arguments: Mapping[str, Any]) -> dict[str, Any]:
+    """The arguments with the surface of a `partner`, which is computed now, as the neighbour that is met
+    half way.
+    """
+    own = dict(arguments)
+    partner = own.pop("partner", None)
+    return own if partner is None else own | {"neighbour": partner(), "halfway": True}
+
+
 # Computes pieces with a memory_limit (bytes) each; returns their parts.
 Spread = Callable[[Sequence[Any], int], Iterable[Any]]
 
@@ -144,6 +153,7 @@ def faired(
     pieces, one after another: memory for one suffices, and nothing is measured. `spread` computes them
     in another way; then `progress` counts finished parts.
     """
+    arguments = with_partner(arguments)
     if pieces is None:
         return module().fair(**arguments, progress=progress, **monitor)
     own = {name: value for name, value in arguments.items() if name != "measure"}

@@ -29,7 +29,7 @@ from .mesh.read import (
     vertex_pulls,
 )
 from .mesh.shape_keys import ShapeKeys, read_shape_keys
-from .mesh.world_shape import world_shape
+from .mesh.world_shape import world_matrix, world_shape
 from .redraw import tag_outliners, tag_sidebars
 from .settings import NAMES, AnySettings, is_evaluated
 
@@ -88,6 +88,24 @@ def made_of(
     return {"settings": _that_count(settings), "source": total}
 
 
+def beside_of(
+    context: Context, neighbour: Object, surface: Object, halfway: bool
+) -> dict[str, Any]:
+    """The state of the neighbour that the surface meets; half way that of its source and settings, and
+    where it stands.
+    """
+    source = source_of(neighbour) if halfway else None
+    if source is None:
+        return scans.made_of(context, [neighbour], surface)
+    settings = neighbour.discrete_fairing
+    total = _checksum(context, source, settings)
+    back = np.linalg.pinv(np.array(world_matrix(surface), np.float64))
+    return {
+        "shape": zlib.crc32(repr(_that_count(settings)).encode(), total),
+        "places": [(back @ np.array(world_matrix(neighbour), np.float64)).tolist()],
+    }
+
+
 def note(target: Object, made: dict[str, Any]) -> None:
     """Stores the state that `target` was made from."""
     memory.keep(target, "made", made)
@@ -101,7 +119,8 @@ def know(target: Object) -> None:
     _surfaces.setdefault(key, Reference(target))
     if source is not None:
         beside = (*curve_cage.watched(source), *scans.watched(neighbours.with_scans(target)))
-        for block in (source, source.data, source.data.shape_keys, *beside):
+        met = neighbours.neighbour_of(target)
+        for block in (source, source.data, source.data.shape_keys, *beside, met):
             if block is not None:
                 _watched.setdefault(session_key(block), set()).add(key)
 
@@ -138,6 +157,10 @@ def why_stale(target: Object) -> str:
         return SOURCE_CHANGED
     if place.moved(target):
         return SOURCE_MOVED
+    if neighbour is not None and neighbours.is_mutual(target):
+        its = memory.recall(neighbour, "made")
+        if its and _differ(its["settings"], neighbour.discrete_fairing):
+            return NEIGHBOUR_CHANGED
     return _why_off(made.get("scans"), near, SCAN_CHANGED, SCAN_MOVED) or _why_off(
         made.get("beside"), beside, NEIGHBOUR_CHANGED, NEIGHBOUR_MOVED
     )
@@ -191,8 +214,8 @@ def _look() -> None:
             total, near = _checksum(context, source, target.discrete_fairing), None
             if len(target.discrete_fairing_fit.scans):
                 near = scans.made_of(context, memory.scans_of(target), source)
-            met = neighbours.watched(target)
-            beside = None if met is None else scans.made_of(context, [met], target)
+            met, halfway = neighbours.neighbour_of(target), neighbours.is_mutual(target)
+            beside = None if met is None else beside_of(context, met, target, halfway)
             _seen[key] = total, near, beside
     _unread.clear()
     tag_sidebars(context)

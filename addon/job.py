@@ -17,7 +17,6 @@ from .check.faults import find_faults
 from .choices import energy_name
 from .errors import JobError
 from .inspection import display, measures
-from .mesh import scans
 from .mesh.layers import read_data, write_data
 from .mesh.modifiers import copy_modifiers, without_inspection
 from .mesh.object import Reference, new_object
@@ -56,13 +55,14 @@ class Job(TimedRun):
         region: np.ndarray | None = None,
         neighbour: Object | None = None,
         surface: Object | None = None,
+        halfway: bool | None = None,
     ) -> None:
         """Reads all data that the run needs.
 
         `target`: the object whose mesh the surface becomes; None: a new object. `region`: (r,) ids of
         the faces to fair with `use_selection`; None: the current selection. `neighbour`: the object
         that the border meets, None: that of the target, if any; it is placed relative to `surface`,
-        None: the target.
+        None: the target. `halfway`: whether both change; None: as the neighbours are now.
         """
         self._target = None if target is None else Reference(target)
         self.settings = settings.for_source(source)
@@ -100,7 +100,9 @@ class Job(TimedRun):
             self.edge_length,
         )
         stands = surface or place.next_of(source, target)
-        self._meet(context, source, neighbour or neighbours.neighbour_of(target), stands)
+        if halfway is None:
+            halfway = neighbours.is_mutual(target)
+        self._meet(context, source, neighbour or neighbours.neighbour_of(target), stands, halfway)
         # remarks for the user, a sentence each
         self.notes = [*self.data.notes, *self._not_done()]
         # number of pieces, faired one after another; None: faired as a whole
@@ -108,15 +110,20 @@ class Job(TimedRun):
         self.spread: core.Spread | None = None  # another way to fair pieces
 
     def _meet(
-        self, context: Context, source: Object, neighbour: Object | None, surface: Object
+        self,
+        context: Context,
+        source: Object,
+        neighbour: Object | None,
+        surface: Object,
+        halfway: bool,
     ) -> None:
         """Sets the neighbour that the border meets, if there is one, relative to `surface`."""
         self._neighbour = None if neighbour is None else Reference(neighbour)
         self._made["neighbour"] = "" if neighbour is None else neighbour.name
         if neighbour is not None:
-            self._made["beside"] = scans.made_of(context, [neighbour], surface)
+            self._made["beside"] = freshness.beside_of(context, neighbour, surface, halfway)
             self.arguments |= neighbours.arguments(
-                context, neighbour, surface, source, self.settings
+                context, neighbour, surface, source, self.settings, halfway
             )
 
     def _not_done(self) -> Iterator[str]:

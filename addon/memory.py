@@ -61,7 +61,8 @@ class FAIRING_PG_surface(FairingSettings, bpy.types.PropertyGroup):
     )
     neighbour: PointerProperty(
         name="Neighbour",
-        description="The object that the border of this surface meets, where the two have vertices in common",
+        description="The object that the border of this surface meets, where the two have vertices in common. Two"
+        " surfaces that name each other meet half way",
         type=bpy.types.Object,
         poll=_may_meet,
     )

@@ -1,15 +1,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The neighbour that the border of a surface meets: which object it is, and its mesh."""
+"""The neighbour that the border of a surface meets: which object it is, and its mesh.
 
+Two surfaces that are each other's neighbour meet half way: each is given the other's surface as it would
+be alone, from its source, so that neither depends on the other's mesh.
+"""
+
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
-from . import memory
+from . import core, memory
 from .blender import Context, Object
-from .mesh.read import control_mesh, read_mesh
+from .mesh.read import control_mesh, read_mesh, selected_faces, tolerance_factors, vertex_pulls
 from .mesh.world_shape import transformed, world_matrix, world_shape
-from .settings import AnySettings
+from .preferences import preferences
+from .settings import AnySettings, Settings, is_evaluated
 
 
 def neighbour_of(target: Object | None) -> Object | None:
@@ -20,29 +26,89 @@ def neighbour_of(target: Object | None) -> Object | None:
     return found if found is not None and found.type == "MESH" else None
 
 
+def why_not_both(target: Object | None, neighbour: Object) -> str:
+    """Why these two cannot meet half way, a sentence; empty if they can."""
+    for each in (target, neighbour):
+        if each is not None and memory.source_of(each) is None:
+            return f"Fair {each.name} first: only faired surfaces can both change"
+        if each is not None and memory.scans_of(each):
+            return f"{each.name} keeps to its scan: let the other surface meet it"
+    return ""
+
+
+def is_mutual(target: Object | None) -> bool:
+    """Whether `target` and its neighbour meet each other, half way."""
+    neighbour = neighbour_of(target)
+    return (
+        neighbour is not None
+        and neighbour_of(neighbour) == target
+        and not why_not_both(target, neighbour)
+    )
+
+
 def watched(target: Object) -> Object | None:
-    """The neighbour whose changes make `target` out of date. None for two surfaces that meet each
-    other: each would make the other out of date without end.
+    """The object whose changes make `target` out of date: its neighbour, or that one's source if each is
+    the other's, which would make the other out of date without end.
     """
     neighbour = neighbour_of(target)
-    return None if neighbour is None or neighbour_of(neighbour) == target else neighbour
+    if neighbour is None or neighbour_of(neighbour) != target:
+        return neighbour
+    return memory.source_of(neighbour)
 
 
 def with_scans(target: Object) -> list[Object]:
     """The other objects whose changes make the surface out of date."""
-    neighbour = watched(target)
-    return memory.scans_of(target) + ([] if neighbour is None else [neighbour])
+    other = watched(target)
+    return memory.scans_of(target) + ([] if other is None else [other])
 
 
 def arguments(
-    context: Context, neighbour: Object, surface: Object, source: Object, settings: AnySettings
+    context: Context,
+    neighbour: Object,
+    surface: Object,
+    source: Object,
+    settings: AnySettings,
+    halfway: bool,
 ) -> dict[str, Any]:
-    """The neighbour for `discrete_fairing.fair`: as shown in the window, in the coordinates of the
-    `surface`, scaled like its source in the world.
+    """The neighbour for `discrete_fairing.fair`, in the coordinates of the `surface`, scaled like its
+    source in the world: as shown in the window, or with `halfway` as it would be alone (see
+    core.with_partner).
     """
     stretch = np.linalg.inv(world_shape(source).way_back)
     way = stretch @ np.linalg.inv(np.array(world_matrix(surface), np.float64))
-    return {"neighbour": _shown(context, neighbour, way), "joint": settings.joint.lower()}
+    found: Any = {"joint": settings.joint.lower()}
+    if halfway:
+        return found | {"partner": _alone(context, neighbour, way)}
+    return found | {"neighbour": _shown(context, neighbour, way)}
+
+
+def _alone(
+    context: Context, target: Object, way: np.ndarray
+) -> Callable[[], tuple[np.ndarray, Any]]:
+    """Computes points and faces of a surface without a neighbour, transformed by a (4, 4) matrix from
+    the world. Reads its source now.
+    """
+    source, settings = memory.source_of(target), Settings.of(target.discrete_fairing)
+    assert source is not None
+    settings, shape = settings.for_source(source), world_shape(source)
+    with control_mesh(context, source, is_evaluated(settings)) as mesh:
+        arrays = shape.of_arrays(read_mesh(mesh))
+        given = core.fair_arguments(
+            arrays,
+            settings,
+            preferences(),
+            selected_faces(mesh, source.name) if settings.use_selection else None,
+            tolerance_factors=tolerance_factors(source, mesh, settings),
+            pulls=vertex_pulls(source, mesh, settings),
+            edge_length=arrays.mean_edge_length,
+        )
+    matrix = way @ np.array(world_matrix(target), np.float64) @ shape.way_back
+
+    def computed() -> tuple[np.ndarray, Any]:
+        result = core.faired(given)
+        return transformed(result.vertices, matrix), result.faces
+
+    return computed
 
 
 def shown_in_world(

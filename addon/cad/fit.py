@@ -57,6 +57,7 @@ class PatchJob(Job):
             source or shown,
             replace(settings, levels=1),
             neighbour=neighbours.neighbour_of(shown),
+            halfway=neighbours.is_mutual(shown),
             surface=shown,
         )
         self.name = shown.name
@@ -94,7 +95,9 @@ class PatchJob(Job):
     def _compute(self, watchers: dict[str, Any]) -> None:
         with errors.explained(self.name):
             try:
-                self.patches = core.module().fit_patches(**self.arguments, **watchers)
+                self.patches = core.module().fit_patches(
+                    **core.with_partner(self.arguments), **watchers
+                )
             except core.module().FairingError as error:
                 if error.code != "UNRESOLVED":
                     raise

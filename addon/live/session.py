@@ -194,7 +194,10 @@ class Session:
         self._neighbour = _key_of_neighbour(target)
         neighbour = neighbours.neighbour_of(target)
         if neighbour is not None:
-            self._beside = neighbours.arguments(context, neighbour, target, source, self._settings)
+            mutual = neighbours.is_mutual(target)
+            self._beside = core.with_partner(
+                neighbours.arguments(context, neighbour, target, source, self._settings, mutual)
+            )
         others = scans.watched(neighbours.with_scans(target))
         self._other_blocks = set(map(session_key, others))
         self._others_seen = _places(source, target)

@@ -1,17 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Match Border, and the table of joints between objects."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import cast
 
 import bpy
-from bpy.props import EnumProperty, IntProperty
+from bpy.props import BoolProperty, EnumProperty, IntProperty
 
-from .. import errors
+from .. import errors, neighbours
 from ..blender import Answer, Context, Object
 from ..check import joints
 from ..check.defects import bring_into_view, select_defects
 from ..choices import JOINTS
+from ..errors import JobError
 from ..freshness import is_own
 from ..job import Job
 from ..memory import no_source_reason, source_of
@@ -28,7 +30,7 @@ def _other(context: Context) -> Object | None:
 
 
 class OBJECT_OT_fairing_match_border(Fairing, bpy.types.Operator):
-    """Make the border of the active surface meet that of the other selected object, which stays as it is"""
+    """Make the border of the active surface meet that of the other selected object"""
 
     bl_idname = "object.fairing_match_border"
     bl_label = "Match Border"
@@ -39,6 +41,10 @@ class OBJECT_OT_fairing_match_border(Fairing, bpy.types.Operator):
         description="How the border meets the other object",
         items=JOINTS,
         default="TANGENT",
+    )
+    both: BoolProperty(
+        name="Both Change",
+        description="Each surface turns by half. Without it the other object stays as it is",
     )
 
     @staticmethod
@@ -56,9 +62,24 @@ class OBJECT_OT_fairing_match_border(Fairing, bpy.types.Operator):
 
     def make_jobs(self, context: Context) -> list[Job]:
         target, other = cast(Object, context.active_object), cast(Object, _other(context))
-        source = cast(Object, source_of(target))
+        if not self.both:
+            return [self._job(context, target, other)]
+        reason = neighbours.why_not_both(target, other)
+        if reason or not is_own(other):
+            raise JobError(reason or LINKED_SURFACE)
+        return [self._job(context, *pair) for pair in ((other, target), (target, other))]
+
+    def _job(self, context: Context, target: Object, other: Object) -> Job:
         settings = replace(Settings.of(target.discrete_fairing), joint=self.joint)
-        return [Job(context, source, settings, target, neighbour=other)]
+        source = cast(Object, source_of(target))
+        return Job(context, source, settings, target, neighbour=other, halfway=self.both)
+
+    def after(self, context: Context, jobs: Sequence[Job]) -> None:
+        """The other stops meeting a surface that now takes all of the change."""
+        target = jobs[-1].target
+        other = neighbours.neighbour_of(target)
+        if not self.both and other is not None and neighbours.neighbour_of(other) == target:
+            other.discrete_fairing.neighbour = None
 
 
 class OBJECT_OT_fairing_joints(ExplainedPoll, bpy.types.Operator):

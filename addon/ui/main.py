@@ -6,7 +6,7 @@ from typing import Any, cast
 import bpy
 from bl_ui.utils import PresetPanel
 
-from .. import core, errors, prediction, size, vertex_values
+from .. import core, errors, neighbours, prediction, size, vertex_values
 from ..blender import Context, Mesh, Object
 from ..core import keeps_marks, tolerance
 from ..live import switch
@@ -334,6 +334,8 @@ def _draw_neighbour(layout: bpy.types.UILayout, memory: FAIRING_PG_surface) -> N
     layout.prop(memory, "neighbour")
     if memory.neighbour is not None:
         layout.prop(memory, "joint")
+        if neighbours.is_mutual(cast(Object, memory.id_data)):
+            layout.label(text="Both change, each by half", icon="ARROW_LEFTRIGHT")
     else:
         layout.operator("object.fairing_match_border", icon="SNAP_EDGE")
 

@@ -14,6 +14,7 @@ from addon.freshness import NEIGHBOUR_CHANGED, NEIGHBOUR_MOVED, why_stale
 from addon.live import registry
 from addon.mesh.object import select_only
 from addon.ui import check as check_panel
+from addon.ui.main import VIEW3D_PT_fairing
 
 
 def strip(name, first, last, height):
@@ -132,6 +133,83 @@ def test_two_that_meet_each_other_do_not_leave_one_another_out_of_date(panels):
         bpy.ops.object.fairing_live()
         recompute(panel)
     assert (why_stale(bonnet), why_stale(fender)) == ("", "")
+
+
+def both(*panels, **options):
+    select(*panels)
+    assert bpy.ops.object.fairing_match_border(both=True, **options) == {"FINISHED"}
+
+
+def test_both_change_and_are_recomputed(panels):
+    """In either order, without end: each is given the other as it is alone."""
+    before = [positions(panel.data) for panel in panels]
+    both(*panels)
+    made = [positions(panel.data) for panel in panels]
+    assert all(np.abs(a - b).max() > 1e-3 for a, b in zip(before, made))
+    assert np.degrees(check(*panels).kink) < 0.05
+    assert [panel.discrete_fairing.neighbour for panel in panels] == list(panels[::-1])
+    activate(panels[0])
+    assert "Both change, each by half" in draw(VIEW3D_PT_fairing)
+    for panel in panels:
+        recompute(panel)
+    assert all(np.array_equal(positions(panel.data), was) for panel, was in zip(panels, made))
+    assert [why_stale(panel) for panel in panels] == ["", ""]
+
+
+def test_one_of_both_that_changes_leaves_both_out_of_date(panels):
+    bonnet, fender = panels
+    both(*panels, joint="CURVATURE")
+    source = bonnet.discrete_fairing.source
+    source.data.vertices[5].co.z += 0.05
+    source.data.update()
+    bpy.context.view_layer.update()
+    assert (why_stale(bonnet), why_stale(fender)) == ("Source changed", NEIGHBOUR_CHANGED)
+    recompute(fender)
+    assert why_stale(fender) == ""
+    recompute(bonnet)
+    assert (why_stale(bonnet), why_stale(fender)) == ("", "")
+    assert np.degrees(check(*panels).kink) < 0.05
+    bonnet.discrete_fairing.levels = 4
+    assert (why_stale(bonnet), why_stale(fender)) == ("Settings changed", NEIGHBOUR_CHANGED)
+    recompute(bonnet)
+    assert (why_stale(bonnet), why_stale(fender)) == ("", NEIGHBOUR_CHANGED)
+    recompute(fender)
+    assert (why_stale(bonnet), why_stale(fender)) == ("", "")
+
+
+def test_live_follows_the_source_of_the_other_of_both(panels):
+    bonnet, fender = panels
+    both(*panels)
+    for panel in panels:
+        activate(panel)
+        assert bpy.ops.object.fairing_live() == {"FINISHED"}
+    source = bonnet.discrete_fairing.source
+    source.data.vertices[5].co.z += 0.05
+    source.data.update()
+    bpy.context.view_layer.update()
+    for _ in range(3):
+        for session in registry.sessions():
+            if session.needs_look():
+                session.follow()
+        bpy.context.view_layer.update()
+    assert not any(session.needs_look() for session in registry.sessions())
+    assert np.degrees(check(*panels).kink) < 0.05
+
+
+def test_only_faired_surfaces_both_change_and_one_that_takes_all_ends_it(panels):
+    bonnet, fender = panels
+    plain = strip("Plain", 1.2, 2, lambda y: 0.012 - 0.9 * (y - 1.2))
+    select(plain, fender)
+    with pytest.raises(RuntimeError, match="only faired surfaces can both change"):
+        bpy.ops.object.fairing_match_border(both=True)
+    both(*panels)
+    activate(fender)
+    select(*panels)
+    assert bpy.ops.object.fairing_match_border() == {"FINISHED"}
+    taking = bpy.context.active_object
+    giving = bonnet if taking == fender else fender
+    assert taking.discrete_fairing.neighbour == giving
+    assert giving.discrete_fairing.neighbour is None
 
 
 def test_the_worst_place_is_shown(panels):
