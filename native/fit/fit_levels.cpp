@@ -149,17 +149,17 @@ void FitLevels::require_match(const LevelFit& fit) const {
          "Move one onto the other, or draw the control mesh over the scan."});
 }
 
-// With curves it takes more iterations, since surface and curves move alternately.
+// With curves it takes more iterations, since curves and surface move alternately. Curves move
+// first: a surface that comes to a distant scan without them has a wall at its border.
 void FitLevels::fit_curves(LevelFit& fit, double weight, int iterations, bool robust) {
   if (!curves_.any()) return fit.iterate(weight, iterations, robust);
   for (int k = 0; k < 3 * iterations; ++k) {
-    fit.iterate(weight, 1, robust);
     curves_.move(fit, weight, control_);
     Array<double> x = fit.surface();
     levels_.put_fixed(fit.level(), data(), x.data());
     fit.set_surface(std::move(x), fit.feet());
+    fit.iterate(weight, 1, robust);
   }
-  fit.iterate(weight, 1, robust);
 }
 
 // The weight from the coarser level may miss the tolerance on the finest.

@@ -20,6 +20,7 @@ void LevelFit::set_surface(Array<double> x) {
   x_ = std::move(x);
   finder_.set_surface(x_.data());
   finder_.find(feet_);
+  update_spread();
 }
 
 void LevelFit::set_surface(Array<double> x, Array<Foot> feet) {

@@ -167,6 +167,19 @@ def test_border_curves_come_to_the_border_of_the_scan():
     assert np.abs(reach - 1).max() < 0.01
 
 
+def test_borders_of_a_flat_cage_come_to_a_bent_scan_far_above():
+    """Up to two control edges, so that the surface alone would have a wall at its border."""
+    even, dense = np.linspace(-0.95, 0.95, 9), np.linspace(-1, 1, 101)
+    vertices, faces = sheet(even, even, lambda x, y: 0 * x)
+    points, quads = sheet(dense, dense, lambda x, y: 0.6 * np.cos(1.5 * x) - 0.1)
+    triangles = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    fitted = df.fit(vertices, faces, points, triangles=triangles, corner_vertices=[0, 8, 72, 80])
+    x, y, z = fitted.vertices.T
+    assert rms(z - 0.6 * np.cos(1.5 * x) + 0.1) < 1e-3 and len(fitted.outliers) == 0
+    reach = np.abs(fitted.vertices[: len(vertices), :2]).max(1)[np.abs(vertices).max(1) > 0.94]
+    assert np.abs(reach - 1).max() < 1e-3
+
+
 @pytest.mark.parametrize("seed", range(6))
 def test_a_scan_of_ten_points_has_a_surface(seed):
     """The points are so few that often none is held out."""
