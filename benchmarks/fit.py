@@ -16,6 +16,7 @@ LEVELS = 3
 NOISES = (0.0, 0.002, 0.005)  # of the size
 MODES = ("NEAREST_SURFACEPOINT", "TARGET_PROJECT", "PROJECT", "NEAREST_VERTEX")
 PASSES = 10  # Taubin's
+FACTORS = (1 / 16, 1 / 4, 4, 16)  # of the weight, for others than the one chosen
 
 
 def shrinkwrapped(
@@ -47,8 +48,16 @@ def shrinkwrapped(
 def surfaces(shape: fit_shapes.Shape, noise: float) -> dict[str, tuple[float, float]]:
     """The errors of each."""
     points, triangles = shape.scanned(noise, 1)
-    fitted = df.fit(*shape.cage, points, triangles=triangles, levels=LEVELS, **shape.options)
-    subdivided = rivals.catmull_clark(*shape.cage, LEVELS)
+
+    def fitted(weight: float | None = None) -> tuple[df.Fitted, tuple[float, float]]:
+        arguments = {"triangles": triangles, "levels": LEVELS, "weight": weight, **shape.options}
+        found = df.fit(*shape.cage, points, **arguments)
+        return found, shape.errors(found.vertices, found.triangles)
+
+    surface, own = fitted()
+    tried = [own, *(fitted(surface.weight * factor)[1] for factor in FACTORS)]
+    creases = shape.options.get("crease_edges", np.empty((0, 2), int))
+    subdivided = rivals.catmull_clark(*shape.cage, LEVELS, creases.tolist())
     smooth = df.denoise(points, triangles, passes=PASSES).vertices
 
     def best(target: np.ndarray) -> tuple[float, float]:
@@ -60,7 +69,8 @@ def surfaces(shape: fit_shapes.Shape, noise: float) -> dict[str, tuple[float, fl
         "scan": shape.errors(points, triangles),
         "Shrinkwrap": best(points),
         "Taubin, Shrinkwrap": best(smooth),
-        "fit": shape.errors(fitted.vertices, fitted.triangles),
+        "fit": own,
+        "at its best weights": (min(e[0] for e in tried), min(e[1] for e in tried)),
     }
 
 

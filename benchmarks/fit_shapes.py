@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Shapes whose nearest points are known, scans of them with noise, and cages drawn over them."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -16,12 +16,15 @@ Feet = tuple[np.ndarray, np.ndarray]  # nearest points, and normals there, of le
 
 @dataclass(frozen=True)
 class Shape:
-    """`nearest`: from points (n, 3) near it to their feet; `scan`: some 20,000 points on it, exactly."""
+    """`nearest`: from points (n, 3) near it to their feet; `scan`: some 20,000 points on it, exactly;
+    `ridge`: points on its crease.
+    """
 
     scan: Mesh
     cage: Mesh
     nearest: Callable[[np.ndarray], Feet]
     options: dict[str, Any] = field(default_factory=dict)  # of fit()
+    ridge: np.ndarray | None = None
 
     @property
     def size(self) -> float:
@@ -37,14 +40,19 @@ class Shape:
         )
 
     def errors(self, points: np.ndarray, triangles: np.ndarray) -> tuple[float, float]:
-        """Distance in thousandths of the size, and degrees between normals, root mean square."""
+        """Distance in thousandths of the size, and degrees between normals, root mean square. Normals
+        are not compared within a hundredth of the size from a crease.
+        """
         feet, normals = self.nearest(points)
+        smooth = np.ones(len(points), bool)
+        if self.ridge is not None:
+            smooth = cKDTree(self.ridge).query(points)[0] > 0.01 * self.size
         with np.errstate(invalid="ignore"):  # where a surface has shrunk to a line
             own = np.nan_to_num(scans.vertex_normals(points, triangles))
         cosine = (own * normals).sum(1)
         return (
             1e3 / self.size * scans.rms(np.linalg.norm(points - feet, axis=1)),
-            scans.rms(np.degrees(np.arccos(np.clip(cosine, -1, 1)))),
+            scans.rms(np.degrees(np.arccos(np.clip(cosine[smooth], -1, 1)))),
         )
 
 
@@ -70,25 +78,84 @@ def blob() -> Shape:
     return Shape(scan, scans.blob_cage(6, 0.02), nearest)
 
 
+def on_ellipsoid(axes: np.ndarray, points: np.ndarray) -> Feet:
+    """p = foot + t (foot / axes²), and the foot is on it [Eberly 2013]: bisected for t."""
+    low = -(axes.min() ** 2) * np.ones(len(points)) * (1 - 1e-12)
+    high = np.linalg.norm(axes * points, axis=1) + 1
+    for _ in range(80):
+        t = (low + high) / 2
+        outside = ((axes * points / (axes**2 + t[:, None])) ** 2).sum(1) > 1
+        low, high = np.where(outside, t, low), np.where(outside, high, t)
+    feet = axes**2 * points / (axes**2 + t[:, None])
+    normals = feet / axes**2
+    return feet, normals / np.linalg.norm(normals, axis=1, keepdims=True)
+
+
 def lens() -> Shape:
     """An ellipsoid thirty times as wide as high: two sides near one another."""
     axes = np.array([1.5, 1.0, 0.05])
 
     def nearest(points: np.ndarray) -> Feet:
-        # p = foot + t (foot / axes²), and the foot is on it [Eberly 2013]: bisected for t
-        low = -(axes.min() ** 2) * np.ones(len(points)) * (1 - 1e-12)
-        high = np.linalg.norm(axes * points, axis=1) + 1
-        for _ in range(80):
-            t = (low + high) / 2
-            outside = ((axes * points / (axes**2 + t[:, None])) ** 2).sum(1) > 1
-            low, high = np.where(outside, t, low), np.where(outside, high, t)
-        feet = axes**2 * points / (axes**2 + t[:, None])
-        normals = feet / axes**2
-        return feet, normals / np.linalg.norm(normals, axis=1, keepdims=True)
+        return on_ellipsoid(axes, points)
 
     sphere, quads = scans.cube_sphere(58)
     drawn, cage = scans.cube_sphere(6)
     return Shape((sphere * axes, quads), shaken((drawn * axes, cage), nearest, 0.008), nearest)
+
+
+def nearest_of(points: np.ndarray, found: Sequence[Feet]) -> Feet:
+    """Of several feet of each point."""
+    best = np.argmin([np.linalg.norm(points - feet, axis=1) for feet, _ in found], axis=0)
+    every = np.arange(len(points))
+    return np.stack([f for f, _ in found])[best, every], np.stack([n for _, n in found])[
+        best, every
+    ]
+
+
+def ring_edges(quads: np.ndarray, is_on: np.ndarray) -> np.ndarray:
+    """(k, 2) the edges whose ends are both of the mask `is_on`."""
+    edges = np.stack([quads, np.roll(quads, -1, axis=1)], -1).reshape(-1, 2)
+    return np.unique(np.sort(edges[is_on[edges].all(1)], axis=1), axis=0)
+
+
+def mouse() -> Shape:
+    """Two caps of ellipsoids that meet in a sharp parting line, an ellipse."""
+    rim, depths, offs = np.array([1.2, 0.7]), (0.8, 0.5), (0.3, 0.35)  # above, below
+    sides = [
+        (np.array([*rim / np.sqrt(1 - (off / depth) ** 2), depth]), np.array([0, 0, -way * off]))
+        for depth, off, way in zip(depths, offs, (1, -1))
+    ]
+    angle = np.linspace(0, 2 * np.pi, 20000, endpoint=False)
+    line = np.stack([rim[0] * np.cos(angle), rim[1] * np.sin(angle), 0 * angle], 1)
+    out = line / np.array([*rim**2, 1])
+    out /= np.linalg.norm(out, axis=1, keepdims=True)
+
+    def nearest(points: np.ndarray) -> Feet:
+        at = cKDTree(line).query(points)[1]
+        found = [(line[at], out[at])]
+        for (axes, centre), way in zip(sides, (1, -1)):
+            feet, normals = on_ellipsoid(axes, points - centre)
+            feet = feet + centre
+            feet[way * feet[:, 2] < 0] = np.inf
+            found.append((feet, normals))
+        return nearest_of(points, found)
+
+    def placed(pieces: int) -> Mesh:
+        sphere, quads = scans.cube_sphere(pieces)
+        points = np.empty_like(sphere)
+        for (axes, centre), way in zip(sides, (1, -1)):
+            ray, start = sphere * np.array([*rim, 0.6]) / axes, -centre / axes
+            # |start + t ray| = 1
+            a, b, c = (ray**2).sum(1), ray @ start, start @ start - 1
+            t = (-b + np.sqrt(b * b - a * c)) / a
+            here = way * sphere[:, 2] >= 0
+            points[here] = (t[:, None] * ray * axes)[here]
+        return points, quads
+
+    points, quads = placed(6)
+    creases = ring_edges(quads, np.abs(points[:, 2]) < 1e-9)
+    cage = shaken((points, quads), nearest, 0.02)
+    return Shape(placed(58), cage, nearest, {"crease_edges": creases}, line)
 
 
 @dataclass(frozen=True)
@@ -164,4 +231,47 @@ def fender() -> Shape:
     return Shape(patch.mesh(160, 125), cage, patch.nearest, {"corner_vertices": corners})
 
 
-SHAPES = {"blob": blob, "handle": handle, "fender": fender, "thin lens": lens}
+def hull() -> Shape:
+    """Half a hull with a sharp chine, from keel to gunwale and from stem to transom."""
+
+    def line(u: np.ndarray, which: int) -> np.ndarray:
+        """Keel, chine, gunwale."""
+        fore = 1 - u
+        wide, low = 0.25 + 0.38 * (1 - fore**2), 0.25 + 0.25 * fore**2
+        y = (0 * u, wide, wide + 0.18)[which]
+        return np.stack([3 * u, y, (0.35 * fore**3, low, 0.8 + 0.2 * fore**2)[which]], 1)
+
+    def strip(first: int, out: tuple[float, float]) -> _Patch:
+        """Between two lines, bulging by `out` in y and z."""
+
+        def place(u: np.ndarray, v: np.ndarray) -> np.ndarray:
+            bulge = np.sin(np.pi * v)[:, None] * np.array([0, *out])
+            return (1 - v[:, None]) * line(u, first) + v[:, None] * line(u, first + 1) + bulge
+
+        return _Patch(place, closed=False)
+
+    bottom, side = strip(0, (0.02, -0.06)), strip(1, (0.07, -0.01))
+
+    def both(u: np.ndarray, v: np.ndarray) -> np.ndarray:
+        below = (v <= 0.5)[:, None]
+        return np.where(below, bottom.place(u, 2 * v), side.place(u, 2 * v - 1))
+
+    def nearest(points: np.ndarray) -> Feet:
+        return nearest_of(points, [bottom.nearest(points), side.nearest(points)])
+
+    whole = _Patch(both, closed=False)
+    points, quads = whole.mesh(18, 12)
+    creases = ring_edges(quads, np.arange(len(points)) % 13 == 6)
+    cage = shaken((points, quads), nearest, 0.02)
+    options = {"crease_edges": creases, "corner_vertices": [0, 12, 18 * 13, 19 * 13 - 1]}
+    return Shape(whole.mesh(160, 126), cage, nearest, options, line(np.linspace(0, 1, 20000), 1))
+
+
+SHAPES = {
+    "blob": blob,
+    "handle": handle,
+    "fender": fender,
+    "thin lens": lens,
+    "mouse": mouse,
+    "hull": hull,
+}
