@@ -18,6 +18,7 @@ from ..mesh.shape_keys import ShapeKeys
 from ..mesh.world_shape import transformed, world_matrix
 from ..scan_fit import Fit, settings_of_fit
 from ..settings import PatchOptions, Settings, is_evaluated
+from ..units import Units
 from . import colours, words
 from .nurbs import surface_of
 from .shown import Blend, distance, shares_of, shown_mesh
@@ -66,6 +67,7 @@ class PatchJob(Job):
         self.placement = np.array(world_matrix(shown), float) @ self._way_back
         if abs(np.linalg.det(self.placement[:3, :3])) < 1e-18:
             raise JobError(f"{self.name}: Give it a thickness. Its scale is 0 along an axis.")
+        self._units = Units.of(context.scene)
         self.notes = []  # they concern data that only meshes carry
         self.colours, self.slots = colours.of_faces(shown, source or shown, self.data)
         self.arguments = core.patch_arguments(self.arguments, options)
@@ -172,17 +174,26 @@ class PatchJob(Job):
         return cast(list[int], getattr(self.patches, name).tolist())
 
     def warnings(self) -> list[str]:
-        """For each kind of fault, what to do and what is wrong."""
+        """For each kind of fault, what to do, what is wrong, by how much, and the faces."""
         return [
             words.together(
                 (
                     f"{self.name}: {errors.remedy(defect['code'], self.settings)}",
                     errors.what(defect),
+                    self._miss_text(defect["elements"]) if defect["code"] != "UNRESOLVED" else "",
                     f"{words.faces_text(defect['elements'])}.",
                 )
             )
             for defect in self.defects
         ]
+
+    def _miss_text(self, faces: list[int]) -> str:
+        off, angle = self.patches.worst(faces)
+        longest, most = float(self._stretch.max()), self.patches.normal_tolerance
+        told = self._units.lengths(self.allowed, 2)
+        return words.miss_text(
+            longest * off, self.allowed, longest * self.patches.size, angle, most, told
+        )
 
     def note_defects(self, context: Context) -> None:
         """Lists the faults in the panel Check of the source, whose buttons select them."""

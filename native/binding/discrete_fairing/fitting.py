@@ -55,8 +55,8 @@ def fit_patches(
         8e-4; with a scan the angle of `tolerance` over a mean control edge, if that is more.
     levels : int
         How often the mesh is refined before patches are fitted. None: 5, or more where a tolerance
-        asks for it and the surface stays below 300 000 points, or 1 200 000 where faces miss the
-        tolerance; less for very large meshes.
+        asks for it, the surface stays below 300 000 points, or 1 200 000 where faces miss the
+        tolerance, and the largest miss may halve; less for very large meshes.
     force : bool
         Return patches also where the refined surface folds or is not resolved. Their input faces
         are in patches.unresolved then.
@@ -112,7 +112,8 @@ def fit_patches(
         return halves * predicted_size(len(points), polygons, level, 0, energy)["vertices"]
 
     if levels is None:
-        found = at_own_level(fits, surface, count, runs)
+        # near a scan the weight of its points is that of the first surface
+        found = at_own_level(fits, surface, count, runs, 2 if given is None else 1)
     else:
         found = at_level(fits, surface, whole("levels", levels), runs)
     runs.finish()

@@ -45,8 +45,11 @@ def at_own_level(
     surface: Callable[..., Result],
     count: Callable[[int], int],
     runs: SeveralRuns,
+    coarser_levels: int,
 ) -> SplinePatches:
-    """Refines the surface (`surface`, with `count` points) until one serves or the next is too large."""
+    """Refines the surface (`surface`, with `count` points) until its patches serve, the next one is too
+    large, or finer ones cannot halve the largest miss. The changes on so many coarser levels tell that.
+    """
     level = FIRST_LEVEL
     turns = np.empty(0)  # on the previous level
     missing = 0.0
@@ -56,12 +59,17 @@ def at_own_level(
     coarser: Result | None = None
     best: SplinePatches | None = None
     finest = _finest(count, level)
-    for at in range(level - 1, LAST_LEVEL + 1):
+    for at in range(level - coarser_levels, LAST_LEVEL + 1):
         part = done + 0.4 * (1 - done)
         result = surface(at, **runs.run(done, part))
         done = part
+        error = np.zeros(0) if coarser is None else change_between(coarser, result, at) / ORDER
+        coarser = result
+        size = float(np.ptp(result.vertices, axis=0).max(initial=0))
+        missing, former = error.max(initial=0) / (fits.tolerance * size) if size else 0.0, missing
+        if at < level - 1:
+            continue
         if at < level:
-            coarser = result
             folds = fits.stays_folded(result, at, finest - at, runs.run(done, done))
             turns = fits.turns(result, at, runs.run(done, done))
             continue
@@ -71,17 +79,12 @@ def at_own_level(
             break  # finer surfaces fold where the previous one does not
         folds = folds or fits.stays_sharp(result, at, before, turns, finest - at)
         next_count = inf if folds or at == LAST_LEVEL else count(at + 1)
-        assert coarser is not None  # the previous level
-        error = change_between(coarser, result, at) / ORDER
-        coarser = result
-        size = float(np.ptp(result.vertices, axis=0).max(initial=0))
-        missing, former = error.max(initial=0) / (fits.tolerance * size) if size else 0.0, missing
         # the change falls so slowly at poles of curvature of a thin plate that no level is fine enough
         falling = min(missing / former, 1.0) if former else 1.0 / (1 + ORDER)
-        serves = missing * falling ** (finest - at) <= 1.0
-        # a surface whose own error exceeds the tolerance is not worth a fit
-        most = MOST_POINTS_FOR_FACES if missing > 1.0 and serves else MOST_FINER_POINTS
-        if missing > LATTICE_SHARE and next_count <= most:
+        ahead = missing * falling ** (finest - at)
+        # a surface whose own error exceeds the tolerance is not worth a fit, if a finer one halves it
+        most = MOST_POINTS_FOR_FACES if missing > 1.0 else MOST_FINER_POINTS
+        if missing > LATTICE_SHARE and 2 * ahead <= missing and next_count <= most:
             continue
         last = next_count > MOST_POINTS_FOR_FACES
         if sharp and not fits.force:  # its patches would be refused
@@ -100,20 +103,25 @@ def at_own_level(
             continue
         found = fits.fitted(result, at, error, runs.run(done, part))
         done = part
-        if best is None or _faults(found, serves) <= _faults(best, serves):
+        if best is None or _faults(found) <= _faults(best):
             best = found
-        if last or not any(_faults(found, serves)) or _has_all_spans(found, serves):
+        if last or not _may_halve(found, ahead) or _has_all_spans(found, ahead <= 1.0):
             break
     assert best is not None  # the last level is fitted or refused
     return fits.checked(best)
 
 
-def _faults(patches: SplinePatches, serves: bool) -> tuple[int, int]:
-    """Numbers of faces that are not resolved, and of faces that miss a tolerance which a finer level
-    may meet.
+def _faults(patches: SplinePatches) -> tuple[int, float]:
+    """The number of faces that are not resolved, and the largest miss."""
+    return len(patches.unresolved), patches.largest_miss
+
+
+def _may_halve(patches: SplinePatches, ahead: float) -> bool:
+    """Whether finer levels may resolve faces, meet the tolerance, or halve the largest miss: there the
+    surface's own error is `ahead`, and a patch is at the tolerance.
     """
-    missing = patches.unmet if serves else patches.unmet_by_fit
-    return len(patches.unresolved), len(missing)
+    least = 0.5 if ahead <= 1.0 else ahead + 1.0
+    return len(patches.unresolved) > 0 or patches.largest_miss > 2 * least
 
 
 def _has_all_spans(patches: SplinePatches, serves: bool) -> bool:

@@ -128,6 +128,14 @@ class SplinePatches:
         found[self._patch_of_faces[own]] = True
         return found
 
+    def worst(self, polygons: ArrayLike) -> tuple[float, float]:
+        """The largest distance from the fair surface, mesh units, and the largest angle at sides, radians,
+        in these input faces; (0, 0) for none.
+        """
+        own = np.isin(self._control_polygons, polygons)
+        off = (self.face_off + self._lattice_error)[own].max(initial=0)
+        return float(off), float(np.fmax.reduce(self.face_angle[own], initial=0))
+
     def edge(self, e: int) -> np.ndarray:
         """(spans + 3, 3) float64: the control points of edge e, a view."""
         return self.edge_points[self.edge_offsets[e] : self.edge_offsets[e + 1]]
@@ -187,6 +195,11 @@ class SplinePatches:
         return self._missing(self.face_off + self._lattice_error)
 
     @property
+    def largest_miss(self) -> float:
+        """The largest distance or angle of a face in units of its tolerance; 1 or less if all are met."""
+        return float(self._misses(self.face_off + self._lattice_error).max(initial=0))
+
+    @property
     def unmet_by_fit(self) -> np.ndarray:
         """(k,) int64: faces of `unmet` whose patches miss the tolerance from the refined surface too."""
         return self._missing(self.face_off)
@@ -199,8 +212,11 @@ class SplinePatches:
         return np.setdiff1d(self.unmet, self.unmet_by_fit)
 
     def _missing(self, off: np.ndarray) -> np.ndarray:
-        bad = (off > self.tolerance * self.size) | (self.face_angle > self.normal_tolerance)
-        return np.unique(self._control_polygons[bad]).astype(np.int64)
+        return np.unique(self._control_polygons[self._misses(off) > 1]).astype(np.int64)
+
+    def _misses(self, off: np.ndarray) -> np.ndarray:
+        distance, angle = self.tolerance * self.size, self.face_angle / self.normal_tolerance
+        return np.fmax(off / distance, angle) if distance else angle
 
     @cached_property
     def _fit(self) -> np.ndarray:

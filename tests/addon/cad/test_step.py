@@ -143,6 +143,26 @@ def test_who_insists_gets_the_faces_marked(tmp_path, capfd):
     assert "2 faces have a surface that folds" in capfd.readouterr().out
 
 
+def test_faces_that_miss_are_listed_with_the_distance_and_the_cure(tmp_path, capfd):
+    """A thin plate's poles of curvature at the corners of a cube take more levels than there are."""
+    units = bpy.context.scene.unit_settings
+    units.scale_length, units.length_unit = 0.001, "MILLIMETERS"
+    cube = add("Cube", *CUBE)
+    export(tmp_path / "cube.step", fit_levels=5)
+    told = capfd.readouterr().out
+    found = re.search(
+        r"6 faces have a surface that still changes by more than the tolerance from level to level\. At most "
+        r"(0\.\d+) mm off \((0\.\d+) mm is allowed\): Tolerance (0\.\d+) allows it\. Faces 0, 1, 2, 3, 4 and 5\.",
+        told,
+    )
+    assert found, told
+    off, allowed, cure = map(float, found.groups())
+    assert off > 5 * allowed and allowed == pytest.approx(1e-4 * off / cure, rel=0.1)
+    activate(cube)
+    export(tmp_path / "cube.step", fit_levels=5, fit_tolerance=cure)
+    assert "Warning" not in capfd.readouterr().out
+
+
 def test_an_open_sheet_keeps_its_corners_by_default(tmp_path, capfd):
     points, faces = control_meshes.grid()
     add("Sheet", points.tolist(), [tuple(map(int, face)) for face in faces])
