@@ -75,7 +75,7 @@ class FairingSettings:
     )
     limit: FloatProperty(
         name="Follow",
-        description="With Bending, how closely the surface keeps to Subdivision Surface: at 1 thin walls do not wave, at 0 it is free",
+        description="How closely the surface keeps to Subdivision Surface: at 1 thin walls do not wave, at 0 it is free",
         default=1.0,
         min=0.0,
         max=1.0,

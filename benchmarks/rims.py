@@ -14,6 +14,8 @@ LEVELS = 3
 SETTINGS: dict[str, dict[str, Any]] = {
     "limit": {},
     "Character": {"metric_exponent": 0.45, "pad_size": 0.7},
+    "total curvature": {"energy": "total_curvature"},
+    "minimum variation": {"energy": "minimum_variation"},
     "limit, Follow 0": {"limit": 0.0},
 }
 
@@ -46,7 +48,16 @@ def rims_table(result: dict[str, Any]) -> str:
     """How far rims turn once around, degrees."""
     rows = [[name, *(f"{angle:.1f}" for angle in found.values())] for name, found in result.items()]
     return table.markdown(
-        ["model", "Subdivision Surface", "thin plate", "*Character*", "*Follow* at 0"], rows
+        [
+            "model",
+            "Subdivision Surface",
+            "thin plate",
+            "*Character*",
+            "total curvature",
+            "minimum variation",
+            "thin plate, *Follow* at 0",
+        ],
+        rows,
     )
 
 

@@ -66,9 +66,7 @@ def draw_job(
     if not job:
         draw_fairness(layout, settings, known)
     if is_limit(settings) or known.follows:
-        follow = layout.row()
-        follow.active = settings.energy == "THIN_PLATE"  # other energies do not use it
-        follow.prop(settings, "limit", slider=True)
+        layout.prop(settings, "limit", slider=True)
     elif is_near(settings):
         _draw_tolerance(layout, settings, known)
 

@@ -67,7 +67,7 @@ AssembledSystem CurvatureLevel::assemble() const {
     const auto p = std::size_t(system.unknown_points[std::size_t(i)]);
     double extra = diagonal(i) > 0 ? 0.0 : 1.0;
     if (p < weights_.size()) extra += weight(p);
-    if (!damping_.empty()) extra += double(damping_[p]);
+    extra += added_to_diagonal(p);
     if (extra > 0) system.matrix.coeffRef(i, i) += extra;
   }
   return system;

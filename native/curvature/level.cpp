@@ -104,20 +104,20 @@ void CurvatureLevel::apply_between(const float* x, float* y) {
 template <class T>
 void CurvatureLevel::add_to_product(const T* x, T* y) const {
   for (std::size_t v = 0; v < weights_.size(); ++v) y[v] += T(weight(v)) * x[v];
-  add_damping(x, y);
+  add_diagonal(x, y);
 }
 
 void CurvatureLevel::apply_on(const Unknowns& rows, const double* x, double* y) {
   apply_square(rows_, rows, shared_.workers, shared_.double_slots, x, y);
   if (is_tense()) area_->add_product(rows, shared_.workers, x, y);
-  add_damping(x, y);
+  add_diagonal(x, y);
 }
 
 template <class T>
-void CurvatureLevel::add_damping(const T* x, T* y) const {
-  if (!damping_.empty())
-    for_each_index(shared_.workers, damping_.size(),
-                   [&](std::size_t i) { y[i] += T(damping_[i]) * x[i]; });
+void CurvatureLevel::add_diagonal(const T* x, T* y) const {
+  if (penalty_ || !damping_.empty())
+    for_each_index(shared_.workers, grid_.size(),
+                   [&](std::size_t i) { y[i] += T(added_to_diagonal(i)) * x[i]; });
 }
 
 void CurvatureLevel::predict(const Array<float>& shape, const double* h, Array<float>& predicted) {
@@ -163,7 +163,7 @@ void CurvatureLevel::set_weights(const VertexWeights& weights) {
 void CurvatureLevel::invert_diagonal(std::size_t i) {
   float d = varies() ? variation_->cycle_diagonal[i] : diagonal_[i];
   if (!varies() && i < weights_.size()) d += float(weight(i));
-  if (!varies() && !damping_.empty()) d += damping_[i];
+  if (!varies()) d += float(added_to_diagonal(i));
   inverse_diagonal_[i] = d > 0 ? 1 / d : 1.0f;
 }
 

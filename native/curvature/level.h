@@ -16,6 +16,7 @@
 #include "constraints/pads.h"
 #include "curvature/area.h"
 #include "curvature/connection.h"
+#include "curvature/distance_penalty.h"
 #include "curvature/normal_matrix.h"
 #include "curvature/point_curvature.h"
 #include "curvature/ring_jacobian.h"
@@ -60,12 +61,11 @@ class CurvatureLevel final : public LevelOperator {
   CurvatureLevel(CurvatureShared& shared, const GridLevel& grid);
 
   // K about the surface x (3 numbers a point), without a share of total curvature. Returns the
-  // energy with that of tension.
+  // energy with those of tension and the penalty.
   double linearize(const double* x, const Functional& functional, Linearization* out = nullptr);
 
-  // The latest energy, by which surfaces are compared; then that without tension.
-  double objective() const { return bending_ + tension_; }
-  double bending() const { return bending_; }
+  // The latest energy, by which surfaces are compared.
+  double objective() const { return bending_ + tension_ + penalty_energy_; }
 
   int linearizations() const { return linearizations_; }
 
@@ -90,7 +90,11 @@ class CurvatureLevel final : public LevelOperator {
   void set_weights(const VertexWeights& weights);
   const VertexWeights& weights() const { return weights_; }
 
-  // Diagonal of K without weights and damping; zero for points that are not unknowns.
+  // Adds a penalty, from the next linearization on; none for an empty one.
+  void set_penalty(std::optional<DistancePenalty> penalty) { penalty_ = std::move(penalty); }
+  const std::optional<DistancePenalty>& penalty() const { return penalty_; }
+
+  // Diagonal of K without weights, penalty and damping; zero for points that are not unknowns.
   const Array<float>& diagonal() const { return diagonal_; }
 
   std::size_t points() const override { return grid_.size(); }
@@ -116,13 +120,17 @@ class CurvatureLevel final : public LevelOperator {
   NormalMatrix& square() const;
   void apply_rows(const double* x, double* y);
   void apply_rows(const float* x, float* y);
-  // Adds the part of weights and damping.
+  // Adds the part of weights, penalty and damping.
   template <class T>
   void add_to_product(const T* x, T* y) const;
   template <class T>
-  void add_damping(const T* x, T* y) const;
+  void add_diagonal(const T* x, T* y) const;  // of penalty and damping
   double weight(std::size_t v) const { return shared_.unknowns.vertex[v] ? weights_[v] : 0.0; }
   void invert_diagonal(std::size_t i);
+  // Of penalty and damping.
+  double added_to_diagonal(std::size_t p) const {
+    return (penalty_ ? penalty_->weight(p) : 0.0) + (damping_.empty() ? 0.0 : double(damping_[p]));
+  }
   bool is_tense() const { return area_ && shared_.tension > 0; }
 
   CurvatureShared& shared_;
@@ -130,7 +138,7 @@ class CurvatureLevel final : public LevelOperator {
   CurvatureEnergy energy_ = CurvatureEnergy::total_curvature;
   VertexWeights weights_;
   double share_ = 0;  // for minimum variation: the share of W beside L
-  double bending_ = 0, tension_ = 0;
+  double bending_ = 0, tension_ = 0, penalty_energy_ = 0;
   int linearizations_ = 0;
   RingJacobian rows_;  // sqrt(w) J
   // R^T R, computed on first use.
@@ -149,6 +157,7 @@ class CurvatureLevel final : public LevelOperator {
   };
   std::unique_ptr<Variation> variation_;  // for minimum variation, once linearized
   std::unique_ptr<AreaTerm> area_;        // with tension, once linearized
+  std::optional<DistancePenalty> penalty_;
   Array<float> diagonal_, inverse_diagonal_, damping_;
 };
 

@@ -239,6 +239,10 @@ double CurvatureLevel::linearize(const double* x, const Functional& functional,
   } else {
     tension_ = 0;
   }
+  if (penalty_) penalty_->set_energy(energy_);
+  penalty_energy_ = penalty_ ? penalty_->energy(x, shared_.workers) : 0.0;
+  if (penalty_ && wants_points)
+    penalty_->add_force(x, to.normal.data(), shared_.workers, to.force.data());
   update_diagonal();
   damping_.clear();
   invert_diagonal();

@@ -40,13 +40,14 @@ GaussNewtonSolver::GaussNewtonSolver(const ControlMesh& mesh, const GridLevels& 
 }
 
 CurvedSurface GaussNewtonSolver::solve_level(int level, const Array<double>& plate,
-                                             const Array<double>& plate_below,
+                                             const Array<double>& plate_below, Reference reference,
                                              CurvatureLevelReport& report) {
   report.level = level;
   const StepWork before = system_.work(level);
   if (pads_.update()) iterate_.current.held.loads.clear();
   const std::span<const Vec3> given =
       level == system_.finest() ? constraints_.targets() : std::span<const Vec3>{};
+  system_.penalize(level, plate, std::move(reference));
   choose_start(iterate_, level, pads_.now(), plate, plate_below, given, report);
   const StepStart start{iterate_.current.points, iterate_.current.held, report};
   const bool is_plain = solve_total_curvature(start, plate, report);
@@ -62,7 +63,7 @@ CurvedSurface GaussNewtonSolver::solve_level(int level, const Array<double>& pla
         report.swollen ||
             thickness_->of(iterate_.grid(), iterate_.workers(), surface().data()).is_bubble()};
   }
-  subtract_tension(start, plate, report);
+  keep_bending_alone(start, plate, report);
   report.work = system_.work(level) - before;
   if (is_finest()) out.points = std::move(surface());
   return out;
@@ -133,17 +134,20 @@ void GaussNewtonSolver::end_constraints(CurvatureLevelReport& report) {
   if (any_moved) polish(iterate_, short_patience, report);
 }
 
-double GaussNewtonSolver::tension_of(const Array<double>& x) {
-  if (!(system_.options().tension > 0)) return 0;
-  return system_.options().tension * surface_area(iterate_.grid(), iterate_.workers(), x.data());
+double GaussNewtonSolver::energy_beside_bending(const Array<double>& x) {
+  double out = 0;
+  if (const double tension = system_.options().tension; tension > 0)
+    out += tension * surface_area(iterate_.grid(), iterate_.workers(), x.data());
+  if (const auto& penalty = iterate_.op().penalty())
+    out += penalty->energy(x.data(), iterate_.workers());
+  return out;
 }
 
-// The report has energies without tension.
-void GaussNewtonSolver::subtract_tension(const StepStart& start, const Array<double>& plate,
-                                         CurvatureLevelReport& report) {
-  report.plate_energy -= tension_of(plate);
-  report.start_energy -= tension_of(start.points);
-  report.energy -= tension_of(surface());
+void GaussNewtonSolver::keep_bending_alone(const StepStart& start, const Array<double>& plate,
+                                           CurvatureLevelReport& report) {
+  report.plate_energy -= energy_beside_bending(plate);
+  report.start_energy -= energy_beside_bending(start.points);
+  report.energy -= energy_beside_bending(surface());
 }
 
 // Steps may end in a fold; then the surface at their start is better. If control vertices are
@@ -189,16 +193,18 @@ bool GaussNewtonSolver::is_settled(const CurvatureLevelReport& report) {
   return gap_closed && is_near(report, plain_decrement) && report.energy <= energy_bound(report);
 }
 
-void GaussNewtonSolver::solve_moved(Symmetry symmetry, CurvedSurface& moved,
+void GaussNewtonSolver::solve_moved(Symmetry symmetry, const Array<double>& plate,
+                                    Reference reference, CurvedSurface& moved,
                                     CurvatureLevelReport& report) {
   std::swap(surface(), moved.points);
+  system_.penalize(iterate_.level, plate, std::move(reference));
   system_.set_symmetry(std::move(symmetry));
   iterate_.folded_faces =
       folded_control_faces(system_.mesh(), constraints_.targets(), iterate_.workers());
   moved.is_sound = steps_go_well(moved, report);
   moved.energy = report.energy;
   std::swap(surface(), moved.points);
-  report.energy -= tension_of(moved.points);
+  report.energy -= energy_beside_bending(moved.points);
 }
 
 bool GaussNewtonSolver::steps_go_well(const CurvedSurface& before, CurvatureLevelReport& report) {
@@ -211,7 +217,7 @@ bool GaussNewtonSolver::steps_go_well(const CurvedSurface& before, CurvatureLeve
   iterate_.is_near_earlier = std::max(report.start_energy, before.energy) <=
                              equal_energy * std::min(report.start_energy, before.energy);
   report.converged = true;
-  const double start_tension = tension_of(surface());
+  const double beside_bending = energy_beside_bending(surface());
   if (varies())
     run_variation(iterate_, variation_, accurate_end(iterate_), report);
   else
@@ -220,7 +226,7 @@ bool GaussNewtonSolver::steps_go_well(const CurvedSurface& before, CurvatureLeve
   const bool is_sound =
       report.converged && report.folds <= before.folds &&
       (varies() || report.energy <= equal_energy * report.start_energy + flat_energy);
-  report.start_energy -= start_tension;
+  report.start_energy -= beside_bending;
   return is_sound;
 }
 

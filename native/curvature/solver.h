@@ -33,16 +33,17 @@ class GaussNewtonSolver {
 
   // Solves one level after another, from `base` on. The first starts at `plate`, the thin plate's
   // surface (3 numbers a point, in working coordinates), others at that or at one from the level
-  // below, where the plate's surface is `plate_below`. Returns the surface of the finest level,
-  // below it none. Throws ErrorCode::cancelled and std::bad_alloc; the solver cannot be used
-  // afterwards.
+  // below, where the plate's surface is `plate_below`. The distance from the `reference` is
+  // penalized. Returns the surface of the finest level, below it none. Throws ErrorCode::cancelled
+  // and std::bad_alloc; the solver cannot be used afterwards.
   CurvedSurface solve_level(int level, const Array<double>& plate, const Array<double>& plate_below,
-                            CurvatureLevelReport& report);
+                            Reference reference, CurvatureLevelReport& report);
 
   // Solves the finest level again after control vertices have moved, by steps on that level only:
   // improves `surface`, which must be sound. If it is not any more, the steps have failed, and
-  // another solver must solve level by level. Throws as solve_level().
-  void solve_moved(Symmetry symmetry, CurvedSurface& surface, CurvatureLevelReport& report);
+  // another solver must solve level by level. `plate`, `reference`, throws: as for solve_level().
+  void solve_moved(Symmetry symmetry, const Array<double>& plate, Reference reference,
+                   CurvedSurface& surface, CurvatureLevelReport& report);
 
   // The pads that are active after the levels so far; null: none.
   const Pads* pads() { return pads_.now(); }
@@ -89,9 +90,10 @@ class GaussNewtonSolver {
                            CurvatureLevelReport& report);
   // Resets the surface to the start or to the plate and ends the steps.
   void keep(const Array<double>& x, const StepStart& start, CurvatureLevelReport& report);
-  double tension_of(const Array<double>& x);
-  void subtract_tension(const StepStart& start, const Array<double>& plate,
-                        CurvatureLevelReport& report);
+  // Of tension and the penalty.
+  double energy_beside_bending(const Array<double>& x);
+  void keep_bending_alone(const StepStart& start, const Array<double>& plate,
+                          CurvatureLevelReport& report);
   bool is_finest() const { return iterate_.level == system_.finest(); }
 
   IntervalConstraints constraints_;

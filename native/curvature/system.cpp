@@ -62,6 +62,15 @@ GaussNewtonSystem::GaussNewtonSystem(const ControlMesh& mesh, const GridLevels& 
 
 GaussNewtonSystem::~GaussNewtonSystem() = default;
 
+void GaussNewtonSystem::penalize(int level, const Array<double>& plate, Reference reference) {
+  if (reference.points.empty()) return;
+  Linearization bending;
+  op(level).set_penalty({});
+  op(level).linearize(plate.data(), {}, &bending);
+  op(level).set_penalty(
+      DistancePenalty(grid(level), std::move(reference), bending.shape, shared_.unknowns));
+}
+
 void GaussNewtonSystem::linearize(int level, LinearizedSurface& surface) {
   surface.energy =
       op(level).linearize(surface.points.data(), surface.functional, &surface.linearization);

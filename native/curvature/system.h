@@ -63,6 +63,9 @@ class GaussNewtonSystem {
     fairing::symmetrize(grid(level), symmetry_, shared_.unknowns, workers(), x.data());
   }
 
+  // Penalizes the distance from the reference on `level`, by weights from the bending of `plate`.
+  void penalize(int level, const Array<double>& plate, Reference reference);
+
   // Linearizes about the surface's points, which sets K of `level`.
   void linearize(int level, LinearizedSurface& surface);
   // Linearizes the levels below `level` about the injected surface of that level.

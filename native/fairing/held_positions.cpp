@@ -32,10 +32,9 @@ HeldMesh held_positions(const PolygonMesh& input, const ControlMesh& mesh,
                         const FairOptions& options) {
   if (options.interpolation != Interpolation::limit) return {.world = mesh.positions};
   const SharpRules rules(mesh, options.features.corner_vertices, options.sharpness);
-  const bool draws = options.energy == Energy::thin_plate;
-  const int steps = draws ? LimitSurface::steps(mesh, options.levels) : 1;
+  const int steps = LimitSurface::steps(mesh, options.levels);
   HeldPositions rule{std::make_shared<CatmullClark>(input, mesh, rules, steps)};
-  if (draws) rule.surface = std::make_shared<LimitSurface>(rule.limits);
+  rule.surface = std::make_shared<LimitSurface>(rule.limits);
   check_held(rule, input, options.repair);
   const std::vector<double> moved = rule.of(input.coordinates);
   return {std::move(rule), all_positions(mesh, mesh.positions, moved)};

@@ -74,8 +74,8 @@ double factored_unknowns(const Counts& c, const FairOptions& options) {
 double bytes_of(const Counts& c, std::size_t shapes, const FairOptions& options) {
   const Costs& costs = costs_of(options.energy);
   const bool is_plate = options.energy == Energy::thin_plate;
-  const bool beside = (is_plate && options.interpolation == Interpolation::limit) ||
-                      options.paper.method == Method::back_leg;
+  const bool beside =
+      options.interpolation == Interpolation::limit || options.paper.method == Method::back_leg;
   const bool twice = beside || (is_plate && options.interpolation == Interpolation::approximate);
   double bytes = control_side * c.solved.sides() +
                  double(shapes * sizeof(Vec3)) * c.solved.points(options.levels) +

@@ -72,7 +72,7 @@ struct FairOptions {
   // Approximate: one for each vertex, or empty. 0 frees a vertex that has no tolerance; infinity
   // fixes it.
   std::vector<double> weights;
-  // Limit: how closely the thin plate follows the subdivision surface between the limit positions,
+  // Limit: how closely the surface follows the subdivision surface between the limit positions,
   // 0 to 1; and which edges and vertices are semi-sharp.
   double limit = 1;
   Sharpness sharpness;
@@ -118,7 +118,7 @@ struct FairOptions {
   PaperOptions paper;
 };
 
-// The factor of the penalty on the distance from the subdivision surface, relative to the plate's
+// The factor of the penalty on the distance from the subdivision surface, relative to the
 // bending (grid/limit_surface.h), from FairOptions::limit.
 double limit_penalty(double limit);
 

@@ -53,6 +53,7 @@ ThinPlateSolver& FairingSystems::plate() {
           GridLevel(problem_.mesh, options.levels), problem_.basis.working, *problem_.workers));
       const double strength = std::pow(limit_penalty(options.limit), 0.25);
       for (float& p : *penalty) p *= float(strength);
+      thin_ = penalty;
       own.penalty = {std::move(penalty), problem_.exponent};
     }
     plate_ = std::make_unique<ThinPlateSolver>(problem_.mesh, *problem_.charts(), problem_.stencils,
@@ -71,6 +72,11 @@ Array<double> FairingSystems::reference_of(std::span<const Vec3> cage, std::span
 PlateData FairingSystems::data_of(const ControlPositions& control) {
   reference_ = reference_of(control.cage_in(problem_.frame), control.working);
   return {control.working, control.working_curves, reference_.empty() ? nullptr : &reference_};
+}
+
+Reference FairingSystems::reference_on(int level, const PlateData& data) {
+  if (!data.reference) return {};
+  return {plate().levels().reference(level, data), plate().levels().penalty(level, *thin_)};
 }
 
 void FairingSystems::drop() {
@@ -132,7 +138,8 @@ Surface FairingSystems::solve_levels(const ControlPositions& control,
     below = std::exchange(surface, {});
     surface = plate().solve_level(level, data, constraints, below, report.levels, predicted);
     if (steps_)
-      curved = steps_->solve_level(level, surface.x, below.x, report.curvature.emplace_back());
+      curved = steps_->solve_level(level, surface.x, below.x, reference_on(level, data),
+                                   report.curvature.emplace_back());
   }
   return {std::move(surface.x), std::move(surface.state), std::move(curved)};
 }
@@ -181,12 +188,13 @@ bool FairingSystems::solve_moved(const ControlPositions& control, RecentSurfaces
   const std::span<const Vec3> before = recent.extrapolated();
   const std::span<const Vec3> held = before.first(control.working.size());
   const Array<double> reference = reference_of(before.subspan(held.size()), held);
-  plate().solve_moved({held, control.working_curves, &reference}, data_of(control), tolerance,
-                      surface.state, surface.plate, report.levels,
-                      on_prediction(options.measure, watch, report));
+  const PlateData data = data_of(control);
+  plate().solve_moved({held, control.working_curves, &reference}, data, tolerance, surface.state,
+                      surface.plate, report.levels, on_prediction(options.measure, watch, report));
   add_plate(1);
   if (steps_)
-    steps_->solve_moved(problem_.symmetry_of(control), surface.curved,
+    steps_->solve_moved(problem_.symmetry_of(control), surface.plate,
+                        reference_on(options.levels, data), surface.curved,
                         report.curvature.emplace_back());
   if (steps_ && !surface.curved.is_sound) return false;
   report_held(report);

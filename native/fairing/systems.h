@@ -74,6 +74,8 @@ class FairingSystems {
   // The limit surface of a cage in working coordinates on the finest level, with control vertices
   // at their held positions; empty without a penalty.
   Array<double> reference_of(std::span<const Vec3> cage, std::span<const Vec3> held);
+  // The reference of the steps on a level; empty without a penalty.
+  Reference reference_on(int level, const PlateData& data);
   std::unique_ptr<GaussNewtonSolver> make_steps(const ControlPositions& control);
   Surface solve_levels(const ControlPositions& control,
                        const ThinPlateSolver::OnPrediction& predicted, Report& report);
@@ -94,6 +96,7 @@ class FairingSystems {
   // the mixtures of their surfaces.
   std::optional<PlateRepair> repair_;
   Array<double> reference_;
+  std::shared_ptr<const Array<float>> thin_;  // the penalty's numbers on the finest level
 };
 
 }  // namespace fairing

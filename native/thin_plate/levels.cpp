@@ -119,8 +119,12 @@ void ThinPlateLevels::restrict_to_vertices(int level, const double* r, std::span
 
 void ThinPlateLevels::measure(int level, const double* x,
                               const ThinPlateOptions::Penalty& penalty) {
-  const Array<float> own = on_level<1>(grids_, level, *penalty.of_points, workers());
+  const Array<float> own = this->penalty(level, *penalty.of_points);
   operators_[index(level)]->measure({x, own.data(), penalty.exponent});
+}
+
+Array<float> ThinPlateLevels::penalty(int level, const Array<float>& finest) {
+  return on_level<1>(grids_, level, finest, workers());
 }
 
 Array<double> ThinPlateLevels::reference(int level, const PlateData& data) {

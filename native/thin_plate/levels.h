@@ -78,6 +78,8 @@ class ThinPlateLevels {
   // metric, so that they are linear in their data.
   bool is_measured(int level) const { return operators_[index(level)]->is_measured(); }
   void measure(int level, const double* x, const ThinPlateOptions::Penalty& penalty);
+  // The penalty's numbers on a level, 1 a point (SurfaceMetric::penalty).
+  Array<float> penalty(int level, const Array<float>& finest);
   // The reference on a level (thin_plate/surface_differences.h); empty in the control metric.
   Array<double> reference(int level, const PlateData& data);
   // r += P reference, if there is a reference.

@@ -76,12 +76,17 @@ def test_the_surface_passes_exactly_through_them():
         assert fine.report["largest_deviation"] == pytest.approx(moved, rel=1e-12)
 
 
+@pytest.mark.parametrize(
+    ("energy", "more"),
+    [("thin_plate", 1.006), ("total_curvature", 1.02), ("minimum_variation", 1.05)],
+)
 @pytest.mark.parametrize("name", thin_walls.MODELS)
-def test_rims_turn_as_they_do_when_subdivided(name):
+def test_rims_turn_as_they_do_when_subdivided(name, energy, more):
     """Waves add to the turn of a rim: on a free rim of most meshes by a half and more."""
     model = thin_walls.MODELS[name]()
     subdivided = thin_walls.of_subdivision(model, 2)
-    assert thin_walls.of_surface(model, 2, interpolation="limit") < 1.006 * subdivided
+    found = thin_walls.of_surface(model, 2, energy=energy, interpolation="limit")
+    assert found < more * subdivided
 
 
 @pytest.mark.parametrize("mesh", [CUBE, HOUSE, octahedron()], ids=["cube", "house", "triangles"])
@@ -143,15 +148,6 @@ def test_long_thin_faces_do_not_swing_through_each_other(sides, thickness):
     found = df.fair(*snout(sides, thickness), 3, interpolation="limit")
     triangles = np.ascontiguousarray(found.triangles, np.int32)
     assert not len(_native._crossings(found.vertices, triangles, 0, _native.Monitor(), None))
-
-
-@pytest.mark.parametrize("energy", ["total_curvature", "minimum_variation"])
-def test_other_energies_do_not_follow(energy):
-    free, follows = (
-        df.fair(*CUBE, 1, energy, interpolation="limit", limit=limit).vertices
-        for limit in (0.0, 1.0)
-    )
-    np.testing.assert_array_equal(free, follows)
 
 
 def test_a_release_goes_down_the_energy_that_is_solved():

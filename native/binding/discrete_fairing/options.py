@@ -228,9 +228,8 @@ class Settings(TypedDict, total=False):
     a vertex free (where there is no tolerance), infinity interpolates it."""
 
     limit: Annotated[float, real]
-    """From 0 to 1, 1. Limit: how closely the thin plate follows the subdivision surface between the
-    limit positions, from 0, not at all, to 1: rims and thin walls then do not wave. Other energies do
-    not follow."""
+    """From 0 to 1, 1. Limit: how closely the surface follows the subdivision surface between the
+    limit positions, from 0, not at all, to 1: rims and thin walls then do not wave."""
 
     edge_sharpness: Annotated[tuple[ArrayLike, ArrayLike] | None, edges_with_values]
     """(edges, sharpness): (k, 2) int and (k,) float or one number, subdivision steps. Limit: vertex

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The penalty on the distance from a reference surface s beside a curvature energy, on one level:
+// sum_i p_i |x_i - s_i|^2. For displacements h along the normals n half the gradient is
+// p_i n_i . (x_i - s_i), and p_i is added to the diagonal of K.
+#pragma once
+
+#include <vector>
+
+#include "curvature/options.h"
+#include "grid/grid_level.h"
+#include "parallel/workers.h"
+#include "sparse/unknown_points.h"
+
+namespace fairing {
+
+// A level's reference, 3 numbers a point, with the points' thin_face_penalty
+// (grid/limit_surface.h); empty: none.
+struct Reference {
+  Array<double> points{};
+  Array<float> thin{};
+};
+
+class DistancePenalty {
+ public:
+  // `shape`: of a linearized surface (Linearization), whose bending weighs the distances. Weights
+  // are zero off the unknowns.
+  DistancePenalty(const GridLevel& grid, Reference reference, const Array<float>& shape,
+                  const Unknowns& unknowns);
+
+  // The energy beside which the distance is penalized; at first total curvature.
+  void set_energy(CurvatureEnergy energy);
+  double energy(const double* x, Workers& workers) const;
+  // Adds minus half the gradient along the normals to the force, 1 number a point.
+  void add_force(const double* x, const double* normal, Workers& workers, double* force) const;
+  double weight(std::size_t p) const { return double(weight_[p]); }
+
+ private:
+  Reference reference_;
+  CurvatureEnergy energy_ = CurvatureEnergy::total_curvature;
+  Array<float> weight_;
+};
+
+}  // namespace fairing

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The penalty on the distance from a reference beside a curvature energy: energy, force, matrix.
+#include <gtest/gtest.h>
+
+#include "curvature/level.h"
+#include "grid/linear.h"
+#include "level_settings.h"
+
+namespace fairing::test {
+namespace {
+
+constexpr CurvatureEnergy energies[] = {CurvatureEnergy::total_curvature,
+                                        CurvatureEnergy::minimum_variation};
+
+Array<double> lumpy(const GridLevel& grid) {
+  Array<double> x(3 * grid.size());
+  refine_linearly(grid, grid.mesh().positions, x.data());
+  const Points shake = random_points(grid.size(), 4);
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] += 0.2 / grid.n() * shake.data()[i];
+  return x;
+}
+
+// A level with a penalty about a lumpy surface, on a reference beside it.
+struct Penalized {
+  Penalized(const ControlMesh& mesh, int level, CurvatureEnergy of)
+      : grid(mesh, level), shared{mesh, some_points(mesh, 1), workers}, energy(of), x(lumpy(grid)) {
+    Reference reference{x, Array<float>(grid.size(), 1.5f)};
+    for (std::size_t i = 0; i < x.size(); ++i) reference.points[i] += 0.01 * double(i % 7);
+    alone = system.linearize(x.data(), {energy}, &without);
+    system.set_penalty(DistancePenalty(grid, reference, without.shape, shared.unknowns));
+    whole = system.linearize(x.data(), {energy}, &with);
+  }
+
+  Workers workers{2};
+  GridLevel grid;
+  CurvatureShared shared;
+  CurvatureEnergy energy;
+  Array<double> x;
+  CurvatureLevel system{shared, grid};
+  Linearization without{}, with{};
+  double alone = 0, whole = 0;
+};
+
+// The penalty is quadratic, so differences on both sides give its slope.
+TEST(DistancePenalty, ForceIsMinusHalfTheSlope) {
+  for (const CurvatureEnergy energy : energies)
+    for (const char* name : {"cube", "icosahedron", "mixed grid"}) {
+      SCOPED_TRACE(name);
+      Penalized at(all_meshes().at(name), 2, energy);
+      const DistancePenalty& penalty = *at.system.penalty();
+      EXPECT_NEAR(at.whole - at.alone, penalty.energy(at.x.data(), at.workers), 1e-9 * at.whole);
+      const std::vector<std::uint8_t> unknown = unknown_points(at.grid, at.shared.unknowns);
+      bool any = false;
+      for (std::size_t p = 0; p < at.grid.size(); ++p) {
+        const auto moved = [&](double step) {
+          Array<double> y = at.x;
+          for (std::size_t a = 0; a < 3; ++a) y[3 * p + a] += step * at.with.normal[3 * p + a];
+          return penalty.energy(y.data(), at.workers);
+        };
+        const double slope = (moved(0.1) - moved(-0.1)) / 0.2;
+        EXPECT_NEAR(at.with.force[p] - at.without.force[p], -slope / 2, 1e-8 * at.whole) << p;
+        any |= slope != 0;
+        if (!unknown[p]) {
+          EXPECT_EQ(penalty.weight(p), 0) << p;
+        }
+      }
+      EXPECT_TRUE(any);
+    }
+}
+
+TEST(DistancePenalty, IsPartOfTheProductAndTheMatrix) {
+  for (const CurvatureEnergy energy : energies) {
+    Penalized at(all_meshes().at("mixed grid"), 3, energy);
+    const AssembledSystem assembled = at.system.assemble();
+    const std::vector<Index> number = number_unknowns(at.grid, at.shared.unknowns);
+    Array<double> in(at.grid.size()), out(at.grid.size());
+    Eigen::VectorXd small(assembled.matrix.cols());
+    const Points h = masked(at.grid, at.shared.unknowns, random_points(at.grid.size()));
+    for (std::size_t p = 0; p < in.size(); ++p) {
+      in[p] = h(Eigen::Index(p), 0);
+      if (number[p] >= 0) small(number[p]) = in[p];
+    }
+    at.system.apply(in.data(), out.data());
+    small = assembled.matrix * small;
+    for (std::size_t p = 0; p < in.size(); ++p)
+      EXPECT_NEAR(out[p], number[p] < 0 ? 0 : small(number[p]),
+                  1e-6 * small.lpNorm<Eigen::Infinity>())
+          << p;
+  }
+}
+
+}  // namespace
+}  // namespace fairing::test
