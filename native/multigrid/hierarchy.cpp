@@ -90,7 +90,14 @@ LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits, const Li
   update(index);
   const bool solves = cycle_.solves(index);
   if (cycle_.coarse->is_old()) {
-    if (solves && may_keep_factor() && solve_by_old_factor(limits, system, out)) return out;
+    // The first K of the variation is stiffer than that of total curvature by waves of all lengths:
+    // with a factor of that, residuals fall and the solution is far away.
+    const bool is_of_other_energy =
+        system.between &&
+        cycle_.levels[cycle_.base].op->version().spectrum != cycle_.coarse->version().spectrum;
+    if (solves && !is_of_other_energy && may_keep_factor() &&
+        solve_by_old_factor(limits, system, out))
+      return out;
     cycle_.coarse->refactor();
     ++factors_;
   }

@@ -85,3 +85,22 @@ def uneven_drum(counts=(8, 11), seed=17, rings=3, rim=0.3, height=2.0):
             faces.append([a, d, c])
             j += 1
     return np.array(points), np.array(faces)
+
+
+def height_of_dome(flat):
+    return 0.6 * np.exp(-3 * (flat**2).sum(axis=1))
+
+
+def dome_of_rings(count):
+    """A dome of radius 1 through its pole and four rings of `count` points each."""
+    radii = (1, 0.75, 0.5, 0.25)
+    angle = 2 * np.pi * (np.arange(count) + 0.5 * np.arange(4)[:, None]) / count
+    flat = np.stack([np.cos(angle), np.sin(angle)], axis=-1) * np.reshape(radii, (4, 1, 1))
+    flat = np.concatenate([flat.reshape(-1, 2), [(0, 0)]])
+    k, after = np.arange(count), np.roll(np.arange(count), -1)
+    faces = [np.c_[3 * count + k, 3 * count + after, np.full(count, 4 * count)]]
+    for outer in count * np.arange(3):
+        inner = outer + count
+        faces += [np.c_[outer + k, outer + after, inner + k]]
+        faces += [np.c_[inner + k, outer + after, inner + after]]
+    return np.c_[flat, height_of_dome(flat)], np.concatenate(faces)
