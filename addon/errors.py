@@ -218,7 +218,7 @@ def is_unfinished(warning: Mapping[str, Any]) -> bool:
     return warning["code"] in _UNFINISHED
 
 
-# The core's cures for a change of thickness: its name of a setting, and the panel's.
+# The core's cures for a change of thickness or a bulge: its name of a setting, and the panel's.
 _CURES = {
     "energy": "set Fairness to Bending",
     "tension": "raise Tension",
@@ -230,7 +230,7 @@ _CURES = {
 
 
 def _thickness_text(warning: Mapping[str, Any]) -> tuple[str, str]:
-    """What to do and the cause, for the core's warning of a change of thickness."""
+    """What to do and the cause, for the core's warning of a change of thickness or of a bulge."""
     settings = core.module().errors.settings_to_change(warning)
     words = listed([_CURES[setting] for setting in settings], "or")
     return words[0].upper() + words[1:], warning["cause"]
@@ -238,7 +238,7 @@ def _thickness_text(warning: Mapping[str, Any]) -> tuple[str, str]:
 
 def warning_text(object_name: str, warning: Mapping[str, Any]) -> str:
     """A warning of the core as a text for the user."""
-    if warning["code"] == "THICKNESS_CHANGED":
+    if warning["code"] in ("THICKNESS_CHANGED", "BULGES"):
         return f"{object_name}: {' '.join(map(_sentence, _thickness_text(warning)))}"
     sentences = _UNFINISHED.get(warning["code"], (warning["message"],))
     return f"{object_name}: {' '.join(map(_sentence, sentences))}"

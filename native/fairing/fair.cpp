@@ -273,11 +273,11 @@ bool FairSolver::solve_warm(Stopwatch& watch, Report& report) {
 
 void FairSolver::write(Stopwatch& watch, Report& report, double* out) {
   const FairOptions& options = problem_->options;
-  warn_unconverged(report, options, "", report);
   const JoinedSheets joined(systems_->finest());
   if (joined.needed()) apart_.resize(3 * systems_->finest().size());
   double* const world = joined.needed() ? apart_.data() : out;
   systems_->write(control_, options.measure, watch, report, recent_.surface(), world);
+  warn_unconverged(report, options, "", report);
   if (joined.needed()) joined.join(world, out);
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -32,6 +33,8 @@ void warn_of_memory(const MemoryLedger& ledger, Report& report) {
 }
 
 namespace {
+
+constexpr std::string_view thickness_changed = "THICKNESS_CHANGED", bulges = "BULGES";
 
 template <class... Parts>
 Warning warning(const char* code, const char* cure, const char* format, Parts... parts) {
@@ -75,7 +78,8 @@ Warning of_plate(const LevelReport& level, const FairOptions& options) {
                  level.level, level.iterations, level.residual, options.solve.relative_residual);
 }
 
-Warning of_steps(const CurvatureLevelReport& level, const FairOptions& options) {
+Warning of_steps(const Report& surface, const FairOptions& options) {
+  const CurvatureLevelReport& level = surface.curvature.back();
   if (level.swollen)
     return warning(
         "NOT_CONVERGED_SWOLLEN",
@@ -95,7 +99,12 @@ Warning of_steps(const CurvatureLevelReport& level, const FairOptions& options) 
         "On level %d no step made the surface fairer, and the distance from the solution "
         "is unknown.",
         level.level);
-  return warning("NOT_CONVERGED", "The surface is usable; more steps or fewer levels come nearer.",
+  const bool has_swollen = std::any_of(
+      surface.warnings.begin(), surface.warnings.end(),
+      [](const Warning& told) { return told.code == thickness_changed || told.code == bulges; });
+  return warning("NOT_CONVERGED",
+                 has_swollen ? "Use energy=\"thin_plate\"."
+                             : "The surface is usable; more steps or fewer levels come nearer.",
                  "On level %d the steps stopped after %zu at about %.1e of the mesh's size "
                  "from the solution (target: %.1e).",
                  level.level, level.steps.size(), level.left, options.step_tolerance_wanted());
@@ -153,30 +162,33 @@ void warn_of_thickness(const GridLevel& grid, Workers& workers, const double* x,
   const bool of_flats = std::none_of(mesh.edges.begin(), mesh.edges.end(),
                                      [](const Edge& edge) { return edge.boundary(); });
   const ThicknessChange change = Thickness(mesh, control, workers).of(grid, workers, x, of_flats);
-  if (change.faces.empty()) return;
-  std::vector<std::int64_t> polygons;
-  for (const Index f : change.faces) polygons.push_back(mesh.faces[std::size_t(f)].polygon);
-  std::sort(polygons.begin(), polygons.end());
-  polygons.erase(std::unique(polygons.begin(), polygons.end()), polygons.end());
-  std::string cause = "{face} {has|have} a surface that has passed through the opposite side.";
-  if (change.worst > -1) {
-    char text[120];
-    std::snprintf(text, sizeof text,
+  const auto add = [&](std::string_view code, const char* cause, const std::vector<Index>& faces,
+                       bool is_thicker) {
+    std::vector<std::int64_t> polygons;
+    for (const Index f : faces) polygons.push_back(mesh.faces[std::size_t(f)].polygon);
+    if (polygons.empty()) return;
+    std::sort(polygons.begin(), polygons.end());
+    polygons.erase(std::unique(polygons.begin(), polygons.end()), polygons.end());
+    report.warnings.push_back({std::string(code),
+                               {cause, cure_of_thickness(options, is_thicker)},
+                               polygons,
+                               ElementKind::face});
+  };
+  char cause[120] = "{face} {has|have} a surface that has passed through the opposite side.";
+  if (change.worst > -1)
+    std::snprintf(cause, sizeof cause,
                   "{face} {has|have} a surface that is up to %.3g times as thick as the mesh.",
                   1 + change.worst);
-    cause = text;
-  }
-  report.warnings.push_back({"THICKNESS_CHANGED",
-                             {std::move(cause), cure_of_thickness(options, change.worst > 0)},
-                             polygons,
-                             ElementKind::face});
+  add(thickness_changed, cause, change.faces, change.worst > 0);
+  add(bulges, "{face} {has|have} a surface that bulges farther than they are wide.", change.bulging,
+      true);
 }
 
 void warn_unconverged(const Report& surface, const FairOptions& options, const std::string& of,
                       Report& report) {
   if (surface.converged()) return;
   Warning told = surface.curvature.empty() ? of_plate(surface.levels.back(), options)
-                                           : of_steps(surface.curvature.back(), options);
+                                           : of_steps(surface, options);
   told.message.cause = of + told.message.cause;
   report.warnings.push_back(std::move(told));
 }

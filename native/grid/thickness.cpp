@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -87,6 +88,45 @@ double rounding_off(const ControlMesh& mesh, std::size_t f, std::span<const Face
   return sum / face.size;
 }
 
+// The normals around a control vertex: their sum, and the largest angle to it.
+struct Cone {
+  Vec3 axis = Vec3::Zero();
+  double angle = 0;
+};
+
+// For each face the largest angle to a face around it, or somewhat more.
+std::vector<double> turns_around(const ControlMesh& mesh, std::span<const FacePlane> planes) {
+  std::vector<Cone> cones(std::size_t(mesh.vertex_count()));
+  const auto for_corners = [&](auto&& visit) {
+    for (std::size_t f = 0; f < planes.size(); ++f)
+      for (std::size_t i = 0; i < std::size_t(mesh.faces[f].size); ++i)
+        visit(f, cones[std::size_t(mesh.faces[f].vertex[i])]);
+  };
+  const auto to_axis = [&](std::size_t f, const Cone& cone) {
+    return angle_between(planes[f].normal, cone.axis);
+  };
+  for_corners([&](std::size_t f, Cone& cone) { cone.axis += planes[f].normal; });
+  for_corners(
+      [&](std::size_t f, Cone& cone) { cone.angle = std::max(cone.angle, to_axis(f, cone)); });
+  std::vector<double> out(planes.size(), 0.0);
+  for_corners([&](std::size_t f, const Cone& cone) {
+    out[f] = std::max(out[f], to_axis(f, cone) + cone.angle);
+  });
+  return out;
+}
+
+// Height to which a surface may rise over the face: that of half a circle across it, and that of
+// an arc along it that turns by `turn`.
+double highest_rise(const Face& face, const FacePlane& plane, double turn, const double* x) {
+  double half_width = std::numeric_limits<double>::infinity(), length = 0;
+  for (std::size_t i = 0; i < std::size_t(face.size); ++i) {
+    half_width = std::min(half_width, inside(face, i, plane, x));
+    const Index next = face.vertex[(i + 1) % std::size_t(face.size)];
+    length = std::max(length, (point_at(x, next) - point_at(x, face.vertex[i])).norm());
+  }
+  return half_width + length / 2 * std::tan(std::min(turn, std::numbers::pi) / 4);
+}
+
 // The area of the flat side that each face is a part of: whether a body is thin does not depend on how
 // finely its sides are divided.
 std::vector<double> areas_of_sides(const ControlMesh& mesh, std::span<const FacePlane> planes) {
@@ -112,6 +152,7 @@ Thickness::Thickness(const ControlMesh& mesh, std::span<const Vec3> control, Wor
   for (const Face& face : mesh.faces) planes_.push_back(plane_of(face, control));
   for (std::size_t f = 0; f < planes_.size(); ++f)
     if (mesh.face_part(Index(f)) == RegionPart::inside) area_ += planes_[f].area;
+  turn_ = turns_around(mesh, planes_);
   side_area_ = areas_of_sides(mesh, planes_);
   opposite_ = opposite_faces(mesh, control, planes_, workers);
 }
@@ -124,20 +165,24 @@ ThicknessChange Thickness::of(const GridLevel& grid, Workers& workers, const dou
   std::vector<double> away(planes_.size()), away_behind(planes_.size());
   workers.for_parts(away.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) {
-      const Index o = opposite_[f].face;
-      if (o < 0) continue;
       const auto departure = [&](std::size_t side, const Vec3& point) {
         return planes_[side].normal.dot(point - planes_[side].middle);
       };
       away[f] = departure(f, middle(grid, Index(f), x));
-      away_behind[f] = departure(std::size_t(o), behind(grid, o, planes_[f], x));
+      const Index o = opposite_[f].face;
+      if (o >= 0) away_behind[f] = departure(std::size_t(o), behind(grid, o, planes_[f], x));
     }
   });
   std::vector<std::pair<Index, double>> seen;
   double swollen = 0;
   for (std::size_t f = 0; f < planes_.size(); ++f) {
     const Opposite& opposite = opposite_[f];
-    if (opposite.face < 0 || mesh_.face_part(Index(f)) != RegionPart::inside) continue;
+    if (mesh_.face_part(Index(f)) != RegionPart::inside) continue;
+    if (opposite.face < 0) {
+      if (std::abs(away[f]) > highest_rise(mesh_.faces[f], planes_[f], turn_[f], x))
+        out.bulging.push_back(Index(f));
+      continue;
+    }
     const auto o = std::size_t(opposite.face);
     const double facing = std::abs(planes_[f].normal.dot(planes_[o].normal));
     const double change = (away[f] + facing * away_behind[f]) / opposite.distance;

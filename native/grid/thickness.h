@@ -20,6 +20,10 @@ struct ThicknessChange {
   std::vector<Index> faces;
   // The largest change among them, in thicknesses of the mesh there; negative: thinner.
   double worst = 0;
+  // Control faces with nothing behind them over which the surface rises higher than half a circle
+  // across them, and than an arc along them that turns as the faces around do. No thickness tells
+  // how far the surface of a sheet may leave its mesh.
+  std::vector<Index> bulging;
   // The share of the faired area behind which the thickness changes by more than four thicknesses,
   // or is turned inside out by as much.
   double lost = 0;
@@ -41,7 +45,7 @@ class Thickness {
  private:
   const ControlMesh& mesh_;
   std::vector<FacePlane> planes_;
-  std::vector<double> side_area_;
+  std::vector<double> side_area_, turn_;
   std::vector<Opposite> opposite_;
   double area_ = 0;  // of the faired faces
 };

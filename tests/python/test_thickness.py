@@ -8,6 +8,7 @@ import discrete_fairing as df
 import flat_parts
 import numpy as np
 import pytest
+import sliver_meshes
 from lattices import lattice_faces
 from ragged_holes import sphere
 
@@ -158,6 +159,40 @@ def test_long_faces_along_a_tight_edge_are_not_hollow(count, sections):
     assert off_section(result.vertices) < 0.002
 
 
+@pytest.mark.parametrize("energy", CURVED)
+def test_a_wing_that_swells_is_told_of_and_not_called_usable(energy):
+    """By 0.4 chords, nine times as thick as it is, with advice to take more steps."""
+    points, faces, trailing = wing(14, 11)
+    result = df.fair(points, faces, 2, energy, crease_edges=trailing, threads=1)
+    (warning,) = told(result)
+    assert 'energy="thin_plate"' in warning["message"]
+    assert off_section(result.vertices) > 0.3
+    assert not any("usable" in warning["message"] for warning in result.report["warnings"])
+
+
+def upper_side(count, sections):
+    points, faces, _ = wing(count, sections)
+    size = len(airfoil(count))
+    faces = faces[(faces % size < count).all(axis=1)]
+    used, faces = np.unique(faces, return_inverse=True)
+    return points[used], faces.reshape(-1, 4)
+
+
+@pytest.mark.parametrize("count, sections, level", [(9, 6, 2), (14, 8, 3), (14, 11, 2)])
+def test_a_sheet_that_bulges_farther_than_its_faces_are_wide_is_told_of(count, sections, level):
+    """Nothing lies behind it, and so it left its mesh by 0.2 to 0.3 chords without a word."""
+    sheet = upper_side(count, sections)
+    (warning,) = told(df.fair(*sheet, level, "minimum_variation", threads=1), "BULGES")
+    assert warning["kind"] == "face" and 'energy="thin_plate"' in warning["message"]
+    assert not told(df.fair(*sheet, level, threads=1), "BULGES")
+
+
+@pytest.mark.parametrize("energy", ["thin_plate", *CURVED])
+def test_slivers_of_a_smooth_sheet_do_not_bulge(energy):
+    """A dome of rings: its faces are up to ten times as long as wide, and it rises along them."""
+    assert not told(df.fair(*sliver_meshes.dome_of_rings(48), 2, energy, threads=1), "BULGES")
+
+
 def tube(sides, lengths):
     angle = 2 * np.pi * np.arange(sides) / sides
     rings = [
@@ -197,7 +232,8 @@ def test_a_hollow_edge_is_told_of_and_a_smaller_exponent_is_the_cure():
     ],
 )
 def test_round_bodies_and_open_sheets_are_not(mesh, energy):
-    assert not told(df.fair(*mesh(), 2, energy, threads=1))
+    result = df.fair(*mesh(), 2, energy, threads=1)
+    assert not told(result) and not told(result, "BULGES")
 
 
 def test_a_solver_and_shapes_say_the_same():
