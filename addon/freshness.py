@@ -29,7 +29,7 @@ from .mesh.read import (
     vertex_pulls,
 )
 from .mesh.shape_keys import ShapeKeys, read_shape_keys
-from .mesh.world_shape import world_matrix, world_shape
+from .mesh.world_shape import matrix_relative_to, world_matrix, world_shape
 from .redraw import tag_outliners, tag_sidebars
 from .settings import NAMES, AnySettings, is_evaluated
 
@@ -99,10 +99,9 @@ def beside_of(
         return scans.made_of(context, [neighbour], surface)
     settings = neighbour.discrete_fairing
     total = _checksum(context, source, settings)
-    back = np.linalg.pinv(np.array(world_matrix(surface), np.float64))
     return {
         "shape": zlib.crc32(repr(_that_count(settings)).encode(), total),
-        "places": [(back @ np.array(world_matrix(neighbour), np.float64)).tolist()],
+        "places": [matrix_relative_to(surface, world_matrix(neighbour)).tolist()],
     }
 
 

@@ -13,7 +13,7 @@ from ..blender import Context, Mesh, Object, column
 from ..errors import JobError
 from ..triangles import normals
 from .read import control_mesh
-from .world_shape import transformed, world_matrix, world_shape
+from .world_shape import matrix_relative_to, transformed, world_matrix, world_shape
 
 MOST_LIVE = 20_000  # points of a scan that are used during edits
 
@@ -91,12 +91,11 @@ def made_of(context: Context, targets: Sequence[Object], cage: Object) -> dict[s
     """The state of a fit besides its cage: a checksum of the scans in their own coordinates, and their
     transforms relative to the cage.
     """
-    # a cage may be scaled to zero
-    back, places, total = np.linalg.pinv(np.array(world_matrix(cage), np.float64)), [], 0
+    places, total = [], 0
     for part, matrix in _parts(context, targets):
         for array in (part.points, part.triangles):
             total = zlib.crc32(np.ascontiguousarray(array).tobytes(), total)
-        places.append((back @ matrix).tolist())
+        places.append(matrix_relative_to(cage, matrix).tolist())
     return {"shape": total, "places": places}
 
 

@@ -87,6 +87,12 @@ def world_matrix(source: Object) -> Any:
     return world_matrix(above) @ source.matrix_parent_inverse @ source.matrix_basis
 
 
+def matrix_relative_to(base: Object, matrix: Any) -> np.ndarray:
+    """A (4, 4) matrix to the world, relative to the object `base`, which may be scaled to zero."""
+    back = np.linalg.pinv(np.array(world_matrix(base), np.float64))
+    return back @ np.array(matrix, np.float64)
+
+
 def transformed(positions: np.ndarray, matrix: np.ndarray) -> np.ndarray:
     """(…, 3) positions transformed by a (4, 4) matrix."""
     return positions @ matrix[:3, :3].T + matrix[:3, 3]

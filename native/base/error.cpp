@@ -125,7 +125,7 @@ std::string text(const std::string& sentence, ElementKind kind, std::span<const 
   std::size_t from = 0;
   while (true) {
     const std::size_t open = sentence.find('{', from), close = sentence.find('}', open);
-    if (open == std::string::npos || close == std::string::npos) break;
+    if (close == std::string::npos) break;
     const auto place = std::string_view(sentence).substr(open + 1, close - open - 1);
     const std::optional<std::string> words = filled(place, kind, ids);
     out.append(sentence, from, words ? open - from : close + 1 - from);

@@ -53,7 +53,6 @@ ThinPlateSolver& FairingSystems::plate() {
           GridLevel(problem_.mesh, options.levels), problem_.basis.working, *problem_.workers));
       const double strength = std::pow(limit_penalty(options.limit), 0.25);
       for (float& p : *penalty) p *= float(strength);
-      thin_ = penalty;
       own.penalty = {std::move(penalty), problem_.exponent};
     }
     plate_ = std::make_unique<ThinPlateSolver>(problem_.mesh, *problem_.charts(), problem_.stencils,
@@ -76,7 +75,7 @@ PlateData FairingSystems::data_of(const ControlPositions& control) {
 
 Reference FairingSystems::reference_on(int level, const PlateData& data) {
   if (!data.reference) return {};
-  return {plate().levels().reference(level, data), plate().levels().penalty(level, *thin_)};
+  return {plate().levels().reference(level, data), plate().penalty(level)};
 }
 
 void FairingSystems::drop() {

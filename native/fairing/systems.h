@@ -96,7 +96,6 @@ class FairingSystems {
   // the mixtures of their surfaces.
   std::optional<PlateRepair> repair_;
   Array<double> reference_;
-  std::shared_ptr<const Array<float>> thin_;  // the penalty's numbers on the finest level
 };
 
 }  // namespace fairing

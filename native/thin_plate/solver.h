@@ -32,6 +32,8 @@ class ThinPlateSolver {
                   Workers& workers, Monitor& monitor);
 
   ThinPlateLevels& levels() { return levels_; }
+  // The penalty's numbers on a level, 1 a point. Only with a penalty.
+  Array<float> penalty(int level) { return levels_.penalty(level, *options_.penalty.of_points); }
   const Pads* pads() const { return supports_.pads(); }  // null without
   // The hats of the finest level; null without pads.
   std::shared_ptr<const Hats> hats() { return supports_.hats(levels_.top()); }

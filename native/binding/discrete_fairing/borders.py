@@ -54,7 +54,7 @@ class Border:
         starts[self.edge[:, 0]] = np.arange(len(self.edge))
         after = starts[self.edge[:, 1]]
         way = unit_vectors(self.point[self.ends[1]] - self.point[self.ends[0]])
-        on = np.flatnonzero((after >= 0) & (np.einsum("ij,ij->i", way, way[after]) > STRAIGHT))
+        on = np.flatnonzero((after >= 0) & (dot(way, way[after]) > STRAIGHT))
         out[on, 1], out[after[on], 0] = after[on], on
         return out
 
@@ -116,7 +116,7 @@ class Border:
     def nearest(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """(p,) edge of the nearest point on the chords, and its parameter."""
         first, along = self.point[self.ends[0]], self.point[self.ends[1]] - self.point[self.ends[0]]
-        length2 = np.maximum(np.einsum("ij,ij->i", along, along), 1e-300)
+        length2 = np.maximum(dot(along, along), 1e-300)
         share, edge = np.empty(len(points)), np.empty(len(points), np.int64)
         for part in np.array_split(np.arange(len(points)), 1 + len(points) * len(first) // 10**6):
             t = np.einsum("pej,ej->pe", points[part, None] - first, along) / length2
@@ -139,11 +139,9 @@ class Border:
             second = (2 * c[2] + 6 * t * c[3]) * (t == share[:, None])
             away = points - (c[0] + t * (c[1] + t * (c[2] + t * c[3])))
             away -= (share[:, None] - t) * first
-            speed2 = np.einsum("ij,ij->i", first, first)
-            bend = np.einsum("ij,ij->i", away, second)
-            share = share + np.einsum("ij,ij->i", away, first) / np.maximum(
-                speed2 - bend, speed2 / 4
-            )
+            speed2 = dot(first, first)
+            bend = dot(away, second)
+            share = share + dot(away, first) / np.maximum(speed2 - bend, speed2 / 4)
             for side, over in enumerate((-share, share - 1)):
                 moved = (over > 0) & (self.links[edge, side] >= 0)
                 edge = np.where(moved, self.links[edge, side], edge)
@@ -297,6 +295,11 @@ def _fitted(near: np.ndarray, along: np.ndarray, up: np.ndarray) -> tuple[Any, .
     up = up / max(float(np.linalg.norm(up)), 1e-300)
     axes = np.stack([along, np.cross(up, along)])
     return up, axes[1], axes.T @ bend @ axes, inverse[[1, 4]] / [[size], [size * size]]
+
+
+def dot(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """(k,) the products of rows (k, 3)."""
+    return np.asarray(np.einsum("ij,ij->i", a, b))
 
 
 def unit_vectors(vectors: np.ndarray) -> np.ndarray:

@@ -35,7 +35,7 @@ def about(error: FairingError, elements: Sequence[int], prefix: str = "") -> Fai
 
 def written(entry: Mapping[str, Any]) -> dict[str, Any]:
     """A warning or repair of the core's report for callers: its sentences, and both as "message".
-    "sentences" has them with their places.
+    "sentences" has the same two with their placeholders.
     """
     kind, elements = entry["kind"], entry["elements"]
     sentences = entry["cause"], entry["cure"]
@@ -45,13 +45,13 @@ def written(entry: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def with_lengths(entry: Mapping[str, Any], length: Callable[[float], str]) -> dict[str, Any]:
-    """The same warning of a report, each length in it as `length` writes it."""
+    """The same warning of a report; `length` formats its lengths."""
     cause, cure = (_with(length, sentence) for sentence in entry["sentences"])
     return written({**entry, "cause": cause, "cure": cure})
 
 
 def error_with_lengths(error: FairingError, length: Callable[[float], str]) -> FairingError:
-    """The same error, each length in it as `length` writes it."""
+    """The same error; `length` formats its lengths."""
     cause, cure = (_with(length, sentence) for sentence in error._sentences)
     return fairing_error(error.code, cause, error.elements, error.kind, cure)
 

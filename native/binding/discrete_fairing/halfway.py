@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .borders import Border, Foot, unit_vectors
+from .borders import Border, Foot, dot, unit_vectors
 
 
 @dataclass(frozen=True)
@@ -24,7 +24,7 @@ class Halfway:
         own, other = self.own.at(points), self.other.at(points)
         along = np.cross(other.inward, other.normal)
         # the borders run in opposite directions, unless the faces of one are flipped
-        same = -np.sign(_dot(np.cross(own.inward, own.normal), along))
+        same = -np.sign(dot(np.cross(own.inward, own.normal), along))
         inward = unit_vectors(other.inward - own.inward)
         bend = (_across(other) + same * _across(own)) / 2
         return Foot(
@@ -37,7 +37,3 @@ class Halfway:
 
 def _across(foot: Foot) -> np.ndarray:
     return np.asarray(np.einsum("ki,kij,kj->k", foot.inward, foot.bend, foot.inward))
-
-
-def _dot(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    return np.asarray(np.einsum("ij,ij->i", a, b))

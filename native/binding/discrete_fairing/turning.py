@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .borders import Border, Foot, unit_vectors
+from .borders import Border, Foot, dot, unit_vectors
 
 # Steps of conjugate gradients, and the relative residual at which they end.
 STEPS, LEFT = 400, 0.001
@@ -94,11 +94,11 @@ def needed(own: Border, foot: Foot) -> tuple[np.ndarray, np.ndarray]:
 
     def across(of: Border | Foot) -> np.ndarray:
         inward = unit_vectors(np.cross(of.normal, own.along))
-        return inward * np.sign(_dot(inward, of.inward))[:, None]
+        return inward * np.sign(dot(inward, of.inward))[:, None]
 
     before, after = across(own), -across(foot)  # away from the neighbour
-    turn = np.arctan2(_dot(own.along, np.cross(before, after)), _dot(before, after))
-    side = np.sign(_dot(np.cross(own.along, after), foot.normal))
+    turn = np.arctan2(dot(own.along, np.cross(before, after)), dot(before, after))
+    side = np.sign(dot(np.cross(own.along, after), foot.normal))
     # Across the border only: along it both have the same curve, and errors of the fits would matter.
     old, new = (
         np.einsum("ki,kij,kj->k", way, of.bend, way) for way, of in ((before, own), (after, foot))
@@ -108,9 +108,5 @@ def needed(own: Border, foot: Foot) -> tuple[np.ndarray, np.ndarray]:
 
 def rotation(vectors: np.ndarray, axis: np.ndarray, angle: np.ndarray) -> np.ndarray:
     """The displacement of vectors by a rotation."""
-    stays = _dot(vectors, axis)[:, None] * axis
+    stays = dot(vectors, axis)[:, None] * axis
     return (np.cos(angle) - 1) * (vectors - stays) + np.sin(angle) * np.cross(axis, vectors)
-
-
-def _dot(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    return np.asarray(np.einsum("ij,ij->i", a, b))
