@@ -98,49 +98,6 @@ TEST(Area, ForceIsHalfItsSlope) {
   });
 }
 
-TEST(Area, LaplacianIsOneInAllItsForms) {
-  Workers workers(2);
-  on_grids(3, [&](const GridLevel& grid) {
-    const Lumpy surface(grid);
-    const Unknowns unknowns = some_points(grid.mesh(), 1);
-    AreaTerm term(grid);
-    term.linearize(tau, surface.x.data(), nullptr, unknowns, workers, nullptr);
-    const std::vector<Index> number = number_unknowns(grid, unknowns);
-    std::vector<Eigen::Triplet<double>> entries;
-    term.add_entries(number, entries);
-    const auto size = *std::max_element(number.begin(), number.end()) + 1;
-    if (size == 0) return;
-    SparseMatrix sparse(size, size);
-    sparse.setFromTriplets(entries.begin(), entries.end());
-    const Dense l(sparse);
-    EXPECT_LT((l - l.transpose()).norm(), 1e-6 * l.norm() + 1e-300);
-    if (size < 400) {
-      const Eigen::SelfAdjointEigenSolver<Dense> eigen(l);
-      EXPECT_GT(eigen.eigenvalues().minCoeff(), -1e-6 * l.norm() - 1e-300);
-    }
-
-    const Points h = masked(grid, unknowns, random_points(grid.size()));
-    Array<double> x(grid.size()), y(grid.size(), 0.0);
-    Array<float> xf(grid.size()), yf(grid.size(), 0.0f), diagonal(grid.size(), 0.0f);
-    Eigen::VectorXd small(size);
-    for (std::size_t p = 0; p < x.size(); ++p) {
-      x[p] = h(Eigen::Index(p), 0), xf[p] = float(x[p]);
-      if (number[p] >= 0) small(number[p]) = x[p];
-    }
-    term.add_product(unknowns, workers, x.data(), y.data());
-    term.add_product(unknowns, workers, xf.data(), yf.data());
-    term.add_diagonal(unknowns, diagonal.data());
-    small = l * small;
-    const double scale = l.norm() * h.norm() + 1e-300;
-    for (std::size_t p = 0; p < x.size(); ++p) {
-      const double expected = number[p] < 0 ? 0 : small(number[p]);
-      EXPECT_NEAR(y[p], expected, 1e-12 * scale);
-      EXPECT_NEAR(yf[p], expected, 1e-5 * scale);
-      EXPECT_NEAR(diagonal[p], number[p] < 0 ? 0 : l(number[p], number[p]), 1e-6 * l.norm());
-    }
-  });
-}
-
 // The whole system under tension: passes, and the matrix of small faces, against the assembled one.
 TEST(Area, JoinsTheSystemOfEitherEnergy) {
   for (const CurvatureEnergy energy :

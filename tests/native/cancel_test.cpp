@@ -57,26 +57,6 @@ TEST(Workers, stop_between_parts) {
   }
 }
 
-TEST(Workers, take_the_callers_scope_along_and_leave_it_after) {
-  Workers workers(3);
-  Monitor monitor;
-  const auto obeyed = [&] {
-    std::atomic<int> count{0};
-    workers.for_parts(
-        size, 1, [&](std::size_t, std::size_t) { count += CancelScope::current() == &monitor; });
-    return count.load();
-  };
-  EXPECT_EQ(obeyed(), 0);
-  {
-    const CancelScope scope(&monitor);
-    EXPECT_GT(obeyed(), 0);
-    const CancelScope nobody(nullptr);
-    EXPECT_EQ(obeyed(), 0);
-  }
-  EXPECT_EQ(CancelScope::current(), nullptr);
-  EXPECT_EQ(obeyed(), 0);
-}
-
 TEST(Workers, rethrow_the_first_failure_and_leave_out_the_rest) {
   for (const int threads : {1, 3}) {
     Workers workers(threads);

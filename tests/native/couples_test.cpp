@@ -48,69 +48,6 @@ TEST(Couples, PushNothing) {
   }
 }
 
-TEST(Couples, ActOnHalfTheFacesAround) {
-  const ControlMesh mesh = make_control_mesh(octahedron().view(), {});
-  Workers workers(1);
-  const Couples all(mesh, ChartMaker(mesh), upright(mesh), workers);
-  const GridLevel grid(mesh, 4), coarse(mesh, 3);
-  const LevelCouples couples(all, grid);
-  Moments one(couples.size(), Vec2::Zero());
-  one[0] = Vec2(1, 2);
-  const std::vector<double> r = coupled(couples, one);
-  for (const Spoke& spoke : mesh.ring(0))
-    for (int k = 8; k < 16; ++k) {
-      const auto p = std::size_t(grid.edge_point(spoke.edge, spoke.outward ? k : 16 - k));
-      EXPECT_EQ(r[3 * p + 2], 0);
-    }
-  // (u, v) grows as far as half of the half, and what couples do to u is what they do to v.
-  EXPECT_NEAR(couples.mass()[0][0], couples.mass()[0][1], 1e-12 * couples.mass()[0][0]);
-  const double fine = couples.totals()[0];
-  EXPECT_NEAR(LevelCouples(all, coarse).totals()[0], fine, 0.05 * fine);
-}
-
-TEST(Couples, SeeTheSlopesOfAPlane) {
-  const Vec3 normal = Vec3(0.3, -0.2, 1).normalized();
-  OwnedPolygonMesh tilted = grid(4, 4);
-  for (std::size_t i = 0; i < tilted.coordinates.size(); i += 3)
-    tilted.coordinates[i + 2] = -0.3 * tilted.coordinates[i] + 0.2 * tilted.coordinates[i + 1];
-  const ControlMesh mesh = make_control_mesh(tilted.view(), {});
-  Workers workers(1);
-  std::vector<FixedNormal> normals = upright(mesh);
-  normals[0].normal = normal;
-  normals[1].normal = -normal;
-  const Couples all(mesh, ChartMaker(mesh), normals, workers);
-  for (const int level : {1, 3}) {
-    const GridLevel grid(mesh, level);
-    const LevelCouples couples(all, grid);
-    std::vector<double> x(3 * grid.size());
-    refine_linearly(grid, mesh.positions, workers, x.data());
-    EXPECT_NEAR(couples.angle(0, x.data()), 0, 1e-7);
-    EXPECT_NEAR(couples.angle(1, x.data()), std::acos(-1.0), 1e-7);
-    EXPECT_NEAR(couples.angle(2, x.data()), std::acos(normal.z()), 1e-7);
-    const Couple slope = couples.slopes(4, x.data());
-    EXPECT_LT((slope.transpose() * normal).norm(), 1e-7 * slope.norm());
-  }
-}
-
-TEST(Couples, OfOneSetAreNotNeighbours) {
-  const ControlMesh mesh = make_control_mesh(torus(8, 7).view(), {});
-  Workers workers(1);
-  const Couples couples(mesh, ChartMaker(mesh), upright(mesh), workers);
-  std::vector<int> seen(couples.size(), 0);
-  for (const std::vector<std::size_t>& set : couples.sets_apart()) {
-    for (const std::size_t c : set) ++seen[c];
-    for (const std::size_t a : set)
-      for (const Spoke& first : mesh.ring(Index(a)))
-        for (const Spoke& next :
-             mesh.ring(mesh.edges[std::size_t(first.edge)].vertex[first.outward ? 1 : 0])) {
-          const Index b = mesh.edges[std::size_t(next.edge)].vertex[next.outward ? 1 : 0];
-          EXPECT_TRUE(std::size_t(b) == a ||
-                      std::count(set.begin(), set.end(), std::size_t(b)) == 0);
-        }
-  }
-  EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), std::ptrdiff_t(couples.size()));
-}
-
 // K x = Omega (phi f + psi m n) on all points off curves, and the normals are those asked for.
 TEST(Couples, HoldTheNormals) {
   for (const OwnedPolygonMesh& input : {octahedron(), torus(6, 5), grid(5, 4)})

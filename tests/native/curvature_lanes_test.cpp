@@ -92,26 +92,5 @@ TEST(CurvatureLanes, DoWhatSinglePointsDo) {
       }
 }
 
-TEST(CurvatureLanes, LeavePointsThatCoincideWithANeighbour) {
-  const ControlMesh mesh = make_control_mesh(octahedron().view(), {});
-  const GridLevel lattice(mesh, level);
-  Array<double> x = lumpy(lattice);
-  const std::size_t p = 3 * std::size_t(lattice.face_point(0, 2, 2)),
-                    q = 3 * std::size_t(lattice.face_point(0, 3, 2));
-  for (std::size_t a = 0; a < 3; ++a) x[p + a] = x[q + a];
-  RingLanes rings_of(lattice, x.data(), nullptr);
-  for_face_runs(lattice, 0, [&](const auto& run) {
-    const RunRings& rings = rings_of(run);
-    if (run.row != 2) return;
-    CurvatureLanes pack;
-    linearize(rings, 0, CurvatureEnergy::total_curvature, true, pack);
-    EXPECT_FALSE(pack.done[1]);
-    EXPECT_FALSE(pack.done[2]);
-    EXPECT_TRUE(pack.done[0]);
-    EXPECT_EQ(pack.area[1], 0);
-    for (const auto& row : pack.row[3]) EXPECT_EQ(row[1], 0);
-  });
-}
-
 }  // namespace
 }  // namespace fairing::test

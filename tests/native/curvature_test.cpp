@@ -100,23 +100,6 @@ TEST(CurvatureLevel, PassesAgreeWithTheMatrix) {
       }
 }
 
-TEST(CurvatureLevel, IsSymmetricAndPositive) {
-  for (const CurvatureEnergy energy : both) {
-    System s(cube(), 3, energy);
-    s.linearize(lumpy(s.lattice, 0.01));
-    const Array<double> a = random_displacement(s.lattice, s.level.diagonal(), 1),
-                        b = random_displacement(s.lattice, s.level.diagonal(), 2);
-    Array<double> ka(a.size()), kb(b.size());
-    s.level.apply(a.data(), ka.data());
-    s.level.apply(b.data(), kb.data());
-    double ab = 0, ba = 0, aa = 0;
-    for (std::size_t i = 0; i < a.size(); ++i)
-      ab += a[i] * kb[i], ba += b[i] * ka[i], aa += a[i] * ka[i];
-    EXPECT_GT(aa, 0);
-    EXPECT_NEAR(ab, ba, 1e-5 * aa);
-  }
-}
-
 // On a smooth surface, to the order of the discretization.
 TEST(CurvatureLevel, ForceIsTheEnergysSlope) {
   for (const CurvatureEnergy energy : both) {
@@ -159,26 +142,6 @@ TEST(CurvatureLevel, SpheresAreCritical) {
       for (std::size_t p = 0; p < s.lattice.size(); ++p)
         EXPECT_NEAR(surface.force[p], 0, 1e-8 * std::sqrt(double(s.level.diagonal()[p]) + 1)) << p;
     }
-}
-
-TEST(PointNormal, FollowsASphereToFourthOrder) {
-  const ControlMesh mesh = make_control_mesh(cube().view(), {});
-  Workers workers(1);
-  double before = 0;
-  for (int l = 3; l <= 6; ++l) {
-    const GridLevel coarse(mesh, l), fine(mesh, l + 1);
-    std::vector<double> x(3 * coarse.size()), y(3 * fine.size());
-    refine_linearly(coarse, mesh.positions, x.data());
-    for (std::size_t i = 0; i < x.size(); i += 3) Eigen::Map<Vec3>(x.data() + i).normalize();
-    prolong_with_normals(coarse, fine, workers, x.data(), x.data(), y.data());
-    double worst = 0;
-    for (std::size_t i = 0; i < y.size(); i += 3)
-      worst = std::max(worst, std::abs(Eigen::Map<const Vec3>(y.data() + i).norm() - 1));
-    if (before > 0) {
-      EXPECT_GT(before / worst, 14);
-    }
-    before = worst;
-  }
 }
 
 }  // namespace

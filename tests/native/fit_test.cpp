@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-#include <numeric>
 
 #include "fit/feet.h"
 #include "fit/point_forces.h"
@@ -88,42 +87,6 @@ TEST(Feet, AreNearestPointsOfTheSurface) {
   }
 }
 
-TEST(Feet, FollowASurfaceThatMoves) {
-  Near near(wavy_torus(), 3, 500, 0.05);
-  FeetFinder finder(near.cells, near.scan, reach, near.workers);
-  finder.set_surface(near.x.data());
-  Array<Foot> feet, again;
-  finder.find(feet);
-  for (double& value : near.x) value *= 1.01;
-  finder.set_surface(near.x.data());
-  finder.follow(feet);
-  finder.find(again);
-  std::size_t same = 0;  // at edges of the polyhedron a foot may stay on its side
-  for (std::size_t s = 0; s < feet.size(); ++s) {
-    const double followed = std::abs(finder.distance(s, feet[s])),
-                 found = std::abs(finder.distance(s, again[s]));
-    EXPECT_GE(followed, found - 1e-5);
-    same += std::abs(followed - found) < 1e-5;
-  }
-  EXPECT_GT(same, feet.size() * 9 / 10);
-}
-
-TEST(Feet, ThatAreFarAreFoundAgainAndOthersStay) {
-  Near near(wavy_torus(), 2, 300, 0.05);
-  FeetFinder finder(near.cells, near.scan, reach, near.workers);
-  finder.set_surface(near.x.data());
-  Array<Foot> feet;
-  finder.find(feet);
-  Array<Foot> lost = feet;
-  for (Foot& foot : lost)
-    foot.cell = (foot.cell + Index(near.cells.size()) / 2) % Index(near.cells.size());
-  lost[0] = feet[0];
-  finder.find_beyond(0.3, lost);
-  for (std::size_t s = 0; s < feet.size(); ++s)
-    EXPECT_NEAR(std::abs(finder.distance(s, lost[s])), std::abs(finder.distance(s, feet[s])),
-                s == 0 ? 0 : 0.3);
-}
-
 TEST(Pulls, AreSumsOverThePointsForAnyNumberOfThreads) {
   Near near(wavy_triangles(), 2, 2000, 0.05);
   FeetFinder finder(near.cells, near.scan, reach, near.workers);
@@ -151,36 +114,6 @@ TEST(Pulls, AreSumsOverThePointsForAnyNumberOfThreads) {
     EXPECT_NEAR(weight[p], expected[p], 1e-12);
     EXPECT_LT((force[p] - pulled[p]).norm(), 1e-12);
     EXPECT_EQ(force[p], elsewhere[p]);
-  }
-}
-
-TEST(Pulls, KeepTheirSumFromLevelToLevel) {
-  for (const auto& [name, mesh] : all_meshes()) {
-    const GridLevel fine(mesh, 3), coarse(mesh, 2);
-    std::mt19937 random(5);
-    VertexWeights weights(fine.size());
-    for (double& w : weights) w = canonical<double>(random);
-    const VertexWeights below = weights_below(fine, coarse, weights);
-    EXPECT_NEAR(std::accumulate(below.begin(), below.end(), 0.0),
-                std::accumulate(weights.begin(), weights.end(), 0.0), 1e-9)
-        << name;
-  }
-}
-
-TEST(Cells, AreFoundByThePlacesOnThem) {
-  for (const auto& [name, mesh] : all_meshes()) {
-    Workers workers(1);
-    const GridLevel fine(mesh, 3), coarse(mesh, 1);
-    const Cells cells(fine, workers), above(coarse, workers);
-    for (Index c = 0; c < Index(cells.size()); ++c) {
-      const CornerShares shares = cells.quad(c) ? CornerShares{0.45f, 0.25f, 0.1f, 0.2f}
-                                                : CornerShares{0.5f, 0.3f, 0.2f, 0};
-      const FacePlace place = cells.place(c, shares);
-      const Cells::AtPoint found = cells.cell_at(place, 3);
-      EXPECT_EQ(found.cell, c) << name;
-      EXPECT_EQ(found.corner, 0) << name;
-      EXPECT_EQ(above.face(above.cell_at(place, 3).cell), cells.face(c)) << name;
-    }
   }
 }
 

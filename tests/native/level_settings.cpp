@@ -138,10 +138,6 @@ FloatPoints with_room(const Points& x) {
   return out;
 }
 
-Points of_room(const FloatPoints& x, std::size_t size) {
-  return x.topRows(Eigen::Index(size)).cast<double>();
-}
-
 MakeCharts charts_of(double exponent, const PaperOptions& options) {
   return [=](const ControlMesh& mesh) { return make_charts(mesh, exponent, options); };
 }

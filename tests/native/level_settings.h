@@ -42,9 +42,8 @@ Unknowns some_points(const ControlMesh& mesh, int choice);
 Points random_points(std::size_t size, unsigned seed = 1);
 // Zero where the point is known.
 Points masked(const GridLevel& grid, const Unknowns& unknowns, Points x);
-// With the room that rows may read in packs, and without it.
+// With the room that rows may read in packs.
 FloatPoints with_room(const Points& x);
-Points of_room(const FloatPoints& x, std::size_t size);
 
 // Slots that hold rubbish: nothing may be read that this pass has not written.
 template <class T>

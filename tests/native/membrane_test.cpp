@@ -111,18 +111,6 @@ TEST(Membrane, IsThatOfLinearElements) {
     });
 }
 
-TEST(Membrane, BlendsTheChartsWeights) {
-  on_all_stretched(1, 0.5, {.chart_blend = 0.4}, [](const Stretched& s, Workers&) {
-    const std::vector<FlatFace> flat = flatten(s.mesh, 0.5), uniform = flatten(s.mesh, 0);
-    const double scale = metric_edge(s.mesh, uniform) / metric_edge(s.mesh, flat);
-    const Unknowns all = all_points(s.mesh);
-    const Dense with = assembled(s, s.tense, all), l = with - assembled(s, s.plain, all),
-                expected =
-                    0.4 * reference(s.grid, 0.5) + 0.6 * scale * scale * reference(s.grid, 0);
-    EXPECT_LT((l - expected).norm(), 1e-11 * with.norm());
-  });
-}
-
 TEST(Membrane, HasItsOwnEnergy) {
   on_all_stretched(3, centripetal, {}, [](const Stretched& s, Workers& workers) {
     const Points free = random_points(s.grid.size(), 5);
@@ -168,14 +156,6 @@ TEST(Membrane, EndsAtARegionsJoint) {
     const Points expected = masked(grid, unknowns, all * x);
     EXPECT_LT((y - expected).norm(), 1e-12 * all.norm() * x.norm());
   }
-}
-
-TEST(Membrane, LeavesNoTraceWithoutTension) {
-  Workers workers(1);
-  const ControlMesh mesh = control(shaken(mixed_grid(4, 3)));
-  EXPECT_FALSE(make_stencils(mesh, ChartMaker(mesh), workers).membrane.any());
-  EXPECT_FALSE(make_stencils(mesh, ChartMaker(mesh), workers, MembraneOptions{0}).membrane.any());
-  EXPECT_TRUE(make_stencils(mesh, ChartMaker(mesh), workers, MembraneOptions{1e-3}).membrane.any());
 }
 
 }  // namespace

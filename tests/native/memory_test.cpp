@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "meshes.h"
-#include "parallel/expected_memory.h"
 #include "strain/strain.h"
 
 namespace fairing::test {
@@ -34,17 +33,6 @@ TEST(MemoryLedger, one_that_ends_first_leaves_the_later_one_open) {
   solver.reset();
   MemoryLedger::add(5);
   EXPECT_EQ(run.current(), 5u);
-}
-
-// Up to twice what was predicted for the run itself; nothing was for another one.
-TEST(MemoryLedger, keeps_to_twice_the_prediction) {
-  const MemoryLedger run;
-  expect_memory(small_run);
-  MemoryLedger::add(small_run);
-  EXPECT_TRUE(is_expected_memory(small_run));
-  EXPECT_FALSE(is_expected_memory(small_run + 1));
-  const MemoryLedger another;
-  EXPECT_TRUE(is_expected_memory(3 * small_run));
 }
 
 // Its limit is that of the options; what was open before hears of nothing.

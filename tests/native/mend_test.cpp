@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "meshes.h"
 #include "parallel/cancel.h"
 
@@ -54,33 +52,6 @@ TEST(Mend, AFanOfFlatFacesTakesLinearTime) {
   const std::vector<Polygon> faces = faces_of(mend(mesh.view()));
   ASSERT_EQ(faces.size(), 1u);
   EXPECT_EQ(faces[0].size(), std::size_t(count + 2));
-}
-
-// So many flat faces on one edge, each with its own vertex in it, and one that is not flat.
-OwnedPolygonMesh flat_stack(std::int64_t count) {
-  OwnedPolygonMesh mesh;
-  mesh.coordinates = {0, 0, 0, double(count), 0, 0, count / 2.0, double(count), 0};
-  mesh.corners = {0, 1, 2};
-  mesh.offsets = {0, 3};
-  for (std::int64_t k = 1; k < count; ++k) {
-    mesh.coordinates.insert(mesh.coordinates.end(), {double(k * 7 % count), 0, 0});
-    mesh.corners.insert(mesh.corners.end(), {1, 0, k + 2});
-    mesh.offsets.push_back(std::int64_t(mesh.corners.size()));
-  }
-  return mesh;
-}
-
-TEST(Mend, AStackOfFlatFacesOnOneEdgeTakesLinearTime) {
-  constexpr std::int64_t count = 5000;
-  const OwnedPolygonMesh mesh = flat_stack(count);
-  Monitor monitor;
-  const CancelScope scope(&monitor);
-  monitor.cancel_at_question(1000);
-  const std::vector<Polygon> faces = faces_of(mend(mesh.view()));
-  ASSERT_EQ(faces.size(), 1u);
-  ASSERT_EQ(faces[0].size(), std::size_t(count + 2));
-  for (std::size_t i = 0; i <= count; ++i)
-    EXPECT_EQ(mesh.coordinates[3 * std::size_t(faces[0][i])], double(i)) << "in order";
 }
 
 TEST(Mend, CanBeCancelledAtEveryQuestion) {

@@ -6,8 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include "constraints/multipliers.h"
-#include "curvature/total_curvature.h"
 #include "fairing/systems.h"
 #include "grid/linear.h"
 #include "meshes.h"
@@ -82,128 +80,6 @@ TEST(Pads, HatsFallOffOverTheirWidth) {
         EXPECT_NEAR(r[p] / share[p], std::max(0.0, 1 - k / 8.0 / size), 1e-14);
       }
   }
-}
-
-TEST(Pads, MassIsThatOfTheHats) {
-  for (const OwnedPolygonMesh& input : {octahedron(), cube(), torus(6, 5), grid(5, 4)})
-    for (const double size : {0.5, 1.0}) {
-      const ControlMesh mesh = make_control_mesh(input.view(), {});
-      Workers workers(2);
-      const GridLevel grid(mesh, 2);
-      Pads pads(mesh, ChartMaker(mesh), all_but_vertices(mesh), size, workers);
-      const Hats hats(pads, grid);
-      const auto count = std::size_t(mesh.vertex_count());
-      std::vector<std::vector<double>> column;
-      for (std::size_t v = 0; v < count; ++v) {
-        Loads one(count, Vec3::Zero());
-        one[v] = Vec3::Ones();
-        column.push_back(loaded(hats, pads.under(v) ? one : Loads(count, Vec3::Zero())));
-      }
-      // The points' areas from pads of size 1 on all vertices do not exist on open meshes: take
-      // them from where a hat is known, as the closed face's share.
-      const std::vector<FlatFace> flat = flatten(mesh, centripetal);
-      std::vector<double> area(grid.size(), 0.0);
-      for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-        const bool quad = mesh.faces[f].quad();
-        for (int j = 0; j <= 4; ++j)
-          for (int i = 0; i <= (quad ? 4 : 4 - j); ++i) {
-            const int sides = (i == 0) + (j == 0) + (quad ? (i == 4) + (j == 4) : (i + j == 4));
-            const double share = quad ? (sides == 0   ? 1.0
-                                         : sides == 1 ? 0.5
-                                                      : 0.25)
-                                      : (sides == 0   ? 2.0
-                                         : sides == 1 ? 1.0
-                                                      : 1.0 / 3);
-            area[std::size_t(grid.face_point(Index(f), i, j))] += share * flat[f].area / 16;
-          }
-      }
-      Loads unit(count, Vec3::Zero()), product, back;
-      for (std::size_t c = 0; c < count; ++c) {
-        if (!pads.under(c)) continue;
-        unit[c] = Vec3(1, 0, 2);
-        hats.multiply_mass<3>(unit, product);
-        for (std::size_t d = 0; d < count; ++d) {
-          double mass = 0;
-          for (std::size_t i = 0; i < grid.size(); ++i)
-            mass += column[c][3 * i] * column[d][3 * i] / area[i];
-          EXPECT_NEAR(product[d][0], mass, 1e-14);
-          EXPECT_NEAR(product[d][2], 2 * mass, 1e-14);
-        }
-        hats.divide_by_mass<3>(product, back);
-        for (std::size_t d = 0; d < count; ++d) EXPECT_LT((back[d] - unit[d]).norm(), 1e-2);
-        unit[c].setZero();
-      }
-    }
-}
-
-TEST(Pads, SpringsTakeLoadsByThemselves) {
-  const ControlMesh mesh = make_control_mesh(torus(6, 5).view(), {});
-  Workers workers(1);
-  Pads pads(mesh, ChartMaker(mesh), all_but_vertices(mesh), 1.0, workers);
-  const GridLevel grid(mesh, 2);
-  const Hats hats(pads, grid);
-  const auto count = std::size_t(mesh.vertex_count());
-  Loads forces(count), loads, product;
-  for (std::size_t v = 0; v < count; ++v) forces[v] = Vec3(std::sin(double(v)), 1, double(v % 3));
-  std::vector<double> give(count);
-  for (std::size_t v = 0; v < count; ++v) give[v] = v % 2 ? 3.0 : 0.5;
-  hats.divide_by_mass<3>(forces, loads, give);
-  hats.multiply_mass<3>(loads, product);
-  for (std::size_t v = 0; v < count; ++v)
-    EXPECT_LT((product[v] + give[v] * hats.total(v) * loads[v] - (1 + give[v]) * forces[v]).norm(),
-              1e-2 * forces[v].norm());
-  // A spring that gives way altogether: the load is the force, whatever the neighbours have.
-  std::fill(give.begin(), give.end(), 1e6);
-  hats.divide_by_mass<3>(forces, loads, give);
-  for (std::size_t v = 0; v < count; ++v)
-    EXPECT_LT((hats.total(v) * loads[v] - forces[v]).norm(), 1e-3 * forces[v].norm());
-}
-
-TEST(Pads, StepsSolveWhatPlainCorrectionsDoNot) {
-  // f <- f + (b - A f) diverges where A has eigenvalues beyond two; mixed, it is GMRES.
-  const std::vector<double> a = {0.1, 0.7, 1.3, 2.6, 4.0}, b = {1, -2, 3, 0.5, 1};
-  MultiplierSteps<3> steps = multiplier_steps<3>(nullptr, std::vector<double>(a.size(), 1.0));
-  std::vector<double> f(a.size(), 0.0);
-  double left = 0;
-  for (int round = 0; round < 8; ++round) {
-    Multipliers<3> correction;
-    left = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      correction.bounds.push_back(b[i] - a[i] * f[i]);
-      left += correction.bounds[i] * correction.bounds[i];
-    }
-    Multipliers<3> change = steps.change(correction);
-    for (std::size_t i = 0; i < a.size(); ++i) f[i] += change.bounds[i];
-    steps.took(std::move(change));
-  }
-  EXPECT_LT(std::sqrt(left), 1e-6);
-}
-
-TEST(Pads, GoAlone) {
-  const ControlMesh mesh = make_control_mesh(torus(6, 5).view(), {});
-  Workers workers(1);
-  const GridLevel grid(mesh, 3);
-  Pads pads(mesh, ChartMaker(mesh), all_but_vertices(mesh), 1.0, workers), whole = pads;
-  pads.deactivate(4);
-  EXPECT_TRUE(pads.under(3));
-  EXPECT_FALSE(pads.under(4));
-  EXPECT_TRUE(pads.began_under(4));
-  EXPECT_EQ(pads.rows().vertex[3], 1);
-  EXPECT_EQ(pads.rows().vertex[4], 0);
-  const Hats hats(pads, grid);
-  EXPECT_EQ(hats.total(3), Hats(whole, grid).total(3));
-  EXPECT_EQ(hats.total(4), 0);
-  for (const Index v : {3, 4}) {
-    Loads one(std::size_t(mesh.vertex_count()), Vec3::Zero());
-    one[std::size_t(v)] = Vec3::Ones();
-    const std::vector<double> r = loaded(hats, one);
-    double total = 0;
-    for (std::size_t i = 0; i < grid.size(); ++i) total += r[3 * i];
-    EXPECT_NEAR(total, hats.total(std::size_t(v)), 1e-14);
-  }
-  for (std::size_t v = 0; v < pads.places().size(); ++v) pads.deactivate(v);
-  EXPECT_FALSE(pads.any());
-  EXPECT_FALSE(pads.rows().any_vertex);
 }
 
 TEST(Pads, ThrownStarsAreFound) {

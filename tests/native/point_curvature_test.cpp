@@ -139,27 +139,6 @@ TEST(Hessian, IsTheFitsHessian) {
       }
 }
 
-TEST(Hessian, IsTheFitsHessianOnConics) {
-  // Points on a conic through the origin, and regular rings, do not determine a quadratic, or only
-  // just.
-  for (const int valence : {3, 4, 5, 6, 8}) {
-    Chart chart;
-    std::vector<double> f;
-    for (int j = 0; j < valence; ++j) {
-      const double angle = 2 * pi * j / valence;
-      const Vec2 p(std::cos(angle), std::sin(angle));
-      chart.ring.push_back(
-          valence < 6 ? p : Vec2(p.x(), 0.3 * p.x() * p.x() + (j % 2 ? 0.0 : p.x() * 0.5)));
-      f.push_back(std::sin(3.0 * j));
-    }
-    Coefficients expected = Coefficients::Zero();
-    const FitRows rows = fit(chart);
-    for (int j = 0; j < valence; ++j) expected += rows.col(j) * f[std::size_t(j)];
-    const Vec3 found = fitted_hessian(chart.ring, f);
-    EXPECT_LT((found - expected.tail<3>()).norm(), 1e-8 * (1 + expected.norm())) << valence;
-  }
-}
-
 TEST(Angle, AgreesWithTheLibrary) {
   for (int k = 0; k <= 1000; ++k) {
     const double angle = pi * k / 1000;

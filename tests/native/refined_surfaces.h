@@ -35,27 +35,4 @@ Refined strip(int columns, int levels, At&& at) {
   return out;
 }
 
-// One triangle with corners (0, 0), (1, 0), (0, 1).
-template <class At>
-Refined triangle(int levels, At&& at) {
-  Refined out{levels, {}, {}, {}};
-  const int n = 1 << levels;
-  std::vector<int> row;
-  for (int j = 0; j <= n; ++j) {
-    row.push_back(int(out.vertices.size() / 3));
-    for (int i = 0; i + j <= n; ++i)
-      for (const double x : at(double(i) / n, double(j) / n)) out.vertices.push_back(x);
-  }
-  const auto point = [&](int i, int j) { return row[std::size_t(j)] + i; };
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i + j < n; ++i) {
-      for (const int p : {point(i, j), point(i + 1, j), point(i, j + 1)})
-        out.triangles.push_back(p);
-      if (i + j + 1 < n)
-        for (const int p : {point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)})
-          out.triangles.push_back(p);
-    }
-  return out;
-}
-
 }  // namespace fairing::test

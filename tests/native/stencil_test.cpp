@@ -6,7 +6,6 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "level_settings.h"
 #include "random.h"
@@ -34,33 +33,11 @@ double fit_error(const Chart& chart, const Coefficients& c) {
   return (found - c).norm() / c.norm();
 }
 
-TEST(Fit, BasisIsOrthonormalOnHessians) {
-  // f = 1/2 p^T H p: the last three coefficients' squares add up to |H|^2.
-  const double uu = 0.7, uv = -0.4, vv = 1.9, u = 0.3, v = -1.1;
-  Coefficients c;
-  c << 0, 0, (uu + vv) / std::sqrt(2), (uu - vv) / std::sqrt(2), std::sqrt(2) * uv;
-  EXPECT_NEAR(basis({u, v}).dot(c), 0.5 * uu * u * u + uv * u * v + 0.5 * vv * v * v, 1e-15);
-  EXPECT_NEAR(c.squaredNorm(), uu * uu + 2 * uv * uv + vv * vv, 1e-14);
-}
-
 TEST(Fit, IsExactOnQuadratics) {
   std::mt19937 random(3);
   for (int valence = 5; valence <= 40; ++valence)
     for (int trial = 0; trial < 20; ++trial)
       EXPECT_LT(fit_error(random_ring(valence, random), Coefficients::Random()), 1e-9) << valence;
-}
-
-TEST(Fit, IsExactOnQuadraticsOverSkewedRings) {
-  std::mt19937 random(4);
-  for (const double skew : {1e-4, 0.01, 0.1, 10.0, 1e3})
-    for (const int valence : {6, 8, 12}) {
-      // In round coordinates the ring is as good as any; scale the coefficients so that all of them
-      // count.
-      Coefficients c;
-      c << 1 / skew, 1, (1 / skew / skew + 1) / std::sqrt(2), (1 / skew / skew - 1) / std::sqrt(2),
-          std::sqrt(2) / skew;
-      EXPECT_LT(fit_error(random_ring(valence, random, skew), c), 1e-8) << skew << " " << valence;
-    }
 }
 
 TEST(Fit, FewNeighboursMeasureTheLaplacian) {
@@ -203,30 +180,6 @@ TEST(Charts, SharesAddUpToTheArea) {
   }
 }
 
-TEST(Charts, SpaceTheRowsOfAnEdgeAlike) {
-  // Else a function with a slope along the edge has a twist that grows with the level.
-  for (const ChartKind kind : {ChartKind::exponential, ChartKind::tangent})
-    for (const double blend : {1.0, 0.3})
-      for (const auto& [name, mesh] : all_meshes()) {
-        SCOPED_TRACE(name);
-        const std::unique_ptr<ChartMaker> made =
-            make_charts(mesh, centripetal, {.chart = kind, .chart_blend = blend});
-        const ChartMaker& charts = *made;
-        for (Index e = 0; e < Index(mesh.edges.size()); ++e) {
-          const Chart chart = charts.edge(e);
-          const EdgeRingLanes ring(mesh, e);
-          for (int lane = 0; lane < 3; ++lane)
-            for (int j = 0; j < ring.size; ++j)
-              for (int k = 0; k < ring.size; ++k) {
-                if (ring.lane[j] != lane || ring.lane[k] != lane) continue;
-                const int steps = ring.at[j] - ring.at[k];  // forward along the edge
-                const Vec2 moved = chart.ring[std::size_t(j)] - chart.ring[std::size_t(k)];
-                EXPECT_LT((moved - steps * chart.ring[0]).norm(), 1e-13) << e << " lane " << lane;
-              }
-        }
-      }
-}
-
 TEST(Charts, UniformChartIsRegular) {
   const ControlMesh mesh = control(shaken(bipyramid(7)));
   const Chart chart = ChartMaker(mesh, 0).vertex(0);
@@ -241,30 +194,6 @@ TEST(Charts, UniformChartIsRegular) {
   ASSERT_EQ(cross.ring.size(), 8u);
   for (std::size_t j = 0; j < 8; ++j)
     EXPECT_NEAR(cross.ring[j].norm(), j % 2 ? std::sqrt(2) : 1, 1e-13);
-}
-
-TEST(Charts, BlendEndsAtItsTwoCharts) {
-  for (const auto& [name, mesh] : all_meshes()) {
-    SCOPED_TRACE(name);
-    const ChartMaker plain(mesh, 0.7), uniform(mesh, 0);
-    const BlendedCharts<ChartMaker> one(1, mesh, 0.7), zero(0, mesh, 0.7);
-    for (Index v = 0; v < mesh.vertex_count(); ++v) {
-      if (mesh.ring(v).empty()) continue;
-      const Chart a = plain.vertex(v), b = one.vertex(v), c = zero.vertex(v), d = uniform.vertex(v);
-      double mean_a = 0, mean_c = 0;
-      for (std::size_t j = 0; j < a.ring.size(); ++j) {
-        EXPECT_EQ(a.ring[j], b.ring[j]);
-        mean_a += a.ring[j].norm();
-        mean_c += c.ring[j].norm();
-      }
-      EXPECT_NEAR(mean_a, mean_c, 1e-12 * mean_a);  // the uniform chart at the chart's mean radius
-      const double scale = c.ring[0].norm() / d.ring[0].norm();
-      for (std::size_t j = 0; j < a.ring.size(); ++j)
-        for (std::size_t k = 0; k < j; ++k)
-          EXPECT_NEAR((c.ring[j] - c.ring[k]).norm(), scale * (d.ring[j] - d.ring[k]).norm(),
-                      1e-12);
-    }
-  }
 }
 
 TEST(Charts, TangentPlaneSeesAFlatMeshAsItIs) {

@@ -5,8 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
 
 #include "grid/linear.h"
 #include "grid/symmetrize.h"
@@ -93,37 +91,6 @@ TEST(Mirror, OfSymmetricMeshes) {
     }
 }
 
-TEST(Mirror, NoneWhereAVertexIsOff) {
-  ControlMesh mesh = working(control(cube()));
-  mesh.positions[6] *= 1 - 1e-9;
-  for (const Mirror& mirror : mirrors(mesh)) EXPECT_EQ(mirror.vertex[6], 6);
-  mesh.positions[6] += Vec3(1e-9, 2e-9, 3e-9);
-  EXPECT_TRUE(mirrors(mesh).empty());
-}
-
-TEST(Mirror, NoneThatDoesNotHold) {
-  const ControlMesh mesh = working(control(cube()));
-  int asked = 0;
-  const Symmetry found = find_symmetry(mesh, tolerance, [&](const Mirror& mirror) {
-    ++asked;
-    return mirror.vertex[0] == 0;
-  });
-  EXPECT_GT(asked, 3);
-  ASSERT_EQ(found.mirrors.size(), 1u);  // a diagonal plane; its likes are not at right angles to it
-  EXPECT_EQ(found.mirrors[0]->vertex[0], 0);
-}
-
-TEST(Mirror, ImagesOfAVertexByAllMirrors) {
-  const Symmetry of_cube = symmetry(working(control(cube())));
-  std::vector<Index> images = of_cube.images(0);
-  EXPECT_EQ(images[0], 0);
-  std::ranges::sort(images);
-  EXPECT_EQ(images, (std::vector<Index>{0, 1, 2, 3, 4, 5, 6, 7}));
-  const Symmetry along_x =
-      of_cube.kept([](const Mirror& mirror) { return mirror.plane.normal == Vec3::UnitX(); });
-  EXPECT_EQ(along_x.images(0).size(), 2u);
-}
-
 TEST(Mirror, VerticesAtOnePlaceAreToldApart) {
   // Two quads whose near sides coincide, without being joined.
   const OwnedPolygonMesh slit = make_mesh(
@@ -168,45 +135,6 @@ TEST(LatticeMirror, TakesPointsWhereTheyBelong) {
       symmetrize(lattice, symmetry(mesh), unknowns(mesh, true), workers, mean.data());
       for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(mean[i], x[i], 1e-13);
     }
-}
-
-// What is even in the distance from the plane stays, what is odd goes.
-TEST(LatticeMirror, MeansOfDisplacements) {
-  Workers workers(2);
-  for (const ControlMesh& mesh : samples()) {
-    const GridLevel lattice(mesh, 3);
-    Array<double> x(3 * lattice.size()), h(lattice.size());
-    refine_linearly(lattice, mesh.positions, x.data());
-    for (const Mirror& mirror : mirrors(mesh)) {
-      const auto distance = [&](std::size_t p) {
-        return mirror.plane.normal.dot(Eigen::Map<const Vec3>(&x[3 * p])) - mirror.plane.offset;
-      };
-      for (std::size_t p = 0; p < h.size(); ++p) h[p] = distance(p) * (1 + distance(p));
-      symmetrize_displacements(lattice, {{std::make_shared<const Mirror>(mirror)}},
-                               unknowns(mesh, true), workers, h.data());
-      for (auto p = std::size_t(lattice.face_base(0)); p < h.size(); ++p)  // edges may be curves
-        EXPECT_NEAR(h[p], distance(p) * distance(p), 1e-13);
-    }
-  }
-}
-
-TEST(LatticeMirror, LeavesWhatIsNoUnknown) {
-  Workers workers(2);
-  const ControlMesh mesh = working(control(grid(4, 3)));
-  const GridLevel lattice(mesh, 2);
-  Array<double> x(3 * lattice.size());
-  for (std::size_t i = 0; i < x.size(); ++i) x[i] = std::sin(12.9898 * double(i + 1));
-  Array<double> mean = x;
-  symmetrize(lattice, {{std::make_shared<const Mirror>(mirrors(mesh).at(0))}},
-             unknowns(mesh, false), workers, mean.data());
-  const auto same = [&](Index p) {
-    return std::equal(&x[3 * std::size_t(p)], &x[3 * std::size_t(p)] + 3,
-                      &mean[3 * std::size_t(p)]);
-  };
-  for (Index v = 0; v < mesh.vertex_count(); ++v) EXPECT_TRUE(same(v));
-  for (Index e = 0; e < Index(mesh.edges.size()); ++e)
-    EXPECT_EQ(same(lattice.edge_point(e, 1)), bool(mesh.feature_edge[std::size_t(e)]));
-  EXPECT_FALSE(same(lattice.face_base(0)));
 }
 
 }  // namespace

@@ -2,9 +2,7 @@
 // The thin plate's K in all its forms against the one that is written down from charts and fits.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstring>
-#include <random>
 
 #include "level_settings.h"
 #include "thin_plate/level.h"
@@ -63,30 +61,6 @@ void on_all_tensions(int most_levels, const std::function<void(const Setting&, W
   for (const double tension : {0.0, 0.1}) on_all(most_levels, body, charts_of(), tension);
 }
 
-TEST(ThinPlate, AppliesTheAssembledMatrix) {
-  on_all_tensions(3, [](const Setting& s, Workers& workers) {
-    const Dense all = assembled(s, all_points(s.mesh));
-    const ThinPlateRows<double> rows(s.mesh, s.stencils);
-    const ThinPlateRows<float> narrow(s.mesh, s.stencils);
-    ElementSlots<double> slots = poisoned<double>(s.grid);
-    ElementSlots<float> narrow_slots = poisoned<float>(s.grid);
-    const Points x = random_points(s.grid.size());
-    for (int choice = 0; choice < 3; ++choice) {
-      const Unknowns unknowns = some_points(s.mesh, choice);
-      Points y = random_points(s.grid.size(), 2);  // what it holds before must not matter
-      apply_thin_plate(s.grid, rows, unknowns, {}, workers, slots, x.data(), y.data());
-      const Points expected = masked(s.grid, unknowns, all * x);
-      EXPECT_LT((y - expected).norm(), 1e-12 * all.norm() * x.norm() + 1e-300) << choice;
-
-      const Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> xf = x.cast<float>();
-      Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> yf = xf;
-      apply_thin_plate(s.grid, narrow, unknowns, {}, workers, narrow_slots, xf.data(), yf.data());
-      EXPECT_LT((yf.cast<double>() - expected).norm(), 1e-5 * all.norm() * x.norm() + 1e-300)
-          << choice;
-    }
-  });
-}
-
 TEST(ThinPlate, IsTheAssembledSystemOnItsUnknowns) {
   on_all_tensions(2, [](const Setting& s, Workers& workers) {
     for (int choice = 0; choice < 3; ++choice) {
@@ -124,16 +98,6 @@ TEST(ThinPlate, IsTheAssembledSystemOnItsUnknowns) {
           EXPECT_EQ(diagonal[p], 1.0f);
         }
     }
-  });
-}
-
-TEST(ThinPlate, EnergyIsTheQuadraticForm) {
-  on_all(3, [](const Setting& s, Workers& workers) {
-    const Dense k = assembled(s, all_points(s.mesh));
-    const Points x = random_points(s.grid.size());
-    const double expected = (x.transpose() * k * x).trace();
-    EXPECT_NEAR(thin_plate_energy(s.grid, s.stencils, workers, x.data()), expected,
-                1e-12 * expected + 1e-300);
   });
 }
 

@@ -174,22 +174,6 @@ TEST(TotalCurvature, OfASphereIsEightPi) {
   }
 }
 
-TEST(TotalCurvature, ClosedSurfacesHaveTheirEulerCharacteristic) {
-  std::mt19937 random(4);
-  UniformReal<> number(-1, 1);
-  for (const auto& [characteristic, faces] :
-       {std::pair{2, cube()}, {2, icosahedron()}, {0, torus(6, 5)}}) {
-    const ControlMesh mesh = control(faces);
-    const GridLevel lattice(mesh, 2);
-    std::vector<double> x(3 * lattice.size());
-    for (double& c : x) c = number(random);
-    double gauss = 0;
-    visit_rings(lattice, x,
-                [&](Index, const SurfaceRing& ring) { gauss += cotangent_curvature(ring).gauss; });
-    EXPECT_NEAR(gauss, 2 * pi * characteristic, 1e-9);
-  }
-}
-
 TEST(TotalCurvature, LeavesOutCurves) {
   // A cube with creases everywhere is six squares.
   FeatureOptions creases;

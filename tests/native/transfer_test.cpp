@@ -2,12 +2,8 @@
 // Prolongation and restriction; and the rows of matrices.
 #include <gtest/gtest.h>
 
-#include <array>
-#include <cmath>
 #include <map>
-#include <memory>
 #include <new>
-#include <random>
 #include <span>
 #include <utility>
 #include <vector>
@@ -136,59 +132,6 @@ TEST(Transfer, RestrictionIsTheTranspose) {
   });
 }
 
-TEST(Transfer, KeepsConstants) {
-  on_all(3, [](const Setting& s, Workers& workers) {
-    const GridLevel fine(s.mesh, s.grid.level() + 1);
-    ElementSlots<double> slots;
-    Points x(Eigen::Index(s.grid.size()), 3), y(Eigen::Index(fine.size()), 3);
-    x.rowwise() = Eigen::RowVector3d(1, -0.3, 1e6);
-    prolong<double>(s.grid, fine, s.stencils, nullptr, workers, slots, x.data(), y.data());
-    const auto vertices = s.mesh.vertex_count();
-    for (Eigen::Index p = 0; p < y.rows(); ++p) {
-      if (p < vertices && s.mesh.ring(Index(p)).empty()) continue;
-      EXPECT_EQ(y(p, 0), 1.0) << p;
-      EXPECT_NEAR(y(p, 1), -0.3, 2e-16) << p;
-      EXPECT_NEAR(y(p, 2), 1e6, 4e-10) << p;
-    }
-  });
-}
-
-// Through transfers whose own unknowns are fewer.
-TEST(Transfer, RestrictsToControlVerticesThroughAllLevels) {
-  on_all(3, [](const Setting& s, Workers& workers) {
-    const Unknowns own = some_points(s.mesh, 0);
-    for (const int choice : {1, 2}) {
-      const Unknowns carried = some_points(s.mesh, choice);
-      const int level = s.grid.level();
-      std::vector<std::unique_ptr<GridLevel>> grids;
-      for (int l = 0; l <= level; ++l) grids.push_back(std::make_unique<GridLevel>(s.mesh, l));
-      std::vector<FloatPoints> rooms(1);
-      QuadraticTransfers<3> transfers;
-      ElementSlots<float> slots;
-      ElementSlots<double> double_slots;
-      const Points x = masked(*grids[0], carried, random_points(grids[0]->size()));
-      Points hx = x;
-      for (std::size_t l = 1; l < grids.size(); ++l) {
-        const GridLevel &coarse = *grids[l - 1], &fine = *grids[l];
-        transfers.push_back(
-            std::make_unique<QuadraticTransfer<3>>(coarse, fine, s.stencils, own, workers, slots));
-        rooms.push_back(with_room(random_points(fine.size())));
-        Points below = std::exchange(hx, Points(Eigen::Index(fine.size()), 3));
-        prolong(coarse, fine, s.stencils, &carried, workers, double_slots, below.data(), hx.data());
-      }
-      const Points r = masked(s.grid, carried, random_points(s.grid.size(), 2));
-      std::vector<Vec3> sums(grids[0]->size());
-      restrict_to_vertices<3>(
-          transfers, level, carried, workers, {r.data(), std::size_t(r.size())},
-          [&](int l) { return rooms[std::size_t(l)].data(); }, sums);
-      const Eigen::Map<const Points> htr(sums[0].data(), x.rows(), 3);
-      EXPECT_NEAR(htr.cwiseProduct(x).sum(), r.cwiseProduct(hx).sum(),
-                  1e-6 * (1 + r.norm() * hx.norm()));
-      EXPECT_EQ((htr - masked(*grids[0], carried, htr)).norm(), 0);
-    }
-  });
-}
-
 // A block whose rows name more columns than 16-bit indices can tell apart is refused.
 TEST(Rows, RefuseTooManyColumnsInOnePlace) {
   Workers workers(1);
@@ -201,34 +144,6 @@ TEST(Rows, RefuseTooManyColumnsInOnePlace) {
     EXPECT_EQ(AssembledMatrix::make(2, std::size_t(columns), workers, writer) != nullptr,
               columns == 65000);
   }
-}
-
-// A row that has the numbers of another one, in other columns; where one is named twice it is refused,
-// and the row is still empty.
-TEST(Rows, RepeatNumbersInOtherColumns) {
-  Workers workers(1);
-  constexpr Index size = 6;
-  const auto writer = [] {
-    return [numbers = RowBuilder::Numbers()](Index row, RowBuilder& builder) mutable {
-      const std::array<Index, 2> columns{row, row + 1}, twice{row, row};
-      if (row == 0) {
-        builder.add(0, 3.0);
-        builder.add(1, 0.5);
-        builder.copy_numbers(numbers);
-      } else if (row % 2 == 1) {
-        ASSERT_TRUE(builder.repeat(numbers, columns));
-      } else {
-        ASSERT_FALSE(builder.repeat(numbers, twice));
-        builder.add(row, 7.0);
-      }
-    };
-  };
-  const auto matrix = AssembledMatrix::make(size, size + 1, workers, writer);
-  ASSERT_NE(matrix, nullptr);
-  Eigen::VectorXf x = Eigen::VectorXf::LinSpaced(size + 16, 1, size + 16), y = x;
-  matrix->apply<1>(x.data(), workers, y.data());
-  for (Index r = 0; r < size; ++r)
-    EXPECT_EQ(y[r], r == 0 || r % 2 == 1 ? 3 * x[r] + 0.5f * x[r + 1] : 7 * x[r]) << r;
 }
 
 // A writer that leaves by an exception, in the middle of a row, leaves nothing to the next builder.
