@@ -67,10 +67,15 @@ void FitLevels::run(FitReport& report) {
   begin(*fit);
   WeightChoice choice(*fit, settings_, problem_.frame.scale);
   weight_ = choice.choose(monitor_);
-  report.trials = choice.trials();
   is_kept_ = choice.is_by_tolerance();
+  const bool is_automatic = !(settings_.weight > 0) && !is_kept_;
+  if (is_automatic && curves_.any()) {
+    // so far the curves were those of weight 1, which follow the noise
+    fit_curves(*fit, weight_, 2, true);
+    weight_ = choice.choose(monitor_);
+  }
+  report.trials = choice.trials();
   weight_ *= choice.more_points(thin_.size());
-  const bool is_automatic = !(settings_.weight > 0) && !choice.is_by_tolerance();
   const FitProblem whole = problem_of(scan_);
   // The decrease of the residual from level to level is not noise but the resolution of the
   // level. Such shapes need the shorter waves of the next level, so the weight grows with them.

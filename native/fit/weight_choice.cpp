@@ -107,6 +107,7 @@ double WeightChoice::middle_of_good(std::size_t best) const {
 double WeightChoice::by_held_out(Monitor& monitor) {
   // Feet and normals are those of a surface with waves of two control edges and more. A surface
   // that follows the noise has tilted normals, and distances along them are too large.
+  trials_.clear();
   Array<double> start = fit_.surface();
   Array<Foot> feet = fit_.feet();
   fit_.iterate(1 / (ratio * ratio), 2, false);

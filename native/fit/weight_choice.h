@@ -18,6 +18,7 @@ class WeightChoice {
   WeightChoice(LevelFit& fit, const FitSettings& settings, double scale)
       : fit_(fit), settings_(settings), scale_(scale) {}
 
+  // From the surface of `fit`, which may have changed since the last choice.
   double choose(Monitor& monitor);
   bool is_by_tolerance() const { return !is_chosen_by_points_ && settings_.tolerance > 0; }
   // Factor of the weight for this total number of points.

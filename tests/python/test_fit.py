@@ -236,6 +236,32 @@ def test_curves_follow_no_noise_where_edges_are_short(corners):
         assert (np.diff(fitted.vertices[curve, 0]) > 0.8 * np.diff(along)).all()
 
 
+def test_weight_is_chosen_beside_curves_that_follow_no_noise():
+    even, dense = np.linspace(-1, 1, 17), np.linspace(-1, 1, 101)
+    vertices, faces = sheet(even, even, roof)
+    points, quads = sheet(dense, dense, roof)
+    points[:, 2] += np.random.default_rng(1).normal(0, 4 * NOISE, len(points))
+    triangles = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    ridge = np.flatnonzero(np.abs(vertices[:, 1]) < 1e-9)
+    creases = np.stack([ridge[:-1], ridge[1:]], 1)
+
+    def off(weight: float | None) -> float:
+        fitted = df.fit(
+            vertices,
+            faces,
+            points,
+            triangles=triangles,
+            weight=weight,
+            levels=3,
+            crease_edges=creases,
+            corner_vertices=[0, 16, 272, 288],
+        )
+        x, y, z = fitted.vertices.T
+        return rms(z - roof(x, y))
+
+    assert off(None) < 1.4 * off(0.0014)
+
+
 def test_crease_curves_come_to_where_both_sides_meet():
     even = np.linspace(-1, 1, 7)
     vertices, faces = sheet(even, even, roof)
