@@ -99,31 +99,37 @@ class Job(TimedRun):
             pulls,
             self.edge_length,
         )
+        self._halfway = neighbours.is_mutual(target) if halfway is None else halfway
         stands = surface or place.next_of(source, target)
-        if halfway is None:
-            halfway = neighbours.is_mutual(target)
-        self._meet(context, source, neighbour or neighbours.neighbour_of(target), stands, halfway)
+        self._meet(context, source, neighbour or neighbours.neighbour_of(target), stands)
         # remarks for the user, a sentence each
         self.notes = [*self.data.notes, *self._not_done()]
         # number of pieces, faired one after another; None: faired as a whole
         self.pieces: int | None = None
         self.spread: core.Spread | None = None  # another way to fair pieces
 
+    @property
+    def fewest_levels(self) -> int:
+        return 1 if self._neighbour is None else 2
+
+    def with_settings(self, context: Context, settings: Settings) -> "Job":
+        """A job like this one with other settings."""
+        assert self.source is not None
+        met = None if self._neighbour is None else self._neighbour.find()
+        return Job(
+            context, self.source, settings, self.target, neighbour=met, halfway=self._halfway
+        )
+
     def _meet(
-        self,
-        context: Context,
-        source: Object,
-        neighbour: Object | None,
-        surface: Object,
-        halfway: bool,
+        self, context: Context, source: Object, neighbour: Object | None, surface: Object
     ) -> None:
         """Sets the neighbour that the border meets, if there is one, relative to `surface`."""
         self._neighbour = None if neighbour is None else Reference(neighbour)
         self._made["neighbour"] = "" if neighbour is None else neighbour.name
         if neighbour is not None:
-            self._made["beside"] = freshness.beside_of(context, neighbour, surface, halfway)
+            self._made["beside"] = freshness.beside_of(context, neighbour, surface, self._halfway)
             self.arguments |= neighbours.arguments(
-                context, neighbour, surface, source, self.settings, halfway
+                context, neighbour, surface, source, self.settings, self._halfway
             )
 
     def _not_done(self) -> Iterator[str]:

@@ -7,12 +7,12 @@ Blender calls `execute` there, which can neither be modal nor be cancelled.
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any, cast
+from typing import Any
 
 import bpy
 
 from .. import prediction
-from ..blender import Context, Object, current_context
+from ..blender import Context, current_context
 from ..job import Job
 from ..queue import TimedJob, running
 from ..settings import Settings
@@ -28,16 +28,17 @@ def predicted_seconds(jobs: Sequence[TimedJob]) -> float:
 def small_jobs(context: Context, jobs: Sequence[Job]) -> list[Job]:
     """Jobs in place of `jobs` that are fast enough to wait for; raises JobError."""
     budget = BUDGET / len(jobs)
-    return [Job(context, cast(Object, job.source), _small(job, budget), job.target) for job in jobs]
+    return [job.with_settings(context, _small(job, budget)) for job in jobs]
 
 
 def _small(job: Job, budget: float) -> Settings:
     """Its settings with the number of levels and, if needed, the energy that the `budget` allows."""
-    for energy, least in ((job.settings.energy, 2), (_WITHOUT, 2), (_WITHOUT, 1)):
+    fewest = job.fewest_levels
+    for energy, least in ((job.settings.energy, 2), (_WITHOUT, 2), (_WITHOUT, fewest)):
         for levels in range(job.settings.levels, least - 1, -1):
             if job.predict(energy, levels) <= budget:
                 return replace(job.settings, levels=levels, energy=energy)
-    return replace(job.settings, levels=1, energy=_WITHOUT)
+    return replace(job.settings, levels=fewest, energy=_WITHOUT)
 
 
 def invoke_soon(context: Context, operator: Any, properties: dict[str, Any]) -> None:

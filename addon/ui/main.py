@@ -118,6 +118,7 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
             draw_stale_surfaces(layout, context.active_object)
         draw_live(layout, context)
         if memory is not None:
+            _draw_neighbour(layout, memory, len(context.selected_objects) > 1)
             _draw_cad(layout)
         header, more = layout.panel("fairing.more", default_closed=True)
         header.label(text="More")
@@ -126,8 +127,6 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
                 draw_fairness(more, settings, known)
             draw_shape(more, settings, known)
             _draw_flats(more, bool(known.flats))
-            if memory is not None:
-                _draw_neighbour(more, memory)
             draw_folded(more, settings, "fairing")
 
 
@@ -329,14 +328,16 @@ def _draw_flats(layout: bpy.types.UILayout, marked: bool) -> None:
         button.clear = True
 
 
-def _draw_neighbour(layout: bpy.types.UILayout, memory: FAIRING_PG_surface) -> None:
-    """The object that the border meets, and how."""
-    layout.prop(memory, "neighbour")
+def _draw_neighbour(
+    layout: bpy.types.UILayout, memory: FAIRING_PG_surface, is_beside: bool
+) -> None:
+    """The object that the border meets, and how; the button once another object is selected beside."""
     if memory.neighbour is not None:
+        layout.prop(memory, "neighbour")
         layout.prop(memory, "joint")
         if neighbours.is_mutual(cast(Object, memory.id_data)):
             layout.label(text="Both change, each by half", icon="ARROW_LEFTRIGHT")
-    else:
+    elif is_beside:
         layout.operator("object.fairing_match_border", icon="SNAP_EDGE")
 
 

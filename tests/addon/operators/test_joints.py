@@ -10,9 +10,11 @@ from scenes import activate, add, fair, positions, recompute, to_object_mode
 
 from addon import core, neighbours
 from addon.check import joints
-from addon.freshness import NEIGHBOUR_CHANGED, NEIGHBOUR_MOVED, why_stale
+from addon.freshness import NEIGHBOUR_CHANGED, NEIGHBOUR_MOVED, UNFINISHED, why_stale
 from addon.live import registry
 from addon.mesh.object import select_only
+from addon.operators import redo
+from addon.operators.fair import Fairing
 from addon.ui import check as check_panel
 from addon.ui.main import VIEW3D_PT_fairing
 
@@ -210,6 +212,28 @@ def test_only_faired_surfaces_both_change_and_one_that_takes_all_ends_it(panels)
     giving = bonnet if taking == fender else fender
     assert taking.discrete_fairing.neighbour == giving
     assert giving.discrete_fairing.neighbour is None
+
+
+def test_a_border_matched_with_fewer_levels_knows_its_neighbour(panels, monkeypatch):
+    """As Adjust Last Operation does where the whole surface takes too long."""
+    bonnet, fender = panels
+    monkeypatch.setattr(Fairing, "is_redone", lambda self: True)
+    monkeypatch.setattr(Fairing, "_in_time", lambda self, context, jobs: None)
+    monkeypatch.setattr(redo, "BUDGET", 1e-9)
+    select(*panels)
+    assert bpy.ops.object.fairing_match_border() == {"FINISHED"}
+    assert (fender.discrete_fairing.neighbour, fender.discrete_fairing.levels) == (bonnet, 3)
+    assert why_stale(fender) == UNFINISHED and np.degrees(check(*panels).kink) < 1
+    monkeypatch.undo()
+    recompute(fender)
+    assert np.degrees(check(*panels).kink) < 0.05
+
+
+def test_the_panel_offers_a_neighbour_once_one_is_selected(panels):
+    select(panels[1])
+    assert "object.fairing_match_border" not in draw(VIEW3D_PT_fairing)
+    select(*panels)
+    assert "object.fairing_match_border" in draw(VIEW3D_PT_fairing)
 
 
 def test_the_worst_place_is_shown(panels):
