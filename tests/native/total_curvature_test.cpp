@@ -10,7 +10,6 @@
 #include <map>
 #include <numbers>
 
-#include "curvature/cotangent_curvature.h"
 #include "curvature/point_curvature.h"
 #include "grid/linear.h"
 #include "meshes.h"
@@ -123,33 +122,6 @@ TEST(PointCurvature, IsExactOnSpheres) {
         ++points;
       });
       EXPECT_EQ(points, lattice.size());
-    }
-}
-
-TEST(TotalCurvature, SumsThePointsOfWalkedRings) {
-  std::map<std::string, ControlMesh> all = inscribed();
-  all["cylinder"] = control(open_cylinder(5));
-  all["cylinder, free"] = control(open_cylinder(5), {.boundary = BoundaryMode::free});
-  all["crease"] = control(icosahedron(), {.crease_edges = {{0, 11}, {11, 2}}});
-  all["roof"] = control(roof(), {.crease_edges = {{0, 1}}});
-  all["pyramid"] = control(square_pyramid());
-  std::mt19937 random(2);
-  for (const auto& [name, mesh] : all)
-    for (int level = 0; level <= 3; ++level) {
-      SCOPED_TRACE(name + ", level " + std::to_string(level));
-      const GridLevel lattice(mesh, level);
-      std::vector<double> x(3 * lattice.size());
-      refine_linearly(lattice, mesh.positions, x.data());
-      UniformReal<> move(-0.05 / lattice.n(), 0.05 / lattice.n());
-      for (double& c : x) c += move(random);
-      double mean = 0, gauss = 0;
-      visit_rings(lattice, x, [&](Index, const SurfaceRing& ring) {
-        const CotangentCurvature c = cotangent_curvature(ring);
-        mean += c.mean;
-        gauss += c.gauss;
-      });
-      const double sum = mean + std::max(mean - 2 * gauss, 0.0);
-      EXPECT_NEAR(measured(lattice, x), sum, 1e-10 * sum);
     }
 }
 
