@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether surfaces are still the same to the last bit: hashes of many, written before a change and
+"""Checks that surfaces stay the same to the last bit: hashes of many surfaces, written before a change and
 compared after it.
 
     .venv/bin/python benchmarks/bits.py write before.json
@@ -118,7 +118,7 @@ def own_cases() -> Iterator[Case]:
 
 
 def real_cases() -> Iterator[Case]:
-    """The collection that may lie beside the project."""
+    """Meshes of the collection that may lie beside the project."""
     mesh_files, shared_data = from_tests.readers()
     folder = shared_data.SHARED / "good"
     for path in sorted(p for p in folder.rglob("*") if p.suffix.lower() in mesh_files.SUFFIXES):
@@ -132,7 +132,7 @@ def real_cases() -> Iterator[Case]:
 
 
 def surface_hash(vertices: np.ndarray, faces: Any, options: dict[str, Any]) -> str:
-    """Of everything that a run returns, its energies included."""
+    """A hash of everything that a run returns, energies included."""
     try:
         result = df.fair(
             vertices, faces, **{"pad_size": 0, "relative_residual": 1e-8, "measure": True} | options
@@ -146,7 +146,7 @@ def surface_hash(vertices: np.ndarray, faces: Any, options: dict[str, Any]) -> s
 
 
 def dragged() -> Iterator[tuple[str, str]]:
-    """A Solver's surfaces during a drag, and after it was built again about the last positions."""
+    """Hashes of a Solver's surfaces during a drag, and after it was built again at the last positions."""
     vertices, faces = from_tests.small_meshes().creature()
     for energy in ENERGIES[:2]:
         moved = np.array(vertices, float)
@@ -161,7 +161,7 @@ def dragged() -> Iterator[tuple[str, str]]:
 
 
 def hashes(quick: bool, only: str) -> dict[str, str]:
-    """Of all cases, by name."""
+    """The hashes of all cases, by name."""
     found = {}
     cases = [*own_cases(), *([] if quick else real_cases())]
     for name, vertices, faces, options in cases:
@@ -172,7 +172,7 @@ def hashes(quick: bool, only: str) -> dict[str, str]:
 
 
 def main() -> int:
-    """Writes or compares; the exit code is 1 where something differs."""
+    """Writes or compares hashes; the exit code is 1 if one differs."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )

@@ -6,7 +6,7 @@ import numpy as np
 
 
 def refine(points: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """One level: old vertices stay, every edge has a new one."""
+    """Refines by one level: old vertices stay, and every edge gets a new vertex."""
     rings = ordered_rings(len(points), triangles)
     number, new = {}, []
     for a, b in sorted(

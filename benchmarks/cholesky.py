@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The program that solves our very system by sparse Cholesky (cholesky.cpp): CHOLMOD, and Eigen's SimplicialLDLT.
+"""Runs the program that solves the same linear system by sparse Cholesky (cholesky.cpp): CHOLMOD, and Eigen's SimplicialLDLT.
 
 CHOLMOD's speed is that of the BLAS it finds at run time: Debian's reference BLAS is several times
 slower than OpenBLAS (package libopenblas0-pthread). Which one it was is written beside the figures.
@@ -21,7 +21,7 @@ PROGRAM = (
 
 
 def write_mesh(mesh: tuple[np.ndarray, np.ndarray], path: Path) -> None:
-    """The program's plain text form."""
+    """Writes a system in the text format of the program."""
     vertices, faces = mesh
     lines = [f"{len(vertices)} {len(faces)}"]
     lines += [" ".join(map(repr, p)) for p in vertices.tolist()]
@@ -30,7 +30,7 @@ def write_mesh(mesh: tuple[np.ndarray, np.ndarray], path: Path) -> None:
 
 
 def blas() -> str:
-    """The BLAS that CHOLMOD loads."""
+    """The path of the BLAS that CHOLMOD loads."""
     listing = subprocess.run(["ldd", str(PROGRAM)], capture_output=True, text=True).stdout
     paths = [
         line.split("=>")[1].split("(")[0].strip()

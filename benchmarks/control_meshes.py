@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Control meshes of any size to race on: spheres and tori of triangles or quads, roughened like
-drawn ones.
+"""Control meshes of any size for timings: spheres and tori of triangles or quads, roughened as if drawn by
+hand.
 
 Each function returns (vertices (n, 3) float64, faces (m, 3) or (m, 4) int64), counter-clockwise
 from outside.
@@ -20,7 +20,7 @@ ICOSAHEDRON = np.array(
 
 
 def roughened(vertices: np.ndarray, faces: np.ndarray, share: float, seed: int = 1) -> np.ndarray:
-    """Every vertex moved by up to `share` of the mean edge, the same way for the same seed."""
+    """Moves every vertex by up to `share` of the mean edge; the same seed gives the same moves."""
     edge = np.linalg.norm(vertices[faces[:, 0]] - vertices[faces[:, 1]], axis=1).mean()
     noise = np.random.default_rng(seed).uniform(-1, 1, vertices.shape)
     return vertices + share * edge * noise
@@ -99,7 +99,7 @@ def quad_torus(m: int, n: int, rough: float = 0.15) -> tuple[np.ndarray, np.ndar
 
 
 def torus(m: int, n: int, rough: float = 0.15) -> tuple[np.ndarray, np.ndarray]:
-    """The same of 2 m n triangles."""
+    """The same torus of 2 m n triangles."""
     vertices, quads = quad_torus(m, n, rough)
     return vertices, np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
 

@@ -25,7 +25,7 @@ PEAK = 1.5  # over the ring's mean
 
 
 def control_meshes() -> Iterator[tuple[str, np.ndarray, Any, int]]:
-    """Name, vertices, polygons, levels."""
+    """Yields name, vertices, polygons and levels of each mesh."""
     yield "creature", *from_tests.small_meshes().creature(), 3
     mesh_files, shared_data = from_tests.readers()
     for name, (file, levels) in COLLECTED.items():
@@ -52,7 +52,7 @@ def ratios(points: np.ndarray, triangles: np.ndarray, count: int) -> np.ndarray:
 
 
 def summary(found: np.ndarray) -> dict[str, Any]:
-    """Median, 95th percentile and largest of both, and how many are peaks."""
+    """Median, 95th percentile and largest value of both ratios, and the number of peaks."""
     entry = {"vertices": len(found), "peaks": int((found[:, 0] > PEAK).sum())}
     for key, values in zip(("over_mean", "over_largest"), found.T):
         entry[key] = [
@@ -64,7 +64,7 @@ def summary(found: np.ndarray) -> dict[str, Any]:
 
 
 def run() -> dict[str, Any]:
-    """All meshes and energies."""
+    """Measures all meshes under all energies."""
     result: dict[str, Any] = {}
     for name, vertices, faces, levels in control_meshes():
         result[name] = {"levels": levels, "faces": len(faces)}
@@ -85,7 +85,7 @@ PEAKS = {
 
 
 def peaks_cell(found: dict[str, Any]) -> str:
-    """Median, 95 % and largest, then how many are peaks."""
+    """A cell: median, 95 % and largest ratio, then the number of peaks."""
     return f"{' / '.join(f'{v:.2f}' for v in found['over_mean'])}, {found['peaks'] or 'none'}"
 
 
@@ -109,7 +109,7 @@ def peaks_table(result: dict[str, Any]) -> str:
 
 
 def tables(result: dict[str, Any]) -> dict[str, str]:
-    """Those of the documents, by their names."""
+    """The tables of the documents, by name."""
     return {
         "peaks": peaks_table(result),
     }

@@ -99,7 +99,7 @@ def kept_table(result: dict[str, Any]) -> str:
 
 
 def tables(result: dict[str, Any]) -> dict[str, str]:
-    """Those of the documents, by their names."""
+    """The tables of the documents, by name."""
     found = {"drag": drag_table(result)}
     return found | ({"drag.kept": kept_table(result)} if "kept" in result else {})
 

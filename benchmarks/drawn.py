@@ -42,7 +42,7 @@ def roughness(points: np.ndarray, triangles: np.ndarray, judged: np.ndarray) -> 
 
 
 def turning(line: np.ndarray) -> float:
-    """The sum of a polyline's angles, radians."""
+    """The sum of the angles of a polyline, in radians."""
     way = np.diff(line, axis=0)
     way /= np.linalg.norm(way, axis=1)[:, None]
     return float(np.arccos(np.clip((way[1:] * way[:-1]).sum(1), -1, 1)).sum())
@@ -108,7 +108,7 @@ def places_of(sheet: Any) -> dict[str, np.ndarray]:
 
 
 def run() -> dict[str, Any]:
-    """All of examples/panel_meshes.py."""
+    """Measures all meshes of examples/panel_meshes.py."""
     meshes = from_tests.drawn_panels()
     result: dict[str, Any] = {}
     for job, models in (("panel", meshes.PANELS), ("hull", meshes.HULLS)):
@@ -133,7 +133,7 @@ DRAWN = {
 
 
 def drawn_table(result: dict[str, Any], job: str) -> str:
-    """Roughness in that of Subdivision Surface, and how much more than the cage surfaces turn."""
+    """Roughness as a share of Subdivision Surface's, and how much more surfaces turn than the cage."""
     rows = []
     for model, found in result[job].items():
         theirs = found["Subdivision Surface"]
@@ -146,7 +146,7 @@ def drawn_table(result: dict[str, Any], job: str) -> str:
 
 
 def tables(result: dict[str, Any]) -> dict[str, str]:
-    """Those of the documents, by their names."""
+    """The tables of the documents, by name."""
     return {
         "drawn.panels": drawn_table(result, "panel"),
         "drawn.hulls": drawn_table(result, "hull"),

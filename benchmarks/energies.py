@@ -24,7 +24,7 @@ COMPETITORS = {
 
 
 def collected(name: str) -> Any:
-    """Vertices and faces of a mesh beside the project; None where it is not there."""
+    """Vertices and faces of a mesh of the collection beside the project; None if it is absent."""
     files, data = from_tests.readers()
     found = sorted((data.SHARED / "good").rglob(f"*{name}"))
     return files.read_mesh(found[0]) if found else None
@@ -63,7 +63,7 @@ def measure(mesh: Any, levels: int) -> dict[str, Any]:
 
 
 def run() -> dict[str, Any]:
-    """All meshes that are there."""
+    """Measures all meshes that are present."""
     result = {}
     for name, (make, levels) in cases().items():
         mesh = make()
@@ -73,7 +73,7 @@ def run() -> dict[str, Any]:
 
 
 def pads_table(result: dict[str, Any]) -> str:
-    """Pads beside point forces, both energies."""
+    """The cost of pads beside point forces, for both energies."""
     heads = ["control mesh, level", "thin plate, point forces", "on pads", "ratio"]
     heads += ["total curvature, point forces", "on pads", "ratio"]
     rows = []
@@ -85,7 +85,7 @@ def pads_table(result: dict[str, Any]) -> str:
 
 
 def total_curvature_table(result: dict[str, Any]) -> str:
-    """Total curvature beside the thin plate, and what its finest level took."""
+    """The cost of total curvature beside the thin plate, and the steps of its finest level."""
     heads = ["control mesh, level", "thin plate", "total curvature", "ratio"]
     heads += ["steps", "iterations", "factors"]
     rows = []
@@ -97,7 +97,7 @@ def total_curvature_table(result: dict[str, Any]) -> str:
 
 
 def tables(result: dict[str, Any]) -> dict[str, str]:
-    """Those of the documents, by their names."""
+    """The tables of the documents, by name."""
     return {
         "pads.cost": pads_table(result),
         "total_curvature.cost": total_curvature_table(result),

@@ -17,7 +17,7 @@ TIGHT = {"relative_residual": 1e-8, "step_tolerance": 1e-9, "max_steps": 40}
 
 
 def solids() -> Iterator[tuple[str, Any, Any]]:
-    """Kind, vertices on the unit sphere, faces."""
+    """Yields kind, vertices on the unit sphere and faces of each mesh."""
     for name, make in inscribed.NAMED.items():
         points, faces = make()
         size = np.linalg.norm(points, axis=1)[:, None]
@@ -124,7 +124,7 @@ def caps() -> list[tuple[Any, ...]]:
 
 
 def run() -> dict[str, Any]:
-    """The data of all tables."""
+    """Measures the data of all tables."""
     result = {"spheres": spheres(2) + spheres(3), "clifford": clifford(), "caps": caps()}
     return result
 
@@ -172,7 +172,7 @@ def caps_table(result: dict[str, Any]) -> str:
 
 
 def tables(result: dict[str, Any]) -> dict[str, str]:
-    """Those of the documents, by their names."""
+    """The tables of the documents, by name."""
     return {
         "exact": exact_table(result),
         "exact.caps": caps_table(result),

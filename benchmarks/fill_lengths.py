@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How long the triangles of a ragged hole take against its length, and what all of the filling takes."""
+"""The time of triangulating a ragged hole, and of the whole filling, against the length of its loop."""
 
 from time import process_time
 from typing import Any
@@ -85,7 +85,7 @@ def lengths_table(result: dict[str, Any]) -> str:
 
 
 def tables(result: dict[str, Any]) -> dict[str, str]:
-    """Those of the documents, by their names."""
+    """The tables of the documents, by name."""
     return {
         "fill.lengths": lengths_table(result),
     }

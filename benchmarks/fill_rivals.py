@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What else closes a hole today, each in one way, whose settings nobody has tuned, in a process of its
-own: two of these libraries may not bear each other.
+"""Other programs that close a hole, each with untuned settings and in a process of its own: two of these
+libraries may not bear each other.
 
     python fill_rivals.py MAKER IN.npz OUT.npz
 
@@ -25,7 +25,7 @@ Made: TypeAlias = tuple[np.ndarray, np.ndarray, float]
 
 
 def ours(energy: str) -> Callable[[Arrays], Made]:
-    """df.fill_holes with its defaults."""
+    """Fills by df.fill_holes with its defaults."""
 
     def make(given: Arrays) -> Made:
         import discrete_fairing as df

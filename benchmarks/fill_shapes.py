@@ -27,7 +27,7 @@ class Holed:
 def turns_at_edges(
     points: np.ndarray, triangles: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Of each edge with two triangles these, and the degrees between their normals."""
+    """The two triangles of each inner edge, and the degrees between their normals."""
     corner = points[triangles]
     normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
     normal /= np.maximum(np.linalg.norm(normal, axis=1), 1e-300)[:, None]
@@ -106,7 +106,7 @@ def _graph(sign: float) -> Holed:
     gone = np.linalg.norm(points[faces].mean(1)[:, :2], axis=1) < 0.5
 
     def distance(p: np.ndarray) -> np.ndarray:
-        """To first order, which is an upper bound's worth here: the slope is below one."""
+        """Distances to first order, which are upper bounds here, because the slope is below one."""
         x, y, z = p.T
         return abs(z - (x**2 + sign * y**2) / 2) / np.sqrt(1 + x**2 + y**2)
 

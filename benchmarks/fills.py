@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Holes in known surfaces, closed by us and by others: how far from the surface, how smooth across the
-rim, and how long that takes.
+"""Holes in known surfaces, closed by us and by others: the distance from the surface, the angle across the rim,
+and the time.
 
 The half sphere has nothing but its rim and the bend there to go by. Distances are those of 15 points a
 triangle, so that the chords of the true triangles are told as well ("as it was").
@@ -68,7 +68,7 @@ def _rim(vertices: np.ndarray, faces: np.ndarray, new: np.ndarray) -> dict[str, 
 
 
 def _islands() -> dict[str, Any]:
-    """Three islands in one hole of a cap, which no other of these tools takes as one hole."""
+    """Fills a hole of a cap with three islands, which no other of these tools takes as one hole."""
     points, faces = control_meshes.sphere(24, rough=0.0)
     centre = points[faces].mean(1)
     gone = centre[:, 2] > 0.6
@@ -92,7 +92,7 @@ def _islands() -> dict[str, Any]:
 
 
 def _seconds() -> dict[str, Any]:
-    """In CPU seconds, for caps of 53 degrees' width, by the length of the loop."""
+    """CPU seconds for caps 53 degrees wide, by the length of the loop."""
     result: dict[str, Any] = {}
     slow: set[str] = set()
     for m in AROUND:
@@ -144,13 +144,13 @@ TOOL_NAMES = {
 
 
 def least_marked(values: list[str]) -> list[str]:
-    """Numbers of one row, the least of them in bold."""
+    """The numbers of one row, with the least in bold."""
     least = min(map(float, values))
     return [f"**{value}**" if float(value) == least else value for value in values]
 
 
 def distances_table(result: dict[str, Any]) -> str:
-    """How far fillings are from the surface that was cut, in thousandths of the hole's diameter."""
+    """Distances of fillings from the surface that was cut, in thousandths of the hole's diameter."""
     rows = []
     for shape, name in SHAPE_NAMES.items():
         found = result["shapes"][shape]
@@ -161,7 +161,7 @@ def distances_table(result: dict[str, Any]) -> str:
 
 
 def rims_table(result: dict[str, Any]) -> str:
-    """The largest angle across the rim, in those of the mesh."""
+    """The largest angle across the rim, as a multiple of the largest angle of the mesh beside it."""
     shapes = result["shapes"]
     rows = [
         [name, *least_marked([table.short(shapes[shape][tool]["rim"], 3) for tool in TOOL_NAMES])]
@@ -182,7 +182,7 @@ def seconds_table(result: dict[str, Any]) -> str:
 
 
 def tables(result: dict[str, Any]) -> dict[str, str]:
-    """Those of the documents, by their names."""
+    """The tables of the documents, by name."""
     return {
         "fills.distances": distances_table(result),
         "fills.rims": rims_table(result),

@@ -22,7 +22,7 @@ FACTORS = (1 / 16, 1 / 4, 4, 16)  # of the weight, for others than the one chose
 def shrinkwrapped(
     surface: fit_shapes.Mesh, points: np.ndarray, triangles: np.ndarray, mode: str
 ) -> np.ndarray:
-    """By Blender's modifier; PROJECT along the normals, both ways."""
+    """Wraps the surface by Blender's modifier; PROJECT goes along the normals, both ways."""
     import bpy
 
     def added(name: str, vertices: np.ndarray, faces: np.ndarray) -> Any:
@@ -46,7 +46,7 @@ def shrinkwrapped(
 
 
 def surfaces(shape: fit_shapes.Shape, noise: float) -> dict[str, tuple[float, float]]:
-    """The errors of each."""
+    """The errors of each surface."""
     points, triangles = shape.scanned(noise, 1)
 
     def fitted(weight: float | None = None) -> tuple[df.Fitted, tuple[float, float]]:
@@ -61,7 +61,7 @@ def surfaces(shape: fit_shapes.Shape, noise: float) -> dict[str, tuple[float, fl
     smooth = df.denoise(points, triangles, passes=PASSES).vertices
 
     def best(target: np.ndarray) -> tuple[float, float]:
-        """Of all modes the one that is nearest in normals."""
+        """The errors of the mode that is nearest in normals."""
         wrapped = (shrinkwrapped(subdivided, target, triangles, mode) for mode in MODES)
         return min((shape.errors(each, subdivided[1]) for each in wrapped), key=lambda e: e[1])
 
@@ -75,7 +75,7 @@ def surfaces(shape: fit_shapes.Shape, noise: float) -> dict[str, tuple[float, fl
 
 
 def run() -> dict[str, Any]:
-    """By shape and noise."""
+    """The errors by shape and noise."""
     result: dict[str, Any] = {}
     for name, make in fit_shapes.SHAPES.items():
         shape = make()
@@ -85,7 +85,7 @@ def run() -> dict[str, Any]:
 
 
 def fit_table(result: dict[str, Any]) -> str:
-    """Distances and angles of each surface to the true one."""
+    """The distance and angle of each surface from the true one."""
     names = list(next(iter(result.values())))
     rows = [
         [label, *(f"{table.short(found[n][0])} · {table.short(found[n][1])}°" for n in names)]
@@ -95,5 +95,5 @@ def fit_table(result: dict[str, Any]) -> str:
 
 
 def tables(result: dict[str, Any]) -> dict[str, str]:
-    """Those of the documents, by their names."""
+    """The tables of the documents, by name."""
     return {"fit": fit_table(result)}

@@ -104,7 +104,7 @@ def lens() -> Shape:
 
 
 def nearest_of(points: np.ndarray, found: Sequence[Feet]) -> Feet:
-    """Of several feet of each point."""
+    """The nearest of several feet of each point."""
     best = np.argmin([np.linalg.norm(points - feet, axis=1) for feet, _ in found], axis=0)
     every = np.arange(len(points))
     return np.stack([f for f, _ in found])[best, every], np.stack([n for _, n in found])[
@@ -113,7 +113,7 @@ def nearest_of(points: np.ndarray, found: Sequence[Feet]) -> Feet:
 
 
 def ring_edges(quads: np.ndarray, is_on: np.ndarray) -> np.ndarray:
-    """(k, 2) the edges whose ends are both of the mask `is_on`."""
+    """(k, 2): the edges whose two ends have `is_on` set."""
     edges = np.stack([quads, np.roll(quads, -1, axis=1)], -1).reshape(-1, 2)
     return np.unique(np.sort(edges[is_on[edges].all(1)], axis=1), axis=0)
 
@@ -179,7 +179,7 @@ class _Patch:
         return self.place(x.ravel(), y.ravel()), np.stack(corners, -1).reshape(-1, 4)
 
     def nearest(self, points: np.ndarray) -> Feet:
-        """From the nearest of many samples on, by Gauss and Newton."""
+        """Feet by Gauss-Newton steps from the nearest of many samples."""
         u, v = (a.ravel() for a in np.meshgrid(*2 * [np.linspace(0, 1, 401)], indexing="ij"))
         at = cKDTree(self.place(u, v)).query(points)[1]
         u, v, step = u[at], v[at], 1e-6
@@ -235,7 +235,7 @@ def hull() -> Shape:
     """Half a hull with a sharp chine, from keel to gunwale and from stem to transom."""
 
     def line(u: np.ndarray, which: int) -> np.ndarray:
-        """Keel, chine, gunwale."""
+        """The points of keel (0), chine (1) or gunwale (2)."""
         fore = 1 - u
         wide, low = 0.25 + 0.38 * (1 - fore**2), 0.25 + 0.25 * fore**2
         y = (0 * u, wide, wide + 0.18)[which]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Curvature at single vertices, by polynomials fitted to two rings [Cazals, Pouget 2003]; nothing
-of the core's.
+"""Curvature at single vertices, by polynomials fitted to two rings [Cazals, Pouget 2003]; without
+the core.
 
 Cotangent weights and angle defects are right in sums (surface_measures.py), but not at single
 vertices of uncommon valence, which is what control vertices are: on an exact sphere, the refined
@@ -30,11 +30,11 @@ class FittedCurvature:
         self.rings = coo_array((np.ones(ends.shape[1]), tuple(ends)), shape=(count, count)).tocsr()
 
     def ring(self, vertex: int) -> np.ndarray:
-        """Its neighbours."""
+        """The neighbours of a vertex."""
         return self.rings.indices[self.rings.indptr[vertex] : self.rings.indptr[vertex + 1]]
 
     def at(self, vertices: Sequence[int]) -> np.ndarray:
-        """The curvature at these."""
+        """The curvature at these vertices."""
         return np.array([self._one(vertex) for vertex in vertices])
 
     def _one(self, vertex: int) -> float:

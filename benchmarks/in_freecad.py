@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What FreeCAD makes of STEP files: sections, a box cut away, parallel surfaces.
+"""Operations of FreeCAD on STEP files: sections, a cut with a box, parallel surfaces.
 
     DF_STEP_FILES=FOLDER freecadcmd benchmarks/in_freecad.py
 
@@ -19,7 +19,7 @@ OFFSET = 0.01  # of the size
 
 
 def section(shape, middle, _size):
-    """The area within the plane z through the middle."""
+    """The area of the section at the middle height."""
     wires = shape.slice(FreeCAD.Vector(0, 0, 1), middle.z)
     if not all(wire.isClosed() for wire in wires):
         return "open", sum(wire.Length for wire in wires)
@@ -28,19 +28,19 @@ def section(shape, middle, _size):
 
 
 def cut(shape, middle, size):
-    """The volume without an octant."""
+    """The volume after an octant is cut away."""
     rest = shape.cut(Part.makeBox(size, size, size, middle))
     return rest.isValid(), rest.Volume
 
 
 def offset(shape, _middle, size):
-    """The volume of the parallel surface outside."""
+    """The volume inside the outer parallel surface."""
     moved = shape.makeOffsetShape(OFFSET * size, 1e-4 * size)
     return moved.isValid(), moved.Volume
 
 
 def attempt(operation, *arguments):
-    """Validity, figure and seconds, as text."""
+    """Validity, figure and seconds of an operation, as text."""
     start = time.perf_counter()
     try:
         valid, figure = operation(*arguments)

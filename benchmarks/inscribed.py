@@ -58,7 +58,7 @@ def inscribed(points, cut: bool) -> tuple[np.ndarray, list[list[int]]]:
 
 
 def signs(*values: float) -> np.ndarray:
-    """All cyclic permutations of these, with all signs."""
+    """All cyclic permutations of these coordinates, with all signs."""
     some = np.stack(np.meshgrid(*[sorted({v, -v}) for v in values], indexing="ij"), -1).reshape(
         -1, 3
     )
@@ -68,13 +68,13 @@ def signs(*values: float) -> np.ndarray:
 
 
 def turned(points: np.ndarray, angle: float) -> np.ndarray:
-    """About the z axis."""
+    """The points rotated about the z axis."""
     c, s = np.cos(angle), np.sin(angle)
     return points @ np.array([[c, s, 0], [-s, c, 0], [0, 0, 1.0]])
 
 
 def cupola(sides: int) -> np.ndarray:
-    """Edges of length 1; the large face lies in z = 0."""
+    """A cupola with edges of length 1; its large face lies in z = 0."""
     small, large = 0.5 / np.sin(np.pi / sides), 0.5 / np.sin(np.pi / (2 * sides))
     above = 2 * np.pi / sides * (np.arange(sides) + 0.5)
     below = np.pi / sides * (np.arange(2 * sides) + 0.5)
@@ -85,7 +85,7 @@ def cupola(sides: int) -> np.ndarray:
 
 
 def upright_icosahedron() -> np.ndarray:
-    """A vertex on the z axis."""
+    """An icosahedron with a vertex on the z axis."""
     angle = 2 * np.pi / 5 * np.arange(5)
     ring = np.stack([2 * np.cos(angle), 2 * np.sin(angle), 1 + 0 * angle], -1) / 5**0.5
     return np.concatenate([[[0, 0, 1.0]], ring, -ring, [[0, 0, -1.0]]])
@@ -100,7 +100,7 @@ def rotunda() -> np.ndarray:
 
 
 def both_sides(points: np.ndarray) -> np.ndarray:
-    """With the mirror image in z = 0."""
+    """The points with their mirror images in z = 0."""
     return np.concatenate([points, points[points[:, 2] > 1e-9] * [1, 1, -1]])
 
 
@@ -141,7 +141,7 @@ def johnson(number: int, cut: bool = False):
 
 
 def dodecahedron():
-    """Its pentagons cut into triangles."""
+    """The dodecahedron with its pentagons cut into triangles."""
     points, pentagons = meshes.dodecahedron()
     return points, cut_large(pentagons)
 

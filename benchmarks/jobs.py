@@ -40,7 +40,7 @@ SETTINGS = {
 
 
 def grid(height: Height) -> tuple[np.ndarray, list[list[int]]]:
-    """9 × 7 vertices on the surface, spaced unevenly as by hand."""
+    """A control mesh of 9 × 7 vertices on the surface, spaced unevenly as if by hand."""
     u, v = np.linspace(-1, 1, 9), np.linspace(-1, 1, 7)
     x, y = np.meshgrid(u + 0.06 * np.sin(3 * u), v + 0.08 * np.sin(2 * v), indexing="ij")
     points = np.stack([x, y, height(x, y)], axis=2).reshape(-1, 3)
@@ -50,7 +50,7 @@ def grid(height: Height) -> tuple[np.ndarray, list[list[int]]]:
 
 
 def normals(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """(n, 3) of length one, area-weighted."""
+    """(n, 3): unit normals, weighted by area."""
     a, b, c = points[triangles].swapaxes(0, 1)
     total = np.zeros_like(points)
     for corner in triangles.T:
@@ -84,7 +84,7 @@ def judged(points: np.ndarray, triangles: np.ndarray, height: Height) -> dict[st
 
 
 def surfaces(points: np.ndarray, faces: list[list[int]]) -> Iterator[tuple[str, Any, float]]:
-    """Name, (points, triangles), CPU seconds."""
+    """Yields name, (points, triangles) and CPU seconds of each surface."""
     yield "Subdivision Surface", rivals.catmull_clark(points, faces, LEVELS), 0.0
     yield "cage pushed out", rivals.catmull_clark_through(points, faces, LEVELS), 0.0
     corners = [0, 6, 56, 62]
@@ -96,7 +96,7 @@ def surfaces(points: np.ndarray, faces: list[list[int]]) -> Iterator[tuple[str, 
 
 
 def run() -> dict[str, Any]:
-    """All models."""
+    """Measures all models."""
     result: dict[str, Any] = {}
     for name, (job, height) in MODELS.items():
         points, faces = grid(height)
@@ -107,7 +107,7 @@ def run() -> dict[str, Any]:
 
 
 def jobs_table(result: dict[str, Any]) -> str:
-    """Known panels and hulls: angles to the true normals."""
+    """Angles between the normals and the true ones on known panels and hulls."""
     tools = {
         "Subdivision Surface": "Subdivision Surface",
         "cage pushed out": "the same, cage pushed out",
@@ -125,7 +125,7 @@ def jobs_table(result: dict[str, Any]) -> str:
 
 
 def tables(result: dict[str, Any]) -> dict[str, str]:
-    """Those of the documents, by their names."""
+    """The tables of the documents, by name."""
     return {
         "jobs": jobs_table(result),
     }

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Through the limit positions of organic cages: where Subdivision Surface passes, and fairer in
-between? Four figures of bending, and crossings, beside that modifier's surface at the same level.
+"""Surfaces through the limit positions of organic cages, as Subdivision Surface: are they fairer in between?
+Four figures of bending, and crossings, beside that modifier's surface at the same level.
 """
 
 import time
@@ -28,7 +28,7 @@ def judged(points: np.ndarray, triangles: np.ndarray) -> dict[str, float]:
 
 
 def run() -> dict[str, Any]:
-    """All cages."""
+    """Measures all cages."""
     result: dict[str, Any] = {}
     for name, vertices, faces in cages():
         polygons = [list(map(int, face)) for face in faces]
@@ -46,7 +46,7 @@ def run() -> dict[str, Any]:
 
 
 def tables(result: dict[str, Any]) -> dict[str, str]:
-    """Those of the documents, by their names."""
+    """The tables of the documents, by name."""
     return {
         "limits": beside_subdivision(
             result,

@@ -23,7 +23,7 @@ TOOLS = (*SUBDIVISION, *ENERGIES)
 
 
 def folds(vertices: np.ndarray, faces: list[tuple[int, ...]]) -> list[tuple[int, int]]:
-    """Edges whose faces turn by more than that."""
+    """The edges whose faces turn by more than FOLD."""
     normal: dict[tuple[int, int], np.ndarray] = {}
     for face in faces:
         a, b, c = vertices[list(face[:3])]
@@ -38,7 +38,7 @@ def folds(vertices: np.ndarray, faces: list[tuple[int, ...]]) -> list[tuple[int,
 
 
 def surface(vertices: np.ndarray, faces: list[tuple[int, ...]], tool: str) -> np.ndarray:
-    """Its points."""
+    """The points of the surface that a tool makes."""
     if tool in SUBDIVISION:
         polygons = [list(face) for face in faces]
         return SUBDIVISION[tool](vertices, polygons, LEVELS, folds(vertices, faces))[0]
@@ -47,7 +47,7 @@ def surface(vertices: np.ndarray, faces: list[tuple[int, ...]], tool: str) -> np
 
 
 def run() -> dict[str, Any]:
-    """All parts: distances in thousandths of the largest extent."""
+    """Measures all parts: distances in thousandths of the largest extent."""
     result: dict[str, Any] = {}
     for name, make in from_tests.machine_parts().PARTS.items():
         vertices, faces, off = make()
@@ -59,7 +59,7 @@ def run() -> dict[str, Any]:
 
 
 def machine_parts_table(result: dict[str, Any]) -> str:
-    """Distances from parts that are known."""
+    """Distances from the known parts."""
     rows = [
         [
             part,
@@ -74,7 +74,7 @@ def machine_parts_table(result: dict[str, Any]) -> str:
 
 
 def tables(result: dict[str, Any]) -> dict[str, str]:
-    """Those of the documents, by their names."""
+    """The tables of the documents, by name."""
     return {
         "machine_parts": machine_parts_table(result),
     }

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Points of a known dome, measured with an error: the distance from the dome of surfaces through or near
-them.
+"""Points of a known dome, measured with an error: the distance between the dome and surfaces through or near
+the points.
 """
 
 from collections.abc import Iterator
@@ -27,7 +27,7 @@ FACES = [
 
 
 def surfaces(points: np.ndarray) -> Iterator[tuple[str, np.ndarray]]:
-    """Name and points of each."""
+    """Yields the name and the points of each surface."""
     yield "Subdivision Surface", rivals.catmull_clark(points, FACES, LEVELS)[0]
     yield "through", df.fair(points, FACES, LEVELS).vertices
     near = df.fair(points, FACES, LEVELS, interpolation="approximate", tolerance=NEAR * EDGE)
@@ -68,7 +68,7 @@ def measured_points_table(result: dict[str, Any]) -> str:
 
 
 def tables(result: dict[str, Any]) -> dict[str, str]:
-    """Those of the documents, by their names."""
+    """The tables of the documents, by name."""
     return {
         "points": measured_points_table(result),
     }

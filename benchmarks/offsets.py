@@ -47,7 +47,7 @@ def hull(stations: int = 9, lines: int = 6) -> Mesh:
 
 
 def sphere() -> Mesh:
-    """Of 162 vertices."""
+    """A sphere of 162 vertices."""
     return control_meshes.sphere(4, 0)
 
 
@@ -89,7 +89,7 @@ def edge(mesh: Mesh) -> float:
 
 
 def inside(mesh: Mesh) -> np.ndarray:
-    """Vertices on no border."""
+    """The vertices off the border."""
     points, faces = mesh
     edges, counts = np.unique(
         np.sort(np.stack([faces, np.roll(faces, 1, axis=1)], -1).reshape(-1, 2), axis=1),
@@ -114,7 +114,7 @@ def error(points: np.ndarray, truth: np.ndarray) -> float:
 
 
 def errors_of(mesh: Mesh, scatter: float, seed: int) -> dict[str, Any]:
-    """One trial's errors, lengths in the mesh's unit."""
+    """The errors of one trial, in the mesh's unit."""
     truth, faces = mesh
     random, ids = np.random.default_rng(seed), inside(mesh)
     measured = truth.copy()
@@ -191,7 +191,7 @@ def means(trials: list[dict[str, Any]]) -> dict[str, Any]:
 
 
 def run() -> dict[str, Any]:
-    """One row a shape and scatter."""
+    """Measures each shape and scatter: a row each."""
     result: dict[str, Any] = {}
     for name, make in MESHES.items():
         mesh = make()
@@ -212,7 +212,7 @@ def run() -> dict[str, Any]:
 
 
 def hulls() -> dict[str, Any]:
-    """One row a net and scatter."""
+    """Measures each net and scatter: a row each."""
     found = {
         f"{stations} x {lines}, {scatter:g}, {'half' if half else 'open'}": planted_in_hull(
             stations, lines, scatter, half
@@ -262,7 +262,7 @@ def offsets_hulls_table(result: dict[str, Any]) -> str:
 
 
 def tables(result: dict[str, Any]) -> dict[str, str]:
-    """Those of the documents, by their names."""
+    """The tables of the documents, by name."""
     return {
         "offsets": offsets_table(result),
         "offsets.hulls": offsets_hulls_table(result),

@@ -9,7 +9,7 @@ from typing import Any
 
 
 def peak_resident_bytes() -> int:
-    """Of this process alone. On Linux what getrusage() tells begins with the parent's peak."""
+    """The peak memory of this process alone. On Linux getrusage() begins with the parent's peak."""
     status = Path("/proc/self/status")
     if status.exists():
         line = next(s for s in status.read_text().splitlines() if s.startswith("VmHWM:"))
@@ -21,7 +21,7 @@ def peak_resident_bytes() -> int:
 
 
 def child(kind: str, size: int, levels: int, threads: int) -> dict[str, Any]:
-    """The run itself, in a fresh process."""
+    """Runs the call in this fresh process."""
     import hashlib
 
     import control_meshes
@@ -50,7 +50,7 @@ def child(kind: str, size: int, levels: int, threads: int) -> dict[str, Any]:
 
 
 def spawn(case: tuple[str, int, int], threads: int) -> dict[str, Any]:
-    """child() in a fresh process."""
+    """Runs child() in a fresh process."""
     words = [sys.executable, __file__, *map(str, case), str(threads)]
     done = subprocess.run(words, capture_output=True, text=True, check=True)
     return json.loads(done.stdout)

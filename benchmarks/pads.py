@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pads in place of needles: their effect on curvature, and their cost. `fender` is 9 x 5 vertices over a
+"""Pads in place of point forces: their effect on curvature, and their cost. `fender` is 9 x 5 vertices over a
 wheel arch: nine columns at x = -4 … 4, in each five rows evenly from the arch (straight pieces) to the
 upper border (a slight arc), and a depth that swells in a shoulder and turns out again to a lip.
 """
@@ -19,7 +19,7 @@ ARCH = np.array([0.0, 0.0, 0.64, 1.88, 2.1, 1.88, 0.64, 0.0, 0.0])
 
 
 def fender() -> tuple[np.ndarray, np.ndarray]:
-    """Vertices (45, 3) and quads (32, 4)."""
+    """The fender: vertices (45, 3) and quads (32, 4)."""
     x = np.arange(-4.0, 5.0)
     top = 3.69 - 0.025 * (x + 0.25) ** 2
     share = np.linspace(0, 1, 5)
@@ -173,7 +173,7 @@ def near_along_normals() -> dict[str, Any]:
 
 
 def run() -> dict[str, Any]:
-    """All tables."""
+    """Measures all tables."""
     result: dict[str, Any] = {"real": peaks_and_costs()}
     result["near along normals"] = near_along_normals()
     for energy in ("thin_plate", "total_curvature", "minimum_variation"):
@@ -220,7 +220,7 @@ def near_on_pads_table(result: dict[str, Any]) -> str:
 
 
 def tables(result: dict[str, Any]) -> dict[str, str]:
-    """Those of the documents, by their names."""
+    """The tables of the documents, by name."""
     return {
         "pads.fender": fender_table(result),
         "pads.near": near_on_pads_table(result),

@@ -45,7 +45,7 @@ CGAL = cholesky.PROGRAM.with_name("fairing_bench_cgal")
 def refined(
     points: np.ndarray, triangles: np.ndarray, levels: int
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Flat faces 1-to-4, again and again; the control vertices stay in front."""
+    """Refines flat faces 1-to-4 `levels` times; the control vertices stay first."""
     for _ in range(levels):
         sides = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
         edges, place = np.unique(sides, axis=0, return_inverse=True)
@@ -58,7 +58,7 @@ def refined(
 
 
 def timed(body: Callable[[], Any], repeats: int) -> dict[str, Any]:
-    """Wall seconds of each run, after one that warms up."""
+    """Wall seconds of each run, after a first run that is not counted."""
     body()
     wall = []
     for _ in range(repeats):
@@ -69,7 +69,7 @@ def timed(body: Callable[[], Any], repeats: int) -> dict[str, Any]:
 
 
 def ours(size: int, levels: int, repeats: int, threads: int) -> dict[str, Any]:
-    """From arrays to arrays."""
+    """Our time from arrays to arrays."""
     import discrete_fairing as df
 
     mesh = control_meshes.sphere(size)
@@ -84,7 +84,7 @@ def ours(size: int, levels: int, repeats: int, threads: int) -> dict[str, Any]:
 
 
 def defaults(size: int, levels: int, repeats: int, threads: int) -> dict[str, Any]:
-    """From arrays to arrays with default settings: on pads, to visible accuracy."""
+    """Our time from arrays to arrays with default settings: on pads, to visible accuracy."""
     import discrete_fairing as df
 
     mesh = control_meshes.sphere(size)
@@ -98,8 +98,7 @@ def defaults(size: int, levels: int, repeats: int, threads: int) -> dict[str, An
 
 
 def libigl(size: int, levels: int, repeats: int) -> dict[str, Any]:
-    """harmonic with k = 2: cotangent Laplacian, lumped mass, min_quad_with_fixed on Eigen's
-    LDLT."""
+    """libigl's harmonic with k = 2: cotangent Laplacian, lumped mass, min_quad_with_fixed on Eigen's LDLT."""
     import rivals
 
     igl = rivals.installed("igl", "libigl")
@@ -110,7 +109,7 @@ def libigl(size: int, levels: int, repeats: int) -> dict[str, Any]:
 
 
 def manifold(size: int, levels: int, repeats: int) -> dict[str, Any]:
-    """smooth, then refine; from arrays to arrays."""
+    """Manifold's smooth, then refine; from arrays to arrays."""
     import rivals
 
     rivals.installed("manifold3d", "manifold3d")
@@ -144,13 +143,13 @@ def finished(words: list[str], repeats: int, **variables: str) -> dict[str, Any]
 
 
 def child(name: str, case: tuple[int, int], repeats: int, *more: int) -> dict[str, Any]:
-    """One of the Python ones in a process of its own."""
+    """Runs one of the Python programs in a process of its own."""
     words = [sys.executable, __file__, name, *map(str, (*case, repeats, *more))]
     return finished(words, repeats)
 
 
 def cgal(case: tuple[int, int], repeats: int) -> dict[str, Any]:
-    """cgal.cpp on the refined mesh."""
+    """Runs cgal.cpp on the refined mesh."""
     vertices, faces = control_meshes.sphere(case[0])
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "mesh.txt"
@@ -159,7 +158,7 @@ def cgal(case: tuple[int, int], repeats: int) -> dict[str, Any]:
 
 
 def same_system(case: tuple[int, int], repeats: int, threads: int, ldlt: bool) -> dict[str, Any]:
-    """cholesky.cpp: CHOLMOD, its analysis alone, assembly, LDLT."""
+    """Runs cholesky.cpp: CHOLMOD, its analysis alone, assembly, LDLT."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "mesh.txt"
         cholesky.write_mesh(control_meshes.sphere(case[0]), path)
@@ -171,7 +170,7 @@ def same_system(case: tuple[int, int], repeats: int, threads: int, ldlt: bool) -
 
 
 def measure(case: tuple[int, int], slow: set[str]) -> dict[str, Any]:
-    """All competitors on one mesh, except those in `slow`."""
+    """Times all competitors on one mesh, except those in `slow`."""
     triangles = 20 * case[0] ** 2 * 4 ** case[1]
     repeats = REPEATS[triangles]
     found: dict[str, Any] = {}
@@ -200,7 +199,7 @@ def measure(case: tuple[int, int], slow: set[str]) -> dict[str, Any]:
 
 
 def run() -> dict[str, Any]:
-    """All sizes."""
+    """Times all sizes."""
     result: dict[str, Any] = {"blas": cholesky.blas()}
     slow: set[str] = set()
     for name, case in CASES.items():
@@ -256,7 +255,7 @@ def peers_table(result: dict[str, Any]) -> str:
 
 
 def tables(result: dict[str, Any]) -> dict[str, str]:
-    """Those of the documents, by their names."""
+    """The tables of the documents, by name."""
     return {
         "peers": peers_table(result),
     }

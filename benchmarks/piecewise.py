@@ -77,7 +77,7 @@ def plan(triangles: int, count: int, folder: Path) -> dict[str, Any]:
 
 
 def fair_file(path: Path, threads: int = 0) -> dict[str, Any]:
-    """What a worker does: one piece from disk, its part to disk, in single precision."""
+    """Runs a worker: reads one piece from disk, and writes its part to disk in single precision."""
     import discrete_fairing as df
 
     part = df.Piece.load(path).fair(threads=threads)
@@ -108,7 +108,7 @@ STEPS = {"plan": plan, "work": work, "judge": judge}
 
 
 def alone(step: str, *words: Any) -> dict[str, Any]:
-    """A step in a process of its own."""
+    """Runs a step in a process of its own."""
     done = subprocess.run(
         [sys.executable, __file__, step, *map(str, words)],
         stdout=subprocess.PIPE,
@@ -247,7 +247,7 @@ def rings_table(result: dict[str, Any]) -> str:
 
 
 def tables(result: dict[str, Any]) -> dict[str, str]:
-    """Those of the documents, by their names."""
+    """The tables of the documents, by name."""
     return {
         "pieces": pieces_table(result),
         "pieces.rings": rings_table(result),

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How much rims of thin walls and fins wave, beside Subdivision Surface: the angle by which a rim turns,
-once around, in degrees.
+"""Waves of the rims of thin walls and fins, beside Subdivision Surface: the angle by which a rim turns, once
+around, in degrees.
 """
 
 from typing import Any
@@ -21,7 +21,7 @@ SETTINGS: dict[str, dict[str, Any]] = {
 
 
 def mug() -> tuple[Any, Any, Any]:
-    """That of the examples, its outer lip."""
+    """The mug of the examples, and its outer lip."""
     mesh = from_tests.modelled().mug()
     around = from_tests.modelled().AROUND
     return (
@@ -32,7 +32,7 @@ def mug() -> tuple[Any, Any, Any]:
 
 
 def run() -> dict[str, Any]:
-    """All models."""
+    """Measures all models."""
     result = {}
     for name, make in {"mug": mug, **thin_models.MODELS}.items():
         model = make()
@@ -45,7 +45,7 @@ def run() -> dict[str, Any]:
 
 
 def rims_table(result: dict[str, Any]) -> str:
-    """How far rims turn once around, degrees."""
+    """The angles by which rims turn, once around, in degrees."""
     rows = [[name, *(f"{angle:.1f}" for angle in found.values())] for name, found in result.items()]
     return table.markdown(
         [
@@ -62,5 +62,5 @@ def rims_table(result: dict[str, Any]) -> str:
 
 
 def tables(result: dict[str, Any]) -> dict[str, str]:
-    """Those of the documents, by their names."""
+    """The tables of the documents, by name."""
     return {"rims": rims_table(result)}

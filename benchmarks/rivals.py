@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What else makes a smooth surface of a control mesh today, each called in the way that its own
-documents advise.
+"""Other programs that make a smooth surface of a control mesh, each called as its own documents advise.
 
 Every maker takes (vertices, polygons, levels) and gives (points (n, 3), triangles (m, 3)); it
 raises Missing where its package is not installed and Refused where it cannot take the mesh.
@@ -88,7 +87,7 @@ def is_closed(triangles: np.ndarray) -> bool:
 
 
 def fairing(energy: str) -> Callable[..., Surface]:
-    """A maker of ours."""
+    """A maker that calls discrete_fairing."""
 
     def make(points: np.ndarray, polygons: list[list[int]], levels: int) -> Surface:
         try:
@@ -125,13 +124,13 @@ def biharmonic(points: np.ndarray, polygons: list[list[int]], levels: int) -> Su
 
 
 def loop(points: np.ndarray, polygons: list[list[int]], levels: int) -> Surface:
-    """libigl's Loop subdivision."""
+    """Subdivides by libigl's Loop scheme."""
     igl = installed("igl", "libigl")
     return igl.loop(points, triangulate(points, polygons), levels)
 
 
 def modified_butterfly(points: np.ndarray, polygons: list[list[int]], levels: int) -> Surface:
-    """Modified butterfly, in NumPy."""
+    """Subdivides by modified butterfly, in NumPy."""
     import butterfly
 
     triangles = triangulate(points, polygons)

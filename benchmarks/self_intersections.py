@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Triangles of a mesh that pass through others of it. Plain NumPy, and nothing of the core's."""
+"""Counts triangles of a mesh that cross others. Plain NumPy, without the core."""
 
 import numpy as np
 
@@ -10,7 +10,7 @@ AT_ONCE = 2_000_000  # pairs
 
 
 def crossing_triangles(points: np.ndarray, triangles: np.ndarray) -> int:
-    """How many there are; those that share a vertex are left out, and touching is no crossing."""
+    """The number of crossing pairs, without pairs that share a vertex or only touch."""
     found = [np.zeros(0, np.int64)]
     for a, b in candidates(points[triangles]):
         shared = (triangles[a][:, :, None] == triangles[b][:, None, :]).any((1, 2))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Discrete Fairing beside what its users have today: the same control meshes, the same measures for
+"""Discrete Fairing beside other programs that its users have: the same control meshes, the same measures for
 all.
 
     python3 build_tools/dev.py bench side_by_side
@@ -77,7 +77,7 @@ def projected(points: np.ndarray, polygons: list[list[int]], levels: int) -> riv
 
 
 def halved(points: np.ndarray, triangles: np.ndarray) -> rivals.Surface:
-    """One linear refinement."""
+    """Refines linearly by one level."""
     edges = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), 1)
     edges, inverse = np.unique(edges, axis=0, return_inverse=True)
     ab, bc, ca = (inverse.reshape(-1, 3) + len(points)).T
@@ -217,13 +217,13 @@ def table_of(result: dict[str, Any], name: str) -> str:
 
 
 def all_tables(result: dict[str, Any]) -> str:
-    """All meshes, each under a heading."""
+    """The tables of all meshes, each under a heading."""
     parts = [table_of(result, name).strip() for name in result["meshes"]]
     return "\n\n" + "\n\n".join(parts) + "\n\n"
 
 
 def tables(result: dict[str, Any]) -> dict[str, str]:
-    """Those of the documents, by their names."""
+    """The tables of the documents, by name."""
     return {
         "comparison": all_tables(result),
     }

@@ -30,7 +30,7 @@ FACES = {"sphere": 20, "quad_sphere": 12}  # in triangles
 
 
 def triangles(case: tuple[str, int, int]) -> int:
-    """Of the refined surface."""
+    """The number of triangles of the refined surface."""
     kind, size, levels = case
     return FACES[kind] * size**2 * 4**levels
 
@@ -41,7 +41,7 @@ def exponent(sizes: list[float], seconds: list[float]) -> float:
 
 
 def measure(case: tuple[str, int, int]) -> dict[str, Any]:
-    """One size on one thread and on two threads, in turns."""
+    """Measures one size on one thread and on two threads, in turns."""
     repeats = 1 if triangles(case) >= ONCE_FROM else REPEATS
     found: dict[int, list[dict[str, Any]]] = {1: [], 2: []}
     for _ in range(repeats):
@@ -62,7 +62,7 @@ def measure(case: tuple[str, int, int]) -> dict[str, Any]:
 
 
 def run() -> dict[str, Any]:
-    """All series."""
+    """Measures all series."""
     hundred = os.environ.get("BENCH_HUNDRED") == "1"
     result: dict[str, Any] = {}
     for name, cases in SERIES.items():
@@ -105,7 +105,7 @@ def sizes_table(result: dict[str, Any]) -> str:
 
 
 def tables(result: dict[str, Any]) -> dict[str, str]:
-    """Those of the documents, by their names."""
+    """The tables of the documents, by name."""
     return {
         "sizes": sizes_table(result),
     }

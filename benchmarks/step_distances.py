@@ -21,7 +21,7 @@ NEAREST = 12  # points of the surface, all of whose triangles are looked at
 
 
 def surfaces():
-    """Name, mesh, options."""
+    """Yields name, mesh and options of each surface."""
     mesh_files, shared_data = from_tests.readers()
     mesh, creases = from_tests.importlib.import_module("example_meshes").hull()
     yield "hull", mesh, {"crease_edges": creases}
@@ -57,7 +57,7 @@ def file_points(shape, count: int) -> np.ndarray:
 
 
 def distances(points: np.ndarray, vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """(k,) Of points from the nearest of the triangles around the vertices next to them."""
+    """(k,): distances of points from the nearest triangle around the vertices next to them."""
     corner = np.argsort(triangles.ravel(), kind="stable")
     first = np.searchsorted(triangles.ravel()[corner], np.arange(len(vertices) + 1))
     found = np.full(len(points), np.inf)
@@ -89,7 +89,7 @@ def _from_triangle(p: np.ndarray, corners: np.ndarray) -> np.ndarray:
 
 
 def measured(mesh, options) -> dict[str, float]:
-    """Of one surface's file; lengths as shares of the size."""
+    """The distances of one surface's file, as shares of the size."""
     patches = df.fit_patches(*mesh, **options)
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "surface.step"
@@ -109,7 +109,7 @@ def measured(mesh, options) -> dict[str, float]:
 
 
 def run() -> dict[str, dict[str, float]]:
-    """All surfaces."""
+    """Measures all surfaces."""
     found = {name: measured(mesh, options) for name, mesh, options in surfaces()}
     return found
 
@@ -129,7 +129,7 @@ def step_distances_table(result: dict[str, Any]) -> str:
 
 
 def tables(result: dict[str, Any]) -> dict[str, str]:
-    """Those of the documents, by their names."""
+    """The tables of the documents, by name."""
     return {
         "step_distances": step_distances_table(result),
     }

@@ -39,7 +39,7 @@ FIGURES = ("E / 8π", "99 %", "99.9 %", "largest")
 
 
 def cages() -> Iterator[tuple[str, np.ndarray, list[list[int]]]]:
-    """Name, vertices, polygons."""
+    """Yields name, vertices and polygons of each cage."""
     yield "Suzanne", *side_by_side.suzanne()
     yield "creature", *from_tests.small_meshes().creature()
     mesh_files, shared_data = from_tests.readers()
@@ -52,7 +52,7 @@ def cages() -> Iterator[tuple[str, np.ndarray, list[list[int]]]]:
 
 
 def figures(points: np.ndarray, triangles: np.ndarray) -> dict[str, float]:
-    """Total curvature, and dihedral angles in degrees."""
+    """The total curvature, and the dihedral angles in degrees."""
     angles = measures.dihedrals(points, triangles)
     found = (
         measures.total_curvature(points, triangles) / (8 * np.pi),
@@ -63,7 +63,7 @@ def figures(points: np.ndarray, triangles: np.ndarray) -> dict[str, float]:
 
 
 def run() -> dict[str, Any]:
-    """All cages."""
+    """Measures all cages."""
     result: dict[str, Any] = {}
     for name, vertices, faces in cages():
         polygons = [list(map(int, face)) for face in faces]
@@ -109,7 +109,7 @@ def beside_subdivision(result: dict[str, Any], ours: Sequence[tuple[str, str]]) 
 
 
 def tables(result: dict[str, Any]) -> dict[str, str]:
-    """Those of the documents, by their names."""
+    """The tables of the documents, by name."""
     return {
         "subdivision": beside_subdivision(
             result,

@@ -13,14 +13,14 @@ from typing import Any
 
 
 def measured(body: Callable[[], Any]) -> tuple[Any, float, float]:
-    """The body's value, wall seconds and CPU seconds (all threads together)."""
+    """Calls the body; returns its value, wall seconds and CPU seconds of all threads together."""
     wall, processor = time.perf_counter(), time.process_time()
     value = body()
     return value, time.perf_counter() - wall, time.process_time() - processor
 
 
 def summary(values: list[float]) -> dict[str, Any]:
-    """Median and spread of some runs."""
+    """The median and spread of several runs."""
     return {
         "median": statistics.median(values),
         "min": min(values),

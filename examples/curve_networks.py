@@ -7,7 +7,7 @@ POINTS = 7  # of a row or a column
 
 
 def crossing():
-    """Three curves across four."""
+    """Three curves that cross four others."""
     rows = [_row(f"Row {k}", y, _wave) for k, y in enumerate((-0.8, 0.0, 0.8))]
     return rows + [_column(f"Column {k}", x, _wave) for k, x in enumerate((-1.2, -0.4, 0.4, 1.2))]
 

@@ -87,7 +87,7 @@ def show(exhibit, tiles):
 
 
 def make(name):
-    """The control mesh of that name as the active object."""
+    """Makes the control mesh of that name the active object."""
     if name == "Suzanne":
         bpy.ops.mesh.primitive_monkey_add()
         return bpy.context.active_object
@@ -106,7 +106,7 @@ def make(name):
 
 
 def save(name):
-    """The result, which is what is selected, as OBJ; the whole scene as .blend."""
+    """Writes the result, which is selected, as OBJ, and the whole scene as .blend."""
     bpy.ops.wm.obj_export(
         filepath=str(OUT / f"{name}.obj"), export_selected_objects=True, export_materials=False
     )
@@ -116,7 +116,7 @@ def save(name):
 
 
 def figures(control, result, levels, seconds):
-    """One row of the table."""
+    """The row of one exhibit in the table."""
     result.data.calc_loop_triangles()
     triangles = len(result.data.loop_triangles)
     report = json.loads(result.discrete_fairing.report)

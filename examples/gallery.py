@@ -82,7 +82,7 @@ def main():
 
 
 def picture(name, options):
-    """One picture; a message in its place if its mesh is absent."""
+    """Draws one picture, or prints a message if its mesh is absent."""
     every_energy = {ENERGIES[energy]: {"energy": energy} for energy in options.energies}
     shape_name, looks, surfaces = SPECIAL.get(name, (name, None, every_energy))
     shape = SHAPES[shape_name]

@@ -43,7 +43,7 @@ class Column:
 
 
 def draw(path, folder, columns, view, looks, samples=1.0):
-    """Writes the picture; uses the current, empty scene up."""
+    """Writes the picture; it fills the current, empty scene."""
     looks = looks or ("clay", "zebra", "curvature")
     targets = [_object(column) for column in columns]
     limit = _measure(columns, targets, view) if "curvature" in looks else None
@@ -105,7 +105,7 @@ def _measure(columns, targets, view):
 
 
 def _place(targets, view):
-    """Turns and scales all alike, and stands each on the floor."""
+    """Turns and scales all surfaces alike, and puts each on the floor."""
     turn = Matrix.Rotation(radians(view.turn), 4, "Z")
     points = [np.array([(turn @ v.co)[:] for v in t.data.vertices]) for t in targets]
     low = np.min([p.min(0) for p in points], axis=0)
@@ -194,7 +194,7 @@ def _sheet(looks, columns, tiles):
 
 
 def _bar_box(rows):
-    """Left, top, right, bottom of the legend, in the sheet's pixels."""
+    """The legend's left, top, right and bottom, in pixels of the sheet."""
     top = 2 * HEAD + (rows - 1) * 2 * TILE[1] + round(1.28 * TILE[1])
     return round(0.3 * TILE[0]), top, round(1.7 * TILE[0]), top + 28
 

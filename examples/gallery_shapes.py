@@ -12,7 +12,7 @@ from demo_meshes import ControlMesh
 
 
 class Absent(Exception):
-    """The mesh is not on this machine."""
+    """Raised if the mesh is absent on this machine."""
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ class Shape:
 
 
 def tetrahedron(_folder):
-    """On the unit sphere, one face down."""
+    """The solid on the unit sphere, with one face down."""
     angle = 2 * np.pi * np.arange(3) / 3
     low = np.stack([8**0.5 / 3 * np.cos(angle), 8**0.5 / 3 * np.sin(angle), np.full(3, -1 / 3)], -1)
     points = np.concatenate([low, [[0, 0, 1]]])
@@ -42,7 +42,7 @@ def tetrahedron(_folder):
 
 
 def octahedron(_folder):
-    """On the unit sphere, one corner up."""
+    """The solid on the unit sphere, with one corner up."""
     points = np.array([[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]], float)
     ring = [(k, (k + 1) % 4) for k in range(4)]
     return ControlMesh(points, [(a, b, 4) for a, b in ring] + [(b, a, 5) for a, b in ring])
@@ -100,7 +100,7 @@ def _obj(path):
 
 
 def _ply(path):
-    """The same, read by Blender."""
+    """The same mesh, read by Blender."""
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     bpy.ops.wm.ply_import(filepath=str(path))  # leaves the axes alone
     mesh = bpy.context.active_object.data
@@ -108,7 +108,7 @@ def _ply(path):
 
 
 def tipped(make, degrees):
-    """Turned about the x axis."""
+    """The mesh turned about the x axis."""
 
     def made(folder):
         mesh = make(folder)

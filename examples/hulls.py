@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Three hulls as a yard would send them, each in another layout, with three offsets read off wrong.
+"""Three hulls as a yard would send them, each in another layout, with three misread offsets.
 
 `offsets_bulb.csv`: half-breadths by waterlines, millimetres, blanks where a waterline misses a station.
 `offsets_chine.csv`: keel, chine and sheer by name, metres, semicolons and decimal commas.
@@ -158,7 +158,7 @@ def text(hull: Hull) -> str:
 
 
 def _place(hull: Hull, line: str) -> float:
-    """Mean height of a line."""
+    """The mean height of a line."""
     return float(np.mean([place[2] for key, place in hull.points.items() if key[1] == line]))
 
 

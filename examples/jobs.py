@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Each job on a model of its kind, by one click, and beside it what Blender has for that job; both in stripes.
+"""Each job on a model of its kind, by one click, beside Blender's own tool for that job; both in stripes.
 
     blender --python examples/jobs.py -- hull      in a Blender that has the extension
 
@@ -108,7 +108,7 @@ def drawn(network):
 
 
 def cage():
-    """Suzanne as a cage."""
+    """Adds Suzanne as a cage."""
     return subdivided(settings_meshes.suzanne())
 
 

@@ -39,7 +39,7 @@ def read(path: Path = TABLE) -> np.ndarray:
 
 
 def mesh(offsets: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices (n, 3), station by station from the keel up, and quads (m, 4) that look outwards."""
+    """Vertices (n, 3), station by station from the keel up, and quads (m, 4) whose normals point outwards."""
     stations, lines = offsets.shape[:2]
     at = np.arange(stations * lines).reshape(stations, lines)
     quads = np.stack([at[:-1, :-1], at[:-1, 1:], at[1:, 1:], at[1:, :-1]], axis=2)
@@ -59,7 +59,7 @@ def fair_hull() -> np.ndarray:
 
 
 def taken_off(hull: np.ndarray) -> np.ndarray:
-    """The measured hull. The keel lies in the middle plane, whatever is measured."""
+    """The measured hull. The keel is put into the middle plane."""
     rng = np.random.default_rng(1794)
     measured = hull.copy()
     measured[:, :, 1:] += rng.normal(0.0, SCATTER, hull[:, :, 1:].shape)

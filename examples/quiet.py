@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Holds back what Blender and Cycles print."""
+"""Suppresses the output of Blender and Cycles."""
 
 import ctypes
 import os
@@ -10,7 +10,7 @@ from tempfile import TemporaryFile
 
 @contextmanager
 def quiet():
-    """Holds back standard output and standard error inside the `with`; shows both if it fails.
+    """Suppresses standard output and standard error inside the `with`; shows both if it fails.
 
     Blender prints from C, past Python's streams, so the file descriptors themselves are redirected.
     """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Clay: matte, slightly warm, no texture to hide behind. Control meshes get a thin wire, their creases a red one."""
+"""Clay: matte, slightly warm, without a texture that hides faults. Control meshes get a thin wire, their creases a red one."""
 
 import bpy
 from render_studio import dress

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Variants of one thing side by side, each with a label under it: a row of tiles as one small PNG."""
+"""Variants of one object side by side, each with a label below: a row of tiles as one small PNG."""
 
 from dataclasses import dataclass
 from math import cos, radians, sin
@@ -67,7 +67,7 @@ def _draw_row(row, path, length):
 
 
 def render_tile(path, label, view, control, surfaces, wired):
-    """The current scene's `surfaces`, `wired` with their edges drawn; the scene is used up."""
+    """Renders the `surfaces` of the current scene, `wired` with their edges drawn; changes the scene."""
     width, height = (2 * pixels for pixels in TILE)
     place(view, surfaces)
     build_studio(width, height)

@@ -63,7 +63,7 @@ def _zebra(stripes):
 
 
 class _Graph:
-    """Node graphs without the ceremony."""
+    """A short way to write node graphs."""
 
     def __init__(self, tree):
         self.tree = tree
