@@ -22,9 +22,14 @@
 
 namespace fairing {
 
-template <class T, int Bytes>
+// A pack of one number is the number.
+template <class T, int Bytes, bool is_one = Bytes == int(sizeof(T))>
 struct PackOf {
   typedef T Type __attribute__((vector_size(Bytes)));
+};
+template <class T, int Bytes>
+struct PackOf<T, Bytes, true> {
+  using Type = T;
 };
 
 // Loads and stores of consecutive numbers, aligned or not. Packs are passed by reference only: by
@@ -36,8 +41,21 @@ struct Packs {
   static constexpr int size = Bytes / int(sizeof(T));
   DF_INLINE static void load(const T* from, Pack& pack) { std::memcpy(&pack, from, sizeof pack); }
   DF_INLINE static void store(const Pack& pack, T* to) { std::memcpy(to, &pack, sizeof pack); }
+  // Loads numbers in single precision.
+  DF_INLINE static void widen(const float* from, Pack& pack) {
+    if constexpr (size == 1) {
+      pack = T(*from);
+    } else {
+      typename PackOf<float, size* int(sizeof(float))>::Type single;
+      std::memcpy(&single, from, sizeof single);
+      pack = __builtin_convertvector(single, Pack);
+    }
+  }
   DF_INLINE static void root(const Pack& of, Pack& out) {
-    for (int l = 0; l < size; ++l) out[l] = std::sqrt(of[l]);
+    if constexpr (size == 1)
+      out = std::sqrt(of);
+    else
+      for (int l = 0; l < size; ++l) out[l] = std::sqrt(of[l]);
   }
 };
 

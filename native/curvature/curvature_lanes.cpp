@@ -42,14 +42,11 @@ struct ShapeLoop {
 
   DF_INLINE static void lift(const RunRings& run, std::size_t first, Fan& fan) {
     Pack own;
-    widen(run.lift[0] + first, own);
+    P::widen(run.lift[0] + first, own);
     fan.lift([&](int j, Pack& share) __attribute__((always_inline)) {
-      widen(run.lift[j + 1] + first, share);
+      P::widen(run.lift[j + 1] + first, share);
       share = share > own ? share : own;
     });
-  }
-  DF_INLINE static void widen(const float* from, Pack& to) {
-    for (int l = 0; l < P::size; ++l) to[l] = T(from[l]);
   }
 
   // The ring in the form that the fit reads.

@@ -38,12 +38,7 @@ struct RingFan {
     to.y += scale * v.y;
     to.z += scale * v.z;
   }
-  DF_INLINE static void root(const N& of, N& out) {
-    if constexpr (is_pack)
-      for (int l = 0; l < int(sizeof(N) / sizeof(S)); ++l) out[l] = std::sqrt(of[l]);
-    else
-      out = std::sqrt(of);
-  }
+  DF_INLINE static void root(const N& of, N& out) { Packs<S, sizeof(N)>::root(of, out); }
 
   // Computes the lengths of a neighbour with an offset. `sound`: it differs from the point.
   DF_INLINE static void measure(Neighbour& n, Mask& sound) {

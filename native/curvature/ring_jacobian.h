@@ -5,9 +5,6 @@
 // neighbour along runs of points (grid/runs.h), so that loops along a run need no index.
 #pragma once
 
-#include <memory>
-#include <span>
-
 #include "base/simd.h"
 #include "grid/accumulate.h"
 
@@ -71,132 +68,71 @@ class RingJacobian {
   Array<float> data_;
 };
 
-// y_c[i] = sum_s coefficient(c, s, i) x_s[i] for i >= begin; y holds three lanes of `count`
-// numbers.
-template <class T>
-inline void forward(const RowRun<const float>& run, const T* const* x, T* y,
-                    std::size_t begin = 0) {
-  const std::size_t count = run.count;
-  for (int c = 0; c < 3; ++c) {
-    T* to = y + std::size_t(c) * count;
-    for (std::size_t i = begin; i < count; ++i) to[i] = T(run.at(c, 0, i)) * x[0][i];
-    for (int s = 1; s < run.slots; ++s) {
-      const float* a = &run.at(c, s, 0);
-      const T* from = x[s];
-      for (std::size_t i = begin; i < count; ++i) to[i] += T(a[i]) * from[i];
-    }
-  }
-}
-
-// out_s[i] += sum_c coefficient(c, s, i) y_c[i] for i from `begin` on
-template <class T>
-inline void backward(const RowRun<const float>& run, const T* y, T* const* out,
-                     std::size_t begin = 0) {
-  const std::size_t count = run.count;
-  for (int s = 0; s < run.slots; ++s) {
-    const float *a = &run.at(0, s, 0), *b = &run.at(1, s, 0), *c = &run.at(2, s, 0);
-    T* to = out[s];
-    for (std::size_t i = begin; i < count; ++i)
-      to[i] += T(a[i]) * y[i] + T(b[i]) * y[count + i] + T(c[i]) * y[2 * count + i];
-  }
-}
-
-// The same for a run of one point.
-template <class T>
-inline void forward_one(const RowRun<const float>& run, const T* const* x, T* y) {
-  const float *a = run.coefficient, *b = a + run.slots, *c = b + run.slots;
-  T sum[3] = {T(a[0]) * *x[0], T(b[0]) * *x[0], T(c[0]) * *x[0]};
-  for (int s = 1; s < run.slots; ++s) {
-    sum[0] += T(a[s]) * *x[s];
-    sum[1] += T(b[s]) * *x[s];
-    sum[2] += T(c[s]) * *x[s];
-  }
-  copy_point(y, sum);
-}
-template <class T>
-inline void backward_one(const RowRun<const float>& run, const T* y, T* const* out) {
-  const float *a = run.coefficient, *b = a + run.slots, *c = b + run.slots;
-  for (int s = 0; s < run.slots; ++s) *out[s] += T(a[s]) * y[0] + T(b[s]) * y[1] + T(c[s]) * y[2];
-}
-
-// The same in packs, as long as the run has whole packs.
+// y_c[i] = sum_s coefficient(c, s, i) x_s[i] for begin <= i < end, in packs; y holds three lanes of
+// `count` numbers.
 template <class T, int Bytes>
 struct ForwardLoop {
   using P = Packs<T, Bytes>;
   using Pack = typename P::Pack;
 
   DF_INLINE static void run(const RowRun<const float>* rows, const T* const* x, T* y,
-                            std::size_t end) {
+                            std::size_t begin, std::size_t end) {
     const std::size_t count = rows->count, row = std::size_t(rows->slots) * count;
-    for (std::size_t i = 0; i < end; i += P::size) {
+    for (std::size_t i = begin; i < end; i += P::size) {
       const float* a = rows->coefficient + i;
       Pack sum[3] = {}, from, own;
       for (int s = 0; s < rows->slots; ++s, a += count) {
         P::load(x[s] + i, from);
-        P::load(a, own);
-        sum[0] += own * from;
-        P::load(a + row, own);
-        sum[1] += own * from;
-        P::load(a + 2 * row, own);
-        sum[2] += own * from;
+        for (std::size_t c = 0; c < 3; ++c) {
+          P::widen(a + c * row, own);
+          sum[c] += own * from;
+        }
       }
       for (std::size_t c = 0; c < 3; ++c) P::store(sum[c], y + c * count + i);
     }
   }
 };
 
+// out_s[i] += sum_c coefficient(c, s, i) y_c[i]
 template <class T, int Bytes>
 struct BackwardLoop {
   using P = Packs<T, Bytes>;
   using Pack = typename P::Pack;
 
   DF_INLINE static void run(const RowRun<const float>* rows, const T* y, T* const* out,
-                            std::size_t end) {
+                            std::size_t begin, std::size_t end) {
     const std::size_t count = rows->count, row = std::size_t(rows->slots) * count;
     const float* a = rows->coefficient;
     for (int s = 0; s < rows->slots; ++s, a += count) {
-      T* to = out[s];
-      for (std::size_t i = 0; i < end; i += P::size) {
-        Pack sum, own, moment;
-        P::load(a + i, own);
-        P::load(y + i, moment);
-        sum = own * moment;
-        P::load(a + row + i, own);
-        P::load(y + count + i, moment);
-        sum += own * moment;
-        P::load(a + 2 * row + i, own);
-        P::load(y + 2 * count + i, moment);
-        sum += own * moment;
-        P::load(to + i, own);
-        P::store(own + sum, to + i);
+      for (std::size_t i = begin; i < end; i += P::size) {
+        Pack sum = {}, own, moment;
+        for (std::size_t c = 0; c < 3; ++c) {
+          P::widen(a + c * row + i, own);
+          P::load(y + c * count + i, moment);
+          sum += own * moment;
+        }
+        P::load(out[s] + i, own);
+        P::store(own + sum, out[s] + i);
       }
     }
   }
 };
 
-// A run of one point is a control vertex: packs would cost more than its sums.
-inline void forward(const RowRun<const float>& run, const float* const* x, float* y) {
-  if (run.count == 1) return forward_one(run, x, y);
-  const std::size_t whole = run.count / lane_block * lane_block;
-  if (whole > 0) run_loop<ForwardLoop, float>(&run, x, y, whole);
-  forward<float>(run, x, y, whole);
+// Whole packs first, then one number after another. A run of one point is a control vertex.
+template <template <class, int> class Loop, class T, class From, class To>
+void run_along(const RowRun<const float>& run, From from, To to) {
+  constexpr std::size_t block = Packs<T, 32>::size;
+  const std::size_t whole = run.count / block * block;
+  if (whole > 0) run_loop<Loop, T>(&run, from, to, std::size_t(0), whole);
+  Loop<T, sizeof(T)>::run(&run, from, to, whole, run.count);
 }
-
-inline void backward(const RowRun<const float>& run, const float* y, float* const* out) {
-  if (run.count == 1) return backward_one(run, y, out);
-  const std::size_t whole = run.count / lane_block * lane_block;
-  if (whole > 0) run_loop<BackwardLoop, float>(&run, y, out, whole);
-  backward<float>(run, y, out, whole);
+template <class T>
+void forward(const RowRun<const float>& run, const T* const* x, T* y) {
+  run_along<ForwardLoop, T>(run, x, y);
 }
-
-inline void forward(const RowRun<const float>& run, const double* const* x, double* y) {
-  if (run.count == 1) return forward_one(run, x, y);
-  forward<double>(run, x, y, 0);
-}
-
-inline void backward(const RowRun<const float>& run, const double* y, double* const* out) {
-  if (run.count == 1) return backward_one(run, y, out);
-  backward<double>(run, y, out, 0);
+template <class T>
+void backward(const RowRun<const float>& run, const T* y, T* const* out) {
+  run_along<BackwardLoop, T>(run, y, out);
 }
 
 // Passes over a whole level. x has one number a point, moments R x have three.

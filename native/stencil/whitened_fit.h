@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <type_traits>
 
 #include "base/simd.h"
 #include "stencil/fit.h"
@@ -40,8 +39,8 @@ struct WhitenedFit {
     determined &= rest > S(thinnest_ring_square) * uu;
     const S n = S(size);
     each = 1 / n;
-    root(n / uu, w0);
-    root(n / rest, w2);
+    Packs<S, sizeof(N)>::root(n / uu, w0);
+    Packs<S, sizeof(N)>::root(n / rest, w2);
     w1 = -w2 * uv / uu;
     N aa{}, ab{}, ac{}, bb{}, bc{}, cc{};
     xa = ya = xb = yb = xc = yc = N{};
@@ -98,12 +97,6 @@ struct WhitenedFit {
   }
 
  private:
-  DF_INLINE static void root(const N& of, N& out) {
-    if constexpr (std::is_arithmetic_v<N>)
-      out = std::sqrt(of);
-    else
-      for (int l = 0; l < int(sizeof(N) / sizeof(S)); ++l) out[l] = std::sqrt(of[l]);
-  }
   DF_INLINE void term(const N& u, const N& v, Term& t) const {
     t.x = w0 * u;
     t.y = w1 * u + w2 * v;
