@@ -8,8 +8,8 @@
 // omitted, so that K is positive.)
 #pragma once
 
-#include "curvature/ring_jacobian.h"
 #include "multigrid/level_operator.h"
+#include "sparse/ring_rows.h"
 
 namespace fairing {
 
@@ -35,10 +35,10 @@ class AreaTerm {
                    std::vector<Eigen::Triplet<double>>& entries) const;
 
   // tau/2 c_ij in slot j of point i; slot 0 is unused.
-  const RingJacobian& weights() const { return weight_; }
+  const RingRows& weights() const { return weight_; }
 
  private:
-  RingJacobian weight_;
+  RingRows weight_;
 };
 
 }  // namespace fairing

@@ -10,7 +10,7 @@ namespace fairing {
 namespace {
 
 // L + share W.
-SparseMatrix connection_matrix(const RingJacobian& rows, double share) {
+SparseMatrix connection_matrix(const RingRows& rows, double share) {
   Triplets entries;
   std::size_t count = 0;
   visit_rows(rows, [&](Index, const auto& run, std::size_t, const auto&) {

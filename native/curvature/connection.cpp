@@ -105,7 +105,7 @@ struct SurfaceGather {
 
 }  // namespace
 
-Connection::Connection(RingJacobian cotangents, const Surface& surface, const double* tensor,
+Connection::Connection(RingRows cotangents, const Surface& surface, const double* tensor,
                        Workers& workers, double* force)
     : rows_(std::move(cotangents)) {
   const GridLevel& grid = rows_.grid();

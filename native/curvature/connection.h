@@ -4,7 +4,7 @@
 // into its own. Its energy is the variation of curvature [Moreton and Sequin 1992].
 #pragma once
 
-#include "curvature/ring_jacobian.h"
+#include "sparse/ring_rows.h"
 #include "stencil/chart.h"
 
 namespace fairing {
@@ -24,8 +24,8 @@ class Connection {
   // L about a surface. `cotangents` are the weights of the edges, in the first row of each point,
   // slot by slot; L takes over their memory. Negative weights, which are rare, count as zero, so
   // that L is positive. force <- L tensor for unscaled tensors, over the root of the area.
-  Connection(RingJacobian cotangents, const Surface& surface, const double* tensor,
-             Workers& workers, double* force);
+  Connection(RingRows cotangents, const Surface& surface, const double* tensor, Workers& workers,
+             double* force);
   // tensor . L tensor
   double energy() const { return energy_; }
 
@@ -37,13 +37,13 @@ class Connection {
 
   // Slot 0: the sum of the weights; the others: minus the weight, and minus the weight times cosine
   // and sine of twice the angle between the charts.
-  const RingJacobian& rows() const { return rows_; }
+  const RingRows& rows() const { return rows_; }
 
   // Releases the memory for another surface's cotangents.
-  RingJacobian release() && { return std::move(rows_); }
+  RingRows release() && { return std::move(rows_); }
 
  private:
-  RingJacobian rows_;
+  RingRows rows_;
   double energy_ = 0;
 };
 

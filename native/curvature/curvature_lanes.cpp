@@ -70,13 +70,13 @@ struct ShapeLoop {
   DF_INLINE static void put_rows(const Fan& fan, const Fit& fit, CurvatureEnergy energy,
                                  const Pack& trace, const Pack& area, const Pack& a, const Pack& b,
                                  const Mask& done, CurvatureLanes& out, int lane) {
-    Pack rows[8][2], round[2] = {}, unused;
+    Pack rows[8][5], round[2] = {};
     for (int j = 0; j < fan.size; ++j) {
       typename Fit::Term sum = {};
       add(fit, fan, j, Pack{} + T(1), sum);
-      fit.hessian(sum, unused, rows[j][0], rows[j][1]);
-      round[0] += fan.at[j].square * rows[j][0];
-      round[1] += fan.at[j].square * rows[j][1];
+      fit.solve(sum, rows[j]);
+      round[0] += fan.at[j].square * rows[j][3];
+      round[1] += fan.at[j].square * rows[j][4];
     }
     const Pack scale = T(root_half) / area, square = a * a + b * b;
     round[0] *= T(0.5 * root_half);
@@ -85,7 +85,7 @@ struct ShapeLoop {
     own_term(energy, trace, a, b, square, own[0], own[1], own[2]);
     for (int j = 0; j < fan.size; ++j) {
       const Pack first = scale * fan.at[j].cotangent;
-      const Pack second = rows[j][0] - first * round[0], third = rows[j][1] - first * round[1];
+      const Pack second = rows[j][3] - first * round[0], third = rows[j][4] - first * round[1];
       own[0] -= first;
       own[1] -= second;
       own[2] -= third;
@@ -126,8 +126,9 @@ struct ShapeLoop {
         Fan::dot(normal, fan.at[j].p, height);
         add(fit, fan, j, height - T(0.25) * trace * fan.at[j].square, sum);
       }
-      Pack unused, a, b;
-      fit.hessian(sum, unused, a, b);
+      Pack coefficient[5];
+      fit.solve(sum, coefficient);
+      const Pack &a = coefficient[3], &b = coefficient[4];
       done &= a * a + b * b < T(1e300);
 
       put(done, normal.x, out->normal[0] + lane);

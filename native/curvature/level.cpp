@@ -38,7 +38,7 @@ NormalMatrix& CurvatureLevel::square() const {
   if (!square_.is_old) return *matrix;
   // The unknowns have changed.
   if (square_.vertices != shared_.unknowns.vertex) matrix.reset();
-  if (!matrix) matrix = std::make_unique<NormalMatrix>(rows_, shared_.unknowns);
+  if (!matrix) matrix = std::make_unique<NormalMatrix>(rows_, shared_.unknowns, shared_.workers);
   square_.vertices = shared_.unknowns.vertex;
   matrix->update(rows_, shared_.workers, is_tense() ? &area_->weights() : nullptr);
   square_.is_old = false;

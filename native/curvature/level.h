@@ -19,8 +19,8 @@
 #include "curvature/distance_penalty.h"
 #include "curvature/normal_matrix.h"
 #include "curvature/point_curvature.h"
-#include "curvature/ring_jacobian.h"
 #include "multigrid/level_operator.h"
+#include "sparse/ring_rows.h"
 #include "stencil/weights.h"
 
 namespace fairing {
@@ -112,8 +112,8 @@ class CurvatureLevel final : public LevelOperator {
 
  private:
   struct Tensors;
-  double connect(RingJacobian cotangents, const double* x, const Tensors& tensors,
-                 const double* normal, double* force);
+  double connect(RingRows cotangents, const double* x, const Tensors& tensors, const double* normal,
+                 double* force);
   void find_between(const Array<double>& area);
   void update_diagonal();
   void invert_diagonal();
@@ -140,7 +140,7 @@ class CurvatureLevel final : public LevelOperator {
   double share_ = 0;  // for minimum variation: the share of W beside L
   double bending_ = 0, tension_ = 0, penalty_energy_ = 0;
   int linearizations_ = 0;
-  RingJacobian rows_;  // sqrt(w) J
+  RingRows rows_;  // sqrt(w) J
   // R^T R, computed on first use.
   struct Square {
     bool suits;  // is it faster than passes over the rows?

@@ -133,11 +133,11 @@ double CurvatureLevel::linearize(const double* x, const Functional& functional,
   const Array<float> lifts = area_lifts(grid_, shared_.workers, x);
   const float* lift = lifts.empty() ? nullptr : lifts.data();
   Tensors tensors;
-  std::optional<RingJacobian> edge_weights;
+  std::optional<RingRows> edge_weights;
   if (varies()) {
     if (!variation_) variation_ = std::make_unique<Variation>();
     auto& before = variation_->connection;
-    edge_weights.emplace(before ? std::move(*before).release() : RingJacobian(grid_));
+    edge_weights.emplace(before ? std::move(*before).release() : RingRows(grid_));
     tensors.resize(grid_.size());
   }
   ElementSums energy(mesh);
@@ -250,7 +250,7 @@ double CurvatureLevel::linearize(const double* x, const Functional& functional,
 }
 
 // Computes L about the surface and the force, minus J^T L M. Returns the energy M . L M.
-double CurvatureLevel::connect(RingJacobian cotangents, const double* x, const Tensors& tensors,
+double CurvatureLevel::connect(RingRows cotangents, const double* x, const Tensors& tensors,
                                const double* normal, double* force) {
   const std::size_t points = grid_.size();
   Array<double> moment(3 * points);

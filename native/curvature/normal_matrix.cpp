@@ -7,7 +7,6 @@
 #include "base/simd.h"
 #include "parallel/cancel.h"
 #include "parallel/reductions.h"
-#include "sparse/unknown_points.h"
 
 namespace fairing {
 namespace {
@@ -21,7 +20,7 @@ constexpr std::size_t grain = vector_grain / (block_size * most_slots);
 
 // Whether all rings are so small that the size of their squares stays linear and 16 bits number the
 // places in a row. A ring of rings has three points a slot, each at most in its own block.
-bool are_small(const GridLevel& grid, const RingJacobian& rows) {
+bool are_small(const GridLevel& grid, const RingRows& rows) {
   std::size_t products = 81 * grid.size();
   for (Index v = 0; v < grid.mesh().vertex_count(); ++v) {
     const auto slots = std::size_t(rows.of(vertex_run(v)).slots);
@@ -68,99 +67,66 @@ class RowBlocks {
 
 }  // namespace
 
-bool NormalMatrix::suits(const RingJacobian& rows) {
+bool NormalMatrix::suits(const RingRows& rows) {
   const GridLevel& grid = rows.grid();
   return has_rows(grid.n(), grid.size()) && grid.size() >= block_size && are_small(grid, rows);
 }
 
-NormalMatrix::NormalMatrix(const RingJacobian& rows, const Unknowns& unknowns)
-    : grid_(rows.grid()) {
-  const float* origin = rows.data();
-  visit_rows(rows, [&](Index, const RowRun<const float>& run, std::size_t i,
-                       const std::vector<Index>& points) {
-    stop_if_cancelled(ring_.size());
-    ring_.push_back({std::size_t(&run.at(0, 0, i) - origin), std::uint32_t(run.count)});
-    jacobian_.begin.push_back(std::uint32_t(jacobian_.member.size()));
-    jacobian_.member.insert(jacobian_.member.end(), points.begin(), points.end());
-  });
-  jacobian_.begin.push_back(std::uint32_t(jacobian_.member.size()));
-  jacobian_.number.resize(3 * jacobian_.member.size());
-  const std::vector<Index> unknown = number_unknowns(grid_, unknowns);
-  find_ring_slots(unknown);
-  find_blocks(unknown);
+NormalMatrix::NormalMatrix(const RingRows& rows, const Unknowns& unknowns, Workers& workers)
+    : grid_(rows.grid()), rings_(grid_, unknowns, workers), places_(rings_) {
+  const RingTable::Ring& last = rings_.about(Index(grid_.size() - 1));
+  jacobian_.resize(3 * (last.member + last.size));
+  find_blocks();
   number_.resize(block_size * block_.size());
 }
 
-void NormalMatrix::find_ring_slots(const std::vector<Index>& unknown) {
-  ring_slot_begin_.assign(unknown.size() + 1, 0);
-  for (std::size_t m = 0; m < jacobian_.member.size(); ++m) {
-    stop_if_cancelled(m);
-    if (const auto q = std::size_t(jacobian_.member[m]); unknown[q] >= 0) ++ring_slot_begin_[q + 1];
-  }
-  for (std::size_t p = 0; p < unknown.size(); ++p) ring_slot_begin_[p + 1] += ring_slot_begin_[p];
-  ring_slot_.resize(ring_slot_begin_.back());
-  Array<std::size_t> next(ring_slot_begin_.begin(), ring_slot_begin_.end() - 1);
-  for (std::uint32_t r = 0; r < unknown.size(); ++r) {
-    stop_if_cancelled(r);
-    for (std::uint32_t k = jacobian_.begin[r]; k < jacobian_.begin[r + 1]; ++k) {
-      const auto q = std::size_t(jacobian_.member[k]);
-      if (unknown[q] >= 0) ring_slot_[next[q]++] = {r, k - jacobian_.begin[r]};
+void NormalMatrix::find_blocks() {
+  const std::size_t points = grid_.size();
+  const auto visit_members = [&](std::size_t p, const auto& visit) {
+    for (const RingPlaces::Place& place : places_.of(Index(p))) {
+      const RingTable::Ring& ring = rings_.about(place.centre);
+      for (std::size_t s = 0; s < ring.size; ++s) visit(rings_.members(ring)[s]);
     }
-  }
-}
-
-void NormalMatrix::find_blocks(const std::vector<Index>& unknown) {
+  };
   std::size_t targets = 0;
-  for (const RingSlot& entry : ring_slot_) targets += jacobian_.size(entry.ring);
+  for (std::size_t p = 0; p < points; ++p)
+    for (const RingPlaces::Place& place : places_.of(Index(p)))
+      targets += rings_.about(place.centre).size;
   target_.reserve(targets);
-  block_.reserve(most_slots * unknown.size());
-  RowBlocks row(unknown.size(), block_);
-  for (std::size_t p = 0; p < unknown.size(); ++p) {
+  block_.reserve(most_slots * points);
+  RowBlocks row(points, block_);
+  for (std::size_t p = 0; p < points; ++p) {
     stop_if_cancelled(p);
     block_begin_.push_back(block_.size());
     target_begin_.push_back(target_.size());
-    const auto visit_members = [&](const auto& visit) {
-      for (std::size_t k = ring_slot_begin_[p]; k < ring_slot_begin_[p + 1]; ++k) {
-        const std::uint32_t r = ring_slot_[k].ring;
-        for (std::uint32_t m = jacobian_.begin[r]; m < jacobian_.begin[r + 1]; ++m)
-          visit(jacobian_.member[m], unknown[std::size_t(jacobian_.member[m])] >= 0);
-      }
-    };
     row.begin_row();
-    visit_members([&](Index q, bool is_unknown) {
-      if (is_unknown) row.name(q);
+    visit_members(p, [&](RingTable::Member q) {
+      if (q >= 0) row.name(q);
     });
     row.finish_row();
-    visit_members(
-        [&](Index q, bool is_unknown) { target_.push_back(is_unknown ? row.place(q) : none); });
+    visit_members(p, [&](RingTable::Member q) { target_.push_back(q >= 0 ? row.place(q) : none); });
   }
   block_begin_.push_back(block_.size());
   target_begin_.push_back(target_.size());
 }
 
-void NormalMatrix::update(const RingJacobian& rows, Workers& workers, const RingJacobian* tension) {
-  const float* origin = rows.data();
-  const std::size_t points = grid_.size();
-  workers.for_parts(points, grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p) {
-      const Ring& ring = ring_[p];
-      const std::size_t slots = jacobian_.size(p);
-      float* to = jacobian_.number.data() + 3 * jacobian_.begin[p];
-      for (std::size_t s = 0; s < slots; ++s)
-        for (std::size_t c = 0; c < 3; ++c)
-          to[3 * s + c] = origin[ring.first + (c * slots + s) * ring.stride];
-    }
+void NormalMatrix::update(const RingRows& rows, Workers& workers, const RingRows* tension) {
+  for_each_run(grid_, workers, [&](const Run& run) {
+    const RowRun<const float> own = rows.of(run);
+    float* to = jacobian_.data() + 3 * rings_.about(Index(run.first)).member;
+    for (std::size_t i = 0; i < run.count; ++i)
+      for (int s = 0; s < own.slots; ++s)
+        for (int c = 0; c < 3; ++c) *to++ = own.at(c, s, i);
   });
-  workers.for_parts(points, grain, [&](std::size_t begin, std::size_t end) {
+  workers.for_parts(grid_.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
       float* row = number_.data() + block_size * block_begin_[p];
       std::fill(row, number_.data() + block_size * block_begin_[p + 1], 0.0f);
       const Place* target = target_.data() + target_begin_[p];
-      for (std::size_t k = ring_slot_begin_[p]; k < ring_slot_begin_[p + 1]; ++k) {
-        const RingSlot entry = ring_slot_[k];
-        const float* own = jacobian_.number.data() + 3 * (jacobian_.begin[entry.ring] + entry.slot);
-        const float* other = jacobian_.number.data() + 3 * jacobian_.begin[entry.ring];
-        const float* last = jacobian_.number.data() + 3 * jacobian_.begin[entry.ring + 1];
+      for (const RingPlaces::Place& place : places_.of(Index(p))) {
+        const RingTable::Ring& ring = rings_.about(place.centre);
+        const float* other = jacobian_.data() + 3 * ring.member;
+        const float *own = other + 3 * place.slot, *last = other + 3 * ring.size;
         for (; other < last; other += 3)
           if (const Place to = *target++; to != none)
             row[to] += own[0] * other[0] + own[1] * other[1] + own[2] * other[2];
@@ -171,21 +137,21 @@ void NormalMatrix::update(const RingJacobian& rows, Workers& workers, const Ring
 }
 
 // A point's row of the Laplacian is over its own ring.
-void NormalMatrix::add_tension(const RingJacobian& weights, Workers& workers) {
+void NormalMatrix::add_tension(const RingRows& weights, Workers& workers) {
   for_each_run(grid_, workers, [&](const Run& run) {
     const RowRun<const float> own = weights.of(run);
-    for (std::size_t i = 0; i < run.count; ++i) {
-      const std::size_t p = run.first + i;
+    for (std::size_t p = run.first; p < run.first + run.count; ++p) {
+      if (!rings_.is_unknown(Index(p))) continue;
       const Place* target = target_.data() + target_begin_[p];
-      std::size_t k = ring_slot_begin_[p];
-      const std::size_t last = ring_slot_begin_[p + 1];
-      for (; k < last && ring_slot_[k].ring != p; ++k) target += jacobian_.size(ring_slot_[k].ring);
-      if (k == last) continue;  // not an unknown
+      for (const RingPlaces::Place& place : places_.of(Index(p))) {
+        if (place.centre == Index(p)) break;
+        target += rings_.about(place.centre).size;
+      }
       float* row = number_.data() + block_size * block_begin_[p];
       for (int s = 1; s < own.slots; ++s) {
-        const Place to = target[s];
-        row[target[0]] += own.at(0, s, i);
-        if (to != none) row[to] -= own.at(0, s, i);
+        const float weight = own.at(0, s, p - run.first);
+        row[target[0]] += weight;
+        if (target[s] != none) row[target[s]] -= weight;
       }
     }
   });

@@ -12,13 +12,13 @@ namespace {
 
 using Fan = RingFan<double>;
 
-// Hessian at the centre of an open ring; few points have one.
-Vec3 open_hessian(const SurfaceChart& chart) {
+// Sets the rows of the fit; few points have an open ring.
+void set_rows(bool closed, SurfaceChart& chart) {
+  if (closed) return hessian_rows(chart.ring, chart.weight, chart.row);
   const FitRows rows = fit({chart.ring, 0, false});
-  Vec3 hessian = Vec3::Zero();
-  for (std::size_t j = 0; j < chart.height.size(); ++j)
-    hessian += chart.height[j] * rows.col(Eigen::Index(j)).tail<3>();
-  return hessian;
+  chart.row.resize(chart.ring.size());
+  for (std::size_t j = 0; j < chart.row.size(); ++j)
+    chart.row[j] = rows.col(Eigen::Index(j)).tail<3>();
 }
 
 // False if a neighbour coincides with the point. `angles`: whether to compute the angles.
@@ -49,8 +49,7 @@ PointCurvature without_shape(const SurfaceRing& ring) {
 // Copies the fit's input from the fan to the chart.
 void read_chart(const SurfaceRing& ring, const Fan& fan, const Vec3& normal, SurfaceChart& chart) {
   const std::size_t size = ring.offset.size();
-  for (auto* numbers : {&chart.height, &chart.weight, &chart.rest, &chart.cotangent})
-    numbers->resize(size);
+  for (auto* numbers : {&chart.height, &chart.weight, &chart.cotangent}) numbers->resize(size);
   chart.ring.resize(size);
   for (std::size_t j = 0; j < size; ++j) {
     const RingNeighbour<double>& n = fan.at[j];
@@ -88,9 +87,17 @@ PointCurvature point_curvature(const SurfaceRing& ring, SurfaceChart& chart) {
   out.normal = {fan.normal.x, fan.normal.y, fan.normal.z};
   fan.lay_out(ring.closed ? fan.total : full_turn, ring.far.data(), usable);
   read_chart(ring, fan, out.normal, chart);
+  set_rows(ring.closed, chart);
+  // Of the heights, less a multiple of the squared distances.
+  const auto hessian_less = [&](double share) {
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t j = 0; j < chart.row.size(); ++j)
+      sum += (chart.height[j] - share * fan.at[j].square) * chart.row[j];
+    return sum;
+  };
 
   if (!ring.closed) {
-    const Vec3 hessian = open_hessian(chart);
+    const Vec3 hessian = hessian_less(0);
     out.area = fan.barycentric;
     out.trace = std::numbers::sqrt2 * hessian[0];
     out.trace_free = {hessian[1], hessian[2]};
@@ -101,12 +108,9 @@ PointCurvature point_curvature(const SurfaceRing& ring, SurfaceChart& chart) {
   Fan::dot(fan.normal, fan.laplacian, of_cotangents);
   out.trace = of_cotangents / out.area;
   if (out.area != fan.circumcentric)
-    out.trace += (1 - fan.circumcentric / out.area) * std::numbers::sqrt2 *
-                 fitted_hessian(chart.ring, chart.height, chart.weight)[0];
+    out.trace += (1 - fan.circumcentric / out.area) * std::numbers::sqrt2 * hessian_less(0)[0];
   // The trace-free part fits what the trace does not explain (nothing, for exact quadratics).
-  for (std::size_t j = 0; j < chart.rest.size(); ++j)
-    chart.rest[j] = chart.height[j] - 0.25 * out.trace * fan.at[j].square;
-  const Vec3 hessian = fitted_hessian(chart.ring, chart.rest, chart.weight);
+  const Vec3 hessian = hessian_less(0.25 * out.trace);
   out.trace_free = {hessian[1], hessian[2]};
   return out;
 }
@@ -115,8 +119,8 @@ void linearize(const SurfaceRing& ring, CurvatureEnergy energy, ShapeRows& out) 
   out.point = point_curvature(ring, out.chart);
   if (!out.point.has_rows()) return;
   out.shape = {root_half * out.point.trace, out.point.trace_free[0], out.point.trace_free[1]};
+  out.row = out.chart.row;
   if (ring.closed) {
-    hessian_rows(out.chart.ring, out.chart.weight, out.row);
     const double scale = root_half / out.point.area;
     // The trace's part is subtracted from the trace-free rows too.
     Eigen::Vector2d of_round = Eigen::Vector2d::Zero();
@@ -127,11 +131,6 @@ void linearize(const SurfaceRing& ring, CurvatureEnergy energy, ShapeRows& out) 
       out.row[j][0] = scale * out.chart.cotangent[j];
       out.row[j].tail<2>() -= out.row[j][0] * of_round;
     }
-  } else {
-    const FitRows rows = fit({out.chart.ring, 0, false});
-    out.row.resize(out.chart.ring.size());
-    for (std::size_t j = 0; j < out.row.size(); ++j)
-      out.row[j] = rows.col(Eigen::Index(j)).tail<3>();
   }
   const auto [a, b] = out.point.trace_free;
   own_term(energy, out.point.trace, a, b, a * a + b * b, out.own[0], out.own[1], out.own[2]);

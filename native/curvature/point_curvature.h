@@ -73,7 +73,7 @@ struct SurfaceChart {
   std::vector<Vec2> ring;
   std::vector<double> height;     // n . (p_j - p_i)
   std::vector<double> weight;     // in the fit of the trace-free part
-  std::vector<double> rest;       // heights without the trace's part
+  std::vector<Vec3> row;          // the fitted Hessian for a one at p_j
   std::vector<double> cotangent;  // half the sum of the cotangents across the edge to p_j
   std::vector<RingNeighbour<double>> neighbour;
 };
@@ -120,7 +120,7 @@ struct PointCurvature {
 // neighbour, or without a normal, has zero curvature and area; one that is not finite has infinite
 // ones.
 //
-// `chart` is overwritten; it allocates no memory once it has held a ring of that size.
+// `chart` is overwritten.
 PointCurvature point_curvature(const SurfaceRing& ring, SurfaceChart& chart);
 
 // The share of their distance to zero, 0 to 1, by which the negative cotangents around a closed

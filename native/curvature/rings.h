@@ -12,7 +12,7 @@
 
 namespace fairing {
 
-// One ring. `slot()[j]` is the place of neighbour j in the order of the grid (RingJacobian).
+// One ring. `slot()[j]` is the place of neighbour j in the order of the grid (RingRows).
 class RingInSpace {
  public:
   void start(const double* centre, float lift) {

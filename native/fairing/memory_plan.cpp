@@ -42,7 +42,7 @@ struct Counts {
 // Bounds of the peak, up to twice the peaks of tests/python/test_memory.py, in bytes: for a side of
 // the control mesh; by energy for a point of each level, for an unknown of a level with rows, and
 // for one of the largest level that is factored.
-constexpr double control_side = 1400;
+constexpr double control_side = 1200;
 struct Costs {
   double point, row, factor;
 };

@@ -129,15 +129,13 @@ Stencils make_stencils(const ControlMesh& mesh, const ChartMaker& charts,
                        const MembraneOptions& membrane) {
   Stencils out = make_stencils(mesh, charts, workers, membrane);
   const double alpha = options.chart_blend;
-  if (!out.membrane.any() || alpha == 1) return out;
+  if (out.tension.empty() || alpha == 1) return out;
   const ChartMaker uniform(mesh, 0);
-  const Membrane other = make_membrane(mesh, uniform, out.ring_offset, membrane);
+  const Array<double> other = make_membrane(mesh, uniform, out.begin, membrane);
   // Keeps the mean radius of the charts.
   const double ratio = mean_edge(mesh, uniform.flat()) / mean_edge(mesh, charts.flat()),
                scale = ratio * ratio;
-  blend(other.vertex, alpha, scale, out.membrane.vertex);
-  blend(other.edge, alpha, scale, out.membrane.edge);
-  blend(other.face, alpha, scale, out.membrane.face);
+  blend(other, alpha, scale, out.tension);
   return out;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sparse/ring_table.h"
 
-#include "grid/ring.h"
+#include "grid/ring_shape.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
@@ -23,11 +23,7 @@ void RingTable::lay_out_rings() {
   const ControlMesh& mesh = grid_.mesh();
   std::size_t members = 0;
   for_each_run(grid_, [&](const Run& run) {
-    const std::size_t neighbours = run.kind == RunKind::vertex
-                                       ? std::size_t(ring_size(mesh, run.element))
-                                   : run.kind == RunKind::edge ? std::size_t(run.ring->size)
-                                                               : face_ring(run.quad).size();
-    const auto size = std::uint32_t(neighbours + 1);
+    const auto size = std::uint32_t(neighbours(mesh, run) + 1);
     const Index element = element_of(mesh, run);
     for (std::size_t i = 0; i < run.count; ++i, members += size)
       ring_.push_back({members, size, element});

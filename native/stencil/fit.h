@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Divided differences: the least-squares quadratic of a one-ring [Kobbelt 1997a, §4], as rows for
-// the thin plate and the transfers, and in closed form for one function at one point.
+// the thin plate and the transfers, and in closed form for the curvature of a surface.
 #pragma once
 
 #include <Eigen/Core>
@@ -39,17 +39,11 @@ constexpr double thinnest_ring_square = roundoff * roundoff;
 // Hessian of least norm.
 FitRows fit(const Chart& chart);
 
-// The divided differences of one function at one point, on the stack and in closed form, where the
-// rows of fit() would cost too much.
-//
-// Returns the last three of fit()'s coefficients from the differences f_j - f_0 over a closed ring.
-// The same rules apply where the ring does not determine a quadratic: valence 4 gives the trace and
-// the trace-free part of least norm, valence 3 the trace alone. Zero for a ring without extent.
-// Where a quadratic is determined, squared residuals have these weights (empty: all one).
-Vec3 fitted_hessian(std::span<const Vec2> ring, std::span<const double> difference,
-                    std::span<const double> weight = {});
-
-// The same as rows: the result is the sum of rows[j] times difference j.
+// rows[j] <- the last three of fit()'s coefficients for a one at neighbour j of a closed ring, in
+// closed form, where fit() would cost too much. The same rules apply where the ring does not
+// determine a quadratic: valence 4 gives the trace and the trace-free part of least norm, valence 3
+// the trace alone. Zero for a ring without extent. Where a quadratic is determined, squared
+// residuals have these weights (empty: all one).
 void hessian_rows(std::span<const Vec2> ring, std::span<const double> weight,
                   std::vector<Vec3>& rows);
 

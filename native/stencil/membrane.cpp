@@ -121,25 +121,26 @@ double mean_edge(const ControlMesh& mesh, const std::vector<FlatFace>& flat) {
   return count > 0 ? sum / double(count) : 1;
 }
 
-Membrane make_membrane(const ControlMesh& mesh, const ChartMaker& charts,
-                       const std::vector<Index>& ring_offset, const MembraneOptions& options) {
-  Membrane out;
-  if (!(options.tension > 0)) return out;
+Array<double> make_membrane(const ControlMesh& mesh, const ChartMaker& charts,
+                            const std::vector<std::size_t>& begin, const MembraneOptions& options) {
+  if (!(options.tension > 0)) return {};
   std::vector<FaceWeights> faces = weigh(mesh, charts.flat());
   const double length = mean_edge(mesh, charts.flat()),
                t = options.strength() * options.edge_ratio * options.edge_ratio,
                factor = 0.5 * t / (length * length);
   for (FaceWeights& face : faces)
     for (double& w : face.direction) w *= factor;
-  out.vertex.resize(std::size_t(ring_offset.back()));
+  Array<double> out(begin.back());
+  const std::size_t* of_element = begin.data();
   for (Index v = 0; v < mesh.vertex_count(); ++v)
-    fill_vertex(mesh, faces, v, out.vertex.data() + ring_offset[std::size_t(v)]);
-  out.edge.resize(8 * mesh.edges.size());
+    fill_vertex(mesh, faces, v, out.data() + *of_element++);
   for (std::size_t e = 0; e < mesh.edges.size(); ++e)
-    fill_edge(mesh, faces, Index(e), out.edge.data() + 8 * e);
-  out.face.resize(4 * mesh.faces.size());
-  for (std::size_t f = 0; f < faces.size(); ++f)
-    std::copy(faces[f].direction.begin(), faces[f].direction.end(), out.face.data() + 4 * f);
+    fill_edge(mesh, faces, Index(e), out.data() + *of_element++);
+  for (const FaceWeights& face : faces) {
+    double* to = out.data() + *of_element++;
+    const std::size_t directions = face.quad ? 4 : 3;
+    for (std::size_t k = 0; k < 2 * directions; ++k) to[k] = face.direction[k % directions];
+  }
   return out;
 }
 

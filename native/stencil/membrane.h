@@ -17,16 +17,6 @@
 
 namespace fairing {
 
-// All w by neighbours in the order of the charts; inside a face by directions (face_directions() in
-// grid/ring.h). Zero in faces outside a region. Empty without tension.
-struct Membrane {
-  Array<double> vertex;  // 1 per neighbour, at Stencils::ring_offset
-  Array<double> edge;    // 8 per edge
-  Array<double> face;    // 4 per face
-
-  bool any() const { return !face.empty(); }
-};
-
 struct MembraneOptions {
   // A membrane that prevents swelling and overshoots: 0 none, 1 the strongest that is of use.
   double tension = 0;
@@ -40,9 +30,10 @@ struct MembraneOptions {
 // Mean length of the faired edges.
 double mean_edge(const ControlMesh& mesh, const std::vector<FlatFace>& flat);
 
-// tau = strength / l^2 with l the mean edge in the metric, so that a scaled mesh has the scaled
-// surface. Throws FairingError(cancelled).
-Membrane make_membrane(const ControlMesh& mesh, const ChartMaker& charts,
-                       const std::vector<Index>& ring_offset, const MembraneOptions& options);
+// All w by neighbours, laid out as in Stencils; zero in faces outside a region, none without
+// tension. tau = strength / l^2 with l the mean edge in the metric, so that a scaled mesh has the
+// scaled surface. Throws FairingError(cancelled).
+Array<double> make_membrane(const ControlMesh& mesh, const ChartMaker& charts,
+                            const std::vector<std::size_t>& begin, const MembraneOptions& options);
 
 }  // namespace fairing

@@ -3,7 +3,6 @@
 // and half of that is parsing Eigen's templates.
 #include "stencil/staged_fit.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <memory>
@@ -61,20 +60,15 @@ Columns pseudo_inverse(const Columns& a, double scale = 0) {
                                                        : pseudo_inverse_of(a, scale);
 }
 
-// The same for a positive semidefinite matrix, by its eigenvectors.
-template <int Size>
-Eigen::Matrix<double, Size, Size> gram_pseudo_inverse(const Eigen::Matrix<double, Size, Size>& gram,
-                                                      double scale = 0) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Size, Size>> eigen(gram);
-  Eigen::Matrix<double, Size, 1> inverse = eigen.eigenvalues();
-  const double least = undetermined_square * std::max({inverse(Size - 1), scale, 0.0});
-  for (int k = 0; k < Size; ++k) inverse(k) = inverse(k) > least ? 1 / inverse(k) : 0.0;
-  return eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
-}
-
 }  // namespace
 
-FitRows staged_fit(const Columns& a, int leading) {
+FitRows staged_fit(std::span<const Vec2> ring, int leading) {
+  double radius = 0;
+  for (const Vec2& p : ring) radius += p.norm() / double(ring.size());
+  if (!(radius > 0)) return FitRows::Zero(5, Eigen::Index(ring.size()));
+  Columns a(ring.size(), 5);
+  for (std::size_t j = 0; j < ring.size(); ++j)
+    a.row(Eigen::Index(j)) = basis(ring[j] / radius).transpose();
   const Columns first = a.leftCols(leading), second = a.rightCols(5 - leading);
   const Columns first_inverse = pseudo_inverse(first);
   const Columns rest = second - first * (first_inverse * second);
@@ -84,42 +78,9 @@ FitRows staged_fit(const Columns& a, int leading) {
   FitRows rows(5, a.rows());
   rows.bottomRows(5 - leading) = second_rows;
   rows.topRows(leading) = first_inverse - first_inverse * second * second_rows;
+  rows.topRows(2) /= radius;
+  rows.bottomRows(3) /= radius * radius;
   return rows;
-}
-
-StagedHessian::StagedHessian(std::span<const Vec2> ring) : ring_(ring) {
-  for (const Vec2& p : ring) radius_ += p.norm() / double(ring.size());
-  if (!(radius_ > 0)) return;
-  Eigen::Matrix<double, 5, 5> gram = Eigen::Matrix<double, 5, 5>::Zero();
-  for (std::size_t j = 0; j < ring.size(); ++j) {
-    const Coefficients b = basis_at(j);
-    gram += b * b.transpose();
-  }
-  first_ = gram_pseudo_inverse<3>(gram.topLeftCorner<3, 3>());
-  mixed_ = first_ * gram.topRightCorner<3, 2>();
-  const Eigen::Matrix2d left =
-      gram.bottomRightCorner<2, 2>() - gram.bottomLeftCorner<2, 3>() * mixed_;
-  left_inverse_ = gram_pseudo_inverse<2>(left, gram.bottomRightCorner<2, 2>().trace());
-}
-
-Coefficients StagedHessian::basis_at(std::size_t j) const { return basis(ring_[j] / radius_); }
-
-Vec3 StagedHessian::operator()(std::span<const double> difference) const {
-  if (!(radius_ > 0)) return Vec3::Zero();
-  Coefficients moment = Coefficients::Zero();
-  for (std::size_t j = 0; j < ring_.size(); ++j) moment += difference[j] * basis_at(j);
-  return solve(moment);
-}
-
-Vec3 StagedHessian::of_neighbour(std::size_t j) const {
-  return radius_ > 0 ? solve(basis_at(j)) : Vec3(Vec3::Zero());
-}
-
-Vec3 StagedHessian::solve(const Coefficients& moment) const {
-  const Eigen::Vector2d rest = moment.tail<2>() - mixed_.transpose() * moment.head<3>();
-  const Eigen::Vector2d free = left_inverse_ * rest;
-  const Vec3 leading = first_ * moment.head<3>() - mixed_ * free;
-  return Vec3(leading(2), free(0), free(1)) / (radius_ * radius_);
 }
 
 }  // namespace fairing

@@ -6,31 +6,8 @@
 
 namespace fairing {
 
-// The rows of fit() from the basis at the neighbours (one row each, five columns): first the
-// `leading` columns alone, by least squares; then, from their remainder, the others with least
-// norm.
-FitRows staged_fit(const Eigen::MatrixXd& basis, int leading);
-
-// The last three coefficients of the same fit with three leading columns, over a closed ring, by
-// normal equations.
-class StagedHessian {
- public:
-  explicit StagedHessian(std::span<const Vec2> ring);
-
-  // From differences, one per neighbour. Zero for a ring without extent.
-  Vec3 operator()(std::span<const double> difference) const;
-  // For a one at this neighbour and zeros at all others.
-  Vec3 of_neighbour(std::size_t j) const;
-
- private:
-  Coefficients basis_at(std::size_t j) const;
-  Vec3 solve(const Coefficients& moment) const;
-
-  std::span<const Vec2> ring_;
-  double radius_ = 0;
-  Eigen::Matrix3d first_;
-  Eigen::Matrix<double, 3, 2> mixed_;
-  Eigen::Matrix2d left_inverse_;
-};
+// The rows of fit() over a ring: first the `leading` coefficients alone, by least squares; then,
+// from their remainder, the others with least norm. Zero for a ring without extent.
+FitRows staged_fit(std::span<const Vec2> ring, int leading);
 
 }  // namespace fairing

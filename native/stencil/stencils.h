@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "grid/runs.h"
@@ -19,28 +20,35 @@
 
 namespace fairing {
 
-// `energy`: the last three rows of the fit (the Hessian) times the root of the chart's area.
-// Neighbours are in the order of the charts. Zero without divided differences: on curves, at
-// corners and outside a region.
+// Numbers of each element's neighbours, in the order of its chart (stencil/chart.h). There are no
+// divided differences on curves, at corners and outside a region: all of their numbers are zero.
 struct Stencils {
-  // Control vertices: the ring of v is ring_offset[v] … ring_offset[v + 1].
-  std::vector<Index> ring_offset;
-  std::vector<std::uint8_t> vertex_fit;  // whether there are divided differences
-  Array<float> vertex_rows;              // 5 per neighbour: the fit
-  Array<float> vertex_half;              // 5 per neighbour: the basis half-way to it
-  Array<double> vertex_energy;           // 3 per neighbour
+  using Column = std::array<double, 3>;
 
-  // Control edges: rings of edge_ring[e] <= 8 points, padded to 8.
-  std::vector<std::uint8_t> edge_ring, edge_fit;
-  Array<float> edge_half;  // 8 x 8: value half-way to neighbour j, minus f_0, from the differences
-  Array<double> edge_energy;  // 3 x 8
+  std::vector<std::size_t> begin;     // of each element's neighbours, and one more
+  std::vector<std::uint8_t> has_fit;  // one an element: whether there are divided differences
+  // The last three rows of the fit (the Hessian) times the root of the chart's area. Opposite
+  // neighbours of a point inside a face have the same.
+  Array<Column> energy;
+  Array<double> tension;  // weights of the membrane (stencil/membrane.h); empty: none
+  // 5 a neighbour, of vertices and edges only: the fit, and the basis half-way to the neighbour.
+  Array<float> rows, half;
 
-  // Control faces: 3 rows on the second differences along 3 (triangle) or 4 (quad) grid directions
-  // (face_directions() in grid/ring.h).
-  std::vector<std::uint8_t> face_fit;
-  Array<double> face_energy;  // 3 x 4
-
-  Membrane membrane;  // tension
+  // None without divided differences.
+  std::span<const Column> columns(Index element) const {
+    const auto e = std::size_t(element);
+    return {energy.data() + begin[e], has_fit[e] ? begin[e + 1] - begin[e] : 0};
+  }
+  // None without tension.
+  std::span<const double> weights(Index element) const {
+    const auto e = std::size_t(element);
+    return {tension.data() + begin[e], tension.empty() ? 0 : begin[e + 1] - begin[e]};
+  }
+  double total_weight(Index element) const {
+    double sum = 0;
+    for (const double weight : weights(element)) sum += weight;
+    return sum;
+  }
 };
 
 // The element of a run.
@@ -49,53 +57,6 @@ inline Index element_of(const ControlMesh& mesh, const Run& run) {
   const Index first_edge = mesh.vertex_count();
   return run.element + first_edge + (run.kind == RunKind::edge ? 0 : Index(mesh.edges.size()));
 }
-
-// The energy's rows of one element by neighbours, in any storage: matrices are assembled from
-// these. The centre's numbers are minus the sum of all.
-class EnergyRows {
- public:
-  using Column = std::array<double, 3>;
-
-  // No neighbours if there are no divided differences. Refers to `stencils`.
-  EnergyRows(const ControlMesh& mesh, const Stencils& stencils, Index element);
-
-  std::size_t size() const { return size_; }
-  Column operator[](std::size_t neighbour) const {
-    const double* at = first_ + step_ * (neighbour % period_);
-    return {at[0], at[stride_], at[2 * stride_]};
-  }
-  // Number of distinct neighbours: all, or half of them inside a face, where opposite ones share
-  // their numbers.
-  std::size_t distinct() const { return period_; }
-  // The k-th neighbour in an order in which opposite neighbours of a face follow one another, so
-  // that they are summed in pairs.
-  std::size_t by_pairs(std::size_t k) const {
-    return period_ < size_ ? k / 2 + period_ * (k % 2) : k;
-  }
-
- private:
-  const double* first_;
-  std::size_t size_ = 0, step_, stride_, period_;  // opposite neighbours share their numbers
-};
-
-// The membrane's weights of one element by neighbours, in the order of its chart; none without
-// tension. Refers to `stencils`.
-class MembraneWeights {
- public:
-  MembraneWeights(const ControlMesh& mesh, const Stencils& stencils, Index element);
-
-  std::size_t size() const { return size_; }
-  double operator[](std::size_t neighbour) const { return first_[neighbour % period_]; }
-  double total() const {
-    double sum = 0;
-    for (std::size_t k = 0; k < size_; ++k) sum += (*this)[k];
-    return sum;
-  }
-
- private:
-  const double* first_ = nullptr;
-  std::size_t size_ = 0, period_ = 1;  // opposite neighbours share their weights
-};
 
 // Makes all of them. Throws FairingError(cancelled).
 Stencils make_stencils(const ControlMesh& mesh, const ChartMaker& charts, Workers& workers,

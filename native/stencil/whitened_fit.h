@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The least-squares quadratic of a closed ring of five and more neighbours in closed form, for
-// numbers and packs (base/simd.h).
+// The least-squares quadratic of a ring of five and more neighbours in closed form, for numbers and
+// packs (base/simd.h).
 #pragma once
 
 #include <cmath>
@@ -79,9 +79,9 @@ struct WhitenedFit {
     sum.x += g * t.x, sum.y += g * t.y, sum.a += g * t.a, sum.b += g * t.b, sum.c += g * t.c;
   }
 
-  // The Hessian, in the components of stencil/fit.h, of the quadratic with the right-hand side
-  // `sum`: the sum of the neighbours' terms times their weights and differences.
-  DF_INLINE void hessian(const Term& sum, N& trace, N& difference, N& mixed) const {
+  // The coefficients of stencil/fit.h of the quadratic with the right-hand side `sum`: the sum of
+  // the neighbours' terms times their weights and differences.
+  DF_INLINE void solve(const Term& sum, N (&out)[5]) const {
     const N r0 = sum.a - each * (sum.x * xa + sum.y * ya),
             r1 = sum.b - each * (sum.x * xb + sum.y * yb),
             r2 = sum.c - each * (sum.x * xc + sum.y * yc);
@@ -89,11 +89,15 @@ struct WhitenedFit {
     const N c2 = inverse[2] * (r2 - l20 * r0 - l21 * z1);
     const N c1 = inverse[1] * z1 - l21 * c2;
     const N c0 = inverse[0] * r0 - l10 * c1 - l20 * c2;
+    const N x = each * (sum.x - xa * c0 - xb * c1 - xc * c2),
+            y = each * (sum.y - ya * c0 - yb * c1 - yc * c2);
+    out[0] = w0 * x + w1 * y;
+    out[1] = w2 * y;
     const N xx = S(2) * (c0 + c1), xy = S(2) * c2, yy = S(2) * (c0 - c1);
     const N uu = w0 * w0 * xx + S(2) * w0 * w1 * xy + w1 * w1 * yy, vv = w2 * w2 * yy;
-    trace = S(root_half) * (uu + vv);
-    difference = S(root_half) * (uu - vv);
-    mixed = S(std::numbers::sqrt2) * (w2 * (w0 * xy + w1 * yy));
+    out[2] = S(root_half) * (uu + vv);
+    out[3] = S(root_half) * (uu - vv);
+    out[4] = S(std::numbers::sqrt2) * (w2 * (w0 * xy + w1 * yy));
   }
 
  private:

@@ -20,7 +20,7 @@ void visit_rows(const PlateDifferences& plate, const VisitRows& visit) {
     const double root = std::sqrt(plate.weight(Index(p)));
     for (std::size_t s = 0; s < ring.size && plate.has_fit(ring); ++s) {
       ring_points.push_back(RingTable::id_of(plate.rings().members(ring)[s]));
-      for (const double number : plate.column(Index(p), ring, s)) numbers.push_back(root * number);
+      for (const double number : plate.column(ring, s)) numbers.push_back(root * number);
     }
     visit(ring_points, numbers);
   }
@@ -30,7 +30,7 @@ void visit_rows(const PlateDifferences& plate, const VisitRows& visit) {
 
 AssembledSystem assemble_thin_plate(const GridLevel& grid, const Stencils& stencils,
                                     const Unknowns& unknowns, const VertexWeights& weights,
-                                    Workers& workers, const SurfaceDifferences* surface) {
+                                    Workers& workers, const SurfaceRows* surface) {
   const PlateDifferences plate(grid, stencils, unknowns, workers, surface);
   const std::vector<Index> number = number_unknowns(grid, unknowns);
   AssembledSystem system = assemble_square(
@@ -39,12 +39,12 @@ AssembledSystem assemble_thin_plate(const GridLevel& grid, const Stencils& stenc
   for (Index i = 0; i < Index(system.unknown_points.size()); ++i) {
     const Index p = system.unknown_points[std::size_t(i)];
     const RingTable::Ring& ring = plate.rings().about(p);
-    const MembraneWeights membrane = plate.membrane(ring);
-    for (std::size_t k = 0; k < membrane.size(); ++k)
+    const std::span<const double> tension = stencils.weights(ring.element);
+    for (std::size_t k = 0; k < tension.size(); ++k)
       if (const RingTable::Member q = plate.rings().members(ring)[k + 1]; q >= 0)
-        entries.emplace_back(i, number[std::size_t(q)], -membrane[k]);
+        entries.emplace_back(i, number[std::size_t(q)], -tension[k]);
     const double held = std::size_t(p) < weights.size() ? weights[std::size_t(p)] : 0.0;
-    if (const double own = membrane.total() + held + plate.penalty(p); own != 0)
+    if (const double own = stencils.total_weight(ring.element) + held + plate.penalty(p); own != 0)
       entries.emplace_back(i, i, own);
   }
   if (!entries.empty()) add_entries(entries, system);

@@ -7,26 +7,30 @@ namespace fairing {
 
 PlateDifferences::PlateDifferences(const GridLevel& grid, const Stencils& stencils,
                                    const Unknowns& unknowns, Workers& workers,
-                                   const SurfaceDifferences* surface)
-    : mesh_(grid.mesh()),
-      stencils_(stencils),
+                                   const SurfaceRows* surface)
+    : stencils_(stencils),
       surface_(surface),
       rings_(grid, unknowns, workers),
       weight_(point_weights(grid)) {
+  if (surface) {
+    visit_rows(surface->rows,
+               [&](Index, const RowRun<const float>& run, std::size_t i, const auto&) {
+                 for (int s = 0; s < run.slots; ++s)
+                   column_.push_back({run.at(0, s, i), run.at(1, s, i), run.at(2, s, i)});
+               });
+    return;
+  }
   const double scale = grid.n();
-  const auto elements = std::size_t(mesh_.vertex_count()) + mesh_.edges.size() + mesh_.faces.size();
-  for (std::size_t element = 0; element < elements; ++element) {
+  column_.reserve(stencils.energy.size() + stencils.has_fit.size());
+  for (std::size_t element = 0; element < stencils.has_fit.size(); ++element) {
     stop_if_cancelled(element);
-    const EnergyRows rows(mesh_, stencils, Index(element));
-    const std::size_t begin = column_.size();
-    begin_.push_back(rows.size() > 0 ? begin : none);
-    if (rows.size() == 0) continue;
-    column_.insert(column_.end(), 1 + rows.size(), Column{});
-    for (std::size_t k = 0; k < rows.size(); ++k)
-      for (std::size_t c = 0; c < 3; ++c) {
-        column_[begin + 1 + k][c] = scale * rows[k][c];
-        column_[begin][c] -= scale * rows[rows.by_pairs(k)][c];
-      }
+    const std::size_t centre = column_.size();
+    column_.push_back({});
+    for (std::size_t k = stencils.begin[element]; k < stencils.begin[element + 1]; ++k) {
+      const Column& energy = stencils.energy[k];
+      column_.push_back({scale * energy[0], scale * energy[1], scale * energy[2]});
+      for (std::size_t c = 0; c < 3; ++c) column_[centre][c] -= scale * energy[c];
+    }
   }
 }
 

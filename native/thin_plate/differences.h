@@ -9,49 +9,43 @@
 #include "sparse/ring_table.h"
 #include "stencil/stencils.h"
 #include "stencil/weights.h"
-#include "thin_plate/surface_differences.h"
+#include "thin_plate/surface_rows.h"
 
 namespace fairing {
 
 class PlateDifferences {
  public:
-  using Column = EnergyRows::Column;
+  using Column = Stencils::Column;
 
   // `grid` and `stencils` must outlive it, and `surface`, whose differences replace those of the
   // stencils if it is given. Throws FairingError(cancelled).
   PlateDifferences(const GridLevel& grid, const Stencils& stencils, const Unknowns& unknowns,
-                   Workers& workers, const SurfaceDifferences* surface = nullptr);
+                   Workers& workers, const SurfaceRows* surface = nullptr);
 
   const RingTable& rings() const { return rings_; }
   // Whether points have weights besides the stencils.
   bool is_weighted() const { return surface_ || !weight_.empty(); }
-  double penalty(Index p) const { return surface_ ? surface_->penalty(p) : 0.0; }
-  MembraneWeights membrane(const RingTable::Ring& ring) const {
-    return {mesh_, stencils_, ring.element};
-  }
-
+  double penalty(Index p) const { return surface_ ? double(surface_->penalty[std::size_t(p)]) : 0; }
+  const Stencils& stencils() const { return stencils_; }
   bool has_fit(const RingTable::Ring& ring) const {
-    return begin_[std::size_t(ring.element)] != none;
+    return stencils_.has_fit[std::size_t(ring.element)];
   }
   // For a ring with a fit: the three differences there of a unit at a member, without the root of
   // weight().
-  Column column(Index centre, const RingTable::Ring& ring, std::size_t slot) const {
-    if (surface_) return surface_->column(centre, slot);
-    return column_[begin_[std::size_t(ring.element)] + slot];
+  Column column(const RingTable::Ring& ring, std::size_t slot) const {
+    const auto e = std::size_t(ring.element);
+    return column_[slot + (surface_ ? ring.member : stencils_.begin[e] + e)];
   }
   double weight(Index centre) const {
     return surface_ || weight_.empty() ? 1.0 : weight_[std::size_t(centre)];
   }
 
  private:
-  static constexpr std::size_t none = std::size_t(-1);
-
-  const ControlMesh& mesh_;
   const Stencils& stencils_;
-  const SurfaceDifferences* surface_;
+  const SurfaceRows* surface_;
   const RingTable rings_;
-  const Array<double> weight_;      // of the points; empty: all are one
-  std::vector<std::size_t> begin_;  // by element: the begin of its columns, the centre's first
+  const Array<double> weight_;  // of the points; empty: all are one
+  // By element, or on a surface by point: the centre's, then those of the neighbours.
   Array<Column> column_;
 };
 

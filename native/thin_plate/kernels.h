@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The inner loops of K's action without a matrix: two one-ring passes, y = C d with the divided
-// differences d, then the transposed differences of y. Along a control edge all points have one
-// stencil. Inside a control face they have one matrix C on the second differences d_a along the
-// grid's directions a,
+// differences d, then the transposed differences of y. At a vertex and along a control edge all
+// points have one stencil. Inside a control face they have one matrix C on the second differences
+// d_a along the grid's directions a,
 //
 //   d_a(i) = x(i + a) + x(i - a) - 2 x(i),   (K x)(i) = sum_a y_a(i + a) + y_a(i - a) - 2 y_a(i).
 //
-// So there is no branch and no index.
+// Tension's part is (L x)_i = sum_j w_ij (x_i - x_j) over the ring of i, with the weights of
+// stencil/membrane.h. They are the same from both ends of an edge, so each point's row is gathered
+// from its own ring.
 //
-// Rows have three interleaved coordinates, in packs (base/simd.h). What the last pack writes beyond
-// a row is overwritten by the next row, or lies in the extra room at the end of each buffer. The
-// order of every sum is fixed, because it determines the result's bits.
+// Rows have three interleaved coordinates, in packs (base/simd.h). Inside a face, what the last
+// pack writes beyond a row is overwritten by the next row, or lies in the extra room at the end of each
+// buffer. The order of every sum is fixed, because it determines the result's bits.
 #pragma once
 
 #include <algorithm>
@@ -22,72 +24,69 @@ namespace fairing {
 
 namespace passes {
 
-template <class T, int Bytes>
-struct EdgePass {
+// Calls body(Packs, i) for the numbers from i on, in whole packs, then in single numbers.
+template <class T, int Bytes, class Body>
+DF_INLINE void along(std::size_t numbers, const Body& body) {
   using P = Packs<T, Bytes>;
-  using Pack = typename P::Pack;
+  std::size_t i = 0;
+  for (; i + P::size <= numbers; i += P::size) body(P{}, i);
+  for (; i < numbers; ++i) body(Packs<T, int(sizeof(T))>{}, i);
+}
 
-  // m[c][i] = sum_j row[8 c + j] (neighbour j of i - i) on the run's points 1 … n - 1, zero
-  // elsewhere; then the transposed rows are added to the target lanes. `moments` has room for 5
-  // lanes. `weight`, if not null: factors of m, one per point from point 1.
-  DF_INLINE static void run(int n, const EdgeRingLanes* ring, const T* row, T scale, T* const* lane,
-                            const T* weight, T* const* target, T* moments) {
-    constexpr int block = P::size, room = lane_block;
-    const std::ptrdiff_t stride = std::ptrdiff_t(lane_stride(n)) + 2 * room;
-    const std::ptrdiff_t inner = 3 * std::ptrdiff_t(n - 1), whole = 3 * std::ptrdiff_t(n + 1);
-    T* m[3] = {moments + room, moments + room + stride, moments + room + 2 * stride};
-    const T* centre = lane[0] + 3;
-    const int size = ring->size;
-    const T* place[8];
-    T at[3][8], back[3][8], total[3] = {};
-    for (int j = 0; j < size; ++j) {
-      place[j] = lane[ring->lane[j]] + 3 * (1 + ring->at[j]);
-      for (int c = 0; c < 3; ++c) {
-        at[c][j] = row[8 * c + j];
-        back[c][j] = scale * row[8 * c + j];
-        total[c] -= back[c][j];
-      }
-    }
-    for (std::ptrdiff_t i = 0; i < inner; i += block) {
-      Pack own, y0 = {}, y1 = {}, y2 = {};
-      P::load(centre + i, own);
-      for (int j = 0; j < size; ++j) {
-        Pack d;
-        P::load(place[j] + i, d);
+// For a run whose points have the same rows, with `numbers` numbers, three a point.
+template <class T, int Bytes>
+struct RunPass {
+  // target[s] += the transposed rows of m_c[i] = sum_s row[3 s + c] (at[s + 1][i] - at[0][i]),
+  // times `scale` and, if not null, a weight of each point.
+  DF_INLINE static void run(std::size_t numbers, std::size_t size, const T* row, T scale,
+                            const T* const* at, const T* weight, T* const* target, T* moments) {
+    T* const m[3] = {moments, moments + numbers, moments + 2 * numbers};
+    along<T, Bytes>(numbers, [&]<class P>(P, std::size_t i) __attribute__((always_inline)) {
+      typename P::Pack own, d, sum[3] = {};
+      P::load(at[0] + i, own);
+      for (std::size_t s = 0; s < size; ++s) {
+        P::load(at[s + 1] + i, d);
         d -= own;
-        y0 += at[0][j] * d;
-        y1 += at[1][j] * d;
-        y2 += at[2][j] * d;
+        for (std::size_t c = 0; c < 3; ++c) sum[c] += row[3 * s + c] * d;
       }
-      P::store(y0, m[0] + 3 + i);
-      P::store(y1, m[1] + 3 + i);
-      P::store(y2, m[2] + 3 + i);
+      for (std::size_t c = 0; c < 3; ++c) P::store(scale * sum[c], m[c] + i);
+    });
+    for (std::size_t i = 0; i < numbers && weight; ++i)
+      for (T* moment : m) moment[i] *= weight[i / 3];
+    const auto add = [&](const T* column, T* to) __attribute__((always_inline)) {
+      along<T, Bytes>(numbers, [&]<class P>(P, std::size_t i) __attribute__((always_inline)) {
+        typename P::Pack sum, moment;
+        P::load(to + i, sum);
+        for (std::size_t c = 0; c < 3; ++c) {
+          P::load(m[c] + i, moment);
+          sum += column[c] * moment;
+        }
+        P::store(sum, to + i);
+      });
+    };
+    T total[3] = {};
+    for (std::size_t s = 0; s < size; ++s) {
+      add(row + 3 * s, target[s + 1]);
+      for (std::size_t c = 0; c < 3; ++c) total[c] -= row[3 * s + c];
     }
-    if (weight)
-      for (int c = 0; c < 3; ++c)
-        for (std::ptrdiff_t i = 0; i < inner; ++i) m[c][3 + i] *= weight[i / 3];
-    for (int c = 0; c < 3; ++c) {
-      for (int q = -3; q < 3; ++q) m[c][q] = 0;
-      for (std::ptrdiff_t q = 3 + inner; q < stride - room; ++q) m[c][q] = 0;
-    }
-    for (int l = 0; l < 3; ++l) {
-      if (!target[l]) continue;
-      for (std::ptrdiff_t i = 0; i < whole; i += block) {
-        Pack z = {};
-        const auto add = [&](const T* b0, const T* b1, const T* b2, std::ptrdiff_t from)
-                             __attribute__((always_inline)) {
-                               Pack a, b, c;
-                               P::load(m[0] + from, a);
-                               P::load(m[1] + from, b);
-                               P::load(m[2] + from, c);
-                               z += *b0 * a + *b1 * b + *b2 * c;
-                             };
-        for (int j = 0; j < size; ++j)
-          if (ring->lane[j] == l) add(&back[0][j], &back[1][j], &back[2][j], i - 3 * ring->at[j]);
-        if (l == 0) add(&total[0], &total[1], &total[2], i);
-        P::store(z, target[l] + i);
+    add(total, target[0]);
+  }
+};
+
+template <class T, int Bytes>
+struct MembranePass {
+  DF_INLINE static void run(std::size_t numbers, std::size_t size, const double* weight,
+                            const T* const* at, T* out) {
+    along<T, Bytes>(numbers, [&]<class P>(P, std::size_t i) __attribute__((always_inline)) {
+      typename P::Pack own, other, sum = {};
+      P::load(at[0] + i, own);
+      for (std::size_t s = 0; s < size; ++s) {
+        P::load(at[s + 1] + i, other);
+        sum += T(weight[s]) * (own - other);
       }
-    }
+      P::load(out + i, other);
+      P::store(other + sum, out + i);
+    });
   }
 };
 
@@ -225,13 +224,6 @@ struct FacePass {
 };
 
 }  // namespace passes
-
-// target lanes <- (rows)^T rows (lanes), scaled; storage holds 5 lanes.
-template <class T>
-void set_edge_pass(int n, const EdgeRingLanes& ring, const T* row, T scale, T* const* lane,
-                   const T* weight, T* const* target, T* storage) {
-  run_loop<passes::EdgePass, T>(n, &ring, row, scale, lane, weight, target, storage);
-}
 
 // closed <- (second differences)^T C (second differences) x over the interior points of a closed
 // face. c is a symmetric matrix on the grid's directions (face_directions() in grid/ring.h), 3 x 3

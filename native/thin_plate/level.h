@@ -6,6 +6,7 @@
 
 #include "multigrid/chebyshev.h"
 #include "multigrid/level_operator.h"
+#include "parallel/reductions.h"
 #include "thin_plate/matrix.h"
 #include "thin_plate/operator.h"
 
@@ -45,8 +46,8 @@ class ThinPlateLevel final : public LevelOperator {
   // Switches to the metric of a surface of the level.
   void measure(const SurfaceMetric& metric) {
     matrix_.reset();
-    surface_ = std::make_unique<SurfaceDifferences>(grid_, shared_.stencils, metric,
-                                                    shared_.unknowns, shared_.workers);
+    surface_ = std::make_unique<SurfaceRows>(grid_, shared_.stencils, metric, shared_.unknowns,
+                                             shared_.workers);
     matrix_ = PlateMatrix::make(grid_, shared_.stencils, shared_.unknowns, shared_.workers,
                                 surface_.get());
     ++version_.spectrum;
@@ -55,7 +56,8 @@ class ThinPlateLevel final : public LevelOperator {
   bool is_measured() const { return surface_ != nullptr; }
   // r += P reference, in the metric of a surface.
   void add_penalty(const double* reference, double* r) const {
-    surface_->add_penalty(reference, shared_.workers, r);
+    for_each_index(shared_.workers, 3 * points(),
+                   [&](std::size_t i) { r[i] += double(surface_->penalty[i / 3]) * reference[i]; });
   }
 
   void set_weights(VertexWeights weights) {
@@ -71,28 +73,24 @@ class ThinPlateLevel final : public LevelOperator {
 
   // E(x), as thin_plate_energy().
   double bending(const double* x) {
-    return surface_ ? surface_->energy(shared_.workers, x)
-                    : thin_plate_energy(grid_, shared_.stencils, shared_.workers, x);
+    return thin_plate_energy(grid_, shared_.stencils, shared_.workers, x, surface_.get());
   }
 
   std::size_t points() const override { return grid_.size(); }
   std::size_t components() const override { return 3; }
   void apply(const double* x, double* y) override {
-    if (surface_) return surface_->apply(shared_.unknowns.vertex, weights_, shared_.workers, x, y);
     apply_thin_plate(grid_, shared_.double_rows, shared_.unknowns, weights_, shared_.workers,
-                     shared_.double_slots, x, y);
+                     shared_.double_slots, x, y, surface_.get());
   }
   // (K + P) x without weights, with these control vertices among the unknowns.
   void apply_with(const Unknowns& unknowns, const double* x, double* y) {
-    if (surface_) return surface_->apply(unknowns.vertex, {}, shared_.workers, x, y);
     apply_thin_plate(grid_, shared_.double_rows, unknowns, {}, shared_.workers,
-                     shared_.double_slots, x, y);
+                     shared_.double_slots, x, y, surface_.get());
   }
   // Its diagonal.
   Array<float> diagonal_with(const Unknowns& unknowns) {
-    return surface_ ? surface_->diagonal(unknowns.vertex, {}, shared_.workers)
-                    : thin_plate_diagonal(grid_, shared_.stencils, unknowns, {}, shared_.workers,
-                                          shared_.double_slots);
+    return thin_plate_diagonal(grid_, shared_.stencils, unknowns, {}, shared_.workers,
+                               shared_.double_slots, surface_.get());
   }
   void apply(const float* x, float* y) override {
     if (matrix_)
@@ -100,9 +98,8 @@ class ThinPlateLevel final : public LevelOperator {
           x, shared_.workers, [=](std::size_t first, std::size_t count, const float* product) {
             std::copy_n(product, 3 * count, y + 3 * first);
           });
-    if (surface_) return surface_->apply(shared_.unknowns.vertex, weights_, shared_.workers, x, y);
     apply_thin_plate(grid_, shared_.float_rows, shared_.unknowns, weights_, shared_.workers,
-                     shared_.float_slots, x, y);
+                     shared_.float_slots, x, y, surface_.get());
   }
   void relax(const SmoothingStep& step, Workers& workers) override {
     if (!matrix_) return LevelOperator::relax(step, workers);
@@ -145,18 +142,16 @@ class ThinPlateLevel final : public LevelOperator {
       inverse_diagonal_ = matrix_->inverse_diagonal(shared_.workers);
       return;
     }
-    inverse_diagonal_ = surface_
-                            ? surface_->diagonal(shared_.unknowns.vertex, weights_, shared_.workers)
-                            : thin_plate_diagonal(grid_, shared_.stencils, shared_.unknowns,
-                                                  weights_, shared_.workers, shared_.double_slots);
+    inverse_diagonal_ = thin_plate_diagonal(grid_, shared_.stencils, shared_.unknowns, weights_,
+                                            shared_.workers, shared_.double_slots, surface_.get());
     for (float& d : inverse_diagonal_) d = 1 / d;
   }
 
   ThinPlateShared& shared_;
   const GridLevel& grid_;
   VertexWeights weights_;
-  std::unique_ptr<SurfaceDifferences> surface_;  // null: the control metric
-  std::unique_ptr<PlateMatrix> matrix_;          // null: passes are used
+  std::unique_ptr<SurfaceRows> surface_;  // null: the control metric
+  std::unique_ptr<PlateMatrix> matrix_;   // null: passes are used
   Array<float> inverse_diagonal_;
 };
 

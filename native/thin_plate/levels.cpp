@@ -10,7 +10,6 @@
 #include "grid/injection.h"
 #include "grid/linear.h"
 #include "parallel/reductions.h"
-#include "thin_plate/membrane.h"
 
 namespace fairing {
 namespace {
@@ -76,7 +75,7 @@ ThinPlateLevels::ThinPlateLevels(const ControlMesh& mesh, const Stencils& stenci
         {*operators_.back(), l > base_ ? transfers_.back().get() : nullptr, unknowns_of(l)});
   }
   hierarchy_ = std::make_unique<Hierarchy>(
-      workers, hierarchy_options(shared_.unknowns, options, base_, stencils.membrane.any()), all);
+      workers, hierarchy_options(shared_.unknowns, options, base_, !stencils.tension.empty()), all);
 }
 
 void ThinPlateLevels::set_weights(const VertexWeights& weights, int level) {

@@ -80,7 +80,7 @@ class ThinPlateLevels {
   void measure(int level, const double* x, const ThinPlateOptions::Penalty& penalty);
   // The penalty's numbers on a level, 1 a point (SurfaceMetric::penalty).
   Array<float> penalty(int level, const Array<float>& finest);
-  // The reference on a level (thin_plate/surface_differences.h); empty in the control metric.
+  // The reference on a level (thin_plate/surface_rows.h); empty in the control metric.
   Array<double> reference(int level, const PlateData& data);
   // r += P reference, if there is a reference.
   void add_penalty(int level, const Array<double>& reference, double* r) const {

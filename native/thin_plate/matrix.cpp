@@ -10,16 +10,6 @@
 namespace fairing {
 namespace {
 
-// Calls visit(member, number) for a point's row of the membrane, on the unknowns of its ring.
-template <class Visit>
-void visit_membrane_row(const MembraneWeights& weights, const RingTable::Member* members,
-                        Visit&& visit) {
-  if (weights.size() == 0) return;
-  visit(members[0], weights.total());
-  for (std::size_t k = 0; k < weights.size(); ++k)
-    if (members[k + 1] >= 0) visit(members[k + 1], -weights[k]);
-}
-
 // Row p of K, from the rings that contain the point: those of its own ring's members.
 void sum_row(const PlateDifferences& plate, Index p, RowBuilder& row) {
   const RingTable& rings = plate.rings();
@@ -30,17 +20,19 @@ void sum_row(const PlateDifferences& plate, Index p, RowBuilder& row) {
     const std::size_t slot = plate.has_fit(ring) ? rings.slot(ring, p) : ring.size;
     if (slot == ring.size) continue;
     const RingTable::Member* members = rings.members(ring);
-    const auto at = plate.column(centre, ring, slot);
+    const auto at = plate.column(ring, slot);
     const double weight = plate.weight(centre);
     for (std::size_t m = 0; m < ring.size; ++m) {
       if (members[m] < 0) continue;
-      const auto to = plate.column(centre, ring, m);
+      const auto to = plate.column(ring, m);
       row.add(members[m], weight * (at[0] * to[0] + at[1] * to[1] + at[2] * to[2]));
     }
   }
-  visit_membrane_row(plate.membrane(own), rings.members(own),
-                     [&](RingTable::Member m, double number) { row.add(m, number); });
-  if (const double penalty = plate.penalty(p); penalty != 0) row.add(p, penalty);
+  const std::span<const double> tension = plate.stencils().weights(own.element);
+  for (std::size_t k = 0; k < tension.size(); ++k)
+    if (const RingTable::Member q = rings.members(own)[k + 1]; q >= 0) row.add(q, -tension[k]);
+  const double extra = plate.stencils().total_weight(own.element) + plate.penalty(p);
+  if (extra != 0) row.add(p, extra);
 }
 
 // Rows of K one after another.
@@ -63,8 +55,8 @@ class PlateRows {
 
 bool suits(const GridLevel& grid, const Stencils& stencils) {
   std::size_t products = 81 * grid.size();
-  for (std::size_t v = 0; v + 1 < stencils.ring_offset.size(); ++v) {
-    const auto size = std::size_t(stencils.ring_offset[v + 1] - stencils.ring_offset[v]);
+  for (Index v = 0; v < grid.mesh().vertex_count(); ++v) {
+    const std::size_t size = stencils.columns(v).size();
     products += size * size;
   }
   return worth_products(products, grid.size());
@@ -74,7 +66,7 @@ bool suits(const GridLevel& grid, const Stencils& stencils) {
 
 std::unique_ptr<PlateMatrix> PlateMatrix::make(const GridLevel& grid, const Stencils& stencils,
                                                const Unknowns& unknowns, Workers& workers,
-                                               const SurfaceDifferences* surface) {
+                                               const SurfaceRows* surface) {
   if (!has_rows(grid.n(), grid.size()) || !suits(grid, stencils)) return nullptr;
   const PlateDifferences plate(grid, stencils, unknowns, workers, surface);
   const auto writer = [&] {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The thin plate's K on one level as a matrix, in two forms, both from the rows of the stencils
-// (EnergyRows in stencil/stencils.h) over the same rings (sparse/ring_table.h): in double for a
+// (stencil/stencils.h) over the same rings (sparse/ring_table.h): in double for a
 // factor, in single precision for the smoother. Without a matrix: thin_plate/operator.h.
 #pragma once
 
@@ -10,7 +10,7 @@
 #include "sparse/matrix.h"
 #include "sparse/ring_table.h"
 #include "thin_plate/operator.h"
-#include "thin_plate/surface_differences.h"
+#include "thin_plate/surface_rows.h"
 
 namespace fairing {
 
@@ -19,7 +19,7 @@ namespace fairing {
 // Throws if the run is cancelled.
 AssembledSystem assemble_thin_plate(const GridLevel& grid, const Stencils& stencils,
                                     const Unknowns& unknowns, const VertexWeights& weights,
-                                    Workers& workers, const SurfaceDifferences* surface = nullptr);
+                                    Workers& workers, const SurfaceRows* surface = nullptr);
 
 // K in single precision for the smoother, on levels whose faces have few points: there, passes over
 // faces and edges cost more than an index for each number.
@@ -29,7 +29,7 @@ class PlateMatrix {
   // many points a face. With the differences of a surface if given. Throws if the run is cancelled.
   static std::unique_ptr<PlateMatrix> make(const GridLevel& grid, const Stencils& stencils,
                                            const Unknowns& unknowns, Workers& workers,
-                                           const SurfaceDifferences* surface = nullptr);
+                                           const SurfaceRows* surface = nullptr);
 
   // Sets the weights that are added to the diagonal.
   void set_weights(const VertexWeights& weights);

@@ -1,58 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "thin_plate/operator.h"
 
+#include <utility>
+
 #include "multigrid/ring_lines.h"
 #include "parallel/cancel.h"
 #include "parallel/reductions.h"
 #include "thin_plate/kernels.h"
-#include "thin_plate/membrane.h"
 
 namespace fairing {
 namespace {
 
-// y = rows (x_ring - x_0): 3 rows by 3 coordinates.
-template <class T>
-struct Moment {
-  T y[3][3] = {};
-  void add(const T* row, std::size_t stride, const T* difference) {
-    for (std::size_t c = 0; c < 3; ++c)
-      for (std::size_t a = 0; a < 3; ++a) y[c][a] += row[c * stride] * difference[a];
-  }
-  // The transposed rows for one neighbour.
-  void transposed(const T* row, std::size_t stride, T* z) const {
-    for (std::size_t a = 0; a < 3; ++a)
-      z[a] = row[0] * y[0][a] + row[stride] * y[1][a] + row[2 * stride] * y[2][a];
-  }
-  double square() const {
-    double sum = 0;
-    for (const auto& r : y)
-      for (const T v : r) sum += double(v) * double(v);
-    return sum;
-  }
-};
-
-template <class T>
-void difference(const T* p, const T* origin, T* d) {
-  for (std::size_t a = 0; a < 3; ++a) d[a] = p[a] - origin[a];
-}
-
-template <class T>
-Moment<T> vertex_moment(const GridLevel& grid, const ThinPlateRows<T>& rows, Index v, const T* x) {
-  Moment<T> moment;
-  const T* row = rows.vertex.data() + 3 * std::size_t(rows.stencils.ring_offset[std::size_t(v)]);
-  visit_ring(grid, v, [&](Index point, std::size_t) {
-    T d[3];
-    difference(x + 3 * std::size_t(point), x + 3 * std::size_t(v), d);
-    moment.add(row, 1, d);
-    row += 3;
-  });
-  return moment;
-}
-
-template <class T>
-void edge_weights(const EnergyWeight& factor, int n, Index e, T* weight) {
-  for (int k = 1; k < n; ++k) *weight++ = T(factor.edge_point(e, k));
-}
+using Column = Stencils::Column;
 
 // Three equal numbers for each point of the closed face.
 template <class T>
@@ -62,82 +21,191 @@ void face_weights(const EnergyWeight& factor, bool quad, int n, Index f, T* weig
       std::fill(weight, weight + 3, T(factor.face_point(f, i, j)));
 }
 
-// The energy's rows of a run's element.
-struct ElementRows {
-  using Column = EnergyRows::Column;
-  const ControlMesh& mesh;
-  const Stencils& stencils;
-  // By neighbour; inside a face by direction, for second differences. Empty: no fit.
-  std::vector<Column> column{};
-
-  void read(const Run& run) {
-    if (run.row > 1) return;
-    const EnergyRows rows(mesh, stencils, element_of(mesh, run));
-    column.clear();
-    for (std::size_t k = 0; k < rows.distinct(); ++k) column.push_back(rows[k]);
-  }
-};
-
-// y += W x at the control vertices.
-template <class T>
-void add_weighted(const GridLevel& grid, const VertexWeights& weights, Workers& workers, const T* x,
+// y += W x on the unknowns.
+template <class T, class Weights>
+void add_weighted(const Unknowns& unknowns, const Weights& weights, Workers& workers, const T* x,
                   T* y) {
-  const auto first = std::size_t(grid.mesh().vertex_count());
-  if (weights.size() <= first) return;
-  for_each_index(workers, weights.size() - first, [&](std::size_t i) {
-    const std::size_t p = first + i;
+  for_each_index(workers, weights.size(), [&](std::size_t p) {
+    if (p < unknowns.vertex.size() && !unknowns.vertex[p]) return;
     for (std::size_t a = 0; a < 3; ++a) y[3 * p + a] += T(weights[p]) * x[3 * p + a];
   });
 }
 
-double dot(const EnergyRows::Column& a, const EnergyRows::Column& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+// Adds the transposed rows of the moments of a run's points, which have rows of their own.
+template <class T>
+void add_points(const RowRun<const float>& rows, const T* const* at, T* const* target) {
+  for (std::size_t i = 0; i < rows.count; ++i) {
+    T moment[3][3] = {};
+    // differences from the point itself avoid the rounding of the rows' sums
+    for (int s = 1; s < rows.slots; ++s)
+      for (std::size_t a = 0; a < 3; ++a) {
+        const T d = at[s][3 * i + a] - at[0][3 * i + a];
+        for (int c = 0; c < 3; ++c) moment[c][a] += T(rows.at(c, s, i)) * d;
+      }
+    for (int s = 0; s < rows.slots; ++s)
+      for (int c = 0; c < 3; ++c)
+        for (std::size_t a = 0; a < 3; ++a)
+          target[s][3 * i + a] += T(rows.at(c, s, i)) * moment[c][a];
+  }
 }
 
 // The energy's columns by the points of a ring, in the form that multigrid/ring_lines.h reads.
 struct PlateRingRows {
   const GridLevel& grid;
-  EnergyWeight factor;
-  ElementRows rows;
-  std::vector<EnergyRows::Column> column{};  // by slot
+  const Stencils& stencils;
+  const SurfaceRows* surface = nullptr;
+  EnergyWeight factor{grid};
+  RowRun<const float> own{};     // with a surface
+  std::vector<Column> column{};  // without, by slot
   Run run{};
 
   void read(const Run& now) {
     run = now;
-    if (run.row > 1) return;
-    rows.read(run);
+    if (surface) own = std::as_const(surface->rows).of(run);
+    if (surface || run.row > 1) return;
+    const std::span<const Column> columns = stencils.columns(element_of(grid.mesh(), run));
+    column.clear();
+    if (columns.empty()) return;
     column.assign(1, {});
-    for (int side = 0; side < (run.kind == RunKind::face_row ? 2 : 1); ++side)
-      for (const auto& neighbour : rows.column) {
-        column.push_back(neighbour);
-        for (std::size_t c = 0; c < 3; ++c) column[0][c] -= neighbour[c];
-      }
-    if (rows.column.empty()) column.clear();
+    column.insert(column.end(), columns.begin(), columns.end());
+    for (const Column& neighbour : columns)
+      for (std::size_t c = 0; c < 3; ++c) column[0][c] -= neighbour[c];
   }
-  int slots() const { return int(column.size()); }
-  double number(int s, int t, std::size_t i) const {
-    const double weight = factor.weighs(run) ? factor.point(run, i) : 1.0;
-    return weight * grid.n() * grid.n() * dot(column[std::size_t(s)], column[std::size_t(t)]);
+  // None without a fit.
+  int slots() const { return surface ? own.slots : int(column.size()); }
+  Vec3 at(int s, std::size_t i) const {
+    if (surface) return Vec3(own.at(0, s, i), own.at(1, s, i), own.at(2, s, i));
+    return Eigen::Map<const Vec3>(column[std::size_t(s)].data());
   }
+  // Of the energy at point i.
+  double weight(std::size_t i) const {
+    if (surface) return 1;
+    return (factor.weighs(run) ? factor.point(run, i) : 1.0) * grid.n() * grid.n();
+  }
+  double number(int s, int t, std::size_t i) const { return weight(i) * at(s, i).dot(at(t, i)); }
   float product(int s, int t, std::size_t i) const { return float(number(s, t, i)); }
-  bool is_same_along_run() const { return !factor.weighs(run); }
+  bool is_same_along_run() const { return !surface && !factor.weighs(run); }
+};
+
+// A thread's passes over runs and faces.
+template <class T>
+class PlatePass {
+ public:
+  PlatePass(const GridLevel& grid, const ThinPlateRows<T>& rows, const SurfaceRows* surface,
+            const T* x)
+      : grid_(grid), rows_(rows), surface_(surface), x_(x), factor_(grid), gather_(grid, x) {
+    work_.clear();
+  }
+
+  void vertex(Index v, T* centre, T* spokes) {
+    spokes_.start(centre);
+    visit_ring(grid_, v, [&](Index, std::size_t slot) { spokes_.add(spokes + 3 * slot); });
+    add_run(vertex_run(v), spokes_.list());
+  }
+
+  void edge(Index e, T* run, T* left, T* right) {
+    clear_lanes(grid_.n(), run, left, right);
+    T* const lane[3] = {run, left, right};
+    for_edge_run(grid_, e, [&](const Run& edge) {
+      set_beside_edge<T, 3>(*edge.ring, lane, beside_);
+      add_run(edge, beside_.at);
+    });
+  }
+
+  // The whole face at once, except for rows of its own points and tension.
+  void face(Index f, T* closed) {
+    const int n = grid_.n();
+    const bool quad = grid_.mesh().faces[std::size_t(f)].quad();
+    const bool at_once = n >= (quad ? 2 : 3) && !surface_;
+    if (at_once)
+      add_face(f, quad, closed);
+    else
+      std::fill_n(closed, 3 * closed_size(quad, std::size_t(n)), T(0));
+    if (!surface_ && rows_.stencils.tension.empty()) return;
+    for_face_runs(grid_, f, [&](const Run& row) {
+      set_beside_row<T, 3>(quad, n, row.row, closed, beside_);
+      add_run(row, beside_.at);
+    });
+  }
+
+ private:
+  // A vertex has three numbers, for which packs would cost more than its sums.
+  template <template <class, int> class Loop, class... Arguments>
+  static void pass(const Run& run, Arguments... arguments) {
+    if (run.kind == RunKind::vertex)
+      Loop<T, int(sizeof(T))>::run(std::size_t(3), arguments...);
+    else
+      run_loop<Loop, T>(3 * run.count, arguments...);
+  }
+  T scale() const { return T(grid_.n()) * T(grid_.n()); }
+
+  void add_run(const Run& run, T* const* target) {
+    const Stencils& stencils = rows_.stencils;
+    const Index element = element_of(grid_.mesh(), run);
+    const T* const* at = gather_(run);
+    const bool has_fit = stencils.has_fit[std::size_t(element)];
+    if (has_fit && surface_)
+      add_points(std::as_const(surface_->rows).of(run), at, target);
+    else if (has_fit && run.kind != RunKind::face_row)
+      add_equal(run, element, at, target);
+    if (const std::span<const double> tension = stencils.weights(element); !tension.empty())
+      pass<passes::MembranePass>(run, tension.size(), tension.data(), at, target[0]);
+  }
+
+  void add_equal(const Run& run, Index element, const T* const* at, T* const* target) {
+    T* const moments = room_in(work_, 10 * run.count);
+    T* weight = factor_.weighs(run) ? moments + 9 * run.count : nullptr;
+    for (std::size_t i = 0; i < run.count && weight; ++i) weight[i] = T(factor_.point(run, i));
+    const T* row = rows_.ring.data() + 3 * rows_.stencils.begin[std::size_t(element)];
+    pass<passes::RunPass>(run, rows_.stencils.columns(element).size(), row, scale(), at,
+                          static_cast<const T*>(weight), target, moments);
+  }
+
+  void add_face(Index f, bool quad, T* closed) {
+    const int n = grid_.n();
+    const std::size_t size = 3 * closed_size(quad, std::size_t(n));
+    T* const x = room_in(thread_scratch<T>().gathered, size + lane_block);
+    gather_face(grid_, x_, f, x);
+    const T* weight = nullptr;
+    if (factor_.weighs_face(f)) {
+      weight = room_in(weight_, size);
+      face_weights(factor_, quad, n, f, weight_.data());
+    }
+    T* const moments = room_in(work_, passes::moments_size(n));
+    const T* c = rows_.face.data() + 16 * std::size_t(f);
+    if (quad)
+      set_face_pass<true>(n, c, scale(), x, weight, closed, moments);
+    else
+      set_face_pass<false>(n, c, scale(), x, weight, closed, moments);
+  }
+
+  const GridLevel& grid_;
+  const ThinPlateRows<T>& rows_;
+  const SurfaceRows* surface_;
+  const T* x_;
+  EnergyWeight factor_;
+  RunGather<T, 3> gather_;
+  SpokePointers<T> spokes_;
+  RunNeighbours<T> beside_;
+  std::vector<T>& work_ = thread_scratch<T>().work;
+  std::vector<T> weight_;
 };
 
 }  // namespace
 
 template <class T>
 ThinPlateRows<T>::ThinPlateRows(const ControlMesh& mesh, const Stencils& s) : stencils(s) {
-  vertex.resize(s.vertex_energy.size());
-  copy_long(s.vertex_energy.data(), vertex.size(), vertex.data());
-  edge.resize(s.edge_energy.size());
-  copy_long(s.edge_energy.data(), edge.size(), edge.data());
+  const std::size_t rings = s.begin.size() - 1 - mesh.faces.size();
+  ring.resize(3 * s.begin[rings]);
+  for (std::size_t k = 0; k < ring.size(); ++k) ring[k] = T(s.energy[k / 3][k % 3]);
   face.resize(16 * mesh.faces.size());
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     stop_if_cancelled(f);
-    const double* g = s.face_energy.data() + 12 * f;
-    for (std::size_t a = 0; a < 4; ++a)
-      for (std::size_t b = 0; b < 4; ++b)
-        face[16 * f + 4 * a + b] = T(g[a] * g[b] + g[4 + a] * g[4 + b] + g[8 + a] * g[8 + b]);
+    const Column* g = s.energy.data() + s.begin[rings + f];
+    const std::size_t directions = mesh.faces[f].quad() ? 4 : 3;
+    for (std::size_t a = 0; a < directions; ++a)
+      for (std::size_t b = 0; b < directions; ++b)
+        face[16 * f + 4 * a + b] = T(g[a][0] * g[b][0] + g[a][1] * g[b][1] + g[a][2] * g[b][2]);
   }
 }
 
@@ -147,88 +215,30 @@ template struct ThinPlateRows<double>;
 template <class T>
 void apply_thin_plate(const GridLevel& grid, const ThinPlateRows<T>& rows, const Unknowns& unknowns,
                       const VertexWeights& weights, Workers& workers, ElementSlots<T>& slots,
-                      const T* x, T* y) {
-  const ControlMesh& mesh = grid.mesh();
-  const int n = grid.n();
-  const T level_scale = T(n) * T(n);
-  const EnergyWeight factor(grid);
-  const MembraneRows<T> membrane(grid, rows.stencils, unknowns, x);
-
-  const auto vertex_body = [&](Index v, T* centre, T* spokes, std::vector<T>&) {
-    if (rows.stencils.vertex_fit[std::size_t(v)]) {
-      const T scale = level_scale * T(factor.vertex(v));
-      const Moment<T> moment = vertex_moment(grid, rows, v, x);
-      const T* row =
-          rows.vertex.data() + 3 * std::size_t(rows.stencils.ring_offset[std::size_t(v)]);
-      visit_ring(grid, v, [&](Index, std::size_t slot) {
-        T z[3];
-        moment.transposed(row, 1, z);
-        row += 3;
-        for (std::size_t a = 0; a < 3; ++a) {
-          spokes[3 * slot + a] += scale * z[a];
-          centre[a] -= scale * z[a];
-        }
-      });
-    }
-    membrane.add_vertex(v, centre);
-    if (!weights.empty())
-      for (std::size_t a = 0; a < 3; ++a)
-        centre[a] += T(weights[std::size_t(v)]) * x[3 * std::size_t(v) + a];
-  };
-
-  const auto edge_body = [&](Index e, T* run, T* left, T* right, std::vector<T>& scratch) {
-    if (n == 1 || !rows.stencils.edge_fit[std::size_t(e)]) {
-      clear_lanes(n, run, left, right);
-      return;
-    }
-    const std::size_t stride = lane_stride(n) + lane_block;
-    if (scratch.size() < 9 * stride) scratch.resize(9 * stride);
-    const EdgeRingLanes ring(mesh, e);
-    const EdgeLanes<T> lanes(grid, x, e, scratch);
-    T* const target[3] = {run, left, right};
-    T* weight = factor.weighs_edge(e) ? scratch.data() + 8 * stride : nullptr;
-    if (weight) edge_weights(factor, n, e, weight);
-    set_edge_pass(n, ring, rows.edge.data() + 24 * std::size_t(e), level_scale, lanes.lane, weight,
-                  target, scratch.data() + 3 * stride);
-    membrane.add_edge(e, ring, lanes.lane, run);
-  };
-
-  const auto face_body = [&](Index f, T* closed, std::vector<T>& scratch) {
-    const bool quad = mesh.faces[std::size_t(f)].quad();
-    const std::size_t size = 3 * closed_size(quad, std::size_t(n)) + lane_block;
-    const std::size_t moments = passes::moments_size(n);
-    if (n < (quad ? 2 : 3)) {
-      std::fill(closed, closed + 3 * closed_size(quad, std::size_t(n)), T(0));
-      return;
-    }
-    const bool weighted = factor.weighs_face(f);
-    if (scratch.size() < moments) scratch.resize(moments);
-    T* gathered = room_in(thread_scratch<T>().gathered, (weighted ? 2 : 1) * size);
-    gather_face(grid, x, f, gathered);
-    T* weight = weighted ? gathered + size : nullptr;
-    if (weight) face_weights(factor, quad, n, f, weight);
-    const T* c = rows.face.data() + 16 * std::size_t(f);
-    if (quad)
-      set_face_pass<true>(n, c, level_scale, gathered, weight, closed, scratch.data());
-    else
-      set_face_pass<false>(n, c, level_scale, gathered, weight, closed, scratch.data());
-    membrane.add_face(f, gathered, closed);
-  };
-
-  accumulate(grid, workers, slots, &unknowns, y, vertex_body, edge_body, face_body);
-  add_weighted(grid, weights, workers, x, y);
+                      const T* x, T* y, const SurfaceRows* surface) {
+  using Pass = PlatePass<T>;
+  accumulate(
+      grid, workers, slots, &unknowns, y, [&] { return Pass(grid, rows, surface, x); },
+      [](Index v, T* centre, T* spokes, Pass& pass) { pass.vertex(v, centre, spokes); },
+      [](Index e, T* run, T* left, T* right, Pass& pass) { pass.edge(e, run, left, right); },
+      [](Index f, T* closed, Pass& pass) { pass.face(f, closed); });
+  add_weighted(unknowns, weights, workers, x, y);
+  if (surface) add_weighted(unknowns, surface->penalty, workers, x, y);
 }
 
 template void apply_thin_plate<float>(const GridLevel&, const ThinPlateRows<float>&,
                                       const Unknowns&, const VertexWeights&, Workers&,
-                                      ElementSlots<float>&, const float*, float*);
+                                      ElementSlots<float>&, const float*, float*,
+                                      const SurfaceRows*);
 template void apply_thin_plate<double>(const GridLevel&, const ThinPlateRows<double>&,
                                        const Unknowns&, const VertexWeights&, Workers&,
-                                       ElementSlots<double>&, const double*, double*);
+                                       ElementSlots<double>&, const double*, double*,
+                                       const SurfaceRows*);
 
 Array<float> thin_plate_diagonal(const GridLevel& grid, const Stencils& stencils,
                                  const Unknowns& unknowns, const VertexWeights& weights,
-                                 Workers& workers, ElementSlots<double>& slots) {
+                                 Workers& workers, ElementSlots<double>& slots,
+                                 const SurfaceRows* surface) {
   // The sums of K with squared coefficients; all three coordinates have the same number.
   const auto body = [&](const Run& run, double* const* target, PlateRingRows& rows) {
     const auto put = [&](std::size_t slot, std::size_t i, double number) {
@@ -236,10 +246,8 @@ Array<float> thin_plate_diagonal(const GridLevel& grid, const Stencils& stencils
     };
     if (run.kind == RunKind::vertex && !weights.empty())
       put(0, 0, weights[std::size_t(run.element)]);
-    if (stencils.membrane.any()) {
-      const MembraneWeights membrane(grid.mesh(), stencils, element_of(grid.mesh(), run));
-      for (std::size_t i = 0; i < run.count; ++i) put(0, i, membrane.total());
-    }
+    const double tension = stencils.total_weight(element_of(grid.mesh(), run));
+    for (std::size_t i = 0; i < run.count; ++i) put(0, i, tension);
     rows.read(run);
     for (std::size_t i = 0; i < run.count; ++i)
       for (int s = 0; s < rows.slots(); ++s) put(std::size_t(s), i, rows.number(s, s, i));
@@ -247,11 +255,12 @@ Array<float> thin_plate_diagonal(const GridLevel& grid, const Stencils& stencils
   Array<double> sums(3 * grid.size());
   accumulate_runs(
       grid, workers, slots, &unknowns, sums.data(),
-      [&] { return PlateRingRows{grid, EnergyWeight(grid), {grid.mesh(), stencils}}; }, body);
+      [&] { return PlateRingRows{grid, stencils, surface}; }, body);
   Array<float> diagonal(grid.size());
   const auto vertices = std::size_t(grid.mesh().vertex_count());
   for (std::size_t i = 0; i < diagonal.size(); ++i) {
     if (i >= vertices && i < weights.size()) sums[3 * i] += weights[i];
+    if (surface) sums[3 * i] += double(surface->penalty[i]);
     diagonal[i] = sums[3 * i] > 0 ? float(sums[3 * i]) : 1.0f;
   }
   return diagonal;
@@ -259,45 +268,56 @@ Array<float> thin_plate_diagonal(const GridLevel& grid, const Stencils& stencils
 
 void write_plate_lines(const GridLevel& grid, const Stencils& stencils, const Unknowns& unknowns,
                        const Array<float>& inverse_diagonal, Workers& workers, LineBand& band) {
-  write_ring_lines(grid, unknowns, inverse_diagonal, workers,
-                   PlateRingRows{grid, EnergyWeight(grid), {grid.mesh(), stencils}}, band);
+  write_ring_lines(grid, unknowns, inverse_diagonal, workers, PlateRingRows{grid, stencils}, band);
 }
 
 double thin_plate_energy(const GridLevel& grid, const Stencils& stencils, Workers& workers,
-                         const double* x) {
-  const EnergyWeight factor(grid);
+                         const double* x, const SurfaceRows* surface) {
   ElementSums sums(grid.mesh());
-  struct Local {
+  struct State {
     RunGather<double, 3> gather;
-    ElementRows rows;
+    PlateRingRows rows;
   };
   for_each_run(
-      grid, workers, [&] { return Local{{grid, x}, {grid.mesh(), stencils}}; },
-      [&](const Run& run, Local& local) {
-        local.rows.read(run);
-        const std::size_t columns = local.rows.column.size();
-        if (columns == 0) return;
-        const double* const* at = local.gather(run);
-        const bool weighted = factor.weighs(run), second = run.kind == RunKind::face_row;
+      grid, workers, [&] { return State{{grid, x}, {grid, stencils, surface}}; },
+      [&](const Run& run, State& state) {
+        state.rows.read(run);
+        const double* const* at = state.gather(run);
+        const int slots = state.rows.slots();
         double& sum = sums.of(run);
         for (std::size_t i = 0; i < run.count; ++i) {
-          Moment<double> moment;
-          const double* const here = at[0] + 3 * i;
-          for (std::size_t k = 0; k < columns; ++k) {
-            const double* const plus = at[1 + k] + 3 * i;
-            double d[3];
-            if (second) {
-              const double* const minus = at[1 + columns + k] + 3 * i;
-              for (std::size_t a = 0; a < 3; ++a) d[a] = plus[a] + minus[a] - 2 * here[a];
-            } else {
-              difference(plus, here, d);
-            }
-            moment.add(local.rows.column[k].data(), 1, d);
+          double moment[9] = {}, square = 0;
+          for (int s = 1; s < slots; ++s) {
+            const Vec3 row = state.rows.at(s, i);
+            for (std::size_t k = 0; k < 9; ++k)
+              moment[k] += row[Eigen::Index(k / 3)] * (at[s][3 * i + k % 3] - at[0][3 * i + k % 3]);
           }
-          sum += (weighted ? factor.point(run, i) : 1.0) * moment.square();
+          for (const double m : moment) square += m * m;
+          sum += state.rows.weight(i) * square;
         }
       });
-  return sums.total() * double(grid.n()) * double(grid.n());
+  return sums.total();
+}
+
+// Each point has half of the edges to its neighbours.
+double membrane_energy(const GridLevel& grid, const Stencils& stencils, Workers& workers,
+                       const double* x) {
+  if (stencils.tension.empty()) return 0;
+  ElementSums sums(grid.mesh());
+  for_each_run(
+      grid, workers, [&] { return RunGather<double, 3>(grid, x); },
+      [&](const Run& run, RunGather<double, 3>& gather) {
+        const std::span<const double> weight = stencils.weights(element_of(grid.mesh(), run));
+        const double* const* at = gather(run);
+        double sum = 0;
+        for (std::size_t i = 0; i < 3 * run.count; ++i)
+          for (std::size_t s = 0; s < weight.size(); ++s) {
+            const double d = at[0][i] - at[1 + s][i];
+            sum += weight[s] * d * d;
+          }
+        sums.of(run) += 0.5 * sum;
+      });
+  return sums.total();
 }
 
 }  // namespace fairing

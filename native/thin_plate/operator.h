@@ -8,6 +8,7 @@
 #include "multigrid/line_band.h"
 #include "stencil/stencils.h"
 #include "stencil/weights.h"
+#include "thin_plate/surface_rows.h"
 
 namespace fairing {
 
@@ -17,35 +18,39 @@ struct ThinPlateRows {
   ThinPlateRows(const ControlMesh& mesh, const Stencils& stencils);
 
   const Stencils& stencils;
-  Array<T> vertex, edge;  // with the layout of Stencils
-  Array<T> face;          // the matrix C of the density d^T C d: 4 x 4 per face
+  Array<T> ring;  // 3 a neighbour of vertices and edges, as in Stencils
+  Array<T> face;  // the matrix C of the density d^T C d: 4 x 4 per face
 };
 
 // All functions throw FairingError(cancelled). Vectors hold 3 numbers a point of the level; results
-// do not depend on the number of threads, bit for bit.
+// do not depend on the number of threads, bit for bit. With `surface`, its rows replace those of
+// the stencils, and its penalties P are part of W.
 
 // y <- (K + W) x on the unknowns of a level, zero elsewhere. W has the weights of control vertices
 // or of all points: 0 on points that are not unknowns, except control vertices. T: float or double.
 // In float, fourth differences lose as many digits as n^4 has: see most_of_single
 // (multigrid/level_operator.h).
-// most_of_single (multigrid/level_operator.h).
 template <class T>
 void apply_thin_plate(const GridLevel& grid, const ThinPlateRows<T>& rows, const Unknowns& unknowns,
                       const VertexWeights& weights, Workers& workers, ElementSlots<T>& slots,
-                      const T* x, T* y);
+                      const T* x, T* y, const SurfaceRows* surface = nullptr);
 
 // The diagonal of K + W: one number a point; 1 if the point is not an unknown.
 Array<float> thin_plate_diagonal(const GridLevel& grid, const Stencils& stencils,
                                  const Unknowns& unknowns, const VertexWeights& weights,
-                                 Workers& workers, ElementSlots<double>& slots);
+                                 Workers& workers, ElementSlots<double>& slots,
+                                 const SurfaceRows* surface = nullptr);
 
 // As LevelOperator::write_lines(), without the membrane.
 void write_plate_lines(const GridLevel& grid, const Stencils& stencils, const Unknowns& unknowns,
                        const Array<float>& inverse_diagonal, Workers& workers, LineBand& band);
 
-// E(x) over all points, without the control vertices' weights and the membrane
-// (thin_plate/membrane.h).
+// E(x) over all points, without the control vertices' weights and the membrane.
 double thin_plate_energy(const GridLevel& grid, const Stencils& stencils, Workers& workers,
-                         const double* x);
+                         const double* x, const SurfaceRows* surface = nullptr);
+
+// x . L x over all points, with the membrane's L.
+double membrane_energy(const GridLevel& grid, const Stencils& stencils, Workers& workers,
+                       const double* x);
 
 }  // namespace fairing

@@ -9,7 +9,6 @@
 #include "level_settings.h"
 #include "stencil/metric.h"
 #include "thin_plate/level.h"
-#include "thin_plate/membrane.h"
 
 namespace fairing::test {
 namespace {

@@ -107,7 +107,7 @@ TEST(Fit, DoesNotDependOnTheFirstNeighbour) {
       difference.push_back(vary(random));
       weight.push_back(1 / p.squaredNorm());
     }
-    Vec3 expected[3];
+    Vec3 expected[2];
     for (std::size_t first = 0; first < ring.size(); ++first) {
       const Vec2& axis = ring[first];
       const double angle = -std::atan2(axis.y(), axis.x());
@@ -120,12 +120,12 @@ TEST(Fit, DoesNotDependOnTheFirstNeighbour) {
       const FitRows rows = fit(chart);
       std::vector<Vec3> of_neighbour;
       hessian_rows(chart.ring, w, of_neighbour);
-      Vec3 found[3] = {Vec3::Zero(), fitted_hessian(chart.ring, f, w), Vec3::Zero()};
+      Vec3 found[2] = {Vec3::Zero(), Vec3::Zero()};
       for (std::size_t j = 0; j < ring.size(); ++j) {
         found[0] += f[j] * rows.col(Eigen::Index(j)).tail<3>();
-        found[2] += f[j] * of_neighbour[j];
+        found[1] += f[j] * of_neighbour[j];
       }
-      for (int k = 0; k < 3; ++k) {
+      for (int k = 0; k < 2; ++k) {
         const Vec3 seen = turned_back(found[k], angle);
         if (first == 0) expected[k] = seen;
         EXPECT_LT((seen - expected[k]).norm(), 1e-8 * (1 + expected[k].norm()))

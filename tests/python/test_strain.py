@@ -207,7 +207,7 @@ def test_it_is_a_length_and_turns_with_the_mesh():
 def test_a_matrix_beyond_the_memory_limit_is_refused(call):
     points, faces = control_meshes.torus(80, 60)
     with pytest.raises(df.FairingError, match="vertices ask for") as caught:
-        call(points, faces, levels=1, memory_limit=40_000_000)
+        call(points, faces, levels=1, memory_limit=35_000_000)
     assert caught.value.code == "TOO_LARGE"
 
 

@@ -5,6 +5,9 @@
 // neighbour along runs of points (grid/runs.h), so that loops along a run need no index.
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include "base/simd.h"
 #include "grid/accumulate.h"
 
@@ -23,48 +26,28 @@ struct RowRun {
   }
 };
 
-class RingJacobian {
+class RingRows {
  public:
   // `rows` a point; the passes below require three.
-  explicit RingJacobian(const GridLevel& grid, int rows = 3);
+  explicit RingRows(const GridLevel& grid, int rows = 3);
 
   const GridLevel& grid() const { return *grid_; }
 
+  RowRun<const float> of(const Run& run) const;
   RowRun<float> of(const Run& run) {
-    switch (run.kind) {
-      case RunKind::vertex: return vertex(run.element);
-      case RunKind::edge: return edge(run.element);
-      default: return face(run.element, run.row);
-    }
+    const RowRun<const float> own = std::as_const(*this).of(run);
+    return {own.count, own.slots, const_cast<float*>(own.coefficient)};
   }
-  RowRun<const float> of(const Run& run) const {
-    const RowRun<float> rows = const_cast<RingJacobian*>(this)->of(run);
-    return {rows.count, rows.slots, rows.coefficient};
-  }
-
-  // The begin of all coefficients.
-  const float* data() const { return data_.data(); }
 
  private:
-  RowRun<float> vertex(Index v) {
-    return {1, int(vertex_offset_[std::size_t(v) + 1] - vertex_offset_[std::size_t(v)]) / rows_,
-            data_.data() + vertex_offset_[std::size_t(v)]};
-  }
-  RowRun<float> edge(Index e) {
-    const std::size_t count = std::size_t(grid_->n() - 1);
-    if (count == 0) return {};
-    return {count,
-            int((edge_offset_[std::size_t(e) + 1] - edge_offset_[std::size_t(e)]) /
-                (std::size_t(rows_) * count)),
-            data_.data() + edge_offset_[std::size_t(e)]};
-  }
-  // Row j = 1 … of a face.
-  RowRun<float> face(Index f, int j);
+  struct Element {
+    std::size_t begin;
+    int slots;
+  };
 
   const GridLevel* grid_;
   int rows_;
-  // Each has one element more than there are vertices, edges or faces.
-  std::vector<std::size_t> vertex_offset_, edge_offset_, face_offset_;
+  std::vector<Element> element_;  // one each (stencil/stencils.h)
   Array<float> data_;
 };
 
@@ -140,7 +123,7 @@ void backward(const RowRun<const float>& run, const T* y, T* const* out) {
 // A thread's buffers for moments.
 template <class T>
 struct MomentState {
-  MomentState(const RingJacobian& rows, const T* x)
+  MomentState(const RingRows& rows, const T* x)
       : gather(rows.grid(), x),
         moment(room_in(thread_scratch<T>().work, 3 * std::size_t(rows.grid().n()))) {}
   RunGather<T> gather;
@@ -149,7 +132,7 @@ struct MomentState {
 
 // Calls put(run, moment) for every run, in parallel; moment holds three lanes of run.count numbers.
 template <class T, class Put>
-void visit_moments(const RingJacobian& rows, Workers& workers, const T* x, Put&& put) {
+void visit_moments(const RingRows& rows, Workers& workers, const T* x, Put&& put) {
   for_each_run(
       rows.grid(), workers, [&] { return MomentState<T>(rows, x); },
       [&](const Run& run, MomentState<T>& state) {
@@ -160,7 +143,7 @@ void visit_moments(const RingJacobian& rows, Workers& workers, const T* x, Put&&
 
 // moment <- R x, three interleaved numbers a point.
 template <class T>
-void compute_moments(const RingJacobian& rows, Workers& workers, const T* x, T* moment) {
+void compute_moments(const RingRows& rows, Workers& workers, const T* x, T* moment) {
   visit_moments(rows, workers, x, [&](const Run& run, const T* lanes) {
     for (std::size_t i = 0; i < run.count; ++i)
       for (std::size_t c = 0; c < 3; ++c)
@@ -170,22 +153,22 @@ void compute_moments(const RingJacobian& rows, Workers& workers, const T* x, T* 
 
 // out <- R^T y on the unknowns; y has three interleaved numbers a point.
 template <class T>
-void apply_transposed(const RingJacobian& rows, const Unknowns& unknowns, Workers& workers,
+void apply_transposed(const RingRows& rows, const Unknowns& unknowns, Workers& workers,
                       ElementSlots<T, 1>& slots, const T* y, T* out);
 
 // out <- R^T R x on the unknowns.
 template <class T>
-void apply_square(const RingJacobian& rows, const Unknowns& unknowns, Workers& workers,
+void apply_square(const RingRows& rows, const Unknowns& unknowns, Workers& workers,
                   ElementSlots<T, 1>& slots, const T* x, T* out);
 
 // out <- the diagonal of R^T D R on the unknowns. D has weight[p] for each point's rows; no
 // weights: one.
-void square_diagonal(const RingJacobian& rows, const Unknowns& unknowns, Workers& workers,
+void square_diagonal(const RingRows& rows, const Unknowns& unknowns, Workers& workers,
                      ElementSlots<float, 1>& slots, const float* weight, float* out);
 
 // The rows in the form that multigrid/ring_lines.h reads.
 struct JacobianRows {
-  const RingJacobian& rows;
+  const RingRows& rows;
   RowRun<const float> own{};
 
   void read(const Run& run) { own = rows.of(run); }
@@ -201,7 +184,7 @@ struct JacobianRows {
 // Calls visit(p, rows, i, points) for every point p in order. It is point i of its run, with these
 // rows; points[s] is slot s.
 template <class Visit>
-void visit_rows(const RingJacobian& rows, Visit&& visit) {
+void visit_rows(const RingRows& rows, Visit&& visit) {
   std::vector<Index> points;
   for_each_run(rows.grid(), [&](const Run& run) {
     for (std::size_t i = 0; i < run.count; ++i) {
