@@ -8,7 +8,7 @@ import numpy as np
 from .borders import Border, Foot, dot, unit_vectors
 
 # Steps of conjugate gradients, and the relative residual at which they end.
-STEPS, LEFT = 400, 0.001
+STEPS, LEFT = 2000, 1e-4
 
 
 class Angles:
