@@ -15,10 +15,12 @@ DistancePenalty::DistancePenalty(const GridLevel& grid, Reference reference,
   const std::vector<std::uint8_t> is_unknown = unknown_points(grid, unknowns);
   const double cells = double(grid.n()) * double(grid.n());
   weight_.resize(grid.size());
+  area_.resize(grid.size());
   for (std::size_t p = 0; p < weight_.size(); ++p) {
     const float* m = &shape[4 * p];
     const double area = double(m[3]) * double(m[3]);
     const double square = double(m[0]) * m[0] + double(m[1]) * m[1] + double(m[2]) * m[2];
+    area_[p] = float(area);
     weight_[p] = is_unknown[p] ? float(square * area * std::pow(cells * area, 2) *
                                        std::pow(double(reference_.thin[p]), 4))
                                : 0.0f;
@@ -31,6 +33,10 @@ void DistancePenalty::set_energy(CurvatureEnergy energy) {
   const double power = energy == CurvatureEnergy::minimum_variation ? 4.0 / 3 : -4.0 / 3;
   for (std::size_t p = 0; p < weight_.size(); ++p)
     if (weight_[p] > 0) weight_[p] *= float(std::pow(double(reference_.thin[p]), power));
+  if (energy != CurvatureEnergy::minimum_variation) return;
+  in_cycles_.resize(weight_.size());
+  for (std::size_t p = 0; p < weight_.size(); ++p)
+    in_cycles_[p] = float(std::cbrt(double(area_[p]) * weight(p) * weight(p)));
 }
 
 double DistancePenalty::energy(const double* x, Workers& workers) const {

@@ -33,11 +33,20 @@ class DistancePenalty {
   // Adds minus half the gradient along the normals to the force, 1 number a point.
   void add_force(const double* x, const double* normal, Workers& workers, double* force) const;
   double weight(std::size_t p) const { return double(weight_[p]); }
+  // Minimum variation's K = A S^-1 A + P is about (A + Q) (S + D)^-1 (A + Q). A, S and K have
+  // orders 4, 2 and 6, so with the point's area a, diagonals Q = a (P / a)^(2/3) and
+  // D = a (P / a)^(1/3) are right for waves that are much longer or shorter than those where A S^-1 A
+  // is as large as P, and for these.
+  double in_cycles(std::size_t p) const { return double(in_cycles_[p]); }
+  double between(std::size_t p) const {
+    return weight_[p] > 0 ? in_cycles(p) * in_cycles(p) / weight(p) : 0.0;
+  }
 
  private:
   Reference reference_;
   CurvatureEnergy energy_ = CurvatureEnergy::total_curvature;
-  Array<float> weight_;
+  Array<float> weight_, area_;
+  Array<float> in_cycles_;  // empty until minimum variation has been linearized
 };
 
 }  // namespace fairing

@@ -29,7 +29,10 @@ void CurvatureLevel::apply(const float* x, float* y) {
     square().apply(x, shared_.workers, y);
   else
     apply_rows(x, y);
-  if (!varies()) add_to_product(x, y);
+  if (!varies()) return add_to_product(x, y);
+  if (penalty_)
+    for_each_index(shared_.workers, grid_.size(),
+                   [&](std::size_t i) { y[i] += float(penalty_at(i, true)) * x[i]; });
 }
 
 // For the present rows.
@@ -63,7 +66,7 @@ void CurvatureLevel::apply(const double* x, double* y) {
 
 void CurvatureLevel::find_between(const Array<double>& area) {
   const std::size_t points = grid_.size();
-  Array<float>&root = variation_->root, &beside_border = variation_->beside_border,
+  Array<float>&root = variation_->root, &beside_cotangents = variation_->beside_cotangents,
   &cycle_diagonal = variation_->cycle_diagonal;
   cycle_diagonal.resize(points);
   square_diagonal(rows_, shared_.unknowns, shared_.workers, shared_.float_slots, nullptr,
@@ -74,7 +77,7 @@ void CurvatureLevel::find_between(const Array<double>& area) {
   // Two edges lead to the border, and C's weights are about one. (Measured: with half or twice this
   // number, panels take up to half as many iterations more.)
   const auto stiffness = float(2 * grid_.n());
-  beside_border.resize(points);
+  beside_cotangents.resize(points);
   for_each_run(
       grid_, shared_.workers, [&] { return RunGather<double>(grid_, area.data()); },
       [&](const Run& run, RunGather<double>& gather) {
@@ -83,7 +86,9 @@ void CurvatureLevel::find_between(const Array<double>& area) {
         for (std::size_t i = 0; i < run.count; ++i) {
           bool is_beside = false;
           for (int s = 1; s < slots; ++s) is_beside |= !(at[s][i] > 0);
-          beside_border[run.first + i] = is_beside ? stiffness : 0.0f;
+          const std::size_t p = run.first + i;
+          beside_cotangents[p] =
+              (is_beside ? stiffness : 0.0f) + (penalty_ ? float(penalty_->between(p)) : 0.0f);
         }
       });
 }
@@ -97,7 +102,7 @@ void CurvatureLevel::apply_between(const float* x, float* y) {
   for_each_run(grid_, shared_.workers, [&](const Run& run) {
     const bool is_unknown = shared_.unknowns.has(run);
     for (std::size_t i = run.first; i < run.first + run.count; ++i)
-      y[i] = is_unknown ? of.root[i] * y[i] + of.beside_border[i] * x[i] : 0.0f;
+      y[i] = is_unknown ? of.root[i] * y[i] + of.beside_cotangents[i] * x[i] : 0.0f;
   });
 }
 
@@ -161,7 +166,7 @@ void CurvatureLevel::set_weights(const VertexWeights& weights) {
 }
 
 void CurvatureLevel::invert_diagonal(std::size_t i) {
-  float d = varies() ? variation_->cycle_diagonal[i] : diagonal_[i];
+  float d = varies() ? variation_->cycle_diagonal[i] + float(penalty_at(i, true)) : diagonal_[i];
   if (!varies() && i < weights_.size()) d += float(weight(i));
   if (!varies()) d += float(added_to_diagonal(i));
   inverse_diagonal_[i] = d > 0 ? 1 / d : 1.0f;

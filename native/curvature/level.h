@@ -42,6 +42,8 @@ struct Functional {
   // Pads of control vertices, for which the force is computed too; null: for the unknowns only.
   Pads* pads = nullptr;
   bool with_axes = false;  // whether to compute the charts' axes
+  // Total curvature as the A of apply_between(): the penalty is minimum variation's, in its share.
+  bool in_cycles = false;
 
   bool operator==(const Functional&) const = default;
 };
@@ -129,13 +131,18 @@ class CurvatureLevel final : public LevelOperator {
   void invert_diagonal(std::size_t i);
   // Of penalty and damping.
   double added_to_diagonal(std::size_t p) const {
-    return (penalty_ ? penalty_->weight(p) : 0.0) + (damping_.empty() ? 0.0 : double(damping_[p]));
+    return penalty_at(p, in_cycles_) + (damping_.empty() ? 0.0 : double(damping_[p]));
+  }
+  double penalty_at(std::size_t p, bool in_cycles) const {
+    if (!penalty_) return 0;
+    return in_cycles ? penalty_->in_cycles(p) : penalty_->weight(p);
   }
   bool is_tense() const { return area_ && shared_.tension > 0; }
 
   CurvatureShared& shared_;
   const GridLevel& grid_;
   CurvatureEnergy energy_ = CurvatureEnergy::total_curvature;
+  bool in_cycles_ = false;
   VertexWeights weights_;
   double share_ = 0;  // for minimum variation: the share of W beside L
   double bending_ = 0, tension_ = 0, penalty_energy_ = 0;
@@ -151,9 +158,9 @@ class CurvatureLevel final : public LevelOperator {
   mutable Square square_;
   struct Variation {
     std::optional<Connection> connection;
-    Array<float> root;            // of points' areas
-    Array<float> beside_border;   // diagonal of S - C
-    Array<float> cycle_diagonal;  // of J^T W J
+    Array<float> root;               // of points' areas
+    Array<float> beside_cotangents;  // diagonal of S - C
+    Array<float> cycle_diagonal;     // of J^T W J
   };
   std::unique_ptr<Variation> variation_;  // for minimum variation, once linearized
   std::unique_ptr<AreaTerm> area_;        // with tension, once linearized

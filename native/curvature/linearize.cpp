@@ -126,6 +126,7 @@ struct CurvatureLevel::Tensors {
 double CurvatureLevel::linearize(const double* x, const Functional& functional,
                                  Linearization* out) {
   energy_ = functional.energy;
+  in_cycles_ = functional.in_cycles;
   share_ = 0;
   const ControlMesh& mesh = shared_.mesh;
   const Unknowns& force_rows = functional.pads ? functional.pads->rows() : shared_.unknowns;
@@ -230,7 +231,6 @@ double CurvatureLevel::linearize(const double* x, const Functional& functional,
     const double variation =
         connect(std::move(*edge_weights), x, tensors, to.normal.data(), to.force.data());
     if (std::isfinite(bending_)) bending_ = variation;
-    find_between(tensors.area);
   }
   if (shared_.tension > 0) {
     if (!area_) area_ = std::make_unique<AreaTerm>(grid_);
@@ -239,7 +239,8 @@ double CurvatureLevel::linearize(const double* x, const Functional& functional,
   } else {
     tension_ = 0;
   }
-  if (penalty_) penalty_->set_energy(energy_);
+  if (penalty_) penalty_->set_energy(in_cycles_ ? CurvatureEnergy::minimum_variation : energy_);
+  if (varies()) find_between(tensors.area);
   penalty_energy_ = penalty_ ? penalty_->energy(x, shared_.workers) : 0.0;
   if (penalty_ && wants_points)
     penalty_->add_force(x, to.normal.data(), shared_.workers, to.force.data());

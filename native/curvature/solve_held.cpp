@@ -68,10 +68,10 @@ void GaussNewtonSystem::linearize_about(const LinearizedSurface& about,
       {diagonal.begin(), diagonal.begin() + std::ptrdiff_t(mesh().vertex_count())});
 }
 
-HeldLimits GaussNewtonSystem::held_limits(int level, const Functional& functional) const {
+HeldLimits GaussNewtonSystem::held_limits(int level, const Functional& functional) {
   const bool is_finest = level == finest();
   HeldLimits out;
-  out.solve = limits(functional);
+  out.solve = limits(level, functional);
   if (functional.pads || is_bound()) out.solve.tolerance = error_reduction(level, functional);
   out.force = is_finest ? options_.load_tolerance : coarse_force_tolerance;
   out.of_first_force = constraints_ ? inexact : is_finest ? left_on_finest : force_left_below;

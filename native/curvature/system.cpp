@@ -79,6 +79,8 @@ void GaussNewtonSystem::linearize(int level, LinearizedSurface& surface) {
 
 void GaussNewtonSystem::linearize_below(int level, const LinearizedSurface& about) {
   op(level).spectrum_changed();
+  Functional in_cycles;  // of total curvature
+  in_cycles.in_cycles = op(level).varies();
   const Array<double>* fine = &about.points;
   Array<double> buffer[2];
   for (int l = level - 1; l >= base_; --l) {
@@ -86,7 +88,7 @@ void GaussNewtonSystem::linearize_below(int level, const LinearizedSurface& abou
     Array<double>& coarse = buffer[l % 2];
     coarse.resize(3 * grid(l).size());
     inject<3>(grid(l), grid(l + 1), workers(), fine->data(), coarse.data());
-    op(l).linearize(coarse.data(), {});  // of total curvature, which the cycles use
+    op(l).linearize(coarse.data(), in_cycles);
     op(l).spectrum_changed();
     fine = &coarse;
   }
@@ -104,11 +106,12 @@ void GaussNewtonSystem::set_damping(int level, const Array<float>& mu, double sh
   }
 }
 
-PcgLimits GaussNewtonSystem::limits(const Functional& functional) const {
+// A tenth of an energy that is mostly the penalty's would tell nothing of broad faces.
+PcgLimits GaussNewtonSystem::limits(int level, const Functional& functional) {
   PcgLimits limits;
   const bool loads_change = functional.pads && !constraints_;
   const bool varies = functional.energy == CurvatureEnergy::minimum_variation;
-  limits.tolerance = loads_change || varies ? inexact : inner_accuracy;
+  limits.tolerance = loads_change || (varies && !op(level).penalty()) ? inexact : inner_accuracy;
   limits.from_start = true;
   limits.by_error = loads_change;
   limits.may_end_early = varies;
@@ -140,7 +143,7 @@ double GaussNewtonSystem::solve(int level, const LinearizedSurface& about, Array
     LinearSystem k{residual, h.data(), left.data()};
     if (op(level).varies())
       k.between = [&](const float* y, float* z) { op(level).apply_between(y, z); };
-    solved = hierarchy_->solve(index, limits(functional), k, [](const PcgResult&) {});
+    solved = hierarchy_->solve(index, limits(level, about.functional), k, [](const PcgResult&) {});
     report.iterations = solved.iterations;
   }
   report.residual = solved.residual;

@@ -98,11 +98,11 @@ class GaussNewtonSystem {
   void report_progress(int level, std::size_t steps);
 
  private:
-  PcgLimits limits(const Functional& functional) const;
+  PcgLimits limits(int level, const Functional& functional);
   void linearize_about(const LinearizedSurface& about, const Multipliers<1>& held);
   // Sets the present weights of the springs on all levels up to `level`.
   void set_weights(int level);
-  HeldLimits held_limits(int level, const Functional& functional) const;
+  HeldLimits held_limits(int level, const Functional& functional);
   // constraint_force <- the forces of loads and springs.
   LevelSolve solve_held(int level, const LinearizedSurface& about, Array<double>& h,
                         Multipliers<1>& held, Array<double>& constraint_force, StepReport& report);

@@ -89,5 +89,31 @@ TEST(DistancePenalty, IsPartOfTheProductAndTheMatrix) {
   }
 }
 
+// Waves that the penalty outweighs: (A + Q) (S + D)^-1 (A + Q) is about Q^2 / D there.
+TEST(DistancePenalty, IsInBothMatricesOfTheCyclesOfVariation) {
+  Penalized at(all_meshes().at("mixed grid"), 2, CurvatureEnergy::minimum_variation);
+  const std::size_t points = at.grid.size();
+  const Points h = masked(at.grid, at.shared.unknowns, random_points(points));
+  Array<float> in(points + vector_room), a(in.size()), s(in.size()), a_alone(in.size()),
+      s_alone(in.size());
+  for (std::size_t p = 0; p < points; ++p) in[p] = float(h(Eigen::Index(p), 0));
+  const DistancePenalty penalty = *at.system.penalty();
+  at.system.apply(in.data(), a.data());
+  at.system.apply_between(in.data(), s.data());
+  at.system.set_penalty({});
+  at.system.linearize(at.x.data(), {at.energy});
+  at.system.apply(in.data(), a_alone.data());
+  at.system.apply_between(in.data(), s_alone.data());
+  bool any = false;
+  for (std::size_t p = 0; p < points; ++p) {
+    const double q = penalty.in_cycles(p), d = penalty.between(p);
+    EXPECT_NEAR(a[p], double(a_alone[p]) + q * in[p], 1e-5 * (1 + std::abs(a[p]))) << p;
+    EXPECT_NEAR(s[p], double(s_alone[p]) + d * in[p], 1e-5 * (1 + std::abs(s[p]))) << p;
+    EXPECT_NEAR(q * q, d * penalty.weight(p), 1e-6 * q * q) << p;
+    any |= q * std::abs(in[p]) > 1e-3 * std::abs(a[p]) && d > 0;
+  }
+  EXPECT_TRUE(any);
+}
+
 }  // namespace
 }  // namespace fairing::test
