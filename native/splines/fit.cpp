@@ -35,11 +35,14 @@ class Fitting {
     const Walls walls = find_walls(lattice_, topology_, options_.groups, options_.normal_tolerance);
     std::vector<FaceGrid> grids = lay_out(lattice_, topology_, walls);
     do {
-      const Topology before = topology_;
-      make_patches(lattice_, walls, grids, topology_);
-      take_over(before);
-      fit_all();
-    } while (split(grids));
+      do {
+        const Topology before = topology_;
+        make_patches(lattice_, walls, grids, topology_);
+        take_over(before);
+        fit_new();
+      } while (split(grids, [&](const FittedPatch& patch) { return is_far_off(patch); }));
+      meet_neighbours();  // only once no grid is far off, since those are cut anyway
+    } while (split(grids, misses_much));
     assemble({lattice_, topology_, curves_, fitted_, workers_}, out);
     monitor_.report(Phase::done, 1);
     return out;
@@ -56,6 +59,8 @@ class Fitting {
     take(kept.patches, settled_);
     new_curves_ = are_new(kept.curves);
     new_patches_ = are_new(kept.patches);
+    take(kept.patches, unmet_);
+    for (std::size_t p = 0; p < unmet_.size(); ++p) unmet_[p] |= new_patches_[p];
   }
 
   template <class T>
@@ -71,22 +76,32 @@ class Fitting {
     return out;
   }
 
-  void fit_all() {
+  void fit_new() {
     fit_curves(new_curves_);
     monitor_.report(Phase::patches, 0.25);
     fit_patches(new_patches_);
     monitor_.report(Phase::patches, 0.625);
     unfold();
-    refine_at_edges();
-    if (sharpen()) refine_at_edges();
   }
 
-  // Cuts grids that miss a tolerance in two; those at folds of the lattice, which no patch can
-  // follow, into single faces. False if there are none.
-  bool split(std::vector<FaceGrid>& grids) {
+  void meet_neighbours() {
+    refine_at_edges();
+    if (sharpen()) refine_at_edges();
+    unmet_.assign(unmet_.size(), 0);
+  }
+
+  bool is_far_off(const FittedPatch& patch) const {
+    return patch.misses.folds || patch.residual > tolerance();
+  }
+  static bool misses_much(const FittedPatch& patch) { return patch.misses > Misses{false, 2}; }
+
+  // Cuts the grids of several faces whose patch is `bad` in two; those at folds of the lattice,
+  // which no patch can follow, into single faces. False if there are none.
+  template <class Test>
+  bool split(std::vector<FaceGrid>& grids, const Test& bad) {
     const std::size_t thirds = fitted_.size() - grids.size(), count = grids.size();
     for (std::size_t g = 0; g < count; ++g) {
-      if (grids[g].faces.size() == 1 || fitted_[thirds + g].misses <= Misses{false, 2}) continue;
+      if (grids[g].faces.size() == 1 || !bad(fitted_[thirds + g])) continue;
       const FaceGrid whole = std::move(grids[g]);
       if (turns_sharply(topology_.patches[thirds + g])) {
         grids[g] = {1, 1, {whole.faces[0]}};
@@ -230,7 +245,7 @@ class Fitting {
     std::vector<std::uint8_t> which(curves_.size(), 0);
     for (std::size_t p = 0; p < fitted_.size(); ++p)
       for (std::size_t s = 0; s < 4; ++s)
-        if (new_patches_[p] && fitted_[p].side_angle[s] > options_.normal_tolerance / 2) {
+        if (unmet_[p] && fitted_[p].side_angle[s] > options_.normal_tolerance / 2) {
           const std::size_t c = std::size_t(topology_.patches[p].side[s].curve);
           which[c] = sharper_[c] = 1;
         }
@@ -314,6 +329,7 @@ class Fitting {
   std::vector<FittedPatch> fitted_;
   std::vector<std::uint8_t> settled_;                   // patches that more spans do not serve
   std::vector<std::uint8_t> new_curves_, new_patches_;  // that no earlier round has fitted
+  std::vector<std::uint8_t> unmet_;  // patches that have not met their neighbours in any round
   std::vector<double> turns_;
 };
 
