@@ -136,6 +136,16 @@ class PatchJob(Job):
         return float(self._stretch.max() * self.patches.largest_off)
 
     @property
+    def from_surface(self) -> float:
+        """The same from the refined surface, without what finer levels would change."""
+        return float(self._stretch.max() * self.patches.largest_residual)
+
+    @property
+    def known_to(self) -> float:
+        """About how far the refined surface is from the limit of finer levels, in the same units."""
+        return float(self._stretch.max() * self.patches.refinement_error.max(initial=0))
+
+    @property
     def allowed(self) -> float:
         """How far patches may be from the fair surface, in Blender units of the world."""
         return float(self._stretch.max() * self.patches.tolerance * self.patches.size)

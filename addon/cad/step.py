@@ -27,9 +27,8 @@ def write_jobs(path: str, jobs: Sequence[PatchJob], unit: str, scale: float) -> 
 
 
 def summary(jobs: Sequence[PatchJob], unit: str, scale: float) -> str:
-    """For example `96 patches, 0.008 mm off, 0.02° at edges, 0.2 mm from the mesh shown`: the worst
-    values of all jobs. If the mesh shown has fewer levels than the fitted surface, also the level that
-    shows it.
+    """The sentence of words.summary() with the worst values of all jobs. If the mesh shown has fewer
+    levels than the fitted surface, also the level that shows it.
     """
     symbol, each = _SYMBOLS.get(unit, ("mm", "MM"))
     factor = scale * METRES[unit] / METRES[each]
@@ -38,7 +37,8 @@ def summary(jobs: Sequence[PatchJob], unit: str, scale: float) -> str:
     return (
         words.summary(
             sum(len(job.patches) for job in jobs),
-            max(job.off for job in jobs) * factor,
+            max(job.from_surface for job in jobs) * factor,
+            max(job.known_to for job in jobs) * factor,
             symbol,
             max(job.angle for job in jobs),
             max(apart) * factor if apart else None,

@@ -10,11 +10,14 @@ from ..words import counted, listed
 _LISTED = 8  # faces
 
 
-def summary(patches: int, off: float, unit: str, angle: float, apart: float | None = None) -> str:
-    """For example `96 patches, 0.008 mm off, 0.02° at edges, 0.2 mm from the mesh shown`; `off` and
-    `apart`, which may be unknown, in `unit`, `angle` in radians.
+def summary(
+    patches: int, off: float, settled: float, unit: str, angle: float, apart: float | None = None
+) -> str:
+    """For example `96 patches, 0.003 mm off a surface known to 0.005 mm, 0.02° at edges, 0.2 mm from the
+    mesh shown`; lengths in `unit`, `apart` may be unknown, `angle` in radians.
     """
-    text = f"{counted(patches, 'patch', 'patches')}, {short(off)} {unit} off, {short(degrees(angle))}° at edges"
+    known = f"{short(off)} {unit} off a surface known to {short(settled)} {unit}"
+    text = f"{counted(patches, 'patch', 'patches')}, {known}, {short(degrees(angle))}° at edges"
     return text if apart is None else f"{text}, {short(apart)} {unit} from the mesh shown"
 
 

@@ -43,7 +43,7 @@ def test_a_mesh_becomes_a_solid_by_the_settings_of_the_scene(tmp_path, capfd):
     assert export(tmp_path / "ball.step") == {"FINISHED"}
     told = [line for line in capfd.readouterr().out.splitlines() if line.startswith("Info: ")]
     assert len(told) == 1 and re.fullmatch(
-        r"Info: 6 patches, 0\.\d+ mm off, 0\.\d+° at edges", told[0]
+        r"Info: 6 patches, 0\.\d+ mm off a surface known to 0\.\d+ mm, 0\.\d+° at edges", told[0]
     )
     found = step_files.read(tmp_path / "ball.step")
     assert (found.valid, found.solids, found.faces) == (True, 1, 6)
