@@ -204,13 +204,16 @@ def border_of(
         slot[vertex] = np.arange(len(vertex))
     around = _Around(corners, offsets)
     up, near = around.normals(points, vertex), around.rings(vertex, rings)
+    ids = [found[found != v] for found, v in zip(near, vertex)]
+    count = np.array([len(found) for found in ids])
     normal, inward = np.empty((len(vertex), 3)), np.empty((len(vertex), 3))
-    bend = np.empty((len(vertex), 3, 3))
-    fits = []
-    for k, v in enumerate(vertex):
-        ids = near[k][near[k] != v]
-        normal[k], inward[k], bend[k], rows = _fitted(points[ids] - points[v], along[k], up[k])
-        fits.append((ids, rows))
+    bend, fits = np.empty((len(vertex), 3, 3)), [(found, np.empty((2, 0))) for found in ids]
+    for number in np.unique(count):  # fits of as many points at once
+        at = np.flatnonzero(count == number)
+        away = points[np.stack([ids[k] for k in at])] - points[vertex[at], None]
+        normal[at], inward[at], bend[at], rows = _fitted(away, along[at], up[at])
+        for k, row in zip(at, rows):
+            fits[k] = ids[k], row
     return Border(edge, face, vertex, points[vertex], normal, inward, bend, slot, fits)
 
 
@@ -269,32 +272,32 @@ def _terms(degree: int) -> int:
     return (degree + 1) * (degree + 2) // 2 - 1
 
 
-def _fitted(near: np.ndarray, along: np.ndarray, up: np.ndarray) -> tuple[Any, ...]:
-    """Normal, inward direction and second fundamental form, at the origin, of the fitted polynomial; and
-    a row of Border.fits."""
-    size = np.linalg.norm(near, axis=1).max()
-    bend = np.zeros((2, 2))
+def _fitted(near: np.ndarray, along: np.ndarray, up: np.ndarray) -> tuple[np.ndarray, ...]:
+    """Normals, inward directions and second fundamental forms, at the origin, of polynomials fitted to the
+    points `near` (g, n, 3); and rows of Border.fits (g, 2, n).
+    """
+    size = np.linalg.norm(near, axis=2).max(axis=1)
+    # Ends of joints between triangles have few points, where a polynomial of lower degree would
+    # have another curvature than those beside.
+    degree = max(d for d in range(2, DEGREE + 1) if d == 2 or _terms(d) + 3 <= near.shape[1])
     for _ in range(3):
-        up = up - up @ along * along
-        up = up / max(float(np.linalg.norm(up)), 1e-300)
+        up = unit_vectors(up - dot(up, along)[:, None] * along)
         inward = np.cross(up, along)
-        x, y, z = (near @ axis / size for axis in (along, inward, up))
-        # Ends of joints between triangles have few points, where a polynomial of lower degree would
-        # have another curvature than those beside.
-        degree = max(d for d in range(2, DEGREE + 1) if d == 2 or _terms(d) + 3 <= len(near))
+        x, y, z = (
+            np.einsum("gni,gi->gn", near, axis) / size[:, None] for axis in (along, inward, up)
+        )
         terms = [x, y, x * x / 2, x * y, y * y / 2]
         terms += [x ** (d - k) * y**k for d in range(3, degree + 1) for k in range(d + 1)]
         weight = 1 / (0.1 + x * x + y * y)
-        inverse = np.linalg.pinv(weight[:, None] * np.stack(terms, 1)) * weight
-        solved = inverse @ z
-        bend = np.array([[solved[2], solved[3]], [solved[3], solved[4]]]) / size
-        along = along + solved[0] * up
-        along = along / np.linalg.norm(along)
-        up = up - solved[0] * along - solved[1] * inward
-    up = up - up @ along * along
-    up = up / max(float(np.linalg.norm(up)), 1e-300)
-    axes = np.stack([along, np.cross(up, along)])
-    return up, axes[1], axes.T @ bend @ axes, inverse[[1, 4]] / [[size], [size * size]]
+        inverse = np.linalg.pinv(weight[..., None] * np.stack(terms, 2)) * weight[:, None]
+        solved = np.einsum("gtn,gn->gt", inverse, z)
+        along = unit_vectors(along + solved[:, :1] * up)
+        up = up - solved[:, :1] * along - solved[:, 1:2] * inward
+    up = unit_vectors(up - dot(up, along)[:, None] * along)
+    axes = np.stack([along, np.cross(up, along)], 1)
+    bend = solved[:, [[2, 3], [3, 4]]] / size[:, None, None]
+    rows = inverse[:, [1, 4]] / np.stack([size, size * size], 1)[..., None]
+    return up, axes[:, 1], np.einsum("gai,gab,gbj->gij", axes, bend, axes), rows
 
 
 def dot(a: np.ndarray, b: np.ndarray) -> np.ndarray:
