@@ -37,7 +37,7 @@ REMEDIES = {
     "STRAIGHT_CURVE": "Add vertices along the border or crease, or widen the faces beside it",
     "MEMORY_EXCEEDED": "Use fewer levels, if memory is short",
     "NO_THREAD": "Close other programs",
-    "UNRESOLVED": "Move or add vertices there, or crease the edges where it turns",
+    "UNRESOLVED": "Move or add vertices there, crease the edges where it turns, or export with Write Faulty Faces",
     "PATCH_TOLERANCE": "Raise Levels, Tolerance or Angle of the export, or add vertices there",
     "SURFACE_TOLERANCE": "Raise Tolerance, or set Fairness to Curvature where there is no scan: it settles sooner",
     "FIT_TOO_COARSE": "Add edges to these faces of the cage (Loop Cut, Subdivide), and press Recompute",
@@ -45,7 +45,7 @@ REMEDIES = {
     "FIT_OUTLIERS": "Leave them: they have no effect; or delete them",
     "NOT_CONVERGED": "Set Spacing to ½ or lower, or use fewer levels",
 }
-_UNRESOLVED_TAUTER = "Move or add vertices there, crease the edges where it turns, or raise Tension"
+_UNRESOLVED_TAUTER = "Move or add vertices there, crease the edges where it turns, raise Tension, or export with Write Faulty Faces"
 # The same where there is no setting Defects, for scans, and for holes.
 WITHOUT_MENDING = {code: text.removesuffix(_OR_MEND) for code, text in REMEDIES.items()}
 OF_FITS = REMEDIES | {
