@@ -110,6 +110,7 @@ class Job(TimedRun):
 
     @property
     def fewest_levels(self) -> int:
+        """The fewest levels that the core takes: a border meets a neighbour from level 2 on."""
         return 1 if self._neighbour is None else 2
 
     def with_settings(self, context: Context, settings: Settings) -> "Job":

@@ -5,6 +5,7 @@ import discrete_fairing as df
 import numpy as np
 import pytest
 import spline_measures
+from control_meshes import cut_quads
 from discrete_fairing.patch_distances import distances_from, evaluate
 from lattices import lattice_faces
 from refusing import refusal
@@ -150,12 +151,18 @@ def dome(x: np.ndarray, y: np.ndarray) -> np.ndarray:
     return 0.4 * np.cos(1.2 * x) * np.cos(0.9 * y)
 
 
+def sheet_scan(height, noise: float = 0.0, seed: int = 0) -> tuple[np.ndarray, np.ndarray]:
+    """A scan of 101 x 101 points of a sheet, with noise along z: points and triangles."""
+    dense = np.linspace(-1, 1, 101)
+    points, quads = sheet(dense, dense, height)
+    points[:, 2] += np.random.default_rng(seed).normal(0, noise, len(points))
+    return cut_quads((points, quads))
+
+
 def test_border_curves_come_to_the_border_of_the_scan():
-    even, dense = np.linspace(-0.97, 0.97, 7), np.linspace(-1, 1, 101)
+    even = np.linspace(-0.97, 0.97, 7)
     vertices, faces = sheet(even, even, lambda x, y: dome(x, y) + 0.05)
-    points, quads = sheet(dense, dense, dome)
-    points[:, 2] += np.random.default_rng(3).normal(0, NOISE, len(points))
-    triangles = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    points, triangles = sheet_scan(dome, NOISE, 3)
     corners = [0, 6, 42, 48]
     fitted = df.fit(vertices, faces, points, triangles=triangles, corner_vertices=corners)
     found = fitted.vertices
@@ -169,10 +176,9 @@ def test_border_curves_come_to_the_border_of_the_scan():
 
 def test_borders_of_a_flat_cage_come_to_a_bent_scan_far_above():
     """Up to two control edges, so that the surface alone would have a wall at its border."""
-    even, dense = np.linspace(-0.95, 0.95, 9), np.linspace(-1, 1, 101)
+    even = np.linspace(-0.95, 0.95, 9)
     vertices, faces = sheet(even, even, lambda x, y: 0 * x)
-    points, quads = sheet(dense, dense, lambda x, y: 0.6 * np.cos(1.5 * x) - 0.1)
-    triangles = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    points, triangles = sheet_scan(lambda x, y: 0.6 * np.cos(1.5 * x) - 0.1)
     fitted = df.fit(vertices, faces, points, triangles=triangles, corner_vertices=[0, 8, 72, 80])
     x, y, z = fitted.vertices.T
     assert rms(z - 0.6 * np.cos(1.5 * x) + 0.1) < 1e-3 and len(fitted.outliers) == 0
@@ -190,11 +196,9 @@ def test_a_scan_of_ten_points_has_a_surface(seed):
 
 
 def test_border_curves_follow_no_noise():
-    fine, dense = np.linspace(-1, 1, 17), np.linspace(-1, 1, 101)
+    fine = np.linspace(-1, 1, 17)
     vertices, faces = sheet(fine, fine, dome)
-    points, quads = sheet(dense, dense, dome)
-    points[:, 2] += np.random.default_rng(3).normal(0, 4 * NOISE, len(points))
-    triangles = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    points, triangles = sheet_scan(dome, 4 * NOISE, 3)
     fitted = df.fit(
         vertices, faces, points, triangles=triangles, corner_vertices=[0, 16, 272, 288], levels=3
     )
@@ -217,13 +221,11 @@ def roof(x: np.ndarray, y: np.ndarray) -> np.ndarray:
 @pytest.mark.parametrize("corners", [3, 4])
 def test_curves_follow_no_noise_where_edges_are_short(corners):
     """A fine control mesh, whose edges along the crease are from 0.008 to 0.24 long."""
-    along, dense = 2 * np.linspace(0, 1, 17) ** 2 - 1, np.linspace(-1, 1, 101)
+    along = 2 * np.linspace(0, 1, 17) ** 2 - 1
     vertices, faces = sheet(along, np.linspace(-1, 1, 13), roof)
     if corners == 3:
         faces = np.concatenate([faces[:, [0, 1, 2]], faces[:, [0, 2, 3]]])
-    points, quads = sheet(dense, dense, roof)
-    points[:, 2] += np.random.default_rng(1).normal(0, 4 * NOISE, len(points))
-    triangles = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    points, triangles = sheet_scan(roof, 4 * NOISE, 1)
     ridge, border = (np.flatnonzero(np.abs(vertices[:, 1] - y) < 1e-9) for y in (0, 1))
     options = {
         "crease_edges": np.stack([ridge[:-1], ridge[1:]], 1),
@@ -237,11 +239,9 @@ def test_curves_follow_no_noise_where_edges_are_short(corners):
 
 
 def test_weight_is_chosen_beside_curves_that_follow_no_noise():
-    even, dense = np.linspace(-1, 1, 17), np.linspace(-1, 1, 101)
+    even = np.linspace(-1, 1, 17)
     vertices, faces = sheet(even, even, roof)
-    points, quads = sheet(dense, dense, roof)
-    points[:, 2] += np.random.default_rng(1).normal(0, 4 * NOISE, len(points))
-    triangles = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    points, triangles = sheet_scan(roof, 4 * NOISE, 1)
     ridge = np.flatnonzero(np.abs(vertices[:, 1]) < 1e-9)
     creases = np.stack([ridge[:-1], ridge[1:]], 1)
 
@@ -393,12 +393,10 @@ def test_patches_are_evaluated_as_splines_are():
 def test_what_turns_within_a_tenth_of_a_control_edge_is_rounded_off():
     """A ridge that is a fifth of the cage's edges wide and half of one high."""
     fine = np.linspace(-1, 1, 161)
-    points, quads = sheet(
-        fine, fine, lambda x, y: 0.25 * np.clip(1 - np.abs(x - 0.1) / 0.05, 0, None)
-    )
+    ridge = sheet(fine, fine, lambda x, y: 0.25 * np.clip(1 - np.abs(x - 0.1) / 0.05, 0, None))
+    points, triangles = cut_quads(ridge)
     coarse = np.linspace(-1, 1, 5)
     cage = sheet(coarse, coarse, lambda x, y: 0 * x)
-    triangles = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
     found = df.fit(*cage, points, triangles=triangles, levels=4)
     assert turns(found.vertices, found.faces[1])[2].max() < 10 / 2**4
 
