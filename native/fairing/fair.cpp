@@ -71,7 +71,6 @@ void fair_shapes(const FairingProblem& problem, FairingSystems& systems, const P
       warning.message.cause = of + warning.message.cause;
       report.warnings.push_back(std::move(warning));
     }
-    warn_unconverged(own, problem.options, of, report);
     report.shapes.push_back({std::move(own.levels.back()), own.converged(), own.largest_deviation,
                              own.constraint_rounds, own.normals.largest_angle});
   }
@@ -88,7 +87,6 @@ FairResult fair_all(const PolygonMesh& input, const FairOptions& options,
   const std::unique_ptr<const FairingProblem> problem = make_problem(input, options, watch, report);
   FairingSystems systems(*problem, monitor);
   fair_once(systems, problem->basis, true, watch, report, result.vertices);
-  warn_unconverged(report, options, "", report);
   fair_shapes(*problem, systems, input, watch, monitor, result);
 
   monitor.enter_part(0, 1);
@@ -277,7 +275,6 @@ void FairSolver::write(Stopwatch& watch, Report& report, double* out) {
   if (joined.needed()) apart_.resize(3 * systems_->finest().size());
   double* const world = joined.needed() ? apart_.data() : out;
   systems_->write(control_, options.measure, watch, report, recent_.surface(), world);
-  warn_unconverged(report, options, "", report);
   if (joined.needed()) joined.join(world, out);
 }
 

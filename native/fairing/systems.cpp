@@ -298,6 +298,7 @@ void FairingSystems::write(const ControlPositions& control, bool measured, Stopw
            *problem_.workers, x, world);
   require_finite(problem_.mesh, control, *problem_.workers, 3 * finest().size(), world);
   report.largest_deviation = largest_deviation(control.cage, world);
+  warn_unconverged(problem_.options, report);
   plate().keep_smoother();
 }
 

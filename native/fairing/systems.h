@@ -47,8 +47,8 @@ class FairingSystems {
   void forget_steps() { steps_.reset(); }
 
   // Writes the surface to `world`, which may be the array of its points, with epsilon applied if
-  // requested. Reports its energies if `measured`, its deviation and warnings of its thickness.
-  // Throws too_extreme if the surface is not finite.
+  // requested. Reports its energies if `measured`, its deviation, and warnings of its thickness and
+  // of a solve that has not converged. Throws too_extreme if the surface is not finite.
   void write(const ControlPositions& control, bool measured, Stopwatch& watch, Report& report,
              const Surface& surface, double* world);
 

@@ -184,13 +184,10 @@ void warn_of_thickness(const GridLevel& grid, Workers& workers, const double* x,
       true);
 }
 
-void warn_unconverged(const Report& surface, const FairOptions& options, const std::string& of,
-                      Report& report) {
-  if (surface.converged()) return;
-  Warning told = surface.curvature.empty() ? of_plate(surface.levels.back(), options)
-                                           : of_steps(surface, options);
-  told.message.cause = of + told.message.cause;
-  report.warnings.push_back(std::move(told));
+void warn_unconverged(const FairOptions& options, Report& report) {
+  if (report.converged()) return;
+  report.warnings.push_back(report.curvature.empty() ? of_plate(report.levels.back(), options)
+                                                     : of_steps(report, options));
 }
 
 }  // namespace fairing

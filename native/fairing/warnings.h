@@ -23,11 +23,10 @@ void warn_of_memory(const MemoryLedger& ledger, Report& report);
 // faces beside them are too narrow.
 void warn_straightened(const ControlMesh& mesh, const std::vector<Index>& edges, Report& report);
 
-// Adds a warning to `report` if a surface has not converged (Report::converged()), with its level,
-// the remaining error and advice; the message begins with `of`. Its code begins with NOT_CONVERGED
-// and says why. `surface` may be the same report.
-void warn_unconverged(const Report& surface, const FairOptions& options, const std::string& of,
-                      Report& report);
+// Adds a warning if the surface has not converged (Report::converged()), with its level, the
+// remaining error and advice, which depends on the warnings before. Its code begins with
+// NOT_CONVERGED and says why.
+void warn_unconverged(const FairOptions& options, Report& report);
 
 // Adds a warning if the surface x on the finest level, in working coordinates, is thicker or
 // thinner than the control mesh (grid/thickness.h), with the faces, the amount and advice.
