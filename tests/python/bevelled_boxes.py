@@ -6,26 +6,6 @@ from itertools import product
 
 import numpy as np
 
-# Sides, the longest first.
-PROPORTIONS = (
-    (1, 1, 1),
-    (1, 1, 0.5),
-    (1, 1, 0.2),
-    (1, 1, 0.07),
-    (1, 1, 0.02),
-    (1, 0.5, 0.5),
-    (1, 0.5, 0.2),
-    (1, 0.5, 0.1),
-    (1, 0.2, 0.2),
-    (1, 0.2, 0.1),
-    (1, 0.2, 0.03),
-    (1, 0.1, 0.1),
-    (1, 0.1, 0.02),
-    (1, 0.05, 0.05),
-)
-# Widths of the bevel along the faces, as shares of the shortest side; a half leaves nothing of it.
-BEVELS = (0.002, 0.005, 0.01, 0.02, 0.035, 0.05, 0.075, 0.1, 0.15, 0.2, 0.43)
-
 
 def bevelled_box(sides, bevel: float):
     """Vertices (24, 3) and 26 faces as lists: a quad on each side and along each edge, a triangle at each corner.
@@ -65,12 +45,3 @@ def outwards(points: np.ndarray, face: list[int]) -> list[int]:
     """The face of a convex mesh around the origin, counter-clockwise from outside."""
     a, b, c = points[face[:3]]
     return face if np.cross(b - a, c - a) @ points[face].mean(0) > 0 else face[::-1]
-
-
-def family() -> dict[str, tuple[tuple[float, float, float], float]]:
-    """The 154 boxes: {name: (sides, bevel)}."""
-    return {
-        f"{' x '.join(f'{side:g}' for side in sides)}, {share:g}": (sides, share * min(sides))
-        for sides in PROPORTIONS
-        for share in BEVELS
-    }

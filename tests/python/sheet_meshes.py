@@ -76,38 +76,3 @@ def bow_ties():
     points = points - points[0]
     other = np.where(quads == 0, 0, quads + len(points) - 1)
     return np.concatenate([points, -points[1:]]), np.concatenate([quads, other])
-
-
-def mirrored_book(seed: int = 4):
-    """Two pairs of crumpled pages, each other's mirror images across x = 0, at a spine in x = 0."""
-    vertices, faces, size = book(4, rows=3, columns=3)
-    vertices = vertices + np.random.default_rng(seed).uniform(-0.2, 0.2, vertices.shape)
-    vertices[:4, 0] = 0
-    page = np.arange(12).reshape(3, 4)
-    right, left = [np.concatenate([np.arange(4), 4 + page.ravel() + 12 * k]) for k in (0, 1)]
-    for up in (0, 24):
-        points = vertices[right[4:] + up]
-        points[:, 0] = 0.3 + np.abs(points[:, 0]) + np.repeat([0.5, 1.5, 2.5], 4)
-        points[:, 1] += 3 if up else -3
-        vertices[right[4:] + up] = points
-        vertices[left[4:] + up] = points * [-1, 1, 1]
-    image = np.empty(len(vertices), int)
-    image[:4] = np.arange(4)
-    for up in (0, 24):
-        image[right[4:] + up], image[left[4:] + up] = left[4:] + up, right[4:] + up
-    for first in (0, 2 * size):
-        faces[first + size : first + 2 * size] = image[faces[first : first + size, ::-1]]
-    return vertices, faces
-
-
-def mirrored_book_with_a_wall(seed: int = 4):
-    """The same with a fifth page, uneven but in x = 0: (vertices, faces, faces of the wall)."""
-    vertices, faces = mirrored_book(seed)
-    size = len(faces) // 4
-    out = np.arange(1, 4)[:, None, None] * [0.0, 1.1, 0.2] + vertices[:4]
-    out += np.random.default_rng(seed).uniform(-0.3, 0.3, out.shape) * [0, 1, 1]
-    at = np.concatenate([[np.arange(4)], np.arange(12).reshape(3, 4) + len(vertices)])
-    wall = np.stack([at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]], -1).reshape(-1, 4)
-    assert len(wall) == size
-    mesh = np.concatenate([vertices, out.reshape(-1, 3)]), np.concatenate([faces, wall])
-    return *mesh, np.arange(size) + 4 * size

@@ -46,13 +46,6 @@ def radii(patches, samples: int = 33) -> np.ndarray:
     return np.linalg.norm(found, axis=3)
 
 
-def side_curve(patches, p: int, side: int, t: np.ndarray) -> np.ndarray:
-    """(len(t), 3): the points of a patch along side 0 … 3, counter-clockwise."""
-    one, zero = np.ones(1), np.zeros(1)
-    u, v = [(t, zero), (one, t), (1 - t, one), (zero, 1 - t)][side]
-    return evaluate(patches, p, u, v)[0].reshape(-1, 3)
-
-
 def lattice_volume(result, levels: int) -> float:
     """The volume inside the smooth surface through a refined mesh's points, extrapolated from the volumes inside
     all points, every second and every fourth one: their errors are powers of 4."""

@@ -90,16 +90,6 @@ def random_rotation(seed: int) -> np.ndarray:
     return q if np.linalg.det(q) > 0 else -q
 
 
-def face_normals(points: np.ndarray, faces: np.ndarray) -> np.ndarray:
-    """Of triangles, or of quads by their diagonals."""
-    c = points[faces]
-    if faces.shape[1] == 4:
-        normal = np.cross(c[:, 2] - c[:, 0], c[:, 3] - c[:, 1])
-    else:
-        normal = np.cross(c[:, 1] - c[:, 0], c[:, 2] - c[:, 0])
-    return normal / np.linalg.norm(normal, axis=1)[:, None]
-
-
 def boundary_vertices(faces) -> np.ndarray:
     directed = half_edges(faces)
     return np.unique([v for e in directed if e[::-1] not in directed for v in e])

@@ -135,12 +135,6 @@ def test_a_pipe_is_written_to_itself(cube, tmp_path):
     assert found[0].endswith("END-ISO-10303-21;\n") and only(pipe)
 
 
-def test_a_long_name_is_a_name(cube, tmp_path):
-    path = tmp_path / ("n" * 250 + ".step")
-    df.write_step(path, cube)
-    assert only(path)
-
-
 BAD = {
     "unit": ["mile", ["mm"], None],
     "scale": [0, float("nan"), 1e308, "large"],

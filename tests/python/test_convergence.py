@@ -32,23 +32,6 @@ def test_converges(name, exponent):
     assert {w["code"] for w in report["warnings"]} <= {"THICKNESS_CHANGED"}
 
 
-def counted(level) -> float:
-    """Iterations weighted by their cost, in those of degree six: a V-cycle of degree d takes 2 d + 1 products with
-    the matrix."""
-    return level["iterations"] * (2 * level["smoother_degree"] + 1) / 13
-
-
-@pytest.mark.parametrize("name", ["icosahedron", "cube", "torus_quads", "creature", "wavy_patch"])
-def test_iterations_do_not_grow(name):
-    vertices, faces = meshes.ALL[name]()
-    top = 4 if len(faces) > 50 else 5
-    coarse, fine = (
-        counted(tight.fair(vertices, faces, levels, threads=1).report["levels"][-1])
-        for levels in (top - 1, top)
-    )
-    assert fine <= 1.6 * coarse
-
-
 @pytest.mark.parametrize("residual", [1e-2, 1e-4, 1e-6, 1e-10, 1e-12])
 def test_stops_where_it_is_told(residual):
     finest = tight.fair(*meshes.creature(), 3, relative_residual=residual).report["levels"][-1]
@@ -61,17 +44,6 @@ def test_says_when_it_stops_early():
     (warning,) = report["warnings"]
     assert warning["code"] == "NOT_CONVERGED" and "stopped after 2 iterations" in warning["message"]
     assert "thin faces" not in warning["message"], "of even ones"
-
-
-@pytest.mark.parametrize("name", ["house", "random_hull", "wavy_patch", "roof"])
-def test_a_looser_solution_is_near_the_tight_one(name):
-    """Its energy is never lower, where no folds are filled."""
-    vertices, faces = meshes.ALL[name]()
-    tightest = tight.fair(vertices, faces, 3, relative_residual=1e-12)
-    for residual in (1e-2, 1e-4, 1e-6, 1e-8):
-        loose = tight.fair(vertices, faces, 3, relative_residual=residual)
-        assert thin_plate(loose) >= thin_plate(tightest) * (1 - 1e-12)
-        assert np.abs(loose.vertices - tightest.vertices).max() <= 10 * residual
 
 
 @pytest.mark.parametrize("name", sorted(set(meshes.ALL) - {"grid", "single_triangle"}))
@@ -178,12 +150,3 @@ def test_residual_where_the_polyhedron_is_the_solution():
     edges = np.concatenate([faces[:, [k, (k + 1) % 4]] for k in range(4)])
     finest = tight.fair(vertices, faces, 2, crease_edges=edges).report["levels"][-1]
     assert finest["converged"] and finest["residual"] <= 1e-8
-
-
-def test_loads_settle_where_they_are_small():
-    """Loads were once read again and again from a surface that no solve had moved: they changed by their full size
-    in 19 corrections."""
-    report = tight.fair(*meshes.torus(96, 48), 2, relative_residual=1e-4).report
-    assert report["converged"]
-    assert all(level["pad_corrections"] <= 10 for level in report["levels"])
-    assert report["levels"][-1]["pad_force"] <= 2e-3

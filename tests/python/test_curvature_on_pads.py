@@ -6,7 +6,7 @@ import discrete_fairing as df
 import numpy as np
 import pytest
 import tight
-from surfaces import comes_near, size_of
+from surfaces import size_of
 
 
 def energy(result):
@@ -37,17 +37,6 @@ def test_smooth_meshes_settle_with_hardly_more_energy(name):
     own = [result.report["curvature"][-1]["energy"] for result in (pads, needles)]
     assert own[0] <= 1.1 * own[1]
     assert np.array_equal(pads.vertices[: len(mesh[0])], mesh[0])
-
-
-@pytest.mark.parametrize("seed", (1, 3, 4))
-def test_crumpled_meshes_settle_too(seed):
-    mesh = meshes.rough_ball(seed, 1)
-    needles, pads = (fair(mesh, levels=2, pad_size=s) for s in (0, 0.5))
-    told = any(warning["code"].startswith("NOT_CONVERGED") for warning in pads.report["warnings"])
-    assert comes_near(pads.report["curvature"][-1]) or told
-    own = [result.report["curvature"][-1]["energy"] for result in (pads, needles)]
-    assert own[0] <= 1.1 * own[1]
-    assert np.isfinite(pads.vertices).all()
 
 
 def test_a_drag_goes_on_from_the_surface_and_its_loads():

@@ -141,21 +141,23 @@ def test_corners_split_a_curve(ends):
     assert off_the_square(corner_angle=1.6) > 0.01
 
 
-@pytest.mark.parametrize("flip", [False, True])
-def test_moving_one_side_of_a_crease_loop_leaves_the_other(flip):
+@pytest.mark.parametrize(
+    "flip, pad_size, most", [(False, 0, 1e-9), (True, 0, 1e-9), (False, 1, 1e-5), (True, 1, 1e-5)]
+)
+def test_moving_one_side_of_a_crease_loop_leaves_the_other(flip, pad_size, most):
     """The curve stays to the last bit, and the far side as far as it is solved: one system serves both sides."""
     (vertices, faces), loop, above, below = meshes.drum()
     here, there = (below, above) if flip else (above, below)
     moved = vertices.copy()
     moved[here[1]] += [0.2, 0.1, 0.15 if not flip else -0.15]
-    options = {"crease_edges": loop, "relative_residual": 1e-11}
+    options = {"crease_edges": loop, "relative_residual": 1e-11, "pad_size": pad_size}
     still, after = (tight.fair(v, faces, 3, **options) for v in (vertices, moved))
     control = np.append(np.unique(loop), there)
     cells = np.isin(still.triangle_polygon, np.nonzero(np.isin(faces, control).all(1))[0])
     side = np.unique(still.faces[0][cells])
     assert len(side) > 500
     difference = np.abs(still.vertices[side] - after.vertices[side]).max()
-    assert difference <= 1e-9 * size_of(vertices)
+    assert difference <= most * size_of(vertices)
     curve = np.intersect1d(side, still.faces[0][~cells])
     assert still.vertices[curve].tobytes() == after.vertices[curve].tobytes()
     smooth, other = (
@@ -220,24 +222,3 @@ def test_a_corner_inside_a_surface_is_the_tip_of_a_cone():
         < smooth.report["energy"]["result"]["thin_plate"]
     )
     assert np.array_equal(tip.vertices[:14], vertices)
-
-
-@pytest.mark.parametrize("boundary", MODES)
-@pytest.mark.parametrize("levels", [0, 1, 2, 3])
-def test_a_single_triangle(boundary, levels):
-    vertices, faces = meshes.single_triangle()
-    result = tight.fair(vertices, faces, levels, boundary=boundary)
-    assert len(result.triangles) == 4**levels
-    assert result.vertices[:3].tobytes() == vertices.tobytes()
-    normal = np.cross(*(vertices[1:] - vertices[0]))
-    assert np.abs((result.vertices - vertices[0]) @ normal).max() < 1e-9
-    assert np.abs(result.vertices).max() < 2
-    if boundary != "curve":
-        area = 0.5 * np.linalg.norm(
-            np.cross(
-                result.vertices[result.triangles[:, 1]] - result.vertices[result.triangles[:, 0]],
-                result.vertices[result.triangles[:, 2]] - result.vertices[result.triangles[:, 0]],
-            ),
-            axis=1,
-        )
-        assert area.sum() == pytest.approx(0.5 * np.linalg.norm(normal), rel=1e-6)

@@ -6,8 +6,7 @@ import discrete_fairing as df
 import numpy as np
 import pytest
 from lattices import lattice_faces
-from shared_data import SHARED, read_obj
-from test_strain import SHAPES, bump, half_hull, outwards
+from test_strain import SHAPES, bump
 
 NOISE = 0.002
 
@@ -71,19 +70,6 @@ def test_moves_stay_within_a_bound_and_use_it():
     assert df.ease(measured, faces, tolerance=bounds).moves[inner[3]] <= 1e-4
 
 
-def test_the_planted_vertex_alone_goes_back():
-    shares = []
-    for seed in range(10):
-        truth, faces, inner = sheet("saddle")
-        measured = scattered(truth, inner, seed, NOISE / 3)
-        vertex = np.random.default_rng(seed).choice(inner)
-        measured[vertex, 2] += 4 * NOISE
-        eased = df.ease(measured, faces, most=1)
-        assert np.count_nonzero(eased.moves) == 1
-        shares.append(eased.moves[vertex] / (4 * NOISE))
-    assert abs(np.median(shares) - 1) < 0.15
-
-
 def test_strain_falls_and_what_is_held_stays():
     truth, faces, inner = sheet()
     measured = scattered(truth, inner, 2)
@@ -122,14 +108,6 @@ def test_what_is_in_few_eigenvectors_is_no_scatter(designed):
     points, faces = designed()
     eased = df.ease(points, faces)
     assert (eased.amount, eased.moves.max()) == (0, 0)
-
-
-@pytest.mark.parametrize("name", ["helmet", "pawn"])
-def test_cages_as_designed_stay(name):
-    path = SHARED / f"good/cages/opensubdiv-shapes__catmark_{name}.obj"
-    if not path.is_file():
-        pytest.skip("the shared meshes are absent")
-    assert not df.ease(*read_obj(path)).moves.any()
 
 
 def test_faint_scatter_is_not_made_worse_by_uneven_stars():
@@ -210,20 +188,6 @@ def test_the_worst_are_found_on_curves_and_off_them():
     eased = df.ease(measured, faces, most=2)
     assert set(np.flatnonzero(eased.moves)) == {off_curve, on_curve}
     assert error(eased.vertices, truth) < 0.15 * error(measured, truth)
-
-
-def test_wrong_offsets_of_half_a_hull_go_back():
-    """Those of the largest excess go back; borders and worse neighbours strain sound vertices as much."""
-    truth, faces, inner = half_hull(15, 9)
-    along, found, left = outwards(truth, faces), [], []
-    for seed in range(5):
-        random, measured = np.random.default_rng(seed), truth.copy()
-        wrong = random.choice(inner, 3, replace=False)
-        measured[wrong] += 0.018 * random.choice([-1, 1], (3, 1)) * along[wrong]
-        eased = df.ease(measured, faces, symmetry_plane="y", most=3)
-        found.append(len(np.intersect1d(np.flatnonzero(eased.moves), wrong)))
-        left.append(error(eased.vertices, truth) / error(measured, truth))
-    assert np.mean(found) > 2.7 and np.mean(left) < 0.1
 
 
 def test_vertices_outside_a_region_stay():

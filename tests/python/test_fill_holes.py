@@ -117,21 +117,6 @@ def test_known_surfaces_come_back(name):
     assert smallest_angle(filled.vertices, filled.faces[filled.new_faces]) > 15
 
 
-def test_holes_that_touch_in_a_vertex_are_two():
-    vertices, faces = mapped(lambda a, b: (8 * a, 8 * b, 0 * a), 9, 9)
-    centre = vertices[faces].mean(1)
-    gone = (abs(centre[:, :2] - [3.5, 3.5]).max(1) < 0.5) | (
-        abs(centre[:, :2] - [4.5, 4.5]).max(1) < 0.5
-    )
-    vertices, faces = cut(vertices, faces, gone)
-    loops = df.find_holes(vertices, faces)
-    assert sorted(map(len, loops)) == [4, 4, 32]
-    filled = df.fill_holes(vertices, faces, holes=[h for h in loops if len(h) == 4])
-    assert not df.check(filled.vertices, filled.faces)
-    assert list(map(len, df.find_holes(filled.vertices, filled.faces))) == [32]
-    assert np.array_equal(filled.vertices[:, 2], np.zeros(len(filled.vertices)))
-
-
 def test_three_islands_in_a_hole():
     whole, all_faces = mapped(lambda a, b: (a, b, 0.2 * a * (1 - b)), 31, 31)
     cell = np.floor(

@@ -4,9 +4,8 @@
 import discrete_fairing as df
 import numpy as np
 import pytest
-import spline_measures
 from control_meshes import cut_quads
-from discrete_fairing.patch_distances import distances_from, evaluate
+from discrete_fairing.patch_distances import distances_from
 from lattices import lattice_faces
 from refusing import refusal
 from scans import (
@@ -18,7 +17,6 @@ from scans import (
     on_blob,
     rms,
     sheet,
-    vertex_normals,
 )
 from surface_measures import turns
 
@@ -195,25 +193,6 @@ def test_a_scan_of_ten_points_has_a_surface(seed):
     assert np.isfinite(fitted.vertices).all() and fitted.weight > 0
 
 
-def test_border_curves_follow_no_noise():
-    fine = np.linspace(-1, 1, 17)
-    vertices, faces = sheet(fine, fine, dome)
-    points, triangles = sheet_scan(dome, 4 * NOISE, 3)
-    fitted = df.fit(
-        vertices, faces, points, triangles=triangles, corner_vertices=[0, 16, 272, 288], levels=3
-    )
-    side = fitted.vertices[np.flatnonzero(vertices[:, 1] == 1)]
-    assert np.diff(side[:, 0]).min() > 0.8 / 8  # the edges stay about as long as they were
-    x, y, _ = fitted.vertices.T
-    truth = np.stack(
-        [0.48 * np.sin(1.2 * x) * np.cos(0.9 * y), 0.36 * np.cos(1.2 * x) * np.sin(0.9 * y), x / x],
-        1,
-    )
-    own = vertex_normals(fitted.vertices, fitted.triangles)
-    cosine = (own * truth).sum(1) / np.linalg.norm(truth, axis=1)
-    assert rms(np.degrees(np.arccos(np.clip(cosine, -1, 1)))) < 2
-
-
 def roof(x: np.ndarray, y: np.ndarray) -> np.ndarray:
     return -0.6 * np.abs(y) + 0.1 * np.cos(2 * x)
 
@@ -377,17 +356,6 @@ def test_a_given_angle_of_patches_near_a_scan_stays(cage):
     given = {"points": blob_scan(12_000, NOISE)}
     patches = df.fit_patches(*cage, scan=given, levels=3, normal_tolerance=1e-3)
     assert patches.normal_tolerance == 1e-3
-
-
-def test_patches_are_evaluated_as_splines_are():
-    patches = df.fit_patches(*blob_cage(2), levels=3, tolerance=1e-3)
-    ids, t = np.arange(len(patches)), np.array([0, 0.013, 0.4, 0.77, 1])
-    u, v = (g.ravel() for g in np.meshgrid(t, t, indexing="ij"))
-    for p in ids.tolist():
-        at, along, across = evaluate(patches, np.full(u.size, p), np.stack([u, v], 1))
-        expected, normal = spline_measures.evaluate(patches, p, t, t)
-        np.testing.assert_allclose(at, expected.reshape(-1, 3), atol=1e-12)
-        np.testing.assert_allclose(np.cross(along, across), normal.reshape(-1, 3), atol=1e-10)
 
 
 def test_what_turns_within_a_tenth_of_a_control_edge_is_rounded_off():

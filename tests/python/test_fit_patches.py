@@ -13,9 +13,8 @@ import half_hulls
 import numpy as np
 import pytest
 import thin_walls
-from discrete_fairing import fitting, patch_levels
+from discrete_fairing import fitting
 from discrete_fairing.patch_fits import PatchFits
-from mesh_files import read_mesh
 from refusing import refusal
 from shared_data import SHARED, read_obj
 from sliver_meshes import uneven_drum
@@ -103,21 +102,10 @@ def star(valence):
     return points, faces + [[a, a + valence, b + valence, b] for a, b in ends]
 
 
-SAID = [pytest.param(example_meshes.hull, id="hull")] + [
-    pytest.param(
-        lambda path=path: (read_mesh(path), None),
-        id=path.stem,
-        marks=pytest.mark.skipif(not path.is_file(), reason="no shared meshes"),
-    )
-    for path in (CAT,)
-]
-
-
-@pytest.mark.parametrize("mesh", SAID)
-def test_what_is_said_is_what_others_find(mesh):
+def test_what_is_said_is_what_others_find():
     """Patches may swing between the lattice's points. The report's distances are those from the flat triangles, at
     13 x 13 points of each patch, by a basis in NumPy."""
-    (points, faces), creases = mesh()
+    (points, faces), creases = example_meshes.hull()
     patches = df.fit_patches(points, faces, levels=5, crease_edges=creases, force=True)
     t = np.linspace(0, 1, 13)
     at = [evaluate(patches, p, t, t)[0].reshape(-1, 3) for p in range(len(patches))]
@@ -317,35 +305,6 @@ def test_a_finer_level_that_folds_takes_no_patches_away(monkeypatch):
     patches = df.fit_patches(*block_over_an_l(), **SHARP)
     assert not len(patches.unresolved) and patches.shell_closed.all()
     assert folded and patches.levels == 5
-
-
-@pytest.mark.parametrize(("falling", "first"), [(1.0, 5), (0.6, 7)])
-def test_levels_rise_only_where_that_may_halve_the_largest_miss(monkeypatch, falling, first):
-    """Where the surface changes as much from level to level, patches are fitted once: finer levels took
-    three times as long for a cat's head of 248 faces, of which 59 missed in place of 65.
-    """
-    monkeypatch.setattr(
-        patch_levels, "change_between", lambda *at: np.full(6, 0.02 * falling ** at[2])
-    )
-    fitted, fits = PatchFits.fitted, []
-    monkeypatch.setattr(
-        PatchFits, "fitted", lambda run, *at: fits.append(at[1]) or fitted(run, *at)
-    )
-    patches = df.fit_patches(*control_meshes.cube(), tolerance=1e-3 * falling**4)
-    assert fits[0] == first and (falling < 1 or len(fits) == 1)
-    assert falling < 1 or len(patches.unmet_by_surface) == 6
-
-
-def test_the_worst_of_some_faces_is_told():
-    """In a cube that is a little higher, four faces are not like the others."""
-    points, faces = control_meshes.cube()
-    patches = df.fit_patches(points * (1, 1, 1.2), faces, levels=5)
-    off = patches.face_off + patches._lattice_error
-    for face in (0, 3):
-        assert patches.worst([face]) == (off[face], patches.face_angle[face])
-    assert patches.worst(range(6))[0] == off.max() > off.min()
-    assert patches.largest_miss == off.max() / (patches.tolerance * patches.size)
-    assert patches.worst([]) == (0, 0)
 
 
 def test_a_thin_tray_misses_few_faces():

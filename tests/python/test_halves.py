@@ -185,16 +185,6 @@ def test_faces_that_name_absent_vertices_are_mended_in_both_halves():
     assert (act["code"], act["elements"]) == ("INDEX_OUT_OF_RANGE", ids)
 
 
-@pytest.mark.parametrize("call", [df.fair, df.Solver])
-@pytest.mark.parametrize("repair", ["refuse", "mend"])
-@pytest.mark.parametrize("offsets", [[0, 8, 4, 12], [0, 4, -4, 12]], ids=str)
-def test_offsets_that_cut_no_faces(call, repair, offsets):
-    points, faces = hull()
-    flat = faces[:3].ravel(), np.array(offsets)
-    error = refusal(call, points, flat, 1, repair=repair, **HALF)
-    assert told(error) == told(refusal(call, points, flat, 1)) and error.code == "BAD_SHAPE"
-
-
 @pytest.mark.parametrize("vertex", [0, 9], ids=["in the plane", "elsewhere"])
 @pytest.mark.parametrize("value", [np.nan, np.inf, 1e120], ids=str)
 def test_positions_that_are_none(vertex, value):

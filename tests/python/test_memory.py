@@ -9,10 +9,8 @@ import numpy as np
 import pytest
 import sheet_meshes
 from half_hulls import hull
-from mesh_files import SUFFIXES, read_mesh
 from one_sided_meshes import strip
 from refusing import refusal
-from shared_data import shared_files
 from sliver_meshes import uneven_drum
 
 NEAR = {"interpolation": "approximate"}
@@ -20,7 +18,6 @@ POINTS = {"pad_size": 0.0, "relative_residual": 1e-2}
 STEPS = {"energy": "total_curvature", "pad_size": 0.0}
 VARIATION = {"energy": "minimum_variation"}
 MEND = {"repair": "mend", "weld": 0.0}
-MOST_CELLS = 20000  # of real meshes, to be soon over
 
 
 def assert_bounded(report):
@@ -100,14 +97,6 @@ def test_the_prediction_bounds_the_peak_and_is_near_it(name, levels):
     assert_bounded(df.fair(*mesh, levels, threads=1, measure=True, **options).report)
 
 
-@pytest.mark.parametrize("path", shared_files("good", *SUFFIXES))
-def test_so_it_is_of_real_meshes(path):
-    vertices, faces = read_mesh(path)
-    for levels in (2, 3):
-        if len(faces) * 4**levels <= MOST_CELLS:
-            assert_bounded(df.fair(vertices, faces, levels, threads=1, repair="mend").report)
-
-
 @pytest.mark.parametrize("levels", [1, 2, 4])
 @pytest.mark.parametrize("name", ["icosahedron", "torus_quads", "wavy_patch", "dodecahedron"])
 def test_prediction_bounds_the_peak_of_limit(name, levels):
@@ -166,17 +155,6 @@ def test_what_is_over_the_limit_by_shapes_alone_is_refused():
     )
 
 
-def test_the_mended_mesh_is_counted():
-    points, faces = TORUS
-    clean = df.fair(points, faces, 1, threads=1).report
-    mended = df.fair(points, np.concatenate([faces, faces[:1]]), 1, threads=1, repair="mend").report
-    corners = 4 * len(faces)
-    for key in ("predicted_bytes", "peak_bytes"):
-        # an id and an origin a corner, a position and an origin a vertex
-        assert 24 * corners <= mended[key] - clean[key] <= 60 * corners
-    assert 0 <= mended["seconds"]["mend"] < 10 and "mend" not in clean["seconds"]
-
-
 def hard():
     """A run with a level that is factored on the way, which cannot be predicted."""
     points, faces = meshes.torus(10, 8)
@@ -201,14 +179,3 @@ def test_what_goes_as_predicted_says_nothing():
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         assert df.fair(*TORUS, 2).report["warnings"] == []
-
-
-def test_vertices_merged_away_make_no_run_too_large():
-    """An STL file has six times as many vertices as its mesh."""
-    points, faces = apart(BALL)
-    options = {**MEND, "threads": 1}
-    peak = df.fair(points, faces, 2, **options).report["peak_bytes"]
-    again = df.fair(points, faces, 2, memory_limit=2 * peak, **options)
-    assert again.report["peak_bytes"] == peak
-    clean = df.fair(*BALL, 2, threads=1).report["predicted_bytes"]
-    assert df.predicted_size(len(points), BALL[1], 2)["bytes"] < 2 * clean

@@ -107,14 +107,6 @@ def test_a_side_without_length_is_merged_and_both_rows_go_together():
     assert result.report["warnings"] == [], "vertex 12 is not left over"
 
 
-def test_a_merged_vertex_follows_the_one_it_was_merged_with():
-    points = np.concatenate([POINTS, POINTS[3:4]])
-    faces = [*as_lists(FACES), [3, 12, 7]]
-    result, _ = mend(points, faces, 2, interpolation="approximate", tolerance=0.05)
-    assert not np.array_equal(result.vertices[3], POINTS[3])
-    assert np.array_equal(result.vertices[12], result.vertices[3])
-
-
 def cap_mesh():
     """Two big triangles over the edge 0-1 of a tent; below the edge two small ones whose common
     vertex 4 lies on it, and the triangle 0, 4, 1 without area that joins them to what is above."""
@@ -258,14 +250,6 @@ def test_what_no_program_can_mend_is_refused_in_the_input_s_ids():
     ]:
         error = refusal(df.fair, vertices, faces, 1, repair="mend")
         assert (error.code, list(error.elements)) == (code, elements)
-
-
-def test_a_one_sided_surface_is_named_by_the_faces_of_the_input():
-    strip, quads = meshes.moebius()
-    error = refusal(df.fair, strip, [quads[0], *quads], 1, "total_curvature", repair="mend")
-    ids = [0, *range(2, 8)]
-    assert (error.code, error.elements) == ("NON_ORIENTABLE", ids)
-    assert str(error).startswith("7 faces (0, 2, 3, 4, 5, …) belong to a surface")
 
 
 def test_a_vertex_without_position_and_face_does_no_harm():

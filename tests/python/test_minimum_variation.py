@@ -63,18 +63,6 @@ def test_a_flat_mesh_stays_flat():
     assert np.abs(result.vertices[:, 2] - result.vertices[0, 2]).max() < 1e-12
 
 
-def test_fine_levels_are_not_factored():
-    """A sixth-order factor of the finest level took a minute and six times the memory predicted; the
-    next level, too large for one, did not end."""
-    points, faces = meshes.tetrahedron()
-    result = tight.fair(points * [1, 1, 2.5], faces, 7, "minimum_variation", measure=False)
-    assert not any(step["direct"] for step in finest(result)["steps"])
-    assert result.report["peak_bytes"] <= 2 * result.report["predicted_bytes"]
-    codes = [warning["code"] for warning in result.report["warnings"]]
-    told = any(code.startswith("NOT_CONVERGED") for code in codes)
-    assert told != finest(result)["converged"]
-
-
 def plate_with_hole(count):
     """Flat, with long thin triangles from the corners to the vertices of a round hole."""
     turn = 2 * np.pi * np.arange(count) / count

@@ -6,7 +6,6 @@ import discrete_fairing as df
 import numpy as np
 import pytest
 from half_hulls import hull, whole
-from moving import icosphere, slid
 from surfaces import boundary_vertices, output_faces, size_of
 
 LARGEST = 0.05  # degrees that are left by default
@@ -38,12 +37,6 @@ def vertex_normal(result, vertex) -> np.ndarray:
             b = points[face[at - 1]] - points[vertex]
             normal += np.cross(a, b) / ((a @ a) * (b @ b))
     return normal / np.linalg.norm(normal)
-
-
-def ball(subdivisions=1, noise=0.0, seed=2):
-    """Points of the unit sphere, moved along it; they are their own normals."""
-    points, faces = icosphere(subdivisions)
-    return slid(points, noise, seed), faces
 
 
 @pytest.fixture(scope="module")
@@ -108,18 +101,6 @@ def test_single_normals_on_all_kinds_of_meshes(name, levels):
     assert np.array_equal(result.vertices[: len(points)], points)
     moved = np.linalg.norm(result.vertices - free.vertices, axis=1)
     assert 1e-4 < moved.max() < 0.5 * size_of(points)
-
-
-@pytest.mark.parametrize("subdivisions,levels", [(1, 3), (2, 2), (2, 3)])
-def test_a_ball_with_its_own_normals_everywhere_is_rounder(subdivisions, levels):
-    points, faces = ball(subdivisions, noise=0.06)
-    free = df.fair(points, faces, levels)
-    result = df.fair(points, faces, levels, normals=points)
-    assert result.report["normals"]["fixed"] == len(points)
-    assert result.report["normals"]["largest_angle"] <= LARGEST
-    assert result.report["converged"]
-    free, result = (np.linalg.norm(r.vertices, axis=1) - 1 for r in (free, result))
-    assert result.std() < 0.5 * free.std()
 
 
 @pytest.mark.parametrize("nothing", [np.nan, 0.0])

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Sheets with only one side: the thin plate fairs them as it does their double covers."""
 
-import control_meshes as meshes
 import discrete_fairing as df
 import numpy as np
 import pytest
@@ -12,7 +11,6 @@ from test_sheets import assert_welded, corners_of
 from tight import fair
 
 AROUND, ACROSS = 9, 2
-HALF = AROUND * (ACROSS + 1)
 
 
 def cases(triangles=False):
@@ -79,17 +77,6 @@ def test_with_all_options(options):
     assert moved.max() <= 0.1 and (moved.max() > 1e-3) == moves
 
 
-def test_weights_of_vertices():
-    (vertices, faces), cover = cases()
-    weights = np.exp(np.sin(np.arange(HALF)))
-    both = weights[
-        np.concatenate([np.arange(HALF), np.arange(HALF).reshape(-1, 3)[:, ::-1].ravel()])
-    ]
-    near = {"interpolation": "approximate"}
-    result = fair(vertices, faces, 2, weights=weights, **near)
-    assert_half_of(result, fair(*cover, 2, weights=both, **near), len(faces), 1e-6)
-
-
 def test_a_crease_that_goes_around_once():
     (vertices, faces), cover = cases()
     middle = core(AROUND, ACROSS)
@@ -135,27 +122,6 @@ def test_a_closed_one_with_polygons():
     assert euler_characteristic(fine) == 0
     assert np.array_equal(np.unique(np.concatenate(fine)), np.arange(len(split.vertices)))
     assert len(split.vertices) == df.predicted_size(len(vertices), faces, 2)["vertices"]
-
-
-def test_beside_other_sheets():
-    """A strip with a fin along its middle, and a ball in the same mesh."""
-    vertices, faces = strip(AROUND, ACROSS)
-    ball, quads = meshes.cube()
-    middle = core(AROUND, ACROSS)[:-1]
-    first = len(vertices)
-    fin = vertices[middle[:, 0]] * [0.5, 0.5, 1] + [0, 0, 1.5]
-    at = np.concatenate(
-        [middle[:-1], np.stack([first + 1 + np.arange(7), first + np.arange(7)], -1)], 1
-    )
-    all_faces = np.concatenate([faces, at, quads + first + len(fin)])
-    points = np.concatenate([vertices, fin, ball + [9, 0, 0]])
-    result = fair(points, all_faces, 2)
-    assert_welded(result, points, all_faces)
-    sheets = result.report["sheets"]
-    assert (sheets["count"], sheets["one_sided"], sheets["nonmanifold_edges"]) == (3, 1, 7)
-    own = np.arange(len(faces) + len(at), len(all_faces))
-    alone = fair(ball + [9, 0, 0], quads, 2)
-    assert np.abs(corners_of(result, own) - corners_of(alone, np.arange(len(quads)))).max() <= 1e-9
 
 
 def test_as_smooth_where_it_closes_as_anywhere():

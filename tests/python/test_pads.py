@@ -6,6 +6,7 @@ import discrete_fairing as df
 import numpy as np
 import pytest
 import tight
+from bevelled_boxes import bevelled_box
 from piece_meshes import sheet
 
 MESHES = [
@@ -81,17 +82,6 @@ def shortest_and_longest_edges(vertices, faces):
     return shortest, longest
 
 
-@pytest.mark.parametrize("seed", (1, 3, 4))
-@pytest.mark.parametrize("size", (0.5, 1.0))
-def test_pads_are_quiet_on_a_crumpled_mesh(seed, size):
-    mesh = meshes.rough_ball(seed, 1)
-    needles, pads = (tight.fair(*mesh, levels=2, pad_size=s) for s in (0, size))
-    assert energy(pads) < 1.25 * energy(needles)  # measured: 1.23 at the most
-    assert pads.report["converged"]
-    assert pads.report["pads"]["gone"] == 0
-    assert np.array_equal(pads.vertices[: len(mesh[0])], mesh[0])
-
-
 @pytest.mark.parametrize("name", ("creature", "torus", "three_handles", "rough_ball"))
 def test_widths_are_lengths_of_the_mesh(name):
     """No pad reaches farther than 1.5 times the shortest edge at its vertex, or than the longest."""
@@ -101,6 +91,19 @@ def test_widths_are_lengths_of_the_mesh(name):
         widths = np.array(tight.fair(*mesh, levels=2, pad_size=size).report["pads"]["widths"])
         assert (widths <= size * np.minimum(1.5 * shortest, longest) * (1 + 1e-12)).all()
         assert (widths > 0).all()
+
+
+@pytest.mark.parametrize(
+    "sides, bevel", [((1, 0.2, 0.1), 0.002), ((1, 1, 0.2), 0.004), ((1, 0.1, 0.1), 0.02)]
+)
+def test_bevelled_boxes_do_not_swell(sides, bevel):
+    """Pads that reached across each face once made these surfaces swell to many times the mesh."""
+    vertices, faces = bevelled_box(sides, bevel)
+    reach = [
+        np.linalg.norm(df.fair(vertices, faces, 1, pad_size=size).vertices, axis=1).max()
+        for size in (1.0, 0.0)
+    ]
+    assert reach[0] <= 1.02 * max(reach[1], np.linalg.norm(vertices, axis=1).max())
 
 
 @pytest.mark.parametrize("name", ("icosahedron", "octahedron", "cube"))
@@ -125,25 +128,6 @@ def test_pads_are_narrow_between_a_corner_and_a_flat_place():
     widths = np.array(pads.report["pads"]["widths"])
     assert (widths[len(corners) :] < 0.5 * shortest[len(corners) :]).all()
     assert energy(pads) < 1.15 * energy(needles)
-
-
-def test_nothing_beyond_a_crease_changes_a_pad():
-    """A wavy sheet is bent along a crease on one side; the other side stays as it is."""
-    vertices, faces = meshes.grid(6, 4)
-    vertices[:, 2] = 0.4 * np.sin(2 * vertices[:, 0]) * np.cos(vertices[:, 1])
-    middle = 3.0
-    ridge = vertices[:, 0] == middle
-    vertices[ridge, 2] = 0
-    edges = [(a, b) for f in faces for a, b in zip(f, np.roll(f, 1)) if ridge[a] and ridge[b]]
-    options = {"levels": 3, "crease_edges": edges, "pad_size": 1, "relative_residual": 1e-10}
-    found = []
-    for slope in (0.0, 2.0):
-        bent = vertices.copy()
-        bent[:, 2] += slope * np.maximum(0, vertices[:, 0] - middle)
-        found.append(tight.fair(bent, faces, **options).vertices)
-    left = np.all([points[:, 0] < middle - 0.05 for points in found], axis=0)
-    assert left.sum() > 500
-    assert np.abs(found[0][left] - found[1][left]).max() < 1e-5
 
 
 def test_widths_depend_neither_on_threads_nor_on_the_side():

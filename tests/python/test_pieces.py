@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from piece_meshes import MESHES, ring, sheet, torus
 from refusing import refusal
-from shared_data import creases_of, read_obj, shared_files
 
 TIGHT = {"relative_residual": 1e-11}  # loads on pads then end far below the differences here
 
@@ -77,13 +76,6 @@ def test_one_piece_is_the_whole_to_the_last_bit(name):
     assert [w["code"] for w in joined.report["warnings"]] == [
         w["code"] for w in whole.report["warnings"]
     ]
-
-
-def test_twice_as_many_rings_square_the_difference():
-    mesh = torus(36, 16, noise=0.02)
-    whole = df.fair(*mesh, 2, **TIGHT)
-    gaps = [difference(in_pieces(*mesh, rings=r), whole, mesh[0]) for r in (1, 3, 5, 7)]
-    assert all(near < far / 3 for far, near in zip(gaps, gaps[1:])), gaps
 
 
 @pytest.mark.parametrize("name", ["open creases and corners", "border", "book", "folded"])
@@ -259,41 +251,11 @@ def test_a_worker_needs_the_memory_of_its_piece():
     assert all(part.report["peak_bytes"] <= part.report["predicted_bytes"] for part in parts)
 
 
-# --- real meshes ---
-
-REAL = [p for p in shared_files("good/cages") if p.values[0] is None or "catmark" in p.id][:12]
-
-
-@pytest.mark.parametrize("path", REAL)
-def test_real_cages_in_pieces(path):
-    points, faces = read_obj(path)
-    creases, corners = creases_of(path)
-    settings = {"crease_edges": creases, "corner_vertices": corners}
-    try:
-        whole = df.fair(points, faces, 2, **TIGHT, **settings)
-    except df.FairingError as error:
-        assert refusal(cut, points, faces, **settings).code == error.code
-        return
-    joined = in_pieces(points, faces, rings=8, **settings)
-    assert_same_topology(joined, whole)
-    assert difference(joined, whole, points) < bound(8)
-
-
 def test_one_piece_needs_no_library(monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "pymetis", None)
     assert len(cut(*torus(), count=1)) == 1
     with pytest.raises(df.FairingError, match=r"discrete-fairing\[cluster\]"):
         cut(*torus(), count=2)
-
-
-def test_a_crease_is_felt_by_its_own_piece_only():
-    """The crease's ring of vertices is on one side of the torus; the other side keeps its bits."""
-    plain = {p.index: p for p in cut(*torus(48, 8), count=6, rings=1)}
-    creased = {
-        p.index: p for p in cut(*torus(48, 8), count=6, rings=1, crease_edges=ring(48, 8)[:3])
-    }
-    same = [np.array_equal(plain[k].fair().vertices, creased[k].fair().vertices) for k in range(6)]
-    assert 2 <= sum(same) < 6
 
 
 def shapes_of(points):

@@ -2,7 +2,6 @@
 """Shapes are further positions of the control vertices. They are solved on the charts of the first ones, so by one
 linear map."""
 
-import control_meshes as meshes
 import numpy as np
 import pytest
 import tight
@@ -29,6 +28,7 @@ def test_control_rows_are_exact_and_the_basis_is_the_first_surface(name):
 
 
 TAUT = {"tension": 0.7, "relative_residual": 1e-12}
+JOINTS = ("position", "tangent", "curvature")
 WEIGHTS = np.random.default_rng(3).uniform(0.5, 20, 98)
 
 
@@ -41,7 +41,9 @@ WEIGHTS = np.random.default_rng(3).uniform(0.5, 20, 98)
         ("creature", TAUT | {"pad_size": 0.5}),
         ("creature", {"pad_size": 0.5, "relative_residual": 1e-12}),
         ("creature", {"interpolation": "approximate", "weights": WEIGHTS}),
-    ],
+        ("roof", {"crease_angle": 0.8}),
+    ]
+    + [("dodecahedron", {"region": [0, 1, 2], "joint": joint}) for joint in JOINTS],
     ids=str,
 )
 def test_mixes_are_linear(name, options):
@@ -77,31 +79,6 @@ def test_a_shape_is_not_the_mesh_of_its_own():
     shape = vertices * [1, 1, 6.0]
     together = tight.fair(vertices, faces, 2, shapes=[shape]).shapes[0]
     assert np.abs(together - tight.fair(shape, faces, 2).vertices).max() > 1e-3
-
-
-def test_creases_use_the_parameters_of_the_basis():
-    (vertices, faces), ridge = meshes.roof()
-    a, b = moved(vertices, 0.2, 1), moved(vertices, 0.2, 2)
-    result = tight.fair(vertices, faces, 3, shapes=[a, b, (a + b) / 2], crease_edges=ridge)
-    on_ridge = np.abs(result.vertices[:, 0]) < 1e-12
-    of_a, of_b, mix = (s[on_ridge] for s in result.shapes)
-    assert on_ridge.sum() > 8 * len(ridge)
-    assert np.abs(mix - (of_a + of_b) / 2).max() < 1e-13
-
-
-@pytest.mark.parametrize("joint", ["position", "tangent", "curvature"])
-def test_with_a_region(joint):
-    vertices, faces = sample("dodecahedron")
-    a, b = moved(vertices, 0.2, 1), moved(vertices, 0.2, 2)
-    result = tight.fair(
-        vertices, faces, 3, shapes=[a, b, a + b - vertices], region=[0, 1, 2], joint=joint
-    )
-    of_a, of_b, mix = result.shapes
-    assert np.abs(mix - (of_a + of_b - result.vertices)).max() < 1e-6
-    outside = result.triangle_polygon > 4
-    ids = np.unique(result.faces[0][outside])
-    # outside only rounding is between the sums
-    assert np.abs((mix - (of_a + of_b - result.vertices))[ids]).max() < 1e-13
 
 
 def test_every_shape_keeps_the_tolerance_about_its_own_places():

@@ -5,8 +5,6 @@ import control_meshes as meshes
 import discrete_fairing as df
 import numpy as np
 import pytest
-from mesh_files import SUFFIXES, read_mesh
-from shared_data import shared_files
 from sheet_meshes import alone, book, bow_ties, bulkhead, hourglass
 from surfaces import euler_characteristic, output_faces
 from tight import fair
@@ -210,18 +208,3 @@ def test_orientation_is_a_sheet_s_own_affair():
         fair(vertices, turned, 2)
     repaired = fair(vertices, turned, 2, repair="mend")
     assert repaired.report["flipped_faces"] == [size + 1]
-
-
-@pytest.mark.parametrize("path", shared_files("bad/nonmanifold", *SUFFIXES))
-def test_real_files(path):
-    vertices, faces = read_mesh(path)
-    wrong = [d.code for d in df.check(vertices, faces) if d.severity == "error"]
-    assert not any(code.startswith("NONMANIFOLD") for code in wrong)
-    if wrong:
-        pytest.skip(f"something else is wrong: {wrong}")
-    result = fair(vertices, faces, 2, crease_angle=0.5)
-    assert result.report["converged"] and np.isfinite(result.vertices).all()
-    assert np.array_equal(result.vertices[: len(vertices)], vertices)
-    used = len(np.unique(np.concatenate(faces)))
-    fine = output_faces(result)
-    assert len(np.unique(np.concatenate(fine))) == len(result.vertices) - len(vertices) + used

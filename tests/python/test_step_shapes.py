@@ -11,14 +11,11 @@ import numpy as np
 import pytest
 import step_files
 import step_seams
-from mesh_files import read_mesh
-from shared_data import SHARED, creases_of
 from spline_measures import basis, lattice_volume
 
 pytestmark = pytest.mark.skipif(step_files.OCP is None, reason=step_files.ABSENT)
 
 CURVED = {"energy": "total_curvature"}
-CAGES = SHARED / "good" / "cages"
 
 
 def made(mesh, levels=5, **options):
@@ -33,29 +30,6 @@ def with_creases(make, **options):
     return of
 
 
-def stored(name, levels=4, **options):
-    path = CAGES / name
-
-    def of():
-        return read_mesh(path), {"levels": levels, **options}
-
-    absent = pytest.mark.skipif(not path.is_file(), reason="no shared meshes")
-    return pytest.param(of, marks=absent, id=path.stem)
-
-
-def listed(name):
-    """With the creases and corners that lie beside it."""
-    path = SHARED / "good" / "creases" / name
-
-    def of():
-        edges, corners = creases_of(path, sharper_than=2.0)
-        options = {"crease_edges": edges, "corner_vertices": corners}
-        return read_mesh(path), {"levels": 4, **options}
-
-    absent = pytest.mark.skipif(not path.is_file(), reason="no shared meshes")
-    return pytest.param(of, marks=absent, id=f"{path.stem}, creases")
-
-
 CLOSED = [
     pytest.param(made(meshes.cube, **CURVED), id="cube"),
     pytest.param(made(meshes.octahedron, **CURVED), id="octahedron"),
@@ -64,7 +38,6 @@ CLOSED = [
     pytest.param(with_creases(example_meshes.hull), id="hull with creases"),
     pytest.param(with_creases(example_meshes.hull, corner_angle=0.1), id="creases with corners"),
     pytest.param(made(example_meshes.branching, **CURVED), id="genus 2"),
-    stored("geometry-central__dodecahedron_poly.obj"),
     pytest.param(with_creases(meshes.box_with_creases), id="box with creases"),
     pytest.param(made(meshes.mixed_house), id="triangles and quads"),
 ]
@@ -75,15 +48,6 @@ OTHERS = [
         made(example_meshes.fender, corner_vertices=[0, 8, 45, 53]), id="fender, corners kept"
     ),
     pytest.param(made(example_meshes.fender, boundary="linear"), id="fender, straight border"),
-    stored("geometry-central__cat_head.obj"),
-    stored("geometry-central__bob_small.ply", levels=3),
-    stored("gpytoolbox__hemisphere.obj"),
-    stored("odedstein-meshes__cube_cube_no_bottom.obj"),
-    stored("opensubdiv-shapes__catmark_nonquads.obj"),
-    stored("opensubdiv-shapes__catmark_toroidal_tet.obj"),
-    stored("opensubdiv-shapes__loop_icosahedron.obj"),
-    stored("opensubdiv-shapes__loop_pole8.obj"),
-    listed("opensubdiv-shapes__catmark_cubes_infsharp.obj"),
 ]
 
 
@@ -117,15 +81,6 @@ def test_the_volume_is_that_of_the_surface(tmp_path, of):
     df.write_step(tmp_path / "a.step", patches, unit="mm")
     known = abs(lattice_volume(patches.result, patches.levels))
     assert step_files.read(tmp_path / "a.step").volume == pytest.approx(known, rel=1e-5)
-
-
-def test_the_volume_within_a_lattice_is_that_of_its_sphere():
-    """What the test above compares with: quads and triangles, against the known answer."""
-    for mesh in (meshes.cube(), meshes.octahedron()):
-        result = df.fair(*mesh, 6, energy="total_curvature", step_tolerance=1e-9)
-        radius = np.linalg.norm(mesh[0][0])
-        known = 4 / 3 * np.pi * radius**3
-        assert lattice_volume(result, 6) == pytest.approx(known, rel=1e-6)
 
 
 def test_names_and_colours(tmp_path):

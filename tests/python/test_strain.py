@@ -160,24 +160,6 @@ SHAPES = {
 }
 
 
-@pytest.mark.parametrize("shape", SHAPES)
-def test_a_planted_error_of_six_deviations_is_the_worst(shape):
-    points, faces, inner = bump()
-    points[:, 2] = SHAPES[shape](points[:, 0] - 0.5, points[:, 1] - 0.375)
-    noise, found = 0.0007, []
-    for seed in range(20):
-        random = np.random.default_rng(seed)
-        measured = points.copy()
-        measured[:, 2] += noise * random.normal(size=len(points))
-        vertex = random.choice(inner)
-        measured[vertex, 2] += 6 * noise
-        strain = df.strain(measured, faces)
-        # it stands out, and would spring back
-        worst = inner[np.argmax(np.abs(strain.lengths[inner]))]
-        found.append(worst == vertex and strain.lengths[vertex] < 0)
-    assert sum(found) >= 18
-
-
 def test_vertices_on_the_border_have_the_strain_of_its_curve():
     points, faces, inner = bump()
     points[:, 2] = 0.4 * (points[:, 0] ** 3 - points[:, 1] ** 2)  # no load on straight borders
@@ -228,13 +210,6 @@ def test_a_result_has_its_strain_where_it_is_asked_for():
     assert df.fair(points, faces, 2).strain is None
     with pytest.raises(df.FairingError, match="no pads"):
         df.fair(points, faces, 2, "minimum_variation", strain=True)
-
-
-def test_scatter_is_read_off_strain():
-    points, faces, inner = bump(25, 19)
-    points[:, 2] = 0
-    points[inner, 2] = 0.001 * np.random.default_rng(8).normal(size=len(inner))
-    assert abs(df.strain(points, faces).noise / 0.001 - 1) < 0.15
 
 
 def terrain(across, wrong=()):

@@ -69,15 +69,6 @@ def test_fine_levels_are_as_exact(degree):
     assert radius_error(SOLIDS["cube"](), 6, smoother_degree=degree) <= 5e-7
 
 
-@pytest.mark.parametrize("name", ["icosahedron", "cube", "J1"])
-def test_the_sphere_stays_where_it_is(name):
-    """At any size and place."""
-    vertices, faces = SOLIDS[name]()
-    centre = np.array([30.0, -20, 7])
-    result = fair((250 * vertices + centre, faces), 3, **TIGHT)
-    assert np.abs(np.linalg.norm(result.vertices - centre, axis=1) / 250 - 1).max() <= 1e-10
-
-
 def torus_error(around, across, levels, triangles) -> float:
     """Root mean square distance from the torus, whose tube has radius 1."""
     mesh = meshes.torus(around, across)
