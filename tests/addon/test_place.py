@@ -146,18 +146,3 @@ def test_an_animated_surface_is_left_to_its_animation():
     recompute(target)
     follow()
     assert target.location.x == 1.0
-
-
-def test_undo_brings_both_back():
-    bpy.context.preferences.edit.use_global_undo = True
-    source, target = pair()
-    live(target)
-    bpy.ops.ed.undo_push(message="live")
-    move(source)
-    follow()
-    bpy.ops.ed.undo_push(message="moved")
-    bpy.ops.ed.undo()
-    handlers.on_timer()
-    follow()
-    source, target = bpy.data.objects["Box"], bpy.data.objects["Box Fair"]
-    assert source.location.x == target.location.x == 0.0

@@ -159,18 +159,6 @@ def test_cad():
     assert path.read_text(encoding="ascii").startswith("ISO-10303-21;")
 
 
-def test_undo_takes_a_job_back():
-    yield from selected("panel")
-    before = sorted(o.name for o in bpy.data.objects)
-    yield from harness.Clicks().press(name_of_call("panel"), *PLACES["panel"])
-    yield from jobs.waited()
-    assert sorted(o.name for o in bpy.data.objects) != before
-    harness.undo()
-    yield 1.0
-    assert sorted(o.name for o in bpy.data.objects) == before
-    assert not bpy.data.objects[before[0]].hide_get(), "its source is to be seen again"
-
-
 def test_the_menu_on_the_button():
     with bpy.context.temp_override(**harness.view()):
         jobs.begin("panel")

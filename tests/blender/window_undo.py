@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Undo beside runs that write outside of any step, the things that a run must leave alone in a window, and the
-badge."""
+"""Undo beside runs that write outside of any step, and the things that a run must leave alone in a window."""
 
 import sys
 import tempfile
@@ -11,18 +10,9 @@ sys.path.insert(0, str(Path(__file__).parent))
 import bpy
 import harness
 
-SUZANNE = 500  # faces that she has at least
-
 
 def surface():
     return bpy.data.objects.get("Suzanne Fair")
-
-
-def move_apart(name):
-    """A step of undo that has nothing to do with surfaces."""
-    bpy.ops.object.empty_add()
-    bpy.context.object.name = name
-    bpy.ops.ed.undo_push(message=name)
 
 
 def press(operator, **properties):
@@ -41,26 +31,9 @@ def test_fair_for_is_undone_alone():
         yield 1.0
         harness.undo()
         yield 0.5
-        assert surface() is None and bpy.data.objects["Suzanne"].location.x == 3.0, purpose
-
-
-def test_what_undo_takes_from_the_last_full_level_of_live_is_said():
-    harness.add_suzanne()
-    harness.call(bpy.ops.object.fairing_surface, levels=3)
-    surface().discrete_fairing_live.levels = 1
-    bpy.ops.ed.undo_push(message="made")
-    press(bpy.ops.object.fairing_live, state="ON")
-    yield 0.5
-    press(bpy.ops.object.fairing_live, state="OFF")
-    yield from harness.until(lambda: not harness.module("live.registry").sessions())
-    whole = len(surface().data.polygons)
-    assert whole >= SUZANNE * 4**3 and not surface().discrete_fairing.unfinished
-    with bpy.context.temp_override(**harness.view()):
-        move_apart("Later")
-        bpy.ops.ed.undo()
-    assert "Later" not in bpy.data.objects
-    yield 1.0
-    assert surface().discrete_fairing.unfinished or len(surface().data.polygons) == whole
+        source = bpy.data.objects["Suzanne"]
+        assert surface() is None and source.location.x == 3.0, purpose
+        assert not source.hide_get(), "it is to be seen again"
 
 
 def test_a_run_that_ends_while_another_mesh_is_sculpted():
@@ -96,23 +69,6 @@ def test_a_run_over_two_workspaces():
     yield 1.0
     harness.photograph("status_of_the_first_workspace")
     assert harness.running() is None
-
-
-def test_a_badge_and_one_button_for_all():
-    source = harness.add_suzanne()
-    yield from harness.open_sidebar("Fairing")
-    harness.call(bpy.ops.object.fairing_surface, levels=2)
-    yield 0.5
-    target = surface()
-    source.data.vertices[0].co.z += 1.0
-    source.data.update()
-    stale = harness.module("freshness").stale_surfaces
-    yield from harness.until(lambda: list(stale()) == [target])
-    yield 1.0
-    harness.photograph("badge")
-    harness.call(bpy.ops.object.fairing_recompute_stale, "INVOKE_DEFAULT")
-    yield from harness.until(lambda: harness.running() is None and not list(stale()))
-    assert (target.data.vertices[0].co - source.data.vertices[0].co).length == 0.0
 
 
 def test_overlays_begin_where_blender_opens_with_a_file():

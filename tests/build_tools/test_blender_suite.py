@@ -50,29 +50,6 @@ def test_a_blender_that_cannot_be_had_is_one_failure(monkeypatch):
     assert [(each.passed, each.note) for each in good] == [(3, "Blender 5.2.2")]
 
 
-def test_all_are_installed_before_the_first_test(monkeypatch):
-    """Compilers use all cores; beside them scripts in windows ran out of time."""
-    seen = []
-
-    def install(blender):
-        seen.append("install")
-        if blender.root == ROOTS[1]:
-            raise DevError("no compiler")
-
-    def try_all(blender, wanted, left_out):
-        seen.append("try")
-        return blender_suite.Tally(passed=2)
-
-    monkeypatch.setattr(
-        blender_suite, "of_debian", lambda root: blender_suite.RealBlender("5.2.2", root)
-    )
-    monkeypatch.setattr(blender_suite, "install", install)
-    monkeypatch.setattr(blender_suite, "try_all", try_all)
-    found = blender_suite.run_suite()
-    assert seen == ["install"] * len(ROOTS) + ["try"] * (len(ROOTS) - 1)
-    assert [found[root.suite].failed for root in ROOTS] == [0, 1]
-
-
 def test_each_line_of_a_script_is_a_test():
     text = "PASS test_one 1.25 s\nnoise\nFAIL test_two 0.50 s\nRAN 2\n"
     assert blender_suite.count(1, text, "window_a.py") == blender_suite.Tally(passed=1, failed=1)

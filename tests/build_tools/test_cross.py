@@ -73,36 +73,6 @@ def test_a_source_out_of_reach_says_where_to_put_it(served):
         gone.fetch()
 
 
-@pytest.mark.parametrize(
-    ("name", "wanted"),
-    [
-        ("Python-3.13.5/Include/internal/pycore_abstract.h", True),
-        ("Python-3.13.5/PC/pyconfig.h.in", True),
-        ("Python-3.11.2/PC/pyconfig.h", True),
-        ("Python-3.11.2/PC/layout/main.py", False),
-        ("Python-3.11.2/Modules/_sre/sre.h", False),
-    ],
-)
-def test_which_of_pythons_files_are_headers(name, wanted):
-    assert python_parts.is_header(name) is wanted
-
-
-@pytest.mark.usefixtures("served")
-def test_headers_keep_their_times(tmp_path, monkeypatch):
-    """Otherwise the second run would compile everything again."""
-    monkeypatch.setattr(python_parts, "FOLDER", tmp_path / "cache")
-    texts = {"Python-3/Include/Python.h": "", "Python-3/PC/pyconfig.h": "windows"}
-    source = source_of(tmp_path / "python.tar", texts)
-    monkeypatch.setitem(python_parts.PYTHON_SOURCES, "cp311", source)
-    for name, config in (("windows-x64", "windows"), ("macos-arm64", "SIZEOF_LONG 8")):
-        config_file = python_parts.headers(target_named(name), "cp311") / "pyconfig.h"
-        assert config in config_file.read_text()
-        times = [file.stat().st_mtime_ns for file in config_file.parent.iterdir()]
-        assert len(times) == 2
-        python_parts.headers(target_named(name), "cp311")
-        assert times == [file.stat().st_mtime_ns for file in config_file.parent.iterdir()]
-
-
 def test_the_import_library_is_of_the_right_python():
     lines = python_parts.definition("cp313").splitlines()
     assert lines[0] == "LIBRARY python313.dll"

@@ -1,18 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Check Mesh finds, selects, describes and mends defects, with the core itself."""
 
-from pathlib import Path
-
 import bmesh
 import bpy
 import pytest
-from scenes import CUBE, activate, add, to_object_mode
+from scenes import CUBE, add, to_object_mode
 
 from addon.check import repair
 from addon.check.defects import recall_defects
 from addon.mesh import mesh_changes
-
-BAD = Path(__file__).resolve().parents[4] / "shared" / "data" / "bad"
 
 FAN = ([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1)], [(0, 1, 2), (1, 0, 3), (0, 1, 4)])
 FLIPPED = (CUBE[0], [CUBE[1][0][::-1], *CUBE[1][1:]])
@@ -138,26 +134,3 @@ def test_the_record_goes_stale_when_the_shape_changes():
     mesh_changes._forget()  # as after loading a file: the counts still tell
     box.data.vertices.add(1)
     assert recall_defects(box)[1]
-
-
-LOAD = {".obj": bpy.ops.wm.obj_import, ".ply": bpy.ops.wm.ply_import, ".stl": bpy.ops.wm.stl_import}
-FILES = sorted(p for p in BAD.rglob("*") if p.suffix.lower() in LOAD and p.stat().st_size < 3e6)
-
-
-@pytest.mark.parametrize("path", FILES, ids=lambda p: p.name)
-def test_bad_files_never_break_it(path):
-    try:
-        LOAD[path.suffix.lower()](filepath=str(path))
-    except RuntimeError:
-        pytest.skip("Blender refuses the file")
-    for target in [o for o in bpy.context.scene.objects if o.type == "MESH"]:
-        if bpy.context.mode != "OBJECT":
-            to_object_mode()
-        activate(target)
-        for _ in range(2):  # in Object Mode, then in Edit Mode
-            defects = check()
-            for index in range(len(defects)):
-                bpy.ops.object.fairing_select_defect(index=index)
-        mended = [k for k, defect in enumerate(defects) if repair.label(defect["code"])]
-        if mended:
-            bpy.ops.object.fairing_repair(index=mended[0])

@@ -143,10 +143,3 @@ def test_an_interruption_ends_all_processes(capfd):
     assert "interrupted" in capfd.readouterr().err
     processes = psutil.process_iter(["cmdline"])
     assert not [p.pid for p in processes if sleeper in (p.info["cmdline"] or ())]
-
-
-def test_shares_cover_all_inputs_once():
-    for count, workers in ((1, 4), (5, 2), (1000, 3), (17, 16)):
-        parts = executors.batches(count, workers)
-        assert [k for share in parts for k in share] == list(range(count))
-        assert max(map(len, parts)) <= 16

@@ -150,19 +150,6 @@ def test_with_modifiers_of_a_source_that_may_be_hidden(source, hidden):
     assert len(target.data.polygons) == 12 * 4**3, "the last edit too, without a timer"
 
 
-def test_a_second_surface_of_one_source_leaves_the_first_live(source):
-    bpy.context.scene.discrete_fairing.mesh_source = "EVALUATED"
-    source.modifiers.new("More", "ARRAY")
-    target = live(source)
-    activate(source)
-    fair(levels=1, mesh_source="EVALUATED")
-    assert not source.hide_get(), "it is being edited"
-    source.modifiers["More"].count = 3
-    follow()
-    handlers.on_timer()
-    assert not session(target).trouble and len(target.data.polygons) == 18 * 4**3
-
-
 def test_a_region_is_that_of_the_beginning(source):
     bpy.context.scene.discrete_fairing.use_selection = True
     for face in source.data.polygons:

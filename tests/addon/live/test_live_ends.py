@@ -95,17 +95,6 @@ def test_undo_wakes_no_copy_and_no_surface_of_another_file(tmp_path):
     assert registry.sessions() == []
 
 
-def test_undo_of_the_surface_itself():
-    add("Box", *CUBE)
-    bpy.ops.ed.undo_push(message="before")
-    bpy.ops.object.fairing_live()
-    bpy.ops.ed.undo_push(message="after")
-    bpy.ops.ed.undo()
-    assert "Box Fair" not in bpy.data.objects
-    handlers.on_timer()
-    assert registry.sessions() == []
-
-
 def test_undo_while_the_full_level_is_computed(no_pause):
     source, target = box(levels=6)
     bpy.ops.ed.undo_push(message="before")

@@ -1,13 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Vertex groups: names, members and weights, and how an armature bends the result."""
 
-import bpy
 import numpy as np
-from mathutils import Matrix
 from refined import refine
-from scenes import CUBE, add, add_attribute, add_suzanne, positions, shown, to_object_mode, weights
-
-from addon.mesh.modifiers import copy_modifiers
+from scenes import CUBE, add, add_attribute, weights
 
 
 def test_weights_are_linear_and_control_vertices_keep_theirs():
@@ -50,28 +46,3 @@ def test_a_name_that_an_attribute_has():
     target = refine(source, 1).target
     assert "Same" in target.data.attributes and "Other" in target.vertex_groups
     assert {a.name for a in target.data.attributes if "weight" in a.name} == set()
-
-
-def test_armature_bends_the_refined_surface():
-    source = add_suzanne()
-    armature = bpy.data.objects.new("Rig", bpy.data.armatures.new("Rig"))
-    bpy.context.collection.objects.link(armature)
-    bpy.context.view_layer.objects.active = armature
-    bpy.ops.object.mode_set(mode="EDIT")
-    for name in ("Ears", "Rest"):
-        bone = armature.data.edit_bones.new(name)
-        bone.head, bone.tail = (0, 0, 0), (0, 0, 1)
-    to_object_mode()
-    armature.pose.bones["Ears"].matrix_basis = Matrix.Translation((0, 2, 0))
-    ears, rest = source.vertex_groups.new(name="Ears"), source.vertex_groups.new(name="Rest")
-    for vertex in source.data.vertices:
-        weight = min(abs(vertex.co.x), 1.0)
-        ears.add([vertex.index], weight, "REPLACE")
-        rest.add([vertex.index], 1.0 - weight, "REPLACE")
-    source.modifiers.new("Rig", "ARMATURE").object = armature
-    made = refine(source)
-    assert copy_modifiers(bpy.context, source, made.target) == []
-    shift = np.linalg.norm(shown(made.target) - positions(made.mesh), axis=1)
-    weight = np.nan_to_num(weights(made.target, "Ears"))
-    assert shift.max() > 1.5
-    assert np.allclose(shift, 2 * weight, atol=1e-5)

@@ -103,19 +103,6 @@ def test_byte_colors_mix_as_light():
     assert np.isclose(middle, 0.5, atol=0.01).sum() == 3
 
 
-def test_uv_of_a_plane_stays_affine():
-    """On a grid of equal squares with straight borders the refined vertices are evenly spaced."""
-    points = [(x, y, 0) for x in range(4) for y in range(4)]
-    source = add("Grid", points, lattice_faces(4, 4).tolist())
-    layer = source.data.uv_layers.new(name="Map")
-    place = np.array(points, float)[corner_vertices(source.data)]
-    matrix = np.array([(0.3, 0.1), (-0.2, 0.25), (0, 0)])
-    layer.uv.foreach_set("vector", (place @ matrix + 0.5).astype(np.float32).ravel())
-    made = refine(source, 3, boundary="linear")
-    expected = made.result.vertices[corner_vertices(made.mesh)] @ matrix + 0.5
-    assert np.abs(values(made.mesh, "Map", "vector", 2) - expected).max() < 1e-6
-
-
 def test_seams_stay_apart():
     """Where two faces of the control cube have different UVs at an edge, the refined faces have too."""
     source = cube()

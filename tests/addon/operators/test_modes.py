@@ -1,12 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Several objects, Edit Mode, modifiers and selections; and the source afterwards."""
+"""Several objects, Edit Mode and selections; and the source afterwards."""
 
 import bpy
 import numpy as np
 from lattices import lattice_faces
 from scenes import CUBE, add, again, edit, fair, positions, refused
-
-from addon.mesh.object import select_only
 
 
 def test_source_is_hidden_and_shown_again_on_demand(source):
@@ -14,28 +12,6 @@ def test_source_is_hidden_and_shown_again_on_demand(source):
     assert source.hide_get() and not source.hide_viewport
     again(source, levels=1, hide_source=False)
     assert not source.hide_get()
-
-
-def with_mirror():
-    """A box with a modifier that subdivides it."""
-    source = add("Half", *CUBE)
-    for vertex in source.data.vertices:
-        vertex.co.x += 1.0
-    source.data.polygons.foreach_set("select", [False] * 6)
-    modifier = source.modifiers.new("Subdivision", "SUBSURF")
-    modifier.levels, modifier.subdivision_type = 1, "SIMPLE"
-    return source
-
-
-def test_modifiers_in_edit_mode():
-    with_mirror()
-    other = add("Crate", *CUBE)
-    select_only(bpy.context, [bpy.data.objects["Half"], other])
-    bpy.ops.object.mode_set(mode="EDIT")
-    made = fair(levels=1, mesh_source="EVALUATED")
-    assert {o.name for o in bpy.context.selected_objects} == {"Half Fair", "Crate Fair"}
-    assert len(bpy.data.objects["Half Fair"].data.polygons) == 4 * 6 * 4 and made
-    assert bpy.context.mode == "OBJECT"
 
 
 def test_one_bad_mesh_leaves_the_scene_as_it_was():

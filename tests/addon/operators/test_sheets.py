@@ -57,21 +57,6 @@ def test_uv_maps_groups_and_shape_keys_come_along():
     assert np.isnan(spine[3:12]).any()
 
 
-def test_exact_symmetry():
-    arrays = control_arrays(POINTS, FACES[:4])
-    mirrors, notes = find_mirrors(core_run(arrays, 2)[1], arrays)
-    assert [mirror.axis for mirror in mirrors] == [0] and not notes
-    # with pages beside each other that lie on no plane of symmetry
-    twice = POINTS + [(s * 1.5, -1, z) for s in (1, -1) for z in (0, 1, 2)]
-    lower = [[12 - 3 + v if v > 2 else v for v in face] for face in FACES[:4]]
-    faces = FACES[:4] + lower
-    used = sorted({v for face in faces for v in face})
-    assert len(used) == 15
-    arrays = control_arrays([twice[v] for v in used], [[used.index(v) for v in f] for f in faces])
-    mirrors, notes = find_mirrors(core_run(arrays, 2)[1], arrays)
-    assert [mirror.axis for mirror in mirrors] == [0] and not notes
-
-
 def test_a_wall_in_the_plane_of_symmetry():
     mirrors, notes = mirrors_of(FACES)  # the third page lies in x = 0
     assert [mirror.axis for mirror in mirrors] == [0] and not notes

@@ -124,14 +124,6 @@ def test_selects_the_wrong_one_the_worst_or_those_above_a_length():
         assert after[0][name] == before[0][name]
 
 
-def test_the_surface_stands_for_its_source():
-    source = add_dune()
-    fair(levels=1)
-    assert source.hide_get()
-    assert bpy.ops.object.fairing_select_strained() == {"FINISHED"}
-    assert bpy.context.active_object == source and selected(source) == [WRONG]
-
-
 def test_a_click_goes_to_the_vertex():
     source = add_dune()
     assert bpy.ops.object.fairing_go_to_strained(vertex=24) == {"FINISHED"}
