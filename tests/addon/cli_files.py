@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A lopsided box as a file of each kind, written by hand to test Blender's importers too."""
 
+import os
 from pathlib import Path
 
 import numpy as np
@@ -81,3 +82,10 @@ def read_obj(name):
     """Its vertices, (n, 3)."""
     lines = [line.split() for line in Path(name).read_bytes().splitlines()]
     return np.array([line[1:4] for line in lines if line[:1] == [b"v"]], float)
+
+
+def materials_of(path):
+    """The file of materials that an OBJ names."""
+    lines = path.read_bytes().splitlines()
+    (name,) = (line[7:] for line in lines if line.startswith(b"mtllib "))
+    return path.parent / os.fsdecode(name)

@@ -198,3 +198,14 @@ def refused(match, operator, *how, **options):
     """The operator ends with an error whose text matches."""
     with pytest.raises(RuntimeError, match=match):
         operator(*how, **options)
+
+
+def exclude(*objects):
+    """Puts objects into an excluded collection of their own."""
+    hidden = bpy.data.collections.new("Hidden")
+    bpy.context.scene.collection.children.link(hidden)
+    for one in objects:
+        for collection in one.users_collection:
+            collection.objects.unlink(one)
+        hidden.objects.link(one)
+    bpy.context.view_layer.layer_collection.children["Hidden"].exclude = True

@@ -4,7 +4,18 @@
 import bpy
 import numpy as np
 import pytest
-from scenes import CUBE, add, add_suzanne, again, computed, fair, positions, recompute, settings
+from scenes import (
+    CUBE,
+    add,
+    add_suzanne,
+    again,
+    computed,
+    exclude,
+    fair,
+    positions,
+    recompute,
+    settings,
+)
 
 from addon.choices import ENERGIES
 from addon.job import Job
@@ -96,14 +107,6 @@ def test_undo_meanwhile_is_no_deletion(again):
 def unlink(source):
     for collection in source.users_collection:
         collection.objects.unlink(source)
-
-
-def exclude(source):
-    unlink(source)
-    parts = bpy.data.collections.new("Parts")
-    bpy.context.scene.collection.children.link(parts)
-    parts.objects.link(source)
-    bpy.context.view_layer.layer_collection.children["Parts"].exclude = True
 
 
 HIDING = {

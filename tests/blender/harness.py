@@ -154,6 +154,24 @@ def call(operator, *how, target=None, **properties):
         return operator(*how, **properties)
 
 
+@contextlib.contextmanager
+def event_log():
+    """Inside the `with` the list gets (when, seconds since the last one) at each timer event of the window."""
+    log, last = [], [perf_counter()]
+
+    def tick():
+        now = perf_counter()
+        log.append((now, now - last[0]))
+        last[0] = now
+        return 0.01
+
+    bpy.app.timers.register(tick)
+    try:
+        yield log
+    finally:
+        bpy.app.timers.unregister(tick)
+
+
 def undo():
     call(bpy.ops.ed.undo)
 

@@ -3,7 +3,6 @@
 The processor draws the window and may be busy, so the same drawing is timed first without a run; the run is allowed
 that time besides."""
 
-import contextlib
 import sys
 from pathlib import Path
 from time import perf_counter
@@ -19,24 +18,6 @@ TOO_LONG = 7
 SETTLED = 3.0  # seconds: the view is drawn by the processor
 PATIENCE = 300.0  # seconds until a run must have ended
 OFTEN, LONGEST = 0.1, 0.5  # seconds: what 99 of 100 gaps and every gap keep below
-
-
-@contextlib.contextmanager
-def event_log():
-    """Inside the `with` the list gets (when, seconds since the last one) at each timer event of the window."""
-    log, last = [], [perf_counter()]
-
-    def tick():
-        now = perf_counter()
-        log.append((now, now - last[0]))
-        last[0] = now
-        return 0.01
-
-    bpy.app.timers.register(tick)
-    try:
-        yield log
-    finally:
-        bpy.app.timers.unregister(tick)
 
 
 def say(what, gaps):
@@ -76,10 +57,10 @@ def start(levels):
 
 def test_events_do_not_wait_during_a_run_of_a_million_triangles():
     yield from open_window()
-    with event_log() as log:
+    with harness.event_log() as log:
         yield from draw_as_in_a_run()
     idle_often, idle_longest = say("without a run", [gap for _, gap in log])
-    with event_log() as log:
+    with harness.event_log() as log:
         start(MILLION)
         begun = ended = perf_counter()
         while harness.running():

@@ -2,10 +2,8 @@
 """Adjust Last Operation with a large surface: a small one at once, the whole one by Recompute. Prints the longest
 stop."""
 
-import contextlib
 import sys
 from pathlib import Path
-from time import perf_counter
 
 sys.path.insert(0, str(Path(__file__).parent))
 
@@ -37,23 +35,6 @@ def first_surface(levels):
     yield 2.0
 
 
-@contextlib.contextmanager
-def stops():
-    """Inside the `with` the list gets the seconds between two ticks of a timer of Blender's."""
-    gaps, last = [], [perf_counter()]
-
-    def tick():
-        gaps.append(perf_counter() - last[0])
-        last[0] = perf_counter()
-        return 0.02
-
-    bpy.app.timers.register(tick)
-    try:
-        yield gaps
-    finally:
-        bpy.app.timers.unregister(tick)
-
-
 def test_search_takes_the_settings_of_the_panel():
     yield from first_surface(1)
     assert surface().discrete_fairing.levels == 1
@@ -63,7 +44,7 @@ def test_search_takes_the_settings_of_the_panel():
 def test_redo_shows_a_small_surface_and_recompute_the_whole_one():
     yield from first_surface(2)
     prediction = harness.module("prediction")
-    with stops() as gaps:
+    with harness.event_log() as log:
         for level in (3, 4):
             prediction.note("THIN_PLATE", 1000, 1.0, None)  # a slow machine
             prediction._of_mesh.clear()  # the small surface before has shown that it is fast
@@ -71,7 +52,7 @@ def test_redo_shows_a_small_surface_and_recompute_the_whole_one():
             yield from harness.until(lambda level=level: surface().discrete_fairing.levels == level)
             yield 0.5
             assert len(surface().data.polygons) < SUZANNE * 4**2, "it has waited for the whole one"
-    print(f"longest stop of the window in the meantime: {max(gaps):.2f} s")
+    print(f"longest stop of the window in the meantime: {max(gap for _, gap in log):.2f} s")
     harness.photograph("redo_small")
     assert surface().discrete_fairing.unfinished
     harness.call(bpy.ops.object.fairing_recompute, "INVOKE_DEFAULT", True)

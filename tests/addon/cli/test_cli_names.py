@@ -5,18 +5,11 @@ import os
 from pathlib import Path
 
 import pytest
-from cli_files import read_obj, write_obj
+from cli_files import materials_of, read_obj, write_obj
 from cli_runs import contains, entries, process
 
 NAMES = ["two words", "Körper", "Ko\u0308rper", "部品", "☃ 🙂", "in.dots.name", "100%"]
 NOT_UTF_8 = os.fsdecode(b"not \xff utf-8")  # as old archives bring them along
-
-
-def materials_of(path):
-    """The file of materials that an OBJ names."""
-    lines = path.read_bytes().splitlines()
-    (name,) = (line[7:] for line in lines if line.startswith(b"mtllib "))
-    return path.parent / os.fsdecode(name)
 
 
 @pytest.mark.parametrize("name", [*NAMES, NOT_UTF_8], ids=ascii)

@@ -7,7 +7,7 @@ import tempfile
 from pathlib import Path
 
 import pytest
-from cli_files import write_obj
+from cli_files import materials_of, write_obj
 from cli_runs import entries, run
 
 from addon.cli import files
@@ -67,13 +67,6 @@ def test_an_exporter_that_fails_leaves_the_old_file(error, code, monkeypatch, ca
     assert Path("out.obj").read_text() == "old" and names() == ["in.obj", "out.obj"]
 
 
-def materials_of(name):
-    """The file of materials that an OBJ names."""
-    lines = Path(name).read_text().splitlines()
-    (named,) = [line.split()[1] for line in lines if line.startswith("mtllib")]
-    return Path(named)
-
-
 @pytest.mark.parametrize("named", [False, True])
 def test_the_materials_of_an_obj_keep_its_name(named):
     write_obj("in.obj", materials=("red", "blue"))
@@ -81,7 +74,7 @@ def test_the_materials_of_an_obj_keep_its_name(named):
         Path("out.mtl").write_text("old")
         Path("out.obj").write_text("# old\nmtllib out.mtl\nv 0 0 0\n")
     assert run("in.obj", "out.obj", "--levels", 1) == 0
-    assert materials_of("out.obj") == Path("out.mtl")
+    assert materials_of(Path("out.obj")) == Path("out.mtl")
     assert "newmtl red" in Path("out.mtl").read_text()
     assert Path("out.obj").read_text().count("\nf ") == 24
     assert names() == ["in.obj", "out.mtl", "out.obj"]
@@ -95,7 +88,7 @@ def test_materials_of_others_are_kept(more):
     Path("out-1.mtl").symlink_to("nowhere.mtl")
     for _ in range(1 if more else 2):
         assert run("in.obj", "out.obj", "--levels", 1, *more) == 0
-        assert materials_of("out.obj") == Path("out-2.mtl")
+        assert materials_of(Path("out.obj")) == Path("out-2.mtl")
         assert "newmtl red" in Path("out-2.mtl").read_text()
         assert Path("out.mtl").read_text() == "foreign" and not Path("nowhere.mtl").exists()
         assert names() == ["in.obj", "out-1.mtl", "out-2.mtl", "out.mtl", "out.obj"]

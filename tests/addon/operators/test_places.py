@@ -4,7 +4,7 @@
 import bpy
 import pytest
 from live_scenes import follow, move
-from scenes import CUBE, TRIANGLE, activate, add, computed, fair, refused, settings
+from scenes import CUBE, TRIANGLE, activate, add, computed, exclude, fair, refused, settings
 
 from addon.freshness import stale_surfaces
 from addon.job import Job
@@ -14,17 +14,6 @@ from addon.settings import Settings
 
 def counts():
     return len(bpy.data.objects), len(bpy.data.meshes)
-
-
-def exclude(*objects):
-    """Puts objects into an excluded collection of their own."""
-    hidden = bpy.data.collections.new("Hidden")
-    bpy.context.scene.collection.children.link(hidden)
-    for one in objects:
-        for collection in one.users_collection:
-            collection.objects.unlink(one)
-        hidden.objects.link(one)
-    bpy.context.view_layer.layer_collection.children["Hidden"].exclude = True
 
 
 def test_what_is_out_of_date_in_an_excluded_collection_is_made_again():
