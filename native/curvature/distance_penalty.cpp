@@ -4,36 +4,49 @@
 #include <cmath>
 #include <utility>
 
+#include "grid/limit_surface.h"
 #include "parallel/reductions.h"
 
 namespace fairing {
+namespace {
 
-// The thin plate's weight (thin_face_penalty) with the bending of the surface itself.
+// Own entry of a Laplacian at a point with this area.
+double stiffness(double area) { return 4 / area; }
+
+}  // namespace
+
+// The thin plate's weight (LimitSurface::penalty) with the bending of the surface itself.
 DistancePenalty::DistancePenalty(const GridLevel& grid, Reference reference,
                                  const Array<float>& shape, const Unknowns& unknowns)
     : reference_(std::move(reference)) {
   const std::vector<std::uint8_t> is_unknown = unknown_points(grid, unknowns);
   const double cells = double(grid.n()) * double(grid.n());
-  weight_.resize(grid.size());
+  weight_.assign(grid.size(), 0.0f);
   area_.resize(grid.size());
   for (std::size_t p = 0; p < weight_.size(); ++p) {
     const float* m = &shape[4 * p];
     const double area = double(m[3]) * double(m[3]);
     const double square = double(m[0]) * m[0] + double(m[1]) * m[1] + double(m[2]) * m[2];
     area_[p] = float(area);
-    weight_[p] = is_unknown[p] ? float(square * area * std::pow(cells * area, 2) *
-                                       std::pow(double(reference_.thin[p]), 4))
-                               : 0.0f;
+    if (!is_unknown[p]) continue;
+    weight_[p] = is_flat(p) ? float(flat_penalty * stiffness(area))
+                            : float(square * area * std::pow(cells * area, 2) *
+                                    std::pow(double(reference_.thin[p]), 4));
   }
 }
 
-// Variation is curvature over a length, here the shortest control edge r; thin^4 has r^-6.
+// Variation is curvature over a length, here the shortest control edge r; thin^4 has r^-6. On flats
+// the factor is the Laplacian's again.
 void DistancePenalty::set_energy(CurvatureEnergy energy) {
   if (std::exchange(energy_, energy) == energy) return;
-  const double power = energy == CurvatureEnergy::minimum_variation ? 4.0 / 3 : -4.0 / 3;
-  for (std::size_t p = 0; p < weight_.size(); ++p)
-    if (weight_[p] > 0) weight_[p] *= float(std::pow(double(reference_.thin[p]), power));
-  if (energy != CurvatureEnergy::minimum_variation) return;
+  const bool varies = energy == CurvatureEnergy::minimum_variation;
+  for (std::size_t p = 0; p < weight_.size(); ++p) {
+    if (!(weight_[p] > 0)) continue;
+    const double factor =
+        is_flat(p) ? stiffness(area_[p]) : std::pow(double(reference_.thin[p]), 4.0 / 3);
+    weight_[p] = float(varies ? weight(p) * factor : weight(p) / factor);
+  }
+  if (!varies) return;
   in_cycles_.resize(weight_.size());
   for (std::size_t p = 0; p < weight_.size(); ++p)
     in_cycles_[p] = float(std::cbrt(double(area_[p]) * weight(p) * weight(p)));

@@ -4,6 +4,7 @@
 // p_i n_i . (x_i - s_i), and p_i is added to the diagonal of K.
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "curvature/options.h"
@@ -13,7 +14,7 @@
 
 namespace fairing {
 
-// A level's reference, 3 numbers a point, with the points' thin_face_penalty
+// A level's reference, 3 numbers a point, with the points' penalty
 // (grid/limit_surface.h); empty: none.
 struct Reference {
   Array<double> points{};
@@ -43,6 +44,8 @@ class DistancePenalty {
   }
 
  private:
+  bool is_flat(std::size_t p) const { return std::isinf(reference_.thin[p]); }
+
   Reference reference_;
   CurvatureEnergy energy_ = CurvatureEnergy::total_curvature;
   Array<float> weight_, area_;

@@ -34,7 +34,7 @@ HeldMesh held_positions(const PolygonMesh& input, const ControlMesh& mesh,
   const SharpRules rules(mesh, options.features.corner_vertices, options.sharpness);
   const int steps = LimitSurface::steps(mesh, options.levels);
   HeldPositions rule{std::make_shared<CatmullClark>(input, mesh, rules, steps)};
-  rule.surface = std::make_shared<LimitSurface>(rule.limits);
+  rule.surface = std::make_shared<LimitSurface>(rule.limits, mesh);
   check_held(rule, input, options.repair);
   const std::vector<double> moved = rule.of(input.coordinates);
   return {std::move(rule), all_positions(mesh, mesh.positions, moved)};

@@ -49,7 +49,7 @@ ThinPlateSolver& FairingSystems::plate() {
     own.normals = problem_.normals.fixed;
     own.starts_steps = options.energy != Energy::thin_plate;
     if (problem_.held.surface) {
-      auto penalty = std::make_shared<Array<float>>(thin_face_penalty(
+      auto penalty = std::make_shared<Array<float>>(problem_.held.surface->penalty(
           GridLevel(problem_.mesh, options.levels), problem_.basis.working, *problem_.workers));
       const double strength = std::pow(limit_penalty(options.limit), 0.25);
       for (float& p : *penalty) p *= float(strength);

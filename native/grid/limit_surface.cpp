@@ -2,6 +2,7 @@
 #include "grid/limit_surface.h"
 
 #include <cmath>
+#include <limits>
 
 #include "base/points.h"
 #include "grid/linear.h"
@@ -15,6 +16,19 @@ bool all_quads(const ControlMesh& control) {
   return control.vertex_count() == control.first_centre() &&
          std::all_of(control.faces.begin(), control.faces.end(),
                      [](const Face& face) { return face.quad(); });
+}
+
+// Whether the run is in a flat face or on its sides.
+bool is_on_flat(const ControlMesh& mesh, std::span<const std::uint8_t> flat, const Run& run) {
+  const auto is_flat = [&](Index face) { return face >= 0 && flat[std::size_t(face)] != 0; };
+  if (run.kind == RunKind::vertex) {
+    const auto ring = mesh.ring(run.element);
+    return std::any_of(ring.begin(), ring.end(), [&](const Spoke& s) { return is_flat(s.face); });
+  }
+  if (run.kind != RunKind::edge) return is_flat(run.element);
+  const Edge& edge = mesh.edges[std::size_t(run.element)];
+  return std::any_of(edge.side.begin(), edge.side.end(),
+                     [&](Index s) { return s >= 0 && is_flat(mesh.sides[std::size_t(s)].face); });
 }
 
 }  // namespace
@@ -149,8 +163,8 @@ Array<double> LimitSurface::at_points(const GridLevel& grid, std::span<const dou
   return x;
 }
 
-Array<float> thin_face_penalty(const GridLevel& grid, std::span<const Vec3> control,
-                               Workers& workers) {
+Array<float> LimitSurface::penalty(const GridLevel& grid, std::span<const Vec3> control,
+                                   Workers& workers) const {
   const ControlMesh& mesh = grid.mesh();
   const auto vertices = std::size_t(mesh.vertex_count());
   std::vector<double> shortest(vertices, INFINITY);
@@ -177,8 +191,11 @@ Array<float> thin_face_penalty(const GridLevel& grid, std::span<const Vec3> cont
   refine_linearly(grid, at_vertex, workers, at_point.data());
   Array<float> out(grid.size());
   for_each_run(grid, workers, [&](const Run& run) {
+    const bool is_flat = is_on_flat(mesh, flat_, run);
     for (std::size_t p = run.first; p < run.first + run.count; ++p)
-      out[p] = float(std::pow(at_point[3 * p + 1], 0.25) * std::exp(-1.5 * at_point[3 * p]));
+      out[p] = is_flat && at_point[3 * p + 1] == 1
+                   ? std::numeric_limits<float>::infinity()
+                   : float(std::pow(at_point[3 * p + 1], 0.25) * std::exp(-1.5 * at_point[3 * p]));
   });
   return out;
 }

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 
+#include "base/angle.h"
+#include "base/roundoff.h"
+#include "mesh/opposite.h"
 #include "mesh/region.h"
 
 namespace fairing {
@@ -23,6 +26,25 @@ void mark_flat_faces(std::span<const std::int64_t> faces, ControlMesh& control) 
                             return spoke.face < 0 || flat.face[std::size_t(spoke.face)];
                           }));
   }
+}
+
+std::vector<std::uint8_t> faces_amid_flats(const ControlMesh& control) {
+  std::vector<Vec3> normals;
+  for (const Face& face : control.faces)
+    normals.push_back(plane_of(face, control.positions).normal);
+  std::vector<std::uint8_t> flags(control.faces.size(), 1);
+  for (Index v = 0; v < control.vertex_count(); ++v) {
+    const auto ring = control.ring(v);
+    const bool is_flat = std::all_of(ring.begin(), ring.end(), [&](const Spoke& spoke) {
+      if (spoke.face < 0) return true;
+      const double turn =
+          angle_between(normals[std::size_t(ring[0].face)], normals[std::size_t(spoke.face)]);
+      return turn * turn < single_roundoff;
+    });
+    for (const Spoke& spoke : ring)
+      if (spoke.face >= 0 && !is_flat) flags[std::size_t(spoke.face)] = 0;
+  }
+  return flags;
 }
 
 }  // namespace fairing

@@ -12,4 +12,8 @@ namespace fairing {
 // faces.
 void mark_flat_faces(std::span<const std::int64_t> faces, ControlMesh& control);
 
+// A flag for each face that lies in one plane with all faces around its corners, so that the limit
+// surface of subdivision is flat there.
+std::vector<std::uint8_t> faces_amid_flats(const ControlMesh& control);
+
 }  // namespace fairing

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "grid/limit_surface.h"
 #include "grid/ring_shape.h"
 #include "stencil/surface_chart.h"
 #include "stencil/weights.h"
@@ -64,6 +65,11 @@ SurfaceRows::SurfaceRows(const GridLevel& grid, const Stencils& stencils,
       bending += ring.offset[std::size_t(s - 1)] *
                  Eigen::RowVector3d(to.at(0, s, i), to.at(1, s, i), to.at(2, s, i));
     const std::size_t p = run.first + i;
+    if (std::isinf(metric.penalty[p])) {
+      for (int c = 0; c < 3; ++c)
+        penalty[p] += float(flat_penalty) * to.at(c, 0, i) * to.at(c, 0, i);
+      return;
+    }
     penalty[p] = float(bending.squaredNorm() / (n * n) * std::pow(area_of(ring), 2) *
                        std::pow(metric.penalty[p], 4));
   };
