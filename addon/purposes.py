@@ -33,13 +33,13 @@ PURPOSES = (
     (
         "MECHANICAL",
         "Mechanical",
-        "Machine parts: round between sharp edges, which are folds of 30° and more (Bending)",
+        "Machine parts of few sides: round between sharp edges, which are folds of 30° and more (Bending)",
         2,
     ),
     (
         "CHARACTER",
         "Character",
-        "Characters, animals: where Subdivision Surface passes, and fairer in between (Bending)",
+        "Characters, cases, mugs: where Subdivision Surface passes, and fairer in between (Bending)",
         3,
     ),
     (
@@ -67,8 +67,8 @@ PURPOSES = (
 TRADES = {
     "HULL": "boats, offsets",
     "PANEL": "bonnets, doors, bodywork",
-    "MECHANICAL": "machine parts, products",
-    "CHARACTER": "animals, heads",
+    "MECHANICAL": "machine parts, turned parts",
+    "CHARACTER": "animals, products",
     "SCAN_PATCH": "noise, measured faces",
     "POINTS": "offsets, probes, scatter",
     "SCAN_SURFACE": "reverse engineering, CAD",
