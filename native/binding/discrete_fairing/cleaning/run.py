@@ -18,7 +18,7 @@ from ..denoising import denoised
 from ..errors import about, fairing_error
 from ..options import switch, whole
 from ..watching import Progress, SeveralRuns, check_watchers
-from . import holes, shape, topology
+from . import holes, left, shape, topology
 from .state import State, all_pairs, diagonals, numbered_parts
 
 
@@ -382,12 +382,12 @@ class _Run:
     def cleaned(self, skipped: list[Any]) -> Cleaned:
         state, number = self.state.compact()
         self.state = state
-        left = _defects(state)
-        left += open_holes(
+        found = left.defects(state)
+        found += left.open_holes(
             state, [about(h.error, number[h.error.elements].tolist()) for h in skipped]
         )
-        left += crossing(state, self.watchers)
-        watertight = is_watertight(state)
+        found += left.crossing(state, self.watchers)
+        watertight = left.is_watertight(state)
         rows = np.zeros(len(state.face_origin), np.int64)
         volume = float(topology.volumes(state, rows, 1)[0]) if watertight else float("nan")
         sizes = np.diff(state.offsets)
@@ -395,53 +395,4 @@ class _Run:
         if (sizes == 3).all():
             faces = state.corners.reshape(-1, 3)
         origins = state.vertex_origin, state.face_origin, state.corner_origin
-        return Cleaned(state.points, faces, *origins, self.done, watertight, volume, left)
-
-
-def is_watertight(state: State) -> bool:
-    """Whether every edge has two faces, which run along it in opposite directions."""
-    sides = state.sides
-    a, b = sides.pairs.T
-    return bool((sides.uses == 2).all() and (sides.forward[a] != sides.forward[b]).all())
-
-
-def _defects(state: State) -> list[Defect]:
-    """The defects that check() finds. Coincident points count only at borders; elsewhere parts touch."""
-    found = check(state.points, (state.corners, state.offsets))
-    sides = state.sides
-    border = np.zeros(len(state.points), bool)
-    border[state.corners[sides.at_border]] = True
-    border[state.corners[sides.next[sides.at_border]]] = True
-    return [
-        d
-        for d in found
-        if d.code != "COINCIDENT_VERTICES" or border[np.ravel(d.elements).astype(int)].any()
-    ]
-
-
-def open_holes(state: State, skipped: Sequence[Exception]) -> list[Defect]:
-    """The border edges as one defect; `skipped`: the errors of holes that were left open."""
-    sides = state.sides
-    rows = np.flatnonzero(sides.at_border)
-    if not len(rows):
-        return []
-    ends = np.stack([state.corners[rows], state.corners[sides.next[rows]]], axis=1)
-    ends = np.sort(ends, axis=1)
-    leads = _native.joined(len(state.points), np.ascontiguousarray(ends, np.int64))
-    count = len(np.unique(leads[ends[:, 0]]))
-    begin = "1 hole is" if count == 1 else f"{count:,} holes are"
-    why = f" {skipped[0]}" if skipped else ""
-    text = f"{begin} open, of {len(rows):,} edges.{why}"
-    return [Defect("OPEN_HOLE", text, list(map(tuple, ends.tolist())), "edge", "warning", False)]
-
-
-def crossing(state: State, watchers: tuple[Any, Any]) -> list[Defect]:
-    """The faces that cross other faces, as one defect."""
-    rows = state.triangle_corners
-    found = _native._crossings(state.points, state.triangles().astype(np.int32), 0, *watchers)
-    if not len(found):
-        return []
-    faces = np.unique(state.face_of[rows[found, 0]]).tolist()
-    begin = "1 face passes" if len(faces) == 1 else f"{len(faces):,} faces pass"
-    text = f"{begin} through others. Delete them, and fill the hole."
-    return [Defect("CROSSING_FACES", text, faces, "face", "warning", False)]
+        return Cleaned(state.points, faces, *origins, self.done, watertight, volume, found)

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is still wrong with a mesh after clean(): open holes, faces that cross, and what check() finds."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from .. import _native
+from ..checking import Defect, check
+from .state import State
+
+
+def is_watertight(state: State) -> bool:
+    """Whether every edge has two faces, which run along it in opposite directions."""
+    sides = state.sides
+    a, b = sides.pairs.T
+    return bool((sides.uses == 2).all() and (sides.forward[a] != sides.forward[b]).all())
+
+
+def defects(state: State) -> list[Defect]:
+    """The defects that check() finds. Coincident points count only at borders; elsewhere parts touch."""
+    found = check(state.points, (state.corners, state.offsets))
+    sides = state.sides
+    border = np.zeros(len(state.points), bool)
+    border[state.corners[sides.at_border]] = True
+    border[state.corners[sides.next[sides.at_border]]] = True
+    return [
+        d
+        for d in found
+        if d.code != "COINCIDENT_VERTICES" or border[np.ravel(d.elements).astype(int)].any()
+    ]
+
+
+def open_holes(state: State, skipped: Sequence[Exception]) -> list[Defect]:
+    """The border edges as one defect; `skipped`: the errors of holes that were left open."""
+    sides = state.sides
+    rows = np.flatnonzero(sides.at_border)
+    if not len(rows):
+        return []
+    ends = np.stack([state.corners[rows], state.corners[sides.next[rows]]], axis=1)
+    ends = np.sort(ends, axis=1)
+    leads = _native.joined(len(state.points), np.ascontiguousarray(ends, np.int64))
+    count = len(np.unique(leads[ends[:, 0]]))
+    begin = "1 hole is" if count == 1 else f"{count:,} holes are"
+    why = f" {skipped[0]}" if skipped else ""
+    text = f"{begin} open, of {len(rows):,} edges.{why}"
+    return [Defect("OPEN_HOLE", text, list(map(tuple, ends.tolist())), "edge", "warning", False)]
+
+
+def crossing(state: State, watchers: tuple[Any, Any]) -> list[Defect]:
+    """The faces that cross other faces, as one defect."""
+    rows = state.triangle_corners
+    found = _native._crossings(state.points, state.triangles().astype(np.int32), 0, *watchers)
+    if not len(found):
+        return []
+    faces = np.unique(state.face_of[rows[found, 0]]).tolist()
+    begin = "1 face passes" if len(faces) == 1 else f"{len(faces):,} faces pass"
+    text = f"{begin} through others. Delete them, and fill the hole."
+    return [Defect("CROSSING_FACES", text, faces, "face", "warning", False)]
