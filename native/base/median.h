@@ -13,7 +13,7 @@ constexpr double deviation_over_median = 1.4826022185056018;
 template <class Values>
 double median(Values&& values) {
   if (values.empty()) return 0;
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+  const auto middle = values.begin() + values.size() / 2;
   std::nth_element(values.begin(), middle, values.end());
   if (values.size() % 2 == 1) return double(*middle);
   return 0.5 * (double(*middle) + double(*std::max_element(values.begin(), middle)));

@@ -159,7 +159,7 @@ py::object to_python(const MendedMesh* mended) {
   py::array_t<std::int32_t> corner({size, py::ssize_t(2)});
   py::array_t<double> share(size);
   for (py::ssize_t k = 0; k < size; ++k) {
-    const CornerOrigin& origin = origins[std::size_t(k)];
+    const CornerOrigin& origin = origins[k];
     corner.mutable_at(k, 0) = origin.from;
     corner.mutable_at(k, 1) = origin.beside;
     share.mutable_at(k) = origin.share;

@@ -68,16 +68,16 @@ typename Space::Vector Anderson<Space>::change(const Vector& step) {
     Eigen::MatrixXd gram(count, count);
     Eigen::VectorXd right(count);
     for (Eigen::Index a = 0; a < count; ++a) {
-      const Vector product = space_.product(pairs_[std::size_t(a)].step_change);
+      const Vector product = space_.product(pairs_[a].step_change);
       right(a) = space_.dot(product, step);
       for (Eigen::Index b = 0; b < count; ++b)
-        gram(a, b) = space_.dot(product, pairs_[std::size_t(b)].step_change);
+        gram(a, b) = space_.dot(product, pairs_[b].step_change);
     }
     gram.diagonal() *= 1 + roundoff;  // steps near the end may be linearly dependent
     const Eigen::VectorXd share = gram.ldlt().solve(right);
     if (share.allFinite())
       for (Eigen::Index a = 0; a < count; ++a) {
-        const Pair& pair = pairs_[std::size_t(a)];
+        const Pair& pair = pairs_[a];
         space_.add(-share(a), pair.step_change, pair.iterate_change, out);
       }
   }

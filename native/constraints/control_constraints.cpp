@@ -26,9 +26,7 @@ double weight_unit(const ControlMesh& mesh, const std::vector<FlatFace>& flat) {
 double weight_unit(const ControlMesh& mesh) {
   double sum = 0;
   for (const Edge& edge : mesh.edges)
-    sum +=
-        (mesh.positions[std::size_t(edge.vertex[1])] - mesh.positions[std::size_t(edge.vertex[0])])
-            .squaredNorm();
+    sum += (mesh.positions[edge.vertex[1]] - mesh.positions[edge.vertex[0]]).squaredNorm();
   return sum > 0 ? double(mesh.edges.size()) / sum : 1.0;
 }
 

@@ -15,7 +15,7 @@ namespace fairing {
 namespace {
 
 Index neighbour(const ControlMesh& mesh, const Spoke& spoke) {
-  return mesh.edges[std::size_t(spoke.edge)].vertex[spoke.outward ? 1 : 0];
+  return mesh.edges[spoke.edge].vertex[spoke.outward ? 1 : 0];
 }
 
 }  // namespace
@@ -73,7 +73,7 @@ void Couples::fill_border_rows(std::size_t c, Chart& chart) {
       squares += spoke.y() * spoke.y();
       shear += spoke.x() * spoke.y();
     }
-    at += ring[s].face >= 0 && mesh_.faces[std::size_t(ring[s].face)].quad() ? 2 : 1;
+    at += ring[s].face >= 0 && mesh_.faces[ring[s].face].quad() ? 2 : 1;
   }
   for (std::size_t s = 0; s < ring.size(); ++s) rows[s] /= squares;
   rows[0] = Vec2(1, -shear / squares) / (2 * first.norm());
@@ -84,17 +84,17 @@ void Couples::fill_border_rows(std::size_t c, Chart& chart) {
 void Couples::fill_arms(std::size_t c, const Chart& chart, const std::vector<FlatFace>& flat) {
   const auto ring = mesh_.ring(normals_[c].vertex);
   const auto weight = [&](Index face) {
-    return (mesh_.faces[std::size_t(face)].quad() ? 1 : 2) * flat[std::size_t(face)].area;
+    return (mesh_.faces[face].quad() ? 1 : 2) * flat[face].area;
   };
   std::size_t at = 0;
   for (std::size_t s = 0; s < ring.size(); ++s) {
     Arm& arm = arms_[first_arm_[c] + s];
     arm = {chart.ring[at++], Vec2::Zero(), Vec2::Zero(), 0, 0};
-    for (const Index side : mesh_.edges[std::size_t(ring[s].edge)].side)
-      if (side >= 0) arm.edge_weight += weight(mesh_.sides[std::size_t(side)].face) / 2;
+    for (const Index side : mesh_.edges[ring[s].edge].side)
+      if (side >= 0) arm.edge_weight += weight(mesh_.sides[side].face) / 2;
     if (ring[s].face < 0) continue;
     arm.face_weight = weight(ring[s].face);
-    if (mesh_.faces[std::size_t(ring[s].face)].quad()) arm.far = chart.ring[at++];
+    if (mesh_.faces[ring[s].face].quad()) arm.far = chart.ring[at++];
     arm.behind = chart.ring[at < chart.ring.size() ? at : 0];
   }
 }
@@ -110,12 +110,12 @@ void LevelCouples::visit_points(std::size_t c, Visit&& visit) const {
   for (std::size_t s = 0; s < ring.size(); ++s) {
     const Spoke& spoke = ring[s];
     const Couples::Arm& arm = couples_.arms_[couples_.first_arm_[c] + s];
-    const bool curve = mesh.feature_edge[std::size_t(spoke.edge)] != 0;
+    const bool curve = mesh.feature_edge[spoke.edge] != 0;
     for (int k = 1; k < reach && !curve; ++k)
       visit(grid_.edge_point(spoke.edge, spoke.outward ? k : n - k), share * arm.edge_weight,
             Vec2(k * step * arm.ahead), 1 - k * fall);
     if (spoke.face < 0) continue;
-    const bool quad = mesh.faces[std::size_t(spoke.face)].quad();
+    const bool quad = mesh.faces[spoke.face].quad();
     for (int r = 1; r < reach; ++r) {
       stop_in_large_face(r);
       for (int k = 1; k < (quad ? reach : reach - r); ++k) {
@@ -241,8 +241,8 @@ std::vector<std::vector<std::size_t>> Couples::sets_apart() const {
     stop_if_cancelled(c);
     const Index v = normals_[c].vertex;
     const auto mark = [&](Index w) {
-      const std::int64_t set = set_of[std::size_t(w)];
-      if (set >= 0) taken[std::size_t(set)] = c + 1;
+      const std::int64_t set = set_of[w];
+      if (set >= 0) taken[set] = c + 1;
     };
     for (const Spoke& spoke : mesh_.ring(v)) {
       const Index w = neighbour(mesh_, spoke);
@@ -257,7 +257,7 @@ std::vector<std::vector<std::size_t>> Couples::sets_apart() const {
       taken.push_back(0);
     }
     sets[set].push_back(c);
-    set_of[std::size_t(v)] = std::int64_t(set);
+    set_of[v] = std::int64_t(set);
   }
   return sets;
 }

@@ -36,7 +36,7 @@ std::vector<Index> diverged_stars(const GridLevel& grid, Workers& workers,
       for (std::size_t i = 0; i < inside; ++i) {
         stop_if_cancelled(i);
         for (std::size_t c = 0; c < std::size_t(face.size); ++c)
-          enlarge(x + 3 * (first + i), control[std::size_t(face.vertex[c])], of_face[f][c]);
+          enlarge(x + 3 * (first + i), control[face.vertex[c]], of_face[f][c]);
       }
     }
   });
@@ -46,19 +46,19 @@ std::vector<Index> diverged_stars(const GridLevel& grid, Workers& workers,
                         for (int k = 1; k < n; ++k)
                           for (std::size_t h = 0; h < 2; ++h)
                             enlarge(x + 3 * std::size_t(grid.edge_point(Index(e), k)),
-                                    control[std::size_t(mesh.edges[e].vertex[h])], of_edge[e][h]);
+                                    control[mesh.edges[e].vertex[h]], of_edge[e][h]);
                     });
   std::vector<Index> out;
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
-    const Vec3& centre = control[std::size_t(v)];
+    const Vec3& centre = control[v];
     double farthest = 0, size = 0;
     for (const Spoke& spoke : mesh.ring(v)) {
-      farthest = std::max(farthest, of_edge[std::size_t(spoke.edge)][spoke.outward ? 0 : 1]);
+      farthest = std::max(farthest, of_edge[spoke.edge][spoke.outward ? 0 : 1]);
       if (spoke.face < 0) continue;
-      const Face& face = mesh.faces[std::size_t(spoke.face)];
-      farthest = std::max(farthest, of_face[std::size_t(spoke.face)][std::size_t(spoke.corner)]);
+      const Face& face = mesh.faces[spoke.face];
+      farthest = std::max(farthest, of_face[spoke.face][spoke.corner]);
       for (std::size_t c = 0; c < std::size_t(face.size); ++c)
-        size = std::max(size, (control[std::size_t(face.vertex[c])] - centre).squaredNorm());
+        size = std::max(size, (control[face.vertex[c]] - centre).squaredNorm());
     }
     if (farthest > far_away * far_away * size) out.push_back(v);
   }

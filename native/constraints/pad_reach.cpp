@@ -15,14 +15,14 @@ namespace {
 constexpr double reach_of_shortest = 1.5;
 
 Vec3 edge_vector(const ControlMesh& mesh, const Edge& edge) {
-  return mesh.positions[std::size_t(edge.vertex[1])] - mesh.positions[std::size_t(edge.vertex[0])];
+  return mesh.positions[edge.vertex[1]] - mesh.positions[edge.vertex[0]];
 }
 
 // Normal of a face at one of its corners; its length is the angle there.
 Vec3 corner_normal(const ControlMesh& mesh, const Face& face, std::size_t corner) {
   const auto size = std::size_t(face.size);
   const auto point = [&](std::size_t k) -> const Vec3& {
-    return mesh.positions[std::size_t(face.vertex[(corner + k) % size])];
+    return mesh.positions[face.vertex[(corner + k) % size]];
   };
   const Vec3 ahead = point(1) - point(0), back = point(size - 1) - point(0);
   const Vec3 product = ahead.cross(back);
@@ -34,7 +34,7 @@ double shortest_edge(const ControlMesh& mesh, Index v) {
   double shortest = std::numeric_limits<double>::infinity();
   for (const Spoke& spoke : mesh.ring(v))
     if (!mesh.inside_polygon(spoke.edge))
-      shortest = std::min(shortest, edge_vector(mesh, mesh.edges[std::size_t(spoke.edge)]).norm());
+      shortest = std::min(shortest, edge_vector(mesh, mesh.edges[spoke.edge]).norm());
   return shortest;
 }
 
@@ -42,7 +42,7 @@ Vec3 vertex_normal(const ControlMesh& mesh, Index v) {
   Vec3 sum = Vec3::Zero();
   for (const Spoke& spoke : mesh.ring(v))
     if (spoke.face >= 0)
-      sum += corner_normal(mesh, mesh.faces[std::size_t(spoke.face)], std::size_t(spoke.corner));
+      sum += corner_normal(mesh, mesh.faces[spoke.face], std::size_t(spoke.corner));
   return sum.normalized();
 }
 
@@ -51,8 +51,8 @@ Vec3 one_sided_normal(const ControlMesh& mesh, const Edge& edge, std::size_t end
   Vec3 sum = Vec3::Zero();
   for (const Index s : edge.side) {
     if (s < 0) continue;
-    const Side& side = mesh.sides[std::size_t(s)];
-    const Face& face = mesh.faces[std::size_t(side.face)];
+    const Side& side = mesh.sides[s];
+    const Face& face = mesh.faces[side.face];
     const auto first = std::size_t(side.local), second = (first + 1) % std::size_t(face.size);
     sum += corner_normal(mesh, face, face.vertex[first] == edge.vertex[end] ? first : second);
   }
@@ -83,12 +83,12 @@ std::vector<std::array<double, 2>> pad_reaches(const ControlMesh& mesh) {
   for (const Edge& edge : mesh.edges) {
     const auto normal_at = [&](std::size_t end) {
       const Index v = edge.vertex[end];
-      return mesh.vertex_fit(v) ? normal[std::size_t(v)] : one_sided_normal(mesh, edge, end);
+      return mesh.vertex_fit(v) ? normal[v] : one_sided_normal(mesh, edge, end);
     };
     const Vec3 along = edge_vector(mesh, edge), first = normal_at(0), second = normal_at(1);
     const double length = along.norm(), even = evenness(first, second, along / length);
     const auto share = [&](std::size_t end) {
-      const double reach = reach_of_shortest * shortest[std::size_t(edge.vertex[end])];
+      const double reach = reach_of_shortest * shortest[edge.vertex[end]];
       return even * std::min(1.0, reach / length);
     };
     out.push_back({share(0), share(1)});

@@ -41,10 +41,9 @@ Pads::Pads(const ControlMesh& mesh, const ChartMaker& charts, const Unknowns& un
 double Pads::reach(std::size_t v) const {
   double farthest = 0;
   for (const Spoke& spoke : mesh_->ring(Index(v))) {
-    const Edge& edge = mesh_->edges[std::size_t(spoke.edge)];
-    const double length = (mesh_->positions[std::size_t(edge.vertex[1])] -
-                           mesh_->positions[std::size_t(edge.vertex[0])])
-                              .norm();
+    const Edge& edge = mesh_->edges[spoke.edge];
+    const double length =
+        (mesh_->positions[edge.vertex[1]] - mesh_->positions[edge.vertex[0]]).norm();
     farthest = std::max(farthest, length / inverse_reach(spoke));
   }
   return farthest;
@@ -59,7 +58,7 @@ void Pads::deactivate(std::size_t v) {
 
 double Hats::inverse_along(const Face& face, std::size_t side, bool from_second) const {
   const Side& at = mesh_.sides[std::size_t(face.first_side) + side];
-  return pads_.inverse_[std::size_t(at.edge)][at.reversed != from_second ? 1 : 0];
+  return pads_.inverse_[at.edge][at.reversed != from_second ? 1 : 0];
 }
 
 Hats::RowHat Hats::row_hat(const Face& face, std::size_t corner, int j) const {
@@ -85,15 +84,14 @@ double Hats::vertex_weight(std::size_t v, const double* weight) const {
   if (weight) return weight[v];
   double share = 0;
   for (const Spoke& spoke : mesh_.ring(Index(v)))
-    if (spoke.face >= 0)
-      share += pads_.area_[std::size_t(spoke.face)] / mesh_.faces[std::size_t(spoke.face)].size;
+    if (spoke.face >= 0) share += pads_.area_[spoke.face] / mesh_.faces[spoke.face].size;
   return share / (double(grid_.n()) * grid_.n());
 }
 
 double Hats::metric_weight_of_edge_point(std::size_t e) const {
   double share = 0;
   for (const Index s : mesh_.edges[e].side)
-    if (s >= 0) share += metric_weight_of_face_point(std::size_t(mesh_.sides[std::size_t(s)].face));
+    if (s >= 0) share += metric_weight_of_face_point(std::size_t(mesh_.sides[s].face));
   return share / 2;
 }
 
@@ -161,7 +159,7 @@ Hats::Hats(const Pads& pads, const GridLevel& grid, Array<double> omega)
     Index neighbours = 0;
     if (under(v))
       for (const Spoke& spoke : mesh_.ring(Index(v)))
-        neighbours += 1 + (spoke.face >= 0 && mesh_.faces[std::size_t(spoke.face)].quad());
+        neighbours += 1 + (spoke.face >= 0 && mesh_.faces[spoke.face].quad());
     row_begin_[v + 1] = row_begin_[v] + neighbours;
   }
   column_.resize(std::size_t(row_begin_.back()));
@@ -178,23 +176,23 @@ Hats::Hats(const Pads& pads, const GridLevel& grid, Array<double> omega)
       auto at = std::size_t(row_begin_[v]);
       for (const Spoke& spoke : mesh_.ring(Index(v))) {
         // The neighbour along the spoke shares the edge and the faces on both sides of it.
-        const Edge& edge = mesh_.edges[std::size_t(spoke.edge)];
-        const Element& along = edges[std::size_t(spoke.edge)];
+        const Edge& edge = mesh_.edges[spoke.edge];
+        const Element& along = edges[spoke.edge];
         const int own = spoke.outward ? 0 : 1;
         double shared = along.mass[0][1];
         diagonal_[v] += along.mass[own][own];
         total_[v] += along.total[own];
         for (const Index s : edge.side) {
           if (s < 0) continue;
-          const Side& side = mesh_.sides[std::size_t(s)];
-          const int next = (side.local + 1) % mesh_.faces[std::size_t(side.face)].size;
-          shared += faces[std::size_t(side.face)].mass[int(side.local)][next];
+          const Side& side = mesh_.sides[s];
+          const int next = (side.local + 1) % mesh_.faces[side.face].size;
+          shared += faces[side.face].mass[int(side.local)][next];
         }
         column_[at] = edge.vertex[1 - own];
         value_[at++] = shared;
         if (spoke.face < 0) continue;
-        const Face& face = mesh_.faces[std::size_t(spoke.face)];
-        const Element& inside = faces[std::size_t(spoke.face)];
+        const Face& face = mesh_.faces[spoke.face];
+        const Element& inside = faces[spoke.face];
         const auto c = std::size_t(spoke.corner);
         diagonal_[v] += inside.mass[c][c];
         total_[v] += inside.total[c];
@@ -242,7 +240,7 @@ void Hats::add_any(const LoadsOf<N>& loads, double* r) const {
         for (std::size_t c = 0; c < std::size_t(face.size); ++c) {
           RowHat row = row_hat(face, c, j);
           if (row.factor == 0) continue;
-          const auto& load = loads[std::size_t(face.vertex[c])];
+          const auto& load = loads[face.vertex[c]];
           double* const to = r + N * first;
           if (weight) {
             for (int i = 0; i < inside; ++i)
@@ -269,8 +267,8 @@ NormalLoads Hats::gather(const Array<double>& r) const {
     if (!under(v)) return;
     double sum = r[v];
     for (const Spoke& spoke : mesh_.ring(Index(v))) {
-      sum += edges[std::size_t(spoke.edge)].total[spoke.outward ? 0 : 1];
-      if (spoke.face >= 0) sum += faces[std::size_t(spoke.face)].total[int(spoke.corner)];
+      sum += edges[spoke.edge].total[spoke.outward ? 0 : 1];
+      if (spoke.face >= 0) sum += faces[spoke.face].total[int(spoke.corner)];
     }
     out[v][0] = sum;
   });
@@ -284,7 +282,7 @@ void Hats::multiply_mass(const LoadsOf<N>& loads, LoadsOf<N>& forces) const {
     for (std::size_t v = begin; v < end; ++v) {
       forces[v] = diagonal_[v] * loads[v];
       for (auto k = std::size_t(row_begin_[v]); k < std::size_t(row_begin_[v + 1]); ++k)
-        forces[v] += value_[k] * loads[std::size_t(column_[k])];
+        forces[v] += value_[k] * loads[column_[k]];
     }
   });
 }

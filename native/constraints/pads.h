@@ -66,7 +66,7 @@ class Pads {
   friend class Hats;
 
   double inverse_reach(const Spoke& spoke) const {
-    return inverse_[std::size_t(spoke.edge)][spoke.outward ? 0 : 1];
+    return inverse_[spoke.edge][spoke.outward ? 0 : 1];
   }
 
   const ControlMesh* mesh_;

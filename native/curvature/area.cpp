@@ -54,7 +54,7 @@ class RunArea {
     const int size = int(shape_.far.size());
     slots_ = size + 1;
     const auto at = [&](int m) { return (shape_.first + m) % size; };
-    const auto far = [&](int j) { return shape_.far[std::size_t(j)] != 0; };
+    const auto far = [&](int j) { return shape_.far[j] != 0; };
     for (int m = 1; m < size + (shape_.closed ? 1 : 0); ++m) {
       const int a = at(m - 1), b = at(m);
       triangles_.push_back({a + 1, b + 1, far(a) || far(b) ? 0.5 : 1.0});
@@ -161,11 +161,11 @@ void AreaTerm::add_entries(const std::vector<Index>& number,
                            std::vector<Eigen::Triplet<double>>& entries) const {
   visit_rows(weight_, [&](Index p, const RowRun<const float>& run, std::size_t i,
                           const std::vector<Index>& at) {
-    const Index row = number[std::size_t(p)];
+    const Index row = number[p];
     for (int s = 1; s < run.slots && row >= 0; ++s) {
       const double weight = run.at(0, s, i);
       entries.emplace_back(row, row, weight);
-      const Index column = number[std::size_t(at[std::size_t(s)])];
+      const Index column = number[at[s]];
       if (column >= 0) entries.emplace_back(row, column, -weight);
     }
   });

@@ -22,7 +22,7 @@ SparseMatrix connection_matrix(const RingRows& rows, double share) {
     for (int c = 0; c < 3; ++c)
       entries.emplace_back(3 * p + c, 3 * p + c, double(run.at(0, 0, i)) + share);
     for (int s = 1; s < run.slots; ++s) {
-      const Index q = at[std::size_t(s)];
+      const Index q = at[s];
       const double cosine = run.at(1, s, i), sine = run.at(2, s, i);
       entries.emplace_back(3 * p, 3 * q, double(run.at(0, s, i)));
       entries.emplace_back(3 * p + 1, 3 * q + 1, cosine);
@@ -64,7 +64,7 @@ AssembledSystem CurvatureLevel::assemble() const {
   }
   const Eigen::VectorXd diagonal = system.diagonal();
   for (Eigen::Index i = 0; i < Eigen::Index(system.unknown_points.size()); ++i) {
-    const auto p = std::size_t(system.unknown_points[std::size_t(i)]);
+    const auto p = std::size_t(system.unknown_points[i]);
     double extra = diagonal(i) > 0 ? 0.0 : 1.0;
     if (p < weights_.size()) extra += weight(p);
     extra += added_to_diagonal(p);

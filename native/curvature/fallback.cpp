@@ -20,16 +20,16 @@ std::vector<double> least_cosines_of_stars(const GridLevel& grid, const Array<do
   std::vector<double> least(std::size_t(mesh.vertex_count()), 1.0);
   const auto normal = [&](std::size_t p) { return Normal(normals.data() + 3 * p); };
   const auto visit = [&](Index v, const Run& run) {
-    double& cosine = least[std::size_t(v)];
+    double& cosine = least[v];
     for (std::size_t p = run.first; p < run.first + run.count; ++p)
       if (!normal(p).isZero(0)) cosine = std::min(cosine, normal(std::size_t(v)).dot(normal(p)));
   };
   for_each_run(grid, [&](const Run& run) {
     if (run.kind == RunKind::edge)
-      for (const Index v : mesh.edges[std::size_t(run.element)].vertex) visit(v, run);
+      for (const Index v : mesh.edges[run.element].vertex) visit(v, run);
     else if (run.kind == RunKind::face_row)
-      for (int c = 0; c < mesh.faces[std::size_t(run.element)].size; ++c)
-        visit(mesh.faces[std::size_t(run.element)].vertex[std::size_t(c)], run);
+      for (int c = 0; c < mesh.faces[run.element].size; ++c)
+        visit(mesh.faces[run.element].vertex[c], run);
   });
   return least;
 }

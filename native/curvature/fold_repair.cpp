@@ -46,7 +46,7 @@ void visit_marked(const GridLevel& grid, const Unknowns& unknowns, const Array<f
     if (!unknowns.has(run)) return;
     for (std::size_t i = 0; i < run.count; ++i) {
       const Index p = Index(run.first + i);
-      if (!(marks[std::size_t(p)] > 0)) continue;
+      if (!(marks[p] > 0)) continue;
       ring = {{}, true};
       if (run.kind == RunKind::vertex) {
         ring.closed = mesh.interior(run.element);
@@ -54,7 +54,7 @@ void visit_marked(const GridLevel& grid, const Unknowns& unknowns, const Array<f
           if (slot % 2 == 0) ring.points.push_back(q);
         });
       } else if (run.kind == RunKind::edge) {
-        const Edge& edge = mesh.edges[std::size_t(run.element)];
+        const Edge& edge = mesh.edges[run.element];
         ring.closed = !edge.boundary();
         all.clear();
         append_ring(grid, run, i, all);
@@ -139,7 +139,7 @@ void fill_harmonically(const GridLevel& grid, const Unknowns& unknowns, const Ar
   const Eigen::MatrixX3d targets = factor.solve(known);
   for (Eigen::Index i = 0; i < size; ++i)
     for (Eigen::Index a = 0; a < 3; ++a)
-      x[3 * std::size_t(filled[std::size_t(i)]) + std::size_t(a)] = targets(i, a);
+      x[3 * std::size_t(filled[i]) + std::size_t(a)] = targets(i, a);
 }
 
 Folds folds_of(const SurfaceIterate& it) {

@@ -80,7 +80,7 @@ void visit_on_edge(Cut cut, const GridLevel& grid, Index e, const double* x,
   const EdgeLanes<double> lanes(grid, x, e, scratch);
   const auto beside = [&](std::size_t h, int k) {
     const double* row = lanes.lane[1 + h] + 3 * k;
-    return Corners{{row, row + 3}, mesh.faces[std::size_t(face_beside(mesh, e, h))].quad() ? 2 : 1};
+    return Corners{{row, row + 3}, mesh.faces[face_beside(mesh, e, h)].quad() ? 2 : 1};
   };
   for (int k = 0; k < grid.n(); ++k)
     if (is_folded(cut, lanes.lane[0] + 3 * k, lanes.lane[0] + 3 * (k + 1), beside(0, k),
@@ -95,14 +95,14 @@ Folds find_folds(Cut cut, const GridLevel& grid, Workers& workers, const double*
   Folds folds;
   folds.in_face.assign(mesh.faces.size(), 0);
   folds.on_edge.assign(mesh.edges.size(), 0);
-  const auto is_excused = [&](Index f) { return !excused.empty() && excused[std::size_t(f)]; };
+  const auto is_excused = [&](Index f) { return !excused.empty() && excused[f]; };
   for_face_parts(grid, workers, [&](Index begin, Index end) {
     std::vector<double> closed(3 * closed_size(true, std::size_t(n)));
     for (Index f = begin; f < end; ++f) {
       if (is_excused(f) || mesh.face_part(f) != RegionPart::inside) continue;
       gather_face(grid, x, f, closed.data());
-      visit_in_face(cut, mesh.faces[std::size_t(f)].quad(), n, closed.data(),
-                    [&](GridPoint, GridPoint) { ++folds.in_face[std::size_t(f)]; });
+      visit_in_face(cut, mesh.faces[f].quad(), n, closed.data(),
+                    [&](GridPoint, GridPoint) { ++folds.in_face[f]; });
     }
   });
   for_edge_parts(grid, workers, [&](Index begin, Index end) {
@@ -111,7 +111,7 @@ Folds find_folds(Cut cut, const GridLevel& grid, Workers& workers, const double*
       if (!is_joined(mesh, e) || is_excused(face_beside(mesh, e, 0)) ||
           is_excused(face_beside(mesh, e, 1)))
         continue;
-      visit_on_edge(cut, grid, e, x, scratch, [&](int) { ++folds.on_edge[std::size_t(e)]; });
+      visit_on_edge(cut, grid, e, x, scratch, [&](int) { ++folds.on_edge[e]; });
     }
   });
   return folds;
@@ -142,7 +142,7 @@ std::vector<std::uint8_t> folded_control_faces(const ControlMesh& mesh,
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) folded[f] = folds.in_face[f] > 0;
   for (std::size_t e = 0; e < mesh.edges.size(); ++e)
     for (std::size_t h = 0; h < 2 && folds.on_edge[e] > 0; ++h)
-      folded[std::size_t(face_beside(mesh, Index(e), h))] = 1;
+      folded[face_beside(mesh, Index(e), h)] = 1;
   return folded;
 }
 
@@ -152,18 +152,16 @@ void mark_folds(const GridLevel& grid, const double* x, const Folds& folds, Arra
   marks.assign(grid.size(), 0.0f);
   std::vector<double> scratch(3 * closed_size(true, std::size_t(n)));
   for (Index f = 0; f < Index(mesh.faces.size()); ++f) {
-    if (!folds.in_face[std::size_t(f)]) continue;
+    if (!folds.in_face[f]) continue;
     gather_face(grid, x, f, scratch.data());
-    visit_in_face(
-        Cut{}, mesh.faces[std::size_t(f)].quad(), n, scratch.data(), [&](GridPoint a, GridPoint b) {
-          marks[std::size_t(grid.face_point(f, a))] = marks[std::size_t(grid.face_point(f, b))] = 1;
-        });
+    visit_in_face(Cut{}, mesh.faces[f].quad(), n, scratch.data(), [&](GridPoint a, GridPoint b) {
+      marks[grid.face_point(f, a)] = marks[grid.face_point(f, b)] = 1;
+    });
   }
   for (Index e = 0; e < Index(mesh.edges.size()); ++e)
-    if (folds.on_edge[std::size_t(e)])
+    if (folds.on_edge[e])
       visit_on_edge(Cut{}, grid, e, x, scratch, [&](int k) {
-        marks[std::size_t(grid.edge_point(e, k))] = marks[std::size_t(grid.edge_point(e, k + 1))] =
-            1;
+        marks[grid.edge_point(e, k)] = marks[grid.edge_point(e, k + 1)] = 1;
       });
 }
 

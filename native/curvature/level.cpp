@@ -180,7 +180,7 @@ void CurvatureLevel::update_diagonal() {
     weight.resize(points);
     visit_rows(variation_->connection->rows(),
                [&](Index p, const RowRun<const float>& run, std::size_t i, const auto&) {
-                 weight[std::size_t(p)] = run.at(0, 0, i) + float(share_);
+                 weight[p] = run.at(0, 0, i) + float(share_);
                });
   }
   diagonal_.resize(points);

@@ -111,8 +111,8 @@ struct CurvatureLevel::Tensors {
   }
   void put(std::size_t p, const Vec3& m, const Vec3& u, double root) {
     for (std::size_t a = 0; a < 3; ++a) {
-      shape[3 * p + a] = m[Eigen::Index(a)];
-      axis[3 * p + a] = u[Eigen::Index(a)];
+      shape[3 * p + a] = m[a];
+      axis[3 * p + a] = u[a];
     }
     area[p] = root * root;
   }
@@ -155,9 +155,9 @@ double CurvatureLevel::linearize(const double* x, const Functional& functional,
                              const Vec3& axis) {
     if (!wants_points) return;
     for (std::size_t a = 0; a < 3; ++a) {
-      to.normal[3 * p + a] = normal[Eigen::Index(a)];
-      to.shape[4 * p + a] = float(shape[Eigen::Index(a)]);
-      if (functional.with_axes) to.axis[3 * p + a] = float(axis[Eigen::Index(a)]);
+      to.normal[3 * p + a] = normal[a];
+      to.shape[4 * p + a] = float(shape[a]);
+      if (functional.with_axes) to.axis[3 * p + a] = float(axis[a]);
     }
     to.shape[4 * p + 3] = float(root);
     if (varies()) tensors.put(p, shape, axis, root);
@@ -190,9 +190,8 @@ double CurvatureLevel::linearize(const double* x, const Functional& functional,
       if (varies()) point.store_cotangents(ring, cotangents, i);
       return e;
     };
-    const bool is_regular =
-        run.kind == RunKind::face_row ||
-        (run.kind == RunKind::edge && !mesh.edges[std::size_t(run.element)].boundary());
+    const bool is_regular = run.kind == RunKind::face_row ||
+                            (run.kind == RunKind::edge && !mesh.edges[run.element].boundary());
     if (!is_regular) {
       gather.walk(run, [&](std::size_t i, const RingInSpace& ring, bool closed) {
         energy.of(run) += store_alone(i, ring, closed);

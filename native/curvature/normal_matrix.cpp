@@ -41,7 +41,7 @@ class RowBlocks {
     column_.clear();
   }
   void name(Index q) {
-    if (std::exchange(seen_[std::size_t(q)], row_) != row_) column_.push_back(q);
+    if (std::exchange(seen_[q], row_) != row_) column_.push_back(q);
   }
   // Call it after the last column; it computes the places.
   void finish_row() {
@@ -50,11 +50,11 @@ class RowBlocks {
     for (const Index q : column_) {
       if (block_.size() == begin || q >= block_.back() + Index(block_size))
         block_.push_back(std::min(q, last_first_));
-      place_[std::size_t(q)] =
+      place_[q] =
           std::uint16_t(block_size * (block_.size() - 1 - begin) + std::size_t(q - block_.back()));
     }
   }
-  std::uint16_t place(Index q) const { return place_[std::size_t(q)]; }
+  std::uint16_t place(Index q) const { return place_[q]; }
 
  private:
   std::vector<std::uint32_t> seen_;   // the last row with this block

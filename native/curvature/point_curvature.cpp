@@ -77,9 +77,7 @@ PointCurvature point_curvature(const SurfaceRing& ring, SurfaceChart& chart) {
   Fan fan{};
   if (!sum_up<true>(ring, chart, fan)) return without_shape(ring);
   if (!ring.lift.empty())
-    fan.lift([&](int j, double& share) {
-      share = double(std::max(ring.own_lift, ring.lift[std::size_t(j)]));
-    });
+    fan.lift([&](int j, double& share) { share = double(std::max(ring.own_lift, ring.lift[j])); });
   bool usable = true;
   fan.normalize(usable);
   if (!usable) return without_shape(ring);

@@ -91,7 +91,7 @@ Array<float> area_lifts(const GridLevel& grid, Workers& workers, const double* x
   if (std::none_of(lifts.begin(), lifts.end(), [](float lift) { return lift > 0; })) return {};
   const std::size_t before_faces = lifts.size();
   lifts.resize(grid.size());
-  std::fill(lifts.begin() + std::ptrdiff_t(before_faces), lifts.end(), 0.0f);
+  std::fill(lifts.begin() + before_faces, lifts.end(), 0.0f);
   return lifts;
 }
 

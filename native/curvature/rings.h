@@ -77,7 +77,7 @@ class RingWalk {
       ring_.start(x[0] + 3 * i, lift ? lift[0][i] : 0);
       for (int m = 0; m < size; ++m) {
         const int j = (shape_.first + m) % size;
-        ring_.add(x[j + 1] + 3 * i, shape_.far[std::size_t(j)], j + 1);
+        ring_.add(x[j + 1] + 3 * i, shape_.far[j], j + 1);
         if (lift) ring_.add_lift(lift[j + 1][i]);
       }
       visit(i, static_cast<const RingInSpace&>(ring_), shape_.closed);

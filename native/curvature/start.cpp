@@ -57,8 +57,7 @@ void choose_start(SurfaceIterate& iterate, int level, Pads* pads, const Array<do
   trial.resize(plate.size());
   if (below.points.empty()) {
     if (given.size() == grid.size())
-      try_candidate(iterate, plate, report,
-                    [&](std::size_t i) { return given[i / 3][Eigen::Index(i % 3)]; });
+      try_candidate(iterate, plate, report, [&](std::size_t i) { return given[i / 3][i % 3]; });
     return;
   }
   const GridLevel& coarse = iterate.system.grid(level - 1);

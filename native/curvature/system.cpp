@@ -160,7 +160,7 @@ double GaussNewtonSystem::solve(int level, const LinearizedSurface& about, Array
 
 StepWork GaussNewtonSystem::work(int level) const {
   StepWork out = work_;
-  out.linearizations = operators_[std::size_t(level - base_)]->linearizations();
+  out.linearizations = operators_[level - base_]->linearizations();
   out.factors = hierarchy_->factors();
   return out;
 }

@@ -51,8 +51,8 @@ class GaussNewtonSystem {
   int finest() const { return int(grids_.size()) - 1; }
   const GaussNewtonOptions& options() const { return options_; }
   const ControlMesh& mesh() const { return shared_.mesh; }
-  const GridLevel& grid(int level) const { return *grids_[std::size_t(level)]; }
-  CurvatureLevel& op(int level) { return *operators_[std::size_t(level - base_)]; }
+  const GridLevel& grid(int level) const { return *grids_[level]; }
+  CurvatureLevel& op(int level) { return *operators_[level - base_]; }
   const Stencils& stencils() const { return stencils_; }
   CurvatureShared& shared() { return shared_; }
   Workers& workers() { return shared_.workers; }

@@ -13,10 +13,10 @@ bool is_measured(const ControlMesh& mesh, const Run& run) {
   const Index e = run.element;
   switch (run.kind) {
     case RunKind::vertex:
-      return !mesh.feature_vertex[std::size_t(e)] && mesh.interior(e) &&
+      return !mesh.feature_vertex[e] && mesh.interior(e) &&
              mesh.vertex_part(e) == RegionPart::inside;
     case RunKind::edge:
-      return !mesh.feature_edge[std::size_t(e)] && !mesh.edges[std::size_t(e)].boundary() &&
+      return !mesh.feature_edge[e] && !mesh.edges[e].boundary() &&
              mesh.edge_part(e) == RegionPart::inside;
     default: return mesh.face_part(e) == RegionPart::inside;
   }

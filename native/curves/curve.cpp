@@ -98,7 +98,7 @@ std::vector<Vec3> joint_moments(const std::vector<Vec3>& c, const std::vector<do
     diagonal.back() += (n * n - 1) * lengths.back() / n;
   }
   const std::vector<Vec3> solution = solve_tridiagonal(diagonal, right, std::move(value), closed);
-  std::copy(solution.begin(), solution.end(), moments.begin() + std::ptrdiff_t(first));
+  std::copy(solution.begin(), solution.end(), moments.begin() + first);
   if (parabolic) {
     moments.front() = moments[1];
     moments.back() = moments[count - 2];

@@ -37,8 +37,8 @@ FeatureCurves refine_chains(const ControlMesh& mesh, std::span<const Vec3> param
     stop_if_cancelled();
     std::vector<Vec3> vertices, parameter_vertices;
     for (Index v : chain.vertices) {
-      vertices.push_back(positions[std::size_t(v)]);
-      parameter_vertices.push_back(parameters[std::size_t(v)]);
+      vertices.push_back(positions[v]);
+      parameter_vertices.push_back(parameters[v]);
     }
     std::vector<Vec3> points =
         chain.straight
@@ -47,14 +47,14 @@ FeatureCurves refine_chains(const ControlMesh& mesh, std::span<const Vec3> param
     for (std::size_t k = 0; k < chain.edges.size(); ++k) {
       const auto edge = std::size_t(chain.edges[k]);
       curves.run[edge] = runs++;
-      const auto begin = points.begin() + std::ptrdiff_t(k * inner);
+      const auto begin = points.begin() + k * inner;
       if (mesh.original_vertex(mesh.edges[edge].vertex[0]) != chain.vertices[k])
         std::reverse(begin, begin + std::ptrdiff_t(inner));
     }
     curves.points.insert(curves.points.end(), points.begin(), points.end());
   }
   for (Index e = mesh.first_copied_edge(); e < Index(mesh.edges.size()); ++e)
-    curves.run[std::size_t(e)] = curves.run[std::size_t(mesh.original_edge(e))];
+    curves.run[e] = curves.run[mesh.original_edge(e)];
   return curves;
 }
 
@@ -63,12 +63,12 @@ FeatureCurves refine_chains(const ControlMesh& mesh, std::span<const Vec3> param
 void straighten(const ControlMesh& mesh, std::span<const Index> edges,
                 std::span<const Vec3> positions, FeatureCurves& curves) {
   for (const Index e : edges) {
-    const auto& ends = mesh.edges[std::size_t(e)].vertex;
-    const Vec3 chord[2] = {positions[std::size_t(ends[0])], positions[std::size_t(ends[1])]};
+    const auto& ends = mesh.edges[e].vertex;
+    const Vec3 chord[2] = {positions[ends[0]], positions[ends[1]]};
     const std::vector<Vec3> points = straight_points(chord, false, curves.points_per_edge + 1);
     std::copy(points.begin(), points.end(),
-              curves.points.begin() + std::ptrdiff_t(curves.run[std::size_t(e)]) *
-                                          std::ptrdiff_t(curves.points_per_edge));
+              curves.points.begin() +
+                  std::ptrdiff_t(curves.run[e]) * std::ptrdiff_t(curves.points_per_edge));
   }
 }
 

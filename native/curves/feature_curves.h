@@ -19,7 +19,7 @@ struct FeatureCurves {
 
   // The interior points of a feature edge, from its vertex[0] to its vertex[1].
   std::span<const Vec3> of(Index edge) const {
-    return {points.data() + std::size_t(run[std::size_t(edge)]) * std::size_t(points_per_edge),
+    return {points.data() + std::size_t(run[edge]) * std::size_t(points_per_edge),
             std::size_t(points_per_edge)};
   }
 };

@@ -17,15 +17,15 @@ class NarrowFaces {
         held_(positions.size(), 0),
         narrow_(curves.run.size(), 0) {
     for (std::size_t e = 0; e < mesh.edges.size(); ++e)
-      for (const Index v : mesh.edges[e].vertex) held_[std::size_t(v)] |= curves.run[e] >= 0;
+      for (const Index v : mesh.edges[e].vertex) held_[v] |= curves.run[e] >= 0;
   }
 
   std::vector<Index> edges() {
     for (std::size_t s = 0; s < mesh_.sides.size(); ++s) {
       stop_if_cancelled(s);
       const Side& side = mesh_.sides[s];
-      if (curves_.run[std::size_t(side.edge)] < 0) continue;
-      const Face& face = mesh_.faces[std::size_t(side.face)];
+      if (curves_.run[side.edge] < 0) continue;
+      const Face& face = mesh_.faces[side.face];
       if (!face.quad())
         check_triangle(side, face);
       else if (side.local < 2)
@@ -45,8 +45,8 @@ class NarrowFaces {
     return v - direction.dot(v) * direction;
   }
   Line chord(const Side& side) const {
-    const auto& v = mesh_.edges[std::size_t(side.edge)].vertex;
-    const Vec3 &a = positions_[std::size_t(v[0])], &b = positions_[std::size_t(v[1])];
+    const auto& v = mesh_.edges[side.edge].vertex;
+    const Vec3 &a = positions_[v[0]], &b = positions_[v[1]];
     return side.reversed ? Line{b, a} : Line{a, b};
   }
   // The offset of point k, counted along the side, from the edge.
@@ -55,21 +55,21 @@ class NarrowFaces {
     const Vec3& point = curves_.of(side.edge)[std::size_t(side.reversed ? last - k : k) - 1];
     return point - chord(side).at(double(k) / last);
   }
-  void mark(const Side& side) { narrow_[std::size_t(curves_.run[std::size_t(side.edge)])] = 1; }
+  void mark(const Side& side) { narrow_[curves_.run[side.edge]] = 1; }
 
   void check_triangle(const Side& side, const Face& face) {
-    const Index corner = face.vertex[std::size_t((side.local + 2) % 3)];
+    const Index corner = face.vertex[(side.local + 2) % 3];
     const Line line = chord(side);
-    const Vec3 height = across(positions_[std::size_t(corner)] - line.from, line.direction());
+    const Vec3 height = across(positions_[corner] - line.from, line.direction());
     for (int k = 1; k <= curves_.points_per_edge; ++k) {
       const Vec3 away = across(bulge(side, k), line.direction());
       const double into = away.dot(height.normalized());
-      if ((held_[std::size_t(corner)] ? away.norm() : into) > height.norm()) mark(side);
+      if ((held_[corner] ? away.norm() : into) > height.norm()) mark(side);
     }
   }
 
   void check_quad(const Side& side, const Side& opposite) {
-    if (curves_.run[std::size_t(opposite.edge)] < 0) return;
+    if (curves_.run[opposite.edge] < 0) return;
     const Line line = chord(side), beside = chord(opposite);
     const Vec3 direction = ((line.to - line.from) - (beside.to - beside.from)).normalized();
     const int last = curves_.points_per_edge + 1;
@@ -86,7 +86,7 @@ class NarrowFaces {
   std::vector<Index> edges_of_narrow_runs() const {
     std::vector<Index> out;
     for (std::size_t e = 0; e < mesh_.edges.size(); ++e)
-      if (curves_.run[e] >= 0 && narrow_[std::size_t(curves_.run[e])]) out.push_back(Index(e));
+      if (curves_.run[e] >= 0 && narrow_[curves_.run[e]]) out.push_back(Index(e));
     return out;
   }
 

@@ -36,17 +36,16 @@ SheetReport sheets_of(const ControlMesh& mesh) {
   out.count = std::size_t(sheets.count);
   std::vector<std::uint8_t> one_sided(std::size_t(mesh.vertex_count()), 0);
   for (Index f = mesh.first_copied_face(); f < Index(mesh.faces.size()); ++f)
-    one_sided[std::size_t(sheets.of_vertex[std::size_t(mesh.faces[std::size_t(f)].vertex[0])])] = 1;
+    one_sided[sheets.of_vertex[mesh.faces[f].vertex[0]]] = 1;
   out.one_sided = std::size_t(std::count(one_sided.begin(), one_sided.end(), 1));
   std::vector<std::uint8_t> on_edge(std::size_t(mesh.input_vertices), 0);
   for (Index e = 0; e < mesh.first_copied_edge(); ++e) {
     if (!mesh.nonmanifold(e)) continue;
     ++out.nonmanifold_edges;
-    for (const Index v : mesh.edges[std::size_t(e)].vertex)
-      on_edge[std::size_t(mesh.original_vertex(v))] = 1;
+    for (const Index v : mesh.edges[e].vertex) on_edge[mesh.original_vertex(v)] = 1;
   }
   for (Index v = 0; v < mesh.input_vertices; ++v)
-    out.nonmanifold_vertices += mesh.fans_meet(v) && !on_edge[std::size_t(v)];
+    out.nonmanifold_vertices += mesh.fans_meet(v) && !on_edge[v];
   return out;
 }
 

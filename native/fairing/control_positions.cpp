@@ -22,17 +22,17 @@ Vec3 centre_of_shape(const ControlMesh& mesh, std::span<const Vec3> basis, Index
                      std::span<const Vec3> shape) {
   std::vector<Index> corners;
   for (const Spoke& spoke : mesh.ring(centre))
-    corners.push_back(mesh.edges[std::size_t(spoke.edge)].vertex[spoke.outward ? 1 : 0]);
+    corners.push_back(mesh.edges[spoke.edge].vertex[spoke.outward ? 1 : 0]);
   const auto count = double(corners.size());
   Vec3 mean = Vec3::Zero();
-  for (const Index c : corners) mean += basis[std::size_t(c)] / count;
+  for (const Index c : corners) mean += basis[c] / count;
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const Index c : corners) {
-    const Vec3 offset = basis[std::size_t(c)] - mean;
+    const Vec3 offset = basis[c] - mean;
     spread += offset * offset.transpose();
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
-  const Vec3 along = axes.eigenvectors().transpose() * (basis[std::size_t(centre)] - mean);
+  const Vec3 along = axes.eigenvectors().transpose() * (basis[centre] - mean);
   // The extent across a flat polygon is rounding and is ignored. An eigenvalue is a squared extent:
   // below a millionth of the polygon's length it counts as flat.
   Vec3 scaled = Vec3::Zero();
@@ -41,8 +41,7 @@ Vec3 centre_of_shape(const ControlMesh& mesh, std::span<const Vec3> basis, Index
       scaled[a] = along[a] / axes.eigenvalues()[a];
   const Vec3 slope = axes.eigenvectors() * scaled;
   Vec3 result = Vec3::Zero();
-  for (const Index c : corners)
-    result += (1 / count + slope.dot(basis[std::size_t(c)] - mean)) * shape[std::size_t(c)];
+  for (const Index c : corners) result += (1 / count + slope.dot(basis[c] - mean)) * shape[c];
   return result;
 }
 
@@ -72,14 +71,14 @@ void set_handed(const ControlMesh& mesh, const HandedCurves& handed, std::size_t
     place.push_back({ascending(handed.edges[k][0], handed.edges[k][1]), k});
   std::sort(place.begin(), place.end());
   for (Index e = 0; e < mesh.first_copied_edge() && !place.empty(); ++e) {
-    if (curves.run[std::size_t(e)] < 0) continue;
-    const Index from = mesh.original_vertex(mesh.edges[std::size_t(e)].vertex[0]),
-                to = mesh.original_vertex(mesh.edges[std::size_t(e)].vertex[1]);
+    if (curves.run[e] < 0) continue;
+    const Index from = mesh.original_vertex(mesh.edges[e].vertex[0]),
+                to = mesh.original_vertex(mesh.edges[e].vertex[1]);
     const VertexPair pair = ascending(from, to);
     const auto at = std::lower_bound(place.begin(), place.end(), std::pair(pair, std::size_t(0)));
     if (at == place.end() || at->first != pair) continue;
     const double* points = handed.points.data() + surface * size + 3 * inner * at->second;
-    Vec3* own = curves.points.data() + std::size_t(curves.run[std::size_t(e)]) * inner;
+    Vec3* own = curves.points.data() + std::size_t(curves.run[e]) * inner;
     const bool along = handed.edges[at->second][0] == from;
     for (std::size_t k = 0; k < inner; ++k)
       own[along ? k : inner - 1 - k] = Eigen::Map<const Vec3>(points + 3 * k);
@@ -103,8 +102,8 @@ Frame working_frame(const ControlMesh& mesh, std::span<const Vec3> world) {
   Vec3 low = Vec3::Constant(INFINITY), high = -low;
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     if (mesh.ring(v).empty()) continue;  // isolated vertices do not extend the range of coordinates
-    low = low.cwiseMin(world[std::size_t(v)]);
-    high = high.cwiseMax(world[std::size_t(v)]);
+    low = low.cwiseMin(world[v]);
+    high = high.cwiseMax(world[v]);
   }
   const Vec3 centre = 0.5 * low + 0.5 * high;
   const double size = (high - low).maxCoeff();
@@ -126,7 +125,7 @@ std::vector<Vec3> all_positions(const ControlMesh& mesh, std::span<const Vec3> b
                                 std::span<const double> coordinates) {
   std::vector<Vec3> world;
   for (Index v = 0; v < mesh.input_vertices; ++v) world.push_back(point_at(coordinates, v));
-  for (const Index v : mesh.copies.vertex) world.push_back(world[std::size_t(v)]);
+  for (const Index v : mesh.copies.vertex) world.push_back(world[v]);
   for (Index c = mesh.first_centre(); c < mesh.vertex_count(); ++c)
     world.push_back(centre_of_shape(mesh, basis_world, c, world));
   return world;

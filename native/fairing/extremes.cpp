@@ -22,8 +22,7 @@ std::vector<std::int64_t> vertices_outside(double distance, const ControlMesh& m
                                            const ControlPositions& control) {
   std::vector<std::int64_t> out;
   for (Index v = 0; v < mesh.input_vertices; ++v)
-    if (!mesh.ring(v).empty() &&
-        !(control.working[std::size_t(v)].cwiseAbs().maxCoeff() < distance))
+    if (!mesh.ring(v).empty() && !(control.working[v].cwiseAbs().maxCoeff() < distance))
       out.push_back(v);
   return out;
 }
@@ -36,12 +35,11 @@ std::vector<std::int64_t> vertices_far_away(const ControlMesh& mesh,
   Vec3 middle = Vec3::Zero();
   std::vector<double> values(used.size());
   for (Eigen::Index a = 0; a < 3; ++a) {
-    for (std::size_t i = 0; i < used.size(); ++i)
-      values[i] = control.working[std::size_t(used[i])][a];
+    for (std::size_t i = 0; i < used.size(); ++i) values[i] = control.working[used[i]][a];
     middle[a] = median(values);
   }
   for (std::size_t i = 0; i < used.size(); ++i)
-    values[i] = (control.working[std::size_t(used[i])] - middle).stableNorm();
+    values[i] = (control.working[used[i]] - middle).stableNorm();
   const double usual = median(std::vector(values));
   std::vector<std::int64_t> out;
   for (std::size_t i = 0; i < used.size(); ++i)

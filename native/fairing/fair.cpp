@@ -194,7 +194,7 @@ void FairSolver::set_control(std::span<const double> coordinates) {
   const std::vector<Vec3>& basis = problem_->basis.cage;
   bool is_basis = true;
   for (std::size_t i = 0; i < coordinates.size() && is_basis; ++i)
-    is_basis = coordinates[i] == basis[i / 3][Eigen::Index(i % 3)];
+    is_basis = coordinates[i] == basis[i / 3][i % 3];
   const ControlPositions next =
       is_basis ? problem_->basis : problem_->control_positions(coordinates);
   require_in_reach(problem_->mesh, next);

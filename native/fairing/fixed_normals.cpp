@@ -28,11 +28,11 @@ std::vector<std::uint8_t> smooth_vertices(const ControlMesh& mesh) {
   for (const Chain& chain : mesh.chains) {
     const std::size_t count = chain.vertices.size();
     const auto at = [&](std::size_t k) -> const Vec3& {
-      return mesh.positions[std::size_t(chain.vertices[k % count])];
+      return mesh.positions[chain.vertices[k % count]];
     };
     for (std::size_t k = chain.closed ? 0 : 1; k + (chain.closed ? 0 : 1) < count; ++k) {
       const Vec3 before = at(k) - at(k + count - 1), after = at(k + 1) - at(k);
-      out[std::size_t(chain.vertices[k])] =
+      out[chain.vertices[k]] =
           !chain.straight || angle_between(before, after) <= largest_angle_left;
     }
   }
@@ -45,20 +45,20 @@ bool on_smooth_border(const ControlMesh& mesh, Index v) {
   if (mesh.interior(v) || ring.size() < 3) return false;
   for (std::size_t s = 0; s < ring.size(); ++s) {
     const bool end = s == 0 || s + 1 == ring.size();
-    if ((mesh.feature_edge[std::size_t(ring[s].edge)] != 0) != end) return false;
+    if ((mesh.feature_edge[ring[s].edge] != 0) != end) return false;
   }
   return true;
 }
 
 // The direction in which a border edge leaves v, by the parabola through three points.
 Vec3 leaving(const ControlMesh& mesh, const ControlPositions& control, const Spoke& spoke) {
-  const Edge& edge = mesh.edges[std::size_t(spoke.edge)];
+  const Edge& edge = mesh.edges[spoke.edge];
   const auto points = control.working_curves.of(spoke.edge);
   const std::size_t count = points.size() + 1;
   const auto at = [&](std::size_t k) -> Vec3 {
     const std::size_t place = spoke.outward ? k : count - k;
-    return place == 0       ? control.working[std::size_t(edge.vertex[0])]
-           : place == count ? control.working[std::size_t(edge.vertex[1])]
+    return place == 0       ? control.working[edge.vertex[0]]
+           : place == count ? control.working[edge.vertex[1]]
                             : points[place - 1];
   };
   return (4 * at(1) - at(2) - 3 * at(0)).normalized();
@@ -76,9 +76,8 @@ ChosenNormals choose_normals(const ControlMesh& mesh, const FairOptions& options
     if (!options.has_normal(std::size_t(v)) || mesh.ring(v).empty() ||
         mesh.vertex_part(v) == RegionPart::outside)
       continue;
-    const bool holds =
-        (mesh.vertex_fit(v) || (smooth[std::size_t(v)] && on_smooth_border(mesh, v))) &&
-        mesh.vertex_part(v) == RegionPart::inside && !mesh.fans_meet(v);
+    const bool holds = (mesh.vertex_fit(v) || (smooth[v] && on_smooth_border(mesh, v))) &&
+                       mesh.vertex_part(v) == RegionPart::inside && !mesh.fans_meet(v);
     if (!holds) {
       out.left.push_back(v);
       continue;

@@ -63,8 +63,8 @@ void JoinedSheets::set_means(double* points) const {
       mean(grid_.edge_point(mesh.original_edge(e), k), grid_.edge_point(e, k));
   const int n = grid_.n();
   for (Index f = mesh.first_copied_face(); f < Index(mesh.faces.size()); ++f) {
-    const Index original = mesh.copies.face[std::size_t(f - mesh.first_copied_face())];
-    const bool quad = mesh.faces[std::size_t(f)].quad();
+    const Index original = mesh.copies.face[f - mesh.first_copied_face()];
+    const bool quad = mesh.faces[f].quad();
     for (int j = 1; j < n; ++j)
       for (int i = 1; i < (quad ? n : n - j); ++i)
         mean(grid_.face_point(original, i, j), grid_.face_point(f, j, i));

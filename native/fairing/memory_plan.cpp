@@ -116,7 +116,7 @@ RunSize predict_size(std::int64_t vertices, std::span<const std::int64_t> corner
   c.surface.vertices = double(vertices);
   c.solved.vertices = double(used.size());
   std::vector<double> valence(used.size(), 0);
-  for (const std::int64_t v : own) ++valence[std::size_t(v)];
+  for (const std::int64_t v : own) ++valence[v];
   for (const double n : valence)
     if (n > double(most_coupled)) c.in_large_rings += n * n;
   if (options.interpolation == Interpolation::approximate) c.unknown.vertices = c.solved.vertices;

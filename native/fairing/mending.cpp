@@ -53,8 +53,7 @@ class NamedEdges {
     if (!inside || !has(before_, ascending(edge[0], edge[1])))
       out.push_back(edge);
     else
-      add_pieces(mended_.vertex_origin[std::size_t(edge[0])],
-                 mended_.vertex_origin[std::size_t(edge[1])], out);
+      add_pieces(mended_.vertex_origin[edge[0]], mended_.vertex_origin[edge[1]], out);
   }
 
   void add_pieces(std::int64_t a, std::int64_t b, std::vector<VertexPair>& out) const {
@@ -114,7 +113,7 @@ void Mending::map_options(const PolygonMesh& input) {
   map_faces(input);
   map_vertex_values(input);
   for (std::int64_t& v : options_.features.corner_vertices)
-    if (v >= 0 && v < input.vertex_count()) v = mended_.vertex_origin[std::size_t(v)];
+    if (v >= 0 && v < input.vertex_count()) v = mended_.vertex_origin[v];
   const std::size_t size = input.coordinates.size();
   for (std::size_t s = 0; s < options_.shape_count(size); ++s) {
     const std::vector<double> shape = placed(options_.shapes.subspan(s * size, size));
@@ -148,7 +147,7 @@ void Mending::map_faces(const PolygonMesh& input) {
   const auto map = [&](std::vector<std::int64_t>& faces, const std::vector<std::uint8_t>& chosen) {
     faces.clear();
     for (std::size_t f = 0; f < mended_.face_origin.size(); ++f)
-      if (chosen[std::size_t(mended_.face_origin[f])]) faces.push_back(std::int64_t(f));
+      if (chosen[mended_.face_origin[f]]) faces.push_back(std::int64_t(f));
   };
   FeatureOptions& features = options_.features;
   if (features.region.given)
@@ -168,7 +167,7 @@ void Mending::map_vertex_values(const PolygonMesh& input) {
     if (values.size() != mended_.vertex_origin.size()) return;
     for (std::size_t v = 0; v < values.size(); ++v) {
       if (std::binary_search(lost.begin(), lost.end(), std::int64_t(v))) continue;
-      double& lead = values[std::size_t(mended_.vertex_origin[v])];
+      double& lead = values[mended_.vertex_origin[v]];
       lead = stronger(lead, values[v]);
     }
   };
@@ -190,7 +189,7 @@ void Mending::restore(OutputFaces& faces) const {
   if (!mended_.changed()) return;
   const auto restore_polygons = [&](Array<std::int32_t>& polygons, Array<std::int32_t>& mended) {
     mended = polygons;
-    for (std::int32_t& f : polygons) f = mended_.face_origin[std::size_t(f)];
+    for (std::int32_t& f : polygons) f = mended_.face_origin[f];
   };
   restore_polygons(faces.triangle_polygon, faces.triangle_mended);
   restore_polygons(faces.quad_polygon, faces.quad_mended);
@@ -201,7 +200,7 @@ void Mending::restore(Report& report) const {
   restore(report.warnings);
   for (std::size_t v = 0; v < std::min(mended_.vertex_origin.size(), report.pads.widths.size());
        ++v)
-    report.pads.widths[v] = report.pads.widths[std::size_t(mended_.vertex_origin[v])];
+    report.pads.widths[v] = report.pads.widths[mended_.vertex_origin[v]];
   report.repairs = mended_.acts;
   if (options_.repair == Repair::mend && !report.flipped_faces.empty())
     report.repairs.push_back({name(ErrorCode::inconsistent_orientation),
@@ -216,9 +215,8 @@ void Mending::restore(std::vector<Warning>& warnings) const {
     if (warning.kind == ElementKind::face)
       warning.elements = faces_of_input(warning.elements);
     else if (warning.code == name(ErrorCode::isolated_vertices))
-      std::erase_if(warning.elements, [&](std::int64_t v) {
-        return mended_.vertex_origin[std::size_t(v)] != Index(v);
-      });
+      std::erase_if(warning.elements,
+                    [&](std::int64_t v) { return mended_.vertex_origin[v] != Index(v); });
   }
   std::erase_if(warnings, [](const Warning& warning) {
     return warning.elements.empty() && warning.kind != ElementKind::mesh;
@@ -228,7 +226,7 @@ void Mending::restore(std::vector<Warning>& warnings) const {
 Ids Mending::faces_of_input(std::span<const std::int64_t> faces) const {
   Ids ids(faces.begin(), faces.end());
   if (!mended_.changed()) return ids;
-  for (std::int64_t& f : ids) f = mended_.face_origin[std::size_t(f)];
+  for (std::int64_t& f : ids) f = mended_.face_origin[f];
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   return ids;

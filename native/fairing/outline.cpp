@@ -25,7 +25,7 @@ std::int32_t joined(const ControlMesh& mesh, Index v) {
 void set_faces(const ControlMesh& mesh, Outline& out) {
   for (Index f = 0; f < mesh.first_copied_face(); ++f) {
     stop_if_cancelled(std::size_t(f));
-    const Face& face = mesh.faces[std::size_t(f)];
+    const Face& face = mesh.faces[f];
     out.polygon.push_back(std::int32_t(face.polygon));
     for (std::size_t s = 0; s < 4; ++s) {
       const bool is_side = s < std::size_t(face.size);
@@ -40,17 +40,16 @@ void set_faces(const ControlMesh& mesh, Outline& out) {
 void set_edges(const ControlMesh& mesh, Outline& out) {
   for (Index e = 0; e < mesh.first_copied_edge(); ++e) {
     stop_if_cancelled(std::size_t(e));
-    const Edge& edge = mesh.edges[std::size_t(e)];
+    const Edge& edge = mesh.edges[e];
     for (const Index v : edge.vertex) out.edge.push_back(joined(mesh, v));
     const bool boundary = edge.boundary() && !mesh.nonmanifold(e);
-    out.edge_kind.push_back(std::uint8_t((mesh.feature_edge[std::size_t(e)] ? curve_edge : 0) |
+    out.edge_kind.push_back(std::uint8_t((mesh.feature_edge[e] ? curve_edge : 0) |
                                          (boundary ? boundary_edge : 0) |
                                          (mesh.inside_polygon(e) ? split_edge : 0)));
   }
   for (const Chain& chain : mesh.chains)
     for (const Index e : chain.edges)
-      if (chain.straight && e < mesh.first_copied_edge())
-        out.edge_kind[std::size_t(e)] |= straight_edge;
+      if (chain.straight && e < mesh.first_copied_edge()) out.edge_kind[e] |= straight_edge;
 }
 
 // Sets curves and centres of the mesh and its shapes. `held`: one position a control vertex.
@@ -58,7 +57,7 @@ void set_surfaces(const ControlMesh& mesh, const HeldMesh& held, Outline& out) {
   const CurveScheme scheme = out.options.curve_scheme();
   const auto append = [&](const FeatureCurves& curves, std::span<const Vec3> world) {
     for (Index c = mesh.first_centre(); c < mesh.first_copied_centre(); ++c) {
-      const Vec3& centre = world[std::size_t(c)];
+      const Vec3& centre = world[c];
       out.centres.insert(out.centres.end(), centre.data(), centre.data() + 3);
     }
     for (const Index e : out.curve)
@@ -67,7 +66,7 @@ void set_surfaces(const ControlMesh& mesh, const HeldMesh& held, Outline& out) {
   };
   const FeatureCurves own = refine_feature_edges(mesh, held.world, held.world, scheme);
   for (Index e = 0; e < mesh.first_copied_edge(); ++e)
-    if (own.run[std::size_t(e)] >= 0) out.curve.push_back(e);
+    if (own.run[e] >= 0) out.curve.push_back(e);
   append(own, held.world);
   const std::size_t size = out.mesh.coordinates.size();
   for (std::size_t s = 0; s * size < out.shapes.size(); ++s) {

@@ -20,8 +20,8 @@ void row_ids(const GridLevel& grid, Index f, bool quad, int j, std::vector<std::
   const bool inside = j > 0 && j < n && last > 1;
   ids[0] = grid.face_point(f, 0, j);
   for (int i = 1; i < last; ++i)
-    ids[std::size_t(i)] = inside && i > 1 ? ids[std::size_t(i) - 1] + 1 : grid.face_point(f, i, j);
-  ids[std::size_t(last)] = grid.face_point(f, last, j);
+    ids[i] = inside && i > 1 ? ids[std::size_t(i) - 1] + 1 : grid.face_point(f, i, j);
+  ids[last] = grid.face_point(f, last, j);
 }
 
 void join_sheets(const JoinedSheets& joined, Workers& workers, Array<std::int32_t>& ids) {
@@ -84,8 +84,8 @@ OutputFaces make_faces(const GridLevel& grid, Workers& workers) {
 Array<std::int32_t> crease_edges(const ControlMesh& mesh) {
   Array<std::int32_t> pairs;
   for (Index e = 0; e < mesh.first_copied_edge(); ++e) {
-    const Edge& edge = mesh.edges[std::size_t(e)];
-    if (!mesh.feature_edge[std::size_t(e)] || (edge.boundary() && !mesh.nonmanifold(e))) continue;
+    const Edge& edge = mesh.edges[e];
+    if (!mesh.feature_edge[e] || (edge.boundary() && !mesh.nonmanifold(e))) continue;
     for (const Index v : edge.vertex) pairs.push_back(mesh.original_vertex(v));
   }
   return pairs;
@@ -103,7 +103,7 @@ void to_world(const ControlPositions& control, const GridLevel& grid, const Fram
   workers.for_parts(grid.size(), vector_grain / 3, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p)
       for (std::size_t a = 0; a < 3; ++a)
-        world[3 * p + a] = frame.centre[Eigen::Index(a)] + frame.scale * x[3 * p + a];
+        world[3 * p + a] = frame.centre[a] + frame.scale * x[3 * p + a];
   });
   for (std::size_t v = 0; v < given.size(); ++v)
     if (kept[v]) put_point(given[v], world + 3 * v);

@@ -31,7 +31,7 @@ class Patches {
     const int n = grid.n();
     const std::vector<Face>& faces = grid.mesh().faces;
     for (Index f = 0; f < Index(faces.size()); ++f) {
-      const bool quad = faces[std::size_t(f)].quad();
+      const bool quad = faces[f].quad();
       for (int j = 0; j <= n; ++j)
         for (int i = 0; i < (quad ? n : n - j); ++i) {
           join(grid.face_point(f, i, j), grid.face_point(f, i + 1, j));
@@ -44,7 +44,7 @@ class Patches {
   Index of(Index point) { return is_marked(point) ? sets_.lead(point) : -1; }
 
  private:
-  bool is_marked(Index point) const { return marks_[std::size_t(point)] > 0; }
+  bool is_marked(Index point) const { return marks_[point] > 0; }
   void join(Index a, Index b) {
     if (is_marked(a) && is_marked(b)) sets_.unite(a, b);
   }
@@ -124,8 +124,8 @@ class PlateFoldRepair {
 
   // Whether the curve is its control edge.
   bool is_straight(const Array<double>& surface, Index e) const {
-    const auto& [from, to] = mesh_.edges[std::size_t(e)].vertex;
-    const double length = (control_[std::size_t(to)] - control_[std::size_t(from)]).norm();
+    const auto& [from, to] = mesh_.edges[e].vertex;
+    const double length = (control_[to] - control_[from]).norm();
     const auto is_near = [&](double a, double b) { return std::abs(a - b) <= roundoff * length; };
     const auto own = surface.begin() + first_number(e);
     return std::equal(own, own + 3 * std::ptrdiff_t(inner()), polyhedron_.begin() + first_number(e),
@@ -141,11 +141,10 @@ class PlateFoldRepair {
   void unmark(const std::vector<std::uint8_t>& faces, Array<float>& marks) const {
     const int n = grid_.n();
     for (Index f = 0; f < Index(faces.size()); ++f) {
-      if (!faces[std::size_t(f)]) continue;
-      const bool quad = mesh_.faces[std::size_t(f)].quad();
+      if (!faces[f]) continue;
+      const bool quad = mesh_.faces[f].quad();
       for (int j = 0; j <= n; ++j)
-        for (int i = 0; i <= (quad ? n : n - j); ++i)
-          marks[std::size_t(grid_.face_point(f, i, j))] = 0;
+        for (int i = 0; i <= (quad ? n : n - j); ++i) marks[grid_.face_point(f, i, j)] = 0;
     }
   }
 
@@ -161,12 +160,12 @@ class PlateFoldRepair {
     for (std::size_t i = 0; i < marks.size(); ++i) {
       const Index patch = marks[i] > 0 ? patches.of(Index(i)) : Index(-1);
       if (patch < 0) continue;
-      is_folded[std::size_t(patch)] = 1;
+      is_folded[patch] = 1;
       any = true;
     }
     const auto is_left = [&](Index point) {
       const Index patch = patches.of(point);
-      return patch >= 0 && is_folded[std::size_t(patch)];
+      return patch >= 0 && is_folded[patch];
     };
     std::erase_if(repair.straightened, [&](Index e) {
       for (int k = 1; k < grid_.n(); ++k)
@@ -187,17 +186,15 @@ class PlateFoldRepair {
                        std::vector<Index>& edges) {
     Array<float> near = marks;
     dilate_by(1, near);
-    const auto begin = [&](auto& of, Index e) {
-      return of.begin() + std::ptrdiff_t(grid_.edge_base(e));
-    };
+    const auto begin = [&](auto& of, Index e) { return of.begin() + grid_.edge_base(e); };
     std::vector<std::uint8_t> is_near(curves_.points.size(), 0);  // by run
-    const auto run = [&](Index e) { return std::size_t(curves_.run[std::size_t(e)]); };
+    const auto run = [&](Index e) { return std::size_t(curves_.run[e]); };
     for (const Index e : on_curves())
       if (std::any_of(begin(near, e), begin(near, e) + std::ptrdiff_t(inner()),
                       [](float mark) { return mark > 0; }))
         is_near[run(e)] = 1;
     for (const Index e : on_curves()) {
-      if (!is_near[run(e)] || std::exchange(is_marked_[std::size_t(e)], 1)) continue;
+      if (!is_near[run(e)] || std::exchange(is_marked_[e], 1)) continue;
       std::fill_n(begin(marks, e), inner(), 1.0f);
       if (!is_straight(surface, e)) edges.push_back(e);
     }

@@ -53,7 +53,7 @@ bool mirrors_curves(const ControlMesh& mesh, const Mirror& mirror, const Feature
   const auto count = std::size_t(curves.points_per_edge);
   for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
     if (curves.run[e] < 0) continue;
-    if (curves.run[std::size_t(mirror.edge[e])] < 0) return false;
+    if (curves.run[mirror.edge[e]] < 0) return false;
     const auto points = curves.of(Index(e)), opposite = curves.of(mirror.edge[e]);
     const bool reversed = mirror.reverses(mesh, Index(e));
     for (std::size_t k = 0; k < count; ++k) {
@@ -68,7 +68,7 @@ bool mirrors_weights(const ControlMesh& mesh, const Mirror& mirror,
                      const std::vector<double>& weights) {
   for (std::size_t v = 0; v < weights.size(); ++v) {
     const Index image = mesh.original_vertex(mirror.vertex[v]);
-    if (!mesh.ring(Index(v)).empty() && weights[v] != weights[std::size_t(image)]) return false;
+    if (!mesh.ring(Index(v)).empty() && weights[v] != weights[image]) return false;
   }
   return true;
 }
@@ -191,7 +191,7 @@ std::vector<double> FairingProblem::working_tolerances() const {
 std::vector<double> FairingProblem::weights_with_copies() const {
   std::vector<double> out = options.weights;
   if (!out.empty())
-    for (const Index v : mesh.copies.vertex) out.push_back(out[std::size_t(v)]);
+    for (const Index v : mesh.copies.vertex) out.push_back(out[v]);
   return out;
 }
 

@@ -27,10 +27,10 @@ Unknowns choose_unknowns(const ControlMesh& mesh, const FairOptions& options) {
   u.vertex.assign(std::size_t(mesh.vertex_count()), 0);
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     stop_if_cancelled(std::size_t(v));
-    const bool on_curve = mesh.feature_vertex[std::size_t(v)] || mesh.ring(v).empty();
+    const bool on_curve = mesh.feature_vertex[v] || mesh.ring(v).empty();
     const bool moves = control_vertex_moves(mesh, options, v);
-    u.vertex[std::size_t(v)] = moves && !on_curve && mesh.vertex_part(v) == RegionPart::inside;
-    u.any_vertex |= bool(u.vertex[std::size_t(v)]);
+    u.vertex[v] = moves && !on_curve && mesh.vertex_part(v) == RegionPart::inside;
+    u.any_vertex |= bool(u.vertex[v]);
   }
   u.edge.resize(mesh.edges.size());
   for (std::size_t e = 0; e < mesh.edges.size(); ++e)
@@ -57,9 +57,9 @@ void require_anchored(const ControlMesh& mesh, const Unknowns& unknowns,
     const Index v = front.back();
     front.pop_back();
     for (const Spoke& spoke : mesh.ring(v)) {
-      const Index other = mesh.edges[std::size_t(spoke.edge)].vertex[spoke.outward ? 1 : 0];
-      if (held[std::size_t(other)]) continue;
-      held[std::size_t(other)] = 1;
+      const Index other = mesh.edges[spoke.edge].vertex[spoke.outward ? 1 : 0];
+      if (held[other]) continue;
+      held[other] = 1;
       front.push_back(other);
     }
   }

@@ -136,7 +136,7 @@ std::string cure_of_thickness(const FairOptions& options, bool is_thicker) {
 void warn_straightened(const ControlMesh& mesh, const std::vector<Index>& edges, Report& report) {
   std::vector<VertexPair> ends;
   for (const Index e : edges) {
-    const auto& v = mesh.edges[std::size_t(e)].vertex;
+    const auto& v = mesh.edges[e].vertex;
     ends.push_back(ascending(mesh.original_vertex(v[0]), mesh.original_vertex(v[1])));
   }
   if (ends.empty()) return;
@@ -165,7 +165,7 @@ void warn_of_thickness(const GridLevel& grid, Workers& workers, const double* x,
   const auto add = [&](std::string_view code, const char* cause, const std::vector<Index>& faces,
                        bool is_thicker) {
     std::vector<std::int64_t> polygons;
-    for (const Index f : faces) polygons.push_back(mesh.faces[std::size_t(f)].polygon);
+    for (const Index f : faces) polygons.push_back(mesh.faces[f].polygon);
     if (polygons.empty()) return;
     std::sort(polygons.begin(), polygons.end());
     polygons.erase(std::unique(polygons.begin(), polygons.end()), polygons.end());

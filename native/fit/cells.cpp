@@ -26,9 +26,9 @@ Cells::Cells(const GridLevel& grid, Workers& workers) : grid_(grid) {
   for_face_parts(grid, workers, [&](Index begin, Index end) {
     for (Index f = begin; f < end; ++f) {
       auto to = std::size_t(first_cell(f));
-      const bool quad = mesh.faces[std::size_t(f)].quad();
+      const bool quad = mesh.faces[f].quad();
       const auto point = [&](int i, int j) { return grid.face_point(f, i, j); };
-      std::fill_n(face_.begin() + std::ptrdiff_t(to), n * n, f);
+      std::fill_n(face_.begin() + to, n * n, f);
       for (int j = 0; j < n; ++j) {
         stop_in_large_face(j);
         for (int i = 0; i < (quad ? n : n - j); ++i) {
@@ -53,8 +53,7 @@ Cells::Cells(const GridLevel& grid, Workers& workers) : grid_(grid) {
   for (std::size_t c = 0; c < corner_.size(); ++c) {
     stop_if_cancelled(c);
     for (std::size_t k = 0; k < 4; ++k)
-      if (const Index p = corner_[c][k]; p >= 0)
-        at_[next[std::size_t(p)]++] = {Index(c), std::uint8_t(k)};
+      if (const Index p = corner_[c][k]; p >= 0) at_[next[p]++] = {Index(c), std::uint8_t(k)};
   }
 }
 
@@ -77,7 +76,7 @@ FacePlace Cells::place(Index cell, const CornerShares& shares) const {
 Cells::AtPoint Cells::cell_at(const FacePlace& place, int of) const {
   const double scale = std::ldexp(1.0, grid_.level() - of);
   const int n = grid_.n();
-  const bool quad = grid_.mesh().faces[std::size_t(place.face)].quad();
+  const bool quad = grid_.mesh().faces[place.face].quad();
   const double x = std::clamp(place.i * scale, 0.0, double(n)),
                y = std::clamp(place.j * scale, 0.0, double(n));
   const int j = std::min(int(y), n - 1), i = std::min(int(x), (quad ? n : n - j) - 1);

@@ -29,10 +29,10 @@ class Cells {
 
   const GridLevel& grid() const { return grid_; }
   std::size_t size() const { return corner_.size(); }
-  bool quad(Index cell) const { return corner_[std::size_t(cell)][3] >= 0; }
+  bool quad(Index cell) const { return corner_[cell][3] >= 0; }
   // Counter-clockwise; the fourth of a triangle is -1.
-  const std::array<Index, 4>& corners(Index cell) const { return corner_[std::size_t(cell)]; }
-  Index face(Index cell) const { return face_[std::size_t(cell)]; }
+  const std::array<Index, 4>& corners(Index cell) const { return corner_[cell]; }
+  Index face(Index cell) const { return face_[cell]; }
 
   // A cell at a point, and the corner that is the point.
   struct AtPoint {
@@ -40,7 +40,7 @@ class Cells {
     std::uint8_t corner;
   };
   std::span<const AtPoint> at_point(Index p) const {
-    const std::size_t begin = begin_[std::size_t(p)], end = begin_[std::size_t(p) + 1];
+    const std::size_t begin = begin_[p], end = begin_[std::size_t(p) + 1];
     return {at_.data() + begin, end - begin};
   }
 
@@ -53,7 +53,7 @@ class Cells {
       sizeof(std::array<Index, 4>) + sizeof(Index) + sizeof(std::size_t) + 4 * sizeof(AtPoint);
 
  private:
-  Index first_cell(Index face) const { return first_[std::size_t(face)]; }
+  Index first_cell(Index face) const { return first_[face]; }
 
   const GridLevel& grid_;
   std::vector<Index> first_;  // by control face

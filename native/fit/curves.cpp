@@ -32,8 +32,7 @@ SidePlace beside(bool quad, int side, double u, double v) {
   }
   const double w = 1 - u - v;
   const std::array<double, 3> corner{w, u, v};
-  const double first = corner[std::size_t(side)], second = corner[std::size_t((side + 1) % 3)],
-               both = first + second;
+  const double first = corner[side], second = corner[(side + 1) % 3], both = first + second;
   return {both > 0 ? second / both : 0, 1 - both};
 }
 
@@ -49,9 +48,9 @@ CurveFit::CurveFit(const FairingProblem& problem, const Scan& scan,
     for (const Index v : mesh.edges[e].vertex) {
       const Index own = mesh.original_vertex(v);
       if (own >= mesh.input_vertices || mesh.vertex_part(v) != RegionPart::inside ||
-          (!fixed.empty() && fixed[std::size_t(own)]))
+          (!fixed.empty() && fixed[own]))
         continue;
-      moves_[std::size_t(v)] = any_ = true;
+      moves_[v] = any_ = true;
     }
   }
   if (any_) find_bends();
@@ -65,9 +64,7 @@ void CurveFit::find_bends() {
     const auto at = [&](std::size_t k) { return chain.vertices[k % n]; };
     for (std::size_t k = 0; k + (chain.closed ? 0 : 2) < n; ++k) {
       const std::array<Index, 3> of{at(k), at(k + 1), at(k + 2)};
-      const auto length = [&](std::size_t a) {
-        return (place[std::size_t(of[a + 1])] - place[std::size_t(of[a])]).norm();
-      };
+      const auto length = [&](std::size_t a) { return (place[of[a + 1]] - place[of[a]]).norm(); };
       const double before = length(0), after = length(1), sum = before + after;
       const double square = problem_.units.edge_in_space * problem_.units.edge_in_space;
       bends_.push_back({of,
@@ -82,10 +79,9 @@ void CurveFit::add(Index e, double along, double weight, const Eigen::Matrix3d& 
                    const Vec3& offset, std::vector<MoveEquations>& equations) const {
   const ControlMesh& mesh = problem_.mesh;
   for (const int end : {0, 1}) {
-    const Index v = mesh.edges[std::size_t(e)].vertex[std::size_t(end)];
-    if (moves_[std::size_t(v)])
-      equations[std::size_t(mesh.original_vertex(v))].add(rows, offset,
-                                                          weight * (end == 0 ? 1 - along : along));
+    const Index v = mesh.edges[e].vertex[end];
+    if (moves_[v])
+      equations[mesh.original_vertex(v)].add(rows, offset, weight * (end == 0 ? 1 - along : along));
   }
 }
 
@@ -104,10 +100,10 @@ void CurveFit::add_points(const LevelFit& fit, double weight,
     const double share = foot.is_used() ? robust_weight(double(foot.offset), fit.spread().rms) : 0;
     if (!(share > 0)) continue;
     const FacePlace place = cells.place(foot.cell, foot.shares);
-    const Face& face = mesh.faces[std::size_t(place.face)];
+    const Face& face = mesh.faces[place.face];
     for (int k = 0; k < face.size; ++k) {
-      const Side& side = mesh.sides[std::size_t(face.first_side + k)];
-      if (!mesh.feature_edge[std::size_t(side.edge)]) continue;
+      const Side& side = mesh.sides[face.first_side + k];
+      if (!mesh.feature_edge[side.edge]) continue;
       const SidePlace at = beside(face.quad(), k, place.i / n, place.j / n);
       if (!(at.across < width)) continue;
       const Vec3 normal = fit.finder().normal_at(foot);
@@ -180,16 +176,16 @@ std::vector<Vec3> CurveFit::moves(const std::vector<MoveEquations>& equations, d
   }
   const double stiffness = 1 / (weight * stiffness_of_wave);
   for (const Bend& bend : bends_) {
-    const double points = equations[std::size_t(bend.at[1])].square.trace();
+    const double points = equations[bend.at[1]].square.trace();
     Vec3 bent = Vec3::Zero();
-    for (std::size_t k = 0; k < 3; ++k) bent += bend.row[k] * place[std::size_t(bend.at[k])];
+    for (std::size_t k = 0; k < 3; ++k) bent += bend.row[k] * place[bend.at[k]];
     for (std::size_t k = 0; k < 3; ++k) {
-      const int row = unknown[std::size_t(bend.at[k])];
+      const int row = unknown[bend.at[k]];
       if (row < 0) continue;
       const double factor = points * stiffness * bend.row[k];
       for (int i = 0; i < 3; ++i) rest[3 * row + i] -= factor * bent[i];
       for (std::size_t m = 0; m < 3; ++m)
-        if (const int column = unknown[std::size_t(bend.at[m])]; column >= 0)
+        if (const int column = unknown[bend.at[m]]; column >= 0)
           for (int i = 0; i < 3; ++i)
             terms.emplace_back(3 * row + i, 3 * column + i, factor * bend.row[m]);
     }

@@ -114,8 +114,7 @@ void FeetFinder::set_surface(const double* x) {
     for (std::size_t p = begin; p < end; ++p) {
       Vec3 sum = Vec3::Zero();
       if (!on_curve_[p])
-        for (const auto& [cell, corner] : cells_.at_point(Index(p)))
-          sum += cell_normal_[std::size_t(cell)];
+        for (const auto& [cell, corner] : cells_.at_point(Index(p))) sum += cell_normal_[cell];
       point_normal_[p] = unit_or_zero(sum);
     }
   });
@@ -137,7 +136,7 @@ std::array<Vec3, 4> FeetFinder::corner_normals(Index cell) const {
   std::array<Vec3, 4> out;
   for (std::size_t k = 0; k < 4; ++k) {
     const auto p = std::size_t(std::max(corner[k], 0));
-    out[k] = on_curve_[p] ? cell_normal_[std::size_t(cell)] : point_normal_[p];
+    out[k] = on_curve_[p] ? cell_normal_[cell] : point_normal_[p];
   }
   return out;
 }
@@ -175,8 +174,7 @@ FeetFinder::Nearest FeetFinder::nearest_on(Index cell, const Vec3& point) const 
 }
 
 bool FeetFinder::agrees(Index cell, std::size_t point) const {
-  return scan_.normal.empty() ||
-         scan_.normal[point].cast<double>().dot(cell_normal_[std::size_t(cell)]) >= 0;
+  return scan_.normal.empty() || scan_.normal[point].cast<double>().dot(cell_normal_[cell]) >= 0;
 }
 
 // Starts at a point of the surface and a foot at this squared distance, and descends to nearer feet
@@ -206,7 +204,7 @@ bool FeetFinder::descend(std::size_t point, Index start, Foot& foot, double squa
 bool FeetFinder::is_on_border(const Foot& foot) const {
   const auto& corner = cells_.corners(foot.cell);
   for (std::size_t k = 0; k < 4; ++k)
-    if (corner[k] >= 0 && foot.shares[k] > 0 && !on_border_[std::size_t(corner[k])]) return false;
+    if (corner[k] >= 0 && foot.shares[k] > 0 && !on_border_[corner[k]]) return false;
   return true;
 }
 

@@ -184,18 +184,17 @@ Prior FitLevels::prior(const LevelFit& fit) const {
   const Cells& cells = fit.cells();
   std::vector<Index> count(levels_.grid(0).mesh().faces.size());
   for (const Foot& foot : fit.feet())
-    if (foot.is_used()) ++count[std::size_t(cells.face(foot.cell))];
+    if (foot.is_used()) ++count[cells.face(foot.cell)];
   if (std::find(count.begin(), count.end(), 0) == count.end()) return {};
   Prior out;
   out.place.resize(3 * cells.grid().size());
   refine_linearly(cells.grid(), control_.working, levels_.workers(), out.place.data());
   out.weight.assign(cells.grid().size(), 0.0);
   for (std::size_t c = 0; c < cells.size(); ++c) {
-    if (count[std::size_t(cells.face(Index(c)))] > 0) continue;
+    if (count[cells.face(Index(c))] > 0) continue;
     const double held = weak * unit_ * cell_area(cells, out.place.data(), Index(c));
     const int corners = cells.quad(Index(c)) ? 4 : 3;
-    for (int k = 0; k < corners; ++k)
-      out.weight[std::size_t(cells.corners(Index(c))[std::size_t(k)])] += held / corners;
+    for (int k = 0; k < corners; ++k) out.weight[cells.corners(Index(c))[k]] += held / corners;
   }
   return out;
 }

@@ -60,7 +60,7 @@ void LevelFit::compute_forces(double weight, bool robust) {
   for_each_index(workers, feet_.size(), [&](std::size_t s) {
     const bool counts = trained_.empty() || trained_[s];
     const double share =
-        share_.empty() || !feet_[s].is_used() ? 1 : share_[std::size_t(cells_.face(feet_[s].cell))];
+        share_.empty() || !feet_[s].is_used() ? 1 : share_[cells_.face(feet_[s].cell)];
     // where points act less the surface leaves them: they are not outliers
     const bool doubted = robust && share == 1;
     robust_weight_[s] =
@@ -75,8 +75,7 @@ void LevelFit::compute_forces(double weight, bool robust) {
     const double own = unknown_[p] ? scale * weight_[p] : 0,
                  held = unknown_[p] && !prior_.weight.empty() ? prior_.weight[p] : 0;
     for (std::size_t a = 0; a < 3; ++a)
-      right_side_[3 * p + a] = (unknown_[p] ? scale * force_[p][Eigen::Index(a)] : 0) +
-                               own * x_[3 * p + a] +
+      right_side_[3 * p + a] = (unknown_[p] ? scale * force_[p][a] : 0) + own * x_[3 * p + a] +
                                (held > 0 ? held * prior_.place[3 * p + a] : 0);
     weight_[p] = own + held;
   });

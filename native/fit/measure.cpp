@@ -64,7 +64,7 @@ double measure_coverage(const Cells& cells, const Array<Foot>& feet, Workers& wo
   const CellSums sums = sums_on(coarse, cells, feet, most);
   std::vector<double> all(polygons), covered(polygons);
   for (std::size_t c = 0; c < coarse.size(); ++c) {
-    const auto polygon = std::size_t(mesh.faces[std::size_t(coarse.face(Index(c)))].polygon);
+    const auto polygon = std::size_t(mesh.faces[coarse.face(Index(c))].polygon);
     all[polygon] += 1;
     covered[polygon] += sums.count[c] > 0;
   }
@@ -87,7 +87,7 @@ void find_too_coarse(const Cells& cells, const Array<Foot>& feet, Workers& worke
     if (sums.count[c] < 2) continue;
     const double count = sums.count[c], mean = std::abs(sums.sum[c]) / count;
     if (mean > noise && mean * std::sqrt(count) > by_chance * noise)
-      report.too_coarse.push_back(mesh.faces[std::size_t(coarse.face(Index(c)))].polygon);
+      report.too_coarse.push_back(mesh.faces[coarse.face(Index(c))].polygon);
   }
   std::sort(report.too_coarse.begin(), report.too_coarse.end());
   report.too_coarse.erase(std::unique(report.too_coarse.begin(), report.too_coarse.end()),
@@ -101,7 +101,7 @@ double covered_within(const Array<Foot>& feet) {
   for (const Foot& foot : feet)
     if (foot.is_used()) far.push_back(std::abs(foot.offset));
   if (far.empty()) return 0;
-  const auto at = far.begin() + std::ptrdiff_t((far.size() - 1) * 95 / 100);
+  const auto at = far.begin() + (far.size() - 1) * 95 / 100;
   std::nth_element(far.begin(), at, far.end());
   return double(*at);
 }
@@ -133,7 +133,7 @@ void measure_fit(const LevelFit& fit, const FairingProblem& problem, FitReport& 
     const Foot& foot = feet[s];
     const auto given = std::size_t(fit.scan().given[s]);
     report.faces[given] =
-        foot.cell < 0 ? -1 : std::int32_t(mesh.faces[std::size_t(cells.face(foot.cell))].polygon);
+        foot.cell < 0 ? -1 : std::int32_t(mesh.faces[cells.face(foot.cell)].polygon);
     report.distances[given] = foot.cell < 0 ? NAN : fit.finder().distance(s, foot) * scale;
     if (foot.cell < 0 || std::abs(double(foot.offset)) > outlier * judged)
       report.outliers.push_back(std::int64_t(given));

@@ -28,7 +28,7 @@ void PointForces::sort(const Array<Foot>& feet, const Array<float>& robust_weigh
   Array<Index> next(begin_.begin(), begin_.end() - 1);
   for (std::size_t s = 0; s < feet.size(); ++s) {
     stop_if_cancelled(s);
-    if (is_used(s)) sorted_[std::size_t(next[std::size_t(feet[s].cell)]++)] = Index(s);
+    if (is_used(s)) sorted_[next[feet[s].cell]++] = Index(s);
   }
 }
 
@@ -44,7 +44,7 @@ void PointForces::sum(const FeetFinder& finder, const Array<Foot>& feet,
       if (begin_[c] == begin_[c + 1]) continue;
       const std::array<Vec3, 4> normals = finder.corner_normals(Index(c));
       for (Index k = begin_[c]; k < begin_[c + 1]; ++k) {
-        const auto s = std::size_t(sorted_[std::size_t(k)]);
+        const auto s = std::size_t(sorted_[k]);
         const Foot& foot = feet[s];
         Eigen::Vector4d force_and_weight;
         force_and_weight << double(foot.offset) * FeetFinder::normal_at(foot, normals), 1;
@@ -59,8 +59,7 @@ void PointForces::sum(const FeetFinder& finder, const Array<Foot>& feet,
   workers_.for_parts(points, vertex_grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
       Eigen::Vector4d sum = Eigen::Vector4d::Zero();
-      for (const auto& [cell, corner] : cells_.at_point(Index(p)))
-        sum += slot_[std::size_t(cell)][corner];
+      for (const auto& [cell, corner] : cells_.at_point(Index(p))) sum += slot_[cell][corner];
       force[p] = sum.head<3>();
       weight[p] = sum[3];
     }
@@ -70,7 +69,7 @@ void PointForces::sum(const FeetFinder& finder, const Array<Foot>& feet,
 VertexWeights weights_below(const GridLevel& fine, const GridLevel& coarse,
                             const VertexWeights& weights) {
   VertexWeights out(coarse.size(), 0.0);
-  const auto add = [&](Index p, double weight) { out[std::size_t(p)] += weight; };
+  const auto add = [&](Index p, double weight) { out[p] += weight; };
   for_each_run(fine, [&](const Run& run) {
     for (std::size_t k = 0; k < run.count; ++k) {
       const double weight = weights[run.first + k];

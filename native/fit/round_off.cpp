@@ -23,7 +23,7 @@ void lessen(const ControlMesh& mesh, const std::vector<double>& turn, double lim
   std::vector<double> around(std::size_t(mesh.vertex_count()), 1.0);
   const auto for_vertices = [&](std::size_t f, auto&& visit) {
     const Face& face = mesh.faces[f];
-    for (int k = 0; k < face.size; ++k) visit(around[std::size_t(face.vertex[std::size_t(k)])]);
+    for (int k = 0; k < face.size; ++k) visit(around[face.vertex[k]]);
   };
   const auto hardly_acts = [&](std::size_t f) { return share[f] < 0.125; };
   for (std::size_t f = 0; f < share.size(); ++f)

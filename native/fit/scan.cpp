@@ -63,13 +63,12 @@ Array<Eigen::Vector3f> normals_of(const ScanInput& input, const Array<Index>& gi
       for (std::size_t k = 0; k < 3; ++k)
         corner[k] = point_at(input.coordinates, input.triangles[t + k]);
       const Vec3 normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
-      for (std::size_t k = 0; k < 3; ++k) sum[std::size_t(input.triangles[t + k])] += normal;
+      for (std::size_t k = 0; k < 3; ++k) sum[input.triangles[t + k]] += normal;
     }
   }
   out.resize(count);
   for (std::size_t p = 0; p < count; ++p) {
-    const Vec3 normal =
-        sum.empty() ? point_at(input.normals, given[p]) : sum[std::size_t(given[p])];
+    const Vec3 normal = sum.empty() ? point_at(input.normals, given[p]) : sum[given[p]];
     out[p] = unit_or_zero(normal).cast<float>();
   }
   return out;

@@ -93,10 +93,10 @@ double WeightChoice::middle_of_good(std::size_t best) const {
   const auto reach = [&](int way) {
     auto k = std::ptrdiff_t(best);
     const auto count = std::ptrdiff_t(trials_.size());
-    while (k + way >= 0 && k + way < count && trials_[std::size_t(k + way)][1] <= good) k += way;
+    while (k + way >= 0 && k + way < count && trials_[k + way][1] <= good) k += way;
     double end = double(k) - double(best);
     if (k + way >= 0 && k + way < count) {
-      const double here = trials_[std::size_t(k)][1], beyond = trials_[std::size_t(k + way)][1];
+      const double here = trials_[k][1], beyond = trials_[k + way][1];
       end += way * (good - here) / (beyond - here);
     }
     return end;

@@ -134,7 +134,7 @@ void accumulate(const GridLevel& grid, Workers& workers, ElementSlots<T, C>& slo
         }
       });
       for (int c = 0; c < 4 && quad; ++c) {
-        const Index spoke = mesh.spoke_of_side[std::size_t(face.first_side + c)];
+        const Index spoke = mesh.spoke_of_side[face.first_side + c];
         add_point<C>(&closed[C * side_offset(true, n, c, 1, 1)],
                      slots.spoke.data() + 2 * C * std::size_t(spoke) + C);
       }
@@ -188,7 +188,7 @@ void accumulate(const GridLevel& grid, Workers& workers, ElementSlots<T, C>& slo
         add_point<C>(centre,
                      slots.end.data() + 2 * C * std::size_t(spoke.edge) + (spoke.outward ? 0 : C));
         if (spoke.face >= 0) {
-          const Face& face = mesh.faces[std::size_t(spoke.face)];
+          const Face& face = mesh.faces[spoke.face];
           add_point<C>(centre, slots.side.data() +
                                    side_stride * std::size_t(face.first_side + spoke.corner));
         }
@@ -243,7 +243,7 @@ void accumulate_runs(const GridLevel& grid, Workers& workers, ElementSlots<T, C>
         });
       },
       [&](Index f, T* closed, Both& state) {
-        const bool quad = grid.mesh().faces[std::size_t(f)].quad();
+        const bool quad = grid.mesh().faces[f].quad();
         std::fill_n(closed, C * closed_size(quad, std::size_t(grid.n())), T(0));
         for_face_runs(grid, f, [&](const Run& row) {
           set_beside_row<T, C>(quad, grid.n(), row.row, closed, state.beside);

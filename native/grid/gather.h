@@ -81,7 +81,7 @@ inline SideWalk interior_walk(bool quad, int n, int s, int k) {
 // run <- x on the edge's points 0 … n.
 template <int C = 3, class T>
 void gather_edge(const GridLevel& grid, const T* x, Index e, T* run) {
-  const Edge& edge = grid.mesh().edges[std::size_t(e)];
+  const Edge& edge = grid.mesh().edges[e];
   const int n = grid.n();
   copy_point<C>(run, x + C * std::size_t(edge.vertex[0]));
   std::memcpy(run + C, x + C * std::size_t(grid.edge_base(e)),
@@ -93,13 +93,11 @@ void gather_edge(const GridLevel& grid, const T* x, Index e, T* run) {
 // edge.
 template <int C = 3, class T>
 void gather_row(const GridLevel& grid, const T* x, const Side& side, T* row) {
-  const Face& face = grid.mesh().faces[std::size_t(side.face)];
+  const Face& face = grid.mesh().faces[side.face];
   const int n = grid.n(), size = row_size(face.quad(), n), sides = face.size;
   const std::ptrdiff_t step = side.reversed ? -C : C;
   if (side.reversed) row += C * (size - 1);
-  const auto side_at = [&](int s) -> const Side& {
-    return grid.mesh().sides[std::size_t(face.first_side + s)];
-  };
+  const auto side_at = [&](int s) -> const Side& { return grid.mesh().sides[face.first_side + s]; };
   copy_point<C>(
       row, x + C * std::size_t(grid.side_point(side_at((side.local + sides - 1) % sides), n - 1)));
   if (size > 2) {
@@ -133,14 +131,14 @@ inline void with_shape(bool quad, int n, Body&& body) {
 // closed <- x on the closed face, row by row.
 template <int C = 3, class T>
 void gather_face(const GridLevel& grid, const T* x, Index f, T* closed) {
-  const Face& face = grid.mesh().faces[std::size_t(f)];
+  const Face& face = grid.mesh().faces[f];
   const Side* sides = grid.mesh().sides.data() + face.first_side;
   const T* inside = x + C * std::size_t(grid.face_base(f));
   with_shape(face.quad(), grid.n(), [&]<bool quad, int fixed>() {
     const int n = fixed ? fixed : grid.n();
     for (int s = 0; s < (quad ? 4 : 3); ++s) {
       SideWalk walk = side_walk(quad, n, s, 0, 0);
-      copy_point<C>(closed + C * walk.offset, x + C * std::size_t(face.vertex[std::size_t(s)]));
+      copy_point<C>(closed + C * walk.offset, x + C * std::size_t(face.vertex[s]));
       walk.next();
       const bool back = sides[s].reversed;
       const std::ptrdiff_t step = back ? -C : C;
@@ -164,7 +162,7 @@ void gather_face(const GridLevel& grid, const T* x, Index f, T* closed) {
 template <int C = 3, class T>
 void scatter_interior(const GridLevel& grid, const T* closed, Index f, T* x) {
   T* inside = x + C * std::size_t(grid.face_base(f));
-  with_shape(grid.mesh().faces[std::size_t(f)].quad(), grid.n(), [&]<bool quad, int fixed>() {
+  with_shape(grid.mesh().faces[f].quad(), grid.n(), [&]<bool quad, int fixed>() {
     const int n = fixed ? fixed : grid.n();
     const T* from = closed + C * (n + 2);
     T* to = inside;

@@ -26,10 +26,8 @@ GridLevel::GridLevel(const ControlMesh& mesh, int level)
 }
 
 Index GridLevel::face_point(Index f, int i, int j) const {
-  const Face& face = mesh_->faces[std::size_t(f)];
-  const auto side = [&](int s) -> const Side& {
-    return mesh_->sides[std::size_t(face.first_side + s)];
-  };
+  const Face& face = mesh_->faces[f];
+  const auto side = [&](int s) -> const Side& { return mesh_->sides[face.first_side + s]; };
   if (j == 0) return side_point(side(0), i);
   if (face.quad()) {
     if (i == n_) return side_point(side(1), j);

@@ -68,7 +68,7 @@ class GridLevel {
 
   // Point k of an edge, 0 <= k <= n, counted from edge.vertex[0].
   Index edge_point(Index e, int k) const {
-    const Edge& edge = mesh_->edges[std::size_t(e)];
+    const Edge& edge = mesh_->edges[e];
     if (k == 0) return edge.vertex[0];
     if (k == n_) return edge.vertex[1];
     return edge_base(e) + k - 1;
@@ -76,7 +76,7 @@ class GridLevel {
   Index edge_base(Index e) const { return vertices_ + e * (n_ - 1); }
 
   Index face_base(Index f) const {
-    const Index quads = quads_before_[std::size_t(f)];
+    const Index quads = quads_before_[f];
     return Index(first_face_ + std::int64_t(f - quads) * triangle_interior_ +
                  std::int64_t(quads) * quad_interior_);
   }

@@ -16,15 +16,13 @@ void refine_run(const GridLevel& grid, std::span<const Vec3> control, const Run&
     return;
   }
   if (run.kind == RunKind::edge) {
-    const Edge& edge = mesh.edges[std::size_t(run.element)];
-    const Vec3 &a = control[std::size_t(edge.vertex[0])], &b = control[std::size_t(edge.vertex[1])];
+    const Edge& edge = mesh.edges[run.element];
+    const Vec3 &a = control[edge.vertex[0]], &b = control[edge.vertex[1]];
     for (int k = 1; k <= count; ++k) x = put_point((double(n - k) * a + double(k) * b) / n, x);
     return;
   }
-  const Face& face = mesh.faces[std::size_t(run.element)];
-  const auto corner = [&](std::size_t c) -> const Vec3& {
-    return control[std::size_t(face.vertex[c])];
-  };
+  const Face& face = mesh.faces[run.element];
+  const auto corner = [&](std::size_t c) -> const Vec3& { return control[face.vertex[c]]; };
   if (run.quad) {
     const Vec3 left = (double(n - j) * corner(0) + double(j) * corner(3)) / n,
                right = (double(n - j) * corner(1) + double(j) * corner(2)) / n;

@@ -17,7 +17,7 @@ void visit_ring(const GridLevel& grid, Index v, Visit&& visit) {
   std::size_t slot = 0;
   for (const Spoke& spoke : grid.mesh().ring(v)) {
     visit(grid.spoke_point(spoke), slot);
-    if (spoke.face >= 0 && grid.mesh().faces[std::size_t(spoke.face)].quad())
+    if (spoke.face >= 0 && grid.mesh().faces[spoke.face].quad())
       visit(grid.diagonal_point(spoke), slot + 1);
     slot += 2;
   }
@@ -48,13 +48,13 @@ struct EdgeRingLanes {
   bool far[8];  // the corner across a quad
 
   EdgeRingLanes(const ControlMesh& mesh, Index e) {
-    const Edge& edge = mesh.edges[std::size_t(e)];
+    const Edge& edge = mesh.edges[e];
     for (int h = 0; h < 2; ++h) {
       const int ahead = h == 0 ? 1 : -1;
       push(0, ahead, false);
-      if (edge.side[std::size_t(h)] < 0) continue;
-      const Side& side = mesh.sides[std::size_t(edge.side[std::size_t(h)])];
-      const bool quad = mesh.faces[std::size_t(side.face)].quad();
+      if (edge.side[h] < 0) continue;
+      const Side& side = mesh.sides[edge.side[h]];
+      const bool quad = mesh.faces[side.face].quad();
       if (quad) {
         push(1 + h, ahead, true);
         push(1 + h, 0, false);
@@ -86,15 +86,14 @@ inline void append_ring(const GridLevel& grid, Index e, const EdgeRingLanes& rin
       ids.push_back(grid.edge_point(e, at));
       continue;
     }
-    const Side& side =
-        mesh.sides[std::size_t(mesh.edges[std::size_t(e)].side[std::size_t(lane - 1)])];
-    const bool quad = mesh.faces[std::size_t(side.face)].quad();
+    const Side& side = mesh.sides[mesh.edges[e].side[lane - 1]];
+    const bool quad = mesh.faces[side.face].quad();
     const int along = side.reversed ? row_size(quad, n) - 1 - at : at;
     ids.push_back(grid.face_point(side.face, closed_point(quad, n, side.local, along, 1)));
   }
 }
 inline void append_ring(const GridLevel& grid, Index f, GridPoint p, std::vector<Index>& ids) {
-  for (const GridPoint d : face_ring(grid.mesh().faces[std::size_t(f)].quad()))
+  for (const GridPoint d : face_ring(grid.mesh().faces[f].quad()))
     ids.push_back(grid.face_point(f, p.i + d.i, p.j + d.j));
 }
 
@@ -112,8 +111,8 @@ struct EdgeLanes {
     for (std::size_t l = 0; l < 3; ++l) lane[l] = scratch.data() + l * stride;
     gather_edge<C>(grid, x, e, lane[0]);
     for (std::size_t h = 0; h < 2; ++h) {
-      const Index side = mesh.edges[std::size_t(e)].side[h];
-      if (side >= 0) gather_row<C>(grid, x, mesh.sides[std::size_t(side)], lane[1 + h]);
+      const Index side = mesh.edges[e].side[h];
+      if (side >= 0) gather_row<C>(grid, x, mesh.sides[side], lane[1 + h]);
     }
   }
 };

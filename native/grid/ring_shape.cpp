@@ -13,7 +13,7 @@ void RingShape::set(const GridLevel& grid, const Run& run) {
       closed = grid.mesh().interior(run.element);
       return;
     case RunKind::edge: {
-      const Edge& edge = grid.mesh().edges[std::size_t(run.element)];
+      const Edge& edge = grid.mesh().edges[run.element];
       far.assign(run.ring->far, run.ring->far + run.ring->size);
       closed = !edge.boundary();
       first = edge.side[0] < 0 ? 1 : 0;  // without a left face: after it

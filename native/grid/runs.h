@@ -55,7 +55,7 @@ void for_edge_run(const GridLevel& grid, Index e, Visit&& visit) {
 // Calls visit(run) for the rows inside a face, if it has any.
 template <class Visit>
 void for_face_runs(const GridLevel& grid, Index f, Visit&& visit) {
-  const bool quad = grid.mesh().faces[std::size_t(f)].quad();
+  const bool quad = grid.mesh().faces[f].quad();
   const int n = grid.n(), rows = quad ? n - 1 : n - 2;
   std::size_t first = std::size_t(grid.face_base(f));
   for (int j = 1; j <= rows; ++j) {
@@ -150,7 +150,7 @@ class ElementSums {
         first_face_(first_edge_ + mesh.edges.size()),
         sum_(first_face_ + mesh.faces.size(), 0.0) {}
 
-  double& vertex(Index v) { return sum_[std::size_t(v)]; }
+  double& vertex(Index v) { return sum_[v]; }
   double& edge(Index e) { return sum_[first_edge_ + std::size_t(e)]; }
   double& face(Index f) { return sum_[first_face_ + std::size_t(f)]; }
   double& of(const Run& run) {

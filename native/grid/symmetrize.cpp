@@ -19,7 +19,7 @@ bool lies_in_plane(const ControlMesh& mesh, const Mirror& mirror, const Run& run
   switch (run.kind) {
     case RunKind::vertex: return mirror.vertex_in_plane(mesh, run.element);
     case RunKind::edge: return mirror.edge_in_plane(mesh, run.element);
-    default: return mirror.turn[std::size_t(run.element)] == Mirror::in_plane;
+    default: return mirror.turn[run.element] == Mirror::in_plane;
   }
 }
 

@@ -34,7 +34,7 @@ constexpr double lost_change = 4;
 Vec3 middle(const GridLevel& grid, Index f, const double* x) {
   const int n = grid.n();
   const auto at = [&](int i, int j) { return point_at(x, grid.face_point(f, i, j)); };
-  if (grid.mesh().faces[std::size_t(f)].quad()) return at(n / 2, n / 2);
+  if (grid.mesh().faces[f].quad()) return at(n / 2, n / 2);
   // around the centre, or at the midpoints of sides if there is no inner point
   const int near = n / 4, far = n / 2;
   return n > 2 ? Vec3((at(near, near) + at(far, near) + at(near, far)) / 3)
@@ -44,7 +44,7 @@ Vec3 middle(const GridLevel& grid, Index f, const double* x) {
 // The point of the face nearest to the line behind another face's centre.
 Vec3 behind(const GridLevel& grid, Index f, const FacePlane& line, const double* x) {
   const int n = grid.n();
-  const bool quad = grid.mesh().faces[std::size_t(f)].quad();
+  const bool quad = grid.mesh().faces[f].quad();
   Vec3 nearest;
   double least = std::numeric_limits<double>::infinity();
   for (int j = 0; j <= n; ++j)
@@ -72,17 +72,17 @@ double rounding_off(const ControlMesh& mesh, std::size_t f, std::span<const Face
   double sum = 0;
   for (std::size_t i = 0; i < std::size_t(face.size); ++i) {
     const Side& side = mesh.sides[std::size_t(face.first_side) + i];
-    const Edge& edge = mesh.edges[std::size_t(side.edge)];
-    if (edge.boundary() || mesh.feature_edge[std::size_t(side.edge)]) continue;
-    const Side& other = mesh.sides[std::size_t(edge.side[side.reversed ? 0 : 1])];
-    const FacePlane &here = planes[f], &beyond = planes[std::size_t(other.face)];
+    const Edge& edge = mesh.edges[side.edge];
+    if (edge.boundary() || mesh.feature_edge[side.edge]) continue;
+    const Side& other = mesh.sides[edge.side[side.reversed ? 0 : 1]];
+    const FacePlane &here = planes[f], &beyond = planes[other.face];
     const Vec3 along = point_at(x, edge.vertex[1]) - point_at(x, edge.vertex[0]);
     const double turn = std::copysign(angle_between(here.normal, beyond.normal),
                                       here.normal.cross(beyond.normal).dot(along)) *
                         (side.reversed ? -1 : 1);
     const double half = inside(face, i, here, x);
-    const double width = 2 * std::min(half, inside(mesh.faces[std::size_t(other.face)],
-                                                   std::size_t(other.local), beyond, x));
+    const double width =
+        2 * std::min(half, inside(mesh.faces[other.face], std::size_t(other.local), beyond, x));
     sum += std::tan(turn / 4) * width * width / std::max(half, width);
   }
   return sum / face.size;
@@ -100,7 +100,7 @@ std::vector<double> turns_around(const ControlMesh& mesh, std::span<const FacePl
   const auto for_corners = [&](auto&& visit) {
     for (std::size_t f = 0; f < planes.size(); ++f)
       for (std::size_t i = 0; i < std::size_t(mesh.faces[f].size); ++i)
-        visit(f, cones[std::size_t(mesh.faces[f].vertex[i])]);
+        visit(f, cones[mesh.faces[f].vertex[i]]);
   };
   const auto to_axis = [&](std::size_t f, const Cone& cone) {
     return angle_between(planes[f].normal, cone.axis);
@@ -133,15 +133,14 @@ std::vector<double> areas_of_sides(const ControlMesh& mesh, std::span<const Face
   UnionFind parts(planes.size());
   for (const Edge& edge : mesh.edges) {
     if (edge.boundary()) continue;
-    const Index f = mesh.sides[std::size_t(edge.side[0])].face;
-    const Index o = mesh.sides[std::size_t(edge.side[1])].face;
-    const double turn = angle_between(planes[std::size_t(f)].normal, planes[std::size_t(o)].normal);
+    const Index f = mesh.sides[edge.side[0]].face;
+    const Index o = mesh.sides[edge.side[1]].face;
+    const double turn = angle_between(planes[f].normal, planes[o].normal);
     if (turn * turn < single_roundoff) parts.unite(f, o);
   }
   std::vector<double> area(planes.size(), 0.0);
-  for (std::size_t f = 0; f < planes.size(); ++f)
-    area[std::size_t(parts.lead(Index(f)))] += planes[f].area;
-  for (std::size_t f = 0; f < planes.size(); ++f) area[f] = area[std::size_t(parts.lead(Index(f)))];
+  for (std::size_t f = 0; f < planes.size(); ++f) area[parts.lead(Index(f))] += planes[f].area;
+  for (std::size_t f = 0; f < planes.size(); ++f) area[f] = area[parts.lead(Index(f))];
   return area;
 }
 

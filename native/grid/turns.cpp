@@ -12,7 +12,7 @@ double turn_on_edge(const GridLevel& grid, Index e, const double* x, std::vector
     return Vec3(Eigen::Map<const Vec3>(lanes.lane[lane] + 3 * k));
   };
   const auto cell = [&](std::size_t h, int from, int to) {
-    const Face& face = grid.mesh().faces[std::size_t(face_beside(grid.mesh(), e, h))];
+    const Face& face = grid.mesh().faces[face_beside(grid.mesh(), e, h)];
     const Vec3 a = at(0, from), b = at(0, to);
     if (face.quad()) return left_cell(a, b, at(1 + h, from), at(1 + h, to));
     return left_cell(a, b, at(1 + h, std::min(from, to)));
@@ -31,25 +31,24 @@ std::vector<double> sharpest_turns(const GridLevel& grid, Workers& workers, cons
     std::vector<double> closed(3 * closed_size(true, std::size_t(grid.n())));
     for (Index f = begin; f < end; ++f) {
       if (mesh.face_part(f) != RegionPart::inside) continue;
-      const bool quad = mesh.faces[std::size_t(f)].quad();
+      const bool quad = mesh.faces[f].quad();
       gather_face(grid, x, f, closed.data());
       const auto at = [&](GridPoint p) {
         const std::size_t row = closed_row(quad, std::size_t(grid.n()), std::size_t(p.j));
         return Vec3(Eigen::Map<const Vec3>(closed.data() + 3 * (row + std::size_t(p.i))));
       };
-      turns[std::size_t(f)] =
-          turn_in_face(quad, grid.n(), 0, at, [](GridPoint, GridPoint) { return true; });
+      turns[f] = turn_in_face(quad, grid.n(), 0, at, [](GridPoint, GridPoint) { return true; });
     }
   });
   for_edge_parts(grid, workers, [&](Index begin, Index end) {
     std::vector<double> scratch;
     for (Index e = begin; e < end; ++e)
-      if (is_joined(mesh, e)) on_edge[std::size_t(e)] = turn_on_edge(grid, e, x, scratch);
+      if (is_joined(mesh, e)) on_edge[e] = turn_on_edge(grid, e, x, scratch);
   });
   for (Index e = 0; e < Index(mesh.edges.size()); ++e)
     for (std::size_t h = 0; h < 2 && is_joined(mesh, e); ++h) {
-      double& most = turns[std::size_t(face_beside(mesh, e, h))];
-      most = std::max(most, on_edge[std::size_t(e)]);
+      double& most = turns[face_beside(mesh, e, h)];
+      most = std::max(most, on_edge[e]);
     }
   return turns;
 }

@@ -36,12 +36,12 @@ void for_lines_in_face(bool quad, int n, Visit&& visit) {
 
 // Whether the surface is one across a control edge, inside the region.
 inline bool is_joined(const ControlMesh& mesh, Index e) {
-  return !mesh.edges[std::size_t(e)].boundary() && !mesh.feature_edge[std::size_t(e)] &&
+  return !mesh.edges[e].boundary() && !mesh.feature_edge[e] &&
          mesh.edge_part(e) != RegionPart::outside;
 }
 
 inline Index face_beside(const ControlMesh& mesh, Index e, std::size_t h) {
-  return mesh.sides[std::size_t(mesh.edges[std::size_t(e)].side[h])].face;
+  return mesh.sides[mesh.edges[e].side[h]].face;
 }
 
 // A cell of a surface: a normal of any length, and the largest extent.

@@ -81,8 +81,7 @@ void CatmullClark::set_specials(Level& level,
                                 const std::vector<std::pair<Index, double>>& vertices) {
   std::vector<std::pair<Index, std::size_t>> around;  // vertex, number of the sharp edge
   for (std::size_t i = 0; i < level.sharp_edges.size(); ++i)
-    for (const Index v : level.ends[std::size_t(level.sharp_edges[i].first)])
-      around.emplace_back(v, i);
+    for (const Index v : level.ends[level.sharp_edges[i].first]) around.emplace_back(v, i);
   std::sort(around.begin(), around.end());
   auto spoke = around.begin();
   auto own = vertices.begin();
@@ -109,21 +108,17 @@ void CatmullClark::refine() {
     next.vertices = Index(level.size() + faces(last));
     next.ends.resize(2 * level.ends.size() + level.vertex.size());
     for (Index e = 0; e < edges; ++e)
-      for (Index h = 0; h < 2; ++h)
-        next.ends[std::size_t(2 * e + h)] = {level.ends[std::size_t(e)][std::size_t(h)],
-                                             level.vertices + e};
+      for (Index h = 0; h < 2; ++h) next.ends[2 * e + h] = {level.ends[e][h], level.vertices + e};
     next.vertex.resize(4 * level.vertex.size());
     next.edge.resize(4 * level.vertex.size());
     for_each_corner(last, [&](std::size_t f, std::size_t k, std::size_t before) {
       const Index v = level.vertex[k], e = level.edge[k], d = level.edge[before];
       const Index middle = level.vertices + edges + Index(f);
-      const auto half = [&](Index edge) {
-        return 2 * edge + (level.ends[std::size_t(edge)][0] == v ? 0 : 1);
-      };
+      const auto half = [&](Index edge) { return 2 * edge + (level.ends[edge][0] == v ? 0 : 1); };
       const std::array<Index, 4> vertex{v, level.vertices + e, middle, level.vertices + d},
           edge{half(e), 2 * edges + Index(k), 2 * edges + Index(before), half(d)};
-      std::copy_n(vertex.begin(), 4, next.vertex.begin() + std::ptrdiff_t(4 * k));
-      std::copy_n(edge.begin(), 4, next.edge.begin() + std::ptrdiff_t(4 * k));
+      std::copy_n(vertex.begin(), 4, next.vertex.begin() + 4 * k);
+      std::copy_n(edge.begin(), 4, next.edge.begin() + 4 * k);
       next.ends[std::size_t(2 * edges) + k] = {level.vertices + e, middle};
     });
     for (const auto& [edge, sharpness] : level.sharp_edges)
@@ -162,9 +157,9 @@ Index CatmullClark::point(Index polygon, Index corner, int a, int b) const {
   const Level& level = levels_[l];
   const Index first = l == 0 ? corners(face) : 4 * face,
               last = l == 0 ? corners(face + 1) : first + 4;
-  if (a == 0 && b == 0) return level.vertex[std::size_t(k)];
-  if (b == 0) return level.vertices + level.edge[std::size_t(k)];
-  if (a == 0) return level.vertices + level.edge[std::size_t(k == first ? last - 1 : k - 1)];
+  if (a == 0 && b == 0) return level.vertex[k];
+  if (b == 0) return level.vertices + level.edge[k];
+  if (a == 0) return level.vertices + level.edge[k == first ? last - 1 : k - 1];
   return Index(level.size()) + face;
 }
 
@@ -198,7 +193,7 @@ Array<double> CatmullClark::step(std::size_t l, std::span<const double> x) const
     to = n > 0 ? Vec3((n - 2) / n * at(x, v) + to / (n * n)) : at(x, v);
   }
   for (const auto& [e, sharpness] : level.sharp_edges) {
-    const auto [a, b] = level.ends[std::size_t(e)];
+    const auto [a, b] = level.ends[e];
     const double share = std::min(1.0, sharpness);
     auto to = at(out, vertices + std::size_t(e));
     const Vec3 middle = (at(x, std::size_t(a)) + at(x, std::size_t(b))) / 2;
@@ -212,7 +207,7 @@ Array<double> CatmullClark::step(std::size_t l, std::span<const double> x) const
       if (rule == VertexRule::corner) return at(x, v);
       Vec3 sum = 0.75 * at(x, v);
       for (std::size_t i = 0; i < special.spokes.size(); ++i) {
-        const auto [a, b] = level.ends[std::size_t(special.spokes[i])];
+        const auto [a, b] = level.ends[special.spokes[i]];
         if (after(special.sharp.spokes[i], steps) > 0)
           sum += 0.125 * at(x, std::size_t(a == special.vertex ? b : a));
       }
@@ -250,7 +245,7 @@ Array<double> CatmullClark::to_limit(std::size_t l, std::span<const double> x) c
     for (const Index v : level.ends[e]) {
       to += 4 * at(x, std::size_t(v));
       at(out, std::size_t(v)) += 4 * own;
-      ++valence[std::size_t(v)];
+      ++valence[v];
     }
     to /= 36;
   }
@@ -262,7 +257,7 @@ Array<double> CatmullClark::to_limit(std::size_t l, std::span<const double> x) c
   }
   for (const auto& [e, sharpness] : level.sharp_edges) {
     const double share = std::min(1.0, after(sharpness, 1));
-    const auto [a, b] = level.ends[std::size_t(e)];
+    const auto [a, b] = level.ends[e];
     auto to = at(out, vertices + std::size_t(e));
     const Vec3 on_crease =
         (4 * at(x, vertices + std::size_t(e)) + at(x, std::size_t(a)) + at(x, std::size_t(b))) / 6;
@@ -292,7 +287,7 @@ Array<double> CatmullClark::limits(std::span<const double> cage) const {
 
 std::vector<double> CatmullClark::vertex_limits(std::span<const double> cage) const {
   const Array<double> x = step(0, cage), all = to_limit(0, x);
-  std::vector<double> limits(all.begin(), all.begin() + std::ptrdiff_t(cage.size()));
+  std::vector<double> limits(all.begin(), all.begin() + cage.size());
   put_exact_limits(x, limits);
   for (const Index v : stays_)
     std::copy_n(cage.begin() + 3 * std::ptrdiff_t(v), 3, limits.begin() + 3 * std::ptrdiff_t(v));
@@ -308,14 +303,14 @@ void CatmullClark::put_exact_limits(std::span<const double> x, std::vector<doubl
   std::vector<const Special*> specials;
   for (const Special& special : level.specials)
     if (takes_many_steps(special.sharp)) {
-      which[std::size_t(special.vertex)] = Index(rings.size());
+      which[special.vertex] = Index(rings.size());
       rings.emplace_back();
       specials.push_back(&special);
     }
   if (rings.empty()) return;
   for_each_corner(0, [&](std::size_t f, std::size_t k, std::size_t before) {
-    if (const Index r = which[std::size_t(level.vertex[k])]; r >= 0)
-      rings[std::size_t(r)].push_back({level.edge[before], level.edge[k], Index(f)});
+    if (const Index r = which[level.vertex[k]]; r >= 0)
+      rings[r].push_back({level.edge[before], level.edge[k], Index(f)});
   });
   for (std::size_t r = 0; r < rings.size(); ++r) {
     stop_if_cancelled(r);
@@ -331,9 +326,8 @@ void CatmullClark::put_exact_limits(std::span<const double> x, std::vector<doubl
       edges.push_back(e);
       ring.spokes.push_back(at(x, vertices + std::size_t(e)));
       const auto own = std::ranges::find(special.spokes, e);
-      sharp.spokes.push_back(own == special.spokes.end()
-                                 ? 0
-                                 : special.sharp.spokes[std::size_t(own - special.spokes.begin())]);
+      sharp.spokes.push_back(
+          own == special.spokes.end() ? 0 : special.sharp.spokes[own - special.spokes.begin()]);
       return i;
     };
     for (const auto& [a, b, f] : rings[r]) {

@@ -22,8 +22,8 @@ class CatmullClark {
                int steps);
 
   // Polygon f has the corners corners(f) to corners(f + 1).
-  Index corners(Index f) const { return first_[std::size_t(f)]; }
-  Index vertex(Index corner) const { return levels_[0].vertex[std::size_t(corner)]; }
+  Index corners(Index f) const { return first_[f]; }
+  Index vertex(Index corner) const { return levels_[0].vertex[corner]; }
 
   // Number of pieces of each side of the quad at a polygon's corner. That quad has the corner, the
   // middle of the side to the next corner, the middle of the polygon, and the middle of the side

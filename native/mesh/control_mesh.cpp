@@ -50,8 +50,7 @@ HalfEdgeMesh build(const ControlMesh& control) {
     stop_if_cancelled(f);
     const Face& face = control.faces[f];
     OpenMesh::VertexHandle corners[4];
-    for (int i = 0; i < face.size; ++i)
-      corners[i] = OpenMesh::VertexHandle(face.vertex[std::size_t(i)]);
+    for (int i = 0; i < face.size; ++i) corners[i] = OpenMesh::VertexHandle(face.vertex[i]);
     // check() excludes failures here; but a bug must not produce a broken table.
     if (!mesh.add_face(corners, std::size_t(face.size)).is_valid())
       throw FairingError(
@@ -82,7 +81,7 @@ void fill_sides(const HalfEdgeMesh& mesh, ControlMesh& control) {
     for (int s = 0; s < face.size; ++s, h = mesh.next_halfedge_handle(h)) {
       const Index e = h.idx() / 2;
       const bool reversed = h.idx() % 2 != 0;
-      control.edges[std::size_t(e)].side[reversed] = Index(control.sides.size());
+      control.edges[e].side[reversed] = Index(control.sides.size());
       control.sides.push_back({Index(f), e, std::int8_t(s), reversed});
     }
   }
@@ -101,11 +100,11 @@ void fill_ring(const HalfEdgeMesh& mesh, Index v, ControlMesh& control) {
   Half h = first;
   do {
     const auto direction = std::size_t(h.idx() % 2);
-    const Index side = control.edges[std::size_t(h.idx() / 2)].side[direction];
+    const Index side = control.edges[h.idx() / 2].side[direction];
     Spoke spoke{h.idx() / 2, -1, -1, direction == 0};
     if (side >= 0) {
-      spoke.face = control.sides[std::size_t(side)].face;
-      spoke.corner = control.sides[std::size_t(side)].local;
+      spoke.face = control.sides[side].face;
+      spoke.corner = control.sides[side].local;
     }
     control.spokes.push_back(spoke);
     if (spoke.face < 0) break;
@@ -135,8 +134,8 @@ void index_spokes(ControlMesh& control) {
     const Spoke& spoke = control.spokes[k];
     control.spoke_of_edge[2 * std::size_t(spoke.edge) + (spoke.outward ? 0 : 1)] = Index(k);
     if (spoke.face < 0) continue;
-    const Face& face = control.faces[std::size_t(spoke.face)];
-    control.spoke_of_side[std::size_t(face.first_side + spoke.corner)] = Index(k);
+    const Face& face = control.faces[spoke.face];
+    control.spoke_of_side[face.first_side + spoke.corner] = Index(k);
   }
 }
 

@@ -170,11 +170,11 @@ struct ControlMesh {
   // The input vertex at v, or the centre of a split polygon.
   Index original_vertex(Index v) const {
     if (v < input_vertices) return v;
-    if (v < first_centre()) return copies.vertex[std::size_t(v - input_vertices)];
-    return v < first_copied_centre() ? v : copies.centre[std::size_t(v - first_copied_centre())];
+    if (v < first_centre()) return copies.vertex[v - input_vertices];
+    return v < first_copied_centre() ? v : copies.centre[v - first_copied_centre()];
   }
   Index original_edge(Index e) const {
-    return e < first_copied_edge() ? e : copies.edge[std::size_t(e - first_copied_edge())];
+    return e < first_copied_edge() ? e : copies.edge[e - first_copied_edge()];
   }
   // Whether v is a copy or has copies.
   bool shared(Index v) const {
@@ -192,24 +192,22 @@ struct ControlMesh {
     const auto [first, last] = std::equal_range(copies.edge.begin(), copies.edge.end(), original);
     if (last - first != 1) return first != last;
     const Index copy = first_copied_edge() + Index(first - copies.edge.begin());
-    return !second_vertex(edges[std::size_t(original)].vertex[0]) &&
-           !second_vertex(edges[std::size_t(copy)].vertex[0]);
+    return !second_vertex(edges[original].vertex[0]) && !second_vertex(edges[copy].vertex[0]);
   }
   // Whether several fans of faces meet at the input vertex of v.
   bool fans_meet(Index v) const {
     bool meet = false;
     if (v < first_centre())
       for_each_copy(original_vertex(v), [&](Index w) {
-        meet |= w >= input_vertices && !copies.second[std::size_t(w - input_vertices)];
+        meet |= w >= input_vertices && !copies.second[w - input_vertices];
       });
     return meet;
   }
   // Whether the element is in the second half of a double cover, which counts nowhere because it
   // repeats the first.
   bool second_vertex(Index v) const {
-    return v < first_centre()
-               ? v >= input_vertices && copies.second[std::size_t(v - input_vertices)]
-               : v >= first_copied_centre();
+    return v < first_centre() ? v >= input_vertices && copies.second[v - input_vertices]
+                              : v >= first_copied_centre();
   }
   bool second_edge(Index e) const { return e >= first_copied_edge() && !nonmanifold(e); }
   bool second_face(Index f) const { return f >= first_copied_face(); }
@@ -223,10 +221,8 @@ struct ControlMesh {
   }
   // Whether split_polygons has added the edge.
   bool inside_polygon(Index e) const {
-    const Edge& edge = edges[std::size_t(e)];
-    const auto polygon = [&](std::size_t h) {
-      return faces[std::size_t(sides[std::size_t(edge.side[h])].face)].polygon;
-    };
+    const Edge& edge = edges[e];
+    const auto polygon = [&](std::size_t h) { return faces[sides[edge.side[h]].face].polygon; };
     return !edge.boundary() && polygon(0) == polygon(1);
   }
 
@@ -240,21 +236,21 @@ struct ControlMesh {
   }
 
   RegionPart vertex_part(Index v) const {
-    return region.whole() ? RegionPart::inside : region.vertex[std::size_t(v)];
+    return region.whole() ? RegionPart::inside : region.vertex[v];
   }
   RegionPart edge_part(Index e) const {
-    return region.whole() ? RegionPart::inside : region.edge[std::size_t(e)];
+    return region.whole() ? RegionPart::inside : region.edge[e];
   }
   RegionPart face_part(Index f) const {
-    return region.whole() ? RegionPart::inside : region.face[std::size_t(f)];
+    return region.whole() ? RegionPart::inside : region.face[f];
   }
 
   // Whether the surface has divided differences, and so bending, at the control vertex or at the
   // points inside the edge.
   bool vertex_fit(Index v) const {
-    return !ring(v).empty() && !feature_vertex[std::size_t(v)] && part_fit(vertex_part(v));
+    return !ring(v).empty() && !feature_vertex[v] && part_fit(vertex_part(v));
   }
-  bool edge_fit(Index e) const { return !feature_edge[std::size_t(e)] && part_fit(edge_part(e)); }
+  bool edge_fit(Index e) const { return !feature_edge[e] && part_fit(edge_part(e)); }
 
  private:
   bool part_fit(RegionPart part) const {
@@ -267,7 +263,7 @@ struct ControlMesh {
 inline Index ring_size(const ControlMesh& mesh, Index v) {
   Index size = 0;
   for (const Spoke& spoke : mesh.ring(v))
-    size += spoke.face >= 0 && mesh.faces[std::size_t(spoke.face)].quad() ? 2 : 1;
+    size += spoke.face >= 0 && mesh.faces[spoke.face].quad() ? 2 : 1;
   return size;
 }
 

@@ -26,7 +26,7 @@ class CountingSort {
     Array<Index> next(begin_.begin(), begin_.end() - 1);
     for (std::size_t i = 0; i < count; ++i) {
       stop_if_cancelled(i);
-      items_[std::size_t(next[std::size_t(key_of(i))]++)] = item_of(i);
+      items_[next[key_of(i)]++] = item_of(i);
     }
   }
 

@@ -22,10 +22,9 @@ class Lifter {
 
   // Before the faces of a polygon.
   void add_polygon(Index f) {
-    const auto begin = std::size_t(mesh_.offsets[std::size_t(f)]),
+    const auto begin = std::size_t(mesh_.offsets[f]),
                end = std::size_t(mesh_.offsets[std::size_t(f) + 1]);
-    for (std::size_t k = begin; k < end; ++k)
-      turned_[std::size_t(mesh_.corners[k])] = cover_.turned[k];
+    for (std::size_t k = begin; k < end; ++k) turned_[mesh_.corners[k]] = cover_.turned[k];
   }
 
   SplitFace half(const SplitFace& face, bool second) const {
@@ -36,7 +35,7 @@ class Lifter {
       if (bool(turned_[v]) != second) out.vertex[i] = over_[v];
     }
     // The first corner stays first.
-    if (second) std::reverse(out.vertex.begin() + 1, out.vertex.begin() + std::ptrdiff_t(size));
+    if (second) std::reverse(out.vertex.begin() + 1, out.vertex.begin() + size);
     return out;
   }
 
@@ -54,7 +53,7 @@ DoubleCover begin_double_cover(const PolygonMesh& mesh, const HalfEdges& half_ed
   const std::vector<std::int64_t> faces = find_orientation(mesh, half_edges).one_sided;
   if (faces.empty()) return cover;
   cover.one_sided.assign(std::size_t(mesh.face_count()), 0);
-  for (const std::int64_t f : faces) cover.one_sided[std::size_t(f)] = 1;
+  for (const std::int64_t f : faces) cover.one_sided[f] = 1;
   cover.turned.assign(mesh.corners.size(), 0);
   return cover;
 }
@@ -67,14 +66,14 @@ std::vector<Index> lift_faces(const PolygonMesh& mesh, const DoubleCover& cover,
   std::vector<Index> polygon_of(std::size_t(centres), -1);
   for (const SplitFace& face : split.faces)
     for (const Index v : face.vertex)
-      if (v >= first_centre) polygon_of[std::size_t(v - first_centre)] = face.polygon;
+      if (v >= first_centre) polygon_of[v - first_centre] = face.polygon;
   Lifter lifter(mesh, cover);
   for (Index c = 0; c < centres; ++c) {
-    const bool twice = cover.has(polygon_of[std::size_t(c)]);
+    const bool twice = cover.has(polygon_of[c]);
     lifter.add_centre(twice ? first_centre + centres + Index(copied_centres.size()) : -1);
     if (!twice) continue;
     copied_centres.push_back(first_centre + c);
-    const Vec3 centre = split.centres[std::size_t(c)];
+    const Vec3 centre = split.centres[c];
     split.centres.push_back(centre);
   }
   std::vector<SplitFace> second;

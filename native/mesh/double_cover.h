@@ -13,7 +13,7 @@ namespace fairing {
 
 struct DoubleCover {
   bool empty() const { return one_sided.empty(); }
-  bool has(std::int32_t polygon) const { return !empty() && one_sided[std::size_t(polygon)]; }
+  bool has(std::int32_t polygon) const { return !empty() && one_sided[polygon]; }
 
   std::vector<std::uint8_t> one_sided;  // per polygon; empty: all sheets have two sides
   std::vector<Index> over;              // the other vertex at the same place; -1: none

@@ -52,28 +52,26 @@ class FeatureFinder {
  private:
   // Edges outside a region are always straight lines; those on its joint are straight creases.
   bool feature(Index e) const {
-    return control_.feature_edge[std::size_t(e)] != 0 &&
-           control_.edge_part(e) != RegionPart::outside;
+    return control_.feature_edge[e] != 0 && control_.edge_part(e) != RegionPart::outside;
   }
   bool curve(Index e) const { return feature(e) && control_.edge_part(e) == RegionPart::inside; }
-  const Edge& edge(Index e) const { return control_.edges[std::size_t(e)]; }
-  const Vec3& position(Index v) const { return control_.positions[std::size_t(v)]; }
+  const Edge& edge(Index e) const { return control_.edges[e]; }
+  const Vec3& position(Index v) const { return control_.positions[v]; }
   // Normal of the polygon on a side; its length is twice the area.
   Vec3 normal(const std::vector<Vec3>& of_polygons, Index side) const {
-    const Index f = control_.sides[std::size_t(side)].face;
-    const Vec3& normal = of_polygons[std::size_t(control_.faces[std::size_t(f)].polygon)];
+    const Index f = control_.sides[side].face;
+    const Vec3& normal = of_polygons[control_.faces[f].polygon];
     return control_.second_face(f) ? Vec3(-normal) : normal;
   }
 
   void choose_modes() {
     mode_.assign(std::size_t(control_.first_copied_edge()), options_.boundary);
     for (std::size_t m = 0; m < boundary_modes; ++m)
-      for_each_edge(options_.boundary_edges[m], "boundary edges", "boundary edge",
-                    [&](Index e, std::size_t) {
-                      mode_[std::size_t(control_.original_edge(e))] = BoundaryMode(m);
-                    });
+      for_each_edge(
+          options_.boundary_edges[m], "boundary edges", "boundary edge",
+          [&](Index e, std::size_t) { mode_[control_.original_edge(e)] = BoundaryMode(m); });
   }
-  BoundaryMode mode(Index e) const { return mode_[std::size_t(control_.original_edge(e))]; }
+  BoundaryMode mode(Index e) const { return mode_[control_.original_edge(e)]; }
   bool straight(Index e) const {
     return edge(e).boundary() && !control_.nonmanifold(e) && mode(e) == BoundaryMode::linear;
   }
@@ -81,7 +79,7 @@ class FeatureFinder {
   // Edges where sheets meet are always boundaries: other curves have at most two faces.
   void mark_boundary() {
     for (Index e = 0; e < Index(control_.edges.size()); ++e)
-      control_.feature_edge[std::size_t(e)] =
+      control_.feature_edge[e] =
           control_.nonmanifold(e) || (edge(e).boundary() && mode(e) != BoundaryMode::free);
   }
 
@@ -101,13 +99,13 @@ class FeatureFinder {
   // Both sides of a double cover have the same creases.
   void mark_copies() {
     for (Index e = control_.first_copied_edge(); e < Index(control_.edges.size()); ++e) {
-      std::uint8_t& original = control_.feature_edge[std::size_t(control_.original_edge(e))];
-      control_.feature_edge[std::size_t(e)] = original |= control_.feature_edge[std::size_t(e)];
+      std::uint8_t& original = control_.feature_edge[control_.original_edge(e)];
+      control_.feature_edge[e] = original |= control_.feature_edge[e];
     }
   }
 
   void mark_given_creases() {
-    const auto mark = [&](Index e) { control_.feature_edge[std::size_t(e)] = 1; };
+    const auto mark = [&](Index e) { control_.feature_edge[e] = 1; };
     for_each_edge(options_.crease_edges, "crease edges", "crease",
                   [&](Index e, std::size_t) { mark(e); });
     const auto& [pairs, weights] = options_.soft_creases;
@@ -117,7 +115,7 @@ class FeatureFinder {
       if (weights[k] >= 1)
         mark(e);
       else
-        control_.soft.edge[std::size_t(control_.original_edge(e))] = weights[k];
+        control_.soft.edge[control_.original_edge(e)] = weights[k];
     });
   }
 
@@ -128,7 +126,7 @@ class FeatureFinder {
     for (std::size_t e = 0; e < soft.edge.size(); ++e) {
       soft.edge[e] = control_.feature_edge[e] || control_.edges[e].boundary()
                          ? 0
-                         : soft.edge[std::size_t(control_.original_edge(Index(e)))];
+                         : soft.edge[control_.original_edge(Index(e))];
       any |= soft.edge[e] > 0;
     }
     if (!any) soft = {};
@@ -141,10 +139,10 @@ class FeatureFinder {
     int count = 0;
     bool at_crease = false;
     for (const Spoke& spoke : control_.ring(v)) {
-      const double weight = control_.soft.edge[std::size_t(spoke.edge)];
+      const double weight = control_.soft.edge[spoke.edge];
       sum += weight;
       count += weight > 0;
-      at_crease |= control_.feature_edge[std::size_t(spoke.edge)] && !edge(spoke.edge).boundary();
+      at_crease |= control_.feature_edge[spoke.edge] && !edge(spoke.edge).boundary();
     }
     if (count == 0) return 0;
     if (at_crease) return 1;
@@ -240,9 +238,8 @@ class FeatureFinder {
       stop_if_cancelled(std::size_t(v));
       if (joined_.first(v) != v) continue;
       const std::vector<Index>& edges = feature_edges_at(v);
-      corner_[std::size_t(v)] = !edges.empty() && ends(v, edges);
-      joined_.for_each(v,
-                       [&](Index w) { control_.feature_vertex[std::size_t(w)] = !edges.empty(); });
+      corner_[v] = !edges.empty() && ends(v, edges);
+      joined_.for_each(v, [&](Index w) { control_.feature_vertex[w] = !edges.empty(); });
     }
     std::vector<std::int64_t> unknown;
     for (std::int64_t v : options_.corner_vertices) {
@@ -250,18 +247,17 @@ class FeatureFinder {
         unknown.push_back(v);
         continue;
       }
-      control_.for_each_copy(Index(v), [&](Index w) {
-        control_.feature_vertex[std::size_t(w)] = corner_[std::size_t(joined_.first(w))] = 1;
-      });
+      control_.for_each_copy(
+          Index(v), [&](Index w) { control_.feature_vertex[w] = corner_[joined_.first(w)] = 1; });
     }
     refuse_unknown(unknown, "corners");
   }
 
   void collect_chains() {
     std::vector<std::uint8_t> visited(control_.edges.size(), 0);
-    const auto unseen = [&](Index e) { return curve(e) && !visited[std::size_t(e)]; };
+    const auto unseen = [&](Index e) { return curve(e) && !visited[e]; };
     for (Index v = 0; v < control_.vertex_count(); ++v) {
-      if (!corner_[std::size_t(v)]) continue;
+      if (!corner_[v]) continue;
       joined_.for_each(v, [&](Index w) {
         for (const Spoke& spoke : control_.ring(w))
           if (const Index e = control_.original_edge(spoke.edge); unseen(e))
@@ -277,15 +273,15 @@ class FeatureFinder {
     chain.vertices.push_back(control_.original_vertex(start));
     Index v = start, e = first_edge;
     for (;;) {
-      visited[std::size_t(e)] = 1;
+      visited[e] = 1;
       chain.edges.push_back(e);
       v = across(e, v);
-      if (v == start && !corner_[std::size_t(v)]) {
+      if (v == start && !corner_[v]) {
         chain.closed = true;
         break;
       }
       chain.vertices.push_back(control_.original_vertex(v));
-      if (corner_[std::size_t(v)]) break;
+      if (corner_[v]) break;
       const std::vector<Index>& edges = feature_edges_at(v);
       e = edges[0] == e ? edges[1] : edges[0];
     }

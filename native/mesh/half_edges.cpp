@@ -11,8 +11,8 @@ HalfEdges::HalfEdges(const PolygonMesh& mesh)
     : mesh_(mesh), face_(mesh.corners.size()), twin_(mesh.corners.size(), -1) {
   for (std::int64_t f = 0; f < mesh.face_count(); ++f) {
     stop_if_cancelled(std::size_t(f));
-    std::fill(face_.begin() + mesh.offsets[std::size_t(f)],
-              face_.begin() + mesh.offsets[std::size_t(f) + 1], std::int32_t(f));
+    std::fill(face_.begin() + mesh.offsets[f], face_.begin() + mesh.offsets[std::size_t(f) + 1],
+              std::int32_t(f));
   }
   find_twins();
 }
@@ -41,8 +41,8 @@ void HalfEdges::find_twins() {
   sides.for_equal([](const Side& a, const Side& b) { return a.high < b.high; },
                   [&](std::span<const Side> edge) {
                     if (edge.size() == 2) {
-                      twin_[std::size_t(edge[0].half_edge)] = edge[1].half_edge;
-                      twin_[std::size_t(edge[1].half_edge)] = edge[0].half_edge;
+                      twin_[edge[0].half_edge] = edge[1].half_edge;
+                      twin_[edge[1].half_edge] = edge[0].half_edge;
                     } else if (edge.size() > 2) {
                       const auto [low, high] = ends(std::size_t(edge[0].half_edge));
                       nonmanifold_edges_.insert(nonmanifold_edges_.end(), {low, high});

@@ -17,13 +17,13 @@ class HalfEdges {
   explicit HalfEdges(const PolygonMesh& mesh);
 
   std::int32_t count() const { return std::int32_t(face_.size()); }
-  std::int32_t face(std::int32_t k) const { return face_[std::size_t(k)]; }
-  std::int64_t from(std::int32_t k) const { return mesh_.corners[std::size_t(k)]; }
+  std::int32_t face(std::int32_t k) const { return face_[k]; }
+  std::int64_t from(std::int32_t k) const { return mesh_.corners[k]; }
   std::int32_t next(std::int32_t k) const;
   std::int32_t previous(std::int32_t k) const;
 
   // The other half-edge of the edge; -1 on the boundary and where more than two faces meet.
-  std::int32_t twin(std::int32_t k) const { return twin_[std::size_t(k)]; }
+  std::int32_t twin(std::int32_t k) const { return twin_[k]; }
   bool runs_as_twin(std::int32_t k) const { return from(k) == from(twin(k)); }
 
   // visit(corner, turned) for the corners of the fan around from(k) that contains corner k, which

@@ -10,7 +10,7 @@ namespace {
 std::vector<Vec3> points_with_faces(const ControlMesh& mesh) {
   std::vector<Vec3> points;
   for (Index v = 0; v < mesh.vertex_count(); ++v)
-    if (!mesh.ring(v).empty()) points.push_back(mesh.positions[std::size_t(v)]);
+    if (!mesh.ring(v).empty()) points.push_back(mesh.positions[v]);
   return points;
 }
 

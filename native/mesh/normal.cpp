@@ -9,10 +9,10 @@ Vec3 control_normal(const ControlMesh& mesh, Index v) {
   Vec3 normal = Vec3::Zero();
   for (const Spoke& spoke : mesh.ring(v)) {
     if (spoke.face < 0) continue;
-    const Face& face = mesh.faces[std::size_t(spoke.face)];
+    const Face& face = mesh.faces[spoke.face];
     const auto edge_to = [&](int corner) -> Vec3 {
-      const Index w = face.vertex[std::size_t((corner + face.size) % face.size)];
-      return mesh.positions[std::size_t(w)] - mesh.positions[std::size_t(v)];
+      const Index w = face.vertex[(corner + face.size) % face.size];
+      return mesh.positions[w] - mesh.positions[v];
     };
     normal += edge_to(spoke.corner + 1).cross(edge_to(spoke.corner - 1));
   }

@@ -46,8 +46,7 @@ struct Ray {
 
   // As in [Möller and Trumbore 1997]; the sides belong to the triangle.
   double minimumOnObject(const Corners& triangle) {
-    if (triangle.face == face || !(planes[std::size_t(triangle.face)].normal.dot(along) > 0))
-      return none;
+    if (triangle.face == face || !(planes[triangle.face].normal.dot(along) > 0)) return none;
     const Vec3 u = triangle.at[1] - triangle.at[0], v = triangle.at[2] - triangle.at[0];
     const Vec3 across = along.cross(v), offset = from - triangle.at[0], turned = offset.cross(u);
     const double determinant = u.dot(across);
@@ -72,7 +71,7 @@ double six_volumes(std::span<const FacePlane> planes) {
 }  // namespace
 
 FacePlane plane_of(const Face& face, std::span<const Vec3> control) {
-  const auto corner = [&](std::size_t i) { return control[std::size_t(face.vertex[i])]; };
+  const auto corner = [&](std::size_t i) { return control[face.vertex[i]]; };
   const Vec3 a = corner(0), b = corner(1), c = corner(2);
   if (!face.quad()) {
     const Vec3 cross = (b - a).cross(c - a);
@@ -87,12 +86,10 @@ std::vector<Opposite> opposite_faces(const ControlMesh& mesh, std::span<const Ve
   std::vector<Corners> triangles;
   for (Index f = 0; f < mesh.first_copied_face(); ++f) {
     stop_if_cancelled(std::size_t(f));
-    const Face& face = mesh.faces[std::size_t(f)];
+    const Face& face = mesh.faces[f];
     for (std::size_t i = 2; i < std::size_t(face.size); ++i)
       triangles.push_back(
-          {{control[std::size_t(face.vertex[0])], control[std::size_t(face.vertex[i - 1])],
-            control[std::size_t(face.vertex[i])]},
-           f});
+          {{control[face.vertex[0]], control[face.vertex[i - 1]], control[face.vertex[i]]}, f});
   }
   const Eigen::KdBVH<double, 3, Corners> tree(triangles.begin(), triangles.end());
   const double inwards = six_volumes(planes) < 0 ? 1 : -1;

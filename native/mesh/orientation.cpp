@@ -25,12 +25,12 @@ class Senses {
   Senses(const PolygonMesh& mesh, const HalfEdges& half_edges)
       : mesh_(mesh), half_edges_(half_edges), sense_(std::size_t(mesh.face_count()), 0) {}
 
-  bool seen(std::int32_t f) const { return sense_[std::size_t(f)] != 0; }
+  bool seen(std::int32_t f) const { return sense_[f] != 0; }
 
   // Visits the component of a face. Returns whether it is two-sided.
   bool visit(std::int32_t seed) {
     component_.assign(1, seed);
-    sense_[std::size_t(seed)] = 1;
+    sense_[seed] = 1;
     bool two_sided = true;
     for (std::size_t i = 0; i < component_.size(); ++i) {
       stop_if_cancelled(i);
@@ -39,7 +39,7 @@ class Senses {
         if (half_edges_.twin(k) < 0) continue;
         const std::int32_t neighbour = half_edges_.face(half_edges_.twin(k));
         const auto wanted = std::int8_t(half_edges_.runs_as_twin(k) ? -sense_[f] : sense_[f]);
-        auto& sense = sense_[std::size_t(neighbour)];
+        auto& sense = sense_[neighbour];
         if (sense == 0) {
           sense = wanted;
           component_.push_back(neighbour);
@@ -55,7 +55,7 @@ class Senses {
 
   void append_minority(Ids& faces) const {
     const auto has = [&](std::int8_t side) {
-      return [this, side](std::int32_t f) { return sense_[std::size_t(f)] == side; };
+      return [this, side](std::int32_t f) { return sense_[f] == side; };
     };
     const auto second = std::count_if(component_.begin(), component_.end(), has(-1));
     const auto smaller = std::int8_t(2 * std::size_t(second) > component_.size() ? 1 : -1);
@@ -93,7 +93,7 @@ OwnedPolygonMesh with_flipped(const PolygonMesh& mesh, std::span<const std::int6
                        {mesh.corners.begin(), mesh.corners.end()},
                        {mesh.offsets.begin(), mesh.offsets.end()}};
   for (std::int64_t f : faces)
-    std::reverse(out.corners.begin() + out.offsets[std::size_t(f)] + 1,
+    std::reverse(out.corners.begin() + out.offsets[f] + 1,
                  out.corners.begin() + out.offsets[std::size_t(f) + 1]);
   return out;
 }

@@ -31,7 +31,7 @@ class OrderFreeSum {
     for (auto& of_component : term_) of_component.reserve(terms);
   }
   void add(const Vec3& v) {
-    for (std::size_t a = 0; a < 3; ++a) term_[a].push_back(v[Eigen::Index(a)]);
+    for (std::size_t a = 0; a < 3; ++a) term_[a].push_back(v[a]);
   }
   Vec3 total() {
     Vec3 out;
@@ -41,7 +41,7 @@ class OrderFreeSum {
       const auto positive = std::lower_bound(term.begin(), term.end(), 0.0);
       const double gained = std::accumulate(positive, term.end(), 0.0),
                    lost = std::accumulate(std::make_reverse_iterator(positive), term.rend(), 0.0);
-      out[Eigen::Index(a)] = gained + lost;
+      out[a] = gained + lost;
     }
     return out;
   }

@@ -19,8 +19,7 @@ RegionPart part_of(bool some_inside, bool some_outside) {
 RegionPart vertex_part(const ControlMesh& control, Index v) {
   bool touches[2] = {false, false};
   for (const Spoke& spoke : control.ring(v))
-    if (spoke.face >= 0)
-      touches[control.region.face[std::size_t(spoke.face)] == RegionPart::outside] = true;
+    if (spoke.face >= 0) touches[control.region.face[spoke.face] == RegionPart::outside] = true;
   return part_of(touches[0], touches[1]);
 }
 
@@ -28,8 +27,7 @@ RegionPart edge_part(const ControlMesh& control, const Edge& edge) {
   bool touches[2] = {false, false};
   for (const Index side : edge.side)
     if (side >= 0)
-      touches[control.region.face[std::size_t(control.sides[std::size_t(side)].face)] ==
-              RegionPart::outside] = true;
+      touches[control.region.face[control.sides[side].face] == RegionPart::outside] = true;
   return part_of(touches[0], touches[1]);
 }
 
@@ -41,18 +39,16 @@ void join_sheets(ControlMesh& control) {
     if (first != other) first = RegionPart::joint;
   };
   const auto original = [&](Index e) -> RegionPart& {
-    return region.edge[std::size_t(control.original_edge(e))];
+    return region.edge[control.original_edge(e)];
   };
   for (Index e = control.first_copied_edge(); e < Index(control.edges.size()); ++e)
-    meet(original(e), region.edge[std::size_t(e)]);
+    meet(original(e), region.edge[e]);
   for (Index e = control.first_copied_edge(); e < Index(control.edges.size()); ++e)
-    region.edge[std::size_t(e)] = original(e);
+    region.edge[e] = original(e);
   const JoinedVertices joined(control);
-  const auto first = [&](Index v) -> RegionPart& {
-    return region.vertex[std::size_t(joined.first(v))];
-  };
-  for (Index v = 0; v < control.vertex_count(); ++v) meet(first(v), region.vertex[std::size_t(v)]);
-  for (Index v = 0; v < control.vertex_count(); ++v) region.vertex[std::size_t(v)] = first(v);
+  const auto first = [&](Index v) -> RegionPart& { return region.vertex[joined.first(v)]; };
+  for (Index v = 0; v < control.vertex_count(); ++v) meet(first(v), region.vertex[v]);
+  for (Index v = 0; v < control.vertex_count(); ++v) region.vertex[v] = first(v);
 }
 
 }  // namespace
@@ -65,7 +61,7 @@ std::vector<std::uint8_t> flags_of_faces(std::span<const std::int64_t> faces, st
     if (f < 0 || f >= count)
       unknown.push_back(f);
     else
-      flags[std::size_t(f)] = 1;
+      flags[f] = 1;
   if (!unknown.empty())
     throw FairingError(ErrorCode::index_out_of_range,
                        "{face} {is|are} named in " + where +
@@ -90,8 +86,7 @@ void find_region(const RegionOptions& options, ControlMesh& control) {
   Region& region = control.region;
   region.joint = options.joint;
   for (const Face& face : control.faces)
-    region.face.push_back(chosen[std::size_t(face.polygon)] ? RegionPart::inside
-                                                            : RegionPart::outside);
+    region.face.push_back(chosen[face.polygon] ? RegionPart::inside : RegionPart::outside);
   for (const Edge& edge : control.edges) {
     stop_if_cancelled(region.edge.size());
     region.edge.push_back(edge_part(control, edge));
@@ -111,7 +106,7 @@ void mark_clamped_joint(ControlMesh& control) {
   for (std::size_t e = 0; e < control.edges.size(); ++e) {
     if (region.edge[e] != RegionPart::joint || !control.edge_fit(Index(e))) continue;
     region.clamped_edge[e] = 1;
-    for (const Index v : control.edges[e].vertex) region.clamped_vertex[std::size_t(v)] = 1;
+    for (const Index v : control.edges[e].vertex) region.clamped_vertex[v] = 1;
   }
 }
 

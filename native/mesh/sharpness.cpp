@@ -71,8 +71,8 @@ SharpRules::SharpRules(const ControlMesh& control, std::span<const std::int64_t>
   for (std::size_t k = 0; k < pairs.size(); ++k)
     if (values[k] > 0) edges_.emplace_back(ascending(pairs[k][0], pairs[k][1]), forever(values[k]));
   for (Index e = 0; e < control.first_copied_edge(); ++e) {
-    if (!control.feature_edge[std::size_t(e)] || control.inside_polygon(e)) continue;
-    const auto [a, b] = control.edges[std::size_t(e)].vertex;
+    if (!control.feature_edge[e] || control.inside_polygon(e)) continue;
+    const auto [a, b] = control.edges[e].vertex;
     edges_.emplace_back(ascending(control.original_vertex(a), control.original_vertex(b)),
                         sharp_for_ever);
   }
@@ -81,14 +81,14 @@ SharpRules::SharpRules(const ControlMesh& control, std::span<const std::int64_t>
 
   std::vector<int> ends(vertex_.size(), 0);
   for (const Chain& chain : control.chains) {
-    if (!chain.closed) ++ends[std::size_t(chain.vertices.front())];
-    if (!chain.closed) ++ends[std::size_t(chain.vertices.back())];
+    if (!chain.closed) ++ends[chain.vertices.front()];
+    if (!chain.closed) ++ends[chain.vertices.back()];
     if (chain.straight)
-      for (const Index v : chain.vertices) vertex_[std::size_t(v)] = sharp_for_ever;
+      for (const Index v : chain.vertices) vertex_[v] = sharp_for_ever;
   }
   for (std::size_t v = 0; v < vertex_.size(); ++v)
     if (ends[v] == 2) vertex_[v] = sharp_for_ever;  // one curve in two parts: it turns sharply
-  for (const std::int64_t v : corners) vertex_[std::size_t(v)] = sharp_for_ever;
+  for (const std::int64_t v : corners) vertex_[v] = sharp_for_ever;
   for (std::size_t v = 0; v < given.vertices.size(); ++v)
     if (given.vertices[v] > 0) vertex_[v] = forever(given.vertices[v]);
 }

@@ -25,12 +25,12 @@ std::vector<Copy> copies_wanted(const HalfEdges& half_edges, std::size_t vertice
   std::vector<std::uint8_t> seen(std::size_t(half_edges.count()), 0), met(vertices, 0);
   for (std::int32_t k = 0; k < half_edges.count(); ++k) {
     stop_if_cancelled(std::size_t(k));
-    if (seen[std::size_t(k)]) continue;
-    half_edges.visit_fan(k, [&](std::int32_t corner, bool) { seen[std::size_t(corner)] = 1; });
+    if (seen[k]) continue;
+    half_edges.visit_fan(k, [&](std::int32_t corner, bool) { seen[corner] = 1; });
     const std::int64_t v = half_edges.from(k);
-    if (met[std::size_t(v)]) copies.push_back({v, k, false});
+    if (met[v]) copies.push_back({v, k, false});
     if (cover.has(half_edges.face(k))) copies.push_back({v, k, true});
-    met[std::size_t(v)] = 1;
+    met[v] = 1;
   }
   std::sort(copies.begin(), copies.end());
   return copies;
@@ -46,7 +46,7 @@ std::vector<std::array<Index, 2>> edges_that_came_apart(const ControlMesh& contr
   std::vector<Entry> entries;
   for (Index e = 0; e < Index(control.edges.size()); ++e) {
     stop_if_cancelled(std::size_t(e));
-    const auto& [a, b] = control.edges[std::size_t(e)].vertex;
+    const auto& [a, b] = control.edges[e].vertex;
     if (!control.shared(a) || !control.shared(b)) continue;
     const Index from = control.original_vertex(a), to = control.original_vertex(b);
     entries.push_back({{std::min(from, to), std::max(from, to)}, e});
@@ -80,16 +80,16 @@ void apply(const EdgeMoves& moves, ControlMesh& control) {
       std::swap(edge.vertex[0], edge.vertex[1]);
       std::swap(edge.side[0], edge.side[1]);
     }
-    edges[std::size_t(moves.to[e])] = edge;
+    edges[moves.to[e]] = edge;
   }
   control.edges = std::move(edges);
   for (Side& side : control.sides) {
-    side.reversed = side.reversed != bool(moves.turned[std::size_t(side.edge)]);
-    side.edge = moves.to[std::size_t(side.edge)];
+    side.reversed = side.reversed != bool(moves.turned[side.edge]);
+    side.edge = moves.to[side.edge];
   }
   for (Spoke& spoke : control.spokes) {
-    spoke.outward = spoke.outward != bool(moves.turned[std::size_t(spoke.edge)]);
-    spoke.edge = moves.to[std::size_t(spoke.edge)];
+    spoke.outward = spoke.outward != bool(moves.turned[spoke.edge]);
+    spoke.edge = moves.to[spoke.edge];
   }
 }
 
@@ -115,15 +115,14 @@ SheetCopies cut_into_sheets(OwnedPolygonMesh& mesh) {
     copies.vertex.push_back(Index(copy.of));
     copies.second.push_back(copy.second);
     if (copy.second) {
-      cover.over[std::size_t(half_edges.from(copy.corner))] = Index(added);
-      half_edges.visit_fan(copy.corner, [&](std::int32_t corner, bool turned) {
-        cover.turned[std::size_t(corner)] = turned;
-      });
+      cover.over[half_edges.from(copy.corner)] = Index(added);
+      half_edges.visit_fan(
+          copy.corner, [&](std::int32_t corner, bool turned) { cover.turned[corner] = turned; });
       continue;
     }
     fan.clear();
     half_edges.visit_fan(copy.corner, [&](std::int32_t corner, bool) { fan.push_back(corner); });
-    for (const std::int32_t corner : fan) mesh.corners[std::size_t(corner)] = std::int64_t(added);
+    for (const std::int32_t corner : fan) mesh.corners[corner] = std::int64_t(added);
   }
   mesh.coordinates.reserve(3 * (vertices + wanted.size()));
   for (const Index v : copies.vertex)
@@ -135,22 +134,20 @@ SheetCopies cut_into_sheets(OwnedPolygonMesh& mesh) {
 void find_copied_edges(ControlMesh& control) {
   if (control.copies.vertex.empty()) return;
   const std::vector<std::array<Index, 2>> apart = edges_that_came_apart(control);
-  const auto start = [&](Index e) {
-    return control.original_vertex(control.edges[std::size_t(e)].vertex[0]);
-  };
+  const auto start = [&](Index e) { return control.original_vertex(control.edges[e].vertex[0]); };
   EdgeMoves moves;
   moves.to.assign(control.edges.size(), 0);
   moves.turned.assign(control.edges.size(), 0);
   for (const auto& [original, copy] : apart) {
-    moves.to[std::size_t(copy)] = -1;
-    moves.turned[std::size_t(copy)] = start(original) != start(copy);
+    moves.to[copy] = -1;
+    moves.turned[copy] = start(original) != start(copy);
   }
   Index next = 0;
   for (Index& to : moves.to)
     if (to == 0) to = next++;
   for (const auto& [original, copy] : apart) {
-    moves.to[std::size_t(copy)] = next++;
-    control.copies.edge.push_back(moves.to[std::size_t(original)]);
+    moves.to[copy] = next++;
+    control.copies.edge.push_back(moves.to[original]);
   }
   apply(moves, control);
 }
@@ -160,8 +157,7 @@ JoinedVertices::JoinedVertices(const ControlMesh& control) {
   UnionFind groups(control.positions.size());
   for (Index e = control.first_copied_edge(); e < Index(control.edges.size()); ++e)
     for (std::size_t h = 0; h < 2; ++h)
-      groups.unite(control.edges[std::size_t(e)].vertex[h],
-                   control.edges[std::size_t(control.original_edge(e))].vertex[h]);
+      groups.unite(control.edges[e].vertex[h], control.edges[control.original_edge(e)].vertex[h]);
   for (Index v = 0; v < control.vertex_count(); ++v) {
     stop_if_cancelled(std::size_t(v));
     first_.push_back(groups.lead(v));
@@ -181,7 +177,7 @@ SheetNumbers number_sheets(const ControlMesh& control) {
   for (Index v = 0; v < control.vertex_count(); ++v) {
     stop_if_cancelled(std::size_t(v));
     const Index first = groups.lead(v);
-    sheets.of_vertex.push_back(first == v ? next++ : sheets.of_vertex[std::size_t(first)]);
+    sheets.of_vertex.push_back(first == v ? next++ : sheets.of_vertex[first]);
     sheets.count += first == v && !control.ring(v).empty();
   }
   return sheets;

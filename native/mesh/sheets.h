@@ -41,7 +41,7 @@ class JoinedVertices {
   explicit JoinedVertices(const ControlMesh& control);
 
   // The least vertex of the group of v.
-  Index first(Index v) const { return first_.empty() ? v : first_[std::size_t(v)]; }
+  Index first(Index v) const { return first_.empty() ? v : first_[v]; }
   // visit(w) for v = first(v) and all others of its group.
   template <class Visit>
   void for_each(Index v, Visit&& visit) const {

@@ -79,7 +79,7 @@ class Splitter {
     for (std::int64_t f = 0; f < mesh_.face_count(); ++f) {
       stop_if_cancelled(std::size_t(f));
       const auto face = mesh_.face(f);
-      switch (treatment_[std::size_t(f)]) {
+      switch (treatment_[f]) {
         case Treatment::keep: add_face(f, face); break;
         case Treatment::fan: add_fan(f, face); break;
         case Treatment::cut: add_cut(f); break;
@@ -111,14 +111,14 @@ class Splitter {
     if (face.size() == 3) return Treatment::keep;
     const PolygonShape shape = shape_of(mesh_, face);
     if (face.size() > 4) return shape.star_shaped() ? Treatment::fan : Treatment::cut;
-    const bool has_pinched = std::any_of(face.begin(), face.end(),
-                                         [&](std::int64_t v) { return pinched[std::size_t(v)]; });
+    const bool has_pinched =
+        std::any_of(face.begin(), face.end(), [&](std::int64_t v) { return pinched[v]; });
     return has_pinched || shape.concave() || shape.warped() ? Treatment::cut : Treatment::keep;
   }
 
   void find_free_diagonals() {
     for (std::int64_t f = 0; f < mesh_.face_count(); ++f) {
-      if (treatment_[std::size_t(f)] != Treatment::cut) continue;
+      if (treatment_[f] != Treatment::cut) continue;
       stop_if_cancelled();
       const auto face = mesh_.face(f);
       for (std::size_t i = 0; i + 2 < face.size(); ++i)
@@ -164,7 +164,7 @@ class Splitter {
   }
 
   std::int64_t original(std::int64_t v) const {
-    return v < first_copy_ ? v : copied_[std::size_t(v - first_copy_)];
+    return v < first_copy_ ? v : copied_[v - first_copy_];
   }
 
   const PolygonMesh& mesh_;

@@ -42,7 +42,7 @@ double key_of(const Vec3& p) {
 PointSearch::PointSearch(const ControlMesh& mesh) : positions_(mesh.positions) {
   for (Index v = 0; v < mesh.vertex_count(); ++v)
     if (!mesh.ring(v).empty() && mesh.original_vertex(v) == v)
-      entries_.push_back({key_of(positions_[std::size_t(v)]), v});
+      entries_.push_back({key_of(positions_[v]), v});
   std::sort(entries_.begin(), entries_.end(),
             [comparisons = std::size_t(0)](const Entry& a, const Entry& b) mutable {
               stop_if_cancelled(++comparisons);
@@ -56,7 +56,7 @@ Index PointSearch::at(const Vec3& p, double tolerance) const {
                                 [](const Entry& e, double k) { return e.key < k; });
   Index found = none;
   for (; entry != entries_.end() && entry->key <= key + span; ++entry) {
-    if ((positions_[std::size_t(entry->vertex)] - p).norm() > tolerance) continue;
+    if ((positions_[entry->vertex] - p).norm() > tolerance) continue;
     if (found >= 0) return several;
     found = entry->vertex;
   }
@@ -67,7 +67,7 @@ Index PointSearch::at(const Vec3& p, double tolerance) const {
 Index side_between(const ControlMesh& mesh, Index a, Index b) {
   const bool at_a = mesh.ring(a).size() <= mesh.ring(b).size();
   for (const Spoke& spoke : mesh.ring(at_a ? a : b)) {
-    const Edge& edge = mesh.edges[std::size_t(spoke.edge)];
+    const Edge& edge = mesh.edges[spoke.edge];
     if (edge.vertex[spoke.outward ? 1 : 0] == (at_a ? b : a))
       return edge.side[edge.vertex[0] == a ? 0 : 1];
   }
@@ -77,7 +77,7 @@ Index side_between(const ControlMesh& mesh, Index a, Index b) {
 template <class T>
 bool same(const std::vector<T>& values, const std::vector<Index>& image) {
   for (std::size_t i = 0; i < values.size(); ++i)
-    if (values[i] != values[std::size_t(image[i])]) return false;
+    if (values[i] != values[image[i]]) return false;
   return true;
 }
 
@@ -106,13 +106,12 @@ class MirrorFinder {
     std::vector<Index> unclear;
     for (Index v = 0; v < mesh_.vertex_count(); ++v) {
       stop_if_cancelled(std::size_t(v));
-      image[std::size_t(v)] = v;
+      image[v] = v;
       if (mesh_.ring(v).empty()) continue;
       if (searches_ == 0) return false;
       --searches_;
-      const Vec3 opposite = mirror.plane.image(mesh_.positions[std::size_t(v)]);
-      const Index found = image[std::size_t(v)] =
-          search_.at(opposite, Plane::search_reach * tolerance_);
+      const Vec3 opposite = mirror.plane.image(mesh_.positions[v]);
+      const Index found = image[v] = search_.at(opposite, Plane::search_reach * tolerance_);
       if (found == PointSearch::none) return false;
       if (found == PointSearch::several) unclear.push_back(v);
     }
@@ -120,8 +119,8 @@ class MirrorFinder {
     distinguish(std::move(unclear), image);
     const auto is_centre = [&](Index v) { return v >= mesh_.first_centre(); };
     for (Index v = 0; v < mesh_.vertex_count(); ++v) {
-      const Index other = image[std::size_t(v)];
-      if (other < 0 || image[std::size_t(other)] != v) return false;
+      const Index other = image[v];
+      if (other < 0 || image[other] != v) return false;
       if (is_centre(other) != is_centre(v)) return false;
     }
     return true;
@@ -133,15 +132,15 @@ class MirrorFinder {
     const std::vector<Index> originals = image;
     for (Index v = 0; v < mesh_.vertex_count(); ++v) {
       stop_if_cancelled(std::size_t(v));
-      if (originals[std::size_t(v)] < 0 || !mesh_.shared(v) || mesh_.ring(v).empty()) continue;
+      if (originals[v] < 0 || !mesh_.shared(v) || mesh_.ring(v).empty()) continue;
       const Spoke& spoke = mesh_.ring(v)[0];
-      const Face& face = mesh_.faces[std::size_t(spoke.face)];
+      const Face& face = mesh_.faces[spoke.face];
       if (lies_in_plane(face, originals)) {
-        image[std::size_t(v)] = v;
+        image[v] = v;
         continue;
       }
-      Index& found = image[std::size_t(v)] = -1;
-      mesh_.for_each_copy(originals[std::size_t(v)], [&](Index w) {
+      Index& found = image[v] = -1;
+      mesh_.for_each_copy(originals[v], [&](Index w) {
         for (const Spoke& other : mesh_.ring(w))
           if (other.face >= 0 && faces_match(face, spoke.corner, other, originals)) found = w;
       });
@@ -155,19 +154,19 @@ class MirrorFinder {
   // such a part and another one.
   bool lies_in_plane(const Face& face, const std::vector<Index>& image) const {
     return !mesh_.copies.vertex.empty() && std::ranges::all_of(corners(face), [&](Index v) {
-      return mesh_.original_vertex(image[std::size_t(v)]) == mesh_.original_vertex(v);
+      return mesh_.original_vertex(image[v]) == mesh_.original_vertex(v);
     });
   }
 
   // Whether the face at `other` is the image of `face`, and its corner that of `corner`.
   bool faces_match(const Face& face, int corner, const Spoke& other,
                    const std::vector<Index>& image) const {
-    const Face& mirrored = mesh_.faces[std::size_t(other.face)];
+    const Face& mirrored = mesh_.faces[other.face];
     if (mirrored.size != face.size) return false;
     for (int i = 0; i < face.size; ++i) {
-      const Index v = face.vertex[std::size_t((corner + i) % face.size)],
-                  w = mirrored.vertex[std::size_t((other.corner + face.size - i) % face.size)];
-      if (image[std::size_t(v)] != mesh_.original_vertex(w)) return false;
+      const Index v = face.vertex[(corner + i) % face.size],
+                  w = mirrored.vertex[(other.corner + face.size - i) % face.size];
+      if (image[v] != mesh_.original_vertex(w)) return false;
     }
     return true;
   }
@@ -177,13 +176,13 @@ class MirrorFinder {
     while (!unclear.empty()) {
       const Index v = unclear.back();
       unclear.pop_back();
-      if (image[std::size_t(v)] >= 0) continue;
-      const Index found = image[std::size_t(v)] = image_by_faces(v, image);
+      if (image[v] >= 0) continue;
+      const Index found = image[v] = image_by_faces(v, image);
       if (found < 0) continue;
       for (const Spoke& spoke : mesh_.ring(v)) {
         if (spoke.face < 0) continue;
-        for (const Index other : corners(mesh_.faces[std::size_t(spoke.face)]))
-          if (image[std::size_t(other)] < 0) unclear.push_back(other);
+        for (const Index other : corners(mesh_.faces[spoke.face]))
+          if (image[other] < 0) unclear.push_back(other);
       }
     }
   }
@@ -191,11 +190,10 @@ class MirrorFinder {
   Index image_by_faces(Index v, const std::vector<Index>& image) const {
     for (const Spoke& spoke : mesh_.ring(v)) {
       if (spoke.face < 0) continue;
-      const Face& face = mesh_.faces[std::size_t(spoke.face)];
+      const Face& face = mesh_.faces[spoke.face];
       for (int c = 0; c < face.size; ++c) {
         const FaceImage found = face_image(face, c, image);
-        if (found.face >= 0)
-          return mesh_.faces[std::size_t(found.face)].vertex[corner(found, spoke.corner)];
+        if (found.face >= 0) return mesh_.faces[found.face].vertex[corner(found, spoke.corner)];
       }
     }
     return PointSearch::several;
@@ -207,14 +205,14 @@ class MirrorFinder {
     if (plane.offset == 0 && plane.normal.cwiseAbs().maxCoeff() == 1) return;
     Vec3 sum = Vec3::Zero();
     for (std::size_t v = 0; v < mirror.vertex.size(); ++v) {
-      const Vec3 between = mesh_.positions[v] - mesh_.positions[std::size_t(mirror.vertex[v])];
+      const Vec3 between = mesh_.positions[v] - mesh_.positions[mirror.vertex[v]];
       sum += plane.normal.dot(between) > 0 ? between : Vec3(-between);
     }
     if (sum.norm() > 0) plane.normal = sum.normalized();
     double offset = 0, count = 0;
     for (Index v = 0; v < mesh_.vertex_count(); ++v) {
       if (mesh_.ring(v).empty()) continue;
-      offset += plane.normal.dot(mesh_.positions[std::size_t(v)]);
+      offset += plane.normal.dot(mesh_.positions[v]);
       ++count;
     }
     plane.offset = offset / count;
@@ -235,12 +233,11 @@ class MirrorFinder {
 
   // A face's image has the opposite orientation: side c, from a to b, becomes that from b' to a'.
   FaceImage face_image(const Face& face, int c, const std::vector<Index>& image) const {
-    const Index a = image[std::size_t(face.vertex[std::size_t(c)])],
-                b = image[std::size_t(face.vertex[std::size_t((c + 1) % face.size)])];
+    const Index a = image[face.vertex[c]], b = image[face.vertex[(c + 1) % face.size]];
     const Index found = a < 0 || b < 0 ? -1 : side_between(mesh_, b, a);
     if (found < 0) return {};
-    const Side& side = mesh_.sides[std::size_t(found)];
-    if (mesh_.faces[std::size_t(side.face)].size != face.size) return {};
+    const Side& side = mesh_.sides[found];
+    if (mesh_.faces[side.face].size != face.size) return {};
     return {side.face, face.size, (side.local + 1 + c) % face.size};
   }
 
@@ -253,8 +250,8 @@ class MirrorFinder {
       const Face& face = mesh_.faces[f];
       if (lies_in_plane(face, mirror.vertex)) {
         for (int c = 0; c < face.size; ++c) {
-          const Index e = mesh_.sides[std::size_t(face.first_side + c)].edge;
-          mirror.edge[std::size_t(e)] = e;
+          const Index e = mesh_.sides[face.first_side + c].edge;
+          mirror.edge[e] = e;
         }
         mirror.face[f] = Index(f);
         mirror.turn[f] = Mirror::in_plane;
@@ -262,14 +259,11 @@ class MirrorFinder {
       }
       const FaceImage image = face_image(face, 0, mirror.vertex);
       if (image.face < 0) return false;
-      const Face& other = mesh_.faces[std::size_t(image.face)];
+      const Face& other = mesh_.faces[image.face];
       for (int c = 0; c < face.size; ++c) {
-        if (other.vertex[corner(image, c)] !=
-            mirror.vertex[std::size_t(face.vertex[std::size_t(c)])])
-          return false;
+        if (other.vertex[corner(image, c)] != mirror.vertex[face.vertex[c]]) return false;
         const Index side = other.first_side + Index(corner(image, (c + 1) % face.size));
-        mirror.edge[std::size_t(mesh_.sides[std::size_t(face.first_side + c)].edge)] =
-            mesh_.sides[std::size_t(side)].edge;
+        mirror.edge[mesh_.sides[face.first_side + c].edge] = mesh_.sides[side].edge;
       }
       mirror.face[f] = image.face;
       mirror.turn[f] = std::int8_t(image.turn);
@@ -299,7 +293,7 @@ bool mirrors_positions(const ControlMesh& mesh, const Mirror& mirror,
   for (std::size_t v = 0; v < positions.size(); ++v) {
     stop_if_cancelled(v);
     if (mesh.ring(Index(v)).empty()) continue;
-    const Vec3& opposite = positions[std::size_t(mirror.vertex[v])];
+    const Vec3& opposite = positions[mirror.vertex[v]];
     if ((mirror.plane.image(positions[v]) - opposite).norm() > tolerance) return false;
   }
   return true;
@@ -316,7 +310,7 @@ std::vector<Index> Symmetry::images(Index v) const {
   std::vector<Index> out{v};
   for (const auto& mirror : mirrors)
     for (std::size_t k = 0, known = out.size(); k < known; ++k) {
-      const Index image = mirror->vertex[std::size_t(out[k])];
+      const Index image = mirror->vertex[out[k]];
       if (std::ranges::find(out, image) == out.end()) out.push_back(image);
     }
   return out;

@@ -31,18 +31,18 @@ struct Mirror {
 
   bool vertex_in_plane(const ControlMesh& mesh, Index v) const {
     const auto ring = mesh.ring(v);
-    return !ring.empty() && turn[std::size_t(ring[0].face)] == in_plane;
+    return !ring.empty() && turn[ring[0].face] == in_plane;
   }
   bool edge_in_plane(const ControlMesh& mesh, Index e) const {
-    const auto& sides = mesh.edges[std::size_t(e)].side;
+    const auto& sides = mesh.edges[e].side;
     const Index side = sides[sides[0] < 0 ? 1 : 0];
-    return turn[std::size_t(mesh.sides[std::size_t(side)].face)] == in_plane;
+    return turn[mesh.sides[side].face] == in_plane;
   }
 
   // Whether the image of an edge has the opposite direction.
   bool reverses(const ControlMesh& mesh, Index e) const {
-    const auto image = std::size_t(edge[std::size_t(e)]);
-    return mesh.edges[image].vertex[0] != vertex[std::size_t(mesh.edges[std::size_t(e)].vertex[0])];
+    const auto image = std::size_t(edge[e]);
+    return mesh.edges[image].vertex[0] != vertex[mesh.edges[e].vertex[0]];
   }
 };
 

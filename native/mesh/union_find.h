@@ -19,15 +19,15 @@ class UnionFind {
 
   Index lead(Index i) {
     for (;;) {
-      Index& above = lead_[std::size_t(i)];
+      Index& above = lead_[i];
       if (above == i) return i;
-      i = above = lead_[std::size_t(above)];  // path halving
+      i = above = lead_[above];  // path halving
     }
   }
   // Returns whether they were two sets.
   bool unite(Index i, Index j) {
     const Index a = lead(i), b = lead(j);
-    lead_[std::size_t(std::max(a, b))] = std::min(a, b);
+    lead_[std::max(a, b)] = std::min(a, b);
     return a != b;
   }
 

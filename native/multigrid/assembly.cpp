@@ -17,7 +17,7 @@ class Column {
   explicit Column(Eigen::Index rows) : value_(std::size_t(rows)), used_(std::size_t(rows)) {}
 
   void clear() {
-    for (const Index r : rows_) used_[std::size_t(r)] = 0;
+    for (const Index r : rows_) used_[r] = 0;
     rows_.clear();
   }
 
@@ -36,7 +36,7 @@ class Column {
 
   void sort() { std::sort(rows_.begin(), rows_.end()); }
   const std::vector<Index>& rows() const { return rows_; }
-  double operator[](Index row) const { return value_[std::size_t(row)]; }
+  double operator[](Index row) const { return value_[row]; }
 
  private:
   std::vector<double> value_;
@@ -59,10 +59,10 @@ std::vector<Index> large_rings(const GridLevel& grid, const std::vector<Index>& 
                                bool apart) {
   std::vector<Index> large;
   for (Index v = 0; v < grid.mesh().vertex_count(); ++v) {
-    std::size_t held = number[std::size_t(v)] >= 0;
+    std::size_t held = number[v] >= 0;
     bool alone = true;
     visit_ring(grid, v, [&](Index q, std::size_t) {
-      held += number[std::size_t(q)] >= 0;
+      held += number[q] >= 0;
       alone &= !apart || !std::binary_search(large.begin(), large.end(), q);
     });
     if (held > most_coupled && alone) large.push_back(v);
@@ -100,7 +100,7 @@ class RingColumns {
                                  const std::vector<double>& numbers) {
     out_.clear();
     for (std::size_t s = 0; s < ring.size(); ++s)
-      if (const Index column = number[std::size_t(ring[s])]; column >= 0)
+      if (const Index column = number[ring[s]]; column >= 0)
         out_.push_back({column, {numbers[3 * s], numbers[3 * s + 1], numbers[3 * s + 2]}});
     std::stable_sort(out_.begin(), out_.end(),
                      [](const Entry& a, const Entry& b) { return a.column < b.column; });
@@ -183,9 +183,9 @@ AssembledSystem assemble_square(const GridLevel& grid, const std::vector<Index>&
       rows.startVec(3 * p + c);
       for (const auto& [column, entry] : own)
         if (k < 0)
-          rows.insertBack(column, 3 * p + c) = entry[std::size_t(c)];
+          rows.insertBack(column, 3 * p + c) = entry[c];
         else
-          of_u.emplace_back(3 * k + c, column, root_of(p) * entry[std::size_t(c)]);
+          of_u.emplace_back(3 * k + c, column, root_of(p) * entry[c]);
     }
     ++p;
   });

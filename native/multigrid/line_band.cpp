@@ -17,7 +17,7 @@ constexpr std::size_t longest_line = 64;
 void LineBand::link() {
   const auto linked = [&](std::size_t p, std::size_t k) {
     const Index q = strongest_[p].outstanding(k);
-    return q != none && strongest_[std::size_t(q)].has(Index(p)) ? q : none;
+    return q != none && strongest_[q].has(Index(p)) ? q : none;
   };
   std::vector<std::uint8_t> taken(points_, 0);
   // From one end, in pieces of about equal length.
@@ -30,8 +30,7 @@ void LineBand::link() {
       point_.push_back(at);
       Index next = none;
       for (std::size_t k = 0; k < 2; ++k)
-        if (const Index q = linked(a, k); q != none && q != last && !taken[std::size_t(q)])
-          next = q;
+        if (const Index q = linked(a, k); q != none && q != last && !taken[q]) next = q;
       last = at;
       at = next;
     }
@@ -53,7 +52,7 @@ void LineBand::link() {
   place_.assign(lines() > 0 ? points_ : 0, -1.0);
   for (std::size_t l = 0; l < lines(); ++l)
     for (std::size_t i = 0; i < length(l); ++i)
-      place_[std::size_t(points_of(l)[i])] = span_ * double(l) + double(i);
+      place_[points_of(l)[i]] = span_ * double(l) + double(i);
 }
 
 }  // namespace fairing

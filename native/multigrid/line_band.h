@@ -28,7 +28,7 @@ class LineBand {
   // Whether couplings are still expected.
   bool is_seeking() const { return !strongest_.empty(); }
   // The coupling of p to q: |K_pq| over the root of K_pp K_qq.
-  void offer(Index p, Index q, float coupling) { strongest_[std::size_t(p)].offer(q, coupling); }
+  void offer(Index p, Index q, float coupling) { strongest_[p].offer(q, coupling); }
 
   std::size_t lines() const { return begin_.size() - 1; }
   std::size_t length(std::size_t line) const { return begin_[line + 1] - begin_[line]; }
@@ -70,7 +70,7 @@ class LineBand {
   }
   // Adds K_pq of row p; K_qp has to be added as well.
   void add(Index p, Index q, float number) {
-    const double here = place_[std::size_t(p)], there = place_[std::size_t(q)];
+    const double here = place_[p], there = place_[q];
     if (are_on_one(here, there))
       visit_pair(here, there, number, [&](bool to_q, int beside, float part) {
         if (!to_q) number_[3 * std::size_t(p) + std::size_t(beside)] += part;

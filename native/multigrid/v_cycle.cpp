@@ -156,8 +156,7 @@ void CoarseSolver::solve(const LineJacobi* lines, double largest_eigenvalue, int
     return;
   }
   const std::size_t size = op_.size();
-  const std::vector<double> b(state.residual.begin(),
-                              state.residual.begin() + std::ptrdiff_t(size));
+  const std::vector<double> b(state.residual.begin(), state.residual.begin() + size);
   std::vector<double> x(size);
   solve(b.data(), x.data());
   std::copy(x.begin(), x.end(), state.x.begin());

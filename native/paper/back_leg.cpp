@@ -45,9 +45,7 @@ class Sweeps {
   using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
   using Column = SparseMatrix::InnerIterator;
 
-  std::size_t point(Eigen::Index i) const {
-    return std::size_t(system_.unknown_points[std::size_t(i)]);
-  }
+  std::size_t point(Eigen::Index i) const { return std::size_t(system_.unknown_points[i]); }
   // Of r - K e; K is symmetric.
   Eigen::RowVector3d residual_at(Eigen::Index i) const {
     Eigen::RowVector3d out = Eigen::Map<const Eigen::RowVector3d>(residual_.data() + 3 * point(i));

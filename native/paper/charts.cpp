@@ -16,7 +16,7 @@ struct Corner {
 
 Corner corner(const ControlMesh& mesh, const Face& face, int c) {
   const auto at = [&](int k) -> const Vec3& {
-    return mesh.positions[std::size_t(face.vertex[std::size_t((k + face.size) % face.size)])];
+    return mesh.positions[face.vertex[(k + face.size) % face.size]];
   };
   return {at(c + 1) - at(c), at(c - 1) - at(c)};
 }
@@ -47,7 +47,7 @@ Chart TangentCharts::vertex(Index v) const {
   Vec3 normal = Vec3::Zero();
   for (const Spoke& spoke : ring)
     if (spoke.face >= 0) {
-      const Corner c = corner(mesh(), mesh().faces[std::size_t(spoke.face)], spoke.corner);
+      const Corner c = corner(mesh(), mesh().faces[spoke.face], spoke.corner);
       normal += c.along.cross(c.up);
     }
   Chart chart = ChartMaker::vertex(v);
@@ -55,12 +55,11 @@ Chart TangentCharts::vertex(Index v) const {
   const Frame frame(normal);
   chart.ring.clear();
   for (const Spoke& spoke : ring) {
-    const Edge& edge = mesh().edges[std::size_t(spoke.edge)];
+    const Edge& edge = mesh().edges[spoke.edge];
     const Index other = edge.vertex[spoke.outward ? 1 : 0];
-    chart.ring.push_back(
-        frame.project(mesh().positions[std::size_t(other)] - mesh().positions[std::size_t(v)]));
+    chart.ring.push_back(frame.project(mesh().positions[other] - mesh().positions[v]));
     if (spoke.face < 0) break;
-    const Face& face = mesh().faces[std::size_t(spoke.face)];
+    const Face& face = mesh().faces[spoke.face];
     if (face.quad()) {
       const Corner c = corner(mesh(), face, spoke.corner);
       chart.ring.push_back(frame.project(c.along + c.up));
@@ -70,25 +69,25 @@ Chart TangentCharts::vertex(Index v) const {
 }
 
 Chart TangentCharts::edge(Index e) const {
-  const Edge& edge = mesh().edges[std::size_t(e)];
+  const Edge& edge = mesh().edges[e];
   Vec3 normal = Vec3::Zero();
   for (const Index s : edge.side)
     if (s >= 0) {
-      const Side& side = mesh().sides[std::size_t(s)];
-      const Corner m = middle(mesh(), mesh().faces[std::size_t(side.face)], side.local);
+      const Side& side = mesh().sides[s];
+      const Corner m = middle(mesh(), mesh().faces[side.face], side.local);
       normal += m.along.cross(m.up).normalized();
     }
   Chart chart = ChartMaker::edge(e);
   if (!(normal.norm() > single_roundoff)) return chart;
   const Frame frame(normal);
-  const Vec2 forward = frame.project(mesh().positions[std::size_t(edge.vertex[1])] -
-                                     mesh().positions[std::size_t(edge.vertex[0])]);
+  const Vec2 forward =
+      frame.project(mesh().positions[edge.vertex[1]] - mesh().positions[edge.vertex[0]]);
   chart.ring.clear();
   for (int h = 0; h < 2; ++h) {
     chart.ring.push_back(h == 0 ? forward : Vec2(-forward));
-    if (edge.side[std::size_t(h)] < 0) continue;
-    const Side& side = mesh().sides[std::size_t(edge.side[std::size_t(h)])];
-    const Face& face = mesh().faces[std::size_t(side.face)];
+    if (edge.side[h] < 0) continue;
+    const Side& side = mesh().sides[edge.side[h]];
+    const Face& face = mesh().faces[side.face];
     const Vec2 up = frame.project(middle(mesh(), face, side.local).up),
                along = h == 0 ? forward : Vec2(-forward);
     if (face.quad()) chart.ring.push_back(up + along);

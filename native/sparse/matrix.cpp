@@ -89,7 +89,7 @@ bool RowBuilder::repeat(Numbers& numbers, std::span<const Index> columns) {
       return false;
     }
     column_.push_back(std::uint32_t(column));
-    in_row_.mark[std::size_t(column)] = in_row_.last + std::uint32_t(column_.size());
+    in_row_.mark[column] = in_row_.last + std::uint32_t(column_.size());
   }
   repeated_ = &numbers;
   return true;

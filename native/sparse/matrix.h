@@ -111,7 +111,7 @@ class RowBuilder {
 
   // Adds to the row's number in a column.
   void add(Index column, double number) {
-    std::uint32_t& mark = in_row_.mark[std::size_t(column)];
+    std::uint32_t& mark = in_row_.mark[column];
     if (mark <= in_row_.last) {
       column_.push_back(std::uint32_t(column));
       sum_.push_back(0);
@@ -122,10 +122,8 @@ class RowBuilder {
 
   // Number of the row's columns so far, in the order in which they were named.
   std::size_t columns() const { return column_.size(); }
-  bool names(Index column) const { return in_row_.mark[std::size_t(column)] > in_row_.last; }
-  std::size_t place(Index column) const {
-    return in_row_.mark[std::size_t(column)] - in_row_.last - 1;
-  }
+  bool names(Index column) const { return in_row_.mark[column] > in_row_.last; }
+  std::size_t place(Index column) const { return in_row_.mark[column] - in_row_.last - 1; }
 
   // A row's numbers, to be shared by equal rows.
   class Numbers {

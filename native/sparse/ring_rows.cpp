@@ -11,7 +11,7 @@ RingRows::RingRows(const GridLevel& grid, int rows) : grid_(&grid), rows_(rows) 
   element_.resize(std::size_t(mesh.vertex_count()) + mesh.edges.size() + mesh.faces.size());
   std::size_t size = 0;
   for_each_run(grid, [&](const Run& run) {
-    Element& element = element_[std::size_t(element_of(mesh, run))];
+    Element& element = element_[element_of(mesh, run)];
     if (run.row <= 1) element = {size, 1 + int(neighbours(mesh, run))};
     size += std::size_t(rows * element.slots) * run.count;
   });
@@ -20,7 +20,7 @@ RingRows::RingRows(const GridLevel& grid, int rows) : grid_(&grid), rows_(rows) 
 }
 
 RowRun<const float> RingRows::of(const Run& run) const {
-  const Element& element = element_[std::size_t(element_of(grid_->mesh(), run))];
+  const Element& element = element_[element_of(grid_->mesh(), run)];
   const std::size_t before =
       run.row > 1 ? interior_row(run.quad, std::size_t(grid_->n()), std::size_t(run.row)) : 0;
   return {run.count, element.slots,

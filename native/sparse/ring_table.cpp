@@ -56,7 +56,7 @@ RingPlaces::RingPlaces(const RingTable& rings) : begin_(rings.points() + 1, 0) {
   for (std::size_t p = 0; p < rings.points(); ++p) begin_[p + 1] += begin_[p];
   place_.resize(begin_.back());
   Array<std::size_t> next(begin_.begin(), begin_.end() - 1);
-  visit([&](Index p, const Place& place) { place_[next[std::size_t(p)]++] = place; });
+  visit([&](Index p, const Place& place) { place_[next[p]++] = place; });
 }
 
 }  // namespace fairing

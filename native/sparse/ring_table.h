@@ -28,7 +28,7 @@ class RingTable {
     std::uint32_t size;
     Index element;  // whose stencil the point has (stencil/stencils.h)
   };
-  const Ring& about(Index p) const { return ring_[std::size_t(p)]; }
+  const Ring& about(Index p) const { return ring_[p]; }
   const Member* members(const Ring& ring) const { return member_.data() + ring.member; }
   // The position of a point in the ring; `size` if it is not a member.
   std::size_t slot(const Ring& ring, Index p) const {
@@ -41,7 +41,7 @@ class RingTable {
     return ring.element < grid_.mesh().vertex_count();
   }
   std::size_t points() const { return ring_.size(); }
-  bool is_unknown(Index p) const { return coded_[std::size_t(p)] >= 0; }
+  bool is_unknown(Index p) const { return coded_[p] >= 0; }
 
  private:
   void code_points(const Unknowns& unknowns);
@@ -66,7 +66,7 @@ class RingPlaces {
   explicit RingPlaces(const RingTable& rings);
 
   std::span<const Place> of(Index p) const {
-    return {place_.data() + begin_[std::size_t(p)], place_.data() + begin_[std::size_t(p) + 1]};
+    return {place_.data() + begin_[p], place_.data() + begin_[std::size_t(p) + 1]};
   }
 
  private:

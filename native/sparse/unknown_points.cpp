@@ -16,8 +16,7 @@ std::size_t count_unknowns(const GridLevel& grid, const Unknowns& unknowns) {
 std::vector<std::uint8_t> unknown_points(const GridLevel& grid, const Unknowns& unknowns) {
   std::vector<std::uint8_t> out(grid.size());
   for_each_run(grid, [&](const Run& run) {
-    std::fill_n(out.begin() + std::ptrdiff_t(run.first), run.count,
-                std::uint8_t(unknowns.has(run)));
+    std::fill_n(out.begin() + run.first, run.count, std::uint8_t(unknowns.has(run)));
   });
   return out;
 }

@@ -44,8 +44,8 @@ class EdgeParts {
     first_.push_back(Index(parts.size()));
     for (std::size_t p = 0; p < topology.patches.size(); ++p)
       for (int s = 0; s < 4; ++s)
-        for (const Index e : of(topology.patches[p].side[std::size_t(s)]))
-          parts[std::size_t(e)].uses.push_back({Index(p), s});
+        for (const Index e : of(topology.patches[p].side[s]))
+          parts[e].uses.push_back({Index(p), s});
   }
 
   // In the direction of the side.
@@ -53,7 +53,7 @@ class EdgeParts {
     std::vector<Index> out;
     const auto c = std::size_t(side.curve);
     for (Index e = first_[c]; e < first_[c + 1]; ++e) {
-      const EdgePart& part = parts[std::size_t(e)];
+      const EdgePart& part = parts[e];
       if (part.from >= side.from && part.to <= side.to) out.push_back(e);
     }
     if (side.reversed) std::reverse(out.begin(), out.end());
@@ -72,13 +72,10 @@ struct Beside {
   std::array<double, 2> at;
 
   Beside(const Fits& fits, const EdgeUse& use, double t)
-      : patch(fits.patches[std::size_t(use.patch)].patch),
+      : patch(fits.patches[use.patch].patch),
         at(place_on_side(
             use.side,
-            std::clamp(
-                on_side(fits.topology.patches[std::size_t(use.patch)].side[std::size_t(use.side)],
-                        t),
-                0.0, 1.0))) {}
+            std::clamp(on_side(fits.topology.patches[use.patch].side[use.side], t), 0.0, 1.0))) {}
   Vec3 normal() const { return patch.at(at[0], at[1]).normal(); }
   double curvature_across(const Vec3& way) const {
     return patch.curvature_across(at[0], at[1], way);
@@ -96,10 +93,9 @@ bool at_kink(const Fits& fits, std::size_t c, double t, Kink least) {
   if (c >= topology.chains.size()) return false;
   const EdgeChain& chain = topology.chains[c];
   const bool last = t > 0.5;
-  const ControlEdge& edge =
-      topology.edges[std::size_t(last ? chain.edges.back() : chain.edges.front())];
+  const ControlEdge& edge = topology.edges[last ? chain.edges.back() : chain.edges.front()];
   const bool back = last ? chain.reversed.back() : chain.reversed.front();
-  if (topology.kinks[std::size_t(edge.sectors[last != back])] < least) return false;
+  if (topology.kinks[edge.sectors[last != back]] < least) return false;
   const FittedCurve& curve = fits.curves[c];
   const auto& at = curve.parameters;
   const auto after = std::upper_bound(at.begin() + 1, at.end() - 1, t);
@@ -160,13 +156,12 @@ void measure_faces(const Fits& fits, const EdgeParts& edges, const std::vector<d
   const auto raise = [](double& most, double value) { most = std::max(most, value); };
   for (std::size_t p = 0; p < topology.patches.size(); ++p)
     for (std::size_t k = 0; k < topology.patches[p].grid.faces.size(); ++k)
-      raise(out.face_off[std::size_t(topology.patches[p].grid.faces[k].face)],
-            fits.patches[p].residuals[k]);
+      raise(out.face_off[topology.patches[p].grid.faces[k].face], fits.patches[p].residuals[k]);
   // the faces next to control edge `at` of a curve
   const auto beside = [&](std::size_t c, std::size_t at, auto&& visit) {
     if (c >= topology.chains.size()) return visit((c - topology.chains.size()) / 3);
     const Index edge = topology.chains[c].edges[at];
-    for (const SideUse& use : topology.edges[std::size_t(edge)].uses) visit(std::size_t(use.face));
+    for (const SideUse& use : topology.edges[edge].uses) visit(std::size_t(use.face));
   };
   for (std::size_t c = 0; c < fits.curves.size(); ++c) {
     const std::vector<double>& off = fits.curves[c].off;
@@ -215,7 +210,7 @@ std::int64_t vertex_key(const Fits& fits, std::size_t c, int cut) {
   const EdgeChain& chain = fits.topology.chains[c];
   const std::size_t at = std::min(std::size_t(cut / 2), chain.edges.size() - 1);
   const int along = (cut - 2 * int(at)) * n / 2;
-  const SideUse& use = fits.topology.edges[std::size_t(chain.edges[at])].uses.front();
+  const SideUse& use = fits.topology.edges[chain.edges[at]].uses.front();
   return lattice.point(use.face, use.side, chain.reversed[at] ? n - along : along, 0);
 }
 
@@ -228,8 +223,8 @@ void add_edges(const Fits& fits, const EdgeParts& edges, SplineSurface& out) {
     SplineCurve curve = part_of(fitted.curve, part.from, part.to, part.all);
     const Index a = vertices.of(vertex_key(fits, part.curve, part.from), curve.points.front()),
                 b = vertices.of(vertex_key(fits, part.curve, part.to), curve.points.back());
-    curve.points.front() = out.vertices[std::size_t(a)];
-    curve.points.back() = out.vertices[std::size_t(b)];
+    curve.points.front() = out.vertices[a];
+    curve.points.back() = out.vertices[b];
     const auto point = [&](int cut) {
       return fitted.off.begin() + std::ptrdiff_t(fitted.off.size() - 1) * cut / part.all;
     };
@@ -279,12 +274,12 @@ std::vector<Directions> patches_to_refine(const Fits& fits, double tolerance) {
     if (sharpest[e] <= tolerance) continue;
     const std::vector<EdgeUse>& uses = edges.parts[e].uses;
     const auto own = [&](const EdgeUse& use) {
-      return fits.patches[std::size_t(use.patch)].side_angle[std::size_t(use.side)];
+      return fits.patches[use.patch].side_angle[use.side];
     };
     const double larger = std::max(own(uses[0]), own(uses[1]));
     for (const EdgeUse& use : uses)
       if (own(use) >= std::min(larger, tolerance / 2))
-        (use.side % 2 ? wanted[std::size_t(use.patch)].v : wanted[std::size_t(use.patch)].u) = true;
+        (use.side % 2 ? wanted[use.patch].v : wanted[use.patch].u) = true;
   }
   return wanted;
 }

@@ -46,19 +46,17 @@ class Chains {
   }
 
  private:
-  std::size_t edge(HalfEdge h) const {
-    return std::size_t(topology_.face_edges[std::size_t(h.face)][std::size_t(h.side)]);
-  }
+  std::size_t edge(HalfEdge h) const { return std::size_t(topology_.face_edges[h.face][h.side]); }
   std::size_t vertex(std::size_t e, int end) const {
     const SideUse& use = topology_.edges[e].uses.front();
     const int c = (use.side + end) % lattice_.corners(use.face);
-    return std::size_t(walls_.vertices[std::size_t(use.face)][std::size_t(c)]);
+    return std::size_t(walls_.vertices[use.face][c]);
   }
 
   // The continuation of a curve beyond a side or before it; no face at its end.
   HalfEdge joined(HalfEdge h, bool forward) const {
     const int c = (h.side + forward) % lattice_.corners(h.face);
-    const auto v = std::size_t(walls_.vertices[std::size_t(h.face)][std::size_t(c)]);
+    const auto v = std::size_t(walls_.vertices[h.face][c]);
     if (!walls_.regular[v]) return {};
     const HalfEdge on = forward ? straight_on(topology_, h) : straight_back(topology_, h);
     // all lines end where four of them meet, or three at a border
@@ -67,7 +65,7 @@ class Chains {
   }
 
   HalfEdge end_at(HalfEdge h) const {
-    while (lines_at_[std::size_t(walls_.start(h))] < 3) h = joined(h, true);
+    while (lines_at_[walls_.start(h)] < 3) h = joined(h, true);
     return h;
   }
 
@@ -94,12 +92,11 @@ class Chains {
 
 PatchSide side_along(const Topology& topology, HalfEdge first, HalfEdge last) {
   const auto place = [&](HalfEdge h) {
-    return topology
-        .places[std::size_t(topology.face_edges[std::size_t(h.face)][std::size_t(h.side)])];
+    return topology.places[topology.face_edges[h.face][h.side]];
   };
   const ChainPlace a = place(first), b = place(last);
-  const EdgeChain& chain = topology.chains[std::size_t(a.chain)];
-  const bool against = topology.runs_back(first) != bool(chain.reversed[std::size_t(a.at)]);
+  const EdgeChain& chain = topology.chains[a.chain];
+  const bool against = topology.runs_back(first) != bool(chain.reversed[a.at]);
   return {a.chain, 2 * std::min(a.at, b.at), 2 * std::max(a.at, b.at) + 2, chain.halves(), against};
 }
 
@@ -107,7 +104,7 @@ PatchPlace grid_patch(const Topology& topology, FaceGrid grid) {
   PatchPlace out;
   out.grid = std::move(grid);
   for (int s = 0; s < 4; ++s) {
-    PatchSide& side = out.side[std::size_t(s)];
+    PatchSide& side = out.side[s];
     side = side_along(topology, half_edge(out.grid, s, 0),
                       half_edge(out.grid, s, length(out.grid, s) - 1));
     side.reversed = side.reversed != (s >= 2);  // the last two sides are opposite to u and v

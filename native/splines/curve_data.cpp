@@ -21,7 +21,7 @@ std::vector<double> interpolation(double x, int first, int count) {
   std::vector<double> weights(std::size_t(count), 1.0);
   for (int a = 0; a < count; ++a)
     for (int b = 0; b < count; ++b)
-      if (a != b) weights[std::size_t(a)] *= (x - first - b) / double(a - b);
+      if (a != b) weights[a] *= (x - first - b) / double(a - b);
   return weights;
 }
 
@@ -36,7 +36,7 @@ void append(std::vector<Vec3> more, bool backwards, std::vector<Vec3>& to) {
 int CurveSource::samples() const { return std::min(lattice_.n(), steps_a_span * most_spans); }
 
 std::vector<Vec3> CurveSource::edge_points(Index e) const {
-  const SideUse& use = topology_.edges[std::size_t(e)].uses.front();
+  const SideUse& use = topology_.edges[e].uses.front();
   const int stride = lattice_.n() / samples();
   std::vector<Vec3> out;
   for (int k = 0; k <= lattice_.n(); k += stride)
@@ -45,7 +45,7 @@ std::vector<Vec3> CurveSource::edge_points(Index e) const {
 }
 
 CurveData CurveSource::sharp_chain(Index c) const {
-  const EdgeChain& chain = topology_.chains[std::size_t(c)];
+  const EdgeChain& chain = topology_.chains[c];
   CurveData out;
   out.edges = int(chain.edges.size());
   for (std::size_t k = 0; k < chain.edges.size(); ++k)
@@ -65,7 +65,7 @@ CurveData CurveSource::sharp_chain(Index c) const {
 Vec3 CurveSource::tangent_at(const EdgeChain& chain, int vertex) const {
   const auto at = std::size_t(std::max(0, vertex - 1));
   const bool at_end = vertex > 0;
-  const SideUse& use = topology_.edges[std::size_t(chain.edges[at])].uses.front();
+  const SideUse& use = topology_.edges[chain.edges[at]].uses.front();
   return end_tangent(lattice_, use.face, use.side, at_end != bool(chain.reversed[at]));
 }
 
@@ -87,11 +87,11 @@ Vec3 CurveSource::edge_normal(const ControlEdge& edge, int k) const {
 
 std::vector<Vec3> CurveSource::edge_normals(Index e,
                                             const std::vector<Vec3>& sector_normals) const {
-  const ControlEdge& edge = topology_.edges[std::size_t(e)];
+  const ControlEdge& edge = topology_.edges[e];
   std::vector<Vec3> out;
   const int n = lattice_.n(), stride = n / samples();
   const auto kink = [&](std::size_t end) {
-    return topology_.kinks[std::size_t(edge.sectors[end])] != Kink::none;
+    return topology_.kinks[edge.sectors[end]] != Kink::none;
   };
   for (int k = 0; k <= n; k += stride) {
     if ((k < steps_a_span && kink(0)) || (n - k < steps_a_span && kink(1)))
@@ -99,13 +99,13 @@ std::vector<Vec3> CurveSource::edge_normals(Index e,
     else if (k > 0 && k < n)
       out.push_back(edge_normal(edge, k));
     else
-      out.push_back(sector_normals[std::size_t(edge.sectors[k ? 1 : 0])]);
+      out.push_back(sector_normals[edge.sectors[k ? 1 : 0]]);
   }
   return out;
 }
 
 CurveData CurveSource::smooth_chain(Index c, const std::vector<Vec3>& sector_normals) const {
-  const EdgeChain& chain = topology_.chains[std::size_t(c)];
+  const EdgeChain& chain = topology_.chains[c];
   CurveData out = sharp_chain(c);
   for (std::size_t k = 0; k < chain.edges.size(); ++k)
     append(edge_normals(chain.edges[k], sector_normals), chain.reversed[k], out.normals);
@@ -117,14 +117,14 @@ CurveData CurveSource::smooth_chain(Index c, const std::vector<Vec3>& sector_nor
 void CurveSource::add_crease_tangent(Index f, int s, bool at_end,
                                      const std::vector<FittedCurve>* curves,
                                      std::vector<Vec3>& tangents) const {
-  const Index e = topology_.face_edges[std::size_t(f)][std::size_t(s)];
-  const ControlEdge& edge = topology_.edges[std::size_t(e)];
+  const Index e = topology_.face_edges[f][s];
+  const ControlEdge& edge = topology_.edges[e];
   if (edge.kind == EdgeKind::smooth) return;
   const bool from_end = at_end != topology_.runs_back({f, s});
   const auto fitted = [&] {
-    const ChainPlace place = topology_.places[std::size_t(e)];
-    const bool back = topology_.chains[std::size_t(place.chain)].reversed[std::size_t(place.at)];
-    const FittedCurve& curve = (*curves)[std::size_t(place.chain)];
+    const ChainPlace place = topology_.places[e];
+    const bool back = topology_.chains[place.chain].reversed[place.at];
+    const FittedCurve& curve = (*curves)[place.chain];
     const std::size_t k = std::size_t((place.at + (from_end != back)) * samples());
     return Vec3(curve.curve.at(curve.parameters[k]).tangent * (from_end != back ? -1 : 1));
   };
@@ -135,7 +135,7 @@ void CurveSource::add_crease_tangent(Index f, int s, bool at_end,
 
 // The narrowest angle to adjacent edges at one of its ends.
 double CurveSource::narrowest_angle(Index e, bool at_end) const {
-  const std::vector<SideUse>& uses = topology_.edges[std::size_t(e)].uses;
+  const std::vector<SideUse>& uses = topology_.edges[e].uses;
   const Vec3 own = end_tangent(lattice_, uses.front().face, uses.front().side, at_end);
   double narrowest = std::numbers::pi;
   for (const SideUse& use : uses) {
@@ -172,7 +172,7 @@ std::vector<Kink> CurveSource::kinks(double least) const {
 std::vector<Vec3> CurveSource::crease_tangents(Index sector,
                                                const std::vector<FittedCurve>* curves) const {
   std::vector<Vec3> out;
-  for (const auto& [f, c] : topology_.sectors[std::size_t(sector)]) {
+  for (const auto& [f, c] : topology_.sectors[sector]) {
     const int corners = lattice_.corners(f);
     add_crease_tangent(f, c, false, curves, out);
     add_crease_tangent(f, (c + corners - 1) % corners, true, curves, out);
@@ -184,7 +184,7 @@ Vec3 CurveSource::sector_normal(Index sector, const std::vector<FittedCurve>* cu
   std::vector<Vec3> nearby;
   Vec3 guess = Vec3::Zero(), centre = Vec3::Zero();
   const int n = lattice_.n();
-  for (const auto& [f, c] : topology_.sectors[std::size_t(sector)]) {
+  for (const auto& [f, c] : topology_.sectors[sector]) {
     const bool quad = lattice_.quad(f);
     const int rows = quad ? reach : reach + 1;
     for (int r = 0; r <= rows; ++r)
@@ -216,7 +216,7 @@ Vec3 CurveSource::on_median(Index f, int s, double row) const {
   Vec3 out = Vec3::Zero();
   for (int a = 0; a < count; ++a) {
     const int r = 2 * (first + a);
-    out += weights[std::size_t(a)] * lattice_.position(lattice_.point(f, s, (n - r) / 2, r));
+    out += weights[a] * lattice_.position(lattice_.point(f, s, (n - r) / 2, r));
   }
   return out;
 }
@@ -239,15 +239,15 @@ Vec3 CurveSource::normal_inside(Index f, double i, double j, const Vec3& at) con
 }
 
 CurveData CurveSource::inner(Index f, int s, const std::vector<FittedCurve>& curves) const {
-  const FittedCurve& edge = curves[std::size_t(topology_.chain_of({f, s}))];
+  const FittedCurve& edge = curves[topology_.chain_of({f, s})];
   const int n = lattice_.n(), count = std::max(8, samples() / 2);
   CurveData out;
   for (int k = 0; k <= count; ++k) {
     const double row = n / 3.0 * k / count, beside = (n - row) / 2;
     out.points.push_back(k < count ? on_median(f, s, row) : centroid(f));
     std::array<double, 3> from_corner;  // barycentric, times n
-    from_corner[std::size_t(s)] = from_corner[std::size_t((s + 1) % 3)] = beside;
-    from_corner[std::size_t((s + 2) % 3)] = row;
+    from_corner[s] = from_corner[(s + 1) % 3] = beside;
+    from_corner[(s + 2) % 3] = row;
     out.normals.push_back(normal_inside(f, from_corner[1], from_corner[2], out.points.back()));
   }
   // Patches start at the curve itself, not at the lattice's point.

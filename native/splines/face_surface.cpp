@@ -88,7 +88,7 @@ FaceSurface::Off FaceSurface::height(const Vec3& point, int corner, double u, do
   const int place = sheet_.place(foot.corner[0]);
   Vec3 flat = point;
   for (std::size_t k = 0; k < 4; ++k) flat -= foot.share[k] * sheet_.position(foot.corner[k]);
-  if (flat.norm() <= least[std::size_t(place)]) return {0, place};
+  if (flat.norm() <= least[place]) return {0, place};
   Vec3 normal = Vec3::Zero();
   double above = 0;
   for (std::size_t k = 0; k < 4; ++k) {

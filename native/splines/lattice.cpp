@@ -80,7 +80,7 @@ Index Lattice::point(Index f, GridPoint p) const {
 Sheet::Spot Sheet::spot(GridPoint p) const {
   if (many_.empty()) return {one_.face, p};
   const int n = lattice_.n(), at = place(p);
-  const PlacedFace& placed = many_[std::size_t(at)];
+  const PlacedFace& placed = many_[at];
   if (!lattice_.quad(placed.face)) return {placed.face, p};
   return {placed.face,
           closed_point(true, n, placed.turn, p.i - at % columns_ * n, p.j - at / columns_ * n)};
@@ -121,7 +121,7 @@ Vec3 fitted_normal(const Vec3& centre, const std::vector<Vec3>& nearby, const Ve
       const double x = arm.dot(frame.col(0)), y = arm.dot(frame.col(1));
       rows.row(Eigen::Index(k)) << x, y, x * x, x * y, y * y, x * x * x, x * x * y, x * y * y,
           y * y * y;
-      heights[Eigen::Index(k)] = arm.dot(normal);
+      heights[k] = arm.dot(normal);
     }
     Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
     qr.setThreshold(single_roundoff);

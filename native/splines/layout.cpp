@@ -47,14 +47,14 @@ class WallFinder {
     out_.vertices.resize(std::size_t(lattice_.faces()));
     for (Index f = 0; f < lattice_.faces(); ++f)
       for (int c = 0; c < lattice_.corners(f); ++c)
-        out_.vertices[std::size_t(f)][std::size_t(c)] =
+        out_.vertices[f][c] =
             number.try_emplace(lattice_.point(f, c, 0, 0), Index(number.size())).first->second;
     around_.resize(number.size());
   }
 
   void find_wall(std::size_t e) {
     const ControlEdge& edge = topology_.edges[e];
-    const auto group = [&](const SideUse& use) { return groups_[std::size_t(use.face)]; };
+    const auto group = [&](const SideUse& use) { return groups_[use.face]; };
     if (edge.kind == EdgeKind::smooth &&
         (groups_.empty() || group(edge.uses[0]) == group(edge.uses[1])))
       return;
@@ -62,18 +62,16 @@ class WallFinder {
     const SideUse& use = edge.uses.front();
     for (const bool at_end : {false, true}) {
       const int c = (use.side + at_end) % lattice_.corners(use.face);
-      Around& around = around_[std::size_t(out_.vertices[std::size_t(use.face)][std::size_t(c)])];
+      Around& around = around_[out_.vertices[use.face][c]];
       around.walls.push_back({edge.kind, end_tangent(lattice_, use.face, use.side, at_end)});
       around.odd |= edge.kind == EdgeKind::crease && !edge.plain();
     }
   }
 
   void add_corner(Index f, int c) {
-    Around& around = around_[std::size_t(out_.vertices[std::size_t(f)][std::size_t(c)])];
+    Around& around = around_[out_.vertices[f][c]];
     ++around.corners;
-    const auto wall = [&](int s) {
-      return out_.edge[std::size_t(topology_.face_edges[std::size_t(f)][std::size_t(s)])];
-    };
+    const auto wall = [&](int s) { return out_.edge[topology_.face_edges[f][s]]; };
     const int last = lattice_.corners(f) - 1;
     around.odd |= !lattice_.quad(f) || (wall(c) && wall((c + last) % (last + 1)));
   }
@@ -107,7 +105,7 @@ class Layout {
     draw_lines();
     for (Index f = lattice_.triangle_faces(); f < lattice_.faces(); ++f) {
       stop_if_cancelled(std::size_t(f));
-      if (grid_of_[std::size_t(f)] < 0) grow({1, 1, {{f, 0}}});
+      if (grid_of_[f] < 0) grow({1, 1, {{f, 0}}});
     }
     while (merge_some()) {
     }
@@ -116,10 +114,8 @@ class Layout {
   }
 
  private:
-  std::size_t edge(HalfEdge h) const {
-    return std::size_t(topology_.face_edges[std::size_t(h.face)][std::size_t(h.side)]);
-  }
-  bool regular(HalfEdge h) const { return walls_.regular[std::size_t(walls_.start(h))]; }
+  std::size_t edge(HalfEdge h) const { return std::size_t(topology_.face_edges[h.face][h.side]); }
+  bool regular(HalfEdge h) const { return walls_.regular[walls_.start(h)]; }
 
   // All lines advance by one edge, then by the next, so they meet half-way.
   void draw_lines() {
@@ -130,8 +126,7 @@ class Layout {
         const HalfEdge h{f, s};
         if (walls_.edge[edge(h)] || !lattice_.quad(f)) {
           if (!lattice_.quad(f)) drawn_[edge(h)] = 1;
-          if (walls_.edge[edge(h)])
-            met[std::size_t(walls_.start(h))] = met[std::size_t(end_vertex(h))] = 1;
+          if (walls_.edge[edge(h)]) met[walls_.start(h)] = met[end_vertex(h)] = 1;
         } else if (!regular(h)) {
           ends.push_back(h);
         }
@@ -149,8 +144,7 @@ class Layout {
     }
   }
   Index end_vertex(HalfEdge h) const {
-    return walls_
-        .vertices[std::size_t(h.face)][std::size_t((h.side + 1) % lattice_.corners(h.face))];
+    return walls_.vertices[h.face][(h.side + 1) % lattice_.corners(h.face)];
   }
 
   // Adds row after row on all four sides.
@@ -158,7 +152,7 @@ class Layout {
     for (int failed = 0; failed < 4;) {
       std::vector<PlacedFace> row = beyond(grid);
       const bool free = std::all_of(row.begin(), row.end(), [&](const PlacedFace& placed) {
-        return grid_of_[std::size_t(placed.face)] < 0;
+        return grid_of_[placed.face] < 0;
       });
       FaceGrid larger = with_row(grid, row);
       if (!row.empty() && free && !touches_itself(larger)) {
@@ -169,8 +163,7 @@ class Layout {
         ++failed;
       }
     }
-    for (const PlacedFace& placed : grid.faces)
-      grid_of_[std::size_t(placed.face)] = Index(grids_.size());
+    for (const PlacedFace& placed : grid.faces) grid_of_[placed.face] = Index(grids_.size());
     grids_.push_back(std::move(grid));
   }
 
@@ -227,16 +220,16 @@ class Layout {
     FaceGrid grid = turned(grids_[a], (side + 2) % 4);  // `side` is at the top
     if (!may_cross(grid)) return false;
     const HalfEdge first = topology_.twin(half_edge(grid, 2, grid.columns - 1));
-    const Index b = grid_of_[std::size_t(first.face)];
+    const Index b = grid_of_[first.face];
     if (b < 0 || std::size_t(b) == a) return false;
     for (int s = 0; s < 4; ++s) {
-      const FaceGrid other = turned(grids_[std::size_t(b)], s);
+      const FaceGrid other = turned(grids_[b], s);
       if (other.columns != grid.columns || !lies_on(grid, other)) continue;
       grid.faces.insert(grid.faces.end(), other.faces.begin(), other.faces.end());
       grid.rows += other.rows;
       if (touches_itself(grid)) return false;
-      for (const PlacedFace& placed : other.faces) grid_of_[std::size_t(placed.face)] = Index(a);
-      grids_[std::size_t(b)] = {};
+      for (const PlacedFace& placed : other.faces) grid_of_[placed.face] = Index(a);
+      grids_[b] = {};
       grids_[a] = std::move(grid);
       return true;
     }
@@ -280,7 +273,7 @@ HalfEdge half_edge(const FaceGrid& grid, int s, int q) {
                 : s == 1 ? q
                 : s == 2 ? grid.rows - 1
                          : grid.rows - 1 - q;
-  const PlacedFace& placed = grid.faces[std::size_t(j * grid.columns + i)];
+  const PlacedFace& placed = grid.faces[j * grid.columns + i];
   return {placed.face, (placed.turn + s) % 4};
 }
 
@@ -298,7 +291,7 @@ FaceGrid turned(const FaceGrid& grid, int s) {
                     : s == 1 ? i
                     : s == 2 ? grid.rows - 1 - j
                              : grid.rows - 1 - i;
-      const PlacedFace& placed = grid.faces[std::size_t(b * grid.columns + a)];
+      const PlacedFace& placed = grid.faces[b * grid.columns + a];
       out.faces.push_back({placed.face, (placed.turn + s) % 4});
     }
   return out;

@@ -16,7 +16,7 @@ struct Walls {
   // Whether lines continue straight through a vertex: one of four quads, or of two at a border.
   std::vector<std::uint8_t> regular;
 
-  Index start(HalfEdge h) const { return vertices[std::size_t(h.face)][std::size_t(h.side)]; }
+  Index start(HalfEdge h) const { return vertices[h.face][h.side]; }
 };
 
 // `groups`: a number for each face, or empty; all faces of a grid have the same one. Lines that

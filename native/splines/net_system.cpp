@@ -54,8 +54,7 @@ void NetSystem::add(const CubicBasis& u, const CubicBasis& v, const Eigen::Matri
   for (int a = 0; a < 4; ++a)
     for (int b = 0; b < 4; ++b) {
       const int i = u.first + a, j = v.first + b;
-      if (unknown(i, j) < 0)
-        rest -= u.value[std::size_t(a)] * v.value[std::size_t(b)] * known_.net[known_.index(i, j)];
+      if (unknown(i, j) < 0) rest -= u.value[a] * v.value[b] * known_.net[known_.index(i, j)];
     }
   const Vec3 load = weight * rest;
   // Without the outermost control points.
@@ -64,15 +63,15 @@ void NetSystem::add(const CubicBasis& u, const CubicBasis& v, const Eigen::Matri
   const Eigen::Index first = 3 * (fast.first + fast_from - 1), count = 3 * (fast_to - fast_from);
   Eigen::Matrix<double, 3, 12, Eigen::RowMajor> along;  // weight times the fast functions
   for (int m = fast_from; m < fast_to; ++m)
-    along.block<3, 3>(0, 3 * (m - fast_from)) = fast.value[std::size_t(m)] * weight;
+    along.block<3, 3>(0, 3 * (m - fast_from)) = fast.value[m] * weight;
   for (int a = slow_from; a < slow_to; ++a)
     for (int m = fast_from; m < fast_to; ++m) {
       const Eigen::Index row = (slow.first + a - 1) * width_ + 3 * (fast.first + m - 1);
-      const double factor = slow.value[std::size_t(a)] * fast.value[std::size_t(m)];
+      const double factor = slow.value[a] * fast.value[m];
       right_.segment<3>(row) += factor * load;
       for (int b = slow_from; b <= a; ++b) {
         const Eigen::Index column = (degree + b - a) * width_ + first;
-        const double both = factor * slow.value[std::size_t(b)];
+        const double both = factor * slow.value[b];
         for (Eigen::Index c = 0; c < 3; ++c) {
           double* to = &band_(row + c, column);
           const double* from = &along(c, 0);

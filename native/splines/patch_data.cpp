@@ -81,7 +81,7 @@ std::vector<double> length_shares(const Sheet& sheet, bool upward) {
                        (sheet.position(spot(line, k)) - sheet.position(spot(line, k - 1))).norm());
     for (int k = 0; k <= n; ++k)
       out[index_of(sheet, spot(line, k))] =
-          before.back() > 0 ? before[std::size_t(k)] / before.back() : double(k) / n;
+          before.back() > 0 ? before[k] / before.back() : double(k) / n;
   }
   return out;
 }
@@ -90,7 +90,7 @@ std::vector<double> length_shares(const Sheet& sheet, bool upward) {
 double at_share(const SideMap& map, std::span<const double> shares, double share) {
   const auto after = std::upper_bound(shares.begin() + 1, shares.end() - 1, share);
   const auto k = after - shares.begin();
-  const double from = shares[std::size_t(k - 1)], width = *after - from;
+  const double from = shares[k - 1], width = *after - from;
   const double even = double(k - 1) + (width > 0 ? (share - from) / width : 0.0);
   return map(std::clamp(even / double(shares.size() - 1), 0.0, 1.0));
 }
@@ -158,13 +158,13 @@ PatchData patch_data(const Lattice& lattice, const Topology& topology, const Pat
   out.own = true;
   for (std::size_t s = 0; s < 4; ++s) {
     const PatchSide& side = place.side[s];
-    const FittedCurve& curve = curves[std::size_t(side.curve)];
+    const FittedCurve& curve = curves[side.curve];
     out.side[s] = part_of(curve.curve, side);
     out.normals[s] = side_normals(curve, side);
     out.own &= curve.own;
   }
   const auto map = [&](std::size_t s) {
-    return SideMap(curves[std::size_t(place.side[s].curve)], place.side[s]);
+    return SideMap(curves[place.side[s].curve], place.side[s]);
   };
   const SideMap below = map(0), right = map(1), above = map(2), left = map(3);
   const Sheet sheet(lattice, place.grid);

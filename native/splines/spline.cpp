@@ -32,13 +32,13 @@ constexpr Cubics basis_of(int before, int behind) {
     Cubic carried{};
     for (int r = 0; r < d; ++r) {
       const double right = high(r + 1), left = low(d - r);
-      const Cubic part = times(b[std::size_t(r)], 1 / (right - left), 0);
-      Cubic& own = b[std::size_t(r)];
+      const Cubic part = times(b[r], 1 / (right - left), 0);
+      Cubic& own = b[r];
       own = times(part, right, -1);
       for (std::size_t k = 0; k < 4; ++k) own[k] += carried[k];
       carried = times(part, -left, 1);
     }
-    b[std::size_t(d)] = carried;
+    b[d] = carried;
   }
   return b;
 }
@@ -46,8 +46,7 @@ constexpr Cubics basis_of(int before, int behind) {
 constexpr auto every_basis = [] {
   std::array<std::array<Cubics, 3>, 3> out{};
   for (int before = 0; before < 3; ++before)
-    for (int behind = 0; behind < 3; ++behind)
-      out[std::size_t(before)][std::size_t(behind)] = basis_of(before, behind);
+    for (int behind = 0; behind < 3; ++behind) out[before][behind] = basis_of(before, behind);
   return out;
 }();
 
@@ -82,8 +81,7 @@ void insert_knot(std::vector<double>& knots, std::vector<Vec3>& points, double t
 CubicBasis cubic_basis(int spans, double t) {
   const double x = std::clamp(t, 0.0, 1.0) * spans;
   const int k = std::min(int(x), spans - 1);
-  const Cubics& cubics =
-      every_basis[std::size_t(std::min(k, 2))][std::size_t(std::min(spans - 1 - k, 2))];
+  const Cubics& cubics = every_basis[std::min(k, 2)][std::min(spans - 1 - k, 2)];
   const double local = x - k;
   CubicBasis out{k, {}, {}, {}};
   for (std::size_t i = 0; i < 4; ++i) {
@@ -119,9 +117,9 @@ SurfacePoint SplinePatch::at(const CubicBasis& bu, const CubicBasis& bv) const {
       at += bv.value[j] * row[j];
       across += bv.slope[j] * row[j];
     }
-    out.at += bu.value[std::size_t(i)] * at;
-    out.along_u += bu.slope[std::size_t(i)] * at;
-    out.along_v += bu.value[std::size_t(i)] * across;
+    out.at += bu.value[i] * at;
+    out.along_u += bu.slope[i] * at;
+    out.along_v += bu.value[i] * across;
   }
   return out;
 }

@@ -23,7 +23,7 @@ void find_edges(const Lattice& lattice, Topology& out) {
       const Index middle = lattice.point(f, s, n / 2, 0);
       const auto [found, is_new] = edge_of.try_emplace(middle, Index(out.edges.size()));
       if (is_new) out.edges.emplace_back();
-      ControlEdge& edge = out.edges[std::size_t(found->second)];
+      ControlEdge& edge = out.edges[found->second];
       bool against = false;
       if (!is_new) {
         const SideUse& first = edge.uses.front();
@@ -31,7 +31,7 @@ void find_edges(const Lattice& lattice, Topology& out) {
       }
       edge.uses.push_back({{f, s}, against});
       edge.halved |= !lattice.quad(f);
-      out.face_edges[std::size_t(f)][std::size_t(s)] = found->second;
+      out.face_edges[f][s] = found->second;
     }
   }
 }
@@ -68,20 +68,20 @@ void find_sectors(const Lattice& lattice, Topology& out) {
   for (Index f = 0; f < lattice.faces(); ++f) {
     stop_if_cancelled(std::size_t(f));
     for (int c = 0; c < lattice.corners(f); ++c) {
-      Index& sector = sector_of[std::size_t(groups.lead(corner(f, c)))];
+      Index& sector = sector_of[groups.lead(corner(f, c))];
       if (sector < 0) {
         sector = Index(out.sectors.size());
         out.sectors.emplace_back();
       }
-      out.sectors[std::size_t(sector)].push_back({int(f), c});
-      out.face_sectors[std::size_t(f)][std::size_t(c)] = sector;
+      out.sectors[sector].push_back({int(f), c});
+      out.face_sectors[f][c] = sector;
     }
   }
   for (ControlEdge& edge : out.edges) {
     const SideUse& use = edge.uses.front();
-    const auto& around = out.face_sectors[std::size_t(use.face)];
+    const auto& around = out.face_sectors[use.face];
     const int next = (use.side + 1) % lattice.corners(use.face);
-    edge.sectors = {around[std::size_t(use.side)], around[std::size_t(next)]};
+    edge.sectors = {around[use.side], around[next]};
   }
 }
 
@@ -119,9 +119,8 @@ bool in_tip(const Lattice& lattice, const Topology& topology, Index f, GridPoint
   const std::array<int, 4> in_triangle{n - far, n - p.i, n - p.j, n};
   const std::array<int, 4>& steps = lattice.quad(f) ? in_quad : in_triangle;
   for (int c = 0; c < lattice.corners(f); ++c) {
-    const Index sector = topology.face_sectors[std::size_t(f)][std::size_t(c)];
-    if (steps[std::size_t(c)] < steps_a_span && topology.kinks[std::size_t(sector)] == Kink::sharp)
-      return true;
+    const Index sector = topology.face_sectors[f][c];
+    if (steps[c] < steps_a_span && topology.kinks[sector] == Kink::sharp) return true;
   }
   return false;
 }

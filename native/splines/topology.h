@@ -98,16 +98,12 @@ struct Topology {
   std::vector<ChainPlace> places;  // by edges
   std::vector<PatchPlace> patches;
 
-  const ControlEdge& edge(HalfEdge h) const {
-    return edges[std::size_t(face_edges[std::size_t(h.face)][std::size_t(h.side)])];
-  }
+  const ControlEdge& edge(HalfEdge h) const { return edges[face_edges[h.face][h.side]]; }
   // The same edge from the other side; without a face unless there is exactly one.
   HalfEdge twin(HalfEdge h) const;
   bool runs_back(HalfEdge h) const;  // opposite to its edge
   // The chain of a side of a triangle; no patch goes on there.
-  Index chain_of(HalfEdge h) const {
-    return places[std::size_t(face_edges[std::size_t(h.face)][std::size_t(h.side)])].chain;
-  }
+  Index chain_of(HalfEdge h) const { return places[face_edges[h.face][h.side]].chain; }
   Index curves(const Lattice& lattice) const {
     return Index(chains.size()) + 3 * lattice.triangle_faces();
   }

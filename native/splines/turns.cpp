@@ -46,7 +46,7 @@ std::vector<double> lattice_turns(const Lattice& lattice, const Topology& topolo
       if (!tip(k) && !tip(k + 1))
         turn.between(beside_edge(lattice, edge.uses[0], k), beside_edge(lattice, edge.uses[1], k));
     for (const SideUse& use : edge.uses) {
-      double& of_face = turns[std::size_t(use.face)];
+      double& of_face = turns[use.face];
       of_face = std::max(of_face, turn.angle());
     }
   }

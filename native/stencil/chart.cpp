@@ -25,8 +25,8 @@ double corner_share(const Face& face, const FlatFace& flat) { return flat.area /
 void append_row(const Face& face, const FlatFace& flat, int s, double length, bool turned,
                 std::vector<Vec2>& ring) {
   const auto previous = std::size_t((s + face.size - 1) % face.size);
-  Vec2 up = polar(flat.length[previous], flat.angle[std::size_t(s)]);
-  up.x() *= length / flat.length[std::size_t(s)];
+  Vec2 up = polar(flat.length[previous], flat.angle[s]);
+  up.x() *= length / flat.length[s];
   const Vec2 along(length, 0);
   const double sign = turned ? -1 : 1;
   if (face.quad()) ring.push_back(sign * (up + along));
@@ -52,15 +52,15 @@ Chart ChartMaker::vertex(Index v) const {
   const auto ring = mesh_.ring(v);
   double total = 0;
   for (const Spoke& spoke : ring)
-    if (spoke.face >= 0) total += flat_[std::size_t(spoke.face)].angle[std::size_t(spoke.corner)];
+    if (spoke.face >= 0) total += flat_[spoke.face].angle[spoke.corner];
   chart.closed = mesh_.interior(v);
   const double scale = turn_scale(chart.closed, total);
   double angle = 0;
   for (const Spoke& spoke : ring) {
     chart.ring.push_back(polar(edge_length(mesh_, flat_, spoke.edge), scale * angle));
     if (spoke.face < 0) break;
-    const Face& face = mesh_.faces[std::size_t(spoke.face)];
-    const FlatFace& shape = flat_[std::size_t(spoke.face)];
+    const Face& face = mesh_.faces[spoke.face];
+    const FlatFace& shape = flat_[spoke.face];
     const auto c = std::size_t(spoke.corner);
     if (face.quad()) {
       const Vec2 far = Vec2(shape.length[c], 0) + polar(shape.length[(c + 3) % 4], shape.angle[c]);
@@ -74,15 +74,15 @@ Chart ChartMaker::vertex(Index v) const {
 
 Chart ChartMaker::edge(Index e) const {
   Chart chart;
-  const Edge& edge = mesh_.edges[std::size_t(e)];
+  const Edge& edge = mesh_.edges[e];
   const double length = edge_length(mesh_, flat_, e);
   chart.closed = !edge.boundary();
   for (int h = 0; h < 2; ++h) {
     chart.ring.push_back(Vec2(h == 0 ? length : -length, 0));
-    if (edge.side[std::size_t(h)] < 0) continue;
-    const Side& side = mesh_.sides[std::size_t(edge.side[std::size_t(h)])];
-    const Face& face = mesh_.faces[std::size_t(side.face)];
-    const FlatFace& shape = flat_[std::size_t(side.face)];
+    if (edge.side[h] < 0) continue;
+    const Side& side = mesh_.sides[edge.side[h]];
+    const Face& face = mesh_.faces[side.face];
+    const FlatFace& shape = flat_[side.face];
     append_row(face, shape, side.local, length, h == 1, chart.ring);
     chart.area += (face.quad() ? 2 : 3) * corner_share(face, shape);
   }
@@ -91,10 +91,9 @@ Chart ChartMaker::edge(Index e) const {
 
 Chart ChartMaker::face(Index f) const {
   Chart chart;
-  const Face& face = mesh_.faces[std::size_t(f)];
-  const FlatFace& shape = flat_[std::size_t(f)];
-  const Vec2 a(shape.length[0], 0),
-      b = polar(shape.length[std::size_t(face.size - 1)], shape.angle[0]);
+  const Face& face = mesh_.faces[f];
+  const FlatFace& shape = flat_[f];
+  const Vec2 a(shape.length[0], 0), b = polar(shape.length[face.size - 1], shape.angle[0]);
   if (face.quad()) {
     chart.ring = {a, a + b, b, b - a, -a, -a - b, -b, a - b};
     chart.area = shape.area;

@@ -21,8 +21,8 @@ bool fit_whitened(std::span<const Vec2> ring, std::span<const double> weight, co
   WhitenedFit<double> fit;
   bool determined = true;
   const auto neighbour = [&](int j, double& u, double& v, double& w) {
-    u = ring[std::size_t(j)].x();
-    v = ring[std::size_t(j)].y();
+    u = ring[j].x();
+    v = ring[j].y();
     w = weight_of(std::size_t(j));
   };
   fit.make(int(ring.size()), neighbour, determined);

@@ -64,10 +64,10 @@ std::vector<FaceWeights> weigh(const ControlMesh& mesh, const std::vector<FlatFa
 // The weight of edges along a control edge: the sum over both faces.
 double along(const ControlMesh& mesh, const std::vector<FaceWeights>& faces, Index e) {
   double sum = 0;
-  for (const Index s : mesh.edges[std::size_t(e)].side) {
+  for (const Index s : mesh.edges[e].side) {
     if (s < 0) continue;
-    const Side& side = mesh.sides[std::size_t(s)];
-    sum += 0.5 * faces[std::size_t(side.face)].side(side.local);
+    const Side& side = mesh.sides[s];
+    sum += 0.5 * faces[side.face].side(side.local);
   }
   return sum;
 }
@@ -76,11 +76,11 @@ double along(const ControlMesh& mesh, const std::vector<FaceWeights>& faces, Ind
 void fill_edge(const ControlMesh& mesh, const std::vector<FaceWeights>& faces, Index e,
                double* to) {
   const double own = along(mesh, faces, e);
-  for (const Index s : mesh.edges[std::size_t(e)].side) {
+  for (const Index s : mesh.edges[e].side) {
     *to++ = own;
     if (s < 0) continue;
-    const Side& side = mesh.sides[std::size_t(s)];
-    const FaceWeights& face = faces[std::size_t(side.face)];
+    const Side& side = mesh.sides[s];
+    const FaceWeights& face = faces[side.face];
     const int corner = side.local;
     if (face.quad) {
       *to++ = face.diagonal(corner);
@@ -98,8 +98,7 @@ void fill_vertex(const ControlMesh& mesh, const std::vector<FaceWeights>& faces,
                  double* to) {
   for (const Spoke& spoke : mesh.ring(v)) {
     *to++ = along(mesh, faces, spoke.edge);
-    if (spoke.face >= 0 && faces[std::size_t(spoke.face)].quad)
-      *to++ = faces[std::size_t(spoke.face)].diagonal(spoke.corner);
+    if (spoke.face >= 0 && faces[spoke.face].quad) *to++ = faces[spoke.face].diagonal(spoke.corner);
   }
 }
 

@@ -62,9 +62,7 @@ std::vector<FlatFace> flatten(const ControlMesh& mesh, double exponent) {
   const std::vector<std::array<double, 2>> shares = ridge_shares(mesh, exponent);
   for (const Face& face : mesh.faces) {
     stop_if_cancelled(flat.size());
-    const auto at = [&](std::size_t c) -> const Vec3& {
-      return mesh.positions[std::size_t(face.vertex[c])];
-    };
+    const auto at = [&](std::size_t c) -> const Vec3& { return mesh.positions[face.vertex[c]]; };
     flat.push_back(face.quad()
                        ? flat_quad({at(0), at(1), at(2), at(3)}, shares[flat.size()], exponent)
                        : flat_triangle({at(0), at(1), at(2)}, exponent));
@@ -75,10 +73,10 @@ std::vector<FlatFace> flatten(const ControlMesh& mesh, double exponent) {
 double edge_length(const ControlMesh& mesh, const std::vector<FlatFace>& flat, Index edge) {
   double sum = 0;
   int count = 0;
-  for (const Index s : mesh.edges[std::size_t(edge)].side) {
+  for (const Index s : mesh.edges[edge].side) {
     if (s < 0) continue;
-    const Side& side = mesh.sides[std::size_t(s)];
-    sum += flat[std::size_t(side.face)].length[std::size_t(side.local)];
+    const Side& side = mesh.sides[s];
+    sum += flat[side.face].length[side.local];
     ++count;
   }
   return sum / count;

@@ -59,16 +59,16 @@ class Ridges {
   const Side* beside(std::size_t f, int s) const {
     if (!quad(f)) return nullptr;
     const Index own = mesh_.faces[f].first_side + s;
-    const Index e = mesh_.sides[std::size_t(own)].edge;
-    const Edge& edge = mesh_.edges[std::size_t(e)];
-    if (edge.boundary() || mesh_.feature_edge[std::size_t(e)]) return nullptr;
-    return &mesh_.sides[std::size_t(edge.side[edge.side[0] == own ? 1 : 0])];
+    const Index e = mesh_.sides[own].edge;
+    const Edge& edge = mesh_.edges[e];
+    if (edge.boundary() || mesh_.feature_edge[e]) return nullptr;
+    return &mesh_.sides[edge.side[edge.side[0] == own ? 1 : 0]];
   }
 
   double length(std::size_t f, int s) const {
     const Face& face = mesh_.faces[f];
     const auto at = [&](int c) -> const Vec3& {
-      return mesh_.positions[std::size_t(face.vertex[std::size_t(c % face.size)])];
+      return mesh_.positions[face.vertex[c % face.size]];
     };
     return (at(s + 1) - at(s)).norm();
   }
@@ -110,7 +110,7 @@ class Ridges {
     std::vector<double> shares(shares_.size(), 1.0);  // of strips, by their leaders; 0: not a ridge
     for (std::size_t k = 0; k < shares.size(); ++k) {
       stop_if_cancelled(k);
-      double& share = shares[std::size_t(strips_.lead(Index(k)))];
+      double& share = shares[strips_.lead(Index(k))];
       const double by = quad(k / 2) && goes_on(k) ? turn(k) : 0;
       if (!(by > 0)) {
         share = 0;
@@ -119,7 +119,7 @@ class Ridges {
       }
     }
     for (std::size_t k = 0; k < shares.size(); ++k) {
-      if (const double share = shares[std::size_t(strips_.lead(Index(k)))]; share > 0) {
+      if (const double share = shares[strips_.lead(Index(k))]; share > 0) {
         lower(k, share);
       }
     }

@@ -24,7 +24,7 @@ std::size_t neighbours(const ControlMesh& mesh, const Element& element) {
   switch (element.kind) {
     case RunKind::vertex: return std::size_t(ring_size(mesh, element.id));
     case RunKind::edge: return std::size_t(EdgeRingLanes(mesh, element.id).size);
-    default: return face_ring(mesh.faces[std::size_t(element.id)].quad()).size();
+    default: return face_ring(mesh.faces[element.id].quad()).size();
   }
 }
 
@@ -59,7 +59,7 @@ void fill(const ControlMesh& mesh, const ChartMaker& charts, std::size_t e, Sten
   for (std::size_t j = 0; j < size; ++j) {
     const auto own = Eigen::Index(j), opposite = Eigen::Index((j + size / 2) % size);
     for (Eigen::Index c = 0; c < 3; ++c)
-      s.energy[first + j][std::size_t(c)] =
+      s.energy[first + j][c] =
           root_weight *
           (in_face ? 0.5 * (rows(c + 2, own) + rows(c + 2, opposite)) : rows(c + 2, own));
     if (in_face) continue;

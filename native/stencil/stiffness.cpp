@@ -26,23 +26,23 @@ double below(double t) {
 
 bool Stiffness::soft_edge(Index e) const {
   if (!mesh_.soft.any()) return false;
-  const auto& ends = mesh_.edges[std::size_t(e)].vertex;
-  return mesh_.soft.edge[std::size_t(e)] > 0 || at_vertex(ends[0]) > 0 || at_vertex(ends[1]) > 0;
+  const auto& ends = mesh_.edges[e].vertex;
+  return mesh_.soft.edge[e] > 0 || at_vertex(ends[0]) > 0 || at_vertex(ends[1]) > 0;
 }
 
 bool Stiffness::soft_face(Index f) const {
   if (!mesh_.soft.any()) return false;
-  const Face& face = mesh_.faces[std::size_t(f)];
+  const Face& face = mesh_.faces[f];
   for (int s = 0; s < face.size; ++s)
-    if (soft_edge(mesh_.sides[std::size_t(face.first_side + s)].edge)) return true;
+    if (soft_edge(mesh_.sides[face.first_side + s].edge)) return true;
   return false;
 }
 
 // Quadratic B-spline along the line; its control points are the weights of the edges.
 double Stiffness::on_edge(Index e, double steps, double whole) const {
-  const double middle = mesh_.soft.edge[std::size_t(e)];
+  const double middle = mesh_.soft.edge[e];
   if (!(middle > 0) || !(whole > 0)) return 0;
-  const auto& ends = mesh_.edges[std::size_t(e)].vertex;
+  const auto& ends = mesh_.edges[e].vertex;
   const double t = steps / whole;
   return (1 - t) * (1 - t) * at_vertex(ends[0]) + 2 * t * (1 - t) * middle +
          t * t * at_vertex(ends[1]);
@@ -81,7 +81,7 @@ double Stiffness::face_point(Index f, int i, int j) const {
 }
 
 double Stiffness::compliance_on_edge(Index e, int k) const {
-  const auto& ends = mesh_.edges[std::size_t(e)].vertex;
+  const auto& ends = mesh_.edges[e].vertex;
   return std::max({compliance(on_edge(e, k, n_), 0), compliance(at_vertex(ends[0]), k),
                    compliance(at_vertex(ends[1]), n_ - k)});
 }
@@ -89,18 +89,18 @@ double Stiffness::compliance_on_edge(Index e, int k) const {
 // The distance to a side in steps is the row; the distance to a corner is the one that agrees with
 // the edges on both sides.
 double Stiffness::compliance_in_face(Index f, int i, int j) const {
-  const Face& face = mesh_.faces[std::size_t(f)];
+  const Face& face = mesh_.faces[f];
   const bool quad = face.quad();
   const int far_i = quad ? n_ - i : n_ - i - j, far_j = n_ - j;
   const int row_of_side[4] = {j, far_i, quad ? far_j : i, i};
   double most = 1;
   for (int s = 0; s < face.size; ++s) {
     const double row = row_of_side[s], before = row_of_side[(s + face.size - 1) % face.size];
-    const Side& side = mesh_.sides[std::size_t(face.first_side + s)];
+    const Side& side = mesh_.sides[face.first_side + s];
     const double whole = quad ? n_ : n_ - row;
     const double weight = on_edge(side.edge, side.reversed ? whole - before : before, whole);
     most = std::max({most, compliance(weight, row),
-                     compliance(at_vertex(face.vertex[std::size_t(s)]),
+                     compliance(at_vertex(face.vertex[s]),
                                 quad ? row + before - row * before / n_ : row + before)});
   }
   return most;

@@ -36,14 +36,14 @@ class Stiffness {
 
  private:
   static bool is(const std::vector<std::uint8_t>& flags, Index element) {
-    return !flags.empty() && flags[std::size_t(element)] != 0;
+    return !flags.empty() && flags[element] != 0;
   }
   bool soft_vertex(Index v) const { return mesh_.soft.any() && at_vertex(v) > 0; }
   bool soft_edge(Index e) const;
   bool soft_face(Index f) const;
   double compliance_on_edge(Index e, int k) const;
   double compliance_in_face(Index f, int i, int j) const;
-  double at_vertex(Index v) const { return mesh_.soft.vertex[std::size_t(v)]; }
+  double at_vertex(Index v) const { return mesh_.soft.vertex[v]; }
   // Weight on an edge at `steps` grid steps from its first vertex; its row is `whole` steps long.
   double on_edge(Index e, double steps, double whole) const;
   // Compliance at `steps` grid steps from a line of weight c.

@@ -13,9 +13,9 @@ bool EnergyWeight::joint_weighs_edge(Index e) const {
 
 bool EnergyWeight::joint_weighs_face(Index f) const {
   if (!fades()) return false;
-  const Face& face = mesh_.faces[std::size_t(f)];
+  const Face& face = mesh_.faces[f];
   for (int c = 0; c < face.size; ++c)
-    if (clamped_vertex(face.vertex[std::size_t(c)])) return true;
+    if (clamped_vertex(face.vertex[c])) return true;
   return false;
 }
 
@@ -51,16 +51,15 @@ double EnergyWeight::beside_joint(Index e, int k) const {
 // the edges on both sides.
 double EnergyWeight::beside_joint(Index f, int i, int j) const {
   if (!fades()) return 1;
-  const Face& face = mesh_.faces[std::size_t(f)];
+  const Face& face = mesh_.faces[f];
   const bool quad = face.quad();
   const int far_i = quad ? n_ - i : n_ - i - j, far_j = n_ - j;
   const int row_of_side[4] = {j, far_i, quad ? far_j : i, i};
   double steps = n_;
   for (int s = 0; s < face.size; ++s) {
     const double row = row_of_side[s], before = row_of_side[(s + face.size - 1) % face.size];
-    if (clamped_edge(mesh_.sides[std::size_t(face.first_side + s)].edge))
-      steps = std::min(steps, row);
-    if (clamped_vertex(face.vertex[std::size_t(s)]))
+    if (clamped_edge(mesh_.sides[face.first_side + s].edge)) steps = std::min(steps, row);
+    if (clamped_vertex(face.vertex[s]))
       steps = std::min(steps, quad ? row + before - row * before / n_ : row + before);
   }
   return off_joint(std::max(steps, 1.0));  // only points inside the face count

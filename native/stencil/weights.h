@@ -61,9 +61,9 @@ class EnergyWeight {
   double beside_joint(Index e, int k) const;
   double beside_joint(Index f, int i, int j) const;
   bool any() const { return !mesh_.region.clamped_vertex.empty(); }
-  bool clamped_vertex(Index v) const { return mesh_.region.clamped_vertex[std::size_t(v)] != 0; }
-  bool clamped_edge(Index e) const { return mesh_.region.clamped_edge[std::size_t(e)] != 0; }
-  const Edge& edge(Index e) const { return mesh_.edges[std::size_t(e)]; }
+  bool clamped_vertex(Index v) const { return mesh_.region.clamped_vertex[v] != 0; }
+  bool clamped_edge(Index e) const { return mesh_.region.clamped_edge[e] != 0; }
+  const Edge& edge(Index e) const { return mesh_.edges[e]; }
   bool fades() const { return any() && mesh_.region.joint == RegionContinuity::curvature; }
   double on_joint() const { return fades() ? 6.0 * n_ : 2.0; }
   // At `steps` grid steps from the joint, at most n.

@@ -25,11 +25,11 @@ Star star_of(const ControlMesh& mesh, const ChartMaker& charts, std::span<const 
   Star out{charts.vertex(v).ring, {}, {}};
   const auto add = [&](const Face& face, int corner) {
     const auto c = std::size_t(corner % face.size);
-    out.at.push_back(positions[std::size_t(face.vertex[c])] - positions[std::size_t(v)]);
+    out.at.push_back(positions[face.vertex[c]] - positions[v]);
     out.edge.push_back(mesh.sides[std::size_t(face.first_side) + c].edge);
   };
   for (const Spoke& spoke : mesh.ring(v)) {
-    const Face& face = mesh.faces[std::size_t(spoke.face)];
+    const Face& face = mesh.faces[spoke.face];
     for (int k = 1; k + 1 < face.size; ++k) add(face, spoke.corner + k);
   }
   return out;
@@ -81,7 +81,7 @@ class Row {
   // Adds the next edge by one of its sides, in the direction of the stretch or the opposite one.
   void add(const Side& side, bool along) {
     sides_.push_back(&side);
-    const Face& face = mesh_.faces[std::size_t(side.face)];
+    const Face& face = mesh_.faces[side.face];
     for (int k = 2; k < face.size; ++k)
       add_vertex(far_corner(side, along ? face.size + 1 - k : k), side.edge);
   }
@@ -103,8 +103,8 @@ class Row {
   };
 
   Index far_corner(const Side& side, int k) const {
-    const Face& face = mesh_.faces[std::size_t(side.face)];
-    return face.vertex[std::size_t((side.local + k) % face.size)];
+    const Face& face = mesh_.faces[side.face];
+    return face.vertex[(side.local + k) % face.size];
   }
 
   void add_vertex(Index v, Index edge) {
@@ -144,14 +144,14 @@ class Row {
   // A moment on the border changes the energy of the first row of points: the force there times the
   // distance there is one for each piece of the border.
   void bend_face(const Side& side, std::vector<double>& forces) const {
-    const Face& face = mesh_.faces[std::size_t(side.face)];
-    const FlatFace& flat = charts_.flat()[std::size_t(side.face)];
+    const Face& face = mesh_.faces[side.face];
+    const FlatFace& flat = charts_.flat()[side.face];
     const auto first = bend_of_.find(far_corner(side, face.size - 1)),
                second = bend_of_.find(far_corner(side, 2));
     if (first == bend_of_.end() && second == bend_of_.end()) return;
     const Vec3 a = (first == bend_of_.end() ? second : first)->second;
     const Vec3 b = (second == bend_of_.end() ? first : second)->second;
-    const double length = flat.length[std::size_t(side.local)];
+    const double length = flat.length[side.local];
     const double height = (face.quad() ? 1 : 2) * flat.area / length;
     const int n = grid_.n(), last = face.quad() ? n : n - 1;
     for (int k = 0; k <= last; ++k) {
@@ -166,11 +166,11 @@ class Row {
 
   // Position relative to the side: -1 is before it, 1 after it.
   bool is_unknown(const Side& side, int at) const {
-    const Face& face = mesh_.faces[std::size_t(side.face)];
+    const Face& face = mesh_.faces[side.face];
     if (at == 0) return unknowns_.has_face(std::size_t(side.face));
     const int other = (side.local + face.size + at) % face.size;
-    const Side& beside = mesh_.sides[std::size_t(face.first_side + other)];
-    return unknowns_.edge[std::size_t(beside.edge)] != 0;
+    const Side& beside = mesh_.sides[face.first_side + other];
+    return unknowns_.edge[beside.edge] != 0;
   }
 
   const GridLevel& grid_;
@@ -197,10 +197,10 @@ std::vector<double> border_moments(const GridLevel& grid, const ChartMaker& char
         Row row(grid, charts, pads, unknowns, positions);
         for (std::size_t k = 0; k < stretch.edges.size(); ++k) {
           stop_if_cancelled(k);
-          const Edge& edge = mesh.edges[std::size_t(stretch.edges[k])];
+          const Edge& edge = mesh.edges[stretch.edges[k]];
           const bool runs = edge.vertex[0] == stretch.vertices[k];
           const Index side = edge.side[runs == along ? 0 : 1];
-          if (side >= 0) row.add(mesh.sides[std::size_t(side)], along);
+          if (side >= 0) row.add(mesh.sides[side], along);
         }
         row.bend(stretch.closed, forces);
       }

@@ -60,8 +60,7 @@ CurveLoads::CurveLoads(const ControlMesh& mesh, std::span<const Vec3> positions,
   for (double& share : roots_) share = root(share);
   std::vector<Eigen::Triplet<double, Index>> weighted;
   for (const auto& entry : entries)
-    weighted.emplace_back(entry.row(), entry.col(),
-                          root(middle[std::size_t(entry.row())]) * entry.value());
+    weighted.emplace_back(entry.row(), entry.col(), root(middle[entry.row()]) * entry.value());
   differences_.resize(Eigen::Index(middle.size()), mesh.vertex_count());
   differences_.setFromTriplets(weighted.begin(), weighted.end());
 }

@@ -30,13 +30,11 @@ LoadMatrix part_of(const LoadMatrix& all, const std::vector<Index>& row_of,
   LoadMatrix out(Eigen::Index(row_weight.size()), Eigen::Index(column_weight.size()));
   std::vector<Eigen::Triplet<double, Index>> entries;
   for (Eigen::Index i = 0; i < all.rows(); ++i) {
-    const Index row = row_of[std::size_t(i)];
+    const Index row = row_of[i];
     if (row < 0) continue;
     for (LoadMatrix::InnerIterator entry(all, i); entry; ++entry)
-      if (const Index column = column_of[std::size_t(entry.col())]; column >= 0)
-        entries.emplace_back(
-            row, column,
-            entry.value() * row_weight[std::size_t(row)] / column_weight[std::size_t(column)]);
+      if (const Index column = column_of[entry.col()]; column >= 0)
+        entries.emplace_back(row, column, entry.value() * row_weight[row] / column_weight[column]);
   }
   out.setFromTriplets(entries.begin(), entries.end());
   return out;
@@ -51,7 +49,7 @@ LoadMatrix differences_of(const std::vector<std::vector<Index>>& alike,
     if (number[i] < 0) continue;
     std::vector<Index> others;
     for (const Index row : alike[i])
-      if (number[std::size_t(row)] >= 0) others.push_back(number[std::size_t(row)]);
+      if (number[row] >= 0) others.push_back(number[row]);
     if (others.empty()) continue;
     entries.emplace_back(number[i], number[i], 1);
     for (const Index other : others)
@@ -192,9 +190,8 @@ class Easing {
     Eigen::VectorXd bounds(Eigen::Index(movable.vertices.size()));
     for (std::size_t i = 0; i < movable.vertices.size(); ++i)
       // the margin keeps rounded coordinates within the bound
-      bounds[Eigen::Index(i)] = (1 - roundoff) * movable.root[i] *
-                                wanted_.tolerance[std::size_t(movable.vertices[i])] /
-                                problem_->frame.scale;
+      bounds[i] = (1 - roundoff) * movable.root[i] * wanted_.tolerance[movable.vertices[i]] /
+                  problem_->frame.scale;
     return bounds;
   }
 
@@ -236,7 +233,7 @@ class Easing {
   }
 
   void move(Index v, const Vec3& way) {
-    out_.moves[std::size_t(v)] += way;
+    out_.moves[v] += way;
     for (int a = 0; a < 3; ++a) at_[3 * std::size_t(v) + std::size_t(a)] += way[a];
   }
 
@@ -270,11 +267,11 @@ class Easing {
   void release(const std::vector<Index>& worst, const Columns& loads) {
     std::vector<Index> rows;
     for (const Index row : worst)
-      for (const Index image : gauge_->images()[std::size_t(row)])
-        if (!stays(std::size_t(gauge_->vertices()[std::size_t(image)]))) rows.push_back(image);
+      for (const Index image : gauge_->images()[row])
+        if (!stays(std::size_t(gauge_->vertices()[image]))) rows.push_back(image);
     const Columns moves = moves_without_loads(gauge_->matrix(), loads, rows);
     for (std::size_t i = 0; i < rows.size(); ++i)
-      move(gauge_->vertices()[std::size_t(rows[i])],
+      move(gauge_->vertices()[rows[i]],
            problem_->frame.scale * moves.row(Eigen::Index(i)).transpose());
   }
 
@@ -283,7 +280,7 @@ class Easing {
     if (!mending_.mended()) return;
     const std::vector<Index>& origin = mending_.mended()->vertex_origin;
     for (std::size_t v = 0; v < std::min(origin.size(), out_.moves.size()); ++v)
-      out_.moves[v] = out_.moves[std::size_t(origin[v])];
+      out_.moves[v] = out_.moves[origin[v]];
     fairing::restore(out_.before, origin);
     fairing::restore(out_.after, origin);
   }

@@ -41,7 +41,7 @@ class Releases {
       const Index j = row_to_release(first);
       for (const Index row : images_of(j)) {
         out.row(row) = way(row);
-        gone_[std::size_t(row)] = 1;
+        gone_[row] = 1;
       }
       for (const auto& [row, change] : changes(j)) {
         left_.row(row) += change;
@@ -55,19 +55,18 @@ class Releases {
   }
 
  private:
-  const std::vector<Index>& images_of(Index j) const { return of_.images[std::size_t(j)]; }
-  bool is_free(Index j) const { return !gone_[std::size_t(j)]; }
+  const std::vector<Index>& images_of(Index j) const { return of_.images[j]; }
+  bool is_free(Index j) const { return !gone_[j]; }
   double cosine_of(Index j, Index image) const {
     const Way normal = of_.normals.row(j);
     return normal.isZero(0) ? 1.0 : normal.dot(of_.normals.row(image));
   }
   // The way of a row that is released with its images.
-  Way way(Index j) const { return with_images_[std::size_t(j)] * left_.row(j); }
+  Way way(Index j) const { return with_images_[j] * left_.row(j); }
   double length_of(Index j) const { return way_length(way(j), of_.normals.row(j)); }
   void offer(Index j) {
     if (!is_free(j)) return;
-    if (const double length = length_of(j); length > floors_[std::size_t(j)])
-      longest_.emplace(length, j);
+    if (const double length = length_of(j); length > floors_[j]) longest_.emplace(length, j);
   }
 
   // Changes of all ways when a row and its images are released.
@@ -87,7 +86,7 @@ class Releases {
     for (LoadMatrix::InnerIterator entry(columns_, longest); entry; ++entry) {
       const auto j = Index(entry.col());
       if (images_of(j).size() <= images_of(longest).size()) continue;
-      if (!is_free(j) || !(length_of(j) > floors_[std::size_t(j)])) continue;
+      if (!is_free(j) || !(length_of(j) > floors_[j])) continue;
       if (const double left = left_without(j); left < least) least = left, best = j;
     }
     return best;

@@ -22,15 +22,15 @@ constexpr int rings_around = 2;
 
 void restore(Ways& ways, const std::vector<Index>& origin) {
   for (std::size_t v = 0; v < std::min(origin.size(), ways.lengths.size()); ++v) {
-    ways.ways[v] = ways.ways[std::size_t(origin[v])];
-    ways.lengths[v] = ways.lengths[std::size_t(origin[v])];
+    ways.ways[v] = ways.ways[origin[v]];
+    ways.lengths[v] = ways.lengths[origin[v]];
   }
 }
 
 void restore(Excess& excess, const std::vector<Index>& origin) {
   restore(excess.own, origin);
   for (std::size_t v = 0; v < std::min(origin.size(), excess.wrong.size()); ++v)
-    excess.wrong[v] = excess.wrong[std::size_t(origin[v])];
+    excess.wrong[v] = excess.wrong[origin[v]];
 }
 
 StrainGauge::StrainGauge(const FairingProblem& problem, FairingSystems& systems, int rings_apart,
@@ -55,7 +55,7 @@ StrainGauge::StrainGauge(const FairingProblem& problem, FairingSystems& systems,
   for (const Index v : vertices_) {
     std::vector<Index>& images = images_.emplace_back();
     for (const Index image : problem.symmetry.images(v))
-      if (row[std::size_t(image)] >= 0) images.push_back(row[std::size_t(image)]);
+      if (row[image] >= 0) images.push_back(row[image]);
   }
 }
 
@@ -80,8 +80,8 @@ void StrainGauge::add_curve_rows() {
   std::vector<Eigen::Triplet<double, Index>> entries;
   const auto n = Eigen::Index(vertices_.size());
   for (Eigen::Index i = Eigen::Index(on_pads_); i < n; ++i)
-    for (LoadMatrix::InnerIterator entry(curve_matrix_, vertices_[std::size_t(i)]); entry; ++entry)
-      if (const Index column = row[std::size_t(entry.col())]; column >= Index(on_pads_))
+    for (LoadMatrix::InnerIterator entry(curve_matrix_, vertices_[i]); entry; ++entry)
+      if (const Index column = row[entry.col()]; column >= Index(on_pads_))
         entries.emplace_back(Index(i), column, entry.value());
   LoadMatrix own(n, n);
   own.setFromTriplets(entries.begin(), entries.end());
@@ -92,7 +92,7 @@ void StrainGauge::add_curve_rows() {
 Columns StrainGauge::loads(const Loads& on_pads, const ControlPositions& control) const {
   Columns out(Eigen::Index(vertices_.size()), 3);
   for (std::size_t i = 0; i < on_pads_; ++i)
-    out.row(Eigen::Index(i)) = on_pads[std::size_t(vertices_[i])].transpose();
+    out.row(Eigen::Index(i)) = on_pads[vertices_[i]].transpose();
   const Columns on_curves = curve_matrix_ * columns_of(control.working);
   for (std::size_t i = on_pads_; i < vertices_.size(); ++i)
     out.row(Eigen::Index(i)) = on_curves.row(vertices_[i]);
@@ -130,7 +130,7 @@ Ways StrainGauge::strain(const Loads& on_pads, const ControlPositions& control) 
 std::vector<double> StrainGauge::lengths_of(const Columns& ways) const {
   std::vector<double> out(vertices_.size(), std::numeric_limits<double>::quiet_NaN());
   for (Eigen::Index i = 0; i < ways.rows(); ++i)
-    if (matrix_.coeff(i, i) > 0) out[std::size_t(i)] = way_length(ways.row(i), normals_.row(i));
+    if (matrix_.coeff(i, i) > 0) out[i] = way_length(ways.row(i), normals_.row(i));
   return out;
 }
 
@@ -141,7 +141,7 @@ StrainGauge::Kinds StrainGauge::kinds(bool by_neighbours) const {
   const std::vector<Index> row = row_of_vertices();
   // a polygon's centre has no pad and is not on a curve
   const auto off_pads = [&](Index u) {
-    const Index r = row[std::size_t(u)];
+    const Index r = row[u];
     return u < mesh.input_vertices && (r < 0 || r >= Index(on_pads_));
   };
   enum Kind : std::size_t { inside, beside_curve, on_curve, count };
@@ -157,13 +157,12 @@ StrainGauge::Kinds StrainGauge::kinds(bool by_neighbours) const {
 std::vector<std::vector<Index>> StrainGauge::rows_of_same_kind(const Kinds& kinds) const {
   const std::vector<Index> row = row_of_vertices();
   std::vector<std::vector<Index>> out(vertices_.size());
-  visit_around(problem_.mesh, vertices_, rings_around,
-               [&](std::size_t i, const std::vector<Index>& around) {
-                 for (const Index u : around)
-                   if (const Index r = row[std::size_t(u)];
-                       r >= 0 && std::size_t(r) != i && kinds[std::size_t(r)] == kinds[i])
-                     out[i].push_back(r);
-               });
+  visit_around(
+      problem_.mesh, vertices_, rings_around, [&](std::size_t i, const std::vector<Index>& around) {
+        for (const Index u : around)
+          if (const Index r = row[u]; r >= 0 && std::size_t(r) != i && kinds[r] == kinds[i])
+            out[i].push_back(r);
+      });
   return out;
 }
 
@@ -178,7 +177,7 @@ std::vector<double> StrainGauge::floors_of(const std::vector<double>& lengths, d
   for (std::size_t i = 0; i < rows.size(); ++i) {
     std::vector<double> known;
     for (const Index r : rows[i])
-      if (!std::isnan(lengths[std::size_t(r)])) known.push_back(lengths[std::size_t(r)]);
+      if (!std::isnan(lengths[r])) known.push_back(lengths[r]);
     out[i] = std::max(floor, deviations_out * deviation_over_median * median(std::move(known)));
   }
   return out;
@@ -208,7 +207,7 @@ Excess StrainGauge::excess(const Loads& on_pads, const ControlPositions& control
   Excess out{in_mesh_units(own), floor * problem_.frame.scale,
              std::vector<std::uint8_t>(std::size_t(problem_.mesh.input_vertices), 0)};
   for (std::size_t i = 0; i < vertices_.size(); ++i)
-    out.wrong[std::size_t(vertices_[i])] = lengths[i] > floors[i];
+    out.wrong[vertices_[i]] = lengths[i] > floors[i];
   return out;
 }
 

@@ -8,7 +8,7 @@
 namespace fairing {
 std::vector<Index> numbered(std::size_t count, std::span<const Index> vertices) {
   std::vector<Index> number(count, -1);
-  for (std::size_t i = 0; i < vertices.size(); ++i) number[std::size_t(vertices[i])] = Index(i);
+  for (std::size_t i = 0; i < vertices.size(); ++i) number[vertices[i]] = Index(i);
   return number;
 }
 
@@ -23,7 +23,7 @@ ProbedMatrix load_matrix(FairingSystems& systems, const std::vector<Index>& vert
     const std::vector<Index> nearest = nearest_of(mesh, sets[set]);
     for (std::size_t i = 0; i < vertices.size(); ++i) {
       const auto v = std::size_t(vertices[i]);
-      const Index from = nearest[v] < 0 ? -1 : column[std::size_t(nearest[v])];
+      const Index from = nearest[v] < 0 ? -1 : column[nearest[v]];
       if (from >= 0) rows[i].emplace_back(from, loads[v]);
     }
   });

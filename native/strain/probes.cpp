@@ -12,9 +12,9 @@ namespace {
 template <class Visit>
 void visit_neighbours(const ControlMesh& mesh, Index v, Visit&& visit) {
   for (const Spoke& spoke : mesh.ring(v)) {
-    visit(mesh.edges[std::size_t(spoke.edge)].vertex[spoke.outward ? 1 : 0]);
-    if (spoke.face < 0 || !mesh.faces[std::size_t(spoke.face)].quad()) continue;
-    visit(mesh.faces[std::size_t(spoke.face)].vertex[std::size_t(spoke.corner + 2) % 4]);
+    visit(mesh.edges[spoke.edge].vertex[spoke.outward ? 1 : 0]);
+    if (spoke.face < 0 || !mesh.faces[spoke.face].quad()) continue;
+    visit(mesh.faces[spoke.face].vertex[std::size_t(spoke.corner + 2) % 4]);
   }
 }
 
@@ -40,8 +40,8 @@ class Rings {
 
  private:
   void add(Index u, Index from) {
-    if (seen_[std::size_t(u)] == from) return;
-    seen_[std::size_t(u)] = from;
+    if (seen_[u] == from) return;
+    seen_[u] = from;
     found_.push_back(u);
   }
 
@@ -61,7 +61,7 @@ std::vector<std::vector<Index>> vertices_apart(const ControlMesh& mesh, const Pa
   for (Index v = 0; v < mesh.input_vertices; ++v) {
     if (!pads.under(std::size_t(v))) continue;
     for (const Index u : rings_of.around(v, rings - 1))
-      if (set_of[std::size_t(u)] >= 0) too_near[std::size_t(set_of[std::size_t(u)])] = v;
+      if (set_of[u] >= 0) too_near[set_of[u]] = v;
     const auto set = std::size_t(
         std::find_if(too_near.begin(), too_near.end(), [&](Index of) { return of != v; }) -
         too_near.begin());
@@ -70,7 +70,7 @@ std::vector<std::vector<Index>> vertices_apart(const ControlMesh& mesh, const Pa
       too_near.push_back(-1);
     }
     sets[set].push_back(v);
-    mesh.for_each_copy(v, [&](Index u) { set_of[std::size_t(u)] = Index(set); });
+    mesh.for_each_copy(v, [&](Index u) { set_of[u] = Index(set); });
   }
   return sets;
 }
@@ -86,15 +86,15 @@ std::vector<Index> nearest_of(const ControlMesh& mesh, const std::vector<Index>&
   std::vector<Index> nearest(std::size_t(mesh.vertex_count()), -1), found;
   const auto add = [&](Index u, Index from) {
     mesh.for_each_copy(mesh.original_vertex(u), [&](Index copy) {
-      if (nearest[std::size_t(copy)] >= 0) return;
-      nearest[std::size_t(copy)] = from;
+      if (nearest[copy] >= 0) return;
+      nearest[copy] = from;
       found.push_back(copy);
     });
   };
   for (const Index v : set) add(v, v);
   for (std::size_t i = 0; i < found.size(); ++i) {
     stop_if_cancelled(i);
-    visit_neighbours(mesh, found[i], [&](Index u) { add(u, nearest[std::size_t(found[i])]); });
+    visit_neighbours(mesh, found[i], [&](Index u) { add(u, nearest[found[i]]); });
   }
   return nearest;
 }
@@ -111,11 +111,10 @@ void probe_loads(FairingSystems& systems, const std::vector<std::vector<Index>>&
     std::fill(targets.begin(), targets.end(), Vec3::Zero());
     for (std::size_t s = first; s < end; ++s)
       for (const Index v : sets[s])
-        mesh.for_each_copy(v,
-                           [&](Index u) { targets[std::size_t(u)][Eigen::Index(s - first)] = 1; });
+        mesh.for_each_copy(v, [&](Index u) { targets[u][s - first] = 1; });
     const Loads found = systems.loads_of_moves(targets);
     for (std::size_t s = first; s < end; ++s) {
-      for (std::size_t v = 0; v < loads.size(); ++v) loads[v] = found[v][Eigen::Index(s - first)];
+      for (std::size_t v = 0; v < loads.size(); ++v) loads[v] = found[v][s - first];
       on_loads(s, loads);
     }
   }

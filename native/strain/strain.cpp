@@ -73,7 +73,7 @@ Strain strain_once(const PolygonMesh& mesh, const FairOptions& options, Monitor&
   Strain out{gauge.strain(loads.free, problem->basis), gauge.excess(loads.turned, problem->basis),
              std::vector<std::uint8_t>(std::size_t(problem->mesh.input_vertices), 0)};
   for (std::size_t i = gauge.on_pads(); i < gauge.vertices().size(); ++i)
-    out.on_curve[std::size_t(gauge.vertices()[i])] = 1;
+    out.on_curve[gauge.vertices()[i]] = 1;
   return out;
 }
 
@@ -104,7 +104,7 @@ Strain strain_of(const Mending& mending, Monitor& monitor) {
       wrong[v] = 1;
       ways[v] += excess.own.ways[v];
       lengths[v] += excess.own.lengths[v];
-      for (std::size_t a = 0; a < 3; ++a) at[3 * v + a] += excess.own.ways[v][Eigen::Index(a)];
+      for (std::size_t a = 0; a < 3; ++a) at[3 * v + a] += excess.own.ways[v][a];
     }
     monitor.enter_part(1 - left, 1 - left / 2);
     left /= 2;
@@ -135,7 +135,7 @@ Strain measure_strain(const PolygonMesh& input, const FairOptions& options, Moni
       restore(out.all, origin);
       restore(out.excess, origin);
       for (std::size_t v = 0; v < std::min(origin.size(), out.on_curve.size()); ++v)
-        out.on_curve[v] = out.on_curve[std::size_t(origin[v])];
+        out.on_curve[v] = out.on_curve[origin[v]];
     }
     monitor.report(Phase::done, 1);
     return out;

@@ -18,7 +18,7 @@ bool is_corner(const Vec3& before, const Vec3& after) {
 
 std::vector<Stretch> stretches_of(const Chain& chain, std::span<const Vec3> positions) {
   const std::size_t m = chain.vertices.size();
-  const auto at = [&](std::size_t v) { return positions[std::size_t(chain.vertices[v % m])]; };
+  const auto at = [&](std::size_t v) { return positions[chain.vertices[v % m]]; };
   std::vector<std::size_t> corners;
   for (std::size_t v = 0; v < m; ++v) {
     const bool end = !chain.closed && (v == 0 || v + 1 == m);

@@ -14,13 +14,13 @@ std::vector<Index> worst_rows(const std::vector<double>& lengths, std::size_t co
   std::vector<Index> rows, out;
   for (std::size_t i = 0; i < lengths.size(); ++i)
     if (lengths[i] > 0) rows.push_back(Index(i));
-  std::ranges::stable_sort(rows, std::greater(), [&](Index i) { return lengths[std::size_t(i)]; });
+  std::ranges::stable_sort(rows, std::greater(), [&](Index i) { return lengths[i]; });
   std::vector<std::uint8_t> taken(lengths.size());
   for (const Index row : rows) {
     if (out.size() == count) break;
-    if (taken[std::size_t(row)]) continue;
+    if (taken[row]) continue;
     out.push_back(row);
-    for (const Index image : images[std::size_t(row)]) taken[std::size_t(image)] = 1;
+    for (const Index image : images[row]) taken[image] = 1;
   }
   return out;
 }
@@ -33,9 +33,8 @@ Columns moves_without_loads(const LoadMatrix& g, const Columns& loads,
   Eigen::MatrixXd part(k, k);
   for (Eigen::Index i = 0; i < k; ++i) {
     stop_if_cancelled();
-    own.row(i) = -loads.row(rows[std::size_t(i)]);
-    for (Eigen::Index j = 0; j < k; ++j)
-      part(i, j) = g.coeff(rows[std::size_t(i)], rows[std::size_t(j)]);
+    own.row(i) = -loads.row(rows[i]);
+    for (Eigen::Index j = 0; j < k; ++j) part(i, j) = g.coeff(rows[i], rows[j]);
   }
   return part.colPivHouseholderQr().solve(own);  // without pivots that are rounding
 }

@@ -37,13 +37,13 @@ AssembledSystem assemble_thin_plate(const GridLevel& grid, const Stencils& stenc
       grid, number, nullptr, [&](const VisitRows& visit) { visit_rows(plate, visit); });
   Triplets entries;
   for (Index i = 0; i < Index(system.unknown_points.size()); ++i) {
-    const Index p = system.unknown_points[std::size_t(i)];
+    const Index p = system.unknown_points[i];
     const RingTable::Ring& ring = plate.rings().about(p);
     const std::span<const double> tension = stencils.weights(ring.element);
     for (std::size_t k = 0; k < tension.size(); ++k)
       if (const RingTable::Member q = plate.rings().members(ring)[k + 1]; q >= 0)
-        entries.emplace_back(i, number[std::size_t(q)], -tension[k]);
-    const double held = std::size_t(p) < weights.size() ? weights[std::size_t(p)] : 0.0;
+        entries.emplace_back(i, number[q], -tension[k]);
+    const double held = std::size_t(p) < weights.size() ? weights[p] : 0.0;
     if (const double own = stencils.total_weight(ring.element) + held + plate.penalty(p); own != 0)
       entries.emplace_back(i, i, own);
   }

@@ -25,20 +25,16 @@ class PlateDifferences {
   const RingTable& rings() const { return rings_; }
   // Whether points have weights besides the stencils.
   bool is_weighted() const { return surface_ || !weight_.empty(); }
-  double penalty(Index p) const { return surface_ ? double(surface_->penalty[std::size_t(p)]) : 0; }
+  double penalty(Index p) const { return surface_ ? double(surface_->penalty[p]) : 0; }
   const Stencils& stencils() const { return stencils_; }
-  bool has_fit(const RingTable::Ring& ring) const {
-    return stencils_.has_fit[std::size_t(ring.element)];
-  }
+  bool has_fit(const RingTable::Ring& ring) const { return stencils_.has_fit[ring.element]; }
   // For a ring with a fit: the three differences there of a unit at a member, without the root of
   // weight().
   Column column(const RingTable::Ring& ring, std::size_t slot) const {
     const auto e = std::size_t(ring.element);
     return column_[slot + (surface_ ? ring.member : stencils_.begin[e] + e)];
   }
-  double weight(Index centre) const {
-    return surface_ || weight_.empty() ? 1.0 : weight_[std::size_t(centre)];
-  }
+  double weight(Index centre) const { return surface_ || weight_.empty() ? 1.0 : weight_[centre]; }
 
  private:
   const Stencils& stencils_;

@@ -94,7 +94,7 @@ void ThinPlateLevels::put_fixed(int level, const PlateData& data, double* x) con
     for (int k = 1; k < lat.n(); ++k)
       for (int a = 0; a < 3; ++a)
         x[3 * std::size_t(lat.edge_point(Index(e), k)) + std::size_t(a)] =
-            points[std::size_t(k * stride - 1)][a];
+            points[k * stride - 1][a];
   }
   refine_outside_linearly(lat, data.targets, x);
 }

@@ -37,7 +37,7 @@ class ThinPlateLevels {
 
   int base() const { return base_; }  // the coarsest level with unknowns worth a solve
   int top() const { return int(grids_.size()) - 1; }
-  const GridLevel& grid(int level) const { return *grids_[std::size_t(level)]; }
+  const GridLevel& grid(int level) const { return *grids_[level]; }
   // r <- (K + P) x without weights, with these control vertices among the unknowns; its diagonal.
   void apply_with(int level, const Unknowns& unknowns, const double* x, double* r) {
     operators_[index(level)]->apply_with(unknowns, x, r);

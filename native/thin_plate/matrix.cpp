@@ -90,7 +90,7 @@ void PlateMatrix::write_lines(const Array<float>& inverse_diagonal, LineBand& ba
     for_each_index(workers, points_,
                    [&](std::size_t p) { root[p] = std::sqrt(inverse_diagonal[p]); });
     rows_->visit_numbers(workers, [&](Index p, Index q, float number) {
-      if (p != q) band.offer(p, q, std::abs(number) * root[std::size_t(p)] * root[std::size_t(q)]);
+      if (p != q) band.offer(p, q, std::abs(number) * root[p] * root[q]);
     });
   };
   band.write(offer, [&] {

@@ -75,7 +75,7 @@ struct PlateRingRows {
   int slots() const { return surface ? own.slots : int(column.size()); }
   Vec3 at(int s, std::size_t i) const {
     if (surface) return Vec3(own.at(0, s, i), own.at(1, s, i), own.at(2, s, i));
-    return Eigen::Map<const Vec3>(column[std::size_t(s)].data());
+    return Eigen::Map<const Vec3>(column[s].data());
   }
   // Of the energy at point i.
   double weight(std::size_t i) const {
@@ -115,7 +115,7 @@ class PlatePass {
   // The whole face at once, except for rows of its own points and tension.
   void face(Index f, T* closed) {
     const int n = grid_.n();
-    const bool quad = grid_.mesh().faces[std::size_t(f)].quad();
+    const bool quad = grid_.mesh().faces[f].quad();
     const bool at_once = n >= (quad ? 2 : 3) && !surface_;
     if (at_once)
       add_face(f, quad, closed);
@@ -143,7 +143,7 @@ class PlatePass {
     const Stencils& stencils = rows_.stencils;
     const Index element = element_of(grid_.mesh(), run);
     const T* const* at = gather_(run);
-    const bool has_fit = stencils.has_fit[std::size_t(element)];
+    const bool has_fit = stencils.has_fit[element];
     if (has_fit && surface_)
       add_points(std::as_const(surface_->rows).of(run), at, target);
     else if (has_fit && run.kind != RunKind::face_row)
@@ -156,7 +156,7 @@ class PlatePass {
     T* const moments = room_in(work_, 10 * run.count);
     T* weight = factor_.weighs(run) ? moments + 9 * run.count : nullptr;
     for (std::size_t i = 0; i < run.count && weight; ++i) weight[i] = T(factor_.point(run, i));
-    const T* row = rows_.ring.data() + 3 * rows_.stencils.begin[std::size_t(element)];
+    const T* row = rows_.ring.data() + 3 * rows_.stencils.begin[element];
     pass<passes::RunPass>(run, rows_.stencils.columns(element).size(), row, scale(), at,
                           static_cast<const T*>(weight), target, moments);
   }
@@ -244,8 +244,7 @@ Array<float> thin_plate_diagonal(const GridLevel& grid, const Stencils& stencils
     const auto put = [&](std::size_t slot, std::size_t i, double number) {
       for (std::size_t a = 0; a < 3; ++a) target[slot][3 * i + a] += number;
     };
-    if (run.kind == RunKind::vertex && !weights.empty())
-      put(0, 0, weights[std::size_t(run.element)]);
+    if (run.kind == RunKind::vertex && !weights.empty()) put(0, 0, weights[run.element]);
     const double tension = stencils.total_weight(element_of(grid.mesh(), run));
     for (std::size_t i = 0; i < run.count; ++i) put(0, i, tension);
     rows.read(run);
@@ -290,7 +289,7 @@ double thin_plate_energy(const GridLevel& grid, const Stencils& stencils, Worker
           for (int s = 1; s < slots; ++s) {
             const Vec3 row = state.rows.at(s, i);
             for (std::size_t k = 0; k < 9; ++k)
-              moment[k] += row[Eigen::Index(k / 3)] * (at[s][3 * i + k % 3] - at[0][3 * i + k % 3]);
+              moment[k] += row[k / 3] * (at[s][3 * i + k % 3] - at[0][3 * i + k % 3]);
           }
           for (const double m : moment) square += m * m;
           sum += state.rows.weight(i) * square;

@@ -66,8 +66,7 @@ void restrict_to_vertices(const QuadraticTransfers<C>& transfers, int level,
   const auto at = [&](int l) { return l > 0 ? room(l) : vertices.data(); };
   float* const finest = at(level);
   for_each_index(workers, r.size(), [&](std::size_t i) { finest[i] = float(r[i]); });
-  for (int l = level; l > 0; --l)
-    transfers[std::size_t(l - 1)]->restrict_to(carried, at(l), at(l - 1));
+  for (int l = level; l > 0; --l) transfers[l - 1]->restrict_to(carried, at(l), at(l - 1));
   for (std::size_t v = 0; v < sums.size(); ++v)
     sums[v] =
         Eigen::Map<const Eigen::Matrix<float, C, 1>>(&vertices[C * v]).template cast<double>();

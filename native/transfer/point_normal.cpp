@@ -42,7 +42,7 @@ void prolong_with_normals(const GridLevel& coarse, const GridLevel& fine, Worker
   for_face_parts(coarse, workers, [&](Index begin, Index end) {
     std::vector<double> points(3 * closed_size(true, std::size_t(n))), normals(points.size());
     for (Index f = begin; f < end; ++f) {
-      const bool quad = mesh.faces[std::size_t(f)].quad();
+      const bool quad = mesh.faces[f].quad();
       gather_face(coarse, x, f, points.data());
       gather_face(coarse, normal, f, normals.data());
       const auto between = [&](int i, int j, int k, int l) {

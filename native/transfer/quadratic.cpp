@@ -204,7 +204,7 @@ void prolong(const GridLevel& coarse, const GridLevel& fine, const Stencils& st,
         });
       },
       [&](Index f, T* closed, State& s) {
-        const bool quad = coarse.mesh().faces[std::size_t(f)].quad();
+        const bool quad = coarse.mesh().faces[f].quad();
         std::fill_n(closed, C * closed_size(quad, 2 * std::size_t(n)), T(0));
         for_face_runs(coarse, f, [&](const Run& row) {
           s.to.set_row(n, row, closed);

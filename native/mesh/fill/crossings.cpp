@@ -59,9 +59,7 @@ class Cells {
   }
 
  private:
-  const Vec3& corner(std::size_t t, std::size_t i) const {
-    return points_[std::size_t(triangles_[t][i])];
-  }
+  const Vec3& corner(std::size_t t, std::size_t i) const { return points_[triangles_[t][i]]; }
 
   Box box_of(std::size_t t) const {
     Box box(corner(t, 0));

@@ -50,7 +50,7 @@ class Ears {
     } while (i != first);
     std::rotate(found.corners.begin(), std::min_element(found.corners.begin(), found.corners.end()),
                 found.corners.end());
-    for (const Index corner : found.corners) found.normals.push_back(normals_[std::size_t(corner)]);
+    for (const Index corner : found.corners) found.normals.push_back(normals_[corner]);
     return found;
   }
 

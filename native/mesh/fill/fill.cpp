@@ -60,9 +60,7 @@ class OneHole {
     return Relaxation::taut;
   }
 
-  bool joined(Index a, Index b) const {
-    return rims_.are_joined(ids_[std::size_t(a)], ids_[std::size_t(b)]);
-  }
+  bool joined(Index a, Index b) const { return rims_.are_joined(ids_[a], ids_[b]); }
 
  private:
   void triangulate_walk_into(Patch& patch) {
@@ -74,8 +72,7 @@ class OneHole {
       if (found.empty()) break;
       if (!forbid_twins(found, forbidden)) {
         for (const Triangle& t : found)
-          patch.triangles.push_back(
-              {walk_[std::size_t(t[0])], walk_[std::size_t(t[1])], walk_[std::size_t(t[2])]});
+          patch.triangles.push_back({walk_[t[0]], walk_[t[1]], walk_[t[2]]});
         return;
       }
     }
@@ -93,7 +90,7 @@ class OneHole {
     std::vector<double> even;
     for (std::size_t i = begin_[l]; i < begin_[l + 1]; ++i)
       even.push_back((lengths[before(i, l)] + 2 * lengths[i] + lengths[after(i, l)]) / 4);
-    std::copy(even.begin(), even.end(), lengths.begin() + std::ptrdiff_t(begin_[l]));
+    std::copy(even.begin(), even.end(), lengths.begin() + begin_[l]);
   }
 
   // One walk around the hole and, by bridges, around its islands, the nearest first.
@@ -110,7 +107,7 @@ class OneHole {
         for (std::size_t p = 0; p < walk_.size(); ++p) {
           stop_if_cancelled(p);
           for (std::size_t i = begin_[l]; i < begin_[l + 1]; ++i) {
-            const double distance = (points[std::size_t(walk_[p])] - points[i]).squaredNorm();
+            const double distance = (points[walk_[p]] - points[i]).squaredNorm();
             if (distance >= least || joined(walk_[p], Index(i))) continue;
             least = distance, place = p, shore = i, island = l;
           }
@@ -140,11 +137,10 @@ class OneHole {
     SpacePolygon found;
     for (std::size_t p = 0; p < walk_.size(); ++p) {
       const Index a = walk_[p], b = walk_[(p + 1) % walk_.size()];
-      found.points.push_back(points[std::size_t(a)]);
+      found.points.push_back(points[a]);
       const bool is_bridge = bridges_.contains(std::minmax(a, b));
-      found.normals.push_back(
-          is_bridge ? Vec3(Vec3::Zero())
-                    : rims_.normal_beside(ids_[std::size_t(b)], ids_[std::size_t(a)]));
+      found.normals.push_back(is_bridge ? Vec3(Vec3::Zero())
+                                        : rims_.normal_beside(ids_[b], ids_[a]));
     }
     found.may_join = [this, &forbidden](std::size_t low, std::size_t high) {
       const Index a = walk_[low], b = walk_[high];
@@ -239,7 +235,7 @@ void require_areas(const Patch& patch, const OneHole& hole) {
     Vec3 sides[3];
     std::size_t longest = 0;
     for (std::size_t i = 0; i < 3; ++i) {
-      sides[i] = patch.points[std::size_t(t[(i + 1) % 3])] - patch.points[std::size_t(t[i])];
+      sides[i] = patch.points[t[(i + 1) % 3]] - patch.points[t[i]];
       if (sides[i].squaredNorm() > sides[longest].squaredNorm()) longest = i;
     }
     const double area = sides[0].cross(sides[1]).norm();
@@ -248,15 +244,14 @@ void require_areas(const Patch& patch, const OneHole& hole) {
     for (std::size_t i = 0; i < 3; ++i)
       if (const Index a = t[i], b = t[(i + 1) % 3];
           sides[i].isZero() && a < patch.rim && b < patch.rim)
-        ids = {hole.ids()[std::size_t(a)], hole.ids()[std::size_t(b)]};
+        ids = {hole.ids()[a], hole.ids()[b]};
     std::sort(ids.begin(), ids.end());
     if (!ids.empty())
       throw FairingError(
           ErrorCode::coincident_vertices,
           {"{vertex} of the rim coincide; the hole has no width there.", "Merge them by distance."},
           ids);
-    if (const Index middle = t[(longest + 2) % 3]; middle < patch.rim)
-      ids = {hole.ids()[std::size_t(middle)]};
+    if (const Index middle = t[(longest + 2) % 3]; middle < patch.rim) ids = {hole.ids()[middle]};
     throw FairingError(
         ErrorCode::degenerate_face,
         {"{vertex} of the rim {lies|lie} on another edge of it; the hole has no width there.",

@@ -22,7 +22,7 @@ class Walks {
   Walks(const PolygonMesh& mesh, const HalfEdges& half_edges)
       : half_edges_(half_edges), torn_(std::size_t(mesh.vertex_count()), 0) {
     const std::vector<std::int64_t>& edges = half_edges.nonmanifold_edges();
-    for (const std::int64_t v : edges) torn_[std::size_t(v)] = 1;
+    for (const std::int64_t v : edges) torn_[v] = 1;
     for (std::size_t i = 0; i + 1 < edges.size(); i += 2)
       crowded_.insert(std::minmax(edges[i], edges[i + 1]));
     pair_across_gaps(mesh);
@@ -33,8 +33,7 @@ class Walks {
 
   // Whether an end of this border edge is an end of an edge with more than two faces.
   bool is_torn(std::int32_t k) const {
-    return torn_[std::size_t(half_edges_.from(k))] ||
-           torn_[std::size_t(half_edges_.from(half_edges_.next(k)))];
+    return torn_[half_edges_.from(k)] || torn_[half_edges_.from(half_edges_.next(k))];
   }
 
   // The same for one without another face.
@@ -66,7 +65,7 @@ class Walks {
   void pair_across_gaps(const PolygonMesh& mesh) {
     std::vector<std::uint8_t> fans(std::size_t(mesh.vertex_count()), 0);
     const auto count_at = [&](std::int32_t k) -> std::uint8_t& {
-      return fans[std::size_t(half_edges_.from(k))];
+      return fans[half_edges_.from(k)];
     };
     for (std::int32_t k = 0; k < half_edges_.count(); ++k)
       if (is_border(k) && count_at(k) < 2) ++count_at(k);
@@ -179,13 +178,13 @@ FoundHoles find_holes(const PolygonMesh& mesh, const HalfEdges& half_edges) {
   std::vector<std::int32_t> left;
   for (std::int32_t first = 0; first < half_edges.count(); ++first) {
     stop_if_cancelled(std::size_t(first));
-    if (seen[std::size_t(first)] || !walks.is_border(first)) continue;
+    if (seen[first] || !walks.is_border(first)) continue;
     Loop walk;
     std::vector<std::int32_t> sides;
     bool one_face = true;
     std::int32_t k = first;
-    while (k != none && !seen[std::size_t(k)]) {
-      seen[std::size_t(k)] = 1;
+    while (k != none && !seen[k]) {
+      seen[k] = 1;
       one_face &= half_edges.face(k) == half_edges.face(first);
       walk.push_back({Index(half_edges.from(k)), {}});
       sides.push_back(k);

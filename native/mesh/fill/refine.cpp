@@ -63,8 +63,8 @@ class Refinement {
   }
 
  private:
-  const Vec3& point(VertexHandle v) const { return patch_.points[std::size_t(v.idx())]; }
-  double& wanted(VertexHandle v) { return patch_.lengths[std::size_t(v.idx())]; }
+  const Vec3& point(VertexHandle v) const { return patch_.points[v.idx()]; }
+  double& wanted(VertexHandle v) { return patch_.lengths[v.idx()]; }
   VertexHandle from(Half h) const { return mesh_.from_vertex_handle(h); }
   VertexHandle to(Half h) const { return mesh_.to_vertex_handle(h); }
   bool on_rim(VertexHandle v) const { return v.idx() < patch_.rim; }
@@ -140,7 +140,7 @@ class Refinement {
       if (!mesh_.is_boundary(h)) sum += unit_or_zero(area(from(h), to(h), opposite(h)));
       h = mesh_.opposite_halfedge_handle(mesh_.prev_halfedge_handle(h));
     } while (h != first);
-    if (on_rim(v) && !patch_.rim_normals.empty()) sum += patch_.rim_normals[std::size_t(v.idx())];
+    if (on_rim(v) && !patch_.rim_normals.empty()) sum += patch_.rim_normals[v.idx()];
     return unit_or_zero(sum);
   }
 
@@ -239,7 +239,7 @@ class Refinement {
     const Half back = mesh_.opposite_halfedge_handle(h);
     if (!mesh_.is_boundary(back)) return unit_or_zero(area(from(back), to(back), opposite(back)));
     if (patch_.rim_normals.empty()) return {};
-    const Vec3& behind = patch_.rim_normals[std::size_t(from(h).idx())];
+    const Vec3& behind = patch_.rim_normals[from(h).idx()];
     return behind.isZero() ? std::optional<Vec3>() : behind;
   }
 
@@ -313,7 +313,7 @@ class Refinement {
   // Moves as far along `step` as no triangle turns too far: next to a rim that bends inwards, the
   // mean of the neighbours may be beyond it.
   void move(VertexHandle vertex, const Vec3& step) {
-    Vec3& place = patch_.points[std::size_t(vertex.idx())];
+    Vec3& place = patch_.points[vertex.idx()];
     const double before = ring_sharpness(place);
     for (const double share : {1.0, 0.5, 0.25})
       if (ring_sharpness(place + share * step) <= before) {
@@ -327,9 +327,9 @@ class Refinement {
     Index count = 0;
     for (int v = 0; v < int(mesh_.n_vertices()); ++v) {
       if (v >= patch_.rim && mesh_.status(VertexHandle(v)).deleted()) continue;
-      number[std::size_t(v)] = count;
-      patch_.points[std::size_t(count)] = patch_.points[std::size_t(v)];
-      patch_.lengths[std::size_t(count++)] = patch_.lengths[std::size_t(v)];
+      number[v] = count;
+      patch_.points[count] = patch_.points[v];
+      patch_.lengths[count++] = patch_.lengths[v];
     }
     patch_.points.resize(std::size_t(count));
     patch_.lengths.resize(std::size_t(count));
@@ -338,9 +338,8 @@ class Refinement {
       const OpenMesh::FaceHandle face(f);
       if (mesh_.status(face).deleted()) continue;
       const Half h = mesh_.halfedge_handle(face);
-      patch_.triangles.push_back({number[std::size_t(from(h).idx())],
-                                  number[std::size_t(to(h).idx())],
-                                  number[std::size_t(opposite(h).idx())]});
+      patch_.triangles.push_back(
+          {number[from(h).idx()], number[to(h).idx()], number[opposite(h).idx()]});
     }
   }
 

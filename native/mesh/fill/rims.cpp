@@ -12,12 +12,12 @@ Rims::Rims(const PolygonMesh& mesh, const HalfEdges& half_edges, std::span<const
   std::vector<std::uint8_t> marked(std::size_t(mesh.vertex_count()), 0);
   for (const Hole& hole : holes)
     for (const HoleLoop& loop : hole)
-      for (const std::int64_t v : loop) marked[std::size_t(v)] = 1;
+      for (const std::int64_t v : loop) marked[v] = 1;
   for (std::int32_t k = 0; k < half_edges.count(); ++k) {
     stop_if_cancelled(std::size_t(k));
-    if (!marked[std::size_t(half_edges.from(k))]) continue;
+    if (!marked[half_edges.from(k)]) continue;
     const std::int64_t a = half_edges.from(k), b = half_edges.from(half_edges.next(k));
-    if (!marked[std::size_t(b)]) continue;
+    if (!marked[b]) continue;
     edges_.insert(key(a, b));
     if (half_edges.twin(k) < 0) border_[side(a, b)] = half_edges.face(k);
   }

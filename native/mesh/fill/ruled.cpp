@@ -159,8 +159,8 @@ Patch bent(const Patch& rims, std::size_t second, const std::vector<Line>& lines
     for (std::size_t row = 1; row < rows; ++row) {
       const double t = double(row) / double(rows);
       patch.points.push_back(bends[l].at(t));
-      patch.lengths.push_back((1 - t) * rims.lengths[std::size_t(lines[l].first)] +
-                              t * rims.lengths[std::size_t(lines[l].second)]);
+      patch.lengths.push_back((1 - t) * rims.lengths[lines[l].first] +
+                              t * rims.lengths[lines[l].second]);
     }
   join(patch, lines, rows);
   return patch;
@@ -175,9 +175,8 @@ Turns sharpest(const Patch& patch) {
   std::map<Line, Vec3> sides;
   Turns found;
   for (const Triangle& t : patch.triangles) {
-    const Vec3& a = patch.points[std::size_t(t[0])];
-    const Vec3 normal = unit_or_zero(
-        (patch.points[std::size_t(t[1])] - a).cross(patch.points[std::size_t(t[2])] - a));
+    const Vec3& a = patch.points[t[0]];
+    const Vec3 normal = unit_or_zero((patch.points[t[1]] - a).cross(patch.points[t[2]] - a));
     for (std::size_t i = 0; i < 3; ++i) {
       const auto other = sides.find({t[(i + 1) % 3], t[i]});
       if (other == sides.end()) {
@@ -189,7 +188,7 @@ Turns sharpest(const Patch& patch) {
     }
   }
   for (const auto& [side, normal] : sides)
-    if (const Vec3& behind = patch.rim_normals[std::size_t(side.first)]; !behind.isZero())
+    if (const Vec3& behind = patch.rim_normals[side.first]; !behind.isZero())
       found.behind = std::min(found.behind, normal.dot(behind));
   return found;
 }

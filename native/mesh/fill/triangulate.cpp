@@ -202,8 +202,7 @@ std::vector<Triangle> triangulate(const SpacePolygon& polygon) {
   if (polygon.points.size() <= longest_whole) return Search(polygon).run();
   Shortened rest = cut_ears(polygon, longest_whole);
   SpacePolygon left;
-  for (const Index corner : rest.corners)
-    left.points.push_back(polygon.points[std::size_t(corner)]);
+  for (const Index corner : rest.corners) left.points.push_back(polygon.points[corner]);
   left.normals = std::move(rest.normals);
   left.may_join = [&](std::size_t low, std::size_t high) {
     return polygon.may_join(std::size_t(rest.corners[low]), std::size_t(rest.corners[high]));
@@ -212,8 +211,7 @@ std::vector<Triangle> triangulate(const SpacePolygon& polygon) {
   if (inner.empty()) return Search(polygon).run();
   std::vector<Triangle> found = std::move(rest.ears);
   for (const Triangle& t : inner)
-    found.push_back({rest.corners[std::size_t(t[0])], rest.corners[std::size_t(t[1])],
-                     rest.corners[std::size_t(t[2])]});
+    found.push_back({rest.corners[t[0]], rest.corners[t[1]], rest.corners[t[2]]});
   return found;
 }
 

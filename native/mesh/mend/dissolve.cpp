@@ -99,12 +99,11 @@ class Dissolver {
   Vec3 point(Index v) const { return point_at(coordinates_, v); }
   // Valid until the next change.
   std::span<const MendCorner> face(Index f) const {
-    const Index at = changed_at_[std::size_t(f)];
-    return at < 0 ? loops_.face(f) : std::span<const MendCorner>(changed_[std::size_t(at)]);
+    const Index at = changed_at_[f];
+    return at < 0 ? loops_.face(f) : std::span<const MendCorner>(changed_[at]);
   }
   Index origin(Index f) const {
-    return f < loops_.count() ? loops_.origin[std::size_t(f)]
-                              : new_origin_[std::size_t(f - loops_.count())];
+    return f < loops_.count() ? loops_.origin[f] : new_origin_[f - loops_.count()];
   }
 
   // The test for a convex polygon without area, which is no wider.
@@ -124,7 +123,7 @@ class Dissolver {
   }
 
   void wait(Index f, std::span<const MendCorner> loop) {
-    state_[std::size_t(f)] = State::flat;
+    state_[f] = State::flat;
     Waiting one{0, {}, f};
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const Index here = loop[i].vertex, next = loop[(i + 1) % loop.size()].vertex;
@@ -136,14 +135,14 @@ class Dissolver {
   }
 
   void set(Index f, Loop loop) {
-    Index& at = changed_at_[std::size_t(f)];
+    Index& at = changed_at_[f];
     if (at < 0) {
       at = Index(changed_.size());
       changed_.emplace_back();
     }
-    state_[std::size_t(f)] = State::sound;
+    state_[f] = State::sound;
     if (!loop.empty() && is_flat(coordinates_, loop, ids_)) wait(f, loop);
-    changed_[std::size_t(at)] = std::move(loop);
+    changed_[at] = std::move(loop);
   }
   // Replaces a face by the first of several; the others are appended.
   void replace(Index f, std::vector<Loop> loops) {
@@ -168,7 +167,7 @@ class Dissolver {
       CutSide side = cut_side(coordinates_, vertices[i], vertices[(i + 1) % loop.size()], vertices);
       if (side.between.empty()) continue;
       for (const Index other : edges_.around(side.low, side.high)) {
-        if (state_[std::size_t(other)] == State::flat)
+        if (state_[other] == State::flat)
           insert(other, side);
         else
           cut_later(other);
@@ -177,7 +176,7 @@ class Dissolver {
     }
   }
   void cut_later(Index f) {
-    if (std::exchange(state_[std::size_t(f)], State::to_cut) == State::sound) to_cut_.push_back(f);
+    if (std::exchange(state_[f], State::to_cut) == State::sound) to_cut_.push_back(f);
   }
 
   // A face on a line and all other faces with the same longest side.
@@ -186,7 +185,7 @@ class Dissolver {
     std::vector<Index> stack;
     if (!spans(coordinates_, loop, side)) return stack;
     for (const Index other : edges_.around(side.low, side.high)) {
-      if (state_[std::size_t(other)] != State::flat && other != f) continue;
+      if (state_[other] != State::flat && other != f) continue;
       const Loop one(face(other).begin(), face(other).end());
       if (spans(coordinates_, one, side) && on_a_line(one)) stack.push_back(other);
     }
@@ -206,7 +205,7 @@ class Dissolver {
     for (const CutSide& side : sides) {
       for (const Index other : edges_.around(side.low, side.high)) {
         stop_if_cancelled(++steps_);
-        if (state_[std::size_t(other)] == State::flat)
+        if (state_[other] == State::flat)
           expand(other);
         else
           cut_later(other);
@@ -221,8 +220,8 @@ class Dissolver {
     to_cut_.clear();
     std::sort(faces.begin(), faces.end());
     for (const Index f : faces) {
-      if (state_[std::size_t(f)] != State::to_cut) continue;
-      state_[std::size_t(f)] = State::sound;
+      if (state_[f] != State::to_cut) continue;
+      state_[f] = State::sound;
       expand(f);
     }
   }

@@ -59,7 +59,7 @@ std::vector<Loop> simple_loops(std::span<const MendCorner> walk) {
       open.push_back(corner);
       continue;
     }
-    Loop loop(open.begin() + std::ptrdiff_t(at->second), open.end());
+    Loop loop(open.begin() + at->second, open.end());
     for (std::size_t k = 1; k < loop.size(); ++k) places.erase(loop[k].vertex);
     open.resize(at->second + 1);
     keep(std::move(loop));

@@ -38,7 +38,7 @@ struct Loops {
     origin.reserve(faces);
   }
   std::span<const MendCorner> face(Index f) const {
-    return {corners.data() + offsets[std::size_t(f)], corners.data() + offsets[std::size_t(f) + 1]};
+    return {corners.data() + offsets[f], corners.data() + offsets[std::size_t(f) + 1]};
   }
   void add(std::span<const MendCorner> loop, Index from) {
     corners.insert(corners.end(), loop.begin(), loop.end());

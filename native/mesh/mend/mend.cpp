@@ -30,7 +30,7 @@ void require_mendable(const PolygonMesh& mesh) {
     if (!defect.repairable && defect.code != ErrorCode::non_finite) defect.raise();
   const std::vector<std::uint8_t> used = used_vertices(mesh);
   Ids bad = non_finite_vertices(mesh.coordinates);
-  std::erase_if(bad, [&](std::int64_t v) { return !used[std::size_t(v)]; });
+  std::erase_if(bad, [&](std::int64_t v) { return !used[v]; });
   if (!bad.empty())
     throw FairingError(ErrorCode::non_finite,
                        {"{vertex} {has|have} a coordinate that is NaN, infinite or beyond 1e100, "
@@ -88,7 +88,7 @@ class Mender {
       }
       walk.clear();
       for (std::size_t i = 0; i < face.size(); ++i) {
-        const auto k = Index(mesh_.offsets[std::size_t(f)]) + Index(i);
+        const auto k = Index(mesh_.offsets[f]) + Index(i);
         walk.push_back({merges_.lead(Index(face[i])), {k, k}});
       }
       const std::vector<Loop> loops = simple_loops(walk);
@@ -115,9 +115,9 @@ class Mender {
       stop_if_cancelled(std::size_t(f));
       const bool listed = next != same.end() && next->face == f;
       if (listed && next->first != f)
-        duplicates_.push_back(loops_.origin[std::size_t(f)]);
+        duplicates_.push_back(loops_.origin[f]);
       else
-        kept.add(loops_.face(f), loops_.origin[std::size_t(f)]);
+        kept.add(loops_.face(f), loops_.origin[f]);
       if (listed) ++next;
     }
     loops_ = std::move(kept);
@@ -136,7 +136,7 @@ class Mender {
       if (out_.vertex_origin[v] != Index(v)) merged_.push_back(std::int64_t(v));
     }
     for (const std::int64_t v : non_finite_vertices(mesh_.coordinates)) {
-      out_.vertex_origin[std::size_t(v)] = loops_.corners[0].vertex;
+      out_.vertex_origin[v] = loops_.corners[0].vertex;
       const auto at = mesh_.coordinates.subspan(3 * std::size_t(v), 3);
       (std::ranges::all_of(at, [](double x) { return std::isfinite(x); }) ? far_ : lost_)
           .push_back(v);

@@ -29,13 +29,13 @@ class Cubes {
   }
   void add(Index v, const Vec3& p) {
     Index& first = first_[slot(at(p))];
-    next_[std::size_t(v)] = first;
+    next_[v] = first;
     first = v;
   }
   // Calls visit(v) for every vertex in a cube, and possibly for others.
   template <class Visit>
   void visit(const std::array<double, 3>& cube, Visit&& visit) const {
-    for (Index v = first_[slot(cube)]; v >= 0; v = next_[std::size_t(v)]) visit(v);
+    for (Index v = first_[slot(cube)]; v >= 0; v = next_[v]) visit(v);
   }
 
  private:

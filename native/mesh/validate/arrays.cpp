@@ -69,7 +69,7 @@ bool check_finite(const PolygonMesh& mesh, Defects& found) {
       bad);
   const std::vector<std::uint8_t> used = used_vertices(mesh);
   found.back().repairable =
-      std::none_of(bad.begin(), bad.end(), [&](std::int64_t v) { return used[std::size_t(v)]; });
+      std::none_of(bad.begin(), bad.end(), [&](std::int64_t v) { return used[v]; });
   return false;
 }
 
@@ -124,7 +124,7 @@ std::vector<std::uint8_t> used_vertices(const PolygonMesh& mesh) {
     stop_if_cancelled(std::size_t(f));
     const auto face = mesh.face(f);
     if (names_absent_vertex(face, mesh.vertex_count())) continue;
-    for (const std::int64_t v : face) used[std::size_t(v)] = 1;
+    for (const std::int64_t v : face) used[v] = 1;
   }
   return used;
 }

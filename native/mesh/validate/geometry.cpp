@@ -74,7 +74,7 @@ void check_coincident_vertices(const PolygonMesh& mesh, Defects& found) {
   for (std::size_t v = 0; v < first.size(); ++v) {
     stop_if_cancelled(v);
     if (!used[v]) continue;
-    auto& lead = leader[std::size_t(first[v])];
+    auto& lead = leader[first[v]];
     if (lead >= 0) {
       add(std::size_t(lead));
       add(v);
@@ -89,9 +89,9 @@ void check_coincident_vertices(const PolygonMesh& mesh, Defects& found) {
     stop_if_cancelled(std::size_t(f));
     const auto face = mesh.face(f);
     for (std::size_t i = 0; i < face.size(); ++i) {
-      if (!listed[std::size_t(face[i])]) continue;
+      if (!listed[face[i]]) continue;
       for (std::size_t j = 0; j < i; ++j)
-        if (face[i] != face[j] && first[std::size_t(face[i])] == first[std::size_t(face[j])])
+        if (face[i] != face[j] && first[face[i]] == first[face[j]])
           touching.insert(touching.end(), {face[i], face[j]});
     }
   }

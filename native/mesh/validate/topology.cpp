@@ -103,7 +103,7 @@ void check_nonmanifold_vertices(const PolygonMesh& mesh, const HalfEdges& half_e
     ++corners[v];
     some[v] = k;
   }
-  for (std::int64_t v : half_edges.nonmanifold_edges()) corners[std::size_t(v)] = 0;
+  for (std::int64_t v : half_edges.nonmanifold_edges()) corners[v] = 0;
   Ids bad;
   for (std::size_t v = 0; v < corners.size(); ++v) {
     stop_if_cancelled(v);
