@@ -237,8 +237,7 @@ std::vector<std::vector<std::size_t>> Couples::sets_apart() const {
   std::vector<std::vector<std::size_t>> sets;
   std::vector<std::int64_t> set_of(std::size_t(mesh_.vertex_count()), -1);
   std::vector<std::size_t> taken;  // per set: the normal that uses it, counted from one
-  for (std::size_t c = 0; c < size(); ++c) {
-    stop_if_cancelled(c);
+  for (const std::size_t c : Cancellable(size())) {
     const Index v = normals_[c].vertex;
     const auto mark = [&](Index w) {
       const std::int64_t set = set_of[w];

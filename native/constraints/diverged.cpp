@@ -33,8 +33,7 @@ std::vector<Index> diverged_stars(const GridLevel& grid, Workers& workers,
       const auto first = std::size_t(grid.face_base(Index(f)));
       const std::size_t inside =
           std::size_t(n - 1) * std::size_t(face.quad() ? n - 1 : n - 2) / (face.quad() ? 1 : 2);
-      for (std::size_t i = 0; i < inside; ++i) {
-        stop_if_cancelled(i);
+      for (const std::size_t i : Cancellable(inside)) {
         for (std::size_t c = 0; c < std::size_t(face.size); ++c)
           enlarge(x + 3 * (first + i), control[face.vertex[c]], of_face[f][c]);
       }

@@ -95,8 +95,7 @@ void NormalMatrix::find_blocks() {
   target_.reserve(targets);
   block_.reserve(most_slots * points);
   RowBlocks row(points, block_);
-  for (std::size_t p = 0; p < points; ++p) {
-    stop_if_cancelled(p);
+  for (const std::size_t p : Cancellable(points)) {
     block_begin_.push_back(block_.size());
     target_begin_.push_back(target_.size());
     row.begin_row();

@@ -118,8 +118,7 @@ std::vector<Vec3> refine_canonical(const std::vector<Vec3>& parameters, const st
   const std::vector<Vec3> moments = joint_moments(c, lengths, closed, scheme);
   const auto phi = [n](double i) { return (i * i * i - n * n * i) / (6 * n); };
   std::vector<Vec3> points;
-  for (std::size_t s = 0; s < segments; ++s) {
-    stop_if_cancelled(s);
+  for (const std::size_t s : Cancellable(segments)) {
     const Vec3 &a = c[s], &b = c[(s + 1) % c.size()];
     const Vec3 &bend_a = moments[s], &bend_b = moments[(s + 1) % c.size()];
     const double h = lengths[s] / n;

@@ -21,8 +21,7 @@ class NarrowFaces {
   }
 
   std::vector<Index> edges() {
-    for (std::size_t s = 0; s < mesh_.sides.size(); ++s) {
-      stop_if_cancelled(s);
+    for (const std::size_t s : Cancellable(mesh_.sides.size())) {
       const Side& side = mesh_.sides[s];
       if (curves_.run[side.edge] < 0) continue;
       const Face& face = mesh_.faces[side.face];

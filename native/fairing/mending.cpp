@@ -18,8 +18,7 @@ using Ids = std::vector<std::int64_t>;
 std::vector<VertexPair> edges_of(const PolygonMesh& mesh) {
   std::vector<VertexPair> edges;
   edges.reserve(mesh.corners.size());
-  for (std::int64_t f = 0; f < mesh.face_count(); ++f) {
-    stop_if_cancelled(std::size_t(f));
+  for (const std::int64_t f : Cancellable(mesh.face_count())) {
     const auto face = mesh.face(f);
     for (std::size_t i = 0; i < face.size(); ++i)
       edges.push_back(ascending(face[i], face[(i + 1) % face.size()]));

@@ -23,8 +23,7 @@ std::int32_t joined(const ControlMesh& mesh, Index v) {
 }
 
 void set_faces(const ControlMesh& mesh, Outline& out) {
-  for (Index f = 0; f < mesh.first_copied_face(); ++f) {
-    stop_if_cancelled(std::size_t(f));
+  for (const Index f : Cancellable(mesh.first_copied_face())) {
     const Face& face = mesh.faces[f];
     out.polygon.push_back(std::int32_t(face.polygon));
     for (std::size_t s = 0; s < 4; ++s) {
@@ -38,8 +37,7 @@ void set_faces(const ControlMesh& mesh, Outline& out) {
 }
 
 void set_edges(const ControlMesh& mesh, Outline& out) {
-  for (Index e = 0; e < mesh.first_copied_edge(); ++e) {
-    stop_if_cancelled(std::size_t(e));
+  for (const Index e : Cancellable(mesh.first_copied_edge())) {
     const Edge& edge = mesh.edges[e];
     for (const Index v : edge.vertex) out.edge.push_back(joined(mesh, v));
     const bool boundary = edge.boundary() && !mesh.nonmanifold(e);

@@ -96,8 +96,7 @@ void to_world(const ControlPositions& control, const GridLevel& grid, const Fram
   const ControlMesh& mesh = grid.mesh();
   const std::vector<Vec3>& given = control.world;
   std::vector<std::uint8_t> kept(given.size());
-  for (std::size_t v = 0; v < given.size(); ++v) {
-    stop_if_cancelled(v);
+  for (const std::size_t v : Cancellable(given.size())) {
     kept[v] = point_at(x, Index(v)) == control.working[v];
   }
   workers.for_parts(grid.size(), vector_grain / 3, [&](std::size_t begin, std::size_t end) {

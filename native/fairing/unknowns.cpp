@@ -25,8 +25,7 @@ bool control_vertex_moves(const ControlMesh& mesh, const FairOptions& options, I
 Unknowns choose_unknowns(const ControlMesh& mesh, const FairOptions& options) {
   Unknowns u;
   u.vertex.assign(std::size_t(mesh.vertex_count()), 0);
-  for (Index v = 0; v < mesh.vertex_count(); ++v) {
-    stop_if_cancelled(std::size_t(v));
+  for (const Index v : Cancellable(mesh.vertex_count())) {
     const bool on_curve = mesh.feature_vertex[v] || mesh.ring(v).empty();
     const bool moves = control_vertex_moves(mesh, options, v);
     u.vertex[v] = moves && !on_curve && mesh.vertex_part(v) == RegionPart::inside;

@@ -50,8 +50,7 @@ Cells::Cells(const GridLevel& grid, Workers& workers) : grid_(grid) {
   for (std::size_t p = 0; p < grid.size(); ++p) begin_[p + 1] += begin_[p];
   at_.resize(begin_.back());
   Array<std::size_t> next(begin_.begin(), begin_.end() - 1);
-  for (std::size_t c = 0; c < corner_.size(); ++c) {
-    stop_if_cancelled(c);
+  for (const std::size_t c : Cancellable(corner_.size())) {
     for (std::size_t k = 0; k < 4; ++k)
       if (const Index p = corner_[c][k]; p >= 0) at_[next[p]++] = {Index(c), std::uint8_t(k)};
   }

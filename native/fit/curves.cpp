@@ -94,8 +94,7 @@ void CurveFit::add_points(const LevelFit& fit, double weight,
   const ControlMesh& mesh = problem_.mesh;
   const double n = cells.grid().n(), reach = yield_of_plate / std::pow(weight, 0.25),
                width = std::clamp(reach, 1 / n, 1.0);
-  for (std::size_t s = 0; s < fit.feet().size(); ++s) {
-    stop_if_cancelled(s);
+  for (const std::size_t s : Cancellable(fit.feet().size())) {
     const Foot& foot = fit.feet()[s];
     const double share = foot.is_used() ? robust_weight(double(foot.offset), fit.spread().rms) : 0;
     if (!(share > 0)) continue;

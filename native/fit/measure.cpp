@@ -42,8 +42,7 @@ struct CellSums {
 CellSums sums_on(const Cells& coarse, const Cells& cells, const Array<Foot>& feet, double most) {
   CellSums out{std::vector<Index>(coarse.size()), std::vector<double>(coarse.size()),
                std::vector<double>(coarse.size())};
-  for (std::size_t s = 0; s < feet.size(); ++s) {
-    stop_if_cancelled(s);
+  for (const std::size_t s : Cancellable(feet.size())) {
     if (!feet[s].is_used()) continue;
     const FacePlace place = cells.place(feet[s].cell, feet[s].shares);
     const auto cell = std::size_t(coarse.cell_at(place, cells.grid().level()).cell);
@@ -128,8 +127,7 @@ void measure_fit(const LevelFit& fit, const FairingProblem& problem, FitReport& 
   report.within = covered_within(feet) * scale;
   report.distances.resize(feet.size());
   report.faces.resize(feet.size());
-  for (std::size_t s = 0; s < feet.size(); ++s) {
-    stop_if_cancelled(s);
+  for (const std::size_t s : Cancellable(feet.size())) {
     const Foot& foot = feet[s];
     const auto given = std::size_t(fit.scan().given[s]);
     report.faces[given] =

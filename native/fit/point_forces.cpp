@@ -26,8 +26,7 @@ void PointForces::sort(const Array<Foot>& feet, const Array<float>& robust_weigh
   for (std::size_t c = 0; c < cells_.size(); ++c) begin_[c + 1] += begin_[c];
   sorted_.resize(std::size_t(begin_.back()));
   Array<Index> next(begin_.begin(), begin_.end() - 1);
-  for (std::size_t s = 0; s < feet.size(); ++s) {
-    stop_if_cancelled(s);
+  for (const std::size_t s : Cancellable(feet.size())) {
     if (is_used(s)) sorted_[next[feet[s].cell]++] = Index(s);
   }
 }

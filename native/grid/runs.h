@@ -73,16 +73,13 @@ void for_face_runs(const GridLevel& grid, Index f, Visit&& visit) {
 template <class Visit>
 void for_each_run(const GridLevel& grid, Visit&& visit) {
   const ControlMesh& mesh = grid.mesh();
-  for (Index v = 0; v < mesh.vertex_count(); ++v) {
-    stop_if_cancelled(std::size_t(v));
+  for (const Index v : Cancellable(mesh.vertex_count())) {
     visit(vertex_run(v));
   }
-  for (Index e = 0; e < Index(mesh.edges.size()); ++e) {
-    stop_if_cancelled(std::size_t(e));
+  for (const Index e : Cancellable(Index(mesh.edges.size()))) {
     for_edge_run(grid, e, visit);
   }
-  for (Index f = 0; f < Index(mesh.faces.size()); ++f) {
-    stop_if_cancelled(std::size_t(f));
+  for (const Index f : Cancellable(Index(mesh.faces.size()))) {
     for_face_runs(grid, f, visit);
   }
 }

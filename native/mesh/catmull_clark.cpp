@@ -19,8 +19,7 @@ Vec3 at(std::span<const double> x, std::size_t p) { return point_at(x, std::int6
 
 template <class Visit>
 void CatmullClark::for_each_face(std::size_t level, Visit&& visit) const {
-  for (std::size_t f = 0; f < faces(level); ++f) {
-    stop_if_cancelled(f);
+  for (const std::size_t f : Cancellable(faces(level))) {
     if (level == 0)
       visit(f, std::size_t(first_[f]), std::size_t(first_[f + 1]));
     else
@@ -177,8 +176,7 @@ Array<double> CatmullClark::step(std::size_t l, std::span<const double> x) const
       at(out, std::size_t(level.vertex[k])) += middle;
     }
   });
-  for (std::size_t e = 0; e < level.ends.size(); ++e) {
-    stop_if_cancelled(e);
+  for (const std::size_t e : Cancellable(level.ends.size())) {
     const auto a = std::size_t(level.ends[e][0]), b = std::size_t(level.ends[e][1]);
     at(out, vertices + e) += (at(x, a) + at(x, b)) / 4;
     at(out, a) += at(x, b);
@@ -186,8 +184,7 @@ Array<double> CatmullClark::step(std::size_t l, std::span<const double> x) const
     ++valence[a];
     ++valence[b];
   }
-  for (std::size_t v = 0; v < vertices; ++v) {
-    stop_if_cancelled(v);
+  for (const std::size_t v : Cancellable(vertices)) {
     const double n = valence[v];
     auto to = at(out, v);
     to = n > 0 ? Vec3((n - 2) / n * at(x, v) + to / (n * n)) : at(x, v);
@@ -237,8 +234,7 @@ Array<double> CatmullClark::to_limit(std::size_t l, std::span<const double> x) c
     }
     at(out, level.size() + f) = sum / (n * (n + 5));
   });
-  for (std::size_t e = 0; e < level.ends.size(); ++e) {
-    stop_if_cancelled(e);
+  for (const std::size_t e : Cancellable(level.ends.size())) {
     const Vec3 own = at(x, vertices + e);
     auto to = at(out, vertices + e);
     to += 16 * own;
@@ -249,8 +245,7 @@ Array<double> CatmullClark::to_limit(std::size_t l, std::span<const double> x) c
     }
     to /= 36;
   }
-  for (std::size_t v = 0; v < vertices; ++v) {
-    stop_if_cancelled(v);
+  for (const std::size_t v : Cancellable(vertices)) {
     const double n = valence[v];
     auto to = at(out, v);
     to = n > 0 ? Vec3((n * n * at(x, v) + to) / (n * (n + 5))) : at(x, v);
@@ -312,8 +307,7 @@ void CatmullClark::put_exact_limits(std::span<const double> x, std::vector<doubl
     if (const Index r = which[level.vertex[k]]; r >= 0)
       rings[r].push_back({level.edge[before], level.edge[k], Index(f)});
   });
-  for (std::size_t r = 0; r < rings.size(); ++r) {
-    stop_if_cancelled(r);
+  for (const std::size_t r : Cancellable(rings.size())) {
     if (rings[r].empty()) continue;  // a vertex without faces stays
     const Special& special = *specials[r];
     LimitRing ring{at(x, std::size_t(special.vertex)), {}, {}};

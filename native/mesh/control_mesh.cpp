@@ -46,8 +46,7 @@ HalfEdgeMesh build(const ControlMesh& control) {
   mesh.reserve(control.positions.size(), control.positions.size() + control.faces.size(),
                control.faces.size());
   for (std::size_t v = 0; v < control.positions.size(); ++v) mesh.add_vertex();
-  for (std::size_t f = 0; f < control.faces.size(); ++f) {
-    stop_if_cancelled(f);
+  for (const std::size_t f : Cancellable(control.faces.size())) {
     const Face& face = control.faces[f];
     OpenMesh::VertexHandle corners[4];
     for (int i = 0; i < face.size; ++i) corners[i] = OpenMesh::VertexHandle(face.vertex[i]);
@@ -63,8 +62,7 @@ HalfEdgeMesh build(const ControlMesh& control) {
 
 void fill_edges(const HalfEdgeMesh& mesh, ControlMesh& control) {
   control.edges.resize(mesh.n_edges());
-  for (std::size_t e = 0; e < control.edges.size(); ++e) {
-    stop_if_cancelled(e);
+  for (const std::size_t e : Cancellable(control.edges.size())) {
     const Half h = mesh.halfedge_handle(OpenMesh::EdgeHandle(int(e)), 0);
     control.edges[e] = {{mesh.from_vertex_handle(h).idx(), mesh.to_vertex_handle(h).idx()},
                         {-1, -1}};
@@ -73,8 +71,7 @@ void fill_edges(const HalfEdgeMesh& mesh, ControlMesh& control) {
 
 // OpenMesh's half-edges 2e and 2e + 1 are the directions of the edge, in the order of Edge::side.
 void fill_sides(const HalfEdgeMesh& mesh, ControlMesh& control) {
-  for (std::size_t f = 0; f < control.faces.size(); ++f) {
-    stop_if_cancelled(f);
+  for (const std::size_t f : Cancellable(control.faces.size())) {
     const Face& face = control.faces[f];
     Half h = mesh.halfedge_handle(OpenMesh::FaceHandle(int(f)));
     while (mesh.from_vertex_handle(h).idx() != face.vertex[0]) h = mesh.next_halfedge_handle(h);
@@ -118,8 +115,7 @@ void connect_faces(ControlMesh& control) {
   fill_edges(mesh, control);
   fill_sides(mesh, control);
   control.ring_offset.assign(1, 0);
-  for (Index v = 0; v < control.vertex_count(); ++v) {
-    stop_if_cancelled(std::size_t(v));
+  for (const Index v : Cancellable(control.vertex_count())) {
     fill_ring(mesh, v, control);
     control.ring_offset.push_back(Index(control.spokes.size()));
   }
@@ -129,8 +125,7 @@ void connect_faces(ControlMesh& control) {
 void index_spokes(ControlMesh& control) {
   control.spoke_of_edge.resize(2 * control.edges.size());
   control.spoke_of_side.resize(control.sides.size());
-  for (std::size_t k = 0; k < control.spokes.size(); ++k) {
-    stop_if_cancelled(k);
+  for (const std::size_t k : Cancellable(control.spokes.size())) {
     const Spoke& spoke = control.spokes[k];
     control.spoke_of_edge[2 * std::size_t(spoke.edge) + (spoke.outward ? 0 : 1)] = Index(k);
     if (spoke.face < 0) continue;

@@ -18,14 +18,12 @@ class CountingSort {
   template <class KeyOf, class ItemOf>
   CountingSort(std::size_t keys, std::size_t count, const KeyOf& key_of, const ItemOf& item_of)
       : begin_(keys + 1, 0), items_(count, Item{}) {
-    for (std::size_t i = 0; i < count; ++i) {
-      stop_if_cancelled(i);
+    for (const std::size_t i : Cancellable(count)) {
       ++begin_[std::size_t(key_of(i)) + 1];
     }
     for (std::size_t k = 1; k <= keys; ++k) begin_[k] += begin_[k - 1];
     Array<Index> next(begin_.begin(), begin_.end() - 1);
-    for (std::size_t i = 0; i < count; ++i) {
-      stop_if_cancelled(i);
+    for (const std::size_t i : Cancellable(count)) {
       items_[next[key_of(i)]++] = item_of(i);
     }
   }
@@ -38,8 +36,7 @@ class CountingSort {
   // visit(items) for each group of items that are equal by `less`, one key at a time.
   template <class Less, class Visit>
   void for_equal(const Less& less, const Visit& visit) {
-    for (std::size_t k = 0; k < keys(); ++k) {
-      stop_if_cancelled(k);
+    for (const std::size_t k : Cancellable(keys())) {
       const std::span<Item> all = of(k);
       std::sort(all.begin(), all.end(), less);
       for (auto first = all.begin(); first != all.end();) {

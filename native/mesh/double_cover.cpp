@@ -77,8 +77,7 @@ std::vector<Index> lift_faces(const PolygonMesh& mesh, const DoubleCover& cover,
     split.centres.push_back(centre);
   }
   std::vector<SplitFace> second;
-  for (std::size_t f = 0; f < split.faces.size(); ++f) {
-    stop_if_cancelled(f);
+  for (const std::size_t f : Cancellable(split.faces.size())) {
     SplitFace& face = split.faces[f];
     if (!cover.has(face.polygon)) continue;
     lifter.add_polygon(face.polygon);

@@ -20,8 +20,7 @@ Index other_end(const Edge& edge, Index v) {
 
 std::vector<Vec3> polygon_normals(const PolygonMesh& mesh) {
   std::vector<Vec3> normals;
-  for (std::int64_t f = 0; f < mesh.face_count(); ++f) {
-    stop_if_cancelled(std::size_t(f));
+  for (const std::int64_t f : Cancellable(mesh.face_count())) {
     normals.push_back(twice_vector_area(mesh, f));
   }
   return normals;
@@ -187,8 +186,7 @@ class FeatureFinder {
   void mark_folded_edges() {
     if (options_.crease_angle < 0) return;
     const std::vector<Vec3> normals = polygon_normals(mesh_);
-    for (std::size_t e = 0; e < control_.edges.size(); ++e) {
-      stop_if_cancelled(e);
+    for (const std::size_t e : Cancellable(control_.edges.size())) {
       const Edge& edge = control_.edges[e];
       if (edge.boundary() || control_.inside_polygon(Index(e))) continue;
       const Vec3 left = normal(normals, edge.side[0]), right = normal(normals, edge.side[1]);
@@ -234,8 +232,7 @@ class FeatureFinder {
   }
 
   void mark_corners() {
-    for (Index v = 0; v < control_.vertex_count(); ++v) {
-      stop_if_cancelled(std::size_t(v));
+    for (const Index v : Cancellable(control_.vertex_count())) {
       if (joined_.first(v) != v) continue;
       const std::vector<Index>& edges = feature_edges_at(v);
       corner_[v] = !edges.empty() && ends(v, edges);

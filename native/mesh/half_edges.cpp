@@ -9,8 +9,7 @@ namespace fairing {
 
 HalfEdges::HalfEdges(const PolygonMesh& mesh)
     : mesh_(mesh), face_(mesh.corners.size()), twin_(mesh.corners.size(), -1) {
-  for (std::int64_t f = 0; f < mesh.face_count(); ++f) {
-    stop_if_cancelled(std::size_t(f));
+  for (const std::int64_t f : Cancellable(mesh.face_count())) {
     std::fill(face_.begin() + mesh.offsets[f], face_.begin() + mesh.offsets[std::size_t(f) + 1],
               std::int32_t(f));
   }

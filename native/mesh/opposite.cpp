@@ -84,8 +84,7 @@ FacePlane plane_of(const Face& face, std::span<const Vec3> control) {
 std::vector<Opposite> opposite_faces(const ControlMesh& mesh, std::span<const Vec3> control,
                                      std::span<const FacePlane> planes, Workers& workers) {
   std::vector<Corners> triangles;
-  for (Index f = 0; f < mesh.first_copied_face(); ++f) {
-    stop_if_cancelled(std::size_t(f));
+  for (const Index f : Cancellable(mesh.first_copied_face())) {
     const Face& face = mesh.faces[f];
     for (std::size_t i = 2; i < std::size_t(face.size); ++i)
       triangles.push_back(

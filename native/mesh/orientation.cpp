@@ -12,8 +12,7 @@ namespace {
 using Ids = std::vector<std::int64_t>;
 
 bool all_agree(const HalfEdges& half_edges) {
-  for (std::int32_t k = 0; k < half_edges.count(); ++k) {
-    stop_if_cancelled(std::size_t(k));
+  for (const std::int32_t k : Cancellable(half_edges.count())) {
     if (half_edges.twin(k) > k && half_edges.runs_as_twin(k)) return false;
   }
   return true;

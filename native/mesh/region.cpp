@@ -91,8 +91,7 @@ void find_region(const RegionOptions& options, ControlMesh& control) {
     stop_if_cancelled(region.edge.size());
     region.edge.push_back(edge_part(control, edge));
   }
-  for (Index v = 0; v < control.vertex_count(); ++v) {
-    stop_if_cancelled(std::size_t(v));
+  for (const Index v : Cancellable(control.vertex_count())) {
     region.vertex.push_back(vertex_part(control, v));
   }
   join_sheets(control);

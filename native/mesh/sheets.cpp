@@ -23,8 +23,7 @@ std::vector<Copy> copies_wanted(const HalfEdges& half_edges, std::size_t vertice
                                 const DoubleCover& cover) {
   std::vector<Copy> copies;
   std::vector<std::uint8_t> seen(std::size_t(half_edges.count()), 0), met(vertices, 0);
-  for (std::int32_t k = 0; k < half_edges.count(); ++k) {
-    stop_if_cancelled(std::size_t(k));
+  for (const std::int32_t k : Cancellable(half_edges.count())) {
     if (seen[k]) continue;
     half_edges.visit_fan(k, [&](std::int32_t corner, bool) { seen[corner] = 1; });
     const std::int64_t v = half_edges.from(k);
@@ -44,8 +43,7 @@ std::vector<std::array<Index, 2>> edges_that_came_apart(const ControlMesh& contr
     Index edge;
   };
   std::vector<Entry> entries;
-  for (Index e = 0; e < Index(control.edges.size()); ++e) {
-    stop_if_cancelled(std::size_t(e));
+  for (const Index e : Cancellable(Index(control.edges.size()))) {
     const auto& [a, b] = control.edges[e].vertex;
     if (!control.shared(a) || !control.shared(b)) continue;
     const Index from = control.original_vertex(a), to = control.original_vertex(b);
@@ -73,8 +71,7 @@ struct EdgeMoves {
 
 void apply(const EdgeMoves& moves, ControlMesh& control) {
   std::vector<Edge> edges(control.edges.size());
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    stop_if_cancelled(e);
+  for (const std::size_t e : Cancellable(edges.size())) {
     Edge edge = control.edges[e];
     if (moves.turned[e]) {
       std::swap(edge.vertex[0], edge.vertex[1]);
@@ -158,8 +155,7 @@ JoinedVertices::JoinedVertices(const ControlMesh& control) {
   for (Index e = control.first_copied_edge(); e < Index(control.edges.size()); ++e)
     for (std::size_t h = 0; h < 2; ++h)
       groups.unite(control.edges[e].vertex[h], control.edges[control.original_edge(e)].vertex[h]);
-  for (Index v = 0; v < control.vertex_count(); ++v) {
-    stop_if_cancelled(std::size_t(v));
+  for (const Index v : Cancellable(control.vertex_count())) {
     first_.push_back(groups.lead(v));
     if (first_.back() != v) others_.emplace_back(first_.back(), v);
   }
@@ -168,14 +164,12 @@ JoinedVertices::JoinedVertices(const ControlMesh& control) {
 
 SheetNumbers number_sheets(const ControlMesh& control) {
   UnionFind groups(control.positions.size());
-  for (std::size_t e = 0; e < control.edges.size(); ++e) {
-    stop_if_cancelled(e);
+  for (const std::size_t e : Cancellable(control.edges.size())) {
     groups.unite(control.edges[e].vertex[0], control.edges[e].vertex[1]);
   }
   SheetNumbers sheets;
   Index next = 0;
-  for (Index v = 0; v < control.vertex_count(); ++v) {
-    stop_if_cancelled(std::size_t(v));
+  for (const Index v : Cancellable(control.vertex_count())) {
     const Index first = groups.lead(v);
     sheets.of_vertex.push_back(first == v ? next++ : sheets.of_vertex[first]);
     sheets.count += first == v && !control.ring(v).empty();

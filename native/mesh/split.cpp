@@ -31,8 +31,7 @@ std::vector<std::uint8_t> pinched_vertices(const PolygonMesh& mesh) {
   };
   std::vector<Corner> first(std::size_t(mesh.vertex_count()));
   std::vector<std::uint8_t> faces(first.size(), 0), pinched(first.size(), 0);
-  for (std::int64_t f = 0; f < mesh.face_count(); ++f) {
-    stop_if_cancelled(std::size_t(f));
+  for (const std::int64_t f : Cancellable(mesh.face_count())) {
     const auto face = mesh.face(f);
     for (std::size_t i = 0; i < face.size(); ++i) {
       const auto v = std::size_t(face[i]);
@@ -76,8 +75,7 @@ class Splitter {
   SplitMesh split() {
     choose_treatments();
     find_free_diagonals();
-    for (std::int64_t f = 0; f < mesh_.face_count(); ++f) {
-      stop_if_cancelled(std::size_t(f));
+    for (const std::int64_t f : Cancellable(mesh_.face_count())) {
       const auto face = mesh_.face(f);
       switch (treatment_[f]) {
         case Treatment::keep: add_face(f, face); break;
@@ -92,8 +90,7 @@ class Splitter {
   void choose_treatments() {
     const std::vector<std::uint8_t> pinched = pinched_vertices(mesh_);
     std::vector<std::int64_t> too_long;
-    for (std::int64_t f = 0; f < mesh_.face_count(); ++f) {
-      stop_if_cancelled(std::size_t(f));
+    for (const std::int64_t f : Cancellable(mesh_.face_count())) {
       treatment_.push_back(choose(f, pinched));
       if (treatment_.back() == Treatment::cut && mesh_.face(f).size() > most_corners_to_cut)
         too_long.push_back(f);
@@ -126,8 +123,7 @@ class Splitter {
           diagonals_.propose(original(face[i]), original(face[j]));
     }
     if (diagonals_.empty()) return;
-    for (std::int64_t f = 0; f < mesh_.face_count(); ++f) {
-      stop_if_cancelled(std::size_t(f));
+    for (const std::int64_t f : Cancellable(mesh_.face_count())) {
       const auto face = mesh_.face(f);
       for (std::size_t i = 0; i < face.size(); ++i)
         diagonals_.mark_used(original(face[i]), original(face[(i + 1) % face.size()]));

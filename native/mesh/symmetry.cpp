@@ -104,8 +104,7 @@ class MirrorFinder {
     std::vector<Index>& image = mirror.vertex;
     image.resize(std::size_t(mesh_.vertex_count()));
     std::vector<Index> unclear;
-    for (Index v = 0; v < mesh_.vertex_count(); ++v) {
-      stop_if_cancelled(std::size_t(v));
+    for (const Index v : Cancellable(mesh_.vertex_count())) {
       image[v] = v;
       if (mesh_.ring(v).empty()) continue;
       if (searches_ == 0) return false;
@@ -130,8 +129,7 @@ class MirrorFinder {
   bool distinguish_copies(std::vector<Index>& image) const {
     if (mesh_.copies.vertex.empty()) return true;
     const std::vector<Index> originals = image;
-    for (Index v = 0; v < mesh_.vertex_count(); ++v) {
-      stop_if_cancelled(std::size_t(v));
+    for (const Index v : Cancellable(mesh_.vertex_count())) {
       if (originals[v] < 0 || !mesh_.shared(v) || mesh_.ring(v).empty()) continue;
       const Spoke& spoke = mesh_.ring(v)[0];
       const Face& face = mesh_.faces[spoke.face];
@@ -245,8 +243,7 @@ class MirrorFinder {
     mirror.edge.resize(mesh_.edges.size());
     mirror.face.resize(mesh_.faces.size());
     mirror.turn.resize(mesh_.faces.size());
-    for (std::size_t f = 0; f < mesh_.faces.size(); ++f) {
-      stop_if_cancelled(f);
+    for (const std::size_t f : Cancellable(mesh_.faces.size())) {
       const Face& face = mesh_.faces[f];
       if (lies_in_plane(face, mirror.vertex)) {
         for (int c = 0; c < face.size; ++c) {
@@ -290,8 +287,7 @@ class MirrorFinder {
 
 bool mirrors_positions(const ControlMesh& mesh, const Mirror& mirror,
                        std::span<const Vec3> positions, double tolerance) {
-  for (std::size_t v = 0; v < positions.size(); ++v) {
-    stop_if_cancelled(v);
+  for (const std::size_t v : Cancellable(positions.size())) {
     if (mesh.ring(Index(v)).empty()) continue;
     const Vec3& opposite = positions[mirror.vertex[v]];
     if ((mirror.plane.image(positions[v]) - opposite).norm() > tolerance) return false;

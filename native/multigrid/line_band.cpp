@@ -40,8 +40,7 @@ void LineBand::link() {
   };
   // Open lines from their ends, then closed ones from any point.
   for (const bool closed : {false, true})
-    for (std::size_t p = 0; p < points_; ++p) {
-      stop_if_cancelled(p);
+    for (const std::size_t p : Cancellable(points_)) {
       const int links = (linked(p, 0) != none) + (linked(p, 1) != none);
       if (!taken[p] && links == (closed ? 2 : 1)) follow(p);
     }

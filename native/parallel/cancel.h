@@ -39,6 +39,28 @@ inline void stop_if_cancelled(std::size_t step) {
   if (step % 1024 == 0) stop_if_cancelled();
 }
 
+// The numbers 0 … count - 1, for long loops on one thread: checks like stop_if_cancelled(step).
+template <class N>
+class Cancellable {
+ public:
+  explicit Cancellable(N count) : count_(count) {}
+
+  struct Iterator {
+    N i;
+    N operator*() const {
+      stop_if_cancelled(std::size_t(i));
+      return i;
+    }
+    void operator++() { ++i; }
+    bool operator!=(const Iterator& end) const { return i < end.i; }
+  };
+  Iterator begin() const { return {0}; }
+  Iterator end() const { return {count_}; }
+
+ private:
+  N count_;
+};
+
 // The same in the loop over a face's rows, which may be many.
 inline void stop_in_large_face(int row) {
   if (row % 64 == 0) stop_if_cancelled();

@@ -45,8 +45,7 @@ void RingTable::write_members(Workers& workers) {
 
 RingPlaces::RingPlaces(const RingTable& rings) : begin_(rings.points() + 1, 0) {
   const auto visit = [&](auto&& use) {
-    for (std::size_t c = 0; c < rings.points(); ++c) {
-      stop_if_cancelled(c);
+    for (const std::size_t c : Cancellable(rings.points())) {
       const RingTable::Ring& ring = rings.about(Index(c));
       for (std::uint32_t s = 0; s < ring.size; ++s)
         if (const RingTable::Member p = rings.members(ring)[s]; p >= 0) use(p, Place{Index(c), s});

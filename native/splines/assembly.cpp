@@ -216,8 +216,7 @@ std::int64_t vertex_key(const Fits& fits, std::size_t c, int cut) {
 
 void add_edges(const Fits& fits, const EdgeParts& edges, SplineSurface& out) {
   VertexNumbers vertices(out.vertices);
-  for (std::size_t e = 0; e < edges.parts.size(); ++e) {
-    stop_if_cancelled(e);
+  for (const std::size_t e : Cancellable(edges.parts.size())) {
     const EdgePart& part = edges.parts[e];
     const FittedCurve& fitted = fits.curves[part.curve];
     SplineCurve curve = part_of(fitted.curve, part.from, part.to, part.all);
@@ -242,8 +241,7 @@ void assemble(const Fits& fits, SplineSurface& out) {
   const EdgeParts edges(fits);
   measure_faces(fits, edges, measure_edges(fits, edges, out), out);
   add_edges(fits, edges, out);
-  for (std::size_t p = 0; p < fits.patches.size(); ++p) {
-    stop_if_cancelled(p);
+  for (const std::size_t p : Cancellable(fits.patches.size())) {
     const PatchPlace& place = fits.topology.patches[p];
     FittedPatch& fitted = fits.patches[p];
     std::vector<LoopEdge> loop;
@@ -269,8 +267,7 @@ std::vector<Directions> patches_to_refine(const Fits& fits, double tolerance) {
     sharpest[e] = std::max(sharpest[e], angle_at(fits, edges.parts[e], t));
   });
   std::vector<Directions> wanted(fits.patches.size());
-  for (std::size_t e = 0; e < edges.parts.size(); ++e) {
-    stop_if_cancelled(e);
+  for (const std::size_t e : Cancellable(edges.parts.size())) {
     if (sharpest[e] <= tolerance) continue;
     const std::vector<EdgeUse>& uses = edges.parts[e].uses;
     const auto own = [&](const EdgeUse& use) {

@@ -32,8 +32,7 @@ class Chains {
   HalfEdge run() {
     topology_.chains.clear();
     topology_.places.assign(drawn_.size(), {});
-    for (std::size_t e = 0; e < drawn_.size(); ++e) {
-      stop_if_cancelled(e);
+    for (const std::size_t e : Cancellable(drawn_.size())) {
       if (!drawn_[e] || topology_.places[e].chain >= 0) continue;
       HalfEdge h = topology_.edges[e].uses.front();
       for (HalfEdge back = joined(h, false); back.face >= 0; back = joined(h, false)) {

@@ -15,8 +15,7 @@ namespace {
 constexpr int most_levels = 12;  // as in the message
 
 void require_ids(std::span<const std::int32_t> ids, std::size_t points) {
-  for (std::size_t k = 0; k < ids.size(); ++k) {
-    stop_if_cancelled(k);
+  for (const std::size_t k : Cancellable(ids.size())) {
     if (ids[k] < 0 || std::size_t(ids[k]) >= points)
       throw FairingError(ErrorCode::index_out_of_range, "A refined face has the vertex " +
                                                             std::to_string(ids[k]) +

@@ -209,8 +209,7 @@ class Layout {
 
   bool merge_some() {
     bool merged = false;
-    for (std::size_t a = 0; a < grids_.size(); ++a) {
-      stop_if_cancelled(a);
+    for (const std::size_t a : Cancellable(grids_.size())) {
       for (int s = 0; s < 4 && !grids_[a].faces.empty(); ++s) merged |= merge(a, s);
     }
     return merged;

@@ -17,8 +17,7 @@ void find_edges(const Lattice& lattice, Topology& out) {
   const int n = lattice.n();
   std::unordered_map<Index, Index> edge_of;
   out.face_edges.resize(std::size_t(lattice.faces()));
-  for (Index f = 0; f < lattice.faces(); ++f) {
-    stop_if_cancelled(std::size_t(f));
+  for (const Index f : Cancellable(lattice.faces())) {
     for (int s = 0; s < lattice.corners(f); ++s) {
       const Index middle = lattice.point(f, s, n / 2, 0);
       const auto [found, is_new] = edge_of.try_emplace(middle, Index(out.edges.size()));
@@ -65,8 +64,7 @@ void find_sectors(const Lattice& lattice, Topology& out) {
   }
   out.face_sectors.resize(std::size_t(lattice.faces()));
   std::vector<Index> sector_of(4 * std::size_t(lattice.faces()), -1);
-  for (Index f = 0; f < lattice.faces(); ++f) {
-    stop_if_cancelled(std::size_t(f));
+  for (const Index f : Cancellable(lattice.faces())) {
     for (int c = 0; c < lattice.corners(f); ++c) {
       Index& sector = sector_of[groups.lead(corner(f, c))];
       if (sector < 0) {

@@ -31,8 +31,7 @@ std::vector<double> lattice_turns(const Lattice& lattice, const Topology& topolo
           [&](GridPoint a, GridPoint b) { return !tip(a) && !tip(b); });
     }
   });
-  for (std::size_t e = 0; e < topology.edges.size(); ++e) {
-    stop_if_cancelled(e);
+  for (const std::size_t e : Cancellable(topology.edges.size())) {
     const ControlEdge& edge = topology.edges[e];
     if (edge.kind != EdgeKind::smooth) continue;
     SharpestTurn turn(least);

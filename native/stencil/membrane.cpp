@@ -52,8 +52,7 @@ FaceWeights quad_weights(const FlatFace& flat) {
 std::vector<FaceWeights> weigh(const ControlMesh& mesh, const std::vector<FlatFace>& flat) {
   std::vector<FaceWeights> out;
   out.reserve(flat.size());
-  for (std::size_t f = 0; f < flat.size(); ++f) {
-    stop_if_cancelled(f);
+  for (const std::size_t f : Cancellable(flat.size())) {
     const bool quad = mesh.faces[f].quad();
     out.push_back(quad ? quad_weights(flat[f]) : triangle_weights(flat[f]));
     if (mesh.face_part(Index(f)) == RegionPart::outside) out.back().direction = {};

@@ -108,8 +108,7 @@ class Ridges {
   // Starts with the strips that are ridges along their whole length.
   void find(double exponent) {
     std::vector<double> shares(shares_.size(), 1.0);  // of strips, by their leaders; 0: not a ridge
-    for (std::size_t k = 0; k < shares.size(); ++k) {
-      stop_if_cancelled(k);
+    for (const std::size_t k : Cancellable(shares.size())) {
       double& share = shares[strips_.lead(Index(k))];
       const double by = quad(k / 2) && goes_on(k) ? turn(k) : 0;
       if (!(by > 0)) {

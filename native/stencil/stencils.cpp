@@ -80,8 +80,7 @@ Stencils make_stencils(const ControlMesh& mesh, const ChartMaker& charts, Worker
   Stencils s;
   s.begin.assign(1, 0);
   s.begin.reserve(elements + 1);
-  for (std::size_t e = 0; e < elements; ++e) {
-    stop_if_cancelled(e);
+  for (const std::size_t e : Cancellable(elements)) {
     s.begin.push_back(s.begin.back() + neighbours(mesh, element_at(mesh, e)));
   }
   s.has_fit.resize(elements);

@@ -195,8 +195,7 @@ std::vector<double> border_moments(const GridLevel& grid, const ChartMaker& char
     for (const Stretch& stretch : stretches_of(chain, positions))
       for (const bool along : {true, false}) {
         Row row(grid, charts, pads, unknowns, positions);
-        for (std::size_t k = 0; k < stretch.edges.size(); ++k) {
-          stop_if_cancelled(k);
+        for (const std::size_t k : Cancellable(stretch.edges.size())) {
           const Edge& edge = mesh.edges[stretch.edges[k]];
           const bool runs = edge.vertex[0] == stretch.vertices[k];
           const Index side = edge.side[runs == along ? 0 : 1];

@@ -37,8 +37,7 @@ ProbedMatrix load_matrix(FairingSystems& systems, const std::vector<Index>& vert
     entries += row.size();
   }
   out.g.reserve(Eigen::Index(entries));
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    stop_if_cancelled(i);
+  for (const std::size_t i : Cancellable(rows.size())) {
     out.g.startVec(Eigen::Index(i));
     for (const auto& [from, load] : rows[i])
       out.g.insertBack(Eigen::Index(i), Eigen::Index(from)) = load;

@@ -12,8 +12,7 @@ namespace {
 void visit_rows(const PlateDifferences& plate, const VisitRows& visit) {
   std::vector<Index> ring_points;
   std::vector<double> numbers;
-  for (std::size_t p = 0; p < plate.rings().points(); ++p) {
-    stop_if_cancelled(p);
+  for (const std::size_t p : Cancellable(plate.rings().points())) {
     const RingTable::Ring& ring = plate.rings().about(Index(p));
     ring_points.clear();
     numbers.clear();

@@ -22,8 +22,7 @@ PlateDifferences::PlateDifferences(const GridLevel& grid, const Stencils& stenci
   }
   const double scale = grid.n();
   column_.reserve(stencils.energy.size() + stencils.has_fit.size());
-  for (std::size_t element = 0; element < stencils.has_fit.size(); ++element) {
-    stop_if_cancelled(element);
+  for (const std::size_t element : Cancellable(stencils.has_fit.size())) {
     const std::size_t centre = column_.size();
     column_.push_back({});
     for (std::size_t k = stencils.begin[element]; k < stencils.begin[element + 1]; ++k) {

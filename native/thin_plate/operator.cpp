@@ -199,8 +199,7 @@ ThinPlateRows<T>::ThinPlateRows(const ControlMesh& mesh, const Stencils& s) : st
   ring.resize(3 * s.begin[rings]);
   for (std::size_t k = 0; k < ring.size(); ++k) ring[k] = T(s.energy[k / 3][k % 3]);
   face.resize(16 * mesh.faces.size());
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    stop_if_cancelled(f);
+  for (const std::size_t f : Cancellable(mesh.faces.size())) {
     const Column* g = s.energy.data() + s.begin[rings + f];
     const std::size_t directions = mesh.faces[f].quad() ? 4 : 3;
     for (std::size_t a = 0; a < directions; ++a)

@@ -104,8 +104,7 @@ class OneHole {
       std::size_t place = 0, shore = 0, island = 0;
       for (std::size_t l = 1; l + 1 < begin_.size(); ++l) {
         if (reached[l]) continue;
-        for (std::size_t p = 0; p < walk_.size(); ++p) {
-          stop_if_cancelled(p);
+        for (const std::size_t p : Cancellable(walk_.size())) {
           for (std::size_t i = begin_[l]; i < begin_[l + 1]; ++i) {
             const double distance = (points[walk_[p]] - points[i]).squaredNorm();
             if (distance >= least || joined(walk_[p], Index(i))) continue;

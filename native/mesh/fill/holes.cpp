@@ -176,8 +176,7 @@ FoundHoles find_holes(const PolygonMesh& mesh, const HalfEdges& half_edges) {
   std::vector<std::uint8_t> seen(std::size_t(half_edges.count()), 0);
   FoundHoles found;
   std::vector<std::int32_t> left;
-  for (std::int32_t first = 0; first < half_edges.count(); ++first) {
-    stop_if_cancelled(std::size_t(first));
+  for (const std::int32_t first : Cancellable(half_edges.count())) {
     if (seen[first] || !walks.is_border(first)) continue;
     Loop walk;
     std::vector<std::int32_t> sides;

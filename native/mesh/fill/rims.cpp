@@ -13,8 +13,7 @@ Rims::Rims(const PolygonMesh& mesh, const HalfEdges& half_edges, std::span<const
   for (const Hole& hole : holes)
     for (const HoleLoop& loop : hole)
       for (const std::int64_t v : loop) marked[v] = 1;
-  for (std::int32_t k = 0; k < half_edges.count(); ++k) {
-    stop_if_cancelled(std::size_t(k));
+  for (const std::int32_t k : Cancellable(half_edges.count())) {
     if (!marked[half_edges.from(k)]) continue;
     const std::int64_t a = half_edges.from(k), b = half_edges.from(half_edges.next(k));
     if (!marked[b]) continue;

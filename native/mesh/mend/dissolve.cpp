@@ -41,8 +41,7 @@ bool is_flat(std::span<const double> coordinates, std::span<const MendCorner> lo
 std::vector<Index> flat_faces(std::span<const double> coordinates, const Loops& loops) {
   std::vector<Index> found;
   std::vector<std::int64_t> ids;
-  for (Index f = 0; f < loops.count(); ++f) {
-    stop_if_cancelled(std::size_t(f));
+  for (const Index f : Cancellable(loops.count())) {
     if (is_flat(coordinates, loops.face(f), ids)) found.push_back(f);
   }
   return found;
@@ -88,8 +87,7 @@ class Dissolver {
     std::stable_sort(order.begin(), order.end(),
                      [&](Index a, Index b) { return origin(a) < origin(b); });
     Loops out;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      stop_if_cancelled(i);
+    for (const std::size_t i : Cancellable(order.size())) {
       if (!face(order[i]).empty()) out.add(face(order[i]), origin(order[i]));
     }
     return out;

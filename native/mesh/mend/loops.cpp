@@ -72,8 +72,7 @@ OwnedPolygonMesh to_arrays(const Loops& loops, std::vector<double> coordinates) 
   OwnedPolygonMesh mesh;
   mesh.coordinates = std::move(coordinates);
   mesh.corners.reserve(loops.corners.size());
-  for (std::size_t k = 0; k < loops.corners.size(); ++k) {
-    stop_if_cancelled(k);
+  for (const std::size_t k : Cancellable(loops.corners.size())) {
     mesh.corners.push_back(loops.corners[k].vertex);
   }
   mesh.offsets.assign(loops.offsets.begin(), loops.offsets.end());

@@ -65,8 +65,7 @@ class Mender {
 
  private:
   bool nothing_wrong() const {
-    for (std::int64_t f = 0; f < mesh_.face_count(); ++f) {
-      stop_if_cancelled(std::size_t(f));
+    for (const std::int64_t f : Cancellable(mesh_.face_count())) {
       const auto face = mesh_.face(f);
       if (names_absent_vertex(face, mesh_.vertex_count())) return false;
       if (face.size() < 3 || repeats_a_vertex(face) || has_no_area(mesh_.coordinates, face))
@@ -79,8 +78,7 @@ class Mender {
   void set_faces() {
     loops_.reserve(std::size_t(mesh_.face_count()), mesh_.corners.size());
     std::vector<MendCorner> walk;
-    for (std::int64_t f = 0; f < mesh_.face_count(); ++f) {
-      stop_if_cancelled(std::size_t(f));
+    for (const std::int64_t f : Cancellable(mesh_.face_count())) {
       const auto face = mesh_.face(f);
       if (names_absent_vertex(face, mesh_.vertex_count())) {
         absent_.push_back(f);
@@ -111,8 +109,7 @@ class Mender {
     Loops kept;
     kept.reserve(loops_.origin.size(), loops_.corners.size());
     auto next = same.begin();
-    for (Index f = 0; f < loops_.count(); ++f) {
-      stop_if_cancelled(std::size_t(f));
+    for (const Index f : Cancellable(loops_.count())) {
       const bool listed = next != same.end() && next->face == f;
       if (listed && next->first != f)
         duplicates_.push_back(loops_.origin[f]);

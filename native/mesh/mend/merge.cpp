@@ -108,8 +108,7 @@ bool merge_near(const PolygonMesh& mesh, double distance, UnionFind& merges) {
       std::max({distance, Limits::epsilon() * largest_coordinate_of(mesh, used), Limits::min()});
   Cubes cubes(used.size(), side);
   bool any = false;
-  for (std::size_t v = 0; v < used.size(); ++v) {
-    stop_if_cancelled(v);
+  for (const std::size_t v : Cancellable(used.size())) {
     if (!used[v]) continue;
     const Vec3 p = point(mesh, std::int64_t(v));
     const auto cube = cubes.at(p);
@@ -135,8 +134,7 @@ bool merge_within_faces(const PolygonMesh& mesh, UnionFind& merges) {
   bool any = false;
   for (bool again = true; again;) {
     again = false;
-    for (std::int64_t f = 0; f < mesh.face_count(); ++f) {
-      stop_if_cancelled(std::size_t(f));
+    for (const std::int64_t f : Cancellable(mesh.face_count())) {
       if (names_absent_vertex(mesh.face(f), mesh.vertex_count())) continue;
       current_face(mesh, f, merges, face);
       if (unite_touching(mesh, face, merges) || unite_short_sides(mesh, face, merges))

@@ -120,8 +120,7 @@ bool names_absent_vertex(std::span<const std::int64_t> face, std::int64_t vertic
 
 std::vector<std::uint8_t> used_vertices(const PolygonMesh& mesh) {
   std::vector<std::uint8_t> used(std::size_t(mesh.vertex_count()), 0);
-  for (std::int64_t f = 0; f < mesh.face_count(); ++f) {
-    stop_if_cancelled(std::size_t(f));
+  for (const std::int64_t f : Cancellable(mesh.face_count())) {
     const auto face = mesh.face(f);
     if (names_absent_vertex(face, mesh.vertex_count())) continue;
     for (const std::int64_t v : face) used[v] = 1;
@@ -131,8 +130,7 @@ std::vector<std::uint8_t> used_vertices(const PolygonMesh& mesh) {
 
 std::vector<std::int64_t> non_finite_vertices(std::span<const double> x) {
   Ids bad;
-  for (std::size_t v = 0; v < x.size() / 3; ++v) {
-    stop_if_cancelled(v);
+  for (const std::size_t v : Cancellable(x.size() / 3)) {
     const double size =
         std::max({std::abs(x[3 * v]), std::abs(x[3 * v + 1]), std::abs(x[3 * v + 2])});
     const bool nan = std::isnan(x[3 * v]) || std::isnan(x[3 * v + 1]) || std::isnan(x[3 * v + 2]);

@@ -15,8 +15,7 @@ namespace fairing {
 template <class Predicate>
 std::vector<std::int64_t> faces_where(const PolygonMesh& mesh, const Predicate& predicate) {
   std::vector<std::int64_t> found;
-  for (std::int64_t f = 0; f < mesh.face_count(); ++f) {
-    stop_if_cancelled(std::size_t(f));
+  for (const std::int64_t f : Cancellable(mesh.face_count())) {
     if (predicate(mesh.face(f))) found.push_back(f);
   }
   return found;

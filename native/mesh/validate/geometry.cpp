@@ -28,8 +28,7 @@ std::vector<std::int32_t> first_at_same_point(std::span<const double> coordinate
   const std::size_t vertices = coordinates.size() / 3;
   const std::size_t mask = std::bit_ceil(2 * vertices + 1) - 1;
   std::vector<std::int32_t> table(mask + 1, -1), first(vertices);
-  for (std::size_t v = 0; v < vertices; ++v) {
-    stop_if_cancelled(v);
+  for (const std::size_t v : Cancellable(vertices)) {
     const double* p = &coordinates[3 * v];
     for (std::size_t slot = hash(p) & mask;; slot = (slot + 1) & mask) {
       if (table[slot] < 0) table[slot] = std::int32_t(v);
@@ -71,8 +70,7 @@ void check_coincident_vertices(const PolygonMesh& mesh, Defects& found) {
   };
   // A group's leader is its first *used* vertex, so that isolated ones are not reported twice.
   std::vector<std::int32_t> leader(first.size(), -1);
-  for (std::size_t v = 0; v < first.size(); ++v) {
-    stop_if_cancelled(v);
+  for (const std::size_t v : Cancellable(first.size())) {
     if (!used[v]) continue;
     auto& lead = leader[first[v]];
     if (lead >= 0) {
@@ -85,8 +83,7 @@ void check_coincident_vertices(const PolygonMesh& mesh, Defects& found) {
   if (shared.empty()) return;
 
   Ids touching;
-  for (std::int64_t f = 0; f < mesh.face_count(); ++f) {
-    stop_if_cancelled(std::size_t(f));
+  for (const std::int64_t f : Cancellable(mesh.face_count())) {
     const auto face = mesh.face(f);
     for (std::size_t i = 0; i < face.size(); ++i) {
       if (!listed[face[i]]) continue;

@@ -97,16 +97,14 @@ void check_nonmanifold_edges(const HalfEdges& half_edges, Defects& found) {
 void check_nonmanifold_vertices(const PolygonMesh& mesh, const HalfEdges& half_edges,
                                 Defects& found) {
   std::vector<std::int32_t> corners(std::size_t(mesh.vertex_count()), 0), some(corners.size(), -1);
-  for (std::int32_t k = 0; k < half_edges.count(); ++k) {
-    stop_if_cancelled(std::size_t(k));
+  for (const std::int32_t k : Cancellable(half_edges.count())) {
     const auto v = std::size_t(half_edges.from(k));
     ++corners[v];
     some[v] = k;
   }
   for (std::int64_t v : half_edges.nonmanifold_edges()) corners[v] = 0;
   Ids bad;
-  for (std::size_t v = 0; v < corners.size(); ++v) {
-    stop_if_cancelled(v);
+  for (const std::size_t v : Cancellable(corners.size())) {
     if (corners[v] > 0 && fan_size(half_edges, some[v]) != corners[v])
       bad.push_back(std::int64_t(v));
   }
