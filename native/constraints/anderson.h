@@ -32,8 +32,7 @@ class Anderson {
 
   // The change of the iterate, from this step and the last few.
   Vector change(const Vector& step);
-  // The change that was made, if it differs from the last change().
-  void took(Vector change) { last_change_ = std::move(change); }
+  // Call it if this share of the last change() was made.
   void took_share(double share) { space_.scale(share, last_change_); }
   // Makes the next step the first one.
   void forget() {

@@ -84,12 +84,6 @@ void BallConstraints::shift(const std::vector<double>& shifts) {
   for (std::size_t v = 0; v < size(); ++v) shifted_[v] += point(shifts.data(), v);
 }
 
-Vec3 BallConstraints::in_ball(const Vec3& p, std::size_t v) const {
-  const Vec3 away = p - targets_[v];
-  const double length = away.norm();
-  return length > tolerance_[v] ? Vec3(targets_[v] + (tolerance_[v] / length) * away) : p;
-}
-
 std::vector<double> BallConstraints::comparable(const Hats* hats) const {
   std::vector<double> out;
   if (!active()) return out;

@@ -60,7 +60,6 @@ class BallConstraints : public ControlConstraints {
   // softer than each one's stiffness, and the correction of one moves all of them far away.
   bool diverged() const { return gap_ > 1 && first_gap_ < 1; }
   bool leaves_ball(const double* at, std::size_t v) const;
-  Vec3 in_ball(const Vec3& p, std::size_t v) const;
 
   std::span<const double> stiffness_;
   std::vector<Vec3> shifted_;  // empty: the targets

@@ -64,12 +64,15 @@ void ControlConstraints::set_gap(double gap, double energy, double farthest) {
 
 void ControlConstraints::enforce(double* x) const {
   for (std::size_t v = 0; v < tolerance_.size(); ++v) {
-    if (!bound(v)) continue;
     Eigen::Map<Vec3> p(x + 3 * v);
-    const Vec3 offset = p - targets_[v];
-    const double length = offset.norm();
-    if (length > tolerance_[v]) p = targets_[v] + (tolerance_[v] / length) * offset;
+    if (bound(v)) p = in_ball(p, v);
   }
+}
+
+Vec3 ControlConstraints::in_ball(const Vec3& p, std::size_t v) const {
+  const Vec3 away = p - targets_[v];
+  const double length = away.norm();
+  return length > tolerance_[v] ? Vec3(targets_[v] + (tolerance_[v] / length) * away) : p;
 }
 
 Unknowns ControlConstraints::without_held() const {

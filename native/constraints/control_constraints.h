@@ -68,6 +68,8 @@ class ControlConstraints {
   Unknowns without_held() const;
 
  protected:
+  // The nearest point in the ball of a vertex.
+  Vec3 in_ball(const Vec3& p, std::size_t v) const;
   // `farthest` of all distances, in tolerances.
   void set_gap(double gap, double energy, double farthest);
 

@@ -12,14 +12,6 @@
 #include "stencil/fit.h"
 
 namespace fairing {
-namespace {
-
-Index neighbour(const ControlMesh& mesh, const Spoke& spoke) {
-  return mesh.edges[spoke.edge].vertex[spoke.outward ? 1 : 0];
-}
-
-}  // namespace
-
 Couples::Couples(const ControlMesh& mesh, const ChartMaker& charts,
                  std::vector<FixedNormal> normals, Workers& workers)
     : mesh_(mesh), workers_(workers), normals_(std::move(normals)) {
@@ -33,21 +25,19 @@ Couples::Couples(const ControlMesh& mesh, const ChartMaker& charts,
   }
   arms_.resize(first_arm_.back());
   rows_.resize(first_row_.back());
-  workers_.for_parts(size(), vertex_grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t c = begin; c < end; ++c) {
-      Chart chart = charts.vertex(normals_[c].vertex);
-      const double radius = mean_radius(chart);
-      for (Vec2& p : chart.ring) p /= radius;
-      if (on_border(c)) {
-        fill_border_rows(c, chart);
-        fill_arms(c, chart, charts.flat());
-        continue;
-      }
+  workers_.for_each(size(), vertex_grain, [&](std::size_t c) {
+    Chart chart = charts.vertex(normals_[c].vertex);
+    const double radius = mean_radius(chart);
+    for (Vec2& p : chart.ring) p /= radius;
+    if (on_border(c)) {
+      fill_border_rows(c, chart);
       fill_arms(c, chart, charts.flat());
-      const FitRows rows = fit(chart);
-      for (std::size_t k = first_row_[c]; k < first_row_[c + 1]; ++k)
-        rows_[k] = rows.col(Eigen::Index(k - first_row_[c])).head<2>();
+      return;
     }
+    fill_arms(c, chart, charts.flat());
+    const FitRows rows = fit(chart);
+    for (std::size_t k = first_row_[c]; k < first_row_[c + 1]; ++k)
+      rows_[k] = rows.col(Eigen::Index(k - first_row_[c])).head<2>();
   });
 }
 
@@ -137,12 +127,11 @@ void LevelCouples::visit_points(std::size_t c, Visit&& visit) const {
 LevelCouples::LevelCouples(const Couples& couples, const GridLevel& grid)
     : couples_(couples), grid_(grid), total_(size(), 0.0), mass_(size(), Vec2::Zero()) {
   Workers& workers = couples_.workers_;
-  workers.for_parts(size(), element_grain(grid_.n()), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t c = begin; c < end; ++c)
-      visit_points(c, [&](Index, double weight, const Vec2& uv, double hat) {
-        total_[c] += weight * hat * uv.squaredNorm();
-        mass_[c] += weight * hat * hat * uv.cwiseAbs2();
-      });
+  workers.for_each(size(), element_grain(grid_.n()), [&](std::size_t c) {
+    visit_points(c, [&](Index, double weight, const Vec2& uv, double hat) {
+      total_[c] += weight * hat * uv.squaredNorm();
+      mass_[c] += weight * hat * hat * uv.cwiseAbs2();
+    });
   });
 }
 
@@ -150,14 +139,12 @@ void LevelCouples::add(const std::vector<Couple>& couples, double* r) const {
   // Whole hats overlap: one after another.
   const bool meet = grid_.n() < 1 << Couples::first_level;
   const std::size_t grain = meet ? size() : element_grain(grid_.n());
-  couples_.workers_.for_parts(size(), grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t c = begin; c < end; ++c) {
-      const Couple& couple = couples[c];
-      if (couple.isZero(0)) continue;
-      visit_points(c, [&](Index p, double weight, const Vec2& uv, double hat) {
-        Eigen::Map<Vec3>(r + 3 * std::size_t(p)) += weight * hat * (couple * uv);
-      });
-    }
+  couples_.workers_.for_each(size(), grain, [&](std::size_t c) {
+    const Couple& couple = couples[c];
+    if (couple.isZero(0)) return;
+    visit_points(c, [&](Index p, double weight, const Vec2& uv, double hat) {
+      Eigen::Map<Vec3>(r + 3 * std::size_t(p)) += weight * hat * (couple * uv);
+    });
   });
 }
 
@@ -217,13 +204,11 @@ Compliance LevelCouples::compliance(std::vector<Eigen::Matrix2d> slopes) const {
 
 Moments LevelCouples::correction(const Compliance& compliance, const double* x) const {
   Moments out(size(), Vec2::Zero());
-  couples_.workers_.for_parts(size(), vertex_grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t c = begin; c < end; ++c) {
-      if (!(compliance.slopes[c].trace() > 0) || !(total_[c] > 0)) continue;
-      const Eigen::Matrix2d made = total_[c] / compliance.totals[c] * compliance.slopes[c];
-      const Couple slope = slopes(c, x);
-      out[c] = -(made.inverse() * (slope.transpose() * goal(c, slope)));
-    }
+  couples_.workers_.for_each(size(), vertex_grain, [&](std::size_t c) {
+    if (!(compliance.slopes[c].trace() > 0) || !(total_[c] > 0)) return;
+    const Eigen::Matrix2d made = total_[c] / compliance.totals[c] * compliance.slopes[c];
+    const Couple slope = slopes(c, x);
+    out[c] = -(made.inverse() * (slope.transpose() * goal(c, slope)));
   });
   return out;
 }
@@ -244,9 +229,9 @@ std::vector<std::vector<std::size_t>> Couples::sets_apart() const {
       if (set >= 0) taken[set] = c + 1;
     };
     for (const Spoke& spoke : mesh_.ring(v)) {
-      const Index w = neighbour(mesh_, spoke);
+      const Index w = mesh_.end_of(spoke);
       mark(w);
-      for (const Spoke& next : mesh_.ring(w)) mark(neighbour(mesh_, next));
+      for (const Spoke& next : mesh_.ring(w)) mark(mesh_.end_of(next));
     }
     const std::size_t set = std::size_t(
         std::find_if(taken.begin(), taken.end(), [&](std::size_t by) { return by != c + 1; }) -

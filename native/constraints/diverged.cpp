@@ -27,26 +27,22 @@ std::vector<Index> diverged_stars(const GridLevel& grid, Workers& workers,
   const int n = grid.n();
   std::vector<Distances> of_face(mesh.faces.size(), Distances{}),
       of_edge(mesh.edges.size(), Distances{});
-  workers.for_parts(mesh.faces.size(), element_grain(n), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t f = begin; f < end; ++f) {
-      const Face& face = mesh.faces[f];
-      const auto first = std::size_t(grid.face_base(Index(f)));
-      const std::size_t inside =
-          std::size_t(n - 1) * std::size_t(face.quad() ? n - 1 : n - 2) / (face.quad() ? 1 : 2);
-      for (const std::size_t i : Cancellable(inside)) {
-        for (std::size_t c = 0; c < std::size_t(face.size); ++c)
-          enlarge(x + 3 * (first + i), control[face.vertex[c]], of_face[f][c]);
-      }
+  workers.for_each(mesh.faces.size(), element_grain(n), [&](std::size_t f) {
+    const Face& face = mesh.faces[f];
+    const auto first = std::size_t(grid.face_base(Index(f)));
+    const std::size_t inside =
+        std::size_t(n - 1) * std::size_t(face.quad() ? n - 1 : n - 2) / (face.quad() ? 1 : 2);
+    for (const std::size_t i : Cancellable(inside)) {
+      for (std::size_t c = 0; c < std::size_t(face.size); ++c)
+        enlarge(x + 3 * (first + i), control[face.vertex[c]], of_face[f][c]);
     }
   });
-  workers.for_parts(mesh.edges.size(), element_grain(n) * std::size_t(n),
-                    [&](std::size_t begin, std::size_t end) {
-                      for (std::size_t e = begin; e < end; ++e)
-                        for (int k = 1; k < n; ++k)
-                          for (std::size_t h = 0; h < 2; ++h)
-                            enlarge(x + 3 * std::size_t(grid.edge_point(Index(e), k)),
-                                    control[mesh.edges[e].vertex[h]], of_edge[e][h]);
-                    });
+  workers.for_each(mesh.edges.size(), element_grain(n) * std::size_t(n), [&](std::size_t e) {
+    for (int k = 1; k < n; ++k)
+      for (std::size_t h = 0; h < 2; ++h)
+        enlarge(x + 3 * std::size_t(grid.edge_point(Index(e), k)), control[mesh.edges[e].vertex[h]],
+                of_edge[e][h]);
+  });
   std::vector<Index> out;
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     const Vec3& centre = control[v];

@@ -109,21 +109,19 @@ void Hats::Element::add(double weight, const double* hats, int count) {
 std::vector<Hats::Element> Hats::elements_of_faces(const double* weight) const {
   const int n = grid_.n();
   std::vector<Element> elements(mesh_.faces.size());
-  workers_.for_parts(elements.size(), element_grain(n), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t f = begin; f < end; ++f) {
-      const Face& face = mesh_.faces[f];
-      const double of_metric = metric_weight_of_face_point(f);
-      const double* own = weight ? weight + grid_.face_base(Index(f)) : nullptr;
-      for (int j = 1; j < n; ++j) {
-        stop_in_large_face(j);
-        RowHat row[4];
-        double hats[4];
-        for (int c = 0; c < face.size; ++c) row[c] = row_hat(face, std::size_t(c), j);
-        const int last = face.quad() ? n : n - j;
-        for (int i = 1; i < last; ++i) {
-          for (int c = 0; c < face.size; ++c) hats[c] = row[c](i);
-          elements[f].add(own ? *own++ : of_metric, hats, face.size);
-        }
+  workers_.for_each(elements.size(), element_grain(n), [&](std::size_t f) {
+    const Face& face = mesh_.faces[f];
+    const double of_metric = metric_weight_of_face_point(f);
+    const double* own = weight ? weight + grid_.face_base(Index(f)) : nullptr;
+    for (int j = 1; j < n; ++j) {
+      stop_in_large_face(j);
+      RowHat row[4];
+      double hats[4];
+      for (int c = 0; c < face.size; ++c) row[c] = row_hat(face, std::size_t(c), j);
+      const int last = face.quad() ? n : n - j;
+      for (int i = 1; i < last; ++i) {
+        for (int c = 0; c < face.size; ++c) hats[c] = row[c](i);
+        elements[f].add(own ? *own++ : of_metric, hats, face.size);
       }
     }
   });
@@ -133,17 +131,14 @@ std::vector<Hats::Element> Hats::elements_of_faces(const double* weight) const {
 std::vector<Hats::Element> Hats::elements_of_edges(const double* weight) const {
   const int n = grid_.n();
   std::vector<Element> elements(mesh_.edges.size());
-  workers_.for_parts(
-      elements.size(), element_grain(n) * std::size_t(n), [&](std::size_t begin, std::size_t end) {
-        for (std::size_t e = begin; e < end; ++e) {
-          const double of_metric = metric_weight_of_edge_point(e);
-          const double* own = weight ? weight + grid_.edge_base(Index(e)) : nullptr;
-          for (int k = 1; k < n; ++k) {
-            const double t = double(k) / n, hats[2] = {hat(e, 0, t), hat(e, 1, 1 - t)};
-            elements[e].add(own ? *own++ : of_metric, hats, 2);
-          }
-        }
-      });
+  workers_.for_each(elements.size(), element_grain(n) * std::size_t(n), [&](std::size_t e) {
+    const double of_metric = metric_weight_of_edge_point(e);
+    const double* own = weight ? weight + grid_.edge_base(Index(e)) : nullptr;
+    for (int k = 1; k < n; ++k) {
+      const double t = double(k) / n, hats[2] = {hat(e, 0, t), hat(e, 1, 1 - t)};
+      elements[e].add(own ? *own++ : of_metric, hats, 2);
+    }
+  });
   return elements;
 }
 
@@ -168,38 +163,36 @@ Hats::Hats(const Pads& pads, const GridLevel& grid, Array<double> omega)
   total_.resize(vertices);
   const std::vector<Element> faces = elements_of_faces(weights()),
                              edges = elements_of_edges(weights());
-  workers_.for_parts(total_.size(), 256, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; ++v) {
-      diagonal_[v] = total_[v] = 0;
-      if (!under(v)) continue;
-      diagonal_[v] = total_[v] = vertex_weight(v, weights());
-      auto at = std::size_t(row_begin_[v]);
-      for (const Spoke& spoke : mesh_.ring(Index(v))) {
-        // The neighbour along the spoke shares the edge and the faces on both sides of it.
-        const Edge& edge = mesh_.edges[spoke.edge];
-        const Element& along = edges[spoke.edge];
-        const int own = spoke.outward ? 0 : 1;
-        double shared = along.mass[0][1];
-        diagonal_[v] += along.mass[own][own];
-        total_[v] += along.total[own];
-        for (const Index s : edge.side) {
-          if (s < 0) continue;
-          const Side& side = mesh_.sides[s];
-          const int next = (side.local + 1) % mesh_.faces[side.face].size;
-          shared += faces[side.face].mass[int(side.local)][next];
-        }
-        column_[at] = edge.vertex[1 - own];
-        value_[at++] = shared;
-        if (spoke.face < 0) continue;
-        const Face& face = mesh_.faces[spoke.face];
-        const Element& inside = faces[spoke.face];
-        const auto c = std::size_t(spoke.corner);
-        diagonal_[v] += inside.mass[c][c];
-        total_[v] += inside.total[c];
-        if (!face.quad()) continue;
-        column_[at] = face.vertex[(c + 2) % 4];
-        value_[at++] = inside.mass[c][(c + 2) % 4];
+  workers_.for_each(total_.size(), 256, [&](std::size_t v) {
+    diagonal_[v] = total_[v] = 0;
+    if (!under(v)) return;
+    diagonal_[v] = total_[v] = vertex_weight(v, weights());
+    auto at = std::size_t(row_begin_[v]);
+    for (const Spoke& spoke : mesh_.ring(Index(v))) {
+      // The neighbour along the spoke shares the edge and the faces on both sides of it.
+      const Edge& edge = mesh_.edges[spoke.edge];
+      const Element& along = edges[spoke.edge];
+      const int own = spoke.outward ? 0 : 1;
+      double shared = along.mass[0][1];
+      diagonal_[v] += along.mass[own][own];
+      total_[v] += along.total[own];
+      for (const Index s : edge.side) {
+        if (s < 0) continue;
+        const Side& side = mesh_.sides[s];
+        const int next = (side.local + 1) % mesh_.faces[side.face].size;
+        shared += faces[side.face].mass[int(side.local)][next];
       }
+      column_[at] = edge.vertex[1 - own];
+      value_[at++] = shared;
+      if (spoke.face < 0) continue;
+      const Face& face = mesh_.faces[spoke.face];
+      const Element& inside = faces[spoke.face];
+      const auto c = std::size_t(spoke.corner);
+      diagonal_[v] += inside.mass[c][c];
+      total_[v] += inside.total[c];
+      if (!face.quad()) continue;
+      column_[at] = face.vertex[(c + 2) % 4];
+      value_[at++] = inside.mass[c][(c + 2) % 4];
     }
   });
 }
@@ -214,44 +207,40 @@ void Hats::add_any(const LoadsOf<N>& loads, double* r) const {
   for_each_index(workers_, total_.size(), [&](std::size_t v) {
     if (under(v)) add(r + N * v, vertex_weight(v, weight), loads[v]);
   });
-  workers_.for_parts(n > 1 ? mesh_.edges.size() : 0, element_grain(n) * std::size_t(n),
-                     [&](std::size_t begin, std::size_t end) {
-                       for (std::size_t e = begin; e < end; ++e) {
-                         const auto a = std::size_t(mesh_.edges[e].vertex[0]),
-                                    b = std::size_t(mesh_.edges[e].vertex[1]);
-                         if (!under(a) && !under(b)) continue;
-                         const auto first = std::size_t(grid_.edge_base(Index(e)));
-                         const double of_metric = metric_weight_of_edge_point(e);
-                         for (int k = 1; k < n; ++k) {
-                           const double t = double(k) / n;
-                           const std::size_t p = first + std::size_t(k) - 1;
-                           add(r + N * p, weight ? weight[p] : of_metric,
-                               hat(e, 0, t) * loads[a] + hat(e, 1, 1 - t) * loads[b]);
-                         }
-                       }
-                     });
-  workers_.for_parts(mesh_.faces.size(), element_grain(n), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t f = begin; f < end; ++f) {
-      const Face& face = mesh_.faces[f];
-      auto first = std::size_t(grid_.face_base(Index(f)));
-      for (int j = 1; j < n; ++j) {
-        stop_in_large_face(j);
-        const int inside = std::max(0, (face.quad() ? n : n - j) - 1);
-        for (std::size_t c = 0; c < std::size_t(face.size); ++c) {
-          RowHat row = row_hat(face, c, j);
-          if (row.factor == 0) continue;
-          const auto& load = loads[face.vertex[c]];
-          double* const to = r + N * first;
-          if (weight) {
-            for (int i = 0; i < inside; ++i)
-              add(to + N * i, weight[first + std::size_t(i)] * row(i + 1), load);
-          } else {
-            row.factor *= metric_weight_of_face_point(f);
-            for (int i = 0; i < inside; ++i) add(to + N * i, row(i + 1), load);
-          }
+  workers_.for_each(n > 1 ? mesh_.edges.size() : 0, element_grain(n) * std::size_t(n),
+                    [&](std::size_t e) {
+                      const auto a = std::size_t(mesh_.edges[e].vertex[0]),
+                                 b = std::size_t(mesh_.edges[e].vertex[1]);
+                      if (!under(a) && !under(b)) return;
+                      const auto first = std::size_t(grid_.edge_base(Index(e)));
+                      const double of_metric = metric_weight_of_edge_point(e);
+                      for (int k = 1; k < n; ++k) {
+                        const double t = double(k) / n;
+                        const std::size_t p = first + std::size_t(k) - 1;
+                        add(r + N * p, weight ? weight[p] : of_metric,
+                            hat(e, 0, t) * loads[a] + hat(e, 1, 1 - t) * loads[b]);
+                      }
+                    });
+  workers_.for_each(mesh_.faces.size(), element_grain(n), [&](std::size_t f) {
+    const Face& face = mesh_.faces[f];
+    auto first = std::size_t(grid_.face_base(Index(f)));
+    for (int j = 1; j < n; ++j) {
+      stop_in_large_face(j);
+      const int inside = std::max(0, (face.quad() ? n : n - j) - 1);
+      for (std::size_t c = 0; c < std::size_t(face.size); ++c) {
+        RowHat row = row_hat(face, c, j);
+        if (row.factor == 0) continue;
+        const auto& load = loads[face.vertex[c]];
+        double* const to = r + N * first;
+        if (weight) {
+          for (int i = 0; i < inside; ++i)
+            add(to + N * i, weight[first + std::size_t(i)] * row(i + 1), load);
+        } else {
+          row.factor *= metric_weight_of_face_point(f);
+          for (int i = 0; i < inside; ++i) add(to + N * i, row(i + 1), load);
         }
-        first += std::size_t(inside);
       }
+      first += std::size_t(inside);
     }
   });
 }
@@ -278,12 +267,10 @@ NormalLoads Hats::gather(const Array<double>& r) const {
 template <int N>
 void Hats::multiply_mass(const LoadsOf<N>& loads, LoadsOf<N>& forces) const {
   forces.resize(loads.size());
-  workers_.for_parts(loads.size(), 1024, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; ++v) {
-      forces[v] = diagonal_[v] * loads[v];
-      for (auto k = std::size_t(row_begin_[v]); k < std::size_t(row_begin_[v + 1]); ++k)
-        forces[v] += value_[k] * loads[column_[k]];
-    }
+  workers_.for_each(loads.size(), 1024, [&](std::size_t v) {
+    forces[v] = diagonal_[v] * loads[v];
+    for (auto k = std::size_t(row_begin_[v]); k < std::size_t(row_begin_[v + 1]); ++k)
+      forces[v] += value_[k] * loads[column_[k]];
   });
 }
 

@@ -11,14 +11,6 @@
 namespace fairing {
 namespace {
 
-bool is_outside(const ControlMesh& mesh, const Run& run) {
-  switch (run.kind) {
-    case RunKind::vertex: return mesh.vertex_part(run.element) == RegionPart::outside;
-    case RunKind::edge: return mesh.edge_part(run.element) == RegionPart::outside;
-    default: return mesh.face_part(run.element) == RegionPart::outside;
-  }
-}
-
 // The triangles around the points of a run, by slots.
 struct FanTriangle {
   int a, b;
@@ -95,7 +87,7 @@ double visit_areas(const GridLevel& grid, Workers& workers, const double* x, Vis
   for_each_run(
       grid, workers, [&] { return RunArea(grid, x); },
       [&](const Run& run, RunArea& rings) {
-        if (is_outside(grid.mesh(), run)) return;
+        if (part_of_region(grid.mesh(), run) == RegionPart::outside) return;
         const double* const* at = rings(run);
         sums.of(run) += rings.area;
         visit(run, rings, at);

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "grid/linear.h"
-#include "grid/ring.h"
+#include "grid/ring_shape.h"
 #include "parallel/reductions.h"
 
 namespace fairing {
@@ -18,8 +18,7 @@ constexpr int most_repairs = 3;
 constexpr int rings = 2;  // in the first round
 
 double point_energy(const Linearization& about, std::size_t i) {
-  const float* m = &about.shape[4 * i];
-  return double(m[3]) * m[3] * (double(m[0]) * m[0] + double(m[1]) * m[1] + double(m[2]) * m[2]);
+  return area_of(&about.shape[4 * i]) * square_of(&about.shape[4 * i]);
 }
 
 bool any(const Array<float>& marks) {
@@ -39,35 +38,21 @@ struct Ring {
 template <class Visit>
 void visit_marked(const GridLevel& grid, const Unknowns& unknowns, const Array<float>& marks,
                   Visit&& visit) {
-  const ControlMesh& mesh = grid.mesh();
   Ring ring;
+  RingShape shape;
   std::vector<Index> all;
   for_each_run(grid, [&](const Run& run) {
     if (!unknowns.has(run)) return;
     for (std::size_t i = 0; i < run.count; ++i) {
       const Index p = Index(run.first + i);
       if (!(marks[p] > 0)) continue;
-      ring = {{}, true};
-      if (run.kind == RunKind::vertex) {
-        ring.closed = mesh.interior(run.element);
-        visit_ring(grid, run.element, [&](Index q, std::size_t slot) {
-          if (slot % 2 == 0) ring.points.push_back(q);
-        });
-      } else if (run.kind == RunKind::edge) {
-        const Edge& edge = mesh.edges[run.element];
-        ring.closed = !edge.boundary();
-        all.clear();
-        append_ring(grid, run, i, all);
-        const std::size_t start = edge.side[0] < 0 ? 1 : 0;  // an open ring starts at the border
-        for (std::size_t j = 0; j < all.size(); ++j) {
-          const std::size_t k = (start + j) % all.size();
-          if (!run.ring->far[k]) ring.points.push_back(all[k]);
-        }
-      } else {
-        all.clear();
-        append_ring(grid, run, i, all);
-        for (std::size_t s = 0; s < all.size(); s += run.quad ? 2 : 1)
-          ring.points.push_back(all[s]);
+      shape.set(grid, run);
+      all.clear();
+      append_ring(grid, run, i, all);
+      ring = {{}, shape.closed};
+      for (std::size_t m = 0; m < all.size(); ++m) {
+        const std::size_t k = (std::size_t(shape.first) + m) % all.size();
+        if (!shape.far[k]) ring.points.push_back(all[k]);
       }
       visit(p, ring);
     }

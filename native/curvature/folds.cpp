@@ -80,7 +80,7 @@ void visit_on_edge(Cut cut, const GridLevel& grid, Index e, const double* x,
   const EdgeLanes<double> lanes(grid, x, e, scratch);
   const auto beside = [&](std::size_t h, int k) {
     const double* row = lanes.lane[1 + h] + 3 * k;
-    return Corners{{row, row + 3}, mesh.faces[face_beside(mesh, e, h)].quad() ? 2 : 1};
+    return Corners{{row, row + 3}, mesh.faces[mesh.face_beside(e, h)].quad() ? 2 : 1};
   };
   for (int k = 0; k < grid.n(); ++k)
     if (is_folded(cut, lanes.lane[0] + 3 * k, lanes.lane[0] + 3 * (k + 1), beside(0, k),
@@ -108,8 +108,8 @@ Folds find_folds(Cut cut, const GridLevel& grid, Workers& workers, const double*
   for_edge_parts(grid, workers, [&](Index begin, Index end) {
     std::vector<double> scratch;
     for (Index e = begin; e < end; ++e) {
-      if (!is_joined(mesh, e) || is_excused(face_beside(mesh, e, 0)) ||
-          is_excused(face_beside(mesh, e, 1)))
+      if (!is_joined(mesh, e) || is_excused(mesh.face_beside(e, 0)) ||
+          is_excused(mesh.face_beside(e, 1)))
         continue;
       visit_on_edge(cut, grid, e, x, scratch, [&](int) { ++folds.on_edge[e]; });
     }
@@ -142,7 +142,7 @@ std::vector<std::uint8_t> folded_control_faces(const ControlMesh& mesh,
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) folded[f] = folds.in_face[f] > 0;
   for (std::size_t e = 0; e < mesh.edges.size(); ++e)
     for (std::size_t h = 0; h < 2 && folds.on_edge[e] > 0; ++h)
-      folded[face_beside(mesh, Index(e), h)] = 1;
+      folded[mesh.face_beside(Index(e), h)] = 1;
   return folded;
 }
 

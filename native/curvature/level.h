@@ -92,8 +92,9 @@ class CurvatureLevel final : public LevelOperator {
   void set_weights(const VertexWeights& weights);
   const VertexWeights& weights() const { return weights_; }
 
-  // Adds a penalty, from the next linearization on; none for an empty one.
-  void set_penalty(std::optional<DistancePenalty> penalty) { penalty_ = std::move(penalty); }
+  // Penalizes the distance from a reference from here on, by weights from the bending of the surface
+  // x, whose linearization for total curvature is the latest; adds the penalty's part to that.
+  void penalize(Reference reference, const double* x, Linearization& about);
   const std::optional<DistancePenalty>& penalty() const { return penalty_; }
 
   // Diagonal of K without weights, penalty and damping; zero for points that are not unknowns.

@@ -90,14 +90,6 @@ struct Gather {
   RingLanes lanes;
 };
 
-bool has_fit(const ControlMesh& mesh, const Run& run) {
-  switch (run.kind) {
-    case RunKind::vertex: return mesh.vertex_fit(run.element);
-    case RunKind::edge: return mesh.edge_fit(run.element);
-    default: return true;
-  }
-}
-
 }  // namespace
 
 // The connection's input at the points, in double: rounding errors must not exceed the small force.
@@ -247,6 +239,13 @@ double CurvatureLevel::linearize(const double* x, const Functional& functional,
   damping_.clear();
   invert_diagonal();
   return objective();
+}
+
+void CurvatureLevel::penalize(Reference reference, const double* x, Linearization& about) {
+  penalty_.emplace(grid_, std::move(reference), about.shape, shared_.unknowns);
+  penalty_energy_ = penalty_->energy(x, shared_.workers);
+  penalty_->add_force(x, about.normal.data(), shared_.workers, about.force.data());
+  invert_diagonal();
 }
 
 // Computes L about the surface and the force, minus J^T L M. Returns the energy M . L M.

@@ -75,14 +75,10 @@ void LocalDamping::hold(const Array<float>& marks) {
 bool LocalDamping::judge(const Array<float>& predicted, const Linearization& before,
                          const Linearization& after, int rejections, int steps, double decrement) {
   const std::size_t points = grid_.size();
-  const auto square = [](const float* m) {
-    return double(m[0]) * m[0] + double(m[1]) * m[1] + double(m[2]) * m[2];
-  };
-  const auto area = [](const float* m) { return double(m[3]) * m[3]; };
   const double whole =
-      sum(workers_, points, [&](std::size_t i) { return area(&before.shape[4 * i]); });
+      sum(workers_, points, [&](std::size_t i) { return area_of(&before.shape[4 * i]); });
   const double energy = sum(workers_, points, [&](std::size_t i) {
-    return area(&before.shape[4 * i]) * square(&before.shape[4 * i]);
+    return area_of(&before.shape[4 * i]) * square_of(&before.shape[4 * i]);
   });
   const double mean = whole > 0 ? energy / whole : 0;
   Array<float> miss(points), marks(points);
@@ -91,7 +87,7 @@ bool LocalDamping::judge(const Array<float>& predicted, const Linearization& bef
     const float *m = &before.shape[4 * i], *now = &after.shape[4 * i];
     // Charts start at an arbitrary neighbour, so tensors are compared in space.
     const Eigen::Matrix3d change = tensor(now, after, i) - tensor(&predicted[3 * i], before, i);
-    const double scale = square(m) + square(now) + mean;
+    const double scale = square_of(m) + square_of(now) + mean;
     miss[i] = m[3] > 0 && now[3] > 0 && scale > 0 ? float(change.squaredNorm() / scale)
                                                   : (m[3] > 0 ? 1.0f : 0.0f);
     marks[i] = double(miss[i]) > bound ? 1.0f : 0.0f;

@@ -117,19 +117,17 @@ void NormalMatrix::update(const RingRows& rows, Workers& workers, const RingRows
       for (int s = 0; s < own.slots; ++s)
         for (int c = 0; c < 3; ++c) *to++ = own.at(c, s, i);
   });
-  workers.for_parts(grid_.size(), grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p) {
-      float* row = number_.data() + block_size * block_begin_[p];
-      std::fill(row, number_.data() + block_size * block_begin_[p + 1], 0.0f);
-      const Place* target = target_.data() + target_begin_[p];
-      for (const RingPlaces::Place& place : places_.of(Index(p))) {
-        const RingTable::Ring& ring = rings_.about(place.centre);
-        const float* other = jacobian_.data() + 3 * ring.member;
-        const float *own = other + 3 * place.slot, *last = other + 3 * ring.size;
-        for (; other < last; other += 3)
-          if (const Place to = *target++; to != none)
-            row[to] += own[0] * other[0] + own[1] * other[1] + own[2] * other[2];
-      }
+  workers.for_each(grid_.size(), grain, [&](std::size_t p) {
+    float* row = number_.data() + block_size * block_begin_[p];
+    std::fill(row, number_.data() + block_size * block_begin_[p + 1], 0.0f);
+    const Place* target = target_.data() + target_begin_[p];
+    for (const RingPlaces::Place& place : places_.of(Index(p))) {
+      const RingTable::Ring& ring = rings_.about(place.centre);
+      const float* other = jacobian_.data() + 3 * ring.member;
+      const float *own = other + 3 * place.slot, *last = other + 3 * ring.size;
+      for (; other < last; other += 3)
+        if (const Place to = *target++; to != none)
+          row[to] += own[0] * other[0] + own[1] * other[1] + own[2] * other[2];
     }
   });
   if (tension) add_tension(*tension, workers);
@@ -158,21 +156,19 @@ void NormalMatrix::add_tension(const RingRows& weights, Workers& workers) {
 
 // Two independent sums, so that neither waits for the other.
 void NormalMatrix::apply(const float* x, Workers& workers, float* y) const {
-  workers.for_parts(grid_.size(), grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p) {
-      Block::Pack even = {}, odd = {}, of_x, numbers;
-      const auto add = [&](std::size_t block, Block::Pack& sum) {
-        Block::load(x + block_[block], of_x);
-        Block::load(number_.data() + block_size * block, numbers);
-        sum += numbers * of_x;
-      };
-      std::size_t k = block_begin_[p];
-      const std::size_t last = block_begin_[p + 1];
-      for (; k + 1 < last; k += 2) add(k, even), add(k + 1, odd);
-      if (k < last) add(k, even);
-      even += odd;
-      y[p] = (even[0] + even[1]) + (even[2] + even[3]);
-    }
+  workers.for_each(grid_.size(), grain, [&](std::size_t p) {
+    Block::Pack even = {}, odd = {}, of_x, numbers;
+    const auto add = [&](std::size_t block, Block::Pack& sum) {
+      Block::load(x + block_[block], of_x);
+      Block::load(number_.data() + block_size * block, numbers);
+      sum += numbers * of_x;
+    };
+    std::size_t k = block_begin_[p];
+    const std::size_t last = block_begin_[p + 1];
+    for (; k + 1 < last; k += 2) add(k, even), add(k + 1, odd);
+    if (k < last) add(k, even);
+    even += odd;
+    y[p] = (even[0] + even[1]) + (even[2] + even[3]);
   });
 }
 

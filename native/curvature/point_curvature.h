@@ -136,6 +136,13 @@ struct ShapeRows {
   Vec3 own = Vec3::Zero();    // by the displacement of the point itself
 };
 
+// A stored point of a surface (Linearization::shape), the components of M and the root of its area:
+// its area, and |M|^2.
+inline double area_of(const float* m) { return double(m[3]) * double(m[3]); }
+inline double square_of(const float* m) {
+  return double(m[0]) * m[0] + double(m[1]) * m[1] + double(m[2]) * m[2];
+}
+
 // The term of h itself, in the components of M, from its trace, its trace-free part (a, b) and a^2
 // + b^2: with M = t/2 I + F, F^2 = f^2 I it is M^2 = (t^2/4 + f^2) I + t F, or M^2 - t M / 2. N: a
 // number or a pack of numbers.

@@ -23,9 +23,7 @@ constexpr int most_load_corrections = 6;
 // Omega: the areas of the points, times the weight of the energy.
 Array<double> areas_of(const Array<float>& shape, Workers& workers) {
   Array<double> areas(shape.size() / 4);
-  for_each_index(workers, areas.size(), [&](std::size_t i) {
-    areas[i] = double(shape[4 * i + 3]) * double(shape[4 * i + 3]);
-  });
+  for_each_index(workers, areas.size(), [&](std::size_t i) { areas[i] = area_of(&shape[4 * i]); });
   return areas;
 }
 
@@ -68,7 +66,7 @@ void GaussNewtonSystem::linearize_about(const LinearizedSurface& about,
       {diagonal.begin(), diagonal.begin() + std::ptrdiff_t(mesh().vertex_count())});
 }
 
-HeldLimits GaussNewtonSystem::held_limits(int level, const Functional& functional) {
+HeldLimits GaussNewtonSystem::held_limits(int level, const Functional& functional) const {
   const bool is_finest = level == finest();
   HeldLimits out;
   out.solve = limits(level, functional);

@@ -47,8 +47,8 @@ CurvedSurface GaussNewtonSolver::solve_level(int level, const Array<double>& pla
   if (pads_.update()) iterate_.current.held.loads.clear();
   const std::span<const Vec3> given =
       level == system_.finest() ? constraints_.targets() : std::span<const Vec3>{};
-  system_.penalize(level, plate, std::move(reference));
-  choose_start(iterate_, level, pads_.now(), plate, plate_below, given, report);
+  choose_start(iterate_, level, pads_.now(), plate, plate_below, std::move(reference), given,
+               report);
   const StepStart start{iterate_.current.points, iterate_.current.held, report};
   const bool is_plain = solve_total_curvature(start, plate, report);
   CurvedSurface out;
@@ -196,8 +196,13 @@ bool GaussNewtonSolver::is_settled(const CurvatureLevelReport& report) {
 void GaussNewtonSolver::solve_moved(Symmetry symmetry, const Array<double>& plate,
                                     Reference reference, CurvedSurface& moved,
                                     CurvatureLevelReport& report) {
+  if (!reference.points.empty()) {
+    LinearizedSurface of_plate;
+    of_plate.points = plate;
+    system_.linearize(iterate_.level, of_plate);
+    system_.penalize(iterate_.level, std::move(reference), of_plate);
+  }
   std::swap(surface(), moved.points);
-  system_.penalize(iterate_.level, plate, std::move(reference));
   system_.set_symmetry(std::move(symmetry));
   iterate_.folded_faces =
       folded_control_faces(system_.mesh(), constraints_.targets(), iterate_.workers());

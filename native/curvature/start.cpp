@@ -37,18 +37,15 @@ void try_candidate(SurfaceIterate& it, const Array<double>& plate, CurvatureLeve
 
 }  // namespace
 
-void start_at_plate(SurfaceIterate& iterate, int level, const Array<double>& plate) {
+void choose_start(SurfaceIterate& iterate, int level, Pads* pads, const Array<double>& plate,
+                  const Array<double>& plate_below, Reference reference,
+                  std::span<const Vec3> given, CurvatureLevelReport& report) {
+  const LinearizedSurface below = std::exchange(iterate.current, {});
   iterate.level = level;
   iterate.current.points = plate;
-  iterate.system.symmetrize(iterate.level, iterate.current.points);
-}
-
-void choose_start(SurfaceIterate& iterate, int level, Pads* pads, const Array<double>& plate,
-                  const Array<double>& plate_below, std::span<const Vec3> given,
-                  CurvatureLevelReport& report) {
-  const LinearizedSurface below = std::exchange(iterate.current, {});
-  start_at_plate(iterate, level, plate);
+  iterate.system.symmetrize(level, iterate.current.points);
   iterate.linearize({CurvatureEnergy::total_curvature, pads});
+  iterate.system.penalize(level, std::move(reference), iterate.current);
   report.plate_energy = report.start_energy = iterate.op().objective();
   // Rounding errors would decide between flat surfaces.
   if (report.start_energy < flat_energy) return;

@@ -6,13 +6,11 @@
 
 namespace fairing {
 
-// iterate <- the thin plate's surface of a level, symmetrized. Not linearized.
-void start_at_plate(SurfaceIterate& iterate, int level, const Array<double>& plate);
-
 // Moves the iterate from the level below, whose solution it is, to `level` and on to these pads.
 // `plate` and `plate_below` are the thin plate's surfaces of both levels; on the coarsest level
 // iterate.current and plate_below are empty. `given` are the positions of the control vertices if
-// the mesh is not refined, else empty. Each candidate must have less energy than those before it:
+// the mesh is not refined, else empty. The distance from the reference is penalized, by weights from
+// the bending of `plate`. Each candidate must have less energy than those before it:
 //
 //   1. the thin plate's surface; or the given positions, which differ if vertices may move: in the
 //      filling of a long tube they are a tube, and the plate a thread;
@@ -26,7 +24,7 @@ void start_at_plate(SurfaceIterate& iterate, int level, const Array<double>& pla
 //
 // Sets plate_energy and start_energy of `report`.
 void choose_start(SurfaceIterate& iterate, int level, Pads* pads, const Array<double>& plate,
-                  const Array<double>& plate_below, std::span<const Vec3> given,
-                  CurvatureLevelReport& report);
+                  const Array<double>& plate_below, Reference reference,
+                  std::span<const Vec3> given, CurvatureLevelReport& report);
 
 }  // namespace fairing

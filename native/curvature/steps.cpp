@@ -82,12 +82,9 @@ struct Bending {
 
 Bending bending_of(const LinearizedSurface& surface, Workers& workers) {
   const Array<float>& shape = surface.linearization.shape;
-  const auto area = [&](std::size_t i) { return double(shape[4 * i + 3]) * shape[4 * i + 3]; };
-  const auto square = [&](std::size_t i) {
-    const float* m = &shape[4 * i];
-    return area(i) * (double(m[0]) * m[0] + double(m[1]) * m[1] + double(m[2]) * m[2]);
-  };
-  return {sum(workers, shape.size() / 4, square), sum(workers, shape.size() / 4, area)};
+  const auto area = [&](std::size_t i) { return area_of(&shape[4 * i]); };
+  const auto energy = [&](std::size_t i) { return area(i) * square_of(&shape[4 * i]); };
+  return {sum(workers, shape.size() / 4, energy), sum(workers, shape.size() / 4, area)};
 }
 
 // Repeats: solve for a direction, find the longest acceptable length, move.
@@ -103,7 +100,7 @@ class StepLoop {
         anderson_({&iterate}, accelerated_steps),
         remainder_(iterate.system.error_reduction(iterate.level, functional)) {
     it_.trial.points.resize(3 * it_.grid().size());
-    it_.begin(functional);
+    it_.ensure_linearized(functional);
     flat_ = flat_energy_about(it_.current, it_.workers());
   }
 

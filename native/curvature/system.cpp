@@ -62,19 +62,16 @@ GaussNewtonSystem::GaussNewtonSystem(const ControlMesh& mesh, const GridLevels& 
 
 GaussNewtonSystem::~GaussNewtonSystem() = default;
 
-void GaussNewtonSystem::penalize(int level, const Array<double>& plate, Reference reference) {
-  if (reference.points.empty()) return;
-  Linearization bending;
-  op(level).set_penalty({});
-  op(level).linearize(plate.data(), {}, &bending);
-  op(level).set_penalty(
-      DistancePenalty(grid(level), std::move(reference), bending.shape, shared_.unknowns));
-}
-
 void GaussNewtonSystem::linearize(int level, LinearizedSurface& surface) {
   surface.energy =
       op(level).linearize(surface.points.data(), surface.functional, &surface.linearization);
   surface.version = op(level).linearizations();
+}
+
+void GaussNewtonSystem::penalize(int level, Reference reference, LinearizedSurface& surface) {
+  if (reference.points.empty()) return;
+  op(level).penalize(std::move(reference), surface.points.data(), surface.linearization);
+  surface.energy = op(level).objective();
 }
 
 void GaussNewtonSystem::linearize_below(int level, const LinearizedSurface& about) {
@@ -107,7 +104,7 @@ void GaussNewtonSystem::set_damping(int level, const Array<float>& mu, double sh
 }
 
 // A tenth of an energy that is mostly the penalty's would tell nothing of broad faces.
-PcgLimits GaussNewtonSystem::limits(int level, const Functional& functional) {
+PcgLimits GaussNewtonSystem::limits(int level, const Functional& functional) const {
   PcgLimits limits;
   const bool loads_change = functional.pads && !constraints_;
   const bool varies = functional.energy == CurvatureEnergy::minimum_variation;
@@ -160,7 +157,7 @@ double GaussNewtonSystem::solve(int level, const LinearizedSurface& about, Array
 
 StepWork GaussNewtonSystem::work(int level) const {
   StepWork out = work_;
-  out.linearizations = operators_[level - base_]->linearizations();
+  out.linearizations = op(level).linearizations();
   out.factors = hierarchy_->factors();
   return out;
 }
@@ -173,7 +170,7 @@ void GaussNewtonSystem::report_progress(int level, std::size_t steps) {
   monitor_.report(Phase::solve, progress_begin + (progress_end - progress_begin) * share);
 }
 
-void SurfaceIterate::begin(const Functional& functional) {
+void SurfaceIterate::ensure_linearized(const Functional& functional) {
   if (current.version != op().linearizations() || !(current.functional == functional))
     linearize(functional);
 }

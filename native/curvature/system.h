@@ -52,7 +52,7 @@ class GaussNewtonSystem {
   const GaussNewtonOptions& options() const { return options_; }
   const ControlMesh& mesh() const { return shared_.mesh; }
   const GridLevel& grid(int level) const { return *grids_[level]; }
-  CurvatureLevel& op(int level) { return *operators_[level - base_]; }
+  CurvatureLevel& op(int level) const { return *operators_[level - base_]; }
   const Stencils& stencils() const { return stencils_; }
   CurvatureShared& shared() { return shared_; }
   Workers& workers() { return shared_.workers; }
@@ -63,11 +63,11 @@ class GaussNewtonSystem {
     fairing::symmetrize(grid(level), symmetry_, shared_.unknowns, workers(), x.data());
   }
 
-  // Penalizes the distance from the reference on `level`, by weights from the bending of `plate`.
-  void penalize(int level, const Array<double>& plate, Reference reference);
-
   // Linearizes about the surface's points, which sets K of `level`.
   void linearize(int level, LinearizedSurface& surface);
+  // Penalizes the distance from a reference on `level` from here on, by weights from the bending of
+  // the surface that was linearized last, for total curvature; empty: does nothing.
+  void penalize(int level, Reference reference, LinearizedSurface& surface);
   // Linearizes the levels below `level` about the injected surface of that level.
   void linearize_below(int level, const LinearizedSurface& about);
 
@@ -98,11 +98,11 @@ class GaussNewtonSystem {
   void report_progress(int level, std::size_t steps);
 
  private:
-  PcgLimits limits(int level, const Functional& functional);
+  PcgLimits limits(int level, const Functional& functional) const;
   void linearize_about(const LinearizedSurface& about, const Multipliers<1>& held);
   // Sets the present weights of the springs on all levels up to `level`.
   void set_weights(int level);
-  HeldLimits held_limits(int level, const Functional& functional);
+  HeldLimits held_limits(int level, const Functional& functional) const;
   // constraint_force <- the forces of loads and springs.
   LevelSolve solve_held(int level, const LinearizedSurface& about, Array<double>& h,
                         Multipliers<1>& held, Array<double>& constraint_force, StepReport& report);
@@ -143,8 +143,8 @@ struct SurfaceIterate {
     current.functional = functional;
     linearize();
   }
-  // The same, unless it is done already.
-  void begin(const Functional& functional);
+  // The same, unless K is already that.
+  void ensure_linearized(const Functional& functional);
 
   // trial <- current + length step, symmetrized; linearizes about it. Returns its energy.
   double try_step(double length);

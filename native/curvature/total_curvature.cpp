@@ -7,22 +7,6 @@
 #include "curvature/rings.h"
 
 namespace fairing {
-namespace {
-
-bool is_measured(const ControlMesh& mesh, const Run& run) {
-  const Index e = run.element;
-  switch (run.kind) {
-    case RunKind::vertex:
-      return !mesh.feature_vertex[e] && mesh.interior(e) &&
-             mesh.vertex_part(e) == RegionPart::inside;
-    case RunKind::edge:
-      return !mesh.feature_edge[e] && !mesh.edges[e].boundary() &&
-             mesh.edge_part(e) == RegionPart::inside;
-    default: return mesh.face_part(e) == RegionPart::inside;
-  }
-}
-
-}  // namespace
 
 double total_curvature(const GridLevel& grid, Workers& workers, const double* x) {
   constexpr const float* lift = nullptr;
@@ -30,8 +14,10 @@ double total_curvature(const GridLevel& grid, Workers& workers, const double* x)
   for_each_run(
       grid, workers, [&] { return RingWalk(grid, x, lift); },
       [&](const Run& run, RingWalk& walk) {
-        if (!is_measured(grid.mesh(), run)) return;
-        walk(run, [&](std::size_t, const RingInSpace& ring, bool) {
+        const ControlMesh& mesh = grid.mesh();
+        if (!has_fit(mesh, run) || part_of_region(mesh, run) != RegionPart::inside) return;
+        walk(run, [&](std::size_t, const RingInSpace& ring, bool closed) {
+          if (!closed) return;
           const CotangentCurvature point = cotangent_curvature(ring.view(true));
           mean.of(run) += point.mean;
           gauss.of(run) += point.gauss;

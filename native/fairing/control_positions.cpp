@@ -21,8 +21,7 @@ namespace {
 Vec3 centre_of_shape(const ControlMesh& mesh, std::span<const Vec3> basis, Index centre,
                      std::span<const Vec3> shape) {
   std::vector<Index> corners;
-  for (const Spoke& spoke : mesh.ring(centre))
-    corners.push_back(mesh.edges[spoke.edge].vertex[spoke.outward ? 1 : 0]);
+  for (const Spoke& spoke : mesh.ring(centre)) corners.push_back(mesh.end_of(spoke));
   const auto count = double(corners.size());
   Vec3 mean = Vec3::Zero();
   for (const Index c : corners) mean += basis[c] / count;

@@ -197,9 +197,7 @@ void Mending::restore(OutputFaces& faces) const {
 void Mending::restore(Report& report) const {
   report.flipped_faces = faces_of_input(report.flipped_faces);
   restore(report.warnings);
-  for (std::size_t v = 0; v < std::min(mended_.vertex_origin.size(), report.pads.widths.size());
-       ++v)
-    report.pads.widths[v] = report.pads.widths[mended_.vertex_origin[v]];
+  give_to_merged(mended_.vertex_origin, report.pads.widths);
   report.repairs = mended_.acts;
   if (options_.repair == Repair::mend && !report.flipped_faces.empty())
     report.repairs.push_back({name(ErrorCode::inconsistent_orientation),

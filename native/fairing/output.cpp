@@ -26,9 +26,7 @@ void row_ids(const GridLevel& grid, Index f, bool quad, int j, std::vector<std::
 
 void join_sheets(const JoinedSheets& joined, Workers& workers, Array<std::int32_t>& ids) {
   if (!joined.needed()) return;
-  workers.for_parts(ids.size(), vector_grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) ids[k] = joined(ids[k]);
-  });
+  workers.for_each(ids.size(), vector_grain, [&](std::size_t k) { ids[k] = joined(ids[k]); });
 }
 
 }  // namespace
@@ -99,10 +97,9 @@ void to_world(const ControlPositions& control, const GridLevel& grid, const Fram
   for (const std::size_t v : Cancellable(given.size())) {
     kept[v] = point_at(x, Index(v)) == control.working[v];
   }
-  workers.for_parts(grid.size(), vector_grain / 3, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p)
-      for (std::size_t a = 0; a < 3; ++a)
-        world[3 * p + a] = frame.centre[a] + frame.scale * x[3 * p + a];
+  workers.for_each(grid.size(), vector_grain / 3, [&](std::size_t p) {
+    for (std::size_t a = 0; a < 3; ++a)
+      world[3 * p + a] = frame.centre[a] + frame.scale * x[3 * p + a];
   });
   for (std::size_t v = 0; v < given.size(); ++v)
     if (kept[v]) put_point(given[v], world + 3 * v);

@@ -89,16 +89,14 @@ void RecentSurfaces::extrapolate(std::span<const Vec3> positions) {
   }
   Array<double>& plate = surface_.plate;
   earlier_plate_.resize(plate.size());
-  workers_.for_parts(plate.size() / 3, vector_grain / 3, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      Eigen::Map<Vec3> x(plate.data() + 3 * i), earlier(earlier_plate_.data() + 3 * i);
-      const Vec3 last = x;
-      Vec3 p =
-          last + coefficients.row(0).transpose() + coefficients.middleRows<3>(1).transpose() * last;
-      if (had_earlier) p += coefficients.bottomRows<3>().transpose() * (last - earlier);
-      if (another_kind) earlier = last;
-      x = p;
-    }
+  workers_.for_each(plate.size() / 3, vector_grain / 3, [&](std::size_t i) {
+    Eigen::Map<Vec3> x(plate.data() + 3 * i), earlier(earlier_plate_.data() + 3 * i);
+    const Vec3 last = x;
+    Vec3 p =
+        last + coefficients.row(0).transpose() + coefficients.middleRows<3>(1).transpose() * last;
+    if (had_earlier) p += coefficients.bottomRows<3>().transpose() * (last - earlier);
+    if (another_kind) earlier = last;
+    x = p;
   });
 }
 

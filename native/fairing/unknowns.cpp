@@ -56,7 +56,7 @@ void require_anchored(const ControlMesh& mesh, const Unknowns& unknowns,
     const Index v = front.back();
     front.pop_back();
     for (const Spoke& spoke : mesh.ring(v)) {
-      const Index other = mesh.edges[spoke.edge].vertex[spoke.outward ? 1 : 0];
+      const Index other = mesh.end_of(spoke);
       if (held[other]) continue;
       held[other] = 1;
       front.push_back(other);

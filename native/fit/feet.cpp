@@ -102,25 +102,20 @@ void FeetFinder::set_surface(const double* x) {
   x_ = x;
   cell_normal_.resize(cells_.size());
   point_normal_.resize(cells_.grid().size());
-  workers_.for_parts(cells_.size(), vertex_grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t c = begin; c < end; ++c) {
-      const auto& corner = cells_.corners(Index(c));
-      cell_normal_[c] = corner[3] >= 0
-                            ? (at(corner[2]) - at(corner[0])).cross(at(corner[3]) - at(corner[1]))
-                            : (at(corner[1]) - at(corner[0])).cross(at(corner[2]) - at(corner[0]));
-    }
+  workers_.for_each(cells_.size(), vertex_grain, [&](std::size_t c) {
+    const auto& corner = cells_.corners(Index(c));
+    cell_normal_[c] = corner[3] >= 0
+                          ? (at(corner[2]) - at(corner[0])).cross(at(corner[3]) - at(corner[1]))
+                          : (at(corner[1]) - at(corner[0])).cross(at(corner[2]) - at(corner[0]));
   });
-  workers_.for_parts(point_normal_.size(), vertex_grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p) {
-      Vec3 sum = Vec3::Zero();
-      if (!on_curve_[p])
-        for (const auto& [cell, corner] : cells_.at_point(Index(p))) sum += cell_normal_[cell];
-      point_normal_[p] = unit_or_zero(sum);
-    }
+  workers_.for_each(point_normal_.size(), vertex_grain, [&](std::size_t p) {
+    Vec3 sum = Vec3::Zero();
+    if (!on_curve_[p])
+      for (const auto& [cell, corner] : cells_.at_point(Index(p))) sum += cell_normal_[cell];
+    point_normal_[p] = unit_or_zero(sum);
   });
-  workers_.for_parts(cells_.size(), vertex_grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t c = begin; c < end; ++c) cell_normal_[c] = unit_or_zero(cell_normal_[c]);
-  });
+  workers_.for_each(cells_.size(), vertex_grain,
+                    [&](std::size_t c) { cell_normal_[c] = unit_or_zero(cell_normal_[c]); });
 }
 
 Vec3 FeetFinder::point_at_foot(const Foot& foot) const {
@@ -232,55 +227,49 @@ void FeetFinder::search(Array<Foot>& feet, bool any_side, double beyond) const {
     return nearest.point();
   };
   const auto is_used = [&](Index p) { return !cells_.at_point(p).empty(); };
-  workers_.for_parts(scan_.size(), vertex_grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t s = begin; s < end; ++s) {
-      Foot& foot = feet[s];
-      if (foot.cell >= 0 && std::abs(distance(s, foot)) <= beyond) continue;
-      foot = {};
-      Index nearest = nearest_to(s, is_used, std::numeric_limits<float>::max());
-      const auto agrees_at = [&](Index p) {
-        for (const auto& [cell, corner] : cells_.at_point(p))
-          if (agrees(cell, s)) return true;
-        return false;
-      };
-      // the search has a bound: for a scan that is inside out it would visit the whole surface
-      if (nearest >= 0 && !any_side && !agrees_at(nearest))
-        nearest = nearest_to(s, agrees_at, (scan_.point[s] - at(nearest)).norm() + reach_);
-      if (nearest < 0) continue;
-      if (any_side) {
-        foot.cell = cells_.at_point(nearest)[0].cell;
-        foot.shares = nearest_on(foot.cell, scan_.point[s]).shares;
-      } else {
-        descend(s, nearest, foot, std::numeric_limits<double>::max());
-      }
-      finish(s, foot);
+  workers_.for_each(scan_.size(), vertex_grain, [&](std::size_t s) {
+    Foot& foot = feet[s];
+    if (foot.cell >= 0 && std::abs(distance(s, foot)) <= beyond) return;
+    foot = {};
+    Index nearest = nearest_to(s, is_used, std::numeric_limits<float>::max());
+    const auto agrees_at = [&](Index p) {
+      for (const auto& [cell, corner] : cells_.at_point(p))
+        if (agrees(cell, s)) return true;
+      return false;
+    };
+    // the search has a bound: for a scan that is inside out it would visit the whole surface
+    if (nearest >= 0 && !any_side && !agrees_at(nearest))
+      nearest = nearest_to(s, agrees_at, (scan_.point[s] - at(nearest)).norm() + reach_);
+    if (nearest < 0) return;
+    if (any_side) {
+      foot.cell = cells_.at_point(nearest)[0].cell;
+      foot.shares = nearest_on(foot.cell, scan_.point[s]).shares;
+    } else {
+      descend(s, nearest, foot, std::numeric_limits<double>::max());
     }
+    finish(s, foot);
   });
 }
 
 void FeetFinder::follow(Array<Foot>& feet) const {
-  workers_.for_parts(feet.size(), vertex_grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t s = begin; s < end; ++s) {
-      Foot& foot = feet[s];
-      if (foot.cell < 0) continue;
-      const Nearest here = nearest_on(foot.cell, scan_.point[s]);
-      foot.shares = here.shares;
-      // a foot inside its cell is the nearest; otherwise adjacent cells are tried
-      const bool inside =
-          std::all_of(foot.shares.begin(), foot.shares.begin() + (cells_.quad(foot.cell) ? 4 : 3),
-                      [](float share) { return share > 0; });
-      if (!inside) {
-        descend(s, cells_.corners(foot.cell)[nearest_corner(foot.shares)], foot, here.square);
-      }
-      finish(s, foot);
+  workers_.for_each(feet.size(), vertex_grain, [&](std::size_t s) {
+    Foot& foot = feet[s];
+    if (foot.cell < 0) return;
+    const Nearest here = nearest_on(foot.cell, scan_.point[s]);
+    foot.shares = here.shares;
+    // a foot inside its cell is the nearest; otherwise adjacent cells are tried
+    const bool inside =
+        std::all_of(foot.shares.begin(), foot.shares.begin() + (cells_.quad(foot.cell) ? 4 : 3),
+                    [](float share) { return share > 0; });
+    if (!inside) {
+      descend(s, cells_.corners(foot.cell)[nearest_corner(foot.shares)], foot, here.square);
     }
+    finish(s, foot);
   });
 }
 
 void FeetFinder::measure(Array<Foot>& feet) const {
-  workers_.for_parts(feet.size(), vertex_grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t s = begin; s < end; ++s) finish(s, feet[s]);
-  });
+  workers_.for_each(feet.size(), vertex_grain, [&](std::size_t s) { finish(s, feet[s]); });
 }
 
 }  // namespace fairing

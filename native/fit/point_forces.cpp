@@ -36,32 +36,28 @@ void PointForces::sum(const FeetFinder& finder, const Array<Foot>& feet,
                       Array<Vec3>& force) {
   sort(feet, robust_weight);
   slot_.resize(cells_.size());
-  workers_.for_parts(cells_.size(), vertex_grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t c = begin; c < end; ++c) {
-      auto& slot = slot_[c];
-      slot.fill(Eigen::Vector4d::Zero());
-      if (begin_[c] == begin_[c + 1]) continue;
-      const std::array<Vec3, 4> normals = finder.corner_normals(Index(c));
-      for (Index k = begin_[c]; k < begin_[c + 1]; ++k) {
-        const auto s = std::size_t(sorted_[k]);
-        const Foot& foot = feet[s];
-        Eigen::Vector4d force_and_weight;
-        force_and_weight << double(foot.offset) * FeetFinder::normal_at(foot, normals), 1;
-        for (std::size_t a = 0; a < 4; ++a)
-          slot[a] += double(robust_weight[s]) * double(foot.shares[a]) * force_and_weight;
-      }
+  workers_.for_each(cells_.size(), vertex_grain, [&](std::size_t c) {
+    auto& slot = slot_[c];
+    slot.fill(Eigen::Vector4d::Zero());
+    if (begin_[c] == begin_[c + 1]) return;
+    const std::array<Vec3, 4> normals = finder.corner_normals(Index(c));
+    for (Index k = begin_[c]; k < begin_[c + 1]; ++k) {
+      const auto s = std::size_t(sorted_[k]);
+      const Foot& foot = feet[s];
+      Eigen::Vector4d force_and_weight;
+      force_and_weight << double(foot.offset) * FeetFinder::normal_at(foot, normals), 1;
+      for (std::size_t a = 0; a < 4; ++a)
+        slot[a] += double(robust_weight[s]) * double(foot.shares[a]) * force_and_weight;
     }
   });
   const std::size_t points = cells_.grid().size();
   weight.resize(points);
   force.resize(points);
-  workers_.for_parts(points, vertex_grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p) {
-      Eigen::Vector4d sum = Eigen::Vector4d::Zero();
-      for (const auto& [cell, corner] : cells_.at_point(Index(p))) sum += slot_[cell][corner];
-      force[p] = sum.head<3>();
-      weight[p] = sum[3];
-    }
+  workers_.for_each(points, vertex_grain, [&](std::size_t p) {
+    Eigen::Vector4d sum = Eigen::Vector4d::Zero();
+    for (const auto& [cell, corner] : cells_.at_point(Index(p))) sum += slot_[cell][corner];
+    force[p] = sum.head<3>();
+    weight[p] = sum[3];
   });
 }
 

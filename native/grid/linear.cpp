@@ -42,17 +42,12 @@ void refine_linearly(const GridLevel& grid, std::span<const Vec3> control, Worke
   for_each_run(grid, workers, [&](const Run& run) { refine_run(grid, control, run, x); });
 }
 
-void refine_linearly(const GridLevel& grid, std::span<const Vec3> control, double* x) {
-  for_each_run(grid, [&](const Run& run) { refine_run(grid, control, run, x); });
-}
-
 void refine_outside_linearly(const GridLevel& grid, std::span<const Vec3> control, double* x) {
   const ControlMesh& mesh = grid.mesh();
   if (mesh.region.whole()) return;
   for_each_run(grid, [&](const Run& run) {
-    if (run.kind == RunKind::edge && mesh.edge_part(run.element) == RegionPart::inside) return;
-    if (run.kind == RunKind::face_row && mesh.face_part(run.element) == RegionPart::inside) return;
-    if (run.kind != RunKind::vertex) refine_run(grid, control, run, x);
+    if (run.kind != RunKind::vertex && part_of_region(mesh, run) != RegionPart::inside)
+      refine_run(grid, control, run, x);
   });
 }
 

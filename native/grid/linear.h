@@ -10,8 +10,6 @@ namespace fairing {
 // x <- the control polyhedron on a level: flat triangles, bilinear quads. 3 numbers a point.
 void refine_linearly(const GridLevel& grid, std::span<const Vec3> control, Workers& workers,
                      double* x);
-// The same on the calling thread alone.
-void refine_linearly(const GridLevel& grid, std::span<const Vec3> control, double* x);
 
 // The same for edges and faces outside the region and on its joint only; the rest of x stays.
 void refine_outside_linearly(const GridLevel& grid, std::span<const Vec3> control, double* x);

@@ -9,15 +9,6 @@ namespace fairing {
 // Whether a grid step leads across a quad.
 constexpr bool is_far(bool quad, GridPoint step) { return quad && step.i * step.j != 0; }
 
-// How many neighbours the points of a run have.
-inline std::size_t neighbours(const ControlMesh& mesh, const Run& run) {
-  switch (run.kind) {
-    case RunKind::vertex: return std::size_t(ring_size(mesh, run.element));
-    case RunKind::edge: return std::size_t(run.ring->size);
-    default: return face_ring(run.quad).size();
-  }
-}
-
 // The common shape of the rings of a run.
 struct RingShape {
   std::vector<std::uint8_t> far;  // of the neighbours: whether they are across a quad

@@ -25,9 +25,39 @@ namespace fairing {
 
 enum class RunKind : std::uint8_t { vertex, edge, face_row };
 
-struct Run {
+// A control vertex, edge or face.
+struct Element {
   RunKind kind;
-  Index element;      // the control vertex, edge or face
+  Index element;
+};
+
+// How many neighbours the points of an element have.
+inline std::size_t neighbours(const ControlMesh& mesh, const Element& of) {
+  switch (of.kind) {
+    case RunKind::vertex: return std::size_t(ring_size(mesh, of.element));
+    case RunKind::edge: return std::size_t(EdgeRingLanes(mesh, of.element).size);
+    default: return face_ring(mesh.faces[of.element].quad()).size();
+  }
+}
+
+inline RegionPart part_of_region(const ControlMesh& mesh, const Element& of) {
+  switch (of.kind) {
+    case RunKind::vertex: return mesh.vertex_part(of.element);
+    case RunKind::edge: return mesh.edge_part(of.element);
+    default: return mesh.face_part(of.element);
+  }
+}
+
+// Whether the surface has divided differences at the points of an element.
+inline bool has_fit(const ControlMesh& mesh, const Element& of) {
+  switch (of.kind) {
+    case RunKind::vertex: return mesh.vertex_fit(of.element);
+    case RunKind::edge: return mesh.edge_fit(of.element);
+    default: return mesh.face_part(of.element) == RegionPart::inside;
+  }
+}
+
+struct Run : Element {
   int row;            // from 1 inside a face; otherwise 0
   bool quad;          // whether it is a row of a quad
   std::size_t first;  // its first point

@@ -131,10 +131,9 @@ double highest_rise(const Face& face, const FacePlane& plane, double turn, const
 // finely its sides are divided.
 std::vector<double> areas_of_sides(const ControlMesh& mesh, std::span<const FacePlane> planes) {
   UnionFind parts(planes.size());
-  for (const Edge& edge : mesh.edges) {
-    if (edge.boundary()) continue;
-    const Index f = mesh.sides[edge.side[0]].face;
-    const Index o = mesh.sides[edge.side[1]].face;
+  for (Index e = 0; e < Index(mesh.edges.size()); ++e) {
+    if (mesh.edges[e].boundary()) continue;
+    const Index f = mesh.face_beside(e, 0), o = mesh.face_beside(e, 1);
     const double turn = angle_between(planes[f].normal, planes[o].normal);
     if (turn * turn < single_roundoff) parts.unite(f, o);
   }
@@ -162,15 +161,13 @@ ThicknessChange Thickness::of(const GridLevel& grid, Workers& workers, const dou
   if (grid.n() == 1) return out;
   // For each face the move of its centre from its plane, and of the point behind it from the other.
   std::vector<double> away(planes_.size()), away_behind(planes_.size());
-  workers.for_parts(away.size(), 64, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t f = begin; f < end; ++f) {
-      const auto departure = [&](std::size_t side, const Vec3& point) {
-        return planes_[side].normal.dot(point - planes_[side].middle);
-      };
-      away[f] = departure(f, middle(grid, Index(f), x));
-      const Index o = opposite_[f].face;
-      if (o >= 0) away_behind[f] = departure(std::size_t(o), behind(grid, o, planes_[f], x));
-    }
+  workers.for_each(away.size(), 64, [&](std::size_t f) {
+    const auto departure = [&](std::size_t side, const Vec3& point) {
+      return planes_[side].normal.dot(point - planes_[side].middle);
+    };
+    away[f] = departure(f, middle(grid, Index(f), x));
+    const Index o = opposite_[f].face;
+    if (o >= 0) away_behind[f] = departure(std::size_t(o), behind(grid, o, planes_[f], x));
   });
   std::vector<std::pair<Index, double>> seen;
   double swollen = 0;

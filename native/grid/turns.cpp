@@ -12,7 +12,7 @@ double turn_on_edge(const GridLevel& grid, Index e, const double* x, std::vector
     return Vec3(Eigen::Map<const Vec3>(lanes.lane[lane] + 3 * k));
   };
   const auto cell = [&](std::size_t h, int from, int to) {
-    const Face& face = grid.mesh().faces[face_beside(grid.mesh(), e, h)];
+    const Face& face = grid.mesh().faces[grid.mesh().face_beside(e, h)];
     const Vec3 a = at(0, from), b = at(0, to);
     if (face.quad()) return left_cell(a, b, at(1 + h, from), at(1 + h, to));
     return left_cell(a, b, at(1 + h, std::min(from, to)));
@@ -47,7 +47,7 @@ std::vector<double> sharpest_turns(const GridLevel& grid, Workers& workers, cons
   });
   for (Index e = 0; e < Index(mesh.edges.size()); ++e)
     for (std::size_t h = 0; h < 2 && is_joined(mesh, e); ++h) {
-      double& most = turns[face_beside(mesh, e, h)];
+      double& most = turns[mesh.face_beside(e, h)];
       most = std::max(most, on_edge[e]);
     }
   return turns;

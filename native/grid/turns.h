@@ -40,10 +40,6 @@ inline bool is_joined(const ControlMesh& mesh, Index e) {
          mesh.edge_part(e) != RegionPart::outside;
 }
 
-inline Index face_beside(const ControlMesh& mesh, Index e, std::size_t h) {
-  return mesh.sides[mesh.edges[e].side[h]].face;
-}
-
 // A cell of a surface: a normal of any length, and the largest extent.
 struct CellPlane {
   Vec3 normal;

@@ -221,10 +221,14 @@ struct ControlMesh {
   }
   // Whether split_polygons has added the edge.
   bool inside_polygon(Index e) const {
-    const Edge& edge = edges[e];
-    const auto polygon = [&](std::size_t h) { return faces[sides[edge.side[h]].face].polygon; };
-    return !edge.boundary() && polygon(0) == polygon(1);
+    const auto polygon = [&](std::size_t h) { return faces[face_beside(e, h)].polygon; };
+    return !edges[e].boundary() && polygon(0) == polygon(1);
   }
+
+  // The face on the left (h = 0) or the right of an edge, which must have one there.
+  Index face_beside(Index e, std::size_t h) const { return sides[edges[e].side[h]].face; }
+  // The vertex at the other end of a spoke.
+  Index end_of(const Spoke& spoke) const { return edges[spoke.edge].vertex[spoke.outward ? 1 : 0]; }
 
   std::span<const Spoke> ring(Index v) const {
     return {spokes.data() + ring_offset[v], std::size_t(ring_offset[v + 1] - ring_offset[v])};

@@ -93,14 +93,11 @@ std::vector<Opposite> opposite_faces(const ControlMesh& mesh, std::span<const Ve
   const Eigen::KdBVH<double, 3, Corners> tree(triangles.begin(), triangles.end());
   const double inwards = six_volumes(planes) < 0 ? 1 : -1;
   std::vector<Opposite> out(mesh.faces.size());
-  workers.for_parts(std::size_t(mesh.first_copied_face()), 64,
-                    [&](std::size_t begin, std::size_t end) {
-                      for (std::size_t f = begin; f < end; ++f) {
-                        Ray ray{planes[f].middle, inwards * planes[f].normal, Index(f), planes};
-                        Eigen::BVMinimize(tree, ray);
-                        out[f] = ray.next;
-                      }
-                    });
+  workers.for_each(std::size_t(mesh.first_copied_face()), 64, [&](std::size_t f) {
+    Ray ray{planes[f].middle, inwards * planes[f].normal, Index(f), planes};
+    Eigen::BVMinimize(tree, ray);
+    out[f] = ray.next;
+  });
   return out;
 }
 

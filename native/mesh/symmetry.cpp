@@ -67,9 +67,8 @@ Index PointSearch::at(const Vec3& p, double tolerance) const {
 Index side_between(const ControlMesh& mesh, Index a, Index b) {
   const bool at_a = mesh.ring(a).size() <= mesh.ring(b).size();
   for (const Spoke& spoke : mesh.ring(at_a ? a : b)) {
-    const Edge& edge = mesh.edges[spoke.edge];
-    if (edge.vertex[spoke.outward ? 1 : 0] == (at_a ? b : a))
-      return edge.side[edge.vertex[0] == a ? 0 : 1];
+    if (mesh.end_of(spoke) == (at_a ? b : a))
+      return mesh.edges[spoke.edge].side[spoke.outward == at_a ? 0 : 1];
   }
   return -1;
 }

@@ -119,10 +119,9 @@ void LineJacobi::refactor() {
 }
 
 void LineJacobi::factor() {
-  workers_.for_parts(bundle_.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t b = begin; b < end; ++b)
-      for (std::size_t l = 0; l < lanes && lanes * b + l < order_.size(); ++l)
-        factor_line(order_[lanes * b + l], bundle_[b], l);
+  workers_.for_each(bundle_.size(), 1, [&](std::size_t b) {
+    for (std::size_t l = 0; l < lanes && lanes * b + l < order_.size(); ++l)
+      factor_line(order_[lanes * b + l], bundle_[b], l);
   });
   band_.clear();
 }
@@ -159,17 +158,15 @@ void LineJacobi::factor_line(std::size_t line, Bundle& b, std::size_t lane) cons
 void LineJacobi::add(float step, const float* r, float* x, float* change) const {
   if (!serves_) return;
   const std::size_t components = op_.components();
-  workers_.for_parts(bundle_.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t b = begin; b < end; ++b) {
-      const LineJob job{
-          &bundle_[b], step,
-          r,           x,
-          change,      room_in(thread_scratch<float>().work, components * bundle_[b].point.size())};
-      if (components == 3)
-        run_loop<LineLoop<3>::template Of, float>(&job);
-      else
-        run_loop<LineLoop<1>::template Of, float>(&job);
-    }
+  workers_.for_each(bundle_.size(), 1, [&](std::size_t b) {
+    const LineJob job{
+        &bundle_[b], step,
+        r,           x,
+        change,      room_in(thread_scratch<float>().work, components * bundle_[b].point.size())};
+    if (components == 3)
+      run_loop<LineLoop<3>::template Of, float>(&job);
+    else
+      run_loop<LineLoop<1>::template Of, float>(&job);
   });
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/roundoff.h"
+#include "mesh/normal.h"
 
 namespace fairing {
 namespace {
@@ -44,20 +45,14 @@ void blend(const Array<double>& from, double alpha, double scale, Array<double>&
 
 Chart TangentCharts::vertex(Index v) const {
   const auto ring = mesh().ring(v);
-  Vec3 normal = Vec3::Zero();
-  for (const Spoke& spoke : ring)
-    if (spoke.face >= 0) {
-      const Corner c = corner(mesh(), mesh().faces[spoke.face], spoke.corner);
-      normal += c.along.cross(c.up);
-    }
+  const Vec3 normal = control_normal(mesh(), v);
   Chart chart = ChartMaker::vertex(v);
   if (normal.norm() == 0) return chart;  // no tangent plane there
   const Frame frame(normal);
   chart.ring.clear();
   for (const Spoke& spoke : ring) {
-    const Edge& edge = mesh().edges[spoke.edge];
-    const Index other = edge.vertex[spoke.outward ? 1 : 0];
-    chart.ring.push_back(frame.project(mesh().positions[other] - mesh().positions[v]));
+    chart.ring.push_back(
+        frame.project(mesh().positions[mesh().end_of(spoke)] - mesh().positions[v]));
     if (spoke.face < 0) break;
     const Face& face = mesh().faces[spoke.face];
     if (face.quad()) {

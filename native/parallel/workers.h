@@ -59,6 +59,14 @@ class Workers {
     });
   }
 
+  // Calls body(i) for each i in [0, size), likewise.
+  template <class Body>
+  void for_each(std::size_t size, std::size_t grain, Body&& body) {
+    for_parts(size, grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) body(i);
+    });
+  }
+
  private:
   using Task = void (*)(void*, int);
   using State = std::uint64_t;

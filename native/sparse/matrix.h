@@ -201,11 +201,10 @@ class AssembledMatrix {
   // Calls visit(row, column, number) for all numbers, in parallel; a row is visited by one thread.
   template <class Visit>
   void visit_numbers(Workers& workers, const Visit& visit) const {
-    workers.for_parts(chunk_.size(), 1, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t c = begin; c < end; ++c)
-        visit_chunk(chunk_[c], [&](std::size_t row, std::size_t column, float number) {
-          visit(Index(c * chunk_rows + row), Index(chunk_[c].column[column]), number);
-        });
+    workers.for_each(chunk_.size(), 1, [&](std::size_t c) {
+      visit_chunk(chunk_[c], [&](std::size_t row, std::size_t column, float number) {
+        visit(Index(c * chunk_rows + row), Index(chunk_[c].column[column]), number);
+      });
     });
   }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sparse/ring_rows.h"
 
-#include "grid/ring_shape.h"
+#include "grid/runs.h"
 #include "stencil/stencils.h"
 
 namespace fairing {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sparse/ring_table.h"
 
-#include "grid/ring_shape.h"
+#include "grid/runs.h"
 #include "parallel/cancel.h"
 
 namespace fairing {

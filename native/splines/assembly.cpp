@@ -107,15 +107,13 @@ bool at_kink(const Fits& fits, std::size_t c, double t, Kink least) {
 // patches, except at kinks that are `unjudged` or sharper.
 template <class Visit>
 void along_edges(const Fits& fits, const EdgeParts& edges, Kink unjudged, Visit&& visit) {
-  fits.workers.for_parts(edges.parts.size(), 16, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t e = begin; e < end; ++e) {
-      const EdgePart& part = edges.parts[e];
-      if (!meets_smoothly(fits.topology, part.curve) || part.uses.size() != 2) continue;
-      const int steps = (angles_an_edge - 1) * std::max(1, (part.to - part.from) / 2);
-      for (int k = 0; k <= steps; ++k) {
-        const double share = double(k) / steps, t = part.on_curve(share);
-        if (!at_kink(fits, part.curve, t, unjudged)) visit(e, share, t);
-      }
+  fits.workers.for_each(edges.parts.size(), 16, [&](std::size_t e) {
+    const EdgePart& part = edges.parts[e];
+    if (!meets_smoothly(fits.topology, part.curve) || part.uses.size() != 2) return;
+    const int steps = (angles_an_edge - 1) * std::max(1, (part.to - part.from) / 2);
+    for (int k = 0; k <= steps; ++k) {
+      const double share = double(k) / steps, t = part.on_curve(share);
+      if (!at_kink(fits, part.curve, t, unjudged)) visit(e, share, t);
     }
   });
 }

@@ -145,8 +145,7 @@ bool cut_before(HalfEdge h, std::vector<FaceGrid>& grids) {
   for (std::size_t g = 0; g < grids.size(); ++g)
     for (int s = 0; s < 4; ++s)
       for (int q = 1; q < length(grids[g], s); ++q) {
-        const HalfEdge own = half_edge(grids[g], s, q);
-        if (own.face != h.face || own.side != h.side) continue;
+        if (half_edge(grids[g], s, q) != h) continue;
         auto [first, rest] = cut_above(turned(grids[g], (s + 3) % 4), q);  // it is the second side
         grids[g] = std::move(first);
         grids.push_back(std::move(rest));

@@ -67,7 +67,7 @@ class Fitting {
   static void take(const std::vector<Index>& from, std::vector<T>& all) {
     auto old = std::exchange(all, std::vector<T>(from.size()));
     for (std::size_t k = 0; k < from.size(); ++k)
-      if (from[k] >= 0) all[k] = std::move(old[std::size_t(from[k])]);
+      if (from[k] >= 0) all[k] = std::move(old[from[k]]);
   }
 
   static std::vector<std::uint8_t> are_new(const std::vector<Index>& from) {
@@ -125,9 +125,7 @@ class Fitting {
   }
   template <class Body>
   void for_each(std::size_t size, Body&& body) {
-    workers_.for_parts(size, 1, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k) body(k);
-    });
+    workers_.for_each(size, 1, [&](std::size_t k) { body(k); });
   }
 
   void hold_to_line(CurveData& data, std::size_t curve) const {
@@ -161,7 +159,7 @@ class Fitting {
     for_each(3 * std::size_t(lattice_.triangle_faces()), [&](std::size_t k) {
       const Index f = Index(k / 3);
       const int s = int(k % 3);
-      if (!which[chains + k] && !which[std::size_t(topology_.chain_of({f, s}))]) return;
+      if (!which[chains + k] && !which[topology_.chain_of({f, s})]) return;
       CurveData data = source.inner(f, s, curves_);
       hold_to_line(data, chains + k);
       curves_[chains + k] = fit_curve(
@@ -179,8 +177,8 @@ class Fitting {
     data.tolerance = tolerance() / 2;
     data.normal_tolerance = options_.normal_tolerance / 2;    // two patches meet
     data.may_fold = place.several() || turns_sharply(place);  // several are cut in two
-    for (const int s : {0, 2}) spans_u = std::max(spans_u, data.side[std::size_t(s)].spans);
-    for (const int s : {1, 3}) spans_v = std::max(spans_v, data.side[std::size_t(s)].spans);
+    for (const int s : {0, 2}) spans_u = std::max(spans_u, data.side[s].spans);
+    for (const int s : {1, 3}) spans_v = std::max(spans_v, data.side[s].spans);
     const int most_u = std::max(place.most_spans(lattice_, place.grid.columns), spans_u),
               most_v = std::max(place.most_spans(lattice_, place.grid.rows), spans_v);
     const auto fit = [&](int u, int v, bool last) {
@@ -207,9 +205,8 @@ class Fitting {
   }
 
   bool turns_sharply(const PatchPlace& place) const {
-    return std::ranges::any_of(place.grid.faces, [&](const PlacedFace& face) {
-      return turns_[std::size_t(face.face)] > folded;
-    });
+    return std::ranges::any_of(place.grid.faces,
+                               [&](const PlacedFace& face) { return turns_[face.face] > folded; });
   }
 
   // The flagged patches.
@@ -232,8 +229,8 @@ class Fitting {
         if (const PatchPlace& place = topology_.patches[p];
             fitted_[p].misses.folds && !place.several() && !turns_sharply(place))
           for (const PatchSide& side : place.side)
-            if (std::uint8_t& own = strict_[std::size_t(side.curve)]; own < strict) {
-              which[std::size_t(side.curve)] = 1;
+            if (std::uint8_t& own = strict_[side.curve]; own < strict) {
+              which[side.curve] = 1;
               own = strict;
             }
       fit_again(which);
@@ -278,12 +275,12 @@ class Fitting {
     if (!any(which)) return false;
     fit_curves(which);
     for (std::size_t k = 0; k < 3 * std::size_t(lattice_.triangle_faces()); ++k)
-      if (which[std::size_t(topology_.chain_of({Index(k / 3), int(k % 3)}))])
+      if (which[topology_.chain_of({Index(k / 3), int(k % 3)})])
         which[topology_.chains.size() + k] = 1;
     std::vector<std::uint8_t> beside;
     for (const PatchPlace& place : topology_.patches)
       beside.push_back(std::ranges::any_of(
-          place.side, [&](const PatchSide& side) { return which[std::size_t(side.curve)]; }));
+          place.side, [&](const PatchSide& side) { return which[side.curve]; }));
     fit_patches(beside);
     return true;
   }

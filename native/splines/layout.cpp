@@ -184,8 +184,7 @@ class Layout {
         const PlacedFace& left = row.back();
         const HalfEdge shared{left.face, (left.turn + 1) % 4};
         const HalfEdge across = topology_.twin(shared);
-        if (drawn_[edge(shared)] || across.face != other.face ||
-            across.side != (other.side + 3) % 4 || other.face == row.front().face)
+        if (drawn_[edge(shared)] || across != before(other) || other.face == row.front().face)
           return {};
       }
       row.push_back({other.face, other.side});
@@ -245,11 +244,9 @@ class Layout {
   }
 
   bool lies_on(const FaceGrid& grid, const FaceGrid& other) const {
-    for (int q = 0; q < grid.columns; ++q) {
-      const HalfEdge there = topology_.twin(half_edge(grid, 2, grid.columns - 1 - q)),
-                     wanted = half_edge(other, 0, q);
-      if (there.face != wanted.face || there.side != wanted.side) return false;
-    }
+    for (int q = 0; q < grid.columns; ++q)
+      if (topology_.twin(half_edge(grid, 2, grid.columns - 1 - q)) != half_edge(other, 0, q))
+        return false;
     return true;
   }
 
@@ -263,17 +260,21 @@ class Layout {
 
 }  // namespace
 
-HalfEdge half_edge(const FaceGrid& grid, int s, int q) {
-  const int i = s == 0   ? q
-                : s == 1 ? grid.columns - 1
-                : s == 2 ? grid.columns - 1 - q
-                         : 0,
-            j = s == 0   ? 0
-                : s == 1 ? q
-                : s == 2 ? grid.rows - 1
-                         : grid.rows - 1 - q;
-  const PlacedFace& placed = grid.faces[j * grid.columns + i];
+namespace {
+
+// The face at (i, j) of the grid with side s as the first one.
+PlacedFace face_in_turned(const FaceGrid& grid, int s, int i, int j) {
+  const int right = grid.columns - 1, top = grid.rows - 1;
+  const int column[4] = {i, right - j, right - i, j}, row[4] = {j, i, top - j, top - i};
+  const PlacedFace& placed = grid.faces[row[s] * grid.columns + column[s]];
   return {placed.face, (placed.turn + s) % 4};
+}
+
+}  // namespace
+
+HalfEdge half_edge(const FaceGrid& grid, int s, int q) {
+  const PlacedFace placed = face_in_turned(grid, s, q, 0);
+  return {placed.face, placed.turn};
 }
 
 FaceGrid turned(const FaceGrid& grid, int s) {
@@ -281,18 +282,7 @@ FaceGrid turned(const FaceGrid& grid, int s) {
   FaceGrid out{columns, rows, {}};
   out.faces.reserve(grid.faces.size());
   for (int j = 0; j < rows; ++j)
-    for (int i = 0; i < columns; ++i) {
-      const int a = s == 0   ? i
-                    : s == 1 ? grid.columns - 1 - j
-                    : s == 2 ? grid.columns - 1 - i
-                             : j,
-                b = s == 0   ? j
-                    : s == 1 ? i
-                    : s == 2 ? grid.rows - 1 - j
-                             : grid.rows - 1 - i;
-      const PlacedFace& placed = grid.faces[b * grid.columns + a];
-      out.faces.push_back({placed.face, (placed.turn + s) % 4});
-    }
+    for (int i = 0; i < columns; ++i) out.faces.push_back(face_in_turned(grid, s, i, j));
   return out;
 }
 

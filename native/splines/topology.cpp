@@ -88,13 +88,12 @@ void find_sectors(const Lattice& lattice, Topology& out) {
 HalfEdge Topology::twin(HalfEdge h) const {
   const ControlEdge& own = edge(h);
   if (own.uses.size() != 2) return {};
-  const bool first = own.uses[0].face == h.face && own.uses[0].side == h.side;
-  return own.uses[first ? 1 : 0];
+  return own.uses[own.uses[0] == h ? 1 : 0];
 }
 
 bool Topology::runs_back(HalfEdge h) const {
   for (const SideUse& use : edge(h).uses)
-    if (use.face == h.face && use.side == h.side) return use.reversed;
+    if (use == h) return use.reversed;
   return false;
 }
 

@@ -19,6 +19,8 @@ enum class EdgeKind : std::uint8_t { smooth, crease, boundary };
 struct HalfEdge {
   Index face = -1;
   int side = 0;
+
+  bool operator==(const HalfEdge&) const = default;
 };
 
 struct SideUse : HalfEdge {

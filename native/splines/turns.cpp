@@ -22,14 +22,12 @@ CellPlane beside_edge(const Lattice& lattice, const SideUse& use, int k) {
 std::vector<double> lattice_turns(const Lattice& lattice, const Topology& topology, double least,
                                   Workers& workers) {
   std::vector<double> turns(std::size_t(lattice.faces()));
-  workers.for_parts(turns.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto f = Index(i);
-      const auto tip = [&](GridPoint p) { return in_tip(lattice, topology, f, p); };
-      turns[i] = turn_in_face(
-          lattice.quad(f), lattice.n(), least, [&](GridPoint p) { return lattice.position(f, p); },
-          [&](GridPoint a, GridPoint b) { return !tip(a) && !tip(b); });
-    }
+  workers.for_each(turns.size(), 1, [&](std::size_t i) {
+    const auto f = Index(i);
+    const auto tip = [&](GridPoint p) { return in_tip(lattice, topology, f, p); };
+    turns[i] = turn_in_face(
+        lattice.quad(f), lattice.n(), least, [&](GridPoint p) { return lattice.position(f, p); },
+        [&](GridPoint a, GridPoint b) { return !tip(a) && !tip(b); });
   });
   for (const std::size_t e : Cancellable(topology.edges.size())) {
     const ControlEdge& edge = topology.edges[e];

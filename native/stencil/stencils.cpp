@@ -8,11 +8,6 @@
 namespace fairing {
 namespace {
 
-struct Element {
-  RunKind kind;
-  Index id;  // of the vertex, edge or face
-};
-
 Element element_at(const ControlMesh& mesh, std::size_t element) {
   const auto vertices = std::size_t(mesh.vertex_count()), edges = mesh.edges.size();
   if (element < vertices) return {RunKind::vertex, Index(element)};
@@ -20,27 +15,11 @@ Element element_at(const ControlMesh& mesh, std::size_t element) {
   return {RunKind::face_row, Index(element - vertices - edges)};
 }
 
-std::size_t neighbours(const ControlMesh& mesh, const Element& element) {
-  switch (element.kind) {
-    case RunKind::vertex: return std::size_t(ring_size(mesh, element.id));
-    case RunKind::edge: return std::size_t(EdgeRingLanes(mesh, element.id).size);
-    default: return face_ring(mesh.faces[element.id].quad()).size();
-  }
-}
-
-bool has_fit(const ControlMesh& mesh, const Element& element) {
-  switch (element.kind) {
-    case RunKind::vertex: return mesh.vertex_fit(element.id);
-    case RunKind::edge: return mesh.edge_fit(element.id);
-    default: return mesh.face_part(element.id) == RegionPart::inside;
-  }
-}
-
 Chart chart_of(const ChartMaker& charts, const Element& element) {
   switch (element.kind) {
-    case RunKind::vertex: return charts.vertex(element.id);
-    case RunKind::edge: return charts.edge(element.id);
-    default: return charts.face(element.id);
+    case RunKind::vertex: return charts.vertex(element.element);
+    case RunKind::edge: return charts.edge(element.element);
+    default: return charts.face(element.element);
   }
 }
 
@@ -87,9 +66,7 @@ Stencils make_stencils(const ControlMesh& mesh, const ChartMaker& charts, Worker
   s.energy.resize(s.begin[elements]);
   s.rows.resize(5 * s.begin[rings]);
   s.half.resize(5 * s.begin[rings]);
-  workers.for_parts(elements, 64, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t e = begin; e < end; ++e) fill(mesh, charts, e, s);
-  });
+  workers.for_each(elements, 64, [&](std::size_t e) { fill(mesh, charts, e, s); });
   s.tension = make_membrane(mesh, charts, s.begin, membrane);
   return s;
 }

@@ -56,15 +56,6 @@ double Stiffness::compliance(double c, double steps) const {
   return 1 + hinge * c * n_ * n_ / radius * share;
 }
 
-double Stiffness::point(const Run& run, std::size_t i) const {
-  const int k = int(i) + 1;
-  switch (run.kind) {
-    case RunKind::vertex: return vertex(run.element);
-    case RunKind::edge: return edge_point(run.element, k);
-    default: return face_point(run.element, k, run.row);
-  }
-}
-
 double Stiffness::vertex(Index v) const {
   return (is(mesh_.flat.vertex, v) ? flat_stiffness : 1.0) /
          (soft_vertex(v) ? compliance(at_vertex(v), 0) : 1.0);
@@ -86,23 +77,15 @@ double Stiffness::compliance_on_edge(Index e, int k) const {
                    compliance(at_vertex(ends[1]), n_ - k)});
 }
 
-// The distance to a side in steps is the row; the distance to a corner is the one that agrees with
-// the edges on both sides.
 double Stiffness::compliance_in_face(Index f, int i, int j) const {
   const Face& face = mesh_.faces[f];
-  const bool quad = face.quad();
-  const int far_i = quad ? n_ - i : n_ - i - j, far_j = n_ - j;
-  const int row_of_side[4] = {j, far_i, quad ? far_j : i, i};
   double most = 1;
-  for (int s = 0; s < face.size; ++s) {
-    const double row = row_of_side[s], before = row_of_side[(s + face.size - 1) % face.size];
-    const Side& side = mesh_.sides[face.first_side + s];
-    const double whole = quad ? n_ : n_ - row;
+  for_distances(face, n_, i, j, [&](std::size_t s, double row, double before, double corner) {
+    const Side& side = mesh_.sides[std::size_t(face.first_side) + s];
+    const double whole = face.quad() ? n_ : n_ - row;
     const double weight = on_edge(side.edge, side.reversed ? whole - before : before, whole);
-    most = std::max({most, compliance(weight, row),
-                     compliance(at_vertex(face.vertex[s]),
-                                quad ? row + before - row * before / n_ : row + before)});
-  }
+    most = std::max({most, compliance(weight, row), compliance(at_vertex(face.vertex[s]), corner)});
+  });
   return most;
 }
 

@@ -16,6 +16,30 @@
 
 namespace fairing {
 
+// The distances of the point (i, j) inside a face from its sides and corners, in grid steps: calls
+// visit(s, row, before, corner) with those from side s, from the side before, and from corner s
+// between them, which agrees with the edges on both sides.
+template <class Visit>
+void for_distances(const Face& face, int n, int i, int j, Visit&& visit) {
+  const bool quad = face.quad();
+  const int row_of_side[4] = {j, quad ? n - i : n - i - j, quad ? n - j : i, i};
+  for (int s = 0; s < face.size; ++s) {
+    const double row = row_of_side[s], before = row_of_side[(s + face.size - 1) % face.size];
+    visit(std::size_t(s), row, before, quad ? row + before - row * before / n : row + before);
+  }
+}
+
+// `factors` at point i of a run.
+template <class Factors>
+double factor_at(const Factors& factors, const Run& run, std::size_t i) {
+  const int k = int(i) + 1;
+  switch (run.kind) {
+    case RunKind::vertex: return factors.vertex(run.element);
+    case RunKind::edge: return factors.edge_point(run.element, k);
+    default: return factors.face_point(run.element, k, run.row);
+  }
+}
+
 class Stiffness {
  public:
   // The mesh of `grid` must outlive it; `grid` itself need not.
@@ -29,7 +53,7 @@ class Stiffness {
   bool any() const { return mesh_.soft.any() || !mesh_.flat.face.empty(); }
 
   // Stiffness at point i of a run; at a vertex, and at points on edges and in faces.
-  double point(const Run& run, std::size_t i) const;
+  double point(const Run& run, std::size_t i) const { return factor_at(*this, run, i); }
   double vertex(Index v) const;
   double edge_point(Index e, int k) const;
   double face_point(Index f, int i, int j) const;

@@ -28,15 +28,6 @@ bool EnergyWeight::weighs(const Run& run) const {
   }
 }
 
-double EnergyWeight::point(const Run& run, std::size_t i) const {
-  const int k = int(i) + 1;
-  switch (run.kind) {
-    case RunKind::vertex: return vertex(run.element);
-    case RunKind::edge: return edge_point(run.element, k);
-    default: return face_point(run.element, k, run.row);
-  }
-}
-
 double EnergyWeight::beside_joint(Index e, int k) const {
   if (!any()) return 1;
   if (clamped_edge(e)) return on_joint();
@@ -47,21 +38,15 @@ double EnergyWeight::beside_joint(Index e, int k) const {
   return off_joint(steps);
 }
 
-// The distance to a side in steps is the row; the distance to a corner is the one that agrees with
-// the edges on both sides.
 double EnergyWeight::beside_joint(Index f, int i, int j) const {
   if (!fades()) return 1;
   const Face& face = mesh_.faces[f];
-  const bool quad = face.quad();
-  const int far_i = quad ? n_ - i : n_ - i - j, far_j = n_ - j;
-  const int row_of_side[4] = {j, far_i, quad ? far_j : i, i};
   double steps = n_;
-  for (int s = 0; s < face.size; ++s) {
-    const double row = row_of_side[s], before = row_of_side[(s + face.size - 1) % face.size];
-    if (clamped_edge(mesh_.sides[face.first_side + s].edge)) steps = std::min(steps, row);
-    if (clamped_vertex(face.vertex[s]))
-      steps = std::min(steps, quad ? row + before - row * before / n_ : row + before);
-  }
+  for_distances(face, n_, i, j, [&](std::size_t s, double row, double, double corner) {
+    if (clamped_edge(mesh_.sides[std::size_t(face.first_side) + s].edge))
+      steps = std::min(steps, row);
+    if (clamped_vertex(face.vertex[s])) steps = std::min(steps, corner);
+  });
   return off_joint(std::max(steps, 1.0));  // only points inside the face count
 }
 

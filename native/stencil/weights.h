@@ -39,7 +39,7 @@ class EnergyWeight {
 
   // The same for a run's points; the factor at its point i.
   bool weighs(const Run& run) const;
-  double point(const Run& run, std::size_t i) const;
+  double point(const Run& run, std::size_t i) const { return factor_at(*this, run, i); }
 
   // The factor of the surface's own stiffness.
   const Stiffness& stiffness() const { return stiffness_; }

@@ -279,8 +279,7 @@ class Easing {
   void restore() {
     if (!mending_.mended()) return;
     const std::vector<Index>& origin = mending_.mended()->vertex_origin;
-    for (std::size_t v = 0; v < std::min(origin.size(), out_.moves.size()); ++v)
-      out_.moves[v] = out_.moves[origin[v]];
+    give_to_merged(origin, out_.moves);
     fairing::restore(out_.before, origin);
     fairing::restore(out_.after, origin);
   }

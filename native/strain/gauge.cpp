@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/median.h"
+#include "mesh/mend/mend.h"
 #include "mesh/normal.h"
 #include "strain/excess.h"
 
@@ -21,16 +22,13 @@ constexpr int rings_around = 2;
 }  // namespace
 
 void restore(Ways& ways, const std::vector<Index>& origin) {
-  for (std::size_t v = 0; v < std::min(origin.size(), ways.lengths.size()); ++v) {
-    ways.ways[v] = ways.ways[origin[v]];
-    ways.lengths[v] = ways.lengths[origin[v]];
-  }
+  give_to_merged(origin, ways.ways);
+  give_to_merged(origin, ways.lengths);
 }
 
 void restore(Excess& excess, const std::vector<Index>& origin) {
   restore(excess.own, origin);
-  for (std::size_t v = 0; v < std::min(origin.size(), excess.wrong.size()); ++v)
-    excess.wrong[v] = excess.wrong[origin[v]];
+  give_to_merged(origin, excess.wrong);
 }
 
 StrainGauge::StrainGauge(const FairingProblem& problem, FairingSystems& systems, int rings_apart,

@@ -12,7 +12,7 @@ namespace {
 template <class Visit>
 void visit_neighbours(const ControlMesh& mesh, Index v, Visit&& visit) {
   for (const Spoke& spoke : mesh.ring(v)) {
-    visit(mesh.edges[spoke.edge].vertex[spoke.outward ? 1 : 0]);
+    visit(mesh.end_of(spoke));
     if (spoke.face < 0 || !mesh.faces[spoke.face].quad()) continue;
     visit(mesh.faces[spoke.face].vertex[std::size_t(spoke.corner + 2) % 4]);
   }

@@ -134,8 +134,7 @@ Strain measure_strain(const PolygonMesh& input, const FairOptions& options, Moni
       const std::vector<Index>& origin = mending.mended()->vertex_origin;
       restore(out.all, origin);
       restore(out.excess, origin);
-      for (std::size_t v = 0; v < std::min(origin.size(), out.on_curve.size()); ++v)
-        out.on_curve[v] = out.on_curve[origin[v]];
+      give_to_merged(origin, out.on_curve);
     }
     monitor.report(Phase::done, 1);
     return out;

@@ -100,11 +100,9 @@ void PlateMatrix::write_lines(const Array<float>& inverse_diagonal, LineBand& ba
 
 Array<float> PlateMatrix::inverse_diagonal(Workers& workers) const {
   Array<float> inverse(points_);
-  workers.for_parts(points_, chunk_rows, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p) {
-      const float diagonal = rows_->diagonal(p) + (3 * p < weight_.size() ? weight_[3 * p] : 0.0f);
-      inverse[p] = diagonal > 0 ? 1 / diagonal : 1.0f;
-    }
+  workers.for_each(points_, chunk_rows, [&](std::size_t p) {
+    const float diagonal = rows_->diagonal(p) + (3 * p < weight_.size() ? weight_[3 * p] : 0.0f);
+    inverse[p] = diagonal > 0 ? 1 / diagonal : 1.0f;
   });
   return inverse;
 }

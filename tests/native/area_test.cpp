@@ -6,9 +6,9 @@
 
 #include "curvature/area.h"
 #include "curvature/level.h"
-#include "grid/linear.h"
 #include "level_settings.h"
 #include "parallel/reductions.h"
+#include "polyhedron.h"
 
 namespace fairing::test {
 namespace {

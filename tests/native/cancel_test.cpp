@@ -20,9 +20,7 @@ constexpr std::size_t size = 1000;
 // How often each index is visited.
 std::vector<int> visits(Workers& workers, std::size_t count, std::size_t grain) {
   std::vector<int> seen(count, 0);
-  workers.for_parts(count, grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) ++seen[i];
-  });
+  workers.for_each(count, grain, [&](std::size_t i) { ++seen[i]; });
   return seen;
 }
 

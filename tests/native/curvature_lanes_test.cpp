@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "curvature/rings.h"
-#include "grid/linear.h"
 #include "meshes.h"
+#include "polyhedron.h"
 #include "random.h"
 
 namespace fairing::test {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "curvature/level.h"
-#include "grid/linear.h"
 #include "meshes.h"
+#include "polyhedron.h"
 
 namespace fairing::test {
 namespace {

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "curvature/level.h"
-#include "grid/linear.h"
 #include "level_settings.h"
+#include "polyhedron.h"
 
 namespace fairing::test {
 namespace {
@@ -26,8 +26,10 @@ struct Penalized {
       : grid(mesh, level), shared{mesh, some_points(mesh, 1), workers}, energy(of), x(lumpy(grid)) {
     Reference reference{x, Array<float>(grid.size(), 1.5f)};
     for (std::size_t i = 0; i < x.size(); ++i) reference.points[i] += 0.01 * double(i % 7);
-    alone = system.linearize(x.data(), {energy}, &without);
-    system.set_penalty(DistancePenalty(grid, reference, without.shape, shared.unknowns));
+    alone = without_penalty.linearize(x.data(), {energy}, &without);
+    system.linearize(x.data(), {}, &at_first);
+    system.penalize(reference, x.data(), at_first);
+    objective = system.objective();
     whole = system.linearize(x.data(), {energy}, &with);
   }
 
@@ -36,9 +38,9 @@ struct Penalized {
   CurvatureShared shared;
   CurvatureEnergy energy;
   Array<double> x;
-  CurvatureLevel system{shared, grid};
-  Linearization without{}, with{};
-  double alone = 0, whole = 0;
+  CurvatureLevel system{shared, grid}, without_penalty{shared, grid};
+  Linearization without{}, at_first{}, with{};
+  double alone = 0, objective = 0, whole = 0;
 };
 
 // The penalty is quadratic, so differences on both sides give its slope.
@@ -66,6 +68,12 @@ TEST(DistancePenalty, ForceIsMinusHalfTheSlope) {
       }
       EXPECT_TRUE(any);
     }
+}
+
+TEST(DistancePenalty, IsAddedToTheLinearizationThatItsWeightsAreFrom) {
+  const Penalized at(all_meshes().at("mixed grid"), 2, CurvatureEnergy::total_curvature);
+  EXPECT_EQ(at.objective, at.whole);
+  EXPECT_EQ(at.at_first.force, at.with.force);
 }
 
 TEST(DistancePenalty, IsPartOfTheProductAndTheMatrix) {
@@ -100,10 +108,8 @@ TEST(DistancePenalty, IsInBothMatricesOfTheCyclesOfVariation) {
   const DistancePenalty penalty = *at.system.penalty();
   at.system.apply(in.data(), a.data());
   at.system.apply_between(in.data(), s.data());
-  at.system.set_penalty({});
-  at.system.linearize(at.x.data(), {at.energy});
-  at.system.apply(in.data(), a_alone.data());
-  at.system.apply_between(in.data(), s_alone.data());
+  at.without_penalty.apply(in.data(), a_alone.data());
+  at.without_penalty.apply_between(in.data(), s_alone.data());
   bool any = false;
   for (std::size_t p = 0; p < points; ++p) {
     const double q = penalty.in_cycles(p), d = penalty.between(p);

@@ -6,8 +6,8 @@
 
 #include "fit/feet.h"
 #include "fit/point_forces.h"
-#include "grid/linear.h"
 #include "level_settings.h"
+#include "polyhedron.h"
 #include "random.h"
 
 namespace fairing::test {

@@ -7,9 +7,9 @@
 #include <set>
 
 #include "curvature/level.h"
-#include "grid/linear.h"
 #include "level_settings.h"
 #include "multigrid/line_jacobi.h"
+#include "polyhedron.h"
 #include "thin_plate/level.h"
 #include "thin_plate/matrix.h"
 #include "thin_plate/operator.h"

@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "fairing/systems.h"
-#include "grid/linear.h"
 #include "meshes.h"
 #include "parallel/reductions.h"
+#include "polyhedron.h"
 
 namespace fairing::test {
 namespace {

@@ -6,9 +6,9 @@
 
 #include <Eigen/Geometry>
 
-#include "grid/linear.h"
 #include "grid/symmetrize.h"
 #include "meshes.h"
+#include "polyhedron.h"
 
 namespace fairing::test {
 namespace {

@@ -11,8 +11,8 @@
 #include <numbers>
 
 #include "curvature/point_curvature.h"
-#include "grid/linear.h"
 #include "meshes.h"
+#include "polyhedron.h"
 #include "random.h"
 #include "reference_rings.h"
 

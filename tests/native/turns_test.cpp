@@ -6,8 +6,8 @@
 
 #include <numbers>
 
-#include "grid/linear.h"
 #include "meshes.h"
+#include "polyhedron.h"
 
 namespace fairing::test {
 namespace {

@@ -8,6 +8,7 @@
 // std::bad_alloc.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
@@ -55,6 +56,13 @@ struct MendedMesh {
   // Other positions of the input's vertices, 3 numbers each, with merged vertices moved along.
   std::vector<double> placed(std::span<const double> coordinates) const;
 };
+
+// Gives merged vertices the values of those at their origin; `values` may be empty.
+template <class T>
+void give_to_merged(const std::vector<Index>& origin, std::vector<T>& values) {
+  for (std::size_t v = 0; v < std::min(origin.size(), values.size()); ++v)
+    values[v] = values[origin[v]];
+}
 
 // Throws the first defect that prevents mending.
 void require_mendable(const PolygonMesh& mesh);
