@@ -36,7 +36,6 @@ std::ptrdiff_t first_equal_surface(const PolygonMesh& input, const FairOptions& 
 void fair_once(FairingSystems& systems, const ControlPositions& control, bool measured,
                Stopwatch& watch, Report& report, Array<double>& points) {
   Surface surface = systems.solve(control, measured, watch, report);
-  systems.forget_steps();
   if (!surface.curved.points.empty()) surface.plate = {};
   systems.write(control, measured, watch, report, surface, surface.points().data());
   points = std::move(surface.points());
@@ -160,7 +159,7 @@ FairSolver::FairSolver(const PolygonMesh& input, const FairOptions& options, Mon
       })),
       systems_(mending_.in_input_ids([&] {
         const CancelScope scope(&monitor_);
-        return std::make_unique<FairingSystems>(*problem_, monitor_);
+        return std::make_unique<FairingSystems>(*problem_, monitor_, true);
       })),
       control_(problem_->basis),
       recent_(*problem_->workers) {
@@ -228,7 +227,9 @@ Report FairSolver::solve_mended(std::span<const double> coordinates, double* out
     systems_->plate();
     watch.enter(Phase::curves, 0);
     if (!coordinates.empty()) set_control(coordinates);
-    solve_basis_first(watch);
+    Report unused = built_;
+    if (std::optional<Surface> basis = systems_->solve_basis_before(control_, watch, unused))
+      recent_.remember(std::move(*basis), systems_->positions_of(problem_->basis));
     report.warm = !recent_.empty() && !options.has_tolerance() && solve_warm(watch, report);
     if (!report.warm) solve_cold(watch, report);
     write(watch, report, out);
@@ -238,21 +239,6 @@ Report FairSolver::solve_mended(std::span<const double> coordinates, double* out
     monitor_.report(Phase::done, 1);
     return report;
   });
-}
-
-// The metric of a limit surface and the fold repair of a plate are those of the basis, even if
-// another shape is solved first: so shapes can be mixed, and results do not depend on earlier ones.
-void FairSolver::solve_basis_first(Stopwatch& watch) {
-  const ControlPositions& basis = problem_->basis;
-  const bool has_metric =
-      !problem_->held.surface || systems_->plate().levels().is_measured(problem_->options.levels);
-  if ((has_metric && systems_->knows_folds()) ||
-      systems_->positions_of(control_) == systems_->positions_of(basis))
-    return;
-  Report unused = built_;
-  recent_.remember(systems_->solve(basis, false, watch, unused), systems_->positions_of(basis));
-  Array<double> repaired;
-  systems_->find_folds_of_basis(recent_.surface().plate.data(), repaired);
 }
 
 void FairSolver::solve_cold(Stopwatch& watch, Report& report) {
@@ -304,7 +290,7 @@ void FairSolver::rebase_mended(const PolygonMesh& input) {
     guarded([&] {
       forget_surfaces();
       auto problem = make_problem_about(input, *problem_, watch);
-      auto systems = std::make_unique<FairingSystems>(*problem, monitor_);
+      auto systems = std::make_unique<FairingSystems>(*problem, monitor_, true);
       ControlPositions control = problem->basis;
       control_ = std::move(control);
       systems_ = std::move(systems);

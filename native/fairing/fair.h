@@ -79,7 +79,6 @@ class FairSolver {
   Report solve_mended(std::span<const double> coordinates, double* out);
   void rebase_mended(const PolygonMesh& input);
   void set_control(std::span<const double> coordinates);
-  void solve_basis_first(Stopwatch& watch);
   void solve_cold(Stopwatch& watch, Report& report);
   bool solve_warm(Stopwatch& watch, Report& report);
   void write(Stopwatch& watch, Report& report, double* out);

@@ -34,8 +34,8 @@ PadReport report_of(const Pads& pads, std::size_t vertices, double unit) {
 
 }  // namespace
 
-FairingSystems::FairingSystems(const FairingProblem& problem, Monitor& monitor)
-    : problem_(problem), monitor_(monitor) {
+FairingSystems::FairingSystems(const FairingProblem& problem, Monitor& monitor, bool moves)
+    : problem_(problem), monitor_(monitor), moves_(moves) {
   plate();
 }
 
@@ -164,6 +164,20 @@ Surface FairingSystems::solve(const ControlPositions& control, bool measured, St
     report.constraint_gap = level.constraint_gap;
   }
   report_held(report);
+  if (!moves_) steps_.reset();
+  return out;
+}
+
+std::optional<Surface> FairingSystems::solve_basis_before(const ControlPositions& control,
+                                                          Stopwatch& watch, Report& report) {
+  const ControlPositions& basis = problem_.basis;
+  const bool has_metric =
+      !problem_.held.surface || plate().levels().is_measured(problem_.options.levels);
+  const bool knows_folds = repair_.has_value() || problem_.options.energy != Energy::thin_plate;
+  if ((has_metric && knows_folds) || positions_of(control) == positions_of(basis)) return {};
+  Surface out = solve(basis, false, watch, report);
+  Array<double> repaired;
+  find_folds_of_basis(out.plate.data(), repaired);
   return out;
 }
 

@@ -18,8 +18,9 @@ namespace fairing {
 // may be incomplete: drop() them, and they are built again.
 class FairingSystems {
  public:
-  // Builds that of the thin plate. Both references must outlive the systems.
-  FairingSystems(const FairingProblem& problem, Monitor& monitor);
+  // Builds that of the thin plate. `moves`: keeps what solve_moved() needs. Both references must
+  // outlive the systems.
+  FairingSystems(const FairingProblem& problem, Monitor& monitor, bool moves = false);
 
   // The thin plate's solver, built again if it was dropped. Its smoother adapts to the solved
   // surfaces until the first is written, so that the others depend on their own shapes alone.
@@ -34,7 +35,12 @@ class FairingSystems {
   // Solves one surface level by level: the thin plate, then Gauss-Newton steps for a curvature
   // energy. Reports levels, steps and corrections, and the prediction's energies if `measured`.
   Surface solve(const ControlPositions& control, bool measured, Stopwatch& watch, Report& report);
-  // The same on the finest level alone, from the last surface of these systems. False if that does
+  // The surface of the basis, if it has to be solved before that of these positions: the metric of a
+  // limit surface and the fold repair of a plate are those of the basis, so that shapes can be mixed,
+  // and results do not depend on earlier ones.
+  std::optional<Surface> solve_basis_before(const ControlPositions& control, Stopwatch& watch,
+                                            Report& report);
+  // As solve(), on the finest level alone, from the last surface of these systems. False if that does
   // not succeed: call solve(). `control` must outlive the next call.
   bool solve_moved(const ControlPositions& control, RecentSurfaces& recent, Stopwatch& watch,
                    Report& report);
@@ -43,21 +49,12 @@ class FairingSystems {
   // The loads on pads after moves of control vertices alone, from a plate that is zero: a linear
   // map, the same in x, y and z. With the accuracy of differences.
   Loads loads_of_moves(std::span<const Vec3> moves);
-  // Frees what only solve_moved() needs.
-  void forget_steps() { steps_.reset(); }
 
   // Writes the surface to `world`, which may be the array of its points, with epsilon applied if
   // requested. Reports its energies if `measured`, its deviation, and warnings of its thickness and
   // of a solve that has not converged. Throws too_extreme if the surface is not finite.
   void write(const ControlPositions& control, bool measured, Stopwatch& watch, Report& report,
              const Surface& surface, double* world);
-
-  // Whether it is known where a plate's folds are filled, or that the plate is not the result.
-  bool knows_folds() const {
-    return repair_.has_value() || problem_.options.energy != Energy::thin_plate;
-  }
-  // From the basis' surface; `repaired` becomes that surface without folds, if any can be filled.
-  void find_folds_of_basis(const double* x, Array<double>& repaired);
 
  private:
   // The thin plate's surface without folds, `x` itself if it has none; and `control` with straight
@@ -68,6 +65,8 @@ class FairingSystems {
     std::optional<ControlPositions> control{};
   };
   RepairedPlate without_folds(const ControlPositions& control, Report& report, const double* x);
+  // From the basis' surface; `repaired` becomes that surface without folds, if any can be filled.
+  void find_folds_of_basis(const double* x, Array<double>& repaired);
   // The right-hand side for the thin plate's surface of these positions. Valid until the next call,
   // and as long as `control` is.
   PlateData data_of(const ControlPositions& control);
@@ -90,6 +89,7 @@ class FairingSystems {
 
   const FairingProblem& problem_;
   Monitor& monitor_;
+  const bool moves_;
   std::unique_ptr<ThinPlateSolver> plate_;
   std::unique_ptr<GaussNewtonSolver> steps_;  // for a curvature energy, after the first surface
   // Found for the basis; other positions get the same linear map, so that mixtures of shapes have
