@@ -24,32 +24,30 @@ struct Reference {
 class DistancePenalty {
  public:
   // `shape`: of a linearized surface (Linearization), whose bending weighs the distances. Weights
-  // are zero off the unknowns.
+  // are zero off the unknowns. `varies`: there are weights beside minimum variation too.
   DistancePenalty(const GridLevel& grid, Reference reference, const Array<float>& shape,
-                  const Unknowns& unknowns);
+                  const Unknowns& unknowns, bool varies);
 
-  // The energy beside which the distance is penalized; at first total curvature.
-  void set_energy(CurvatureEnergy energy);
-  double energy(const double* x, Workers& workers) const;
+  // In what follows beside total curvature, or if it `varies`, minimum variation.
+  double energy(const double* x, bool varies, Workers& workers) const;
   // Adds minus half the gradient along the normals to the force, 1 number a point.
-  void add_force(const double* x, const double* normal, Workers& workers, double* force) const;
-  double weight(std::size_t p) const { return double(weight_[p]); }
+  void add_force(const double* x, const double* normal, bool varies, Workers& workers,
+                 double* force) const;
+  double weight(std::size_t p, bool varies) const {
+    return double(varies ? of_variation_[p] : weight_[p]);
+  }
   // Minimum variation's K = A S^-1 A + P is about (A + Q) (S + D)^-1 (A + Q). A, S and K have
   // orders 4, 2 and 6, so with the point's area a, diagonals Q = a (P / a)^(2/3) and
   // D = a (P / a)^(1/3) are right for waves that are much longer or shorter than those where A S^-1 A
   // is as large as P, and for these.
   double in_cycles(std::size_t p) const { return double(in_cycles_[p]); }
   double between(std::size_t p) const {
-    return weight_[p] > 0 ? in_cycles(p) * in_cycles(p) / weight(p) : 0.0;
+    return in_cycles_[p] > 0 ? in_cycles(p) * in_cycles(p) / weight(p, true) : 0.0;
   }
 
  private:
-  bool is_flat(std::size_t p) const { return std::isinf(reference_.thin[p]); }
-
-  Reference reference_;
-  CurvatureEnergy energy_ = CurvatureEnergy::total_curvature;
-  Array<float> weight_, area_;
-  Array<float> in_cycles_;  // empty until minimum variation has been linearized
+  Array<double> points_;
+  Array<float> weight_, of_variation_, in_cycles_;
 };
 
 }  // namespace fairing

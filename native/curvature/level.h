@@ -30,7 +30,8 @@ struct CurvatureShared {
   const ControlMesh& mesh;
   Unknowns unknowns;
   Workers& workers;
-  double tension = 0;  // tension times area is added to the energy
+  double tension = 0;              // tension times area is added to the energy
+  bool ends_in_variation = false;  // the finest level minimizes it
   ElementSlots<double, 1> double_slots{};
   ElementSlots<float, 1> float_slots{};
   Array<double> moment{}, turned{};  // for minimum variation
@@ -136,7 +137,7 @@ class CurvatureLevel final : public LevelOperator {
   }
   double penalty_at(std::size_t p, bool in_cycles) const {
     if (!penalty_) return 0;
-    return in_cycles ? penalty_->in_cycles(p) : penalty_->weight(p);
+    return in_cycles ? penalty_->in_cycles(p) : penalty_->weight(p, varies());
   }
   bool is_tense() const { return area_ && shared_.tension > 0; }
 

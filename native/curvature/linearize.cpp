@@ -230,11 +230,10 @@ double CurvatureLevel::linearize(const double* x, const Functional& functional,
   } else {
     tension_ = 0;
   }
-  if (penalty_) penalty_->set_energy(in_cycles_ ? CurvatureEnergy::minimum_variation : energy_);
   if (varies()) find_between(tensors.area);
-  penalty_energy_ = penalty_ ? penalty_->energy(x, shared_.workers) : 0.0;
+  penalty_energy_ = penalty_ ? penalty_->energy(x, varies(), shared_.workers) : 0.0;
   if (penalty_ && wants_points)
-    penalty_->add_force(x, to.normal.data(), shared_.workers, to.force.data());
+    penalty_->add_force(x, to.normal.data(), varies(), shared_.workers, to.force.data());
   update_diagonal();
   damping_.clear();
   invert_diagonal();
@@ -242,9 +241,10 @@ double CurvatureLevel::linearize(const double* x, const Functional& functional,
 }
 
 void CurvatureLevel::penalize(Reference reference, const double* x, Linearization& about) {
-  penalty_.emplace(grid_, std::move(reference), about.shape, shared_.unknowns);
-  penalty_energy_ = penalty_->energy(x, shared_.workers);
-  penalty_->add_force(x, about.normal.data(), shared_.workers, about.force.data());
+  penalty_.emplace(grid_, std::move(reference), about.shape, shared_.unknowns,
+                   shared_.ends_in_variation);
+  penalty_energy_ = penalty_->energy(x, false, shared_.workers);
+  penalty_->add_force(x, about.normal.data(), false, shared_.workers, about.force.data());
   invert_diagonal();
 }
 

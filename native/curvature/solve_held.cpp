@@ -114,7 +114,7 @@ LevelSolve GaussNewtonSystem::solve_held(int level, const LinearizedSurface& abo
       residual,
       op(level).single_precision_suffices(),
       [&](const PcgLimits& now, const LinearSystem& linear) {
-        return hierarchy_->solve(index, now, linear, [](const PcgResult&) {});
+        return hierarchy_->solve(index, now, linear);
       },
       [&](std::span<const double> r, std::span<Vector> sums) {
         restrict_to_vertices<1>(

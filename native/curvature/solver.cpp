@@ -139,7 +139,7 @@ double GaussNewtonSolver::energy_beside_bending(const Array<double>& x) {
   if (const double tension = system_.options().tension; tension > 0)
     out += tension * surface_area(iterate_.grid(), iterate_.workers(), x.data());
   if (const auto& penalty = iterate_.op().penalty())
-    out += penalty->energy(x.data(), iterate_.workers());
+    out += penalty->energy(x.data(), iterate_.op().varies(), iterate_.workers());
   return out;
 }
 

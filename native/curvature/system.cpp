@@ -47,6 +47,7 @@ GaussNewtonSystem::GaussNewtonSystem(const ControlMesh& mesh, const GridLevels& 
       symmetry_(std::move(symmetry)),
       constraints_(constraints) {
   shared_.tension = options.tension;
+  shared_.ends_in_variation = options.energy == CurvatureEnergy::minimum_variation;
   std::vector<HierarchyLevel> all;
   for (int l = base; l <= finest(); ++l) {
     operators_.push_back(std::make_unique<CurvatureLevel>(shared_, grid(l)));
@@ -140,7 +141,7 @@ double GaussNewtonSystem::solve(int level, const LinearizedSurface& about, Array
     LinearSystem k{residual, h.data(), left.data()};
     if (op(level).varies())
       k.between = [&](const float* y, float* z) { op(level).apply_between(y, z); };
-    solved = hierarchy_->solve(index, limits(level, about.functional), k, [](const PcgResult&) {});
+    solved = hierarchy_->solve(index, limits(level, about.functional), k);
     report.iterations = solved.iterations;
   }
   report.residual = solved.residual;

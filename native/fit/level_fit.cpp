@@ -108,9 +108,7 @@ void LevelFit::solve() {
   limits.noise = roundoff_of_terms * terms;
   limits.may_end_early = true;  // the next iteration continues
   limits.max_iterations = problem_.most_iterations;
-  iterations_ +=
-      levels.solve(level_, limits, {residual, x_.data(), r_.data()}, [](const PcgResult&) {})
-          .iterations;
+  iterations_ += levels.solve(level_, limits, {residual, x_.data(), r_.data()}).iterations;
 }
 
 }  // namespace fairing

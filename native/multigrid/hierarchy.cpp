@@ -79,8 +79,8 @@ bool Hierarchy::may_keep_factor() const {
          (now.spectrum == factored.spectrum || unknowns(cycle_.base) > most_refactored);
 }
 
-LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits, const LinearSystem& system,
-                            const std::function<void(const PcgResult&)>& each) {
+LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits,
+                            const LinearSystem& system) {
   LevelSolve out;
   if (index < cycle_.base) {  // below the end of the cycle; met on the way up only
     CoarseSolver solver(*cycle_.levels[index].op, workers_, 0, true);
@@ -105,7 +105,7 @@ LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits, const Li
     solve_direct(*cycle_.coarse, limits, system, out);
     if (out.converged) return out;
   }
-  PcgResult result = iterate(index, limits, system, each, out);
+  PcgResult result = iterate(index, limits, system, out);
   if (!result.converged && limits.may_adapt && adapts(out.direct) &&
       (is_too_hard(index, limits) || (result.broke_down && fits_factor(index, limits)))) {
     promote_to_coarsest(index);
@@ -126,14 +126,14 @@ LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits, const Li
 }
 
 PcgResult Hierarchy::iterate(std::size_t index, const PcgLimits& limits, const LinearSystem& system,
-                             const std::function<void(const PcgResult&)>& each, LevelSolve& out) {
+                             LevelSolve& out) {
   const bool adapt = limits.may_adapt && adapts(out.direct);
   const ScopedExchange degrees(cycle_.degree, degree_of_two_, bool(system.between));
   for (std::size_t l = cycle_.base; l <= index; ++l) seek_lines(l);
   estimate_eigenvalues(index, system.r);
   PcgResult result = conjugate_gradients(cycle_, index, workers_, limits, system, pcg_,
                                          [&](const PcgResult& so_far) {
-                                           each(so_far);
+                                           if (system.watch) system.watch(so_far);
                                            return !adapt || continues(index, so_far, limits);
                                          });
   out.iterations += result.iterations;

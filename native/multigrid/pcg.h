@@ -61,6 +61,8 @@ struct LinearSystem {
   // z <- S y, where K is approximately A S^-1 A with the A that the cycle's levels apply in single
   // precision: a cycle, S, and that cycle's transpose precondition. Empty: A is K.
   std::function<void(const float* y, float* z)> between{};
+  // Called after every iteration; or empty.
+  std::function<void(const PcgResult&)> watch{};
 };
 
 // Work vectors of the conjugate gradients, kept between levels.

@@ -14,10 +14,6 @@
 namespace fairing {
 namespace {
 
-// The level below has edges in eight pieces: from there on the largest eigenvalue hardly changes.
-// (With four pieces it does: the smoother then amplified vectors, and a rough sphere took 14
-// iterations, with eight five.)
-constexpr std::size_t settled_level = 4;
 // A membrane's share of the diagonal falls to a quarter from level to level, so it is negligible
 // with edges in 16 pieces and large with four.
 constexpr std::size_t settled_under_tension = 2;  // in levels
@@ -28,7 +24,7 @@ HierarchyOptions hierarchy_options(const Unknowns& unknowns, const ThinPlateOpti
   HierarchyOptions out;
   out.smoother_degree = options.solve.smoother_degree;
   out.always_factor = unknowns.any_vertex;
-  out.settled = settled_level - std::size_t(base);
+  out.settled -= std::size_t(base);
   if (tense) out.settled += settled_under_tension;
   return out;
 }

@@ -64,9 +64,8 @@ class ThinPlateLevels {
   void residual(int level, std::span<const Vec3> targets, const Array<double>& reference,
                 const double* x, double* r);
   // Solves from x, whose residual is system.r, to the given limits (Hierarchy::solve).
-  LevelSolve solve(int level, const PcgLimits& limits, const LinearSystem& system,
-                   const std::function<void(const PcgResult&)>& each) {
-    return hierarchy_->solve(index(level), limits, system, each);
+  LevelSolve solve(int level, const PcgLimits& limits, const LinearSystem& system) {
+    return hierarchy_->solve(index(level), limits, system);
   }
 
   // sums <- H^T r of a level for every control vertex off all curves and inside the region

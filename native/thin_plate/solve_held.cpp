@@ -52,11 +52,11 @@ ThinPlateSolver::Run::Solved ThinPlateSolver::Run::solve(int level, const PcgLim
       for (std::size_t i = 0; i < data.forces.size(); ++i) out[i] += data.forces[i];
   };
   int iterations = 0;
-  const auto solve_level = [&](const PcgLimits& now, const LinearSystem& system) {
-    LevelSolve solved = levels().solve(level, now, system, [&](const PcgResult& so_far) {
-      // the number of iterations is unknown
+  const auto solve_level = [&](const PcgLimits& now, LinearSystem system) {
+    system.watch = [&](const PcgResult& so_far) {  // the number of iterations is unknown
       report_done(level, 1 - 1 / std::sqrt(1.0 + iterations + so_far.iterations));
-    });
+    };
+    LevelSolve solved = levels().solve(level, now, system);
     iterations += solved.iterations;
     return solved;
   };

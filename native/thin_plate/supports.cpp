@@ -147,7 +147,7 @@ void PlateSupports::measure_couples(int level, int max_iterations) {
     };
     for_each_index(workers, y.size(), [&](std::size_t i) { y[i] = 0; });
     residual(y.data(), r.data());
-    levels_.solve(level, rough, {residual, y.data(), r.data()}, [](const PcgResult&) {});
+    levels_.solve(level, rough, {residual, y.data(), r.data()});
     each_of(first, [&](std::size_t c, Eigen::Index axis, Eigen::Index k) {
       slopes[c].col(k) = here->slopes(c, y.data()).row(axis).transpose();
     });

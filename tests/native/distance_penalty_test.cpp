@@ -26,12 +26,15 @@ struct Penalized {
       : grid(mesh, level), shared{mesh, some_points(mesh, 1), workers}, energy(of), x(lumpy(grid)) {
     Reference reference{x, Array<float>(grid.size(), 1.5f)};
     for (std::size_t i = 0; i < x.size(); ++i) reference.points[i] += 0.01 * double(i % 7);
+    shared.ends_in_variation = varies();
     alone = without_penalty.linearize(x.data(), {energy}, &without);
     system.linearize(x.data(), {}, &at_first);
     system.penalize(reference, x.data(), at_first);
     objective = system.objective();
     whole = system.linearize(x.data(), {energy}, &with);
   }
+
+  bool varies() const { return energy == CurvatureEnergy::minimum_variation; }
 
   Workers workers{2};
   GridLevel grid;
@@ -50,20 +53,21 @@ TEST(DistancePenalty, ForceIsMinusHalfTheSlope) {
       SCOPED_TRACE(name);
       Penalized at(all_meshes().at(name), 2, energy);
       const DistancePenalty& penalty = *at.system.penalty();
-      EXPECT_NEAR(at.whole - at.alone, penalty.energy(at.x.data(), at.workers), 1e-9 * at.whole);
+      EXPECT_NEAR(at.whole - at.alone, penalty.energy(at.x.data(), at.varies(), at.workers),
+                  1e-9 * at.whole);
       const std::vector<std::uint8_t> unknown = unknown_points(at.grid, at.shared.unknowns);
       bool any = false;
       for (std::size_t p = 0; p < at.grid.size(); ++p) {
         const auto moved = [&](double step) {
           Array<double> y = at.x;
           for (std::size_t a = 0; a < 3; ++a) y[3 * p + a] += step * at.with.normal[3 * p + a];
-          return penalty.energy(y.data(), at.workers);
+          return penalty.energy(y.data(), at.varies(), at.workers);
         };
         const double slope = (moved(0.1) - moved(-0.1)) / 0.2;
         EXPECT_NEAR(at.with.force[p] - at.without.force[p], -slope / 2, 1e-8 * at.whole) << p;
         any |= slope != 0;
         if (!unknown[p]) {
-          EXPECT_EQ(penalty.weight(p), 0) << p;
+          EXPECT_EQ(penalty.weight(p, at.varies()), 0) << p;
         }
       }
       EXPECT_TRUE(any);
@@ -115,7 +119,7 @@ TEST(DistancePenalty, IsInBothMatricesOfTheCyclesOfVariation) {
     const double q = penalty.in_cycles(p), d = penalty.between(p);
     EXPECT_NEAR(a[p], double(a_alone[p]) + q * in[p], 1e-5 * (1 + std::abs(a[p]))) << p;
     EXPECT_NEAR(s[p], double(s_alone[p]) + d * in[p], 1e-5 * (1 + std::abs(s[p]))) << p;
-    EXPECT_NEAR(q * q, d * penalty.weight(p), 1e-6 * q * q) << p;
+    EXPECT_NEAR(q * q, d * penalty.weight(p, true), 1e-6 * q * q) << p;
     any |= q * std::abs(in[p]) > 1e-3 * std::abs(a[p]) && d > 0;
   }
   EXPECT_TRUE(any);
