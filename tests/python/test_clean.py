@@ -4,7 +4,7 @@
 import discrete_fairing as df
 import numpy as np
 import pytest
-from control_meshes import cube
+from control_meshes import cube, refine_quads
 from ragged_holes import lattice, mapped, sheet_with_hanging_vertices, sphere
 from refusing import refusal
 from surfaces import assert_oriented_manifold
@@ -328,3 +328,17 @@ def test_noise_is_taken_off(noise):
     assert off[3:].std() < 0.45 * before[3:].std()
     assert abs(off.mean()) < 1e-3  # it neither shrinks nor swells
     assert np.array_equal(found.vertices[:3], noisy[:3])
+
+
+def test_a_rim_that_touches_another_part_at_many_vertices_is_closed():
+    """Without a ring of cells, the middle of a cube's top touches the rest at sixteen vertices, where faces are
+    dropped all at once: three rounds of them, each at one vertex, left the top open."""
+    vertices, faces = cube()
+    for _ in range(4):
+        vertices, faces = refine_quads(vertices, np.array(faces))
+    corners = vertices[faces]
+    side = np.ptp(vertices[:, 0]) / 16
+    steps = np.abs(np.rint(corners.mean(axis=1)[:, :2] / side - 0.5))
+    on_top = (corners[..., 2] == vertices[:, 2].max()).all(axis=1)
+    found = df.clean(vertices, faces[~(on_top & (steps.sum(axis=1) == 4))])
+    closed(found, np.ptp(vertices[:, 0]) ** 3)

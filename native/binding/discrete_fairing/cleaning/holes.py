@@ -126,10 +126,18 @@ def closed(
             bad[np.ravel(why["elements"]).astype(np.int64)] = True
         for hole in skipped:
             bad[np.ravel(hole.elements).astype(np.int64)] = True
+            if hole.loops:  # an error names one place, and a ragged rim has many
+                bad[_coincident(state.points, np.concatenate(hole.loops))] = True
         if not bad.any() or turn == CUTS:
             break
         state = _cut_back(state, bad)
     return state, holes, faces, skipped
+
+
+def _coincident(points: np.ndarray, ids: np.ndarray) -> np.ndarray:
+    """Those of the vertices `ids` that lie on others of them."""
+    _, place, uses = np.unique(points[ids], axis=0, return_inverse=True, return_counts=True)
+    return ids[uses[place.ravel()] > 1]
 
 
 def _cut_back(state: State, vertices: np.ndarray) -> State:
