@@ -203,8 +203,7 @@ class Easing {
     const double s = cross_validated(system);
     if (movable.differences.rows() == 0) return s;
     // at most the difference between similar stars
-    const double noise = system.noise_of(movable.differences);
-    return std::isfinite(noise) ? with_noise_up_to(system, s, noise) : s;
+    return with_noise_up_to(system, s, system.noise_of(movable.differences));
   }
 
   // Without an estimate the largest amount within the bounds.

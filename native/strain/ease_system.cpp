@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "base/median.h"
 #include "base/roundoff.h"
 #include "parallel/cancel.h"
 
@@ -159,7 +160,13 @@ double EaseSystem::noise(double s) const {
 
 double EaseSystem::noise_of(const LoadMatrix& differences) const {
   const LoadMatrix of_moves = differences * g_;
-  return (differences * loads_).norm() / of_moves.norm();
+  const Columns of_loads = differences * loads_;
+  std::vector<double> noise;
+  for (Eigen::Index i = 0; i < of_loads.rows(); ++i)
+    if (const double own = of_moves.row(i).norm(); own > 0)
+      noise.push_back(of_loads.row(i).norm() / own);
+  return noise.empty() ? std::numeric_limits<double>::infinity()
+                       : deviation_over_median * median(std::move(noise));
 }
 
 double EaseSystem::squared_trace(double s) const {

@@ -43,7 +43,8 @@ class EaseSystem {
   double squared_trace(double s) const;
   // Root mean square of the scatter that an amount removes.
   double noise(double s) const;
-  // Root mean square of the scatter, from these differences of loads; not finite without any.
+  // Root mean square of the scatter, from the median of these differences of loads; infinite without
+  // any. All vertices scatter, but a shape strains few much, such as those beside corners.
   double noise_of(const LoadMatrix& differences) const;
   // Whether the part that an amount removes may be scatter: scatter has all eigenvectors alike,
   // designed shapes have few. True if the eigenvectors are not computed.
