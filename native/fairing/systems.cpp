@@ -52,7 +52,8 @@ ThinPlateSolver& FairingSystems::plate() {
       auto penalty = std::make_shared<Array<float>>(problem_.held.surface->penalty(
           GridLevel(problem_.mesh, options.levels), problem_.basis.working, *problem_.workers));
       const double strength = std::pow(limit_penalty(options.limit), 0.25);
-      for (float& p : *penalty) p *= float(strength);
+      for (float& p : *penalty)
+        p = strength > 0 ? p * float(strength) : 0.0f;  // also where infinite
       own.penalty = {std::move(penalty), problem_.exponent};
     }
     plate_ = std::make_unique<ThinPlateSolver>(problem_.mesh, *problem_.charts(), problem_.stencils,
