@@ -17,7 +17,7 @@ namespace {
 // of the tangent plane at a side, and of third differences of the net.
 constexpr double tilt = 0.3, rough = 1e-3;
 // Tried one after another until one succeeds. `slide` is the weight of a sample's distance along
-// the patch: on poor surfaces the least weight lets patches fold. In narrow corners all do, unless
+// the patch: the less it is, the sooner patches fold. In narrow corners all do, unless
 // `shear`, a weight on the deviation of the net's cells from parallelograms, keeps their rows
 // apart. An angle at a side is weighted against distances of the model's size, or of the patch's
 // width, since in a narrow patch the former would outweigh `shear`. Or it has no weight.
@@ -27,7 +27,7 @@ struct Way {
   Lean lean = Lean::of_model;
 };
 constexpr double slides[] = {0.01, 0.1, 1};  // decades
-constexpr Way ways[] = {{slides[0], 0}, {slides[1], 0}, {slides[2], 0}};
+constexpr Way ways[] = {{slides[1], 0}, {slides[2], 0}}, closest[] = {{slides[0], 0}};
 constexpr Way in_place[] = {{slides[2], 0, Lean::of_patch}, {slides[2], 0, Lean::free}};
 constexpr Way unfolding[] = {
     {slides[1], slides[1]}, {slides[1], slides[2]}, {slides[2], slides[2]}};
@@ -257,6 +257,7 @@ FittedPatch fit_patch(const PatchData& data, int spans_u, int spans_v, bool last
   };
   constexpr double any = std::numeric_limits<double>::infinity();
   try_all(std::span(ways).subspan(data.own ? 0 : 1), last ? 1 : any);
+  if (last && !best.misses.folds) try_all(closest, 1);
   if (!data.may_fold) try_all(unfolding, any);
   return best;
 }

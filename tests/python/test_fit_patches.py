@@ -333,28 +333,43 @@ def test_faces_much_longer_than_wide_do_not_fold():
     assert patches.largest_residual < 1e-3
 
 
+def wall_with_boss(angle, height, cell, rings):
+    """Part of a cylinder about z with a boss on one cell, and the four vertices at its open end. Each ring: how long
+    it is along x, y and z, as a share of the cell, and how far it is moved."""
+    wall = np.array(
+        [(40 * np.cos(a), 40 * np.sin(a), z) for z in height for a in np.radians(angle)]
+    )
+    n = len(angle)
+    low = [n * i + j for i, j in np.ndindex(len(height) - 1, n - 1)]
+    cells = [[k, k + 1, k + n + 1, k + n] for k in low]
+    end = cells.pop(cell)
+    middle = wall[end].mean(axis=0)
+    points = [wall, *(middle + share * (wall[end] - middle) + move for share, move in rings)]
+    for k in range(len(wall), len(wall) + 4 * len(rings), 4):
+        start, end = end, list(range(k, k + 4))
+        cells += [[start[t], start[t - 3], end[t - 3], end[t]] for t in range(4)]
+    return np.concatenate(points), cells, end
+
+
 def test_a_tip_between_two_creases_is_no_fold():
     """At the foot of a boss on a round wall two creases make a corner of 270 degrees, which the wall comes to as a
     tip, at every level: it was refused."""
-    angle, height = np.radians([-45, -15, 15, 45]), (-24.0, 6.0, 30.0, 54.0)
-    wall = np.array([(40 * np.cos(a), 40 * np.sin(a), z) for z in height for a in angle])
-    cells = [[4 * i + j, 4 * i + j + 1, 4 * i + j + 5, 4 * i + j + 4] for i, j in np.ndindex(3, 3)]
-    rim = cells.pop(4)
-    middle = wall[rim].mean(axis=0)
-    foot = middle + 0.7 * (wall[rim] - middle)
-    foot_ids, top_ids = [16, 17, 18, 19], [20, 21, 22, 23]
-    around = [
-        [low[k], low[(k + 1) % 4], high[(k + 1) % 4], high[k]]
-        for low, high in ((rim, foot_ids), (foot_ids, top_ids))
-        for k in range(4)
-    ]
-    points = np.concatenate([wall, foot, foot + (7.0, 0.0, 0.0)])
-    patches = df.fit_patches(
-        points, [*cells, *around, top_ids], levels=5, crease_angle=np.radians(30)
-    )
+    rings = [(0.7, (0, 0, 0)), (0.7, (7, 0, 0))]
+    points, faces, top = wall_with_boss((-45, -15, 15, 45), (-24, 6, 30, 54), 4, rings)
+    patches = df.fit_patches(points, [*faces, top], levels=5, crease_angle=np.radians(30))
     assert not len(patches.unresolved)
     assert set(patches.unmet) >= {8, 9, 10, 11}  # round the tips off, and are named
     assert patches.largest_residual < 5e-4 * patches.size
+
+
+def test_patches_whose_points_slide_less_meet_their_neighbours_better():
+    """Where a handle leaves a mug, patches that were first fitted with points almost free to slide along them, and
+    with more weight only where they folded, missed 8 faces for 4, by 0.45 degrees for 0.18."""
+    rings = [(0.7, (0, 0, 0)), ((0.7, 0.5, 0.4), (7, 0, 0)), ((0.7, 0.5, 0.3), (20, 0, 4))]
+    angle, height = (-75, -45, -15, 15, 45, 75), (0, 6, 30, 62, 90, 95)
+    points, faces, _ = wall_with_boss(angle, height, 12, rings)
+    patches = df.fit_patches(points, faces, levels=4)
+    assert len(patches.unmet_by_fit) <= 4 and patches.largest_angle < np.radians(0.25)
 
 
 def test_curves_fitted_more_sharply_make_no_patch_fold():
