@@ -4,7 +4,6 @@
 // p_i n_i . (x_i - s_i), and p_i is added to the diagonal of K.
 #pragma once
 
-#include <cmath>
 #include <vector>
 
 #include "curvature/options.h"

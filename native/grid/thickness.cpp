@@ -10,7 +10,6 @@
 
 #include "base/angle.h"
 #include "base/points.h"
-#include "base/roundoff.h"
 #include "mesh/union_find.h"
 
 namespace fairing {
@@ -134,8 +133,7 @@ std::vector<double> areas_of_sides(const ControlMesh& mesh, std::span<const Face
   for (Index e = 0; e < Index(mesh.edges.size()); ++e) {
     if (mesh.edges[e].boundary()) continue;
     const Index f = mesh.face_beside(e, 0), o = mesh.face_beside(e, 1);
-    const double turn = angle_between(planes[f].normal, planes[o].normal);
-    if (turn * turn < single_roundoff) parts.unite(f, o);
+    if (in_one_plane(planes[f], planes[o])) parts.unite(f, o);
   }
   std::vector<double> area(planes.size(), 0.0);
   for (std::size_t f = 0; f < planes.size(); ++f) area[parts.lead(Index(f))] += planes[f].area;

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "base/angle.h"
-#include "base/roundoff.h"
 #include "mesh/opposite.h"
 #include "mesh/region.h"
 
@@ -29,20 +27,16 @@ void mark_flat_faces(std::span<const std::int64_t> faces, ControlMesh& control) 
 }
 
 std::vector<std::uint8_t> faces_amid_flats(const ControlMesh& control) {
-  std::vector<Vec3> normals;
-  for (const Face& face : control.faces)
-    normals.push_back(plane_of(face, control.positions).normal);
+  std::vector<FacePlane> planes;
+  for (const Face& face : control.faces) planes.push_back(plane_of(face, control.positions));
   std::vector<std::uint8_t> flags(control.faces.size(), 1);
   for (Index v = 0; v < control.vertex_count(); ++v) {
     const auto ring = control.ring(v);
     const bool is_flat = std::all_of(ring.begin(), ring.end(), [&](const Spoke& spoke) {
-      if (spoke.face < 0) return true;
-      const double turn =
-          angle_between(normals[std::size_t(ring[0].face)], normals[std::size_t(spoke.face)]);
-      return turn * turn < single_roundoff;
+      return spoke.face < 0 || in_one_plane(planes[ring[0].face], planes[spoke.face]);
     });
     for (const Spoke& spoke : ring)
-      if (spoke.face >= 0 && !is_flat) flags[std::size_t(spoke.face)] = 0;
+      if (spoke.face >= 0 && !is_flat) flags[spoke.face] = 0;
   }
   return flags;
 }

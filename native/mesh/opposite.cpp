@@ -6,6 +6,7 @@
 #include <cmath>
 #include <unsupported/Eigen/BVH>
 
+#include "base/angle.h"
 #include "base/points.h"
 #include "base/roundoff.h"
 
@@ -79,6 +80,11 @@ FacePlane plane_of(const Face& face, std::span<const Vec3> control) {
   }
   const Vec3 d = corner(3), cross = (c - a).cross(d - b);
   return {(a + b + c + d) / 4, unit_or_zero(cross), cross.norm() / 2};
+}
+
+bool in_one_plane(const FacePlane& a, const FacePlane& b) {
+  const double turn = angle_between(a.normal, b.normal);
+  return turn * turn < single_roundoff;
 }
 
 std::vector<Opposite> opposite_faces(const ControlMesh& mesh, std::span<const Vec3> control,

@@ -19,6 +19,9 @@ struct FacePlane {
 
 FacePlane plane_of(const Face& face, std::span<const Vec3> control);
 
+// Whether faces with a common vertex lie in one plane, up to the rounding of single precision.
+bool in_one_plane(const FacePlane& a, const FacePlane& b);
+
 struct Opposite {
   Index face = -1;  // none
   double distance = std::numeric_limits<double>::infinity();
