@@ -58,7 +58,11 @@ class OBJECT_OT_fairing_check(_Checking, bpy.types.Operator):
         return ""
 
 
-class _AtDefect(_Checking):
+class _OfActive(Action):
+    reasons = (lambda _: core.why_missing(), IN_EITHER_MODE, of_meshes(active_mesh))
+
+
+class _AtDefect(_OfActive):
     index: IntProperty(
         name="Defect", description="Which line of the check", min=0, options={"HIDDEN"}
     )
@@ -117,7 +121,7 @@ class OBJECT_OT_fairing_repair(_AtDefect, bpy.types.Operator):
         return {"FINISHED"}
 
 
-class OBJECT_OT_fairing_select_hole(_Checking, bpy.types.Operator):
+class OBJECT_OT_fairing_select_hole(_OfActive, bpy.types.Operator):
     """Select the edges around this hole in Edit Mode, and bring them into view"""
 
     bl_idname = "object.fairing_select_hole"

@@ -47,6 +47,8 @@ class WritesText(ExportHelper, Action):
 @contextmanager
 def written(path: str) -> Iterator[str]:
     """A context that writes the absolute `path`; raises JobError if the file cannot be written."""
+    if not path:
+        raise JobError("Choose a file: no name is given.")
     place = bpy.path.abspath(path)
     try:
         yield place

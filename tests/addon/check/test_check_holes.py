@@ -75,6 +75,14 @@ def test_a_hole_that_is_gone_is_said():
     assert target.mode == "OBJECT"
 
 
+def test_showing_one_needs_an_active_mesh():
+    """Other meshes may be selected after the active one has been deleted."""
+    hole = checked(two_holes())[0]
+    bpy.context.view_layer.objects.active = None
+    refused("Select a mesh object first", bpy.ops.object.fairing_select_hole, edge=hole["at"])
+    refused("Select a mesh object first", bpy.ops.object.fairing_select_defect)
+
+
 def test_of_many_holes_the_largest_are_kept():
     points = [(x, y, 0.0) for x in range(41) for y in range(29)]
     missing = [28 * x + y for x in range(1, 40, 4) for y in range(1, 28, 4)]

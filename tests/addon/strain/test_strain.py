@@ -152,6 +152,7 @@ def test_the_table_has_places_in_the_world_and_the_eased_ones(tmp_path):
     # before, whatever the slider says
     assert float(rows[WRONG][8]) == pytest.approx(-OFF, rel=0.15)
     refused("cannot be written", bpy.ops.object.fairing_strain_table, filepath=str(tmp_path))
+    refused("Choose a file", bpy.ops.object.fairing_strain_table)
 
 
 def test_the_panel_lists_the_worst():
