@@ -208,7 +208,7 @@ def test_long_faces_of_tubes_are_not_hollow(lengths):
     assert np.abs(np.hypot(*result.vertices[:, :2].T) - 1).max() < 0.006
 
 
-def test_a_hollow_edge_is_told_of_and_a_smaller_exponent_is_the_cure():
+def test_a_hollow_edge_is_told_of_with_its_cures():
     """Its tip has triangles, so its strips of quads are no ridges, and count with their full length."""
     points, quads, trailing = wing()
     size = len(airfoil(9))
@@ -216,11 +216,9 @@ def test_a_hollow_edge_is_told_of_and_a_smaller_exponent_is_the_cure():
     faces = [*quads[:-size].tolist(), *tip[:, :3].tolist(), *tip[:, [0, 2, 3]].tolist()]
     (warning,) = told(df.fair(points, faces, 3, crease_edges=trailing, threads=1))
     assert "metric_exponent=0.25" in warning["message"] and "tension" not in warning["message"]
-    for exponent in (0.25, 0.0):
-        cured = df.fair(
-            points, faces, 3, crease_edges=trailing, metric_exponent=exponent, threads=1
-        )
-        assert not told(cured)
+    assert 'interpolation="limit"' in warning["message"]
+    for cure in ({"metric_exponent": 0.25}, {"metric_exponent": 0.0}, {"interpolation": "limit"}):
+        assert not told(df.fair(points, faces, 3, crease_edges=trailing, threads=1, **cure))
 
 
 @pytest.mark.parametrize("energy", ["thin_plate", *CURVED])
