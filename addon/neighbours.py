@@ -26,6 +26,18 @@ def neighbour_of(target: Object | None) -> Object | None:
     return found if found is not None and found.type == "MESH" else None
 
 
+def pair(context: Context) -> tuple[Object, Object] | None:
+    """(surface, object that it is to meet) of two selected meshes: of two surfaces the active one is the
+    first. None without a surface, or if not two are selected.
+    """
+    active = context.active_object
+    others = [o for o in context.selected_objects if o != active]
+    if active is None or len(others) != 1 or {active.type, others[0].type} != {"MESH"}:
+        return None
+    both = (active, others[0])
+    return next(((a, b) for a, b in (both, both[::-1]) if memory.source_of(a)), None)
+
+
 def why_not_both(target: Object | None, neighbour: Object) -> str:
     """Why these two cannot meet half way, a sentence; empty if they can."""
     for each in (target, neighbour):

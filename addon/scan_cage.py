@@ -17,6 +17,7 @@ from .mesh.object import linked_object, new_object, select_only
 from .mesh.scans import Scan, read_scans
 from .mesh.world_shape import transformed, world_matrix
 from .mesh.write import write_faces
+from .words import counted
 
 # On a ball with noise of 0.3 % and 300 faces, 2,562 points give a surface that is 0.34 % off; with 100
 # faces 0.17 %.
@@ -45,10 +46,15 @@ def make_cage(context: Context, near: Sequence[Object], faces: int) -> MadeCage:
     out a part, such as an ear. Raises JobError.
     """
     scan = read_scans(context, near)
+    names = ", ".join(scan.name for scan in near)
+    if 0 < len(scan.points) < LEAST_CAGE_FACES:
+        raise JobError(
+            f"{names}: Select a scan. This mesh has {counted(len(scan.points), 'point')}, and a cage at least"
+            f" {LEAST_CAGE_FACES} faces."
+        )
     most = max(len(scan.points) // POINTS_A_FACE, LEAST_CAGE_FACES)
     is_limited = faces > most
     faces = min(faces, most)
-    names = ", ".join(scan.name for scan in near)
     if not scan.triangles.size:
         raise JobError(
             f"{names}: Draw a cage over it, and select it last. The scan has no faces, which QuadriFlow needs."

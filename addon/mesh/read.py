@@ -12,6 +12,7 @@ from .. import vertex_values
 from ..blender import Context, Mesh, Object, column
 from ..core import ControlArrays
 from ..errors import JobError
+from ..memory import source_of
 from ..settings import AnySettings, is_near
 from .boundary_marks import BOUNDARY
 from .fixed_normals import read_normals
@@ -31,6 +32,14 @@ def source_objects(context: Context) -> list[Object]:
         selected = [active]
     # the active one last, so that its result becomes active
     return sorted(selected, key=lambda o: o == active)
+
+
+def control_meshes(context: Context) -> list[Object]:
+    """The source_objects without faired surfaces, which Recompute makes again; these too if there are no
+    others.
+    """
+    chosen = source_objects(context)
+    return [target for target in chosen if source_of(target) is None] or chosen
 
 
 def active_mesh(context: Context) -> list[Object]:

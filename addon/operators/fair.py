@@ -18,13 +18,14 @@ from ..live import switch
 from ..live.pace import Deadline
 from ..memory import no_source_reason, source_of
 from ..mesh.object import is_in_view_layer, nothing_left_behind, select_only, why_not_here
-from ..mesh.read import source_objects
+from ..mesh.read import control_meshes, source_objects
 from ..poll import IN_EITHER_MODE, LINKED_SURFACE, ExplainedPoll, in_mode, needs
 from ..properties import FairingSettings, copy_settings, fill_in, take_near
 from ..queue import ConsoleProgress, running
 from ..scan_fit import job_of
 from ..settings import Settings
 from ..ui.layout import draw_settings
+from ..words import counted
 from . import redo
 from .mixins import Action, refusing
 from .modal import ModalRun
@@ -160,7 +161,13 @@ class FairSurface(Fairing, FairingSettings):
 
     def make_jobs(self, context: Context) -> list[Job]:
         settings = Settings.of(self)
-        return [Job(context, source, settings) for source in source_objects(context)]
+        jobs = [Job(context, source, settings) for source in control_meshes(context)]
+        left = len(source_objects(context)) - len(jobs)
+        if left:
+            jobs[-1].notes.append(
+                f"{counted(left, 'selected surface')} left as before: Recompute makes these again"
+            )
+        return jobs
 
     def after(self, context: Context, jobs: Sequence[Job]) -> None:
         for job in jobs:

@@ -16,21 +16,20 @@ from ..choices import JOINTS
 from ..errors import JobError
 from ..freshness import is_own
 from ..job import Job
-from ..memory import no_source_reason, source_of
+from ..memory import source_of
 from ..poll import LINKED_SURFACE, ExplainedPoll, in_mode, needs
 from ..settings import Settings
 from .fair import Fairing, can_fair
 from .mixins import Action
 
 
-def _other(context: Context) -> Object | None:
-    """The one mesh object that is selected beside the active one."""
-    others = [o for o in context.selected_objects if o != context.active_object]
-    return others[0] if len(others) == 1 and others[0].type == "MESH" else None
+def _pair(context: Context) -> tuple[Object, Object]:
+    """The surface and its future neighbour, which poll has found."""
+    return cast("tuple[Object, Object]", neighbours.pair(context))
 
 
 class OBJECT_OT_fairing_match_border(Fairing, bpy.types.Operator):
-    """Make the border of the active surface meet that of the other selected object"""
+    """Make the border of this surface meet that of the other selected object; of two surfaces, the active one changes"""
 
     bl_idname = "object.fairing_match_border"
     bl_label = "Match Border"
@@ -47,21 +46,14 @@ class OBJECT_OT_fairing_match_border(Fairing, bpy.types.Operator):
         description="Each surface turns by half. Without it the other object stays as it is",
     )
 
-    @staticmethod
-    def _active_reason(context: Context) -> str:
-        active = context.active_object
-        if active is None or source_of(active) is None:
-            return no_source_reason(active)
-        return "" if is_own(active) else LINKED_SURFACE
-
     reasons = (
         can_fair,
-        _active_reason,
-        needs(_other, "Select the other object first, and the surface that is to change last"),
+        needs(neighbours.pair, "Select a faired surface and the one object that it is to meet"),
+        needs(lambda context: is_own(_pair(context)[0]), LINKED_SURFACE),
     )
 
     def make_jobs(self, context: Context) -> list[Job]:
-        target, other = cast(Object, context.active_object), cast(Object, _other(context))
+        target, other = _pair(context)
         if not self.both:
             return [self._job(context, target, other)]
         reason = neighbours.why_not_both(target, other)

@@ -14,7 +14,7 @@ from ..memory import FAIRING_PG_fit, FAIRING_PG_surface, recall, source_of, sour
 from ..mesh import boundary_marks, fixed_normals, flat_marks
 from ..mesh.mesh_changes import coarse_triangles, shown
 from ..mesh.object import session_key
-from ..mesh.read import read_mesh, source_objects
+from ..mesh.read import control_meshes, read_mesh, source_objects
 from ..mesh.read_curves import has_curves
 from ..mesh.world_shape import world_shape
 from ..mesh.write import FAULTS, NO_POINTS
@@ -118,7 +118,10 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
             draw_stale_surfaces(layout, context.active_object)
         draw_live(layout, context)
         if memory is not None:
-            _draw_neighbour(layout, memory, len(context.selected_objects) > 1)
+            _draw_neighbour(layout, memory)
+        if (memory is None or memory.neighbour is None) and neighbours.pair(context):
+            layout.operator("object.fairing_match_border", icon="SNAP_EDGE")
+        if memory is not None:
             _draw_cad(layout)
         header, more = layout.panel("fairing.more", default_closed=True)
         header.label(text="More")
@@ -196,7 +199,7 @@ def active_settings(context: Context) -> FairingSettings:
 def _sources(context: Context, memory: FAIRING_PG_surface | None) -> list[Object]:
     """The sources of the surface with the panel's settings."""
     if memory is None:
-        return source_objects(context)
+        return control_meshes(context)
     source = source_of(cast(Object, memory.id_data))
     return [] if source is None else [source]
 
@@ -328,17 +331,13 @@ def _draw_flats(layout: bpy.types.UILayout, marked: bool) -> None:
         button.clear = True
 
 
-def _draw_neighbour(
-    layout: bpy.types.UILayout, memory: FAIRING_PG_surface, is_beside: bool
-) -> None:
-    """The object that the border meets, and how; the button once another object is selected beside."""
+def _draw_neighbour(layout: bpy.types.UILayout, memory: FAIRING_PG_surface) -> None:
+    """The object that the border meets, if any, and how."""
     if memory.neighbour is not None:
         layout.prop(memory, "neighbour")
         layout.prop(memory, "joint")
         if neighbours.is_mutual(cast(Object, memory.id_data)):
             layout.label(text="Both change, each by half", icon="ARROW_LEFTRIGHT")
-    elif is_beside:
-        layout.operator("object.fairing_match_border", icon="SNAP_EDGE")
 
 
 def _draw_cad(layout: bpy.types.UILayout) -> None:

@@ -191,7 +191,9 @@ def test_what_cannot_be_fitted_is_said():
     cloud = add("Cloud", positions(scan.data).tolist(), [])
     activate(cloud)
     refused("Cloud: Draw a cage over it", bpy.ops.object.fairing_fit)
-    assert len(bpy.data.objects) == count + 1
+    activate(add("Box", *CUBE))
+    refused("Box: Select a scan. This mesh has 8 points", bpy.ops.object.fairing_fit)
+    assert len(bpy.data.objects) == count + 2
 
 
 def test_a_scan_that_is_inside_out_is_said(capsys):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from fake_layout import draw
 from lattices import lattice_faces
-from scenes import activate, add, fair, positions, recompute, to_object_mode
+from scenes import activate, add, fair, positions, recompute, refused, to_object_mode
 
 from addon import core, neighbours
 from addon.check import joints
@@ -234,6 +234,20 @@ def test_the_panel_offers_a_neighbour_once_one_is_selected(panels):
     assert "object.fairing_match_border" not in draw(VIEW3D_PT_fairing)
     select(*panels)
     assert "object.fairing_match_border" in draw(VIEW3D_PT_fairing)
+
+
+def test_of_a_surface_and_a_mesh_the_surface_changes_whichever_is_active(panels):
+    _, fender = panels
+    plain = strip("Plain", 0, 1.2, lambda y: 0.3 - 0.2 * y * y)
+    select(fender, plain)
+    assert bpy.context.active_object == plain
+    assert "object.fairing_match_border" in draw(VIEW3D_PT_fairing)
+    before = positions(plain.data)
+    assert bpy.ops.object.fairing_match_border() == {"FINISHED"}
+    assert fender.discrete_fairing.neighbour == plain
+    assert np.array_equal(positions(plain.data), before)
+    select(plain)
+    refused("Select a faired surface", bpy.ops.object.fairing_match_border)
 
 
 def test_the_worst_place_is_shown(panels):

@@ -9,6 +9,7 @@ from scenes import CUBE, activate, add, again, fair, positions, recompute, refus
 
 from addon.live import handlers
 from addon.memory import recall, why_unfit
+from addon.mesh.object import select_only
 from addon.ui import main
 
 
@@ -21,6 +22,18 @@ def test_recompute_follows_the_source(source):
     after = positions(result.data)
     assert np.array_equal(after[:8], positions(source.data)) and not np.array_equal(after, before)
     assert np.array_equal(after, positions(again(source, levels=2).data)), "as if it were made anew"
+
+
+def test_surfaces_selected_beside_a_mesh_are_not_faired_a_second_time(source):
+    surface = fair(levels=1)
+    other = add("Other", *CUBE)
+    select_only(bpy.context, [surface, other])
+    assert "768 triangles" in draw(main.VIEW3D_PT_fairing)
+    made = fair(levels=2)
+    assert made.name == "Other Fair" and bpy.context.selected_objects == [made]
+    assert {o.name for o in bpy.data.objects} == {"Box", "Box Fair", "Other", "Other Fair"}
+    activate(surface)
+    assert len(fair(levels=1).data.polygons) == 6 * 4 * 4, "alone, it is a mesh like any other"
 
 
 def test_recompute_with_other_settings():
