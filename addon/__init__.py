@@ -14,9 +14,7 @@ import bpy
 
 
 def _modules() -> tuple[Any, ...]:
-    """In the order of registration, which is that of the imports. They are made here, for the package's own
-    names stay those of its parts: `addon.in_place` is no operator's module.
-    """
+    """In the order of registration, that of the imports; not names of the package itself."""
     # isort: off
     from . import properties, memory, curve_cage, preferences
     from .inspection import settings as inspection_settings, overlay, viewport_shading

@@ -79,9 +79,7 @@ def all_scenes() -> Iterable[Scene]:
 
 
 def scene_of(target: Object) -> Scene:
-    """The scene whose settings apply to `target`: that of the current window if it has the object, else
-    another one with it. Handlers and timers may run in the context of any window.
-    """
+    """The current window's scene if it has `target`, else another one with it."""
     here, owners = current_context().scene, cast(Any, target).users_scene
     return here if here in owners or not owners else owners[0]
 

@@ -164,9 +164,7 @@ def _numbers(
 
 
 def _marked(arrays: core.ControlArrays) -> np.ndarray:
-    """(n,) vertices that the user has marked: with a crease, or at an edge with a crease or marked
-    sharp.
-    """
+    """(n,) bool: vertices with a crease, or at an edge with a crease or marked sharp."""
     found = np.zeros(len(arrays.positions), bool)
     if arrays.vertex_crease is not None:
         found |= arrays.vertex_crease > 0.0

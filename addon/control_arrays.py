@@ -99,9 +99,7 @@ class ControlArrays:
         return np.where(two, np.minimum(own + np.where(two, softer, 0.0), 10.0), own)
 
     def boundary_edges(self) -> dict[str, np.ndarray]:
-        """Vertex pairs (k, 2) int32 of edges that are marked with a boundary, by its name. Edges
-        without a face are left out.
-        """
+        """Vertex pairs (k, 2) int32 of marked edges with faces, by the name of the boundary."""
         if self.boundary_edge is None:
             return {}
         used = self.edge_uses > 0
@@ -113,9 +111,7 @@ class ControlArrays:
         return {name: edges for name, edges in marked.items() if len(edges)}
 
     def corner_vertices(self, threshold: float | None = None) -> np.ndarray:
-        """Vertices (c,) int32 with a vertex crease of at least `threshold`; None ignores creases.
-        Vertices without a face are left out.
-        """
+        """Vertices (c,) int32 with faces and a crease of at least `threshold`, None for none."""
         if threshold is None or self.vertex_crease is None:
             return np.empty(0, np.int32)
         chosen = _creased(self.vertex_crease, threshold) & self.has_face

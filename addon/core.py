@@ -130,9 +130,7 @@ def keeps_marks(settings: AnySettings) -> bool:
 
 
 def with_partner(arguments: Mapping[str, Any]) -> dict[str, Any]:
-    """The arguments with the surface of a `partner`, which is computed now, as the neighbour that is met
-    half way.
-    """
+    """The arguments with the surface of a `partner`, computed now, as neighbour met half way."""
     own = dict(arguments)
     partner = own.pop("partner", None)
     return own if partner is None else own | {"neighbour": partner(), "halfway": True}
@@ -181,9 +179,7 @@ def _counted(
 
 
 def patch_arguments(fairing: Mapping[str, Any], options: PatchOptions) -> dict[str, Any]:
-    """Keyword arguments for `discrete_fairing.fit_patches`: those of `fair_arguments`, and those of the
-    patches.
-    """
+    """Keyword arguments for `discrete_fairing.fit_patches`."""
     left_out = ("levels", "tolerance", "measure")
     return {name: value for name, value in fairing.items() if name not in left_out} | {
         "fair_tolerance": fairing["tolerance"],
@@ -226,9 +222,7 @@ class SolverFromStart:
 
 
 def solver(arguments: Mapping[str, Any]) -> Any:
-    """A solver for repeated runs while vertices move. With a `scan` among the arguments it fits the
-    surface with a known weight; with a `neighbour` the border meets it.
-    """
+    """A solver for moving vertices; may fit a `scan`, or meet a `neighbour`, of the arguments."""
     own = dict(arguments)
     if "neighbour" in own:
         return SolverFromStart(module().fair, own)
@@ -239,9 +233,7 @@ def solver(arguments: Mapping[str, Any]) -> Any:
 
 
 def plate_arguments(fairing: Mapping[str, Any]) -> dict[str, Any]:
-    """Keyword arguments for `discrete_fairing.strain` and `ease`, from `fair_arguments`: for the thin
-    plate on pads at all vertices. Levels above the second change nothing.
-    """
+    """Arguments for `strain` and `ease`: the plate on pads; levels above two change nothing."""
     left_out = {"shapes", "measure", "weights", "tolerance", *_OF_LIMIT}
     return {name: value for name, value in fairing.items() if name not in left_out} | {
         "levels": 2,
@@ -252,9 +244,7 @@ def plate_arguments(fairing: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def released_arguments(fairing: Mapping[str, Any], free: np.ndarray) -> dict[str, Any]:
-    """Keyword arguments for `discrete_fairing.fair` by which the first points of the surface are the
-    vertices, with the `free` ones, (n,) bool, at the positions that the thin plate prefers.
-    """
+    """Arguments by which the first points are the vertices, `free` (n,) ones as the plate's."""
     return plate_arguments(fairing) | {
         "interpolation": "approximate",
         "weights": np.where(free, 0.0, np.inf),
@@ -264,9 +254,7 @@ def released_arguments(fairing: Mapping[str, Any], free: np.ndarray) -> dict[str
 
 
 def tolerance(settings: AnySettings, edge_length: float) -> float:
-    """The largest allowed distance of a vertex from the surface; 0 if the surface passes through all
-    vertices.
-    """
+    """The largest allowed distance of a vertex from the surface; 0: passes through all."""
     unit = edge_length if settings.tolerance_unit == "RELATIVE" else 1.0
     return settings.tolerance * unit if is_near(settings) else 0.0
 
@@ -300,9 +288,7 @@ def _corners(
 
 
 def without_vertices(arguments: dict[str, Any]) -> dict[str, Any]:
-    """The arguments of `discrete_fairing.fair` without vertices; one solver serves while they are
-    equal.
-    """
+    """The arguments without vertices; one solver serves while they are equal."""
     return {name: value for name, value in arguments.items() if name != "vertices"}
 
 
@@ -318,9 +304,7 @@ def are_equal(a: Any, b: Any) -> bool:
 
 
 def are_together(positions: np.ndarray, origin: np.ndarray | None) -> bool:
-    """Whether vertices that a solver has merged, each into its `origin` (n,), still coincide;
-    `positions` (n, 3).
-    """
+    """Whether vertices (n, 3) that a solver has merged into their `origin` (n,) coincide."""
     if origin is None:
         return True
     rows = np.flatnonzero(origin != np.arange(len(origin)))
@@ -329,9 +313,7 @@ def are_together(positions: np.ndarray, origin: np.ndarray | None) -> bool:
 
 
 def _finest_level(report: Mapping[str, Any]) -> dict[str, Any] | None:
-    """The report's entry for the finest level of an energy with several steps; None for the thin plate,
-    which takes one solve.
-    """
+    """The report's entry for the finest level; None for the thin plate, which takes one solve."""
     levels = report.get("curvature") or [None]
     return levels[-1]
 

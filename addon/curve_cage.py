@@ -125,9 +125,7 @@ def made_of(cage: Object) -> tuple[list[np.ndarray], Hashable]:
 def new_cage(
     context: Context, name: str, sources: Sequence[Object], settings: Any
 ) -> tuple[Object, Covered]:
-    """A new object, linked beside the curves, and the network it was made from. Raises JobError with
-    the reason if there is none.
-    """
+    """A new object beside the curves, and its network; raises JobError with the reason."""
     curves = _read(sources)
     found = covered(curves, _options(settings), text=_text(curves))
     cage = linked_object(context, bpy.data.meshes.new(name))
@@ -141,9 +139,7 @@ def new_cage(
 
 
 def follow(cage: Object) -> Covered:
-    """Updates its mesh after a change of its curves. Raises JobError with the reason if that is
-    impossible.
-    """
+    """Updates its mesh after a change of its curves; raises JobError with the reason."""
     sources = curves_of(cage)
     if not sources:
         raise JobError(f"Undo, or choose another source. The curves of '{cage.name}' were deleted.")

@@ -133,10 +133,7 @@ class JobCancelled(JobError):
 
 
 def what(defect: dict[str, Any]) -> str:
-    """A defect with the number of its elements, in one sentence.
-
-    `defect`: a dict of defects.check_object.
-    """
+    """A defect (of defects.check_object) with the number of its elements, in one sentence."""
     code, count = defect["code"], len(defect["elements"])
     if code in _WHAT and count:
         return f"{count:,} {_WHAT[code][count > 1]}."
@@ -144,9 +141,7 @@ def what(defect: dict[str, Any]) -> str:
 
 
 def remedy(code: str, settings: AnySettings | None = None) -> str:
-    """What to do about an error, in one sentence; empty if nothing is known. `settings`: those of the
-    surface, if known.
-    """
+    """What to do about an error, in one sentence; empty if nothing is known."""
     if code not in REMEDIES:
         return ""
     more = code == "UNRESOLVED" and settings is not None and _may_be_tauter(settings)
@@ -296,9 +291,7 @@ def faults_remedy(settings: AnySettings) -> str:
 
 
 def pads_text(pads: Mapping[str, Any]) -> str:
-    """How many vertices are held by points instead of pads, in one sentence from the report's `pads`;
-    empty if none.
-    """
+    """How many vertices are held by points instead of pads, in one sentence; empty if none."""
     gone = pads.get("gone", 0)
     if not gone:
         return ""

@@ -19,9 +19,7 @@ _handlers: dict[str, Listener] = {}
 
 
 def listen(wanted: Mapping[str, Listener]) -> None:
-    """Starts listening to these events, by their names in bpy.app.handlers; listeners run in the order
-    of registration.
-    """
+    """Listens to these events of bpy.app.handlers, in the order of registration."""
     for name, listener in wanted.items():
         if name not in _handlers:
             _handlers[name] = _relay(name)

@@ -91,9 +91,7 @@ def made_of(
 def beside_of(
     context: Context, neighbour: Object, surface: Object, halfway: bool
 ) -> dict[str, Any]:
-    """The state of the neighbour that the surface meets; half way that of its source and settings, and
-    where it stands.
-    """
+    """The state of the neighbour that is met; half way that of its source, settings and place."""
     source = source_of(neighbour) if halfway else None
     if source is None:
         return scans.made_of(context, [neighbour], surface)
@@ -193,9 +191,7 @@ def _that_count(settings: AnySettings) -> dict[str, Any]:
 
 
 def _differ(made: dict[str, Any], settings: FAIRING_PG_surface) -> bool:
-    """Whether the settings that a surface was `made` with differ. A setting added later, which the
-    surface does not have, counts as unset.
-    """
+    """Whether the settings a surface was `made` with differ; later settings count as unset."""
     properties: Any = settings.bl_rna.properties
     return any(
         now != made.get(name, properties[name].default)

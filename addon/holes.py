@@ -90,9 +90,7 @@ def _skipped(hole: Any) -> dict[str, Any]:
 
 
 class HoleJob(TimedRun):
-    """The holes of one object: read, filled on any thread, then applied. An error of this object
-    becomes `error`, so that other objects are still filled.
-    """
+    """The holes of one object: read, filled on any thread, applied; keeps an `error` for later."""
 
     again = "Fill"
 

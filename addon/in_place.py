@@ -116,9 +116,7 @@ class InPlaceJob(TimedRun):
         return _RINGS_REFINED if self._options.levels else _RINGS[self._options.joint]
 
     def _smoothed(self, watchers: dict[str, Any]) -> tuple[Any, float]:
-        """The measured vertices without noise, at level 0, and the noise. The amount is found on a part
-        of large patches.
-        """
+        """The measured vertices without noise, at level 0, and the noise, found on a part."""
         part, arguments = self._part.arrays, self._arguments
         theirs = self._chosen[self._part.faces]
         tried = measured.sample(part, theirs)
@@ -165,9 +163,7 @@ class InPlaceJob(TimedRun):
         self.result = Faired(part, chosen, points, splits, spread, levels, faults, noise)
 
     def _part_of_the_way(self, vertices: np.ndarray, before: np.ndarray) -> np.ndarray:
-        """`vertices` with those of the part interpolated between their positions `before` and the
-        fairest ones; unmoved vertices stay to the bit.
-        """
+        """Those of the part between `before` and the fairest place; others stay to the bit."""
         if self._options.factor == 1.0:
             return vertices
         vertices = vertices.copy()
@@ -204,9 +200,7 @@ class InPlaceJob(TimedRun):
 
 
 def _split_faces(transfer: AttributeTransfer, part: CutOut) -> dict[int, list[int]]:
-    """The selected faces that the core splits: polygons of five corners and more, and quads that are
-    too warped.
-    """
+    """The selected faces that the core splits: five corners and more, and warped quads."""
     found: dict[int, list[int]] = {}
     for patch in transfer.patches:
         if patch.faces.size == 3:

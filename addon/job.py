@@ -238,10 +238,7 @@ class Job(TimedRun):
         return all(r.find() is not None for r in (self.reference, self._target) if r is not None)
 
     def write(self, context: Context, own: OwnData | None = None) -> Object:
-        """Makes the object, or gives `target` its new mesh, and returns it.
-
-        `own`: the data on `target` to keep; None: its present data.
-        """
+        """Makes the object, or gives `target` its new mesh; `own`: its data to keep, if read."""
         result, settings, source = self.result, self.settings, self.source
         old = self.target
         assert source is not None  # is_writable has checked it
@@ -304,9 +301,7 @@ def run_warnings(
     control: core.ControlArrays,
     ids: np.ndarray | None = None,
 ) -> list[str]:
-    """The warnings of the core's `report` on the mesh `control`, a sentence each. `ids` (m,): names of
-    its faces; None: their positions.
-    """
+    """The core's warnings on the mesh `control`, a sentence each; `ids` (m,): its faces."""
     sentences = [
         errors.warning_text(name, warning)
         for warning in report["warnings"]

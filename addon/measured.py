@@ -36,9 +36,7 @@ _SOUGHT = 0.2  # share of the progress until the amount is known
 
 
 def sample(arrays: core.ControlArrays, chosen: np.ndarray) -> np.ndarray:
-    """(m,) bool: a connected subset of the faces `chosen`, (m,) bool, large enough to find the amount
-    on it.
-    """
+    """(m,) bool: a connected part of the faces `chosen`, (m,) bool, to find the amount on."""
     found = np.zeros(len(chosen), bool)
     found[np.flatnonzero(chosen)[:1]] = True
     while found.sum() < SAMPLE:
@@ -148,9 +146,7 @@ class _Trial:
         self._known: dict[float, tuple[float, float]] = {}
 
     def _measured(self, weight: float) -> tuple[float, float]:
-        """The mean square distance from the fit along the normals, and the share of the data that it
-        uses: the trace of its influence matrix, by one random probe [Hutchinson 1990].
-        """
+        """The mean square distance from the fit, and its trace by a probe [Hutchinson 1990]."""
         if weight not in self._known:
             found = self._fit.run(weight, shapes=(self._fit.points + self._probe)[None])
             surface, probed = self._fit.own(found.vertices), self._fit.own(found.shapes[0])

@@ -194,9 +194,7 @@ def active_source(context: Context) -> Object | None:
 
 
 def source_problem(target: Object) -> str:
-    """Why `target` cannot be made from its source, in one sentence; empty if it can, or has none.
-    Scripts may set any object as the source.
-    """
+    """Why `target` cannot be made from its source, in one sentence; else empty."""
     source = target.discrete_fairing.source
     return "" if source is None else why_unfit(target, source)
 
@@ -236,9 +234,7 @@ def unset_unsound_settings(*_: Any) -> None:
 
 
 def _unset_unsound(group: Any) -> None:
-    """Unsets invalid values of a file: numbers that are not finite or out of range, and choices unknown
-    to this version, which read as empty.
-    """
+    """Unsets a file's values that are not finite, out of range, or choices unknown here."""
     if group is None:
         return
     for known in group.bl_rna.properties:

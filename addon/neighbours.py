@@ -59,9 +59,7 @@ def is_mutual(target: Object | None) -> bool:
 
 
 def watched(target: Object) -> Object | None:
-    """The object whose changes make `target` out of date: its neighbour, or that one's source if each is
-    the other's, which would make the other out of date without end.
-    """
+    """The object that outdates `target`: its neighbour, or if mutual that one's source."""
     neighbour = neighbour_of(target)
     if neighbour is None or neighbour_of(neighbour) != target:
         return neighbour
@@ -97,9 +95,7 @@ def arguments(
 def _alone(
     context: Context, target: Object, way: np.ndarray
 ) -> Callable[[], tuple[np.ndarray, Any]]:
-    """Computes points and faces of a surface without a neighbour, transformed by a (4, 4) matrix from
-    the world. Reads its source now.
-    """
+    """Computes a surface without a neighbour, moved by (4, 4) from the world; reads its source."""
     source, settings = memory.source_of(target), Settings.of(target.discrete_fairing)
     assert source is not None
     settings, shape = settings.for_source(source), world_shape(source)

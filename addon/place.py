@@ -26,9 +26,7 @@ def moved(target: Object) -> bool:
 
 
 def next_of(source: Object, target: Object | None) -> Object:
-    """The object that has the transform of the next surface: the source, for a new surface and for one
-    that follows in all parts; else the surface.
-    """
+    """The object with the next surface's transform: the source unless the surface is moved."""
     if target is None:
         return source
     stood = memory.recall(target, "stood") or {}
@@ -37,9 +35,7 @@ def next_of(source: Object, target: Object | None) -> Object:
 
 
 def follow(context: Context | None, target: Object) -> bool:
-    """Gives the surface the transform of its source, as far as it follows. Returns whether it had
-    moved. `context`: as for `copy_place`.
-    """
+    """Gives the surface its source's transform, as far as it follows; whether it had moved."""
     source, due = memory.source_of(target), _due(target)
     if source is None:
         return False
@@ -91,9 +87,7 @@ def _hangs_on(source: Any, target: Object) -> bool:
 
 
 def _following(target: Object, stood: Mapping[str, Any]) -> set[str]:
-    """The parts of the transform that the surface still has from its source; none if their parents
-    differ.
-    """
+    """The parts of the transform that are still the source's; none with other parents."""
     now = _values(target)
     if any(now[name] != stood.get(name) for name in PARENT):
         return set()

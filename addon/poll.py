@@ -16,9 +16,7 @@ LINKED_SURFACE = (
 
 
 class ExplainedPoll:
-    """Mixin of operators that can run if none of their `reasons` applies; the first that does becomes
-    the tooltip.
-    """
+    """Mix-in of operators with `reasons` against running; the first becomes the tooltip."""
 
     reasons: tuple[Reason, ...]
 

@@ -30,9 +30,7 @@ _of_mesh: dict[tuple[Hashable, str], float] = {}  # (mesh, energy): seconds a tr
 
 
 def seconds(energy: str, triangles: int, mesh: Hashable = None) -> float:
-    """The predicted time of a run; `mesh`: the key given to `note` for an earlier run, None for any
-    mesh.
-    """
+    """The predicted time of a run; `mesh`: the key of an earlier one, None for any."""
     known = _of_mesh.get((mesh, energy))
     if known is None:  # rather too long than too short, since meshes differ by a factor of ten
         known = max(_speeds().get(energy) or [_AT_FIRST[energy]])

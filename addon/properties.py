@@ -37,9 +37,7 @@ def _vertex_values(settings: Any, context: Context, _typed: str) -> list[tuple[s
 
 
 def _sources(settings: Any, context: Context) -> list[Object]:
-    """The objects whose groups the names refer to: the source of the surface with these `settings` or
-    of the active one, else the selected mesh objects.
-    """
+    """The objects whose groups are named: the surface's source, else the selected meshes."""
     active = context.active_object
     owner = getattr(settings, "source", None)
     if owner is None and active is not None and active.type == "MESH":
@@ -292,9 +290,7 @@ def fill_in(settings: FairingSettings, target: Any) -> None:
 
 
 def take_near(given: Any) -> None:
-    """Completes operator properties: a given tolerance implies Near, and a given limit amount implies
-    Limit, unless `interpolation` is given. Values of the last run count as unset.
-    """
+    """A given tolerance implies Near, a given limit amount Limit, unless told otherwise."""
     if given.is_property_set("interpolation"):
         return
     near, limit = any(map(given.is_property_set, OF_NEAR)), given.is_property_set("limit")

@@ -89,9 +89,7 @@ def preset_file(purpose: str) -> Path | None:
 
 @cache
 def preset_values(path: Path) -> dict[str, Any]:
-    """The settings of a preset, {setting: value}, which is read, not run. A shipped preset contains the
-    differences from Default.
-    """
+    """A preset's {setting: value}, read, not run; shipped ones are differences from Default."""
     tree = ast.parse(path.read_text(encoding="utf-8"))
     default = path.with_name(_DEFAULT)
     return (preset_values(default) if path != default else {}) | {
@@ -102,9 +100,7 @@ def preset_values(path: Path) -> dict[str, Any]:
 
 
 def job_of(settings: Any) -> str:
-    """The job whose values the `settings` have, apart from those that may change; empty if none. A job
-    that eases the source first cannot be recognized, since its surface has the settings of another one.
-    """
+    """The job whose values the `settings` have, except for an eased source; else empty."""
     for purpose, *_ in PURPOSES:
         path = preset_file(purpose)
         if (

@@ -171,10 +171,7 @@ def phase_text(phase: str) -> str:
 
 
 class ConsoleProgress:
-    """Prints a line after every tenth of a job.
-
-    An instance is the core's `progress`.
-    """
+    """The core's `progress`: prints a line after every tenth of a job."""
 
     def __init__(self, name: str, stream: TextIO | None = None) -> None:
         self._name = name

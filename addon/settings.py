@@ -66,9 +66,7 @@ class Settings:
         return values_of(cls, properties)
 
     def for_source(self, source: Object) -> Settings:
-        """The same with AUTO resolved for `source`. A Subdivision Surface modifier that is part of the
-        faired mesh is not followed a second time.
-        """
+        """The same with AUTO resolved for `source`; a modifier is not followed a second time."""
         subdivided = subdivision(source) is not None
         if subdivided and is_evaluated(self) and self.interpolation in ("AUTO", "LIMIT"):
             return replace(self, interpolation="EXACT")
@@ -117,9 +115,7 @@ def subdivision(source: Object) -> Any:
 
 
 def is_evaluated(settings: AnySettings) -> bool:
-    """Whether the source is faired with its modifiers; never if faces are selected, which are those of
-    the original mesh.
-    """
+    """Whether the source is faired with its modifiers; never if faces are selected."""
     return settings.mesh_source == "EVALUATED" and not settings.use_selection
 
 
@@ -129,7 +125,5 @@ def halves(settings: AnySettings) -> int:
 
 
 def wants_modifiers(settings: Settings) -> bool:
-    """Whether a new surface gets the modifiers of its source; not if they are applied in the faired
-    mesh.
-    """
+    """Whether a new surface gets the source's modifiers: not if they are in the faired mesh."""
     return settings.copy_modifiers and settings.mesh_source == "ORIGINAL"

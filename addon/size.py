@@ -17,9 +17,7 @@ def face_sizes(mesh: Any) -> np.ndarray:
 
 
 def coarse_triangles(face_sizes: np.ndarray) -> int:
-    """Triangles equivalent to the control mesh: 1 per triangle, 2 per quad, n per larger n-gon (split
-    from its centre).
-    """
+    """Triangles of the control mesh: 1 per triangle, 2 per quad, n per larger n-gon."""
     sizes = np.asarray(face_sizes, np.int64)
     return int(np.where(sizes > 4, sizes, sizes - 2).sum())
 

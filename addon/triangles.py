@@ -5,9 +5,7 @@ import numpy as np
 
 
 def fans(first: np.ndarray, sizes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Triangles of polygons as fans from their first corners: (t, 3) ids of corners, and (t,) the
-    polygon of each. `first`: (m,) the first corner of each polygon; `sizes`: (m,) number of corners.
-    """
+    """Fans of polygons: (t, 3) ids of corners, and (t,) polygons; `first` and `sizes` (m,)."""
     each = np.maximum(sizes - 2, 0)
     polygons = np.repeat(np.arange(len(each)), each)
     start = first[polygons] + np.arange(len(polygons)) - np.repeat(np.cumsum(each) - each, each)
@@ -15,9 +13,7 @@ def fans(first: np.ndarray, sizes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def normals(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """(n, 3) normals at the `points`: the sum over their `triangles` (t, 3), weighted by twice the
-    areas.
-    """
+    """(n, 3) area-weighted sums of the normals of `triangles` (t, 3), at the `points`."""
     a, b, c = points[triangles].swapaxes(0, 1)
     across = np.repeat(np.cross(b - a, c - a), 3, axis=0)
     at = triangles.ravel()

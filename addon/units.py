@@ -76,9 +76,7 @@ def digits_of(value: float, digits: int = DIGITS) -> str:
 
 
 def curvature_text(scene: Any, curvature: float, power: int = 1) -> str:
-    """For example `2.5 /m`: a `curvature`, one over a length in scene units; `power` 2: over its
-    square, `/m²`.
-    """
+    """Such as `2.5 /m`: a `curvature` in scene units; `power` 2: over the square, `/m²`."""
     units = scene.unit_settings
     if units.system == "NONE":
         return f"{curvature:.3g}"

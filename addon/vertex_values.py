@@ -13,9 +13,7 @@ _PULL_OF_HALF = 100.0
 
 
 def names(source: Object) -> Iterator[tuple[str, str]]:
-    """(name, kind) of all values of the mesh object `source`; of two with one name the one that is read
-    comes last.
-    """
+    """(name, kind) of all values of `source`; of two with one name the one read is last."""
     for attribute in source.data.attributes:
         if _is_float(attribute) and not attribute.name.startswith("."):
             yield attribute.name, "Attribute"

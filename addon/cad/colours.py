@@ -22,9 +22,7 @@ def materials(shown: Object, source: Object) -> list[Any]:
 def of_faces(
     shown: Object, source: Object, data: SurfaceData
 ) -> tuple[np.ndarray | None, np.ndarray]:
-    """(m, 3) red, green and blue of each face of the source, None without materials; and (m,) the slot
-    of each face, empty if all use the first.
-    """
+    """(m, 3) colour of each face, None without materials; (m,) its slot, empty if one is used."""
     found = [a.values for a in data.attributes if (a.name, a.domain) == ("material_index", "FACE")]
     slots = np.maximum(found[0], 0) if found else np.empty(0, np.int32)
     shades = np.array([_colour(material) for material in materials(shown, source)])
@@ -36,9 +34,7 @@ def of_faces(
 
 
 def of_patches(faces: np.ndarray | None, patches: Any) -> np.ndarray | None:
-    """(3,) or (P, 3) for `write_step`, from the result of `of_faces`; patches of unresolved faces are
-    marked.
-    """
+    """(3,) or (P, 3) for `write_step`, from `of_faces`; unresolved patches are marked."""
     count = len(patches)
     if faces is None or len(faces) == 1:
         own = None if faces is None else np.repeat(faces, count, axis=0)

@@ -152,17 +152,13 @@ class PatchJob(Job):
 
     @property
     def from_scan(self) -> tuple[float, float]:
-        """The distance within which 95 % of a scan's points are from the patches, and the largest
-        without strays, in Blender units of the world; (0, 0) without a scan.
-        """
+        """The distance that 95 % of a scan's points are within, and the largest; (0, 0) without."""
         within, largest = self.patches.scan_within
         return within * float(self._stretch.max()), largest * float(self._stretch.max())
 
     @property
     def angle(self) -> float:
-        """The largest angle at smooth edges. If the surface is scaled unevenly against its source, an
-        upper bound.
-        """
+        """The largest angle at smooth edges; an upper bound for unevenly scaled surfaces."""
         return float(self.patches.largest_angle * self._stretch.max() / self._stretch.min())
 
     @property

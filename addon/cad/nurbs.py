@@ -18,9 +18,7 @@ _RESOLUTION = 4  # steps a span, for display
 def surface_of(
     context: Context, name: str, patches: Any, materials: list[Any], slots: np.ndarray | None
 ) -> Any:
-    """New surface data (bpy.types.Curve) in the coordinates of `patches`; `slots` (P,): the index in
-    `materials` of each patch. In Object Mode.
-    """
+    """New bpy.types.Curve in the coordinates of `patches`; `slots` (P,): into `materials`."""
     nets = [patches.net(p) for p in range(len(patches))]
     surface: Any = bpy.data.curves.new(name, "SURFACE")
     for material in materials:
@@ -49,9 +47,7 @@ def _with_weights(points: np.ndarray) -> np.ndarray:
 
 
 def _add_rows(context: Context, surface: Any, rows: list[int]) -> None:
-    """Extrudes the single row of each spline to `rows` rows, since scripts cannot create a grid of
-    points.
-    """
+    """Extrudes each spline's single row to `rows`, since scripts cannot make a grid of points."""
     stand_in = cast(Object, bpy.data.objects.new(surface.name, surface))
     before = context.view_layer.objects.active
     context.scene.collection.objects.link(stand_in)

@@ -110,9 +110,7 @@ def distance(
 def _same_points(
     transfer: AttributeTransfer, levels: int, corners: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray] | None:
-    """Ids of the vertices of a refined mesh with the `corners` (c,), of any level, and ids of the
-    vertices of `transfer` at the same places of the control mesh; None if it has other faces.
-    """
+    """Ids of refined vertices with `corners`, and those of `transfer` there; or None."""
     at_level_0 = sum(patch.fine.size for patch in transfer.patches) >> 2 * levels
     own = next((k for k in range(levels + 9) if at_level_0 << 2 * k == len(corners)), None)
     if own is None or not at_level_0:

@@ -13,9 +13,7 @@ _SYMBOLS = {"IN": ("in", "IN"), "FT": ("in", "IN")}
 
 
 def write_jobs(path: str, jobs: Sequence[PatchJob], unit: str, scale: float) -> None:
-    """Writes a complete file, with a part for each object, or none; raises OSError. `scale`: units of
-    the file in a Blender unit.
-    """
+    """Writes a complete file, one part an object, or none: OSError. `scale`: units in Blender's."""
     core.module().write_step(
         path,
         [job.patches.transformed(job.placement) for job in jobs],
@@ -27,9 +25,7 @@ def write_jobs(path: str, jobs: Sequence[PatchJob], unit: str, scale: float) -> 
 
 
 def summary(jobs: Sequence[PatchJob], unit: str, scale: float) -> str:
-    """The sentence of words.summary() with the worst values of all jobs. If the mesh shown has fewer
-    levels than the fitted surface, also the level that shows it.
-    """
+    """words.summary() of the worst values of all jobs, and the level that shows a finer surface."""
     symbol, each = _SYMBOLS.get(unit, ("mm", "MM"))
     factor = scale * METRES[unit] / METRES[each]
     apart = [job.apart for job in jobs if job.apart is not None]

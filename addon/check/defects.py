@@ -18,10 +18,7 @@ _RANK = {"vertex": 0, "edge": 1, "face": 2}
 
 
 def check_object(context: Context, target: Object) -> list[dict[str, Any]]:
-    """Runs the core's check on the mesh of `target`, in any mode, and stores the defects and holes.
-
-    Returns the defects as dicts.
-    """
+    """Checks the mesh of `target`, in any mode; stores defects and holes, returns the defects."""
     with control_mesh(context, target) as mesh:
         arrays = read_mesh(mesh)
     found = core.module().check(arrays.positions, (arrays.corners, arrays.offsets))
@@ -51,9 +48,7 @@ def store_defects(
     holes: list[dict[str, Any]] | None = None,
     cleaned: Sequence[str] = (),
 ) -> None:
-    """Stores the result of a check of `target` in its present state. `holes`: None: keep the known
-    ones. `cleaned`: sentences on a Clean Scan just before.
-    """
+    """Stores the result of a check. `holes`: None: keep those known; `cleaned`: of Clean Scan."""
     if holes is None:
         holes, cleaned = recall_holes(target), recall_cleaned(target)
     counts = mesh_changes.watch(context, target.data)
@@ -62,9 +57,7 @@ def store_defects(
 
 
 def recall_holes(target: Object) -> list[dict[str, Any]]:
-    """The holes listed by the last check: for each its `width`, the number of its `edges`, and one of
-    them, `at`.
-    """
+    """The holes of the last check: `width`, the number of `edges`, and one edge, `at`."""
     return (memory.recall(target, "defects") or {}).get("holes", [])
 
 
@@ -82,10 +75,7 @@ def recall_defects(target: Object) -> tuple[list[dict[str, Any]], bool] | None:
 
 
 def enter_edit_mode(context: Context, targets: list[Object]) -> None:
-    """Puts exactly the mesh objects `targets` into Edit Mode; the last one becomes active.
-
-    Raises RuntimeError if Blender refuses.
-    """
+    """Puts exactly `targets` into Edit Mode, the last active; RuntimeError if Blender refuses."""
     if context.mode == "EDIT_MESH" and all(t.mode == "EDIT" for t in targets):
         context.view_layer.objects.active = targets[-1]
         return

@@ -98,9 +98,7 @@ def find_faults_in_place(
 def _departure(
     vertices: np.ndarray, transfer: AttributeTransfer, control: ControlArrays
 ) -> np.ndarray:
-    """(N,) the distance of each vertex from its place on the control mesh, in lengths of the edges
-    around.
-    """
+    """(N,) each vertex's distance from its place on the control mesh, in lengths of its edges."""
     ends = control.positions[control.edges]
     length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
     count = len(control.positions)
@@ -112,9 +110,7 @@ def _departure(
 
 
 def _crossing(vertices: np.ndarray, before: np.ndarray, transfer: AttributeTransfer) -> np.ndarray:
-    """(N,) bool: where the surface at `vertices` crosses itself and the control mesh, at `before`, does
-    not.
-    """
+    """(N,) bool: where the surface crosses itself and the control mesh, at `before`, does not."""
     marked = np.zeros(len(vertices), bool)
     coarsest, owner = coarse_triangles(transfer, 0)
     if not 0 < len(coarsest) <= MOST:
@@ -180,9 +176,7 @@ def _turned(triangles: np.ndarray, chosen: np.ndarray) -> np.ndarray:
 
 
 def _pierced(triangles: np.ndarray, others: np.ndarray) -> np.ndarray:
-    """(t,) bool: whether the last side of `others` crosses `triangles`, both (t, 3, 3), with the same
-    first corner [Möller and Trumbore 1997].
-    """
+    """(t,) bool: the last side of `others` crosses `triangles` [Möller and Trumbore 1997]."""
     u, v = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
     start = others[:, 1] - triangles[:, 0]
     way = others[:, 2] - others[:, 1]

@@ -46,9 +46,7 @@ def find_flats(arrays: core.ControlArrays, angle: float) -> np.ndarray:
 
 
 def _parts(arrays: core.ControlArrays, joined: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """(m,) the part of each face, and (parts,) bool whether it is planar. Faces that are joined but not
-    coplanar are separate parts. `joined` (e,) bool: edges inside parts.
-    """
+    """(m,) the part of each face, (parts,) bool: planar; `joined` (e,) bool: edges inside."""
     count = len(arrays.face_sizes)
     connected = core.module().patches.connected_parts
     pair = faces_of_edges(arrays)[joined]
@@ -59,9 +57,7 @@ def _parts(arrays: core.ControlArrays, joined: np.ndarray) -> tuple[np.ndarray, 
 
 
 def _in_plane(arrays: core.ControlArrays, part: np.ndarray) -> np.ndarray:
-    """(parts,) bool: whether the corners of all faces of a part are in the plane of its first face with
-    an area. Three points are always coplanar, so a single triangle does not count.
-    """
+    """(parts,) bool: whether all corners lie in the plane of the part's first face with an area."""
     normals = face_normals(arrays.positions, arrays.corners, arrays.offsets)
     has_area = np.flatnonzero((normals != 0.0).any(axis=1))
     count = int(part.max()) + 1
@@ -96,9 +92,7 @@ def _widths(
 def _turns_beyond(
     arrays: core.ControlArrays, edge: np.ndarray, owner: np.ndarray, turn: np.ndarray
 ) -> np.ndarray:
-    """(b,) for each border edge, the largest `turn` at its part's edges that share no vertex with it,
-    or at the edge itself. `owner` ascends.
-    """
+    """(b,) for each border edge, the largest `turn` at others of its part; `owner` ascends."""
     sizes = np.bincount(owner)
     own = sizes[owner]
     begin = np.cumsum(own) - own

@@ -24,9 +24,7 @@ def loops_of(arrays: core.ControlArrays) -> list[list[int]]:
 
 
 def listed(arrays: core.ControlArrays, shape: WorldShape) -> list[dict[str, Any]]:
-    """For each hole its `width` in scene units, the widest first, the number of its `edges`, and one of
-    them, `at`, as a pair of vertices. `shape`: of the object in the world.
-    """
+    """For each hole its `width`, the widest first, its number of `edges`, and one of them, `at`."""
     points, width_of = shape.of(arrays.positions), core.module().hole_width
     holes = [
         {"width": width_of(points[loop]), "edges": len(loop), "at": loop[:2]}

@@ -79,9 +79,7 @@ def _away(vertex: bmesh.types.BMVert, edge: bmesh.types.BMEdge) -> tuple[float, 
 
 
 def _delete_surplus(bm: bmesh.types.BMesh, edges: list[bmesh.types.BMEdge]) -> None:
-    """At edges with more than two faces, deletes the smaller sheets that end in a border, like Clean
-    Scan.
-    """
+    """At edges with more than two faces, deletes the smaller sheets that end in a border."""
     faces = list(bm.faces)
     bm.verts.index_update()
     corners = np.array([v.index for face in faces for v in face.verts], np.int64)

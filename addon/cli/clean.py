@@ -58,9 +58,7 @@ def shown(options: CleanOptions) -> dict[str, Any]:
 
 
 def run(source: Object, options: CleanOptions, **watchers: Any) -> tuple[dict[str, Any], list[str]]:
-    """Cleans the mesh of an object. Returns its entry for the report, and the remaining defects as a
-    warning.
-    """
+    """Cleans an object's mesh; returns its entry for the report, and the remaining defects."""
     entry: dict[str, Any] = {"name": source.name, "control": counts(source.data)}
     job = CleanJob(current_context(), source, options)
     job.compute(**watchers)

@@ -110,9 +110,7 @@ class Preparing:
     def run(
         self, sources: Sequence[Object], done: Callable[[], None], **watchers: Any
     ) -> tuple[list[dict[str, Any]], list[table.Table]]:
-        """Eases the meshes and measures their strain, if requested. Calls `done` after each run.
-        Returns the entry of each source for the report, and its table.
-        """
+        """Eases meshes and measures strain, `done` after each; returns entries and tables."""
         entries: list[dict[str, Any]] = []
         found: list[table.Table] = []
         for source in sources:

@@ -197,10 +197,7 @@ def _readable(path: Path) -> None:
 
 
 def _merge(mesh: Mesh) -> None:
-    """Merges vertices with equal coordinates.
-
-    (`remove_doubles` merges none at a distance of 0.)
-    """
+    """Merges vertices with equal coordinates; `remove_doubles` merges none at a distance of 0."""
     positions = column(mesh.vertices, "co", width=3)
     # + 0 turns a negative zero into zero
     _, first, group = np.unique(positions + 0, axis=0, return_index=True, return_inverse=True)

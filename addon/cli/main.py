@@ -101,9 +101,7 @@ def _run_all(
 
 
 def _note_interruption(records: list[dict[str, Any]], all_of_them: bool) -> None:
-    """Notes an interruption in the record of the current input, or of all unfinished inputs of parallel
-    tasks.
-    """
+    """Notes an interruption in the record of the current input, or of `all_of_them`."""
     waiting = [record for record in records if record["status"] == report.NOT_RUN]
     for record in waiting if all_of_them else waiting[:1]:
         record["status"] = report.CANCELLED
@@ -328,9 +326,7 @@ def _fail(record: dict[str, Any], code: str, elements: Sequence[Any], message: s
 def _write_report(
     where: str | None, output: TextIO | None, exit_code: int, records: list[dict[str, Any]]
 ) -> int:
-    """Writes the report and returns the final exit code: a report that cannot be written is a failure
-    too.
-    """
+    """Writes the report and returns the final exit code: failing to write it is a failure too."""
     if not where:
         return exit_code
     text = report.document(_versions(), exit_code, records)

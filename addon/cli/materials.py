@@ -8,9 +8,7 @@ from pathlib import Path
 
 
 def free_stem(target: Path) -> str:
-    """A name for the materials of the OBJ `target`: its own, or with a number if a file of that name
-    exists that the present `target` does not use.
-    """
+    """A name for the materials of the OBJ `target`: its own, numbered if another file has it."""
     own = _named_in(target)
     names = chain([target.stem], (f"{target.stem}-{number}" for number in count(1)))
     return next(
@@ -21,9 +19,7 @@ def free_stem(target: Path) -> str:
 
 
 def _named_in(target: Path) -> set[str]:
-    """The files of materials that an OBJ names before its first vertex, where exporters write them. A
-    device has none, and reading it may never end.
-    """
+    """The materials that an OBJ names before its first vertex; a device is not read."""
     if not target.is_file():
         return set()
     try:

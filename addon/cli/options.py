@@ -93,10 +93,7 @@ def add_settings(parser: argparse.ArgumentParser) -> None:
 
 
 def settings_of(arguments: argparse.Namespace) -> Settings:
-    """The parsed options as settings, with defaults for options that are not given.
-
-    Raises ValueError if they contradict.
-    """
+    """The parsed options as settings, with defaults; raises ValueError if they contradict."""
     given = {name: value for name, value in vars(arguments).items() if name in NAMES}
     if given.get("weld") is None:
         given.pop("weld", None)
@@ -146,10 +143,7 @@ def _property(name: str) -> Any:
 
 
 def parser(version: str) -> argparse.ArgumentParser:
-    """The parser, with the text `version`.
-
-    Needs the add-on registered, since its settings become options.
-    """
+    """The parser; needs the add-on registered, since its settings become options."""
     made = argparse.ArgumentParser(
         prog=_PROGRAM,
         usage=f"{_PROGRAM} IN [IN …] OUT [options]",

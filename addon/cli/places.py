@@ -130,9 +130,7 @@ def _no_clash(found: list[Place]) -> None:
 
 
 def _same(one: Path, other: Path) -> bool:
-    """Whether two paths are the same file: through links, and for names that differ in case only if the
-    file system ignores case.
-    """
+    """Whether two paths are one file: through links, and where the file system ignores case."""
     if os.path.realpath(one) == os.path.realpath(other):
         return True
     return is_there(one) and is_there(other) and one.samefile(other)

@@ -65,9 +65,7 @@ def new_record(place: Place, settings: dict[str, Any]) -> dict[str, Any]:
 
 
 def log_line(record: dict[str, Any]) -> str:
-    """Fields separated by tabs: status, seconds, input, output, and the error or the number of
-    warnings.
-    """
+    """Status, seconds, input, output, and the error or the number of warnings, between tabs."""
     error, count = record["error"], len(record["warnings"])
     said = error["message"] if error else f"{count} warnings" if count else ""
     fields = (record["status"], f"{record['seconds']:.3f}", record["input"], record["output"], said)

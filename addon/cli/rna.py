@@ -22,9 +22,7 @@ def option(name: str) -> str:
 
 
 def number(what: str, accepts: Callable[[float], bool]) -> Callable[[str], float]:
-    """The `type` of a numeric argument; `what`: its description, such as "a length, 0 or more". Refuses
-    NaN.
-    """
+    """The `type` of a numeric argument; `what`: such as "a length, 0 or more". Refuses NaN."""
 
     def read(text: str) -> float:
         try:
@@ -41,9 +39,7 @@ def number(what: str, accepts: Callable[[float], bool]) -> Callable[[str], float
 def add(
     group: argparse._ArgumentGroup, name: str, prop: Any, absent: Any = None, is_off: bool = False
 ) -> None:
-    """Adds an option for the setting `name` with the property `prop`; `absent`: its value if not given.
-    `is_off`: whether it then has no effect.
-    """
+    """Adds an option for a property; `absent`: its value if not given, which `is_off`."""
     kind = _KINDS.get(prop.type)
     if kind is None or getattr(prop, "is_array", False):
         raise TypeError(f"the setting {name} has no option yet: {prop.type}")
@@ -51,9 +47,7 @@ def add(
 
 
 class OfOperator:
-    """Options from an operator's properties, by their names on the command line, and `others` with
-    defaults.
-    """
+    """Options from an operator's properties, by their names here, and `others` with defaults."""
 
     def __init__(self, operator: str, others: dict[str, Any], **properties: str) -> None:
         self._operator, self._others, self._properties = operator, others, properties

@@ -7,9 +7,7 @@ _BLOCK = 1 << 20
 
 
 def why_incomplete(path: Path, faces: int, corners: int) -> str:
-    """What is missing in an OBJ, PLY or STL file with these numbers of faces and corners, in a few
-    words; else empty.
-    """
+    """What is missing in a file with so many faces and corners, in a few words; else empty."""
     size = path.stat().st_size if path.exists() else 0
     if not size:
         return "nothing was written"

@@ -27,9 +27,7 @@ class ControlMesh:
 
 
 def control_mesh(found: Cells, per_side: int, before: np.ndarray | None = None) -> ControlMesh:
-    """`per_side`: edges on the shorter sides of cells. `before`: the `counts` of an earlier mesh over
-    the same curves.
-    """
+    """`per_side`: edges on shorter sides of cells; `before`: the `counts` of an earlier mesh."""
     network = found.network
     lengths = np.array([arc.length for arc in network.arcs])
     used = sorted({half // 2 for cell in found.cells for half in cell.halves})
@@ -74,9 +72,7 @@ def _without_idle(mesh: ControlMesh) -> ControlMesh:
 
 
 def _short_side(cells: list[Cell], lengths: np.ndarray) -> float:
-    """The length that three of four sides exceed, since the frames of a hull are much longer than the
-    rails between them.
-    """
+    """The length that three of four sides exceed: frames of a hull are longer than rails."""
     sides = [
         lengths[[half // 2 for half in side]].sum() / (4 if len(cell.sides) == 1 else 1)
         for cell in cells
@@ -178,9 +174,7 @@ def _in_four(side: np.ndarray) -> list[np.ndarray]:
 
 
 def coons(bottom: np.ndarray, right: np.ndarray, top: np.ndarray, left: np.ndarray) -> np.ndarray:
-    """(v, u, 3): blends four rows of points; `bottom` and `top` (u, 3) have the same direction, so have
-    `left` and `right` (v, 3).
-    """
+    """(v, u, 3): blends four rows, `bottom` and `top` (u, 3), `left` and `right` (v, 3)."""
     u = np.linspace(0, 1, len(bottom))[None, :, None]
     v = np.linspace(0, 1, len(left))[:, None, None]
     rows = (1 - v) * bottom[None] + v * top[None]

@@ -103,9 +103,7 @@ def _between(p: np.ndarray, q: np.ndarray, r: np.ndarray, s: np.ndarray) -> np.n
 def _refined(
     curves: Sequence[Curve], a: np.ndarray, ta: np.ndarray, b: np.ndarray, tb: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Parameters and points of least distance, for all pairs at once: Gauss–Newton on the cubics, with
-    parameters clamped to the ends.
-    """
+    """Parameters and points of least distance, for all pairs: Gauss–Newton, clamped to the ends."""
     starts = np.concatenate([[0], np.cumsum([len(c.pieces) for c in curves])]).astype(float)
     pieces = np.concatenate([curve.pieces for curve in curves])
     closed = np.array([curve.closed for curve in curves])

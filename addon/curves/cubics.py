@@ -15,9 +15,7 @@ _OVERLAP = 12
 
 @dataclass(frozen=True)
 class Curve:
-    """`pieces` (s, 4, 3) float64: Bézier points of its cubics, in the world's coordinates. Parameters
-    run from 0 to s.
-    """
+    """`pieces` (s, 4, 3) float64: Bézier points in the world; parameters run from 0 to s."""
 
     name: str
     pieces: np.ndarray
@@ -64,9 +62,7 @@ def from_bezier(
 
 
 def through(points: np.ndarray, closed: bool) -> np.ndarray:
-    """Pieces of the cubic spline by chord length through `points` (k, 3), with corners where the
-    polygon turns by more than 60°.
-    """
+    """Pieces of the chord-length cubic spline through `points` (k, 3); over 60° are corners."""
     points = np.asarray(points, float)
     ahead = np.linalg.norm(np.roll(points, -1, axis=0) - points, axis=1)
     kept = ahead > 0
@@ -133,9 +129,7 @@ def _hermite(a: np.ndarray, b: np.ndarray, start: np.ndarray, end: np.ndarray) -
 def from_nurbs(
     points: np.ndarray, order: int, closed: bool, clamped: bool, bezier: bool
 ) -> np.ndarray:
-    """Pieces of a NURBS spline of Blender: `points` (k, 4) with weights, its order, and whether Cyclic,
-    Endpoint and Bézier are on.
-    """
+    """Pieces of a NURBS spline: `points` (k, 4) with weights; Cyclic, Endpoint, Bézier."""
     count = len(points)
     order = min(order, count)
     knots = _knots(count, order, closed, clamped, bezier)

@@ -141,9 +141,7 @@ class _Stops:
         return number
 
     def settled(self) -> tuple[np.ndarray, list[list[tuple[float, int]]]]:
-        """(nodes (n, 3), for each curve (parameter, node) in order): includes ends and corners of
-        curves; each node is the mean of its places.
-        """
+        """(nodes (n, 3), each curve's (parameter, node)); a node is the mean of its places."""
         for i, curve in enumerate(self._curves):
             for t in _own_stops(curve):
                 self.at(i, t)
@@ -201,9 +199,7 @@ def _arcs(i: int, curve: Curve, visits: list[tuple[float, int]], nodes: np.ndarr
 
 
 def without_loose(arcs: list[Arc], count: int) -> tuple[list[Arc], list[Loose]]:
-    """Removes, repeatedly, arcs that end at a node without another arc. Returns the other arcs, and the
-    removed parts by loose end.
-    """
+    """Removes arcs that end alone, repeatedly; returns the others, and the removed by loose end."""
     arcs = list(arcs)
     loose: list[Loose] = []
     gone: dict[int, tuple[np.ndarray, float, int]] = {}  # node: loose end beyond it, length, curve
@@ -228,7 +224,5 @@ def without_loose(arcs: list[Arc], count: int) -> tuple[list[Arc], list[Loose]]:
 
 
 def _is_met(miss: Meeting, shared: np.ndarray, tolerance: float) -> bool:
-    """Whether two curves are near each other only because they meet nearby, in a node that they share;
-    `shared` (k, 3).
-    """
+    """Whether two curves are near only because they meet nearby, in a `shared` (k, 3) node."""
     return bool((np.linalg.norm(shared - miss.place, axis=1) <= 2 * _NEAR * tolerance).any())

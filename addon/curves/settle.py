@@ -54,9 +54,7 @@ def covered(
     before: np.ndarray | None = None,
     text: Text = plain,
 ) -> Covered:
-    """The control mesh over the network of `curves`; raises JobError with the reason if there is none.
-    `before`: the numbers of edges on the arcs of an earlier mesh. `text` formats lengths.
-    """
+    """The control mesh over `curves`; JobError without one. `before`: numbers of edges on arcs."""
     curves = [curve for curve in curves if len(curve.pieces)]
     if not curves:
         raise JobError("Draw curves that cross each other first. There is none with two points.")

@@ -67,9 +67,7 @@ class TangentPlanes:
         return float(np.arctan2(normal @ _cross(*flat), flat[0] @ flat[1]))
 
     def _look_one_way(self) -> None:
-        """Orients the normals consistently from node to node, first along the arcs whose ends agree
-        best [Hoppe and others 1992].
-        """
+        """Orients normals along arcs, those that agree best first [Hoppe and others 1992]."""
         known = np.zeros(len(self.normals), bool)
         planes = [self._plane(node) for node in range(len(known))]
         by_degree = sorted(range(len(known)), key=lambda node: -len(self.leaving[node]))
@@ -109,9 +107,7 @@ class TangentPlanes:
                 heapq.heappush(heap, (-abs(agreement), other, tuple(normal.tolist())))
 
     def _plane(self, node: int) -> np.ndarray:
-        """The normal, of either sign, of the plane through the tips of a node's directions; zero if
-        they lie on a line.
-        """
+        """The normal, of either sign, of the plane through a node's directions; zero on a line."""
         out = np.array([self.out(half) for half in self.leaving[node]]).reshape(-1, 3)
         if len(out) == 2:
             normal = _cross(out[0], out[1])

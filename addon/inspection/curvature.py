@@ -37,10 +37,7 @@ class Curvature:
 
 
 def curvature(arrays: ControlArrays) -> Curvature:
-    """Curvature of a polygon mesh.
-
-    Not measured at borders and along edges marked sharp.
-    """
+    """Curvature of a polygon mesh; not at borders and edges marked sharp."""
     triangles, weights = triangulate(arrays.positions, arrays.corners, arrays.offsets)
     rim = marked_vertices(arrays.edges, rim_edges(arrays), len(arrays.positions))
     return triangle_curvature(arrays.positions, triangles, weights, rim, arrays.edges)
@@ -106,9 +103,7 @@ def _share(
     cosine: list[np.ndarray],
     twice_area: np.ndarray,
 ) -> np.ndarray:
-    """(t,) the part of each triangle that belongs to corner i: its Voronoi region, cut off in obtuse
-    triangles.
-    """
+    """(t,) the part of each triangle at corner i: its Voronoi region, cut off in obtuse ones."""
     j, k = (i + 1) % 3, (i + 2) % 3
     voronoi = (square[j] * cotangent[j] + square[k] * cotangent[k]) / 8.0
     obtuse_here = cosine[i] < 0.0
@@ -145,9 +140,7 @@ def triangulate(
 
 
 def rim_edges(arrays: ControlArrays) -> np.ndarray:
-    """(e,) bool: edges at which the surface is not smooth: borders, edges with three faces or more,
-    edges marked sharp.
-    """
+    """(e,) bool: edges where the surface is not smooth: borders, three faces or more, sharp."""
     count = arrays.edge_uses
     rim = (count == 1) | (count > 2)
     return rim if arrays.sharp_edge is None else rim | arrays.sharp_edge
@@ -171,9 +164,7 @@ def faces_of_edges(arrays: ControlArrays) -> np.ndarray:
 
 
 def face_normals(positions: np.ndarray, corners: np.ndarray, offsets: np.ndarray) -> np.ndarray:
-    """(m, 3) unit normals by Newell's sum, which for a quad equals that of its diagonals; zero for
-    faces without area.
-    """
+    """(m, 3) unit normals by Newell's sum; zero for faces without area."""
     return unit(_newell_sums(positions, corners, offsets))
 
 
@@ -215,10 +206,7 @@ def unit(vectors: np.ndarray) -> np.ndarray:
 
 
 def _halve(positions: np.ndarray, quads: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Triangles (t, 3) and weights (t,) of (q, 4) quads.
-
-    A cut outside a concave quad has weight zero.
-    """
+    """Triangles and weights (t,) of (q, 4) quads; a cut outside a concave quad has weight zero."""
     a, b, c, d = (positions[quads[:, i]] for i in range(4))
     ac, bd = c - a, d - b
     normal = cross(ac, bd)

@@ -33,9 +33,7 @@ def from_vertices(target: Object, positions: np.ndarray, control: np.ndarray) ->
 def from_object(
     context: Context, target: Object, positions: np.ndarray, other: Object
 ) -> np.ndarray:
-    """(n,) at each of the surface's `positions` (n, 3) the distance from the mesh of `other` as
-    displayed, in scene units; positive on the outer side of its faces.
-    """
+    """(n,) distances of `positions` (n, 3) from `other` as displayed; above 0 outside."""
     with control_mesh(context, other, evaluated=True) as mesh:
         tree = _tree(mesh, world_matrix(other))
     return signed_distances(tree, _in_world(target, positions))
@@ -59,9 +57,7 @@ def from_scan(target: Object, positions: np.ndarray, scan: Scan) -> np.ndarray:
 
 
 def signed_distances(tree: Any, points: np.ndarray) -> np.ndarray:
-    """(n,) distances of `points` (n, 3) from the surface in the BVH `tree`, positive on its outer side;
-    0 for an empty tree.
-    """
+    """(n,) distances of `points` (n, 3) from the BVH `tree`, above 0 outside; 0 if empty."""
     find, out = tree.find_nearest, []
     place: Any = find(points[0].tolist())[0] if len(points) else None
     if place is None:

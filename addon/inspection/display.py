@@ -32,9 +32,7 @@ INNER = "fair_curvature_measured"
 
 
 def write_values(target: Object, mode: str, settings: Any) -> None:
-    """Measures `target`, not in Edit Mode, and stores the values of `mode` at the vertices of its mesh:
-    all three curvatures, or the deviation.
-    """
+    """Measures `target`, not in Edit Mode, and stores the values of `mode`, or all curvatures."""
     if mode == "DEVIATION":
         _write_deviation(current_context(), target, settings.deviation_object)
         return
@@ -69,10 +67,7 @@ def have_values(mesh: Mesh, mode: str) -> bool:
 
 
 def write_colours(mesh: Mesh, mode: str, settings: Any) -> None:
-    """Writes the colours of stored values.
-
-    `settings`: range_low, range_high, use_fixed_range, fixed_range.
-    """
+    """Writes the colours of stored values, by the ranges of `settings`."""
     values = layer_values(mesh.attributes[VALUES[mode]])
     inner = np.ones(len(values), bool)
     if mode in CURVATURES:
@@ -101,9 +96,7 @@ def write_colours(mesh: Mesh, mode: str, settings: Any) -> None:
 
 
 def _corners_without_points(mesh: Mesh, mode: str, settings: Any) -> np.ndarray | None:
-    """(c,) bool: corners of faces without points of scans, where deviation is undefined; None if all
-    have points.
-    """
+    """(c,) bool: corners without points of scans, where deviation is undefined; None: all have."""
     if (
         mode != "DEVIATION"
         or settings.deviation_object is not None
@@ -144,11 +137,7 @@ def value_text(scene: Scene, mode: str, value: float) -> str:
 
 
 def show(target: Object, mode: str, settings: Any) -> None:
-    """Makes `target` (a mesh object) show `mode`: NONE, one of STRIPES or of VALUES. Its own materials
-    stay unchanged.
-
-    In Edit Mode nothing is measured: call `refresh` afterwards.
-    """
+    """Shows `mode`: NONE, one of STRIPES or VALUES. Edit Mode measures nothing: `refresh` later."""
     if mode not in VALUES:
         _clear_attributes(target)
     if mode == "NONE":
@@ -163,21 +152,14 @@ def show(target: Object, mode: str, settings: Any) -> None:
 
 
 def refresh(target: Object, settings: Any) -> None:
-    """Measures the values shown on `target` again, after its mesh was changed or replaced.
-
-    Does nothing if it shows none.
-    """
+    """Measures the values shown again, if any, after the mesh was changed or replaced."""
     mode = target.discrete_fairing_inspection.mode
     if mode != "NONE":
         show(target, mode, settings)
 
 
 def remeasure(target: Object, settings: Any) -> None:
-    """Measures the colours shown on `target` again after its points have moved, if that is quick:
-    during a drag. `refresh` does the rest afterwards.
-
-    Does nothing if it shows none.
-    """
+    """Measures the shown colours again while points move, if quick; else `refresh` later."""
     mode = target.discrete_fairing_inspection.mode
     if mode not in VALUES:
         return
@@ -190,9 +172,7 @@ def remeasure(target: Object, settings: Any) -> None:
 
 
 def _is_quick(target: Object, mode: str, settings: Any) -> bool:
-    """Whether a measurement is quick: distances take a search for each point, from another object also
-    for each face.
-    """
+    """Whether a measurement is quick: distances take a search for each point, or face too."""
     if mode != "DEVIATION":
         return True
     other = settings.deviation_object is not None or scans_of(target)
@@ -209,9 +189,7 @@ def recolour(target: Object, settings: Any) -> None:
 
 
 def redraw(target: Object, settings: Any) -> None:
-    """Updates the display of `target` to the `settings` of its scene: stripes, smooth or not. Measures
-    nothing.
-    """
+    """Updates stripes and smoothness to the `settings` of the scene; measures nothing."""
     mode = target.discrete_fairing_inspection.mode
     if mode in STRIPES:
         viewport_material.put_on(target, mode, stripes_material(mode, settings), settings)

@@ -51,9 +51,7 @@ class Graph:
 
 
 def scene_key(settings: Any) -> int:
-    """A number that identifies the scene of `settings`. A new or copied scene gets its own on first
-    use.
-    """
+    """A number that identifies the scene of `settings`; new and copied scenes get their own."""
     others = {
         scene.discrete_fairing_inspection.key
         for scene in all_scenes()

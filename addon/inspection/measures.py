@@ -32,10 +32,7 @@ NEUTRAL = (0.15, 0.15, 0.15)  # linear; the colour of missing values
 
 
 def measure(arrays: ControlArrays) -> dict[str, Any]:
-    """The measures of one mesh, as plain floats and ints; angles in degrees.
-
-    Excludes the curvature at borders and edges marked sharp, where it is undefined.
-    """
+    """The measures of one mesh, angles in degrees; curvature without borders and sharp edges."""
     bent = curvature(arrays)
     worst, worst_any = worst_folds(arrays)
     return {
@@ -63,11 +60,7 @@ def worst_folds(arrays: ControlArrays) -> tuple[float, float]:
 
 
 def fold_angles(arrays: ControlArrays) -> tuple[np.ndarray, np.ndarray]:
-    """(e,) angles in degrees between the normals of each edge's two faces, and (e,) bool: whether it
-    has two.
-
-    Two faces of opposite orientation are compared as if one were reversed.
-    """
+    """(e,) degrees between each edge's two faces as if oriented alike; (e,) bool: has two."""
     normals = face_normals(arrays.positions, arrays.corners, arrays.offsets)
     pair = faces_of_edges(arrays)
     if not len(normals):
@@ -83,9 +76,7 @@ def fold_angles(arrays: ControlArrays) -> tuple[np.ndarray, np.ndarray]:
 
 
 def thinnest_face(arrays: ControlArrays) -> tuple[int, float]:
-    """(id, ratio) of the face with the largest ratio of length to height, from its longest side and its
-    area. Ignores faces without area; (-1, 0) if there are no others.
-    """
+    """(id, ratio) of the face with the largest length over height; (-1, 0) if none has an area."""
     area = face_areas(arrays.positions, arrays.corners, arrays.offsets)
     if not (area > 0.0).any():
         return -1, 0.0
@@ -104,9 +95,7 @@ def percentiles(values: np.ndarray, *ranks: float) -> list[float]:
 
 
 def largest_deviation(control: np.ndarray, result: np.ndarray) -> float | None:
-    """The largest distance between `control` (n, 3) and the first n vertices of `result` (N, 3), which
-    correspond; None if there are fewer.
-    """
+    """The largest distance of `control` (n, 3) from the first of `result` (N, 3); None: fewer."""
     if len(result) < len(control) or not len(control):
         return None
     return float(np.linalg.norm(result[: len(control)] - control, axis=1).max())
@@ -122,11 +111,7 @@ def _same_way(arrays: ControlArrays) -> np.ndarray:
 def value_range(
     values: np.ndarray, inner: np.ndarray, signed: bool, low: float, high: float
 ) -> tuple[float, float]:
-    """(lowest, highest) value of the colour scale: the percentiles `low` and `high` of `values` where
-    `inner`.
-
-    `signed`: symmetric about zero, so that flat always has the middle colour.
-    """
+    """(lowest, highest): percentiles of the `inner` `values`; `signed`: symmetric about zero."""
     below, above = percentiles(values[inner], low, high)
     if signed:
         above = max(abs(below), abs(above))
@@ -137,9 +122,7 @@ def value_range(
 
 
 def colours_of(values: np.ndarray, limits: tuple[float, float], signed: bool) -> np.ndarray:
-    """(n, 4) float32 linear RGBA for (n,) `values` between the two `limits`; values beyond get the end
-    colours.
-    """
+    """(n, 4) float32 linear RGBA for `values` (n,); beyond `limits` the end colours."""
     rgba = shades_of(values, limits, signed)
     rgba[:, :3] = _linear(rgba[:, :3])
     return rgba

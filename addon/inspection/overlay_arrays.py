@@ -18,9 +18,7 @@ _PULL = 1e-3  # relative offset towards the eye, without which surface and lines
 
 
 def surface_of(target: Object, depsgraph: bpy.types.Depsgraph, smooth: bool = False) -> Drawn:
-    """The mesh object `target` as displayed, with modifiers and edits; `smooth`: as if it had no flat
-    faces and no sharp edges.
-    """
+    """`target` as displayed, with modifiers and edits; `smooth`: as if it had no sharp edges."""
     evaluated = target.evaluated_get(depsgraph)
     mesh: Any = evaluated.to_mesh()
     try:
@@ -42,9 +40,7 @@ def _corner_normals(mesh: Any, corners: np.ndarray, smooth: bool) -> np.ndarray:
 
 
 def lines_of(surface: Drawn, settings: Any) -> list[tuple[np.ndarray, tuple[float, ...]]]:
-    """Points (s, 3) float32, two a line, and their colour: section curves and combs. Each axis has its
-    own scale and colour, since a hull bends much less along its length than across.
-    """
+    """Points (s, 3), two a line, and colour, of sections and combs; each axis has its own scale."""
     low, high = (getattr(surface.points, end)(axis=0, initial=0.0) for end in ("min", "max"))
     diagonal = float(np.linalg.norm(high - low))
     curves, over = [], []
@@ -63,9 +59,7 @@ def lines_of(surface: Drawn, settings: Any) -> list[tuple[np.ndarray, tuple[floa
 
 
 def pulled(projection: np.ndarray, distance: float) -> np.ndarray:
-    """The projection with a small offset in depth towards the eye; `distance`: from the eye to its
-    target.
-    """
+    """The projection, a little nearer to the eye, which is at `distance`."""
     pull = np.eye(4)
     if projection[3, 3] == 0.0:  # perspective: along the ray
         pull[:3, :3] *= 1.0 - _PULL

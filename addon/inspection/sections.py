@@ -31,9 +31,7 @@ class Section:
 
 
 def heights(points: np.ndarray, axis: int, count: int) -> np.ndarray:
-    """(count,) positions of planes across `axis` (0 to 2) through (n, 3) points: the midpoints of equal
-    parts.
-    """
+    """(count,) positions of planes across `axis` through (n, 3) points, evenly inside."""
     low, high = points[:, axis].min(), points[:, axis].max()
     return low + (high - low) * (np.arange(count) + 0.5) / count
 
@@ -50,9 +48,7 @@ def sections(surface: Drawn, axis: int, count: int) -> list[Section]:
 
 
 def cut(surface: Drawn, normal: np.ndarray, place: float) -> list[np.ndarray]:
-    """Curves (k, 3) float64 in which the plane `normal` · p = `place` cuts the surface; closed ones end
-    at their first point. `normal` (3,) unit.
-    """
+    """Curves (k, 3) where the plane `normal` · p = `place` cuts; closed ones repeat the first."""
     if not len(surface.triangles):
         return []
     frame = np.linalg.svd(normal[None, :])[2]
@@ -63,10 +59,7 @@ def cut(surface: Drawn, normal: np.ndarray, place: float) -> list[np.ndarray]:
 
 
 def combs(found: list[Section], diagonal: float, scale: float = 1.0) -> list[np.ndarray]:
-    """(k, 3) the ends of the teeth of each section, on the convex side.
-
-    All sections have one scale: a typical curvature makes a tooth of a fixed share of `diagonal`.
-    """
+    """(k, 3) the ends of each section's teeth, on the convex side, in one scale, of `diagonal`."""
     usual = _usual_curvature(found)
     if usual <= 0.0:
         return [section.points for section in found]
@@ -79,9 +72,7 @@ def combs(found: list[Section], diagonal: float, scale: float = 1.0) -> list[np.
 
 
 def _usual_curvature(found: list[Section]) -> float:
-    """The median over all sections, weighted by length, of each section's 95th percentile, so that
-    short tight sections, such as at a bow, do not flatten the combs of long ones.
-    """
+    """The median of each section's 95th percentile, by length: a tight bow must not flatten all."""
     if not found:
         return 0.0
     bent = np.array([np.percentile(np.abs(section.curvature), 95.0) for section in found])

@@ -19,10 +19,7 @@ NAME = "Fairing Inspection"
 
 
 def put_on(target: Object, mode: str, material: bpy.types.Material, settings: Any) -> None:
-    """Shows `target` in `material`, shaded smooth if the scene's `settings` say so.
-
-    `mode`: the mode shown; each has one node group in a scene.
-    """
+    """Shows `target` in `material`, smooth by the scene's `settings`; one node group a `mode`."""
     modifier: Any = inspection_modifier(target) or target.modifiers.new(NAME, "NODES")
     modifier.node_group = _group(mode, material, settings)
     modifier.show_expanded = False

@@ -14,9 +14,7 @@ _BEFORE = "discrete_fairing_before"  # custom property of a viewport's shading: 
 
 
 def shows(space: Any, mode: str) -> bool:
-    """Whether the viewport `space` shows objects in a `mode` of inspection; other spaces have no
-    shading.
-    """
+    """Whether `space` shows objects in a `mode` of inspection; only viewports have shading."""
     shading = getattr(space, "shading", None)
     return mode == "NONE" or shading is None or shading.type in {"MATERIAL", "RENDERED"}
 

@@ -24,9 +24,7 @@ def show(target: Object) -> None:
 
 
 def restore(target: Object, others: Iterable[Object] = ()) -> None:
-    """Restores its display, unless the user has changed it since; `others`: surfaces that are still
-    live.
-    """
+    """Restores its display, unless the user has changed it; `others`: surfaces still live."""
     source, live = source_of(target), target.discrete_fairing_live
     if source is None or not live.cage_display or _is_linked(source, target):
         return

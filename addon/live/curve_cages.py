@@ -17,9 +17,7 @@ if TYPE_CHECKING:
 
 
 def refreshed(sessions: Iterable[Session], changed: Collection[int | str]) -> set[int | str]:
-    """Keys of the control meshes that were updated because one of their curves is among the `changed`
-    data-blocks.
-    """
+    """Keys of the control meshes updated because one of their curves is among `changed`."""
     found: dict[int | str, str] = {}  # control mesh: why it could not be updated
     for session in sessions:
         source = session.objects()[0]

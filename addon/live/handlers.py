@@ -78,9 +78,7 @@ def _advance(session: Session) -> None:
 
 
 def guarded(session: Session, step: Callable[[Session], object]) -> None:
-    """Runs a step. An error must neither stop Blender's timer nor repeat with each redraw: it ends the
-    session and is reported.
-    """
+    """Runs a step; an error ends the session and is reported, and must not stop the timer."""
     gone = session.why_gone()
     if gone:
         registry.remove(session, gone)
@@ -113,9 +111,7 @@ def _follow(_scene: Scene, depsgraph: bpy.types.Depsgraph) -> None:
 
 
 def _follow_frame(_scene: Scene, depsgraph: bpy.types.Depsgraph) -> None:
-    """Follows shape keys, armatures and drivers of another frame, whose changes Blender does not all
-    report.
-    """
+    """Follows shape keys, armatures and drivers, whose changes Blender does not all report."""
     if registry.ignores_updates():
         return
 

@@ -14,9 +14,7 @@ from . import cage, registry, switch
 
 
 def _note(*_: Any) -> None:
-    """Notes which surfaces are live before the file is written, and returns their own shape keys to
-    them.
-    """
+    """Notes which surfaces are live before saving, and returns their own shape keys to them."""
     for session in registry.sessions():
         session.lend()
     for target in _surfaces():
@@ -24,9 +22,7 @@ def _note(*_: Any) -> None:
 
 
 def _restore(*_: Any) -> None:
-    """Switches on the live surfaces of the opened file. Objects that cannot be live stay unchanged;
-    without a window all do, except for renders.
-    """
+    """Switches on the live surfaces of the opened file; without a window only those for renders."""
     for target in _surfaces():
         live = target.discrete_fairing_live
         wanted = live.was_on and live.keep_on

@@ -41,10 +41,7 @@ class Pace:
             self.slow_down(level, energy, hopeless=False)
 
     def slow_down(self, level: int, energy: str, hopeless: bool) -> bool:
-        """Reduces the work: to the fastest energy if lower levels will not help, else by one level.
-
-        Returns whether a reduction was possible.
-        """
+        """To the fastest energy if levels will not help, else by a level; whether it could."""
         if energy != FAST and (hopeless or level == 1):
             self.is_plain, self._too_slow = True, None
             return True

@@ -25,9 +25,7 @@ _ignoring = 0
 
 
 def is_in_a_scene(target: Object) -> bool:
-    """Whether the object is in a scene. Deleting takes an object out of its scenes; it remains while
-    other data refer to it.
-    """
+    """Whether the object is in a scene: a deleted one remains while other data refer to it."""
     return any(scene.objects.get(target.name) == target for scene in bpy.data.scenes)
 
 
@@ -73,9 +71,7 @@ def note(target: Object, on: bool) -> None:
 
 
 def remove(session: Session, reason: str = "", hand_back: bool = True) -> None:
-    """Ends a session; `reason` if it was not switched off. `hand_back`: whether the surface still has
-    the mesh that the session wrote.
-    """
+    """Ends a session; `reason`: not switched off; `hand_back`: its mesh is the surface's."""
     session.cancel_full(wait=True)
     session.release(hand_back)
     _sessions.pop(session.key, None)

@@ -44,10 +44,7 @@ SURFACE_EDITED = "The surface itself is being edited: Live waits"
 
 
 class Session:
-    """Follows the source of one faired object.
-
-    `trouble`: why this is impossible at the moment, a sentence; empty if it is possible.
-    """
+    """Follows the source of a faired object; `trouble`: why it cannot now, a sentence or empty."""
 
     def __init__(self, target: Object) -> None:
         self._target = Reference(target)
@@ -224,9 +221,7 @@ class Session:
             self._prepare(source, arrays, depsgraph)
 
     def _prepare(self, source: Object, arrays: ControlArrays, depsgraph: Update) -> bool:
-        """Makes a solver, unless the present one is for the same mesh and settings. Returns whether it
-        did.
-        """
+        """Makes a solver unless the present one fits; returns whether it did."""
         if self._settings.use_selection and (
             self._region is None or not arrays.has_faces_of(self._arrays)
         ):
@@ -338,9 +333,7 @@ class Session:
                 full.start()
 
     def follow_unseen(self) -> None:
-        """Follows changes that Blender's update does not show, and scans and neighbours. Not within an
-        update.
-        """
+        """Follows changes unseen by Blender's update, scans and neighbours; not within one."""
         if self._unseen or self._others_due:
             self.follow()
 

@@ -70,9 +70,7 @@ def switch_off(target: Object, context: Context) -> None:
 
 
 def active_surfaces(context: Context) -> list[Object]:
-    """The faired objects for the active object: itself, or the surfaces made from it (all live ones,
-    else the last).
-    """
+    """The active surface, or those made from the active object: all live ones, else the last."""
     active = context.active_object
     if active is None or active.type != "MESH":
         return []
@@ -88,9 +86,7 @@ def live_surfaces_of(source: Object) -> list[Object]:
 
 
 def look_again(source: Object) -> None:
-    """Updates the live surfaces of `source` after changes that Blender does not report, such as new
-    shape keys.
-    """
+    """Updates the live surfaces of `source` after changes that Blender does not report."""
     for target in live_surfaces_of(source):
         session = registry.session_of(target)
         if session is not None:

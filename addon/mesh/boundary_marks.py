@@ -19,9 +19,7 @@ _NUMBERS = {key: number for key, _, _, number in EDGE_BOUNDARIES}
 
 
 def mark_selected(mesh: Mesh, boundary: str) -> int:
-    """Gives the selected border edges of `mesh`, which is in Edit Mode, a boundary of EDGE_BOUNDARIES;
-    returns their number.
-    """
+    """Gives selected border edges, in Edit Mode, one of EDGE_BOUNDARIES; returns their number."""
     edit = bmesh.from_edit_mesh(mesh)
     layer = edit.edges.layers.int.get(BOUNDARY)
     chosen = _selected(edit)
@@ -41,9 +39,7 @@ def _selected(edit: bmesh.types.BMesh) -> list[bmesh.types.BMEdge]:
 
 
 def select_marked(mesh: Mesh, boundary: str) -> int:
-    """Adds the border edges of `mesh` with this boundary to the selection in Edit Mode; returns their
-    number.
-    """
+    """Adds the border edges with this boundary to the selection; returns their number."""
     edit = bmesh.from_edit_mesh(mesh)
     layer = edit.edges.layers.int.get(BOUNDARY)
     if layer is None:

@@ -11,9 +11,7 @@ from ..blender import Object
 
 @contextmanager
 def edited(target: Object) -> Iterator[bmesh.types.BMesh]:
-    """A context in which the mesh of `target` is changed, in Edit Mode and Object Mode. In Object Mode
-    normals are not recomputed here: that takes longer than all else, and Blender does it when needed.
-    """
+    """Lets the mesh of `target` be changed in either mode; Blender makes normals when needed."""
     mesh = target.data
     if target.mode == "EDIT":
         yield bmesh.from_edit_mesh(mesh)

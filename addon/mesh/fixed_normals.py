@@ -31,9 +31,7 @@ def read_normals(mesh: Mesh) -> np.ndarray | None:
 
 
 def fix(mesh: Mesh, normals: np.ndarray) -> int:
-    """Fixes `normals` (n, 3), of unit length, at the selected vertices of `mesh`, in Edit Mode; returns
-    their number.
-    """
+    """Fixes unit `normals` (n, 3) at selected vertices, in Edit Mode; returns their number."""
     return _mark(mesh, lambda vertex: Vector(normals[vertex.index]))
 
 
@@ -76,9 +74,7 @@ def _count(mesh: Mesh) -> int:
 
 
 def own_normals(mesh: Mesh) -> np.ndarray:
-    """(n, 3) float64 unit normals of a `mesh` that is not in Edit Mode: the mean of the corner normals,
-    which may be custom ones.
-    """
+    """(n, 3) mean corner normals, custom ones included, of a `mesh` not in Edit Mode."""
     if not mesh.has_custom_normals:
         return column(mesh.vertex_normals, "vector", width=3).astype(float)
     corners = column(mesh.loops, "vertex_index", np.int32)

@@ -15,9 +15,7 @@ FLAT = "fair_flat"
 
 
 def mark_selected(mesh: Mesh, flat: bool) -> int:
-    """Marks the selected faces of `mesh`, which is in Object Mode, or unmarks them; returns their
-    number.
-    """
+    """Marks selected faces in Object Mode, or unmarks them; returns their number."""
     chosen = column(mesh.polygons, "select", bool)
     if flat:
         mark(mesh, chosen)
@@ -46,9 +44,7 @@ def clear(mesh: Mesh) -> int:
 
 
 def count(sources: Iterable[Object]) -> int:
-    """Number of marked faces; 0 in Edit Mode in versions of Blender that do not show the attribute
-    there.
-    """
+    """Number of marked faces; 0 in Edit Mode where Blender does not show the attribute."""
     return sum(shown(source.data, FLAT, _count, 0) for source in sources)
 
 

@@ -81,9 +81,7 @@ def write_group(
     zero: np.ndarray,
     operators: bool = True,
 ) -> None:
-    """Gives `target` another group with the name and lock of `group`: with the `weights` (N,) other
-    than 0, and the members `zero` (k,) of weight 0.
-    """
+    """Gives `target` a copy of `group` with `weights` (N,), and `zero` (k,) members of weight 0."""
     make = _convert if operators and weights.any() else _add
     made = make(target, weights)
     made.name = group.name
@@ -104,10 +102,7 @@ def _add(target: Object, weights: np.ndarray) -> bpy.types.VertexGroup:
 
 
 def _convert(target: Object, weights: np.ndarray) -> bpy.types.VertexGroup:
-    """A new vertex group of the `weights` (N,) float32 other than 0.
-
-    The operator's poll fails if any object is being edited.
-    """
+    """A new vertex group of `weights` (N,) other than 0; no object may be in Edit Mode."""
     attribute = target.data.attributes.new(_PASSING, "FLOAT", "POINT")
     attribute.data.foreach_set("value", np.clip(weights, 0.0, 1.0))
     target.data.attributes.active = attribute

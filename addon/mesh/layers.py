@@ -65,10 +65,7 @@ class Attribute:
 
 
 def find_layer(mesh: Mesh, name: str, data_type: str, domain: str) -> Any:
-    """The named attribute, or None.
-
-    Checks domain and type, since Blender accepts any under any name.
-    """
+    """The named attribute, or None; Blender accepts any domain and type under any name."""
     layer = mesh.attributes.get(name)
     if layer is None or (layer.data_type, layer.domain) != (data_type, domain):
         return None
@@ -210,10 +207,7 @@ def write_attributes(
     origin: np.ndarray,
     leave_out: Collection[str] = (),
 ) -> None:
-    """Gives `mesh` all `attributes` except those named in `leave_out`.
-
-    `origin` (refined edges,): the control edge of each, or -1.
-    """
+    """Writes `attributes` not in `leave_out`; `origin`: the control edge of refined ones, or -1."""
     for attribute in attributes:
         if attribute.name not in leave_out:
             _write_attribute(mesh, attribute, _carried(attribute, transfer, origin))
@@ -276,10 +270,7 @@ def write_data(
 
 
 def _choose_active(mesh: Mesh, data: SurfaceData) -> None:
-    """Sets the UV map and colours for display and rendering.
-
-    Called last, since new ones become active.
-    """
+    """Sets the UV map and colours for display and rendering; last, since new ones become active."""
     if data.active_uv in mesh.uv_layers:
         mesh.uv_layers.active = mesh.uv_layers[data.active_uv]
     if data.render_uv in mesh.uv_layers:

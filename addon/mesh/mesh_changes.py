@@ -29,10 +29,7 @@ MEASURED_WHILE_DRAWING = 10_000
 
 
 def watch(context: Context, mesh: Mesh) -> list[int]:
-    """Notes that a measurement of `mesh` applies from now on.
-
-    Returns its element counts, to be stored with the measurement.
-    """
+    """Notes that a measurement of `mesh` applies from now on; returns its element counts."""
     context.view_layer.update()  # so that our own changes are not reported later
     _watched[session_key(mesh)] = None if mesh.is_editmode else _checksum(mesh)
     _changed.discard(session_key(mesh))
@@ -40,9 +37,7 @@ def watch(context: Context, mesh: Mesh) -> list[int]:
 
 
 def coarse_triangles(mesh: Mesh) -> int:
-    """Triangles equivalent to `mesh`, for drawing: counted again if its numbers of faces or corners
-    change. In Edit Mode at the last update.
-    """
+    """Triangles equivalent to `mesh`, for drawing; in Edit Mode as at the last update."""
     now = (len(mesh.loops), len(mesh.polygons))
     known = _triangles.get(session_key(mesh))
     if known is None or known[0] != now:
@@ -52,9 +47,7 @@ def coarse_triangles(mesh: Mesh) -> int:
 
 
 def shown(mesh: Mesh, name: Hashable, measure: Callable[[Mesh], Any], nothing: Any) -> Any:
-    """The result of `measure(mesh)` at the last change, for drawing; `nothing` until a large mesh has
-    been measured. Without a window it is measured at each call.
-    """
+    """`measure(mesh)` at the last change, `nothing` until a large mesh is measured in a window."""
     key = session_key(mesh)
     known = _seen.setdefault(key, {})
     if bpy.app.background:
@@ -84,10 +77,7 @@ def counts(mesh: Mesh) -> list[int]:
 
 
 def is_stale(mesh: Mesh, counts_then: Sequence[int]) -> bool:
-    """Whether `mesh` has changed since `watch` returned `counts_then`.
-
-    After loading a file only counts are compared.
-    """
+    """Whether `mesh` has changed since `watch`; after loading a file only counts are compared."""
     return session_key(mesh) in _changed or (
         not mesh.is_editmode and counts(mesh) != list(counts_then)
     )

@@ -66,9 +66,7 @@ def inspection_modifier(target: Object) -> Any:
 
 @contextmanager
 def without_inspection(context: Context, *targets: Object) -> Iterator[None]:
-    """A context in which the evaluated meshes of `targets` are free of the inspection modifier, for
-    reading or export.
-    """
+    """Evaluated meshes of `targets` without the inspection modifier, for reading or export."""
     found = [inspection_modifier(target) for target in targets]
     shown = [m for m in found if m is not None and (m.show_viewport or m.show_render)]
     before = [(m.show_viewport, m.show_render) for m in shown]

@@ -52,9 +52,7 @@ class Reference:
 
 
 class Showing:
-    """The mesh objects for which viewports show something, by `wanted`: found again when the number of
-    objects changes, or after `forget`.
-    """
+    """The mesh objects that viewports show something for, by `wanted`; found again when due."""
 
     def __init__(self, wanted: Callable[[Object], bool]) -> None:
         self._wanted = wanted
@@ -83,9 +81,7 @@ def new_object(context: Context, source: Object, mesh: Mesh) -> Object:
 
 
 def linked_object(context: Context, data: Any, source: Object | None = None) -> Object:
-    """A new object with `data`, of the same name, in the collections of its `source` or the current
-    one.
-    """
+    """A new object with `data`, linked where its `source` is, or in the current collection."""
     target = cast(Object, bpy.data.objects.new(data.name, data))
     for collection in collections_for(context, source):
         collection.objects.link(target)
@@ -107,9 +103,7 @@ def nothing_left_behind() -> Iterator[None]:
 
 
 def is_in_view_layer(context: Context, target: Object) -> bool:
-    """Whether the object is in the view layer, so that it can be selected and hidden: not in an
-    excluded collection, nor only in another scene.
-    """
+    """Whether it can be selected and hidden: not excluded, nor only in another scene."""
     objects = context.view_layer.objects
     _ = objects.active  # makes Blender update the list
     return objects.get(target.name) == target
@@ -122,9 +116,7 @@ def why_not_here(context: Context, targets: Iterable[Object]) -> str:
 
 
 def select_only(context: Context, objects: list[Object]) -> None:
-    """Selects exactly `objects`; the last one becomes active. Objects outside the view layer, such as
-    in an excluded collection, stay unselected.
-    """
+    """Selects exactly `objects`, the last one active; those outside the view layer stay."""
     here = [one for one in objects if is_in_view_layer(context, one)]
     if not here:
         return
@@ -136,9 +128,7 @@ def select_only(context: Context, objects: list[Object]) -> None:
 
 
 def collections_for(context: Context, source: Object | None = None) -> list[bpy.types.Collection]:
-    """The collections for a new object: those of its `source`, if any; linked and overridden ones
-    cannot be used.
-    """
+    """Collections for a new object: those of its `source`, unless linked or overridden."""
     beside = [] if source is None else source.users_collection
     for found in (beside, [context.collection], [context.scene.collection]):
         own = [each for each in found if not (each.library or each.override_library)]
@@ -148,9 +138,7 @@ def collections_for(context: Context, source: Object | None = None) -> list[bpy.
 
 
 def copy_place(context: Context | None, source: Object, target: Object) -> None:
-    """Gives `target` the transform and parent of `source`. `context`: None within Blender's own update,
-    which has evaluated constraints.
-    """
+    """Gives `target` the transform and parent of `source`; no `context` within Blender's update."""
     if source.parent is not None or target.parent is not None:
         for name in PARENT:
             setattr(target, name, getattr(source, name))
@@ -173,9 +161,7 @@ def _copy_object_materials(source: Object, target: Object) -> None:
 def copy_drivers(
     source: Any, target: Any, prefix: str = "", leave_out: Collection[str] = ()
 ) -> None:
-    """Copies to `target` the drivers of `source`, a data-block of the same kind, whose paths begin with
-    `prefix`, except those to `leave_out`.
-    """
+    """Copies the drivers of `source` with paths that begin with `prefix`, except `leave_out`."""
     if source.animation_data is None:
         return
     for driver in source.animation_data.drivers:

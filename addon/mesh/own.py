@@ -62,9 +62,7 @@ class OwnData:
     notes: list[str]
 
     def write_keys(self, target: Object, last: bool = True) -> list[str]:
-        """Gives `target` the shape keys and their animation; returns what is lost, a sentence each.
-        `last`: whether no other call follows.
-        """
+        """Gives `target` the shape keys; returns what is lost. `last`: no other call follows."""
         samples = Samples(self.mesh, read_mesh(target.data)) if self.keys else None
         for key, relative, away in self.keys:
             assert samples is not None
@@ -78,9 +76,7 @@ class OwnData:
 
 
 def read_own(target: Object, *carried: Names) -> OwnData | None:
-    """The data of the surface `target`, in Object Mode, besides those `carried` from its source, now or
-    before; None if there are none.
-    """
+    """Data of the surface in Object Mode that are not `carried` from its source; or None."""
     mesh = target.data
     taken = {
         kind: {name for names in carried for name in names.get(kind, [])}
@@ -113,9 +109,7 @@ def read_own(target: Object, *carried: Names) -> OwnData | None:
 
 
 def write_own(target: Object, own: OwnData, in_handler: bool = False) -> list[str]:
-    """Gives `target`, with its new mesh, its own data; returns what is lost, a sentence each. Within
-    Blender's handlers without shape keys and their animation.
-    """
+    """Gives `target` its own data, no keys in a handler; returns what is lost, in sentences."""
     mesh = target.data
     samples = Samples(own.mesh, read_mesh(mesh))
     lost = [a.name for a in own.attributes if a.domain == "EDGE" and not samples.same]

@@ -21,9 +21,7 @@ from .layers import STORAGE, find_layer, layer_values
 
 
 def source_objects(context: Context) -> list[Object]:
-    """The meshes to fair: the selected ones in Object Mode, the edited ones in Edit Mode; the active
-    one alone if there are none.
-    """
+    """The meshes to fair: selected, or edited in Edit Mode; the active one if there are none."""
     active = context.active_object
     if context.mode == "EDIT_MESH":
         return list(context.objects_in_mode_unique_data)
@@ -165,20 +163,14 @@ def selected_faces(mesh: Mesh, source_name: str) -> np.ndarray:
 
 
 def tolerance_factors(source: Object, mesh: Mesh, settings: AnySettings) -> np.ndarray | None:
-    """(n,) from 0 to 1: the share of the tolerance at each vertex of `mesh`; None: the whole tolerance.
-
-    JobError if `source` has no group of the name in the settings.
-    """
+    """(n,) shares of the tolerance, None for the whole; JobError if the group is missing."""
     if not (is_near(settings) and settings.tolerance_group):
         return None
     return vertex_values.factors(source, mesh, settings.tolerance_group)
 
 
 def vertex_pulls(source: Object, mesh: Mesh, settings: AnySettings) -> np.ndarray | None:
-    """(n,) weights for the core, one for each vertex of `mesh`; None: no weights.
-
-    JobError if `source` has no group of the name in the settings.
-    """
+    """(n,) weights for the core, None for none; JobError if the group is missing."""
     if not (is_near(settings) and settings.pull_group):
         return None
     return vertex_values.pulls(source, mesh, settings.pull_group)

@@ -27,9 +27,7 @@ class Scan:
     normals: np.ndarray | None = None  # (S, 3), outwards, of any length; zero if unknown
 
     def in_shape_of(self, cage: Object) -> "Scan":
-        """The scan in the coordinates of the cage, in the size that it has in the world. Raises
-        JobError.
-        """
+        """The scan in the cage's coordinates, at its size in the world; raises JobError."""
         matrix = np.array(world_matrix(cage), dtype=np.float64)
         if np.linalg.matrix_rank(matrix) < 4:
             raise JobError(
@@ -39,9 +37,7 @@ class Scan:
         return Scan(world_shape(cage).of(moved.points), moved.triangles)
 
     def moved(self, matrix: np.ndarray) -> "Scan":
-        """The scan transformed by a (4, 4) matrix; a mirror image is reversed, so that triangles still
-        point outwards.
-        """
+        """The scan moved by a (4, 4) matrix; triangles of a mirror image still point outwards."""
         turned = np.linalg.det(matrix[:3, :3]) < 0
         triangles = self.triangles[:, ::-1] if turned else self.triangles
         return Scan(transformed(self.points, matrix), triangles)
@@ -88,9 +84,7 @@ def read_scans(context: Context, targets: Sequence[Object]) -> Scan:
 
 
 def made_of(context: Context, targets: Sequence[Object], cage: Object) -> dict[str, Any]:
-    """The state of a fit besides its cage: a checksum of the scans in their own coordinates, and their
-    transforms relative to the cage.
-    """
+    """A checksum of the scans in their own coordinates, and their transforms from the cage."""
     places, total = [], 0
     for part, matrix in _parts(context, targets):
         for array in (part.points, part.triangles):

@@ -54,9 +54,7 @@ class ShapeKeys:
 
 
 def read_shape_keys(source: Object, vertex_count: int) -> ShapeKeys | None:
-    """The ShapeKeys of the object `source`; None if it has none, or if they do not have `vertex_count`
-    vertices.
-    """
+    """The ShapeKeys of `source`; None without, or if they do not have `vertex_count`."""
     keys = source.data.shape_keys
     if keys is None or not len(keys.key_blocks):
         return None
@@ -165,9 +163,7 @@ def key_positions(source: Object, name: str, vertex_count: int) -> np.ndarray | 
 
 
 def dependent_keys(source: Object) -> tuple[str, list[str]]:
-    """The name of the edited key, and of the keys that are directly or indirectly relative to it, which
-    move with it. Empty without keys.
-    """
+    """The names of the edited key and of those relative to it, which move with it."""
     keys: Any = source.data.shape_keys
     active = source.active_shape_key
     if keys is None or active is None:
@@ -215,9 +211,7 @@ def _set_up(block: bpy.types.ShapeKey, key: ShapeKey, relative: bpy.types.ShapeK
 
 
 def add_shape_key(target: Object, key: ShapeKey, relative: str, away: np.ndarray) -> None:
-    """Gives `target` another `key`, which differs by `away` (N, 3) from the key `relative`, or from the
-    first one if that is missing.
-    """
+    """Gives `target` another `key`, `away` (N, 3) from the key `relative`, or from the first."""
     if target.data.shape_keys is None:
         target.shape_key_add(name="Basis", from_mix=False)
     keys: Any = target.data.shape_keys
@@ -229,9 +223,7 @@ def add_shape_key(target: Object, key: ShapeKey, relative: str, away: np.ndarray
 
 
 def put_key(target: Object, name: str, positions: np.ndarray) -> None:
-    """Gives `target`, in Object Mode, a key `name` with the `positions` (n, 3), at full value; an
-    existing one is overwritten.
-    """
+    """Gives `target`, in Object Mode, the key `name` with `positions` (n, 3) at full value."""
     if target.data.shape_keys is None:
         target.shape_key_add(name="Basis", from_mix=False)
     keys: Any = target.data.shape_keys
@@ -257,9 +249,7 @@ class KeyAnimation:
         return cls(session_key(mesh.copy()))
 
     def give(self, target: Object, last: bool = True) -> list[str]:
-        """Attaches the animation to the keys of `target`; returns what is lost, a sentence each.
-        `last`: whether no other call follows.
-        """
+        """Attaches the animation to the keys; returns what is lost. `last`: no call follows."""
         spare, notes = self._mesh(), []
         new = target.data.shape_keys
         if new is None or spare is None:  # undo may have removed the copy

@@ -32,9 +32,7 @@ class TimedRun:
 
     @contextmanager
     def _reading(self, context: Context, target: Object, evaluated: bool = False) -> Iterator[Mesh]:
-        """Notes the object and mesh of the run. Inside the `with` the mesh is available, as from
-        `control_mesh`.
-        """
+        """Notes object and mesh of the run; inside, the mesh is as from `control_mesh`."""
         self.name, self.reference = target.name, Reference(target)
         self.shape, self._mode = world_shape(target), target.mode
         with control_mesh(context, target, evaluated) as mesh:
@@ -65,9 +63,7 @@ class TimedRun:
         raise NotImplementedError
 
     def why_outdated(self, context: Context) -> str:
-        """Why the result no longer applies, in one sentence; empty if it does. During a long run the
-        user may edit, undo, or change the mode.
-        """
+        """Why the result no longer applies, after edits, undo or another mode; else empty."""
         happened = self._what_happened(context)
         if not happened:
             return ""

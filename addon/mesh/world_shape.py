@@ -47,10 +47,7 @@ class WorldShape:
         return positions if self.rows is None else _times(positions, self._matrix)
 
     def back(self, vertices: np.ndarray, sent: np.ndarray, own: np.ndarray) -> np.ndarray:
-        """(N, 3) the world's shape → object coordinates.
-
-        The first vertices were `sent`, and are `own` in the object: unmoved ones return to the bit.
-        """
+        """(N, 3) shape → object; first vertices `sent` from `own` return to the bit if unmoved."""
         if self.rows is None:
             return vertices
         found = _times(vertices, np.linalg.inv(self._matrix))
@@ -76,9 +73,7 @@ def world_shape(source: Object) -> WorldShape:
 
 
 def world_matrix(source: Object) -> Any:
-    """The matrix from the object's own properties if these determine it, since Blender does not update
-    hidden objects.
-    """
+    """The matrix from the object's own properties where possible: hidden ones are not updated."""
     if source.constraints or (source.parent is not None and source.parent_type != "OBJECT"):
         return source.matrix_world
     if source.parent is None:

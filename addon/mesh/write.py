@@ -51,9 +51,7 @@ def write_mesh(
 
 
 def fill_mesh(mesh: Mesh, result: Any, sharp_pairs: np.ndarray, edges: Edges | None = None) -> None:
-    """The same for a `mesh` without geometry, which keeps its materials. `edges`: from `edge_table`, so
-    that the window does not wait for a large surface; None: Blender finds them.
-    """
+    """The same for an empty `mesh` with materials; `edges`: of `edge_table`, None: found here."""
     write_faces(mesh, result.vertices, *result.faces)
     if edges is not None:
         _write_edges(mesh, *edges)
@@ -85,10 +83,7 @@ def rebuild_mesh(
 def refill_mesh(
     target: Object, result: Any, sharp_pairs: np.ndarray, edges: Edges | None = None
 ) -> None:
-    """Gives the mesh of `target`, for all objects that share it, the geometry of `result`.
-
-    Its materials, custom properties and name stay; all data on the old geometry are lost.
-    """
+    """Gives the mesh of `target` the geometry of `result`; data on the old geometry are lost."""
     if target.data.shape_keys is not None:
         target.shape_key_clear()
     target.data.clear_geometry()
@@ -132,9 +127,7 @@ def write_positions(mesh: Mesh, vertices: np.ndarray) -> None:
 
 
 def write_faces(mesh: Mesh, vertices: np.ndarray, triangles: np.ndarray, quads: np.ndarray) -> None:
-    """Gives `mesh`, which has no geometry, `vertices` (n, 3), `triangles` (t, 3) and then `quads` (q,
-    4).
-    """
+    """Gives an empty `mesh` `vertices` (n, 3), `triangles` (t, 3) and then `quads` (q, 4)."""
     corners = np.concatenate([triangles.ravel(), quads.ravel()]).astype(np.int32, copy=False)
     starts = np.concatenate(
         [3 * np.arange(len(triangles)), triangles.size + 4 * np.arange(len(quads))]

@@ -71,9 +71,7 @@ def _change(bm: Any, arrays: ControlArrays, made: Cleaned) -> None:
 
 
 def _left_alone(arrays: ControlArrays, faces: list[int]) -> tuple[list[int], list[int]]:
-    """Ids of the edges that may lose their last face with these `faces`, and of the vertices that may
-    lose their last edge.
-    """
+    """Edges that may lose their last face with `faces`, and vertices their last edge."""
     gone = np.zeros(len(arrays.face_sizes), bool)
     gone[faces] = True
     beside = np.zeros(len(arrays.positions), bool)
@@ -84,9 +82,7 @@ def _left_alone(arrays: ControlArrays, faces: list[int]) -> tuple[list[int], lis
 
 
 def _vertices(bm: Any, arrays: ControlArrays, made: Cleaned, old: Sequence[Any]) -> list[Any]:
-    """The BMesh vertex of each vertex of `made` that existed before or is a copy. Moved ones are moved,
-    by the same amount in all shape keys.
-    """
+    """The BMesh vertex of each vertex of `made`, or None; moved ones move in all shape keys."""
     keys = bm.verts.layers.shape.values()
     origin = made.vertex_origin[: made.known]
     first = np.zeros(len(origin), bool)
@@ -147,9 +143,7 @@ def _make_again(
     old_verts: Sequence[Any],
     old_faces: Sequence[Any],
 ) -> None:
-    """Makes a face with other vertices than its original, which is deleted; corners and edges take over
-    its data.
-    """
+    """Makes a face with other vertices; corners and edges take over its data, and it goes."""
     span = slice(int(made.offsets[row]), int(made.offsets[row + 1]))
     origins = made.corner_origin[span].tolist()
     face = old_faces[int(made.face_origin[row])]

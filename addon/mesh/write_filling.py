@@ -115,9 +115,7 @@ def _spread_corners(bm: Any, rim: list[Any], patch: Patch) -> Spread:
 
 
 def _layers(layers: Any, zero: Collection[str] = ()) -> Iterator[tuple[Read, Write]]:
-    """Functions that read and write an element, for each layer that can be interpolated; layers named
-    in `zero` are read as 0.
-    """
+    """Readers and writers of an element, for each layer to interpolate; `zero`: read as 0."""
     for kind in _NUMBERS:
         for name, layer in getattr(layers, kind).items():
             if name in zero:

@@ -70,9 +70,7 @@ class _AtDefect(_OfActive):
     def _defect(
         self, context: Context
     ) -> tuple[Object, dict[str, Any] | None, list[dict[str, Any]]]:
-        """(object, defect, all its defects), checked again if the mesh has changed since; the defect is
-        None if it no longer exists.
-        """
+        """(object, defect or None if gone, all defects), checked again if the mesh has changed."""
         target = cast(Object, context.active_object)
         known = recall_defects(target)
         code = known[0][self.index]["code"] if known and self.index < len(known[0]) else None

@@ -77,9 +77,7 @@ class Fairing(ExplainedPoll, ModalRun):
         return jobs if all(job.result is None for job in jobs) else self._prepared(context)
 
     def _begin_small(self, context: Context, tried: list[Job]) -> Answer:
-        """Makes surfaces with fewer levels at once, which Recompute completes. If even that is too slow
-        nothing is made, and Blender restores the previous state.
-        """
+        """Makes surfaces of fewer levels, for Recompute to complete; JobError if too slow."""
         jobs = self._unused(context, tried)
         try:
             self._block(context, redo.small_jobs(context, jobs), Deadline(redo.BUDGET))
@@ -180,9 +178,7 @@ class FairSurface(Fairing, FairingSettings):
 
 
 class WholeFairing(Fairing):
-    """A run without a smaller result: if it takes long, Adjust Last Operation starts it in the
-    background.
-    """
+    """A run without a smaller result: Adjust Last Operation starts a long one in the background."""
 
     def _begin_small(self, context: Context, _tried: list[Job]) -> Answer:
         redo.repeat_soon(context, self)
@@ -220,9 +216,7 @@ def faired_objects(context: Context) -> list[Object]:
 
 
 def _again(context: Context, target: Object) -> Job:
-    """The job that recomputes `target` from its present source, after updating the source's own curves,
-    if any.
-    """
+    """The job that recomputes `target`, after updating its source from its curves, if any."""
     source = cast(Object, source_of(target))
     remarks = curve_cage.follow(source).remarks if curve_cage.is_cage(source) else []
     job = job_of(context, source, Settings.of(target.discrete_fairing), target)

@@ -25,9 +25,7 @@ _COLUMNS = (
 
 
 class _Afloat(Action):
-    """The common part. x is along the hull, z up; the draught is measured from the lowest point at no
-    trim.
-    """
+    """x is along the hull, z up; the draught is measured from the lowest point at no trim."""
 
     reasons = ACTIVE_MESH
 

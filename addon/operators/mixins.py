@@ -42,9 +42,7 @@ class Action(ExplainedPoll, OperatorBase):
 
 
 class Shown(OperatorBase):
-    """Mix-in of operators that show some of their properties below one another, in Adjust Last
-    Operation or a file browser.
-    """
+    """Mix-in of operators that show some of their properties below one another."""
 
     def shown(self, context: Context) -> Iterable[str]:
         """The names of the properties that apply now."""

@@ -18,9 +18,7 @@ _INTERVAL = 0.05  # seconds between two checks of the thread
 
 
 class ModalRun(OperatorBase):
-    """Mix-in of an operator that computes jobs on a thread and calls `finish(context, jobs)` when all
-    are complete.
-    """
+    """Mix-in that computes jobs on a thread and calls `finish(context, jobs)` after all."""
 
     cancelled_text = "Fairing was cancelled: nothing has changed"
 
@@ -83,9 +81,7 @@ class ModalRun(OperatorBase):
             self._show(context, text)
 
     def _show(self, context: Context, text: str | None) -> None:
-        """Updates the status bars of visible workspaces, and sidebars, but not viewports, which may be
-        slow; None restores Blender's own text.
-        """
+        """Updates status bars and sidebars, not slow viewports; None restores Blender's text."""
         if text is not None:
             seen = {session_key(w.workspace): w.workspace for w in context.window_manager.windows}
         else:  # other workspaces may have been visible meanwhile

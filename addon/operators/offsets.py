@@ -82,9 +82,7 @@ class IMPORT_MESH_OT_fairing_offsets(ImportHelper, Action, bpy.types.Operator):
 
 
 def _set_panel(context: Context, made: HullMesh) -> None:
-    """Sets the panel to the job Hull. If a crease ends inside the hull, bending is used, since flow
-    lines oscillate there; otherwise flow lines, since bending rises at borders and knuckles.
-    """
+    """The job Hull; bending where a crease ends inside, since flow lines oscillate there."""
     cast(Any, bpy.ops.object).fairing_preset_apply(filepath=str(preset_file("HULL")))
     if made.fades:
         context.scene.discrete_fairing.energy = "THIN_PLATE"

@@ -42,9 +42,7 @@ def _small(job: Job, budget: float) -> Settings:
 
 
 def invoke_soon(context: Context, operator: Any, properties: dict[str, Any]) -> None:
-    """Calls an operator of bpy.ops like its button, from the current window, after the current one
-    returns; not if a run has started meanwhile.
-    """
+    """Calls an operator like its button after the current one, unless a run has started."""
     window = context.window
     if window is None:
         return
@@ -60,8 +58,6 @@ def invoke_soon(context: Context, operator: Any, properties: dict[str, Any]) -> 
 
 
 def repeat_soon(context: Context, operator: Any) -> None:
-    """Restarts `operator`, which Adjust Last Operation has called and which would take too long there,
-    with the same properties in the background.
-    """
+    """Restarts `operator`, with its properties, in the background: redo cannot wait for it."""
     call = getattr(bpy.ops.object, operator.bl_idname.rpartition("_OT_")[2])
     invoke_soon(context, call, operator.as_keywords())

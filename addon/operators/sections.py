@@ -49,9 +49,7 @@ def _imported_stations(context: Context, target: Object) -> list[tuple[str, floa
 def even_planes(
     context: Context, kind: str, surface: Drawn, listed: str, spacing: float, start: float
 ) -> list[Plane]:
-    """Planes across an axis: the listed ones, else the stations of the import, else evenly spaced ones.
-    ValueError for an invalid list.
-    """
+    """Listed planes, else imported stations, else even ones; ValueError for a bad list."""
     axis = _AXES[kind]
     normal = tuple(float(k == axis) for k in range(3))
     low, high = surface.points[:, axis].min(), surface.points[:, axis].max()

@@ -16,9 +16,7 @@ from .mixins import Action
 
 
 class ByFileBrowser(ExportHelper, Fairing):
-    """Mix-in of a run with a `filepath` from the browser. Then `begin` continues, and the window stays
-    responsive.
-    """
+    """Mix-in of a run with a `filepath`; after the browser `begin` goes on, responsively."""
 
     if TYPE_CHECKING:
         filepath: str  # added by ExportHelper

@@ -15,9 +15,7 @@ _CORNERS = np.array([(-1, -1), (1, -1), (1, 1), (-1, -1), (1, 1), (-1, 1)], np.f
 
 
 def magnification(strained: Strained, length: float = 1.0) -> float:
-    """The magnification of needles: 1, 2, 5, 10, 20 … 1000, such that the longest is at most `length`
-    mean edges, if possible.
-    """
+    """1, 2, 5, 10 … 1000, such that the longest needle is at most `length` mean edges."""
     longest = strained.largest
     if longest <= 0.0:
         return 1.0
@@ -39,9 +37,7 @@ def tips(strained: Strained, ids: np.ndarray, times: float) -> np.ndarray:
 
 
 def needles(strained: Strained, times: float) -> tuple[np.ndarray, np.ndarray]:
-    """Points (2 h, 3) float32, two a needle, and their colours (2 h, 4): for each held vertex a needle
-    from its position to that of the released surface.
-    """
+    """Points (2 h, 3) float32 of needles from held to released places, and colours (2 h, 4)."""
     ids = strained.held
     begin = strained.positions[ids].astype(np.float32)
     points = np.stack([begin, tips(strained, ids, times)], axis=1).reshape(-1, 3)

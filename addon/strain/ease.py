@@ -164,9 +164,7 @@ class EaseJob(_Moving):
 
 
 class EaseSelectedJob(_Moving):
-    """Moves the selected vertices of one mesh in Edit Mode to the surface through all others; `factor`:
-    the share of the way.
-    """
+    """Moves selected vertices, in Edit Mode, by `factor` to the surface through all others."""
 
     kind = "THIN_PLATE"
 

@@ -114,9 +114,7 @@ _reading = False  # whether changes reported by Blender are caused by our own re
 
 
 def job_for(context: Context, source: Object) -> StrainJob:
-    """A job for the source; it has its result already if nothing has changed since the last one. Raises
-    JobError. Call `keep` when it is done.
-    """
+    """A job for the source, done if nothing has changed; JobError. `keep` it when done."""
     return StrainJob(context, source, _watch(source).job)
 
 

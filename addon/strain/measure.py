@@ -23,9 +23,7 @@ _LEVELS = 2  # on which the core computes
 
 
 def settings_for(context: Context, source: Object) -> Settings:
-    """Settings of the live surface of `source`, else of the last surface made from it, else those of
-    the next one: its borders, creases and symmetry plane.
-    """
+    """Settings of the live surface of `source`, else of its last one, else of the next."""
     made = live_surfaces_of(source) or surfaces_of(source)[-1:]
     return Settings.of(made[-1].discrete_fairing if made else scene_of(source).discrete_fairing)
 

@@ -54,9 +54,7 @@ class Strained:
 
 
 def above(lengths: np.ndarray, threshold: float) -> np.ndarray:
-    """(k,) ids of the vertices with a larger strain, the largest of the `lengths` (n,) first, without
-    NaN.
-    """
+    """(k,) ids of vertices with a larger strain, without NaN, the largest `lengths` first."""
     sizes = np.where(np.isnan(lengths), -np.inf, np.abs(lengths))
     order = np.argsort(-sizes, kind="stable")
     return order[sizes[order] > threshold]

@@ -19,9 +19,7 @@ _NEVER = np.iinfo(np.int32).max
 
 @dataclass(frozen=True)
 class Patch:
-    """The refined faces `fine` (F n², k) of the F control faces `faces`; their first corner is the
-    mesh's corner `start`.
-    """
+    """The refined faces `fine` (F n², k) of control `faces`; `start`: their first corner."""
 
     cells: Cells
     faces: ControlFaces
@@ -29,9 +27,7 @@ class Patch:
     start: int
 
     def mix_corners(self, known: np.ndarray, out: np.ndarray) -> None:
-        """Writes the interpolated values at all refined corners; `known` (corners and centres, w),
-        `out` (corners, w) float32.
-        """
+        """Writes interpolated `known` (corners and centres, w) to `out` (refined corners, w)."""
         own = self._own(out)
         for part, values in self._mixed(known, self.faces.corners):
             for w, lattice in enumerate(values):
@@ -95,11 +91,7 @@ class Patch:
 
 
 def _nearest(cells: Cells) -> np.ndarray:
-    """(2, P, k) bool: the corners nearest to each point; in a plain face, and in one whose last corner
-    is a centre.
-
-    A centre counts for itself only.
-    """
+    """(2, P, k) bool: the nearest corners; in plain faces, and in those with a centre last."""
     plain = cells.weights == cells.weights.max(axis=1, keepdims=True)
     rest = cells.weights[:, :-1]
     fan = np.zeros_like(plain)
@@ -118,9 +110,7 @@ class AttributeTransfer:
     """
 
     def __init__(self, result: Any, arrays: ControlArrays, levels: int) -> None:
-        """`result`: the core's, refined `levels` times; `arrays`: the control mesh (positions, edges,
-        corners, offsets).
-        """
+        """`result`: the core's, refined `levels` times; `arrays`: the control mesh."""
         self.levels = levels
         self.control_count = len(arrays.positions)
         self.vertex_count = len(result.vertices)
@@ -152,10 +142,7 @@ class AttributeTransfer:
         return used[: self.control_count]
 
     def corner(self, values: np.ndarray) -> np.ndarray:
-        """(c,) or (c, w) numbers on corners → (refined corners, w) float32.
-
-        Interpolates within each face only.
-        """
+        """(c,) or (c, w) on corners → (refined corners, w) float32, within each face only."""
         values = self._faired.corner(_table(values))
         known = np.concatenate([values, self._centres.corner(values)])
         out = np.empty((self.corner_count, values.shape[1]), np.float32)

@@ -8,9 +8,7 @@ from .lattice import make_cells
 
 
 def coarse_triangles(transfer: AttributeTransfer, levels: int) -> tuple[np.ndarray, np.ndarray]:
-    """(t, 3) triangles of refined vertices on the lattice of `levels` refinements, at most those of the
-    surface, and (t,) the control face of each, by its position in `transfer`. Quads are cut.
-    """
+    """(t, 3) refined vertices on the lattice of `levels`, and (t,) the control face of each."""
     triangles, owners = [np.empty((0, 3), np.int32)], [np.empty(0, np.int64)]
     start = 0
     for patch in transfer.patches:

@@ -30,11 +30,7 @@ class ControlFaces:
 def find_control_faces(
     fine: np.ndarray, fine_polygon: np.ndarray, cells: Cells, arrays: ControlArrays
 ) -> ControlFaces:
-    """ControlFaces of the refined faces `fine` (f, k), in the order of `cells`; `fine_polygon` (f,):
-    their input faces.
-
-    `arrays`: the input mesh (positions, corners, offsets).
-    """
+    """ControlFaces of the refined faces `fine` (f, k); `fine_polygon` (f,): their input faces."""
     own = cells.first_corner[cells.lattice.corners]
     vertices = fine.reshape(-1, len(cells.corner_point))[:, own]
     polygon = fine_polygon[:: len(cells.corner_point) // fine.shape[1]]
@@ -75,9 +71,7 @@ def _keys(polygon: np.ndarray, vertex: np.ndarray) -> np.ndarray:
 
 
 class Centres:
-    """The centres of all fans. `members` (t,): their triangles among the control triangles, fan after
-    fan.
-    """
+    """The centres of all fans; `members` (t,): their control triangles, fan after fan."""
 
     def __init__(self, triangles: ControlFaces, arrays: ControlArrays) -> None:
         """`triangles`: ControlFaces of size 3; `arrays`: the input mesh."""

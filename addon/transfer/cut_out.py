@@ -69,9 +69,7 @@ def cut_out(arrays: ControlArrays, chosen: np.ndarray) -> CutOut:
 
 
 def _on_border(arrays: ControlArrays) -> np.ndarray | None:
-    """The marks of border edges only: marks of inner edges must not apply where a cut makes them a
-    border.
-    """
+    """The marks of border edges only: a cut must not apply those of inner edges."""
     if arrays.boundary_edge is None:
         return None
     return np.where(arrays.edge_uses == 1, arrays.boundary_edge, 0)

@@ -27,9 +27,7 @@ class Patch:
 
     @classmethod
     def of(cls, faces: np.ndarray, points: np.ndarray, new: np.ndarray) -> "Patch":
-        """From `faces` (t, 3) or (t, 4) of ids: first of the mesh at `points` (n, 3), then of the `new`
-        points (k, 3).
-        """
+        """`faces` (t, 3) or (t, 4) of ids: of the mesh at `points`, then of the `new` ones."""
         ids, rows = np.unique(faces, return_inverse=True)
         split = int(np.searchsorted(ids, len(points)))
         fresh = ids[split:]

@@ -38,9 +38,7 @@ def fine_edges(
 
 
 def edge_table(faces: tuple[np.ndarray, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
-    """(e, 2) int32: the edges of the core's (triangles (T, 3), quads (Q, 4)), and (corners,) int32:
-    the edge that leaves each corner.
-    """
+    """(e, 2) int32 edges of the core's faces, and (corners,) the edge that leaves each corner."""
     ends = [np.stack([fine, np.roll(fine, -1, axis=1)], axis=2).reshape(-1, 2) for fine in faces]
     keys, corner_edges = np.unique(pair_keys(np.concatenate(ends)), return_inverse=True)
     edges = np.stack([keys >> 32, keys & 0xFFFFFFFF], axis=1).astype(np.int32)
@@ -53,9 +51,7 @@ def mark_pairs(edges: np.ndarray, pairs: np.ndarray) -> np.ndarray:
 
 
 def sides(corners: int, n: int) -> tuple[Side, ...]:
-    """For each side of a face with 3 or 4 corners: its n cells in order, and the two of their corners
-    on it.
-    """
+    """For each side of a face its n cells in order, and the two of their corners on it."""
     return _triangle_sides(n) if corners == 3 else _quad_sides(n)
 
 

@@ -71,9 +71,7 @@ def _refined(patches: list[Patch], colours: np.ndarray, count: int) -> np.ndarra
 
 
 def _partners(own: np.ndarray, image: np.ndarray, used: np.ndarray) -> np.ndarray | None:
-    """(n,) int32: for each `used` vertex, (n,) bool, the one whose own colour equals that of its image;
-    None if the two sets of colours differ.
-    """
+    """(n,) the `used` vertex with the colour of each one's image; None if colours differ."""
     ids = np.flatnonzero(used)
     order, image_order = (ids[np.argsort(values[ids], kind="stable")] for values in (own, image))
     if not np.array_equal(own[order], image[image_order]):
@@ -86,9 +84,7 @@ def _partners(own: np.ndarray, image: np.ndarray, used: np.ndarray) -> np.ndarra
 def _mirror(
     transfer: AttributeTransfer, own: np.ndarray, image: np.ndarray, axis: int
 ) -> Mirror | None:
-    """The Mirror of a control mesh whose vertices and their images have these colours; None if its
-    faces are not symmetric.
-    """
+    """The Mirror of a mesh with these colours of vertices and images; None if asymmetric."""
     patches, count = transfer.patches, transfer.control_count
     ids = max(count, *(int(patch.faces.vertices.max()) + 1 for patch in patches))  # with centres
     own, image = (np.append(c, np.zeros(ids - count, np.uint64)) for c in (own, image))
@@ -183,9 +179,7 @@ def find_mirrors(
 
 
 def uneven_axes(vertices: np.ndarray, mirrors: list[Mirror]) -> list[str]:
-    """Names of the axes in which `vertices` differ from their images by more than rounding;
-    `symmetrize` leaves these out.
-    """
+    """Axes in which `vertices` differ from their images; `symmetrize` leaves these out."""
     uneven = (m for m in mirrors if not _differ_by_rounding(*_with_image(vertices, m)[1:]))
     return [AXES[mirror.axis] for mirror in uneven]
 

@@ -46,9 +46,7 @@ class VIEW3D_PT_fairing_check(Folded, bpy.types.Panel):
 
 
 def _draw_joints(layout: bpy.types.UILayout, context: Context) -> None:
-    """For example `Bonnet Fair, Fender Fair`, then gap, kink and jump, each with a button to the worst
-    place.
-    """
+    """Such as `Bonnet Fair, Fender Fair`, gap, kink and jump, with a button to the worst place."""
     found = joints.rows()
     text = Units.of(context.scene).lengths(max((row.gap for row in found), default=0.0))
     for index, joint in enumerate(found[:_SHOWN]):

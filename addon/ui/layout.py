@@ -34,9 +34,7 @@ class Folded(Sidebar):
 
 @dataclass(frozen=True)
 class Known:
-    """Remarks on the source, in a few words each; empty: none. They stand below their setting, since a
-    narrow sidebar would cut them off beside it.
-    """
+    """Remarks on the source, empty for none; below their setting, as the sidebar is narrow."""
 
     triangles: str = ""
     tolerance: str = ""  # the resulting length
@@ -55,9 +53,7 @@ _NOTHING = Known()
 def draw_job(
     layout: bpy.types.UILayout, settings: FairingSettings, known: Known = _NOTHING, job: str = ""
 ) -> None:
-    """The settings that everyone needs: how fine, how near to the source; and, unless a `job` sets
-    them, the energy and the meaning of vertices.
-    """
+    """How fine, how near to the source; and energy and vertices unless a `job` sets them."""
     if job:
         layout.label(text=name_of_purpose(job), icon_value=icon(job))
     layout.prop(settings, "levels")
@@ -193,9 +189,7 @@ FOLDED = (
 def draw_settings(
     layout: bpy.types.UILayout, settings: FairingSettings, identifier: str, triangle_text: str = ""
 ) -> None:
-    """All settings, the rare ones folded; `identifier` is the key under which Blender stores which are
-    open.
-    """
+    """All settings, the rare ones folded; Blender stores under `identifier` which are open."""
     layout.use_property_split = True
     layout.use_property_decorate = False
     draw_job(layout, settings, Known(triangle_text))

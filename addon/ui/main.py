@@ -148,9 +148,7 @@ def _near_scans(context: Context) -> FAIRING_PG_fit | None:
 
 
 def fairing_operator(context: Context) -> Any:
-    """The operator of the button: Recompute if the active object is a stored surface, else Fair
-    Surface.
-    """
+    """The operator of the button: Recompute for a stored surface, else Fair Surface."""
     operators: Any = bpy.ops.object
     again = remembered(context) is not None
     return operators.fairing_recompute if again else operators.fairing_surface
@@ -185,9 +183,7 @@ def live_surface(context: Context) -> Object | None:
 
 
 def active_settings(context: Context) -> FairingSettings:
-    """Settings of the active faired surface, or of the live one of the active object; else those of the
-    next one.
-    """
+    """Settings of the active surface, or the live one of its source; else of the next one."""
     followed = live_surface(context)
     return (
         remembered(context)
@@ -251,9 +247,7 @@ def follows(settings: FairingSettings, sources: list[Object]) -> bool:
 
 
 def vertices_text(settings: FairingSettings, sources: list[Object]) -> str:
-    """The meaning of Automatic; empty if it is not chosen. If the modifier is applied in the mesh, says
-    that Limit is not used.
-    """
+    """The meaning of Automatic, or that an applied modifier is not followed; else empty."""
     if not sources or settings.interpolation not in ("AUTO", "LIMIT"):
         return ""
     limit = [is_limit(Settings.of(settings).for_source(source)) for source in sources]
@@ -268,9 +262,7 @@ def vertices_text(settings: FairingSettings, sources: list[Object]) -> str:
 
 
 def missing_groups(settings: FairingSettings, sources: list[Object]) -> dict[str, str]:
-    """The source that lacks a group, in a few words, by the setting that names it; none if modifiers
-    may make it.
-    """
+    """The source that lacks a group, by setting; none if modifiers may make it."""
     found = {}
     for setting in ("tolerance_group", "pull_group"):
         name = getattr(settings, setting)

@@ -27,9 +27,7 @@ def icon(key: str) -> int:
 
 
 def name_of(owner: Any, name: str) -> str:
-    """The name of a setting in the interface. `bl_rna` of an operator that is being drawn does not have
-    it.
-    """
+    """The setting's name; the `bl_rna` of an operator that is drawn does not have it."""
     return owner.rna_type.properties[name].name
 
 
@@ -52,9 +50,7 @@ def draw_pictures(layout: bpy.types.UILayout) -> None:
 
 
 def draw_purposes(layout: bpy.types.UILayout) -> None:
-    """All jobs, three in a row: a click fairs. Those of the last row share its width, since their names
-    are longer.
-    """
+    """All jobs, three in a row: a click fairs. The last row's names are longer."""
     whole = len(PURPOSES) // 3 * 3
     grid = layout.grid_flow(row_major=True, columns=3, even_columns=True, align=True)
     last = layout.row(align=True)

@@ -27,9 +27,7 @@ class Solid:
 
 @dataclass(frozen=True)
 class Hydrostatics:
-    """Properties of a floating hull, in its own unit. Lengths along and across the hull are measured in
-    the waterplane.
-    """
+    """Properties of a floating hull in its own unit; lengths are those of the waterplane."""
 
     volume: float
     buoyancy: np.ndarray  # (3,) the centre of the displaced volume (LCB, TCB, VCB)
@@ -99,9 +97,7 @@ def hydrostatics(
 
 
 def clipped(corners: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The parts of triangles (m, 3, 3) below z = 0, as triangles (k, 3, 3); and (c, 3) points of the
-    cut.
-    """
+    """Parts of triangles (m, 3, 3) below z = 0, (k, 3, 3), and (c, 3) points of the cut."""
     below = corners[:, :, 2] < 0.0
     count = below.sum(axis=1)
     whole, parts, cut = corners[count == 3], [], []

@@ -246,9 +246,7 @@ def _once(series: list[_Series]) -> None:
 def _points(
     sheet: Sheet, station: Cell, x: float | None, index: int, series: list[_Series]
 ) -> list[Offset]:
-    """The points of one station. In a profile, positions along the hull replace half-breadths; a line
-    with heights but no half-breadths lies in the middle.
-    """
+    """The points of one station; a profile has positions along the hull as half-breadths."""
     broad = {one.line for one in series if one.quantity in "yd" or "y" in one.fixed}
     values: dict[str, dict[str, float]] = {}
     cells: dict[str, Cell] = {}

@@ -131,9 +131,7 @@ def opened(curve: np.ndarray) -> tuple[np.ndarray, bool]:
 
 
 def half(curve: np.ndarray) -> list[np.ndarray]:
-    """The parts of a polyline (k, 3) with y >= 0, cut where it crosses; the whole mirror image if there
-    are none.
-    """
+    """Parts of a polyline (k, 3) with y >= 0; the mirror image if there are none."""
     if (curve[:, 1] <= 0.0).all() and (curve[:, 1] < 0.0).any():
         return [curve * [1, -1, 1]]
     inside = curve[:, 1] >= 0.0

@@ -152,9 +152,7 @@ def plain(array: np.ndarray, dtype: type) -> np.ndarray:
 
 
 def holds_bool(values: object) -> bool:
-    """Whether `values` is a bool, or an array or list that contains one. Python and NumPy would convert
-    it to a number.
-    """
+    """Whether `values` is or contains a bool, which Python and NumPy would convert to a number."""
     if isinstance(values, list | tuple):
         return any(map(holds_bool, values))
     return isinstance(values, bool) or getattr(values, "dtype", None) == np.dtype(bool)

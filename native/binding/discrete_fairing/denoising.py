@@ -150,9 +150,7 @@ def _passed(stars: Stars, points: np.ndarray, held: np.ndarray, passes: int) -> 
 
 
 class _Heights:
-    """Filtered heights of vertices along their normals, from the differences `off` from the mean of their
-    neighbours.
-    """
+    """Filtered heights of vertices along their normals, from `off`, relative to neighbours."""
 
     def __init__(self, stars: Stars, off: np.ndarray, held: np.ndarray) -> None:
         self._stars, self._off, self._free = stars, off, ~held
@@ -195,9 +193,7 @@ class _Heights:
         return -found[:, :, 0].T, np.ascontiguousarray(kept.T)
 
     def _spikes(self, heights: np.ndarray, kept: np.ndarray) -> np.ndarray:
-        """Spikes, the worst first, from heights in units of the noise. None on borders, where two
-        neighbours are too few.
-        """
+        """Spikes, the worst first, from heights in units of the noise; none on borders."""
         chosen = self._free & ~self._stars.on_border
         share = float(kept[chosen].mean()) if chosen.any() else 0.0
         sizes = np.abs(heights) / max(1.0 - share, 1e-9)

@@ -17,9 +17,7 @@ Corner = tuple[int, int]  # a vertex, and the input corner from which it is copi
 def cuts_for(
     points: np.ndarray, corners: np.ndarray, offsets: np.ndarray, loops: Iterable[Sequence[int]]
 ) -> Cuts:
-    """The sides to cut of border loops without area: loops whose vertices lie on their own sides, or so
-    near that only slivers would fit between. Other loops are ignored.
-    """
+    """The sides to cut of border loops without area, where only slivers would fit between."""
     found = [ids for loop in loops for ids in _on_sides(points, np.asarray(loop))]
     if not found:
         return {}

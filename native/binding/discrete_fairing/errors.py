@@ -34,9 +34,7 @@ def about(error: FairingError, elements: Sequence[int], prefix: str = "") -> Fai
 
 
 def written(entry: Mapping[str, Any]) -> dict[str, Any]:
-    """A warning or repair of the core's report for callers: its sentences, and both as "message".
-    "sentences" has the same two with their placeholders.
-    """
+    """A warning or repair for callers: "message" is both sentences, filled in."""
     kind, elements = entry["kind"], entry["elements"]
     sentences = entry["cause"], entry["cure"]
     cause, cure = (_native.text(sentence, kind, elements) for sentence in sentences)

@@ -12,9 +12,7 @@ from .borders import Border, Foot, dot, unit_vectors
 
 @dataclass(frozen=True)
 class Halfway:
-    """The mean of two borders, seen from the first: points, tangent planes, curvatures across. Seen from
-    the other it is the same surface.
-    """
+    """The mean of two borders, seen from the first; seen from the other it is the same surface."""
 
     own: Border
     other: Border

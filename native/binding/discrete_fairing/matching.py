@@ -99,9 +99,7 @@ def _settled(
 
 
 class _Strip:
-    """The faces at a border that meets a neighbour: only they change, except their sides off the
-    border.
-    """
+    """The faces that change, at a border that meets a neighbour; other sides of them do not."""
 
     def __init__(self, faces: list[_Face], edge: np.ndarray):
         joint = set(edge.ravel().tolist())

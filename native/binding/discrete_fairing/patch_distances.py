@@ -96,9 +96,7 @@ def _along_normals(
 def evaluate(
     patches: SplinePatches, patch: np.ndarray, places: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """(k, 3) points of the patches `patch` (k,) at the parameters `places` (k, 2) in [0, 1]², and their
-    derivatives along u and v.
-    """
+    """(k, 3) points of patches `patch` (k,) at `places` (k, 2) in [0, 1]², and both derivatives."""
     spans = patches.patch_spans[patch].astype(np.int64)
     (row, u, du), (column, v, dv) = (_basis(places[:, k], spans[:, k]) for k in (0, 1))
     rows, columns = (first[:, None] + np.arange(4) for first in (row, column))

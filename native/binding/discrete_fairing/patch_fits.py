@@ -49,9 +49,7 @@ class PatchFits:
             )
 
     def allow_for(self, found: Fitted, polygons: tuple[np.ndarray, np.ndarray]) -> None:
-        """Allows more near a scan where no tolerance was given. The angle is that of a patch which is off
-        by the tolerance over a control edge.
-        """
+        """Allows more near a scan without a tolerance; the angle is that of a patch so far off."""
         size = float(np.ptp(found.vertices, axis=0).max(initial=0))
         corners, offsets = polygons
         ends = found.vertices[corners] - found.vertices[corners[following(offsets)]]
@@ -80,9 +78,7 @@ class PatchFits:
     def _fit(
         self, arrays: Arrays, polygons: np.ndarray, level: int, watched: dict[str, Any]
     ) -> tuple[dict[str, Any], np.ndarray]:
-        """The core's arrays, and (F,) bool: control faces whose patches or surface fold. `polygons`: the
-        input faces of the control faces.
-        """
+        """The core's arrays, and (F,) bool: control faces whose patches or surface fold."""
         groups = self._groups[polygons] if len(self._groups) else self._groups
         allowed = self.tolerance, self.normal_tolerance
         found = _native.fit_splines(*arrays, groups, level, *allowed, **watched)
@@ -109,9 +105,7 @@ class PatchFits:
         return _native.lattice_turns(*_arrays(result), level, least, **watched)
 
     def stays_folded(self, result: Result, level: int, finer: int, watched: dict[str, Any]) -> bool:
-        """Whether folds will remain on the finest level, since turns halve from level to level; then it
-        is refused.
-        """
+        """Whether folds will remain on the finest level, as turns halve; then it is refused."""
         limit = min(HOPELESS_TURN, 1.5 * TURN_LIMIT * 2**finer)
         turns = _native.lattice_turns(*_arrays(result), level, 0.0, **watched)
         return self._refuses(result, level, turns > limit)
@@ -169,9 +163,7 @@ def _faces_of(result: Result, level: int, control_faces: np.ndarray) -> list[int
 
 
 def _around(result: Result, level: int, chosen: np.ndarray) -> tuple[np.ndarray, Arrays]:
-    """The control faces of the mask `chosen` (F,) and all that share a vertex with them, as a mask and
-    as a surface of their own.
-    """
+    """The control faces `chosen` (F,) and those at their vertices: a mask, and as a surface."""
     cells = 4**level
     blocks = [faces.reshape(-1, cells * faces.shape[1]) for faces in result.faces]
     masks = np.split(chosen, [len(blocks[0])])

@@ -117,9 +117,7 @@ def _faults(patches: SplinePatches) -> tuple[int, float]:
 
 
 def _may_halve(patches: SplinePatches, ahead: float) -> bool:
-    """Whether finer levels may resolve faces, meet the tolerance, or halve the largest miss: there the
-    surface's own error is `ahead`, and a patch is at the tolerance.
-    """
+    """Whether finer levels may resolve faces, meet the tolerance, or halve the largest miss."""
     least = 0.5 if ahead <= 1.0 else ahead + 1.0
     return len(patches.unresolved) > 0 or patches.largest_miss > 2 * least
 

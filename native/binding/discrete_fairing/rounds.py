@@ -132,9 +132,7 @@ def _may_go_on(own: np.ndarray, wanted: Wanted) -> bool:
 def without_folds(
     mesh: MeshPart, fillings: dict[int, Filling], bare: dict[int, tuple[np.ndarray, np.ndarray]]
 ) -> dict[int, Filling]:
-    """The `fillings`; one that folds is replaced by the `bare` triangles between the rim's vertices if
-    these have no folds.
-    """
+    """The `fillings`; a folding one is replaced by the `bare` triangles unless they fold."""
     chosen = dict(fillings)
     edges = RimEdges(len(mesh.points), {row: filling.faces for row, filling in fillings.items()})
     for row, near in zip(bare, near_holes(mesh, list(bare.values())), strict=True):

@@ -64,9 +64,7 @@ def write_step(
 
 
 def step_text(text: str) -> str:
-    """A string of a STEP file, in ASCII. Apostrophes are encoded too, since some programs take a doubled
-    one before a bracket or a comma for the end.
-    """
+    """A string of a STEP file, in ASCII; some programs end it at a doubled apostrophe."""
     out = []
     for character in text:
         if character == "\\":

@@ -26,9 +26,7 @@ def check_watchers(progress: Progress | None, monitor: _native.Monitor | None) -
 
 
 class SeveralRuns:
-    """Combines the progress of several runs into one: it never decreases, and is complete only after the
-    last run.
-    """
+    """Combines the progress of several runs into one, which never decreases."""
 
     def __init__(self, progress: Progress | None, monitor: _native.Monitor | None, threads: int):
         self.threads = threads

@@ -183,9 +183,7 @@ class Sides:
 
 
 def numbered_parts(state: State, pairs: np.ndarray) -> tuple[np.ndarray, int]:
-    """(m,) the part of each face, from 0 on, and the number of parts. The `pairs` (k, 2) of sides connect
-    faces.
-    """
+    """(m,) the part of each face, and their number; `pairs` (k, 2) of sides connect faces."""
     faces = state.face_of[pairs]
     part = connected_parts(len(state.face_origin), faces)
     return part, int(part.max(initial=-1)) + 1

@@ -152,9 +152,7 @@ SAMPLES = 8  # faces of a part that are tested for lying inside others
 
 
 def is_inside(state: State, chosen: np.ndarray) -> bool:
-    """Whether the faces `chosen`, (m,) bool, lie inside the others, by the winding number, which also
-    works if the others have holes [Jacobson, Kavan and Sorkine-Hornung 2013].
-    """
+    """Whether the faces `chosen`, (m,) bool, lie inside the others [Jacobson and others 2013]."""
     faces = np.flatnonzero(chosen)
     faces = faces[np.linspace(0, len(faces) - 1, min(SAMPLES, len(faces))).astype(int)]
     rows = state.triangle_corners
@@ -182,9 +180,7 @@ def _winding(triangles: np.ndarray) -> float:
 
 
 def without_inner(state: State) -> tuple[State, int]:
-    """The state without parts inside others, including walls, and the number of faces removed. Hollows,
-    closed parts that are oriented inwards, stay.
-    """
+    """The state without parts and walls inside others, and the number of faces removed."""
     part, volume, closed = closed_parts(state)
     area = of_parts(part, np.linalg.norm(state.face_vectors(), axis=1), len(volume))
     gone = np.zeros(len(part), bool)

@@ -210,9 +210,7 @@ def turned_corners(size: np.ndarray) -> np.ndarray:
 
 
 def linear_surface(own: Outline, control: np.ndarray) -> np.ndarray:
-    """(N, 3): the linear surface of a piece outside the region, like the core's; `control` has its control
-    vertices and the centres of its polygons.
-    """
+    """(N, 3): a piece's linear surface outside the region; `control`: its vertices and centres."""
     numbering = own.numbering
     points = np.empty((numbering.size, 3))
     for kind in (False, True):
