@@ -74,7 +74,6 @@ def all_objects() -> Iterable[Object]:
 
 
 def all_scenes() -> Iterable[Scene]:
-    """Every scene of the file."""
     return cast(Iterable[Scene], bpy.data.scenes)
 
 

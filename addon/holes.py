@@ -189,7 +189,6 @@ class HoleJob(TimedRun):
         return Filled.of(found, self._points, self.shape)
 
     def apply(self) -> Filling:
-        """Makes the faces."""
         target = cast(Object, self.reference.find())
         patches, holes, cuts = self.result.patches, self.result.holes, self.result.cuts
         if not self._editing:

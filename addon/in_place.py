@@ -171,7 +171,6 @@ class InPlaceJob(TimedRun):
         return vertices
 
     def warnings(self) -> list[str]:
-        """Warnings of a finished job, a sentence each."""
         world = self.shape.of_arrays(self._part.arrays)
         sentences = run_warnings(
             self.name, self._report, self._options.energy, world, self._part.faces
@@ -187,14 +186,12 @@ class InPlaceJob(TimedRun):
 
     @property
     def notes(self) -> list[str]:
-        """Remarks of a finished job, a sentence each."""
         if not self._options.measured:
             return []
         noise = self.result.noise
         return [f"{self.name}: noise of {self._units.lengths(noise)(noise)} (rms) removed."]
 
     def apply(self) -> None:
-        """Moves the faces, and with levels refines them."""
         apply(cast(Object, self.reference.find()), self.result)
         self.note()
 

@@ -163,7 +163,6 @@ class Job(TimedRun):
         self._seams = seam_pairs(self.result, self.arrays, self.settings, self._edges)
 
     def surface(self, **watchers: Any) -> Any:
-        """The core's result."""
         return core.faired(self.arguments, self.pieces, self.spread, **watchers)
 
     def control(self) -> core.ControlArrays:
@@ -191,7 +190,6 @@ class Job(TimedRun):
         return one * (1 + shapes) * halves(self.settings)
 
     def _to_object(self) -> None:
-        """Transforms the core's surfaces from the world's shape to the object's coordinates."""
         result, sent = self.result, self.arguments
         result.vertices = self.shape.back(result.vertices, sent["vertices"], self.arrays.positions)
         result.shapes = [
@@ -286,7 +284,6 @@ class Job(TimedRun):
         self.faults.write(mesh)
 
     def warnings(self) -> list[str]:
-        """Warnings of a finished job, a sentence each."""
         world = self.shape.of_arrays(self.arrays)
         sentences = run_warnings(self.name, self.result.report, self.settings.energy, world)
         if self.faults.counts:

@@ -19,6 +19,7 @@ class ExplainedPoll:
     """Mix-in of operators with `reasons` against running; the first becomes the tooltip."""
 
     reasons: tuple[Reason, ...]
+    bl_options: Any = {"REGISTER", "UNDO"}
 
     if TYPE_CHECKING:  # Blender's own method
 

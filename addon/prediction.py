@@ -44,7 +44,6 @@ def hoped_seconds(energy: str, triangles: int, mesh: Hashable) -> float:
 
 
 def note(energy: str, triangles: int, taken: float, mesh: Hashable) -> None:
-    """Records that a run took so many seconds."""
     if not triangles:
         return
     speed = taken / triangles
@@ -57,7 +56,6 @@ def note(energy: str, triangles: int, taken: float, mesh: Hashable) -> None:
 
 
 def forget() -> None:
-    """Forgets all runs."""
     _of_mesh.clear()
     preferences().speeds = "{}"
 

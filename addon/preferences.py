@@ -78,7 +78,6 @@ class OfRuns:
 
 
 def of_runs() -> OfRuns:
-    """The present values."""
     now = preferences()
     return OfRuns(memory_limit=now.memory_limit, threads=now.threads)
 

@@ -102,7 +102,6 @@ class Queue:
             monitor.cancel()
 
     def join(self) -> None:
-        """Waits until the thread has ended."""
         self._thread.join()
 
     @property
@@ -147,7 +146,6 @@ def running() -> Queue | None:
 
 
 def set_running(queue: Queue | None) -> None:
-    """Sets the queue in progress; None: there is none."""
     global _running
     _running = queue
 

@@ -171,7 +171,6 @@ class FitJob(Job):
             fill_layer(make_layer(mesh, NO_POINTS, "BOOLEAN", "FACE"), fine)
 
     def said(self) -> str:
-        """How well the surface fits, in words."""
         found = self.result
         length = self._units.lengths(found.within[0])
         text = f"Within {length(found.within[0])} of 95 % of the scan; its noise is about {length(found.noise)}."

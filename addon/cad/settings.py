@@ -51,8 +51,6 @@ class PatchSettings:
 
 
 class StepSettings(PatchSettings):
-    """Settings of a file."""
-
     unit: EnumProperty(
         name="Unit", description="The unit of lengths in the file", items=UNITS, default="MM"
     )

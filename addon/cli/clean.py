@@ -42,13 +42,11 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def options_of(said: dict[str, Any]) -> CleanOptions:
-    """From the given options and defaults."""
     steps = {name: name not in said["clean_without"] for name in _NAMES}
     return CleanOptions(steps, said["clean_islands"], said["largest_hole"], said["clean_noise"])
 
 
 def shown(options: CleanOptions) -> dict[str, Any]:
-    """The options for the report."""
     return {
         "clean_without": [name for name in _NAMES if not options.steps[name]],
         "clean_islands": options.islands,

@@ -89,7 +89,6 @@ def options_of(arguments: argparse.Namespace, files: Sequence[Place]) -> Prepare
 
 
 def shown(prepare: PrepareOptions) -> dict[str, Any]:
-    """The options for the report; empty without easing."""
     if prepare.options is None:
         return {}
     options = prepare.options

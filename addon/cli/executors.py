@@ -136,7 +136,6 @@ def _threads(arguments: Namespace) -> int:
 
 
 def batches(count: int, workers: int) -> list[range]:
-    """`count` inputs as tasks of consecutive ones."""
     size = min(_MOST_FILES, max(1, count // (_TASKS_A_WORKER * workers)))
     return [range(first, min(first + size, count)) for first in range(0, count, size)]
 

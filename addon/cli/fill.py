@@ -33,7 +33,6 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def options_of(said: dict[str, Any]) -> FillOptions:
-    """From the given options and defaults."""
     return FillOptions(
         said["fill_joint"],
         said["energy"],
@@ -46,7 +45,6 @@ def options_of(said: dict[str, Any]) -> FillOptions:
 
 
 def shown(options: FillOptions) -> dict[str, Any]:
-    """The options for the report."""
     return {
         "energy": options.energy,
         "fill_joint": options.joint,

@@ -93,7 +93,6 @@ def options_of(arguments: argparse.Namespace, settings: Settings) -> FitOptions 
 
 
 def shown(options: FitOptions | None) -> dict[str, Any]:
-    """The options for the report."""
     if options is None:
         return {}
     return {
@@ -161,7 +160,6 @@ COLUMNS = {"within": 10, "noise": 10}
 
 
 def cells(objects: list[dict[str, Any]], _record: dict[str, Any]) -> tuple[str, ...]:
-    """Cells of a finished input's row in the table."""
     told = objects[0]["fit"]
     return words.short(told["within"]), words.short(told["noise"])
 

@@ -120,12 +120,10 @@ def settings_of(arguments: argparse.Namespace) -> Settings:
 
 
 def shown(settings: Settings) -> dict[str, Any]:
-    """The settings of the command line, as a dict."""
     return {name: value for name, value in asdict(settings).items() if name not in NOT_HERE}
 
 
 def _tolerance(text: str) -> tuple[float, str]:
-    """A number and its unit."""
     share = text.endswith("%")
     value = _DISTANCE(text.removesuffix("%"))
     return (value / 100.0, "RELATIVE") if share else (value, "SCENE")

@@ -20,8 +20,6 @@ class BadPlaces(Exception):
 
 @dataclass(frozen=True)
 class Place:
-    """An input and its output."""
-
     source: Path
     target: Path
 

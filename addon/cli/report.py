@@ -14,7 +14,6 @@ DONE, FAILED, CANCELLED, NOT_RUN = "done", "failed", "cancelled", "not_run"
 
 
 def counts(mesh: Any) -> dict[str, int]:
-    """Numbers of elements of a bpy mesh."""
     return {"vertices": len(mesh.vertices), "faces": len(mesh.polygons)}
 
 
@@ -44,7 +43,6 @@ class Progress:
         self._done += 1
 
     def clear(self) -> None:
-        """Clears the line for other output."""
         if self._over and self._shown is not None:
             self._stream.write("\r" + " " * 79 + "\r")
             self._shown = None
@@ -114,7 +112,6 @@ def table_head(width: int, module: Any, energy: str) -> str:
 
 
 def table_line(record: dict[str, Any], width: int, module: Any) -> str:
-    """The row of a finished input."""
     objects = record["objects"]
     faces = sum(item["control"]["faces"] for item in objects)
     out = sum(item["result"].get("faces") or item["result"].get("patches", 0) for item in objects)

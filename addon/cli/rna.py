@@ -64,7 +64,6 @@ class OfOperator:
             add(group, name, prop)
 
     def said(self, arguments: argparse.Namespace) -> dict[str, Any]:
-        """The given options, and defaults for the others."""
         values = {name: default(prop) for name, prop in self._all().items()} | self._others
         given = {name: getattr(arguments, name) for name in self.names}
         return values | {name: value for name, value in given.items() if value is not None}

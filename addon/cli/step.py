@@ -46,7 +46,6 @@ def options_of(
 
 
 def require_patches(jobs: Sequence[PatchJob]) -> None:
-    """Raises JobError if a surface is refused."""
     faulty = refused(jobs)
     if faulty:
         raise JobError(
@@ -63,7 +62,6 @@ def write_step_file(file: Place, jobs: Sequence[PatchJob], options: PatchOptions
 
 
 def object_entry(job: PatchJob) -> dict[str, Any]:
-    """The entry of one object in the report."""
     patches = job.patches
     closed = int(patches.shell_closed.sum())
     return {

@@ -77,7 +77,6 @@ class Schedule:
         self._begins = monotonic() + PAUSE
 
     def drop(self) -> None:
-        """Cancels the plan."""
         self._begins = None
 
     def is_due(self, context: Context, at_once: bool) -> bool:

@@ -34,7 +34,6 @@ class Pace:
         return FAST if self.is_plain else chosen
 
     def note(self, level: int, energy: str, seconds: float) -> None:
-        """Records the time of an update."""
         self._slow_ones = self._slow_ones + 1 if seconds > SLOW else 0
         if self._slow_ones == IN_A_ROW:
             self._slow_ones = 0

@@ -45,7 +45,6 @@ def sessions() -> list[Session]:
 
 
 def session_of(target: Object) -> Session | None:
-    """The Session of a faired object, or None."""
     return _sessions.get(session_key(target))
 
 
@@ -91,7 +90,6 @@ def give_up(session: Session, reason: str) -> None:
 
 
 def clear() -> None:
-    """Ends all sessions."""
     for session in sessions():
         remove(session, hand_back=False)
     _endings.clear()

@@ -34,7 +34,6 @@ def mark_selected(mesh: Mesh, boundary: str) -> int:
 
 
 def _selected(edit: bmesh.types.BMesh) -> list[bmesh.types.BMEdge]:
-    """The selected border edges."""
     return [edge for edge in edit.edges if edge.select and edge.is_boundary]
 
 
@@ -66,7 +65,6 @@ def summary(sources: Iterable[Object]) -> str:
 
 
 def _counts(mesh: Mesh) -> np.ndarray:
-    """Number of border edges with each boundary."""
     marks = _border_marks(mesh)
     return np.bincount(marks[(marks >= 0) & (marks < len(_NUMBERS))], minlength=len(_NUMBERS))
 

@@ -70,7 +70,6 @@ class OwnData:
         return self.animation.give(target, last) if self.animation else []
 
     def drop(self) -> None:
-        """Frees the data without writing them."""
         if self.animation:
             self.animation.drop()
 

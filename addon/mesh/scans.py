@@ -56,7 +56,6 @@ class Scan:
 
     @property
     def arguments(self) -> dict[str, Any]:
-        """The arguments of the scan for `discrete_fairing.fit`."""
         triangles = self.triangles if len(self.triangles) else None
         return {"points": self.points, "triangles": triangles, "normals": self.normals}
 

@@ -46,7 +46,6 @@ class TimedRun:
 
     @property
     def predicted_seconds(self) -> float:
-        """The predicted time of `compute`."""
         return prediction.seconds(self.kind, self._work(), self._key)
 
     def _work(self) -> int:

@@ -167,7 +167,6 @@ def _around(items: Sequence[Any]) -> list[tuple[Any, Any]]:
 
 
 def _fill(bm: Any, made: Cleaned, verts: Sequence[Any]) -> None:
-    """Makes the new faces, one filling after another."""
     for faces in _fillings(made):
         patch = Patch.of(faces, made.points[: made.known], made.points[made.known :])
         rim = [verts[v] for v in patch.rim.tolist()]

@@ -29,7 +29,6 @@ class OBJECT_OT_fairing_boundary(_OfEdges, bpy.types.Operator):
 
     bl_idname = "object.fairing_boundary"
     bl_label = "Boundary of Edges"
-    bl_options = {"REGISTER", "UNDO"}
 
     boundary: EnumProperty(
         name="Boundary", description="What these edges become", items=EDGE_BOUNDARIES
@@ -48,7 +47,6 @@ class OBJECT_OT_fairing_select_boundary(_OfEdges, bpy.types.Operator):
 
     bl_idname = "object.fairing_select_boundary"
     bl_label = "Select Boundary of Edges"
-    bl_options = {"REGISTER", "UNDO"}
 
     boundary: EnumProperty(
         name="Boundary",

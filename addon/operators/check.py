@@ -38,7 +38,6 @@ class OBJECT_OT_fairing_check(_Checking, bpy.types.Operator):
 
     bl_idname = "object.fairing_check"
     bl_label = "Check Mesh"
-    bl_options = {"REGISTER", "UNDO"}
 
     def act(self, context: Context) -> str:
         found = [(t, check_object(context, t)) for t in source_objects(context)]
@@ -83,7 +82,6 @@ class OBJECT_OT_fairing_select_defect(_AtDefect, bpy.types.Operator):
 
     bl_idname = "object.fairing_select_defect"
     bl_label = "Select"
-    bl_options = {"REGISTER", "UNDO"}
 
     def act(self, context: Context) -> str:
         target, defect, defects = self._defect(context)
@@ -99,7 +97,6 @@ class OBJECT_OT_fairing_repair(_AtDefect, bpy.types.Operator):
 
     bl_idname = "object.fairing_repair"
     bl_label = "Repair"
-    bl_options = {"REGISTER", "UNDO"}
 
     @refusing
     def execute(self, context: Context) -> Answer:
@@ -124,7 +121,6 @@ class OBJECT_OT_fairing_select_hole(_OfActive, bpy.types.Operator):
 
     bl_idname = "object.fairing_select_hole"
     bl_label = "Show Hole"
-    bl_options = {"REGISTER", "UNDO"}
 
     edge: IntVectorProperty(
         name="Edge", description="Two vertices of its rim", size=2, min=0, options={"HIDDEN"}
@@ -148,7 +144,6 @@ class OBJECT_OT_fairing_select_faults(Action, bpy.types.Operator):
 
     bl_idname = "object.fairing_select_faults"
     bl_label = "Select Places"
-    bl_options = {"REGISTER", "UNDO"}
 
     reasons = (
         needs(

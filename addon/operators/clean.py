@@ -20,7 +20,6 @@ class OBJECT_OT_fairing_clean(Shown, LargestHole, InMeshes, bpy.types.Operator):
 
     bl_idname = "object.fairing_clean"
     bl_label = "Clean Scan"
-    bl_options = {"REGISTER", "UNDO"}
     cancelled_text = "Cleaning was cancelled: nothing has changed"
 
     mend: BoolProperty(name=STEPS[0][1], description=STEPS[0][2], default=True)

@@ -27,7 +27,6 @@ class OBJECT_OT_fairing_compare(Fairing, bpy.types.Operator):
 
     bl_idname = "object.fairing_compare"
     bl_label = "Compare Fairness"
-    bl_options = {"REGISTER", "UNDO"}
 
     reasons = (can_fair, needs(active_source, "Select a mesh object first"))
 

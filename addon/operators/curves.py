@@ -49,7 +49,6 @@ class OBJECT_OT_fairing_curves(Shown, CageSettings, Fairing, bpy.types.Operator)
 
     bl_idname = "object.fairing_curves"
     bl_label = "Fair Surface from Curves"
-    bl_options = {"REGISTER", "UNDO"}
 
     levels: IntProperty(
         name="Levels",

@@ -34,7 +34,6 @@ class _Easing(InMeshes):
             self.report({"INFO"}, f"{job.name}: {said}")
 
     def put(self, context: Context, jobs: list[Any]) -> None:
-        """Implemented by the operators."""
         raise NotImplementedError
 
 
@@ -151,7 +150,6 @@ class OBJECT_OT_fairing_ease_selected(_Easing, bpy.types.Operator):
 
     bl_idname = "object.fairing_ease_selected"
     bl_label = "Ease Selected"
-    bl_options = {"REGISTER", "UNDO"}
 
     factor: FloatProperty(
         name="Factor",

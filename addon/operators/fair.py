@@ -195,7 +195,6 @@ class InMeshes(WholeFairing):
         self.write(context, jobs)
 
     def write(self, context: Context, jobs: Sequence[Any]) -> None:
-        """What the operator reports."""
         raise NotImplementedError
 
 
@@ -229,7 +228,6 @@ class OBJECT_OT_fairing_recompute(Fairing, bpy.types.Operator):
 
     bl_idname = "object.fairing_recompute"
     bl_label = "Recompute"
-    bl_options = {"REGISTER", "UNDO"}
 
     reasons = (
         can_fair,
@@ -246,7 +244,6 @@ class OBJECT_OT_fairing_recompute_stale(Fairing, bpy.types.Operator):
 
     bl_idname = "object.fairing_recompute_stale"
     bl_label = "Recompute All Out of Date"
-    bl_options = {"REGISTER", "UNDO"}
 
     reasons = (
         can_fair,
@@ -262,7 +259,6 @@ class OBJECT_OT_fairing_show_source(Action, bpy.types.Operator):
 
     bl_idname = "object.fairing_show_source"
     bl_label = "Show Source"
-    bl_options = {"REGISTER", "UNDO"}
 
     @staticmethod
     def _source_reason(context: Context) -> str:

@@ -20,8 +20,6 @@ from .mixins import Shown
 
 
 class LargestHole:
-    """Mix-in of annotations for operators."""
-
     largest: FloatProperty(
         name="Largest Hole",
         description="Holes wider than this between two vertices of the rim stay open; 0 fills all but borders of sheets",
@@ -36,7 +34,6 @@ class OBJECT_OT_fairing_fill(Shown, LargestHole, WholeFairing, bpy.types.Operato
 
     bl_idname = "object.fairing_fill"
     bl_label = "Fill Hole Fair"
-    bl_options = {"REGISTER", "UNDO"}
     cancelled_text = "Filling was cancelled: nothing has changed"
 
     joint: EnumProperty(

@@ -62,7 +62,6 @@ class OBJECT_OT_fairing_fit(Shown, WholeFairing, FitAmount, bpy.types.Operator):
 
     bl_idname = "object.fairing_fit"
     bl_label = "Fair Surface on Scan"
-    bl_options = {"REGISTER", "UNDO"}
     cancelled_text = "The fit was cancelled: nothing has changed but a cage that was made"
 
     levels: IntProperty(

@@ -34,7 +34,6 @@ class OBJECT_OT_fairing_fix_normal(_OfVertices, bpy.types.Operator):
 
     bl_idname = "object.fairing_fix_normal"
     bl_label = "Fix Normal"
-    bl_options = {"REGISTER", "UNDO"}
 
     origin: EnumProperty(name="From", description="Where the normals come from", items=_FROM)
 
@@ -60,7 +59,6 @@ class OBJECT_OT_fairing_free_normal(_OfVertices, bpy.types.Operator):
 
     bl_idname = "object.fairing_free_normal"
     bl_label = "Free Normal"
-    bl_options = {"REGISTER", "UNDO"}
 
     def act(self, context: Context) -> str:
         count = sum(fixed_normals.free(o.data) for o in context.objects_in_mode_unique_data)

@@ -24,7 +24,6 @@ class OBJECT_OT_fairing_flat_faces(Shown, Action, bpy.types.Operator):
 
     bl_idname = "object.fairing_flat_faces"
     bl_label = "Keep Faces Flat"
-    bl_options = {"REGISTER", "UNDO"}
 
     clear: BoolProperty(
         name="Clear",

@@ -30,7 +30,6 @@ class OBJECT_OT_fairing_close(Action, bpy.types.Operator):
 
     bl_idname = "object.fairing_close"
     bl_label = "Close Hull"
-    bl_options = {"REGISTER", "UNDO"}
 
     reasons = ACTIVE_MESH
 

@@ -71,7 +71,6 @@ class OBJECT_OT_fairing_hydrostatics(Shown, _Afloat, bpy.types.Operator):
 
     bl_idname = "object.fairing_hydrostatics"
     bl_label = "Hydrostatics"
-    bl_options = {"REGISTER", "UNDO"}
 
     said: StringProperty(options={"HIDDEN", "SKIP_SAVE"})
 

@@ -140,7 +140,6 @@ class OBJECT_OT_fairing_in_place(InPlace, bpy.types.Operator):
 
     bl_idname = "object.fairing_in_place"
     bl_label = "Fair Selected Faces in Place"
-    bl_options = {"REGISTER", "UNDO"}
 
     reasons = (
         can_fair,
@@ -162,7 +161,6 @@ class OBJECT_OT_fairing_scan(InPlace, bpy.types.Operator):
 
     bl_idname = "object.fairing_scan"
     bl_label = "Fair Scan in Place"
-    bl_options = {"REGISTER", "UNDO"}
 
     vertices: EnumProperty(
         name="Vertices",

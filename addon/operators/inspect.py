@@ -23,8 +23,6 @@ def meshes(context: Context) -> list[Object]:
 
 
 class _Inspecting(Action):
-    bl_options = {"REGISTER", "UNDO"}
-
     reasons: tuple[Reason, ...] = (IN_OBJECT_MODE, of_meshes(meshes))
 
 
@@ -62,7 +60,6 @@ class OBJECT_OT_fairing_inspect(_Inspecting, bpy.types.Operator):
 
 
 def _has_reference(context: Context) -> bool:
-    """Whether the deviation of all objects has a reference."""
     other = context.scene.discrete_fairing_inspection.deviation_object
     return other is not None or all(map(source_of, meshes(context)))
 

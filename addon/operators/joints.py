@@ -33,7 +33,6 @@ class OBJECT_OT_fairing_match_border(Fairing, bpy.types.Operator):
 
     bl_idname = "object.fairing_match_border"
     bl_label = "Match Border"
-    bl_options = {"REGISTER", "UNDO"}
 
     joint: EnumProperty(
         name="Joint",
@@ -104,7 +103,6 @@ class OBJECT_OT_fairing_select_joint(Action, bpy.types.Operator):
 
     bl_idname = "object.fairing_select_joint"
     bl_label = "Show Joint"
-    bl_options = {"REGISTER", "UNDO"}
 
     index: IntProperty(
         name="Joint", description="Which line of the table", min=0, options={"HIDDEN"}

@@ -22,7 +22,6 @@ class OBJECT_OT_fairing_live(Action, bpy.types.Operator):
 
     bl_idname = "object.fairing_live"
     bl_label = "Live"
-    bl_options = {"REGISTER", "UNDO"}
 
     state: bpy.props.EnumProperty(
         name="State",

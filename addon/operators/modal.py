@@ -23,7 +23,6 @@ class ModalRun(OperatorBase):
     cancelled_text = "Fairing was cancelled: nothing has changed"
 
     def finish(self, context: Context, jobs: list[Job]) -> None:
-        """Implemented by the operator."""
         raise NotImplementedError
 
     def start(self, context: Context, jobs: list[Job]) -> Answer:

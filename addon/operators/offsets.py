@@ -34,7 +34,6 @@ class IMPORT_MESH_OT_fairing_offsets(ImportHelper, Action, bpy.types.Operator):
 
     bl_idname = "import_mesh.fairing_offsets"
     bl_label = "Import Offsets"
-    bl_options = {"REGISTER", "UNDO"}
     reasons = ()
     filename_ext = ".csv"
 

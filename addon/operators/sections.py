@@ -79,8 +79,6 @@ def cuts(surface: Drawn, planes: list[Plane]) -> list[Cut]:
 
 
 class _Spaced:
-    """Mix-in: positions of planes."""
-
     spacing: FloatProperty(
         name="Spacing",
         description="From one plane to the next, where no places are given",
@@ -98,7 +96,6 @@ class OBJECT_OT_fairing_section_curves(Shown, _Spaced, Action, bpy.types.Operato
 
     bl_idname = "object.fairing_section_curves"
     bl_label = "Section Curves"
-    bl_options = {"REGISTER", "UNDO"}
 
     kind: EnumProperty(
         name="Planes",

@@ -36,7 +36,6 @@ class _Fitting(fair.Fairing, PatchSettings):
     reasons = (fair.can_fair, needs(source_objects, "Select a mesh or a faired surface first"))
 
     def patch_options(self) -> PatchOptions:
-        """The settings of patches."""
         return PatchOptions(self.fit_tolerance, self.fit_angle, self.fit_levels)
 
     def make_jobs(self, context: Context) -> list[Any]:
@@ -44,7 +43,6 @@ class _Fitting(fair.Fairing, PatchSettings):
 
     @refusing
     def execute(self, context: Context) -> Answer:
-        """For scripts."""
         return self._block(context, self._prepared(context))
 
 

@@ -62,7 +62,6 @@ class OBJECT_OT_fairing_strain(Action, bpy.types.Operator):
 
     bl_idname = "object.fairing_strain"
     bl_label = "Inspect: Strain"
-    bl_options = {"REGISTER", "UNDO"}
 
     reasons = _Straining.reasons
 
@@ -81,7 +80,6 @@ class OBJECT_OT_fairing_select_strained(Shown, _Straining, bpy.types.Operator):
 
     bl_idname = "object.fairing_select_strained"
     bl_label = "Select Strained"
-    bl_options = {"REGISTER", "UNDO"}
 
     reasons = _TO_SELECT
 
@@ -141,7 +139,6 @@ class OBJECT_OT_fairing_crease_knuckle(_Straining, bpy.types.Operator):
 
     bl_idname = "object.fairing_crease_knuckle"
     bl_label = "Crease Knuckle"
-    bl_options = {"REGISTER", "UNDO"}
 
     def use(self, context: Context, jobs: list[StrainJob]) -> None:
         done = 0
@@ -173,7 +170,6 @@ class OBJECT_OT_fairing_go_to_strained(Action, bpy.types.Operator):
 
     bl_idname = "object.fairing_go_to_strained"
     bl_label = "Go to Vertex"
-    bl_options = {"REGISTER", "UNDO"}
 
     vertex: IntProperty(name="Vertex", description="Which vertex of the control mesh", min=0)
 

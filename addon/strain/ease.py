@@ -125,7 +125,6 @@ class EaseJob(_Moving):
         return self.result.vertices
 
     def said(self, text: words.Text) -> str:
-        """The result in words."""
         eased, options = self.result, self._options
         before = eased.strain_before
         if options.amount == "WORST":
@@ -190,11 +189,9 @@ class EaseSelectedJob(_Moving):
         return np.where(self._free[:, None], sent + self._factor * (found - sent), sent)
 
     def said(self, text: words.Text) -> str:
-        """The result in words."""
         return words.moved(self.moves, text, self.names)
 
     def write(self) -> None:
-        """Writes to the edited mesh."""
         mesh = cast(Object, self.reference.find()).data
         edited = bmesh.from_edit_mesh(mesh)
         edited.verts.ensure_lookup_table()

@@ -89,7 +89,6 @@ class StrainJob(PlateRun):
 
     @property
     def predicted_seconds(self) -> float:
-        """The predicted time of `compute`."""
         return super().predicted_seconds if self.result is None else 0.0
 
     def compute(self, **watchers: Any) -> None:
@@ -113,7 +112,6 @@ class StrainJob(PlateRun):
         )
 
     def note(self) -> None:
-        """Records the time for predictions, on the main thread."""
         if self._taken:
             super().note()
 

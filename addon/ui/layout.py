@@ -86,7 +86,6 @@ def draw_fairness(
 def draw_shape(
     layout: bpy.types.UILayout, settings: FairingSettings, known: Known = _NOTHING
 ) -> None:
-    """The other settings of the shape."""
     if is_near(settings):
         _draw_held_by(layout, settings, known)
     _draw_pads(layout, settings)
@@ -198,7 +197,6 @@ def draw_settings(
 
 
 def draw_folded(layout: bpy.types.UILayout, settings: FairingSettings, identifier: str) -> None:
-    """The rare settings."""
     for label, draw in FOLDED:
         header, body = layout.panel(f"{identifier}.{label}", default_closed=True)
         header.label(text=label)

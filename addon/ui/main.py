@@ -281,7 +281,6 @@ def _split(layout: bpy.types.UILayout) -> bpy.types.UILayout:
 
 
 def _draw_source(layout: bpy.types.UILayout, memory: FAIRING_PG_surface) -> None:
-    """The source of this surface, and a button to edit it."""
     row = layout.row(align=True)
     row.prop(memory, "source")
     row.operator("object.fairing_show_source", text="", icon="RESTRICT_SELECT_OFF")
@@ -300,7 +299,6 @@ def _draw_repairs(layout: bpy.types.UILayout, surface: Object | None) -> None:
 
 
 def _draw_purposes(layout: bpy.types.UILayout) -> None:
-    """The jobs, before any settings."""
     header, body = layout.panel("fairing.purposes")
     header.label(text="Fair for")
     if body is not None:
@@ -308,7 +306,6 @@ def _draw_purposes(layout: bpy.types.UILayout) -> None:
 
 
 def _draw_button(layout: bpy.types.UILayout, operator: str, icon: Any, text: str) -> None:
-    """The large button."""
     row = layout.row(align=True)
     row.scale_y = 1.5
     row.operator(operator, text=text, icon=icon)
@@ -333,7 +330,6 @@ def _draw_neighbour(layout: bpy.types.UILayout, memory: FAIRING_PG_surface) -> N
 
 
 def _draw_cad(layout: bpy.types.UILayout) -> None:
-    """Buttons for CAD."""
     row = layout.row(align=True)
     row.operator("export_scene.fairing_step", text="Export STEP", icon="EXPORT")
     row.operator("object.fairing_show_patches", icon="OUTLINER_OB_SURFACE")

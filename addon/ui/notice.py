@@ -10,7 +10,6 @@ WIDTH = 33  # characters that fit a sidebar of default width
 
 
 def draw_notice(layout: bpy.types.UILayout, text: str, icon: Any = "ERROR") -> None:
-    """A sentence in a box, broken into lines."""
     box = layout.box().column(align=True)
     for line in textwrap.wrap(text, WIDTH):
         box.label(text=line, icon=icon)

@@ -50,8 +50,6 @@ class VIEW3D_PT_fairing_strain(Folded, bpy.types.Panel):
 
 
 def _draw_worst(layout: Any, context: Context, source: Object, strained: Strained) -> None:
-    """A list of vertices to go to, and the limit of scatter."""
-
     text = Units.of(context.scene).lengths(max(strained.largest, strained.floor))
     drawing = context.scene.discrete_fairing_strain
     if not len(strained.held):
