@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Predicts the time of a run from the last runs on this machine, of the same mesh if possible.
-
-The last few runs of each energy are stored in the preferences, not in files.
-"""
+"""Predicts the time of a run from this machine's last ones, which the preferences keep."""
 
 import json
 from collections.abc import Hashable

@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Patches as Blender's own NURBS surfaces, with the same control points and knots.
-
-They show what CAD programs will get. Each patch is separate: moving a control point opens its edges.
-"""
+"""Patches as Blender's NURBS surfaces, one each, with the control points that CAD will get."""
 
 from typing import Any, cast
 

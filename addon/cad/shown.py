@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The surface as shown in the window, compared with the surface that patches are fitted to: the same
-mix of shape keys, and the distance between the two.
-"""
+"""The surface as shown in the window, beside the one that patches are fitted to."""
 
 from collections.abc import Sequence
 from dataclasses import replace

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Options from Blender's properties, which have the description, default and range of each, and options
-that are numbers.
-"""
+"""Options from Blender's properties: their description, default and range; and plain numbers."""
 
 import argparse
 from collections.abc import Callable

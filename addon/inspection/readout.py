@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The numbers before and after: of the control mesh and of its surface.
-
-Stored with the object.
-"""
+"""The numbers before and after, of control mesh and surface, stored with the object."""
 
 from collections.abc import Callable
 from typing import Any

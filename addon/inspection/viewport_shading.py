@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Switches the shading of a viewport for inspection, and back.
-
-The previous shading is stored with the viewport, so that it is saved and deleted with it.
-"""
+"""Switches a viewport's shading for inspection, and back; the previous one is stored with it."""
 
 from contextlib import suppress
 from typing import Any

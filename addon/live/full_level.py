@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Computes the surface at all its levels once edits pause, on a thread, so that the next edit can
-begin.
-"""
+"""Computes the surface at all its levels on a thread once edits pause; the next edit may begin."""
 
 from time import monotonic
 from typing import Any

@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One live surface: its source, its solver, its mesh.
-
-Called by `handlers`, on Blender's main thread.
-"""
+"""One live surface: its source, solver and mesh. Called by `handlers` on the main thread."""
 
 from collections.abc import Collection
 from contextlib import AbstractContextManager

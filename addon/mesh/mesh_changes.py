@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tracks whether measurements still apply to a mesh.
-
-Drawing only looks up the result; the work is done when a mesh changes.
-"""
+"""Tracks whether measurements still apply to a mesh; drawing only looks up the result."""
 
 import zlib
 from collections.abc import Callable, Hashable, Sequence

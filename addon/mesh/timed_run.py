@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A run on the mesh of one object: its predicted time, and whether its result still applies once it is
-finished.
-"""
+"""A run on one object's mesh: its predicted time, and whether its result still applies."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager

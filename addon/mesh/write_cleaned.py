@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes a mesh cleaned by Clean Scan to the original mesh: by BMesh, and only where it has changed, so
-that other data stay.
-"""
+"""Writes a cleaned mesh by BMesh, only where it has changed, so that other data stay."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

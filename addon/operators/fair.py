@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fair Surface, Recompute and Show Source.
-
-All work can be done by `execute`, which scripts and background runs call.
-"""
+"""Fair Surface, Recompute and Show Source; scripts and background runs call `execute`."""
 
 from collections.abc import Sequence
 from typing import Any, cast

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Hydrostatics of a hull at its draught, reported or as a table; the hull must be closed below the
-waterplane.
-"""
+"""Hydrostatics of a hull at its draught, as a report or table; closed below the waterplane."""
 
 from collections.abc import Iterable
 from math import degrees, radians

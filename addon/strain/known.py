@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The last measured strain of each source, and a timer that updates shown ones.
-
-It exists while Blender runs. Nothing runs if nothing is shown; without a window only operators measure.
-"""
+"""The last measured strain of each source; a timer updates shown ones while Blender runs."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager

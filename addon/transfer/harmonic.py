@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Values extended from the rim of a filling to its inside: discrete harmonic, so never beyond those of
-the rim.
-"""
+"""Values extended from a filling's rim inside: discrete harmonic, never beyond those of the rim."""
 
 import numpy as np
 

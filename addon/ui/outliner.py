@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The number of surfaces that are out of date, in the header of the Outliner; Python cannot draw in its
-rows.
-"""
+"""The number of outdated surfaces in the Outliner's header; Python cannot draw in its rows."""
 
 from typing import Any
 

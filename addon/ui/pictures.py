@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pictures of the jobs, and of the options of settings with a choice.
-
-examples/render_panel_pictures.py draws those of the settings.
-"""
+"""Pictures of jobs and options, drawn by examples/render_panel_pictures.py."""
 
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Makes half a hull whole and closed: mirrored, joined in the middle, with deck and transom ruled from
-side to side. NumPy, no Blender.
-"""
+"""Half a hull made whole and closed: mirrored, deck and transom ruled across. No Blender."""
 
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Meshes a table of offsets: quads between stations and lines, triangles where lines end. NumPy, no
-Blender.
-"""
+"""Meshes a table of offsets: quads between stations and lines, triangles where these end."""
 
 from collections import Counter
 from dataclasses import dataclass

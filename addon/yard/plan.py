@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Planes that cut a hull, and the sheet with its lines: profile, half-breadth plan and body plan.
-NumPy, no Blender.
-"""
+"""Planes that cut a hull, and the sheet of its lines: profile, half-breadths, body plan."""
 
 from dataclasses import dataclass
 

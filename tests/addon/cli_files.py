@@ -26,9 +26,7 @@ def lopsided():
 
 
 def write_obj(name, names=("Box",), materials=(), shared=True):
-    """One box an object, each beside the last; a material for each face in turn.
-
-    Returns all vertices."""
+    """One box an object, side by side; a material for each face in turn. Returns all vertices."""
     lines, points = [], []
     for number, own in enumerate(names):
         lines.append(f"o {own}")
@@ -48,9 +46,7 @@ def write_obj(name, names=("Box",), materials=(), shared=True):
 
 
 def write_ply(name, colours=None):
-    """As text, with a colour (r, g, b) from 0 to 255 for each vertex if given.
-
-    Returns the vertices."""
+    """As text, with a colour (r, g, b), 0 to 255, for each vertex if given. Returns vertices."""
     points = lopsided()
     lines = ["ply", "format ascii 1.0", f"element vertex {len(points)}"]
     lines += [f"property float {axis}" for axis in "xyz"]

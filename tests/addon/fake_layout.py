@@ -5,8 +5,7 @@ import bpy
 
 
 class Layout:
-    """Stands for bpy.types.UILayout: remembers labels and properties, refuses properties and operators that do not
-    exist."""
+    """Stands for UILayout: remembers labels, refuses properties and operators that do not exist."""
 
     def __init__(self, log=None):
         self.log = log if log is not None else []

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The thread that computes: order, progress, cancel, failure.
-
-(The window's side is tested in a real window.)"""
+"""The thread that computes: order, progress, cancel, failure; a real window's is tested there."""
 
 import os
 import sys

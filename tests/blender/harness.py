@@ -236,9 +236,7 @@ def show_the_end_of_the_sidebar():
 
 
 def photograph(name):
-    """Saves a picture of the whole screen, as X shows it, among the screenshots; returns its path.
-
-    Blender's own operator for screenshots gives a black picture here."""
+    """Saves a picture of the screen, as X shows it; Blender's operator gives a black one here."""
     path = Path(os.environ["DF_SCREENSHOTS"]) / f"{name}.png"
     subprocess.run(["import", "-window", "root", path], check=True, timeout=60)
     return path
@@ -301,8 +299,7 @@ def sidebar():
 
 
 def button_at(region, x, y):
-    """The Python call of the button at a place on the screen, as Blender would copy it; moves the mouse there. A
-    generator."""
+    """The Python call of the button at a place, as Blender would copy it; a generator."""
     manager = bpy.context.window_manager
     xdotool("mousemove", x, y)
     yield 0.1

@@ -39,9 +39,7 @@ class Heap(ctypes.Structure):
 
 
 def bytes_in_use():
-    """Bytes allocated and not freed, exact where the C library's allocator serves the process (`counting_allocator`
-    in build_tools/blender_suite.py). Resident memory would not do: what allocators keep in reserve comes and goes
-    by megabytes."""
+    """Bytes allocated and not freed, by the allocator in build_tools; resident memory jumps."""
     mallinfo2 = ctypes.CDLL("libc.so.6").mallinfo2
     mallinfo2.restype = Heap
     heap = mallinfo2()
@@ -71,8 +69,7 @@ def once(source, **settings):
 
 
 def level_of(run):
-    """Mostly 1, since a run's leak does not depend on its size and memory is compared after each run. Level 2 has a
-    level between the coarsest and the finest."""
+    """Mostly 1, since a leak does not depend on size; 2 has a level between the first and last."""
     return 2 if run % 9 == 0 else 1
 
 

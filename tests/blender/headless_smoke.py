@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The installed extension without a window.
-
-The modules of the project are not on the path here, only what the extension's zip brought."""
+"""The installed extension without a window, with no modules but those of its zip."""
 
 import importlib
 import sys

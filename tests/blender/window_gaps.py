@@ -38,8 +38,7 @@ def open_window():
 
 
 def draw_as_in_a_run():
-    """The view once, as after any operator, then sidebar and status bar five times a second; a generator of three
-    seconds."""
+    """The view once, then sidebar and status bar five times a second; a generator of 3 s."""
     harness.view()["area"].tag_redraw()
     for step in range(15):
         bpy.context.workspace.status_text_set(f"Step {step}")

@@ -79,8 +79,7 @@ def test_stripes_and_back():
 
 
 def striped(name, least, last=0):
-    """The picture, once it differs from the `last` one and has `least` changes along a line: shaders take time to
-    compile. A generator."""
+    """The picture, once unlike `last` and with `least` changes along a line; a generator."""
 
     def there(_path):
         picture = pixels(name)

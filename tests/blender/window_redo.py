@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Adjust Last Operation with a large surface: a small one at once, the whole one by Recompute. Prints the longest
-stop."""
+"""Adjust Last Operation with a large surface: a small one at once, the whole one by Recompute."""
 
 import sys
 from pathlib import Path

@@ -18,9 +18,7 @@ PATIENCE = 120.0  # seconds until a run must have ended
 
 
 def sidebar_at_rest(name, unlike=None):
-    """Brightness (h, w) of the sidebar, once two pictures in a row are equal, and not `unlike`: panels read their
-    pictures beside drawing, and a busy machine draws late. A generator.
-    """
+    """Brightness (h, w) of the sidebar once two pictures are equal, not `unlike`; a generator."""
     begun, last = perf_counter(), None
     while True:
         yield 0.5

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The rooms of the core stand in one order: a file includes its own room and those before it.
-
-import-linter does the same for Python (pyproject.toml)."""
+"""The core's rooms stand in one order; import-linter does the same for Python (pyproject.toml)."""
 
 import re
 from pathlib import Path

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Boxes with bevelled edges, as modellers draw them: long faces beside edges a hundred times shorter. A surface
-through their vertices must not swell."""
+"""Boxes with bevelled edges, long faces beside edges a hundredth; surfaces must not swell."""
 
 from itertools import product
 
@@ -8,8 +7,7 @@ import numpy as np
 
 
 def bevelled_box(sides, bevel: float):
-    """Vertices (24, 3) and 26 faces as lists: a quad on each side and along each edge, a triangle at each corner.
-    `bevel`: the distance from the end of a side's face to the box's edge."""
+    """Vertices (24, 3), 26 faces; `bevel`: from the end of a side's face to the box's edge."""
     half = np.asarray(sides, float) / 2
     if not 0 < bevel < half.min():
         raise ValueError("The bevel has to leave something of every side.")

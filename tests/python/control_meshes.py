@@ -175,8 +175,7 @@ def box_with_creases():
 
 
 def edges_of(polygons):
-    """Polygons of one size: their edges, the lower vertex first, and for each of their sides the
-    number of its edge."""
+    """Edges of polygons of one size, lower vertex first, and the edge of each of their sides."""
     size = polygons.shape[1]
     sides = np.concatenate([polygons[:, [k, (k + 1) % size]] for k in range(size)])
     edges, number = np.unique(np.sort(sides, 1), axis=0, return_inverse=True)
@@ -221,9 +220,7 @@ def drum(count: int = 8):
 
 
 def creature(seed: int = 5):
-    """An irregular closed mesh of quads and triangles, mirror-symmetric in x to the last bit.
-
-    A box of quads, its points moved about at random but alike on both sides, with a few quads of either side cut."""
+    """Irregular, closed, of quads and triangles, mirror-symmetric in x to the last bit."""
     points, quads = cube()
     for _ in range(2):
         points, quads = refine_quads(points, quads)
@@ -255,8 +252,7 @@ def creature(seed: int = 5):
 
 
 def rough_ball(seed: int = 3, roughness: float = 0.5):
-    """A sphere of 128 triangles whose vertices are off it at random: crumpled, with edges folded by
-    over 90 degrees."""
+    """A sphere of 128 triangles with vertices off it at random, folded by over 90 degrees."""
     points, faces = octahedron()
     for _ in range(2):
         points, faces = refine_triangles(points, faces)

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Control meshes with all vertices on the unit sphere, written as numbers or made as hulls. Their surface of least
-total curvature is the sphere."""
+"""Control meshes inscribed in the unit sphere, which is their surface of least curvature."""
 
 import control_meshes as meshes
 import numpy as np
@@ -13,8 +12,7 @@ def pyramid():
 
 
 def cube(cut: int = 0):
-    """A cube of quads (0), or of triangles: by diagonals that follow each other (1), by the six edges of a
-    tetrahedron (2)."""
+    """A cube of quads (0), or of triangles: diagonals in a row (1), or a tetrahedron's (2)."""
     points, quads = meshes.cube()
     if cut == 2:
         even = (points > 0).sum(1) % 2 == 0

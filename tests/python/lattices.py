@@ -5,8 +5,7 @@ import numpy as np
 
 
 def lattice_faces(rows: int, columns: int, closed=(False, False)) -> np.ndarray:
-    """Quads of rows of vertices, row by row; `closed`: whether the last row and the last column are joined to
-    the first ones."""
+    """Quads of rows of vertices; `closed`: whether rows and columns join their first ones."""
     at = np.arange(rows * columns).reshape(rows, columns)
     at = np.pad(at, [(0, int(each)) for each in closed], mode="wrap")
     return np.stack([at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]], -1).reshape(-1, 4)

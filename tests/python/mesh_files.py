@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reads polygons from OBJ, PLY, STL and OFF files as they are stored; ValueError for files that cannot be read.
-Triangles of STL share the vertices that agree to the last bit; other files are not merged."""
+"""Reads polygons from OBJ, PLY, STL and OFF; ValueError. STL shares equal vertices alone."""
 
 import struct
 from pathlib import Path

@@ -6,8 +6,7 @@ import numpy as np
 
 
 def strip(around: int = 9, across: int = 3, triangles: bool = False, cover: bool = False):
-    """A Möbius strip about the z axis: (vertices, faces). A turn about the x axis maps it to itself. With `cover`,
-    its double cover, whose first vertices and faces are those of the strip."""
+    """A Möbius strip about z that a turn about x maps to itself; `cover`: its double cover."""
     turns = 2 * around if cover else around
     angle = 2 * np.pi * np.arange(turns) / around
     width = np.linspace(-1, 1, across + 1)[:, None]

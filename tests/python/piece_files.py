@@ -9,8 +9,7 @@ import discrete_fairing as df
 
 
 def fair_file(path: Path, dies_once: Path | None = None) -> Path:
-    """Reads a piece, writes its part and returns the file's name. If the file `dies_once` exists, it deletes that
-    file and kills its own process."""
+    """Writes a piece's part; if the file `dies_once` exists, deletes it and kills itself."""
     if dies_once is not None and dies_once.exists():
         dies_once.unlink()
         os.kill(os.getpid(), signal.SIGKILL)

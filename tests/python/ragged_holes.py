@@ -26,8 +26,7 @@ def largest_piece(faces):
 
 
 def ragged(faces, size, rng, wander=0.0):
-    """(m,) bool: about `size` connected faces, and those that they cut off. `wander`: how often the next face is a
-    neighbour of the newest face, not of any."""
+    """(m,) bool: about `size` connected faces and those cut off; `wander`: next to the newest."""
     around = {}
     for k, t in enumerate(faces.tolist()):
         for v in t:

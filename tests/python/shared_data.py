@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The collection of real meshes that may lie beside the project; tests that want it are skipped
-where it is absent."""
+"""The collection of real meshes beside the project; without it their tests are skipped."""
 
 import json
 from pathlib import Path
@@ -12,8 +11,7 @@ SHARED = Path(__file__).resolve().parents[2].parent / "shared" / "data"
 
 
 def shared_files(folder: str, *suffixes: str) -> list:
-    """Parameters for `pytest.mark.parametrize`: every mesh file below SHARED/folder; one skipped
-    one if there is none."""
+    """Every mesh file below SHARED/folder, for parametrize; one skipped one if there is none."""
     suffixes = suffixes or (".obj",)
     top = SHARED / folder
     files = (

@@ -36,8 +36,7 @@ def alone(vertices, faces):
 
 
 def bulkhead():
-    """A box of two cells, x from -1 to 1 and from 1 to 2, with the wall between them: (vertices,
-    faces), the wall's face."""
+    """A box of two cells, x from -1 to 1 to 2: (vertices, faces), the face of their wall."""
     x, y, z = np.meshgrid([-1.0, 1.0, 2.0], [0.0, 1.0], [0.0, 1.0], indexing="ij")
     vertices = np.stack([x, y, z], -1).reshape(-1, 3)
     id = np.arange(12).reshape(3, 2, 2)

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Control meshes of thin triangles, as CAD exports and stretched scans have them: each a pair
-(vertices (n, 3), faces (m, 3))."""
+"""Thin triangles, as of CAD exports and stretched scans: (vertices (n, 3), faces (m, 3))."""
 
 import numpy as np
 from lattices import lattice_faces
@@ -43,8 +42,7 @@ def stretched(mesh, stretch: float):
 
 
 def stretched_sheet(count: int = 400, stretch: float = 100.0, seed: int = 1, sheared: bool = False):
-    """Random points on a wavy sheet, stretched after they were triangulated; `sheared`: triangulated
-    as if they were stretched."""
+    """Random points on a wavy sheet, stretched after triangulation, or before if `sheared`."""
     plane = np.random.default_rng(seed).uniform(size=(count, 2))
     faces = Delaunay(plane * [stretch, 1] if sheared else plane).simplices.astype(int)
     a, b, c = (plane[faces[:, k]] for k in range(3))
@@ -55,8 +53,7 @@ def stretched_sheet(count: int = 400, stretch: float = 100.0, seed: int = 1, she
 
 
 def uneven_drum(counts=(8, 11), seed=17, rings=3, rim=0.3, height=2.0):
-    """Two rims of so many vertices at unrelated angles, joined by long triangles; each end goes over a rounded rim
-    into a flat cap."""
+    """Two rims at unrelated angles, joined by long triangles; rounded into flat caps."""
     rng = np.random.default_rng(seed)
     points, faces, rims = [], [], []
     angles = [np.sort(rng.uniform(0, 2 * np.pi, n)) for n in counts]

@@ -47,8 +47,7 @@ def radii(patches, samples: int = 33) -> np.ndarray:
 
 
 def lattice_volume(result, levels: int) -> float:
-    """The volume inside the smooth surface through a refined mesh's points, extrapolated from the volumes inside
-    all points, every second and every fourth one: their errors are powers of 4."""
+    """The volume inside, extrapolated from all points, every second and fourth: powers of 4."""
     fine, middle, coarse = (
         sum(_grid_volume(result.vertices, grid, step) for grid in _grids(result, levels))
         for step in (1, 2, 4)
@@ -58,8 +57,7 @@ def lattice_volume(result, levels: int) -> float:
 
 
 def _grids(result, levels: int):
-    """(corners, (F, n + 1, n + 1) point ids by row and column) of triangles and of quads; -1 beyond a triangle's
-    long side."""
+    """(corners, (F, n + 1, n + 1) point ids) of triangles and quads; -1 beyond a long side."""
     n = 2**levels
     for corners, faces in zip((3, 4), result.faces):
         cells = faces.reshape(-1, n * n, corners)

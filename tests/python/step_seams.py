@@ -10,8 +10,7 @@ STEPS = 8  # of an edge, between two samples
 
 
 def gap_and_borders(path: Path) -> tuple[float, np.ndarray]:
-    """The farthest that an edge is from the rim of a face at it, and (f, 3) the middles of the edges with one face
-    only; in the file's unit times its millimetres."""
+    """The farthest an edge is from a rim at it, and middles (f, 3) of edges with one face."""
     from OCP.BRepAdaptor import BRepAdaptor_Curve, BRepAdaptor_Surface
     from OCP.collections import IndexedMap_TopoDS_Shape_TopTools_ShapeMapHasher as ShapeMap
     from OCP.TopExp import TopExp

@@ -56,8 +56,7 @@ def rim(triangles: np.ndarray) -> np.ndarray:
 
 
 def turns(points: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The edges inside a mesh of triangles or quads, as vertices (k, 2), the faces (k, 2) at each, and the
-    angles (k,) in radians between their normals. An edge of more than two faces is listed more than once."""
+    """Inner edges (k, 2), the faces (k, 2) at each, and the angles (k,) of their normals."""
     corner, size = points[faces], faces.shape[1]
     normal = np.cross(corner[:, 2] - corner[:, 0], corner[:, -1] - corner[:, 1])
     sides = np.sort(np.stack([faces, np.roll(faces, -1, axis=1)], -1).reshape(-1, 2), axis=1)

@@ -106,8 +106,7 @@ def comes_near(level: dict) -> bool:
 
 
 def gains_nothing(level: dict) -> bool:
-    """Whether the last two steps of a level have gained below a two-hundredth of its energy, and came
-    to a decrement below 0.1."""
+    """Whether a level's last two steps gained below a two-hundredth, with decrement below 0.1."""
     steps = level["steps"]
     return (
         len(steps) > 1

@@ -47,8 +47,7 @@ def test_a_plate_has_the_normal_at_its_border(plate, levels, seen, pad_size):
 @pytest.mark.parametrize("make", [quads, triangles])
 @pytest.mark.parametrize("pair", PAIRS)
 def test_vertices_of_a_border_have_the_normals_of_a_neighbour(pair, make):
-    """The border curve stays, bit for bit. Kinks at vertices were 7 to 23 degrees; a fit of five rings
-    sees 0.2 to 1.1 of the bend between rings."""
+    """The border curve stays, bit for bit; kinks were 7 to 23 degrees, a fit sees 0.2 to 1.1."""
     fixed, other = map(make, PAIRS[pair]())
     first, free = fair(fixed, 4), fair(other, 4)
     before = seam(free, first)

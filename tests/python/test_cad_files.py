@@ -53,8 +53,7 @@ def failing(error, path):
 
 @contextmanager
 def full_disk():
-    """In the body no file may grow longer than this, the log of the tests included. Python buffers its files, so
-    the last bytes fail at the end."""
+    """In the body no file may grow longer than this; Python writes the last bytes at the end."""
     before = resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (2000, before[1]))
     try:

@@ -331,8 +331,7 @@ def test_noise_is_taken_off(noise):
 
 
 def test_a_rim_that_touches_another_part_at_many_vertices_is_closed():
-    """Without a ring of cells, the middle of a cube's top touches the rest at sixteen vertices, where faces are
-    dropped all at once: three rounds of them, each at one vertex, left the top open."""
+    """A cube's top touches the rest at sixteen vertices, where three rounds left it open."""
     vertices, faces = cube()
     for _ in range(4):
         vertices, faces = refine_quads(vertices, np.array(faces))

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One meaning of converged: the surface is as near to the solution of its equation as was promised.
-What has not converged is said."""
+"""Converged: as near to the solution as promised; what has not converged is said."""
 
 import control_meshes as meshes
 import discrete_fairing as df

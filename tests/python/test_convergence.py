@@ -60,8 +60,7 @@ def test_result_beats_prediction_beats_polyhedron(name, exponent):
 @pytest.mark.parametrize("name", [name for name in TRIANGLES if name != "random_hull"])
 @pytest.mark.parametrize("levels", [1, 2, 3])
 def test_energy_is_least(name, levels):
-    """The uniform result, measured as a control mesh of its own, has the reported energy, and no slope. With
-    control edges of length one the refined mesh is its own control metric, up to a factor of 4 a level."""
+    """The uniform result, measured as a mesh of its own, has the reported energy and no slope."""
     vertices, faces = meshes.ALL[name]()
     result = tight.fair(vertices, faces, levels, metric_exponent=0.0, relative_residual=1e-12)
     here = uniform_energy(result.vertices, result.triangles)

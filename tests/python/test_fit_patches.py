@@ -103,8 +103,7 @@ def star(valence):
 
 
 def test_what_is_said_is_what_others_find():
-    """Patches may swing between the lattice's points. The report's distances are those from the flat triangles, at
-    13 x 13 points of each patch, by a basis in NumPy."""
+    """The report's distances are those from flat triangles at 13 x 13 points of each patch."""
     (points, faces), creases = example_meshes.hull()
     patches = df.fit_patches(points, faces, levels=5, crease_edges=creases, force=True)
     t = np.linspace(0, 1, 13)
@@ -157,8 +156,7 @@ def test_patches_in_narrow_corners_do_not_fold():
 
 
 def test_a_tip_lower_than_the_tolerance_is_no_fold():
-    """The last cells of a thin plate around a vertex of three triangles turn by 105 degrees at any level; the cells
-    become ever smaller."""
+    """Around a vertex of three triangles ever smaller cells turn by 105 degrees at any level."""
     points, faces = control_meshes.tetrahedron()
     exact = df.fit_patches(points, faces, levels=7, force=True)
     assert exact.unresolved.tolist() == [0, 1, 2, 3]
@@ -243,8 +241,7 @@ def test_kinks_are_the_same_whichever_way_they_look(axis):
 
 @pytest.mark.parametrize("height", [0.02, 0.03])
 def test_slight_kinks_are_met_and_their_angles_told(height):
-    """A straight border that bends a little at its vertices, out of the surface, bends the surface too. No patch
-    can take that back, and no patch leaves the surface for it."""
+    """A straight border that bends out of the surface bends it too, and no patch leaves it."""
     points, faces = control_meshes.grid()
     points[:, 2] = height * (points[:, 0] - 2) ** 2
     patches = df.fit_patches(points, faces, levels=5, boundary="linear")
@@ -308,8 +305,7 @@ def test_a_finer_level_that_folds_takes_no_patches_away(monkeypatch):
 
 
 def test_a_thin_tray_misses_few_faces():
-    """Its surface still moves beside the rim, so patches were fitted at level 5 only, where 16 of 94 faces had too
-    few spans and missed by 4.6e-4. Where they shared patches with many spans, 24 missed."""
+    """Fitted at level 5, 16 of 94 faces had too few spans, and missed by 4.6e-4."""
     tray = thin_walls.phone_case()
     patches = df.fit_patches(*tray[:2], crease_angle=np.radians(30), corner_angle=np.radians(45))
     assert len(patches.unmet_by_surface) and patches.levels == 6
@@ -352,8 +348,7 @@ def wall_with_boss(angle, height, cell, rings):
 
 
 def test_a_tip_between_two_creases_is_no_fold():
-    """At the foot of a boss on a round wall two creases make a corner of 270 degrees, which the wall comes to as a
-    tip, at every level: it was refused."""
+    """At the foot of a boss two creases make a corner of 270 degrees: it was refused once."""
     rings = [(0.7, (0, 0, 0)), (0.7, (7, 0, 0))]
     points, faces, top = wall_with_boss((-45, -15, 15, 45), (-24, 6, 30, 54), 4, rings)
     patches = df.fit_patches(points, [*faces, top], levels=5, crease_angle=np.radians(30))
@@ -363,8 +358,7 @@ def test_a_tip_between_two_creases_is_no_fold():
 
 
 def test_patches_whose_points_slide_less_meet_their_neighbours_better():
-    """Where a handle leaves a mug, patches that were first fitted with points almost free to slide along them, and
-    with more weight only where they folded, missed 8 faces for 4, by 0.45 degrees for 0.18."""
+    """With points almost free to slide, 8 faces of a mug missed for 4, by 0.45 degrees for 0.18."""
     rings = [(0.7, (0, 0, 0)), ((0.7, 0.5, 0.4), (7, 0, 0)), ((0.7, 0.5, 0.3), (20, 0, 4))]
     angle, height = (-75, -45, -15, 15, 45, 75), (0, 6, 30, 62, 90, 95)
     points, faces, _ = wall_with_boss(angle, height, 12, rings)
@@ -373,8 +367,7 @@ def test_patches_whose_points_slide_less_meet_their_neighbours_better():
 
 
 def test_curves_fitted_more_sharply_make_no_patch_fold():
-    """Beside needles, patches that met their tolerance were once fitted anew to sharper curves, and turned over.
-    The drum was refused, after a level more and three times the work."""
+    """Beside needles patches were once fitted anew to sharper curves, and turned over."""
     fits = PatchFits(1e-4, 8e-4, False)
     result = df.fair(*uneven_drum(), 6, threads=1)
     watched = {"threads": 1, "monitor": df.Monitor(), "progress": None}

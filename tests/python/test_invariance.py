@@ -30,8 +30,7 @@ CASES += [(name, STEPS) for name in CURVED] + [("creature", STEPS | {"tension": 
 
 
 def relabelled(vertices, faces, seed=0):
-    """Vertices and faces in another order, every face beginning elsewhere; where each vertex went, and
-    from where each face came."""
+    """In another order, faces beginning elsewhere; where vertices went, whence faces came."""
     random = np.random.default_rng(seed)
     place = random.permutation(len(vertices))
     moved = np.empty_like(vertices)

@@ -119,8 +119,7 @@ def test_the_surface_is_flat_where_the_subdivided_one_is(energy):
 
 @pytest.mark.parametrize("mesh", [CUBE, HOUSE, octahedron()], ids=["cube", "house", "triangles"])
 def test_the_surface_comes_near_to_the_subdivided_one(mesh):
-    """On quads, triangles and pentagons: the nearer the larger the share that it follows. It passes through the
-    limit positions at any share."""
+    """On quads, triangles and pentagons: the nearer the more it follows; at limits always."""
     state = mesh
     for _ in range(4):
         state = subdivide(*state)
@@ -163,8 +162,7 @@ def test_long_thin_faces_do_not_swing_through_each_other(sides, thickness):
 
 
 def test_a_release_goes_down_the_energy_that_is_solved():
-    """Each vertex moves by epsilon down the slope of the energy, in the surface's metric. The energy is quadratic,
-    so central differences give the slope."""
+    """Each vertex moves by epsilon down the energy's slope, which central differences give."""
     vertices, faces = octahedron()
     vertices = vertices + 0.3 * np.random.default_rng(3).normal(size=vertices.shape)
     given = {"interpolation": "limit", "limit": 0.0, "pad_size": 0.0, "relative_residual": 1e-11}

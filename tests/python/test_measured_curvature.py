@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The total curvature that is reported, against cotangents and angle defects in NumPy: the same
-within a tenth, however thin the triangles are."""
+"""The reported total curvature, against cotangents and angle defects in NumPy, within a tenth."""
 
 import control_meshes as meshes
 import discrete_fairing as df

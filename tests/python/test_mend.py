@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""repair="mend", act by act, on meshes made by hand: what is done, what is said, and which input
-faces and corners the result goes back to."""
+"""repair="mend", act by act: what is done and said, and which faces and corners remain."""
 
 import control_meshes as meshes
 import discrete_fairing as df
@@ -128,8 +127,7 @@ def test_a_cap_goes_and_its_vertex_comes_into_the_neighbour():
 
 
 def stack(shares, corners):
-    """Flat faces on the edge 0-1, each with points of its own in it, and sound ones beyond all their
-    sides: (points, faces, how many are flat)."""
+    """Flat faces on the edge 0-1 and sound ones beyond: (points, faces, how many are flat)."""
     points, flat, sound = [[0.0, 0, 0], [3, 2, 1], [0, 5, 0]], [], [[0, 1, 2]]
     for k in range(0, len(shares), corners):
         path = list(range(len(points), len(points) + corners))

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""repair="mend" on meshes damaged at random: what is left is sound, closed where it was closed, and
-the same for any order of faces and corners."""
+"""repair="mend" at random: sound, closed where it was, the same for any order."""
 
 import control_meshes as meshes
 import discrete_fairing as df
@@ -14,8 +13,7 @@ LEFT = {"NONMANIFOLD_EDGE", "NONMANIFOLD_VERTEX", "NON_ORIENTABLE"}
 
 
 def with_caps(seed, edges=6):
-    """A closed mesh with points on some edges that only one of the two faces knows, and faces
-    without area between."""
+    """A closed mesh with points on edges that one face knows, and faces without area between."""
     random = np.random.default_rng(seed)
     points, faces = meshes.icosahedron() if seed % 2 else meshes.random_hull(24, seed)
     faces = as_lists(faces)

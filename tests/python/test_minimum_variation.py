@@ -43,8 +43,7 @@ def test_variation_falls_and_total_curvature_started_it(name):
 
 
 def test_a_patch_of_a_sphere_is_found():
-    """Six by six quads whose vertices lie on a sphere. The boundary's curves do not, so only the
-    middle is compared."""
+    """Six by six quads on a sphere, whose borders do not lie on it: the middle is compared."""
     at = np.linspace(-0.6, 0.6, 7)
     vertices = np.array([(x, y, np.sqrt(1 - x * x - y * y)) for x in at for y in at])
     faces = lattice_faces(7, 7)
@@ -98,9 +97,7 @@ def test_what_variation_leaves_open_keeps_its_start(count):
 
 
 def test_steps_on_slivers_reach_their_end_where_levels_are_large():
-    """They stopped after one, "converged" at the surface of total curvature, off by 0.0046: it was solved
-    with the factor that total curvature had left.
-    """
+    """They stopped after one, 0.0046 off, with the factor that total curvature had left."""
     result = df.fair(
         *sliver_meshes.dome_of_rings(100),
         2,

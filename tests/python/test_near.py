@@ -77,8 +77,7 @@ def test_more_tolerance_less_energy(name):
 
 @pytest.mark.parametrize("name", SMOOTH)
 def test_more_tolerance_less_total_curvature(name):
-    """Except across the normals, where the plate decides: a house goes from 24.411 to 24.439 between 0.01 and 0.1,
-    however exactly it is solved."""
+    """Except across normals, where the plate decides: a house goes from 24.411 to 24.439."""
     options = [EXACT, *({"tolerance": t} for t in (1e-3, 1e-2, 0.1))]
     energies = [
         bent(near(meshes.ALL[name](), pad_size=1.0, **STEPS, **option)) for option in options
@@ -160,8 +159,7 @@ def test_vertices_on_curves_stay(option):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_epsilon_takes_cusps_off(name):
-    """No control vertex moves farther than epsilon; the energy falls, more with a larger epsilon; 0 changes
-    nothing."""
+    """No vertex moves farther than epsilon; the energy falls, the more the larger; 0: nothing."""
     vertices, faces = meshes.ALL[name]()
     exact, energies = tight.fair(vertices, faces, 2), []
     for epsilon in (0, 1e-3, 1e-2, 1e-1):
@@ -238,8 +236,7 @@ def test_values_of_another_shape_are_refused(name, each):
 
 @pytest.mark.parametrize("option", [{"tolerance": 0.02}, {"weights": np.full(98, 30.0)}], ids=str)
 def test_no_force_is_left_at_a_point(option):
-    """Pads, a little wider or narrower, hold the vertices where they have gone: interpolated on pads they give the
-    same surface."""
+    """Interpolated on pads, at the places where the vertices went, they give the same surface."""
     vertices, faces = meshes.creature()
     uniform = {"relative_residual": 1e-10, **UNIFORM}
     loose = near((vertices, faces), **option, **uniform, **PADS)
@@ -267,8 +264,7 @@ def test_a_sphere_shrinks_as_a_whole(refined, tolerance):
 
 
 def test_steps_end_once_the_vertices_are_fixed():
-    """By then some pads are gone and some unknowns are fixed. While the smoother and the factor still had them,
-    these steps were 3e-3 off, or diverged and were taken back."""
+    """Some pads are gone, some unknowns fixed; once steps were 3e-3 off, or taken back."""
     vertices, faces = meshes.random_hull(90, seed=3)
     bumps = 1 + 0.1 * np.random.default_rng(3).normal(size=(len(vertices), 1))
     options = {"interpolation": "approximate", "tolerance": 0.06}

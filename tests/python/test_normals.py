@@ -47,8 +47,7 @@ def plate():
 @pytest.mark.parametrize("pad_size,lift", [(1.0, 0.217), (0.0, 0.233)])
 @pytest.mark.parametrize("levels", [3, 4, 5])
 def test_a_slope_of_one_lifts_a_plate_as_high_on_every_level(plate, levels, pad_size, lift):
-    """Measured: 0.219, 0.215, 0.214 on pads, 0.239, 0.231, 0.228 on point forces; a couple at a point
-    lifts ever less."""
+    """Measured: 0.219, 0.215, 0.214 on pads, 0.239, 0.231, 0.228 on points: ever less."""
     points, faces = plate
     options = {"pad_size": pad_size, "boundary": "linear"}
     flat = df.fair(points, faces, levels, **options).vertices

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The result has the control vertices to the last bit, the refined topology, its counts and types, and the polygon
-of each face."""
+"""The result's control vertices to the last bit, refined topology, types, and polygons."""
 
 import control_meshes as meshes
 import discrete_fairing as df

@@ -40,8 +40,7 @@ def run(script, before=None):
 
 @pytest.mark.parametrize("body", ["check", "fair", "solver", "loop", "watched", "update"])
 def test_a_daemon_thread_at_work_does_not_spoil_the_end(body):
-    """The run is cancelled, and the interpreter waits for it; a thread that tries again and again gets the same
-    answer."""
+    """The run is cancelled, and the interpreter waits; a thread that tries again gets the same."""
     assert run(f"""
         def loop():
             while True:

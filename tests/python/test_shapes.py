@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Shapes are further positions of the control vertices. They are solved on the charts of the first ones, so by one
-linear map."""
+"""Shapes are further positions, solved on the charts of the first, so by one linear map."""
 
 import numpy as np
 import pytest

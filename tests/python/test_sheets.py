@@ -112,8 +112,7 @@ def test_a_box_with_a_wall():
 
 
 def test_no_triangle_is_cut_from_two_polygons():
-    """A pentagon and a quad share two edges, where others meet them. If both were cut between these, curves would
-    leave no room between the halves."""
+    """A pentagon and a quad share two edges: cut between these, curves would leave no room."""
     vertices = [
         [-0.85, 1.22, -1.36],
         [0.99, -0.02, -1.47],

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A surface thicker or thinner than its control mesh is reported with a cure, and no steps lead into a bubble. A
-surface as round as its mesh is not reported."""
+"""A surface thicker or thinner than its mesh is reported with a cure; no step makes a bubble."""
 
 import bevelled_boxes
 import control_meshes as meshes

@@ -64,8 +64,7 @@ def test_random_hulls_become_spheres(name, levels):
 
 @pytest.mark.parametrize("degree", [4, 6])
 def test_fine_levels_are_as_exact(degree):
-    """Loads are not corrected by the residual of a solve: read in the control vertices' own rows alone, that left
-    the cube 2e-6 off here, and 4e-4 at level 7."""
+    """Loads are not corrected by a residual; read in own rows alone, a cube was 2e-6 off."""
     assert radius_error(SOLIDS["cube"](), 6, smoother_degree=degree) <= 5e-7
 
 

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""fair() and Solver as tests of the mathematics want them: on point forces, solved to 1e-8 and
-measured, unless a test says otherwise. (The defaults stop where nothing is left to see.)"""
+"""fair() and Solver for tests of the mathematics: point forces, to 1e-8, measured."""
 
 from functools import partial
 

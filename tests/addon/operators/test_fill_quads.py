@@ -10,8 +10,7 @@ from scenes import activate, add, edit, positions, to_object_mode
 
 
 def tube(chosen):
-    """A closed ring of quads with the radius 1 in the middle of its tube of 0.5, without those whose angle around
-    and angle along the tube are `chosen`."""
+    """A closed ring of quads, radius 1, tube 0.5, without those with the `chosen` angles."""
     n, m = 48, 24
     a, b = np.meshgrid(2 * np.pi * np.arange(n) / n, 2 * np.pi * np.arange(m) / m, indexing="ij")
     away = 1 + 0.5 * np.cos(b)
