@@ -26,7 +26,7 @@ class TimedRun:
     arrays: core.ControlArrays
     triangles: int
     result: Any = None
-    _taken = 0.0
+    taken = 0.0  # seconds
 
     @contextmanager
     def _reading(self, context: Context, target: Object, evaluated: bool = False) -> Iterator[Mesh]:
@@ -54,7 +54,7 @@ class TimedRun:
         """Runs the core, on any thread; `watchers` are its `monitor` and `progress`. Raises JobError."""
         begun = perf_counter()
         self._compute(watchers)
-        self._taken = perf_counter() - begun
+        self.taken = perf_counter() - begun
 
     def _compute(self, watchers: dict[str, Any]) -> None:
         raise NotImplementedError
@@ -80,4 +80,4 @@ class TimedRun:
 
     def note(self) -> None:
         """Records the time for predictions, on the main thread."""
-        prediction.note(self.kind, self._work(), self._taken, self._key)
+        prediction.note(self.kind, self._work(), self.taken, self._key)

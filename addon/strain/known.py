@@ -61,7 +61,7 @@ class _Watch:
 
     @property
     def _is_slow(self) -> bool:
-        return self.job is not None and getattr(self.job, "taken", 0.0) > BRIEF
+        return self.job is not None and self.job.taken > BRIEF
 
     def _look(self, queue: Queue) -> bool:
         if queue.finished:

@@ -112,7 +112,7 @@ class StrainJob(PlateRun):
         )
 
     def note(self) -> None:
-        if self._taken:
+        if self.taken:
             super().note()
 
 
