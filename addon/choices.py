@@ -144,8 +144,3 @@ JOINTS = (
         "As Tangent, and the surface begins to bend gently, so that reflections flow across (like G2)",
     ),
 )
-
-
-def energy_name(identifier: str) -> str:
-    """`Bending` for THIN_PLATE."""
-    return ENERGY_NAMES[identifier]

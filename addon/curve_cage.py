@@ -72,10 +72,6 @@ class FAIRING_PG_curve(bpy.types.PropertyGroup):
     source: PointerProperty(type=bpy.types.Object)
 
 
-def _told(group: Any, _context: Context) -> None:
-    group.id_data.update_tag()
-
-
 class FAIRING_PG_curves(CageSettings, bpy.types.PropertyGroup):
     """For a control mesh: the curves that it is made from. For a curve: how surfaces cross it."""
 
@@ -94,7 +90,7 @@ class FAIRING_PG_curves(CageSettings, bpy.types.PropertyGroup):
         name="Sharp",
         description="The surface has a sharp edge along this curve, and is smooth across all others",
         default=False,
-        update=_told,
+        update=lambda group, _context: group.id_data.update_tag(),
     )
 
 

@@ -30,7 +30,7 @@ from .mesh.read import (
 )
 from .mesh.shape_keys import ShapeKeys, read_shape_keys
 from .mesh.world_shape import matrix_relative_to, world_matrix, world_shape
-from .redraw import tag_outliners, tag_sidebars
+from .redraw import tag_areas, tag_sidebars
 from .settings import NAMES, AnySettings, is_evaluated
 
 SOURCE_CHANGED = "Source changed"
@@ -214,7 +214,7 @@ def _look() -> None:
             _seen[key] = total, near, beside
     _unread.clear()
     tag_sidebars(context)
-    tag_outliners(context)
+    tag_areas(context, "OUTLINER")  # headers count outdated surfaces
 
 
 def _checksum(

@@ -14,7 +14,7 @@ import numpy as np
 from . import core, errors, freshness, memory, neighbours, place, prediction, size
 from .blender import Context, Mesh, Object, scene_of
 from .check.faults import find_faults
-from .choices import energy_name
+from .choices import ENERGY_NAMES
 from .errors import JobError
 from .inspection import display, measures
 from .mesh.layers import read_data, write_data
@@ -309,5 +309,5 @@ def run_warnings(
         face, ratio = measures.thinnest_face(control)
         face = face if ids is None else int(ids[face])
         fold = measures.worst_folds(control)[1]
-        sentences.append(errors.unfinished_text(name, energy_name(energy), face, ratio, fold))
+        sentences.append(errors.unfinished_text(name, ENERGY_NAMES[energy], face, ratio, fold))
     return sentences

@@ -42,14 +42,6 @@ def why_unfit(target: Object, source: Object) -> str:
     return ""
 
 
-def _fits(group: Any, source: Object) -> bool:
-    return not why_unfit(group.id_data, source)
-
-
-def _may_meet(group: Any, other: Object) -> bool:
-    return other.type == "MESH" and other not in {group.id_data, group.source}
-
-
 class FAIRING_PG_surface(FairingSettings, bpy.types.PropertyGroup):
     """The source of a faired object, and how it was made."""
 
@@ -57,14 +49,16 @@ class FAIRING_PG_surface(FairingSettings, bpy.types.PropertyGroup):
         name="Source",
         description="The object whose mesh controls this surface",
         type=bpy.types.Object,
-        poll=_fits,
+        poll=lambda group, source: not why_unfit(group.id_data, source),
     )
     neighbour: PointerProperty(
         name="Neighbour",
         description="The object that the border of this surface meets, where the two have vertices in common. Two"
         " surfaces that name each other meet half way",
         type=bpy.types.Object,
-        poll=_may_meet,
+        poll=lambda group, other: (
+            other.type == "MESH" and other not in {group.id_data, group.source}
+        ),
     )
     report: StringProperty(
         name="Report", description="What the core has reported, as JSON", options={"HIDDEN"}

@@ -89,7 +89,7 @@ def arguments(
     found: Any = {"joint": settings.joint.lower()}
     if halfway:
         return found | {"partner": _alone(context, neighbour, way)}
-    return found | {"neighbour": _shown(context, neighbour, way)}
+    return found | {"neighbour": shown(context, neighbour, way)}
 
 
 def _alone(
@@ -119,19 +119,13 @@ def _alone(
     return computed
 
 
-def shown_in_world(
-    context: Context, target: Object
+def shown(
+    context: Context, target: Object, way: np.ndarray | None = None
 ) -> tuple[np.ndarray, tuple[np.ndarray, np.ndarray]]:
-    """Points and faces (corners, offsets) of `target` as shown in the window, in the world."""
-    return _shown(context, target, np.eye(4))
-
-
-def _shown(
-    context: Context, target: Object, way: np.ndarray
-) -> tuple[np.ndarray, tuple[np.ndarray, np.ndarray]]:
-    """The same, transformed by a (4, 4) matrix from the world."""
+    """Points and faces (corners, offsets) as shown in the window; `way`: (4, 4) from the world."""
     with control_mesh(context, target, evaluated=True) as mesh:
         arrays = read_mesh(mesh)
-    matrix = way @ np.array(world_matrix(target), np.float64)
+    matrix = np.array(world_matrix(target), np.float64)
+    matrix = matrix if way is None else way @ matrix
     points = transformed(arrays.positions.astype(np.float64), matrix)
     return points, (arrays.corners.astype(np.int64), arrays.offsets.astype(np.int64))

@@ -3,6 +3,7 @@
 
 from collections.abc import Hashable
 from time import monotonic
+from typing import Any
 
 from .blender import Context
 
@@ -11,20 +12,21 @@ INTERVAL = 0.2  # least seconds between two redraws during a run
 
 def tag_sidebars(context: Context) -> None:
     """Redraws the sidebars of all viewports, but not the viewports, which may be slow."""
-    for window in context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "VIEW_3D":
-                for region in area.regions:
-                    if region.type == "UI":
-                        region.tag_redraw()
+    for area in _areas(context, "VIEW_3D"):
+        for region in area.regions:
+            if region.type == "UI":
+                region.tag_redraw()
 
 
-def tag_outliners(context: Context) -> None:
-    """Redraws the headers of outliners, which count surfaces that are out of date."""
-    for window in context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "OUTLINER":
-                area.tag_redraw()
+def tag_areas(context: Context, kind: str) -> None:
+    """Redraws whole areas, such as VIEW_3D or OUTLINER."""
+    for area in _areas(context, kind):
+        area.tag_redraw()
+
+
+def _areas(context: Context, kind: str) -> list[Any]:
+    areas = (area for window in context.window_manager.windows for area in window.screen.areas)
+    return [area for area in areas if area.type == kind]
 
 
 class Progress:

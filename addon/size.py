@@ -1,19 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The size of a result, from the face sizes of the control mesh alone."""
 
-from typing import Any
-
 import numpy as np
 
 LARGE = 4_000_000  # triangles; above this the user is asked first
 MOST_CORNERS = 2**31 - 1  # Blender counts face corners in 32 bits
-
-
-def face_sizes(mesh: Any) -> np.ndarray:
-    """(m,) int32: corners of each face of a bpy.types.Mesh, in Edit Mode at its last update."""
-    sizes = np.empty(len(mesh.polygons), np.int32)
-    mesh.polygons.foreach_get("loop_total", sizes)
-    return sizes
 
 
 def coarse_triangles(face_sizes: np.ndarray) -> int:

@@ -10,7 +10,7 @@ import numpy as np
 from .. import core
 from ..blender import Context, Object
 from ..mesh.object import Reference
-from ..neighbours import shown_in_world
+from ..neighbours import shown
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,7 @@ def chosen(context: Context) -> list[Object]:
 def measure(context: Context) -> list[Row]:
     """Measures all pairs of selected objects whose borders meet, as shown in the window."""
     objects = chosen(context)
-    meshes = [shown_in_world(context, target) for target in objects]
+    meshes = [shown(context, target) for target in objects]
     found: dict[tuple[int, int], Row] = {}
     for a, b in permutations(range(len(objects)), 2):
         joint = core.module().joint(meshes[a], meshes[b])

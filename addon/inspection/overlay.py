@@ -16,6 +16,7 @@ from mathutils import Matrix
 
 from ..blender import Object, current_context
 from ..mesh.object import Showing, changed_keys, session_key
+from ..redraw import tag_areas
 from .drawn import Drawn
 from .overlay_arrays import lines_of, pulled, surface_of
 
@@ -55,10 +56,7 @@ def moved(target: Object) -> None:
 
 def redraw() -> None:
     """Redraws all viewports after settings have changed."""
-    for window in current_context().window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "VIEW_3D":
-                area.tag_redraw()
+    tag_areas(current_context(), "VIEW_3D")
 
 
 def _draw() -> None:

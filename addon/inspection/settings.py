@@ -72,18 +72,10 @@ def _mode_changed(group: Any, _context: Context) -> None:
         display.show(target, group.mode, scene_of(target).discrete_fairing_inspection)
 
 
-def _sections_changed(_group: Any, _context: Context) -> None:
-    overlay.shown_changed()
-
-
 def _deviation_changed(group: Any, _context: Context) -> None:
     for target in group.id_data.objects:
         if target.type == "MESH" and target.discrete_fairing_inspection.mode == "DEVIATION":
             display.refresh(target, group)
-
-
-def _is_mesh(_group: Any, target: Any) -> bool:
-    return target.type == "MESH"
 
 
 def _range_changed(group: Any, _context: Context) -> None:
@@ -100,10 +92,6 @@ def _drawing_changed(group: Any, _context: Context) -> None:
     overlay.redraw()
 
 
-def _lines_changed(_group: Any, _context: Context) -> None:
-    overlay.redraw()
-
-
 class FAIRING_PG_display(bpy.types.PropertyGroup):
     """The display of an object; stored with the object."""
 
@@ -117,7 +105,7 @@ class FAIRING_PG_display(bpy.types.PropertyGroup):
     sections: BoolProperty(
         name="Sections",
         description="Draws the curves in which even planes cut the object, in any shading",
-        update=_sections_changed,
+        update=lambda _group, _context: overlay.shown_changed(),
         options=set(),
     )
 
@@ -232,7 +220,7 @@ class FAIRING_PG_inspection(bpy.types.PropertyGroup):
         name="Measured from",
         description="The mesh object from which distances are measured; if empty, the vertices of the source",
         type=bpy.types.Object,
-        poll=_is_mesh,
+        poll=lambda _group, target: target.type == "MESH",
         update=_deviation_changed,
     )
     section_axes: EnumProperty(
@@ -245,7 +233,7 @@ class FAIRING_PG_inspection(bpy.types.PropertyGroup):
         ),
         default={"X"},
         options={"ENUM_FLAG"},
-        update=_lines_changed,
+        update=lambda _group, _context: overlay.redraw(),
     )
     section_count: IntProperty(
         name="Planes",
@@ -254,13 +242,13 @@ class FAIRING_PG_inspection(bpy.types.PropertyGroup):
         min=1,
         max=200,
         soft_max=50,
-        update=_lines_changed,
+        update=lambda _group, _context: overlay.redraw(),
     )
     show_combs: BoolProperty(
         name="Combs",
         description="Draws curvature as teeth: an even comb is a fair curve, a notch a flat spot, a spike a tight bend",
         default=True,
-        update=_lines_changed,
+        update=lambda _group, _context: overlay.redraw(),
     )
     comb_scale: FloatProperty(
         name="Comb Scale",
@@ -268,7 +256,7 @@ class FAIRING_PG_inspection(bpy.types.PropertyGroup):
         default=1.0,
         min=0.0,
         soft_max=5.0,
-        update=_lines_changed,
+        update=lambda _group, _context: overlay.redraw(),
     )
 
 

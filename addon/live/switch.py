@@ -128,10 +128,6 @@ def problem(target: Object) -> str:
     return session.trouble if session is not None else registry.why_ended(target)
 
 
-def _is_on(group: Any) -> bool:
-    return is_on(group.id_data)
-
-
 def _switch(group: Any, value: Any) -> None:
     if value:
         switch_on(group.id_data)
@@ -172,7 +168,7 @@ class FAIRING_PG_live(bpy.types.PropertyGroup):
     on: BoolProperty(
         name="Live",
         description="The surface follows while its source is edited, until you switch this off or open a file",
-        get=_is_on,
+        get=lambda group: is_on(group.id_data),
         set=_switch,
     )
     levels: IntProperty(

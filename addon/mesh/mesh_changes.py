@@ -38,7 +38,7 @@ def coarse_triangles(mesh: Mesh) -> int:
     now = (len(mesh.loops), len(mesh.polygons))
     known = _triangles.get(session_key(mesh))
     if known is None or known[0] != now:
-        count = size.coarse_triangles(size.face_sizes(mesh))
+        count = size.coarse_triangles(column(mesh.polygons, "loop_total", np.int32))
         known = _triangles[session_key(mesh)] = (now, count)
     return known[1]
 

@@ -16,10 +16,6 @@ def _show_changed(_group: Any, _context: Context) -> None:
     overlay.redraw()
 
 
-def _drawing_changed(_group: Any, _context: Context) -> None:
-    overlay.redraw()
-
-
 class FAIRING_PG_strain(bpy.types.PropertyGroup):
     """Stored with the object."""
 
@@ -40,7 +36,7 @@ class FAIRING_PG_strain_drawing(bpy.types.PropertyGroup):
         default=1.0,
         min=0.0,
         soft_max=5.0,
-        update=_drawing_changed,
+        update=lambda _group, _context: overlay.redraw(),
     )
     label_count: IntProperty(
         name="Labels",
@@ -49,7 +45,7 @@ class FAIRING_PG_strain_drawing(bpy.types.PropertyGroup):
         min=0,
         max=1000,
         soft_max=30,
-        update=_drawing_changed,
+        update=lambda _group, _context: overlay.redraw(),
     )
 
 

@@ -4,7 +4,7 @@
 import bpy
 
 from ..blender import Context, Object, Scene, all_objects
-from ..choices import ENERGIES, energy_name
+from ..choices import ENERGIES, ENERGY_NAMES
 from ..inspection import readout
 from ..memory import recall, source_of
 from .layout import Folded
@@ -47,4 +47,4 @@ def figures(target: Object, record: dict, scene: Scene) -> tuple[str, str, str]:
     """Fairness, total curvature and worst fold, as texts."""
     after = record["after"]
     curvature, fold = (readout.text(after, key, scene) for key in ("total_curvature", "worst_fold"))
-    return energy_name(target.discrete_fairing.energy), curvature, fold
+    return ENERGY_NAMES[target.discrete_fairing.energy], curvature, fold

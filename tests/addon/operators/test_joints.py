@@ -65,7 +65,7 @@ def test_curvature_too_and_again_by_recompute(panels):
     select(*panels)
     assert bpy.ops.object.fairing_match_border(joint="CURVATURE") == {"FINISHED"}
     assert np.degrees(check(*panels).kink) < 0.05
-    meshes = [neighbours.shown_in_world(bpy.context, panel) for panel in (fender, bonnet)]
+    meshes = [neighbours.shown(bpy.context, panel) for panel in (fender, bonnet)]
     assert core.module().joint(*meshes).jump.max() < 0.03
     made = positions(fender.data)
     recompute(fender)
