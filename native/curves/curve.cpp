@@ -130,11 +130,6 @@ std::vector<Vec3> refine_canonical(const std::vector<Vec3>& parameters, const st
 
 }  // namespace
 
-std::vector<Vec3> refine_chain(std::span<const Vec3> vertices, bool closed,
-                               const CurveScheme& scheme) {
-  return refine_chain(vertices, vertices, closed, scheme);
-}
-
 std::vector<Vec3> refine_chain(std::span<const Vec3> parameters, std::span<const Vec3> vertices,
                                bool closed, const CurveScheme& scheme) {
   if (vertices.size() < 2 || scheme.subdivisions < 2) return {};

@@ -29,11 +29,9 @@ struct CurveScheme {
 // Returns, edge by edge along the chain, the subdivisions - 1 interior points of each edge, in the
 // chain's direction. The result depends on the coordinates alone, not on numbering, direction or
 // first vertex: equal polylines give bit-identical points.
-std::vector<Vec3> refine_chain(std::span<const Vec3> vertices, bool closed,
-                               const CurveScheme& scheme);
-
-// The same through `vertices`, with the chord lengths and the order of `parameters`: linear in
-// `vertices`.
+//
+// The chord lengths and the order are those of `parameters`, which may be `vertices` themselves; with
+// others, the result is linear in `vertices`.
 std::vector<Vec3> refine_chain(std::span<const Vec3> parameters, std::span<const Vec3> vertices,
                                bool closed, const CurveScheme& scheme);
 

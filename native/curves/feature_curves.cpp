@@ -72,10 +72,6 @@ void straighten(const ControlMesh& mesh, std::span<const Index> edges,
   }
 }
 
-FeatureCurves refine_feature_edges(const ControlMesh& mesh, const CurveScheme& scheme) {
-  return refine_feature_edges(mesh, mesh.positions, mesh.positions, scheme);
-}
-
 FeatureCurves refine_feature_edges(const ControlMesh& mesh, std::span<const Vec3> parameters,
                                    std::span<const Vec3> positions, const CurveScheme& scheme) {
   FeatureCurves own = refine_chains(mesh, parameters, parameters, scheme);

@@ -31,9 +31,8 @@ void straighten(const ControlMesh& mesh, std::span<const Index> edges,
 // Straight chains stay on their edges (point k is at k / scheme.subdivisions, the same from either end,
 // bit for bit). All others are refined by refine_chain, and become straight where faces are too
 // narrow for them (curves/straight.h).
-FeatureCurves refine_feature_edges(const ControlMesh& mesh, const CurveScheme& scheme);
-
-// The same through other positions of the control vertices. The parameters of the chains come from
+//
+// Through these positions of the control vertices. The parameters of the chains come from
 // `parameters`; if both are the same array, the result is that of a mesh with these positions.
 FeatureCurves refine_feature_edges(const ControlMesh& mesh, std::span<const Vec3> parameters,
                                    std::span<const Vec3> positions, const CurveScheme& scheme);

@@ -92,11 +92,6 @@ void apply(const EdgeMoves& moves, ControlMesh& control) {
 
 }  // namespace
 
-std::size_t count_copies(const PolygonMesh& mesh, const HalfEdges& half_edges,
-                         const DoubleCover& cover) {
-  return copies_wanted(half_edges, std::size_t(mesh.vertex_count()), cover).size();
-}
-
 SheetCopies cut_into_sheets(OwnedPolygonMesh& mesh) {
   const PolygonMesh view = mesh.view();
   const auto vertices = std::size_t(view.vertex_count());

@@ -25,9 +25,6 @@ struct SheetCopies {
 // the others follow all vertices. So do the second vertices of one-sided sheets, which have no
 // faces yet. `mesh` must have passed check().
 SheetCopies cut_into_sheets(OwnedPolygonMesh& mesh);
-// Number of vertices that this adds. No face may have a vertex twice.
-std::size_t count_copies(const PolygonMesh& mesh, const HalfEdges& half_edges,
-                         const DoubleCover& cover);
 
 // Fills copies.edge of a mesh whose copied vertices, edges, sides and spokes are complete: copies
 // are the last edges, with the direction of their originals.

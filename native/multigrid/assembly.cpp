@@ -119,10 +119,12 @@ class RingColumns {
   std::vector<Entry> out_;
 };
 
-}  // namespace
-
+// J^T S J from `rows`, which is J^T, a column at a time, since S J has several times the numbers of
+// J. `middle`: S, or null for J^T J. Sums have the order of Eigen's products. on_turned(column, row,
+// entry) receives the entries of S J, column by column.
+template <class OnTurned>
 SparseMatrix congruence(const SparseMatrix& rows, const SparseMatrix* middle,
-                        const TurnedEntry& on_turned) {
+                        const OnTurned& on_turned) {
   const SparseMatrix jacobian = rows.transpose();
   const MatrixBytes held(jacobian);
   SparseMatrix out(jacobian.cols(), jacobian.cols());
@@ -136,7 +138,7 @@ SparseMatrix congruence(const SparseMatrix& rows, const SparseMatrix* middle,
       turned.sort();
       for (const Index r : turned.rows()) {
         product.add(rows, r, turned[r]);
-        if (on_turned) on_turned(c, r, turned[r]);
+        on_turned(c, r, turned[r]);
       }
     } else {
       for (SparseMatrix::InnerIterator entry(jacobian, c); entry; ++entry)
@@ -152,6 +154,8 @@ SparseMatrix congruence(const SparseMatrix& rows, const SparseMatrix* middle,
   const MatrixBytes out_held(out);
   return out;
 }
+
+}  // namespace
 
 // The three rows J_a of a control vertex with a large ring are left out of J and become auxiliary
 // unknowns: u = J_a if there is no S. Else, with the diagonal d > 0 of S at the vertex and the
@@ -198,7 +202,7 @@ AssembledSystem assemble_square(const GridLevel& grid, const std::vector<Index>&
     of_u.emplace_back(3 * k + row % 3, c, entry / root);
     of_w.emplace_back(3 * k + row % 3, c, entry / root);
   };
-  congruence(rows, middle, apart > 0 ? on_turned : TurnedEntry{}).swap(system.matrix);
+  congruence(rows, middle, on_turned).swap(system.matrix);
   if (apart == 0) return system;
   const MatrixBytes matrix_held(system.matrix);
   SparseMatrix u(apart, unknowns), w(middle ? apart : 0, unknowns);

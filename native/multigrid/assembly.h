@@ -20,14 +20,6 @@ class MatrixBytes : public CountedBytes {
   explicit MatrixBytes(const SparseMatrix& matrix) : CountedBytes(matrix_bytes(matrix)) {}
 };
 
-// Receives the entries of S J, column by column; rows can be collected from them.
-using TurnedEntry = std::function<void(Index column, Index row, double entry)>;
-
-// J^T S J from `rows`, which is J^T, a column at a time, since S J has several times the numbers of
-// J. `middle`: S, or null for J^T J. Sums have the order of Eigen's products.
-SparseMatrix congruence(const SparseMatrix& rows, const SparseMatrix* middle,
-                        const TurnedEntry& on_turned);
-
 // Receives a point's rows: its ring, and three numbers for each member. Both empty: no rows.
 using VisitRows =
     std::function<void(const std::vector<Index>& ring, const std::vector<double>& numbers)>;

@@ -11,75 +11,38 @@ namespace {
 
 using Four = Packs<float, 16>;
 
-// C numbers for each column of the chunk; three of them in packs of four.
-template <int C>
-constexpr std::size_t local_stride = C == 3 ? 4 : 1;
-
-template <int C>
-DF_INLINE void gather(const RowChunk& chunk, const float* x, float* local) {
-  for (const std::uint32_t column : chunk.column) {
-    if constexpr (C == 3) {
-      Four::Pack p;
-      Four::load(x + 3 * std::size_t(column), p);
-      Four::store(p, local);
-    } else {
-      *local = x[column];
-    }
-    local += local_stride<C>;
-  }
-}
-
-DF_INLINE void set_row(const RowChunk::LocalColumn* column, const RowChunk::LocalColumn* end,
-                       const float* number, const float* local, float* product,
-                       std::integral_constant<int, 3>) {
-  Four::Pack sum[row_block] = {}, p;
-  for (; column < end; column += row_block, number += row_block)
-#pragma GCC unroll 4
-    for (std::size_t m = 0; m < row_block; ++m) {
-      Four::load(local + 4 * std::size_t(column[m]), p);
-      sum[m] += number[m] * p;
-    }
-  Four::store((sum[0] + sum[1]) + (sum[2] + sum[3]), product);
-}
-
-DF_INLINE void set_row(const RowChunk::LocalColumn* column, const RowChunk::LocalColumn* end,
-                       const float* number, const float* local, float* product,
-                       std::integral_constant<int, 1>) {
-  float sum[row_block] = {};
-  for (; column < end; column += row_block, number += row_block)
-#pragma GCC unroll 4
-    for (std::size_t m = 0; m < row_block; ++m) sum[m] += number[m] * local[column[m]];
-  *product = (sum[0] + sum[1]) + (sum[2] + sum[3]);
-}
-
-template <int C>
+template <class T, int Bytes>
 struct RowsLoop {
-  template <class T, int Bytes>
-  struct Of {
-    DF_INLINE static void run(const RowChunk* chunk, const float* x, float* local, float* product) {
-      gather<C>(*chunk, x, local);
-      const RowChunk::LocalColumn* column = chunk->local_column.data();
-      for (const RowChunk::Row& row : chunk->row) {
-        const RowChunk::LocalColumn* const end = chunk->local_column.data() + row.end;
-        set_row(column, end, chunk->number.data() + row.number, local, product,
-                std::integral_constant<int, C>());
-        column = end;
-        product += C;
-      }
+  // `local`: room for four numbers a column of the chunk
+  DF_INLINE static void run(const RowChunk* chunk, const float* x, float* local, float* product) {
+    Four::Pack p;
+    for (std::size_t k = 0; k < chunk->column.size(); ++k) {
+      Four::load(x + 3 * std::size_t(chunk->column[k]), p);
+      Four::store(p, local + 4 * k);
     }
-  };
+    const RowChunk::LocalColumn* column = chunk->local_column.data();
+    for (const RowChunk::Row& row : chunk->row) {
+      const RowChunk::LocalColumn* const end = chunk->local_column.data() + row.end;
+      const float* number = chunk->number.data() + row.number;
+      Four::Pack sum[row_block] = {};
+      for (; column < end; column += row_block, number += row_block)
+#pragma GCC unroll 4
+        for (std::size_t m = 0; m < row_block; ++m) {
+          Four::load(local + 4 * std::size_t(column[m]), p);
+          sum[m] += number[m] * p;
+        }
+      Four::store((sum[0] + sum[1]) + (sum[2] + sum[3]), product);
+      product += 3;
+    }
+  }
 };
 
 }  // namespace
 
-template <int C>
 void chunk_product(const RowChunk& chunk, const float* x, float* product) {
-  float* const local =
-      room_in(thread_scratch<float>().columns, local_stride<C> * chunk.column.size());
-  run_loop<RowsLoop<C>::template Of, float>(&chunk, x, local, product);
+  float* const local = room_in(thread_scratch<float>().columns, 4 * chunk.column.size());
+  run_loop<RowsLoop, float>(&chunk, x, local, product);
 }
-template void chunk_product<1>(const RowChunk&, const float*, float*);
-template void chunk_product<3>(const RowChunk&, const float*, float*);
 
 bool RowBuilder::repeat(Numbers& numbers, std::span<const Index> columns) {
   for (const Index column : columns) {

@@ -78,10 +78,9 @@ void visit_chunk(const RowChunk& chunk, const Visit& visit) {
         visit(r, std::size_t(chunk.local_column[k]), chunk.number[number]);
 }
 
-// product <- the chunk's rows times x: C numbers a row, 1 or 3, and up to one number beyond. x has
-// C numbers a column and `vector_room` (multigrid/level_operator.h) more. The order of operations
-// is the same on all machines.
-template <int C>
+// product <- the chunk's rows times x: three numbers a row, and one number beyond. x has three
+// numbers a column and `vector_room` (multigrid/level_operator.h) more. The order of operations is
+// the same on all machines.
 void chunk_product(const RowChunk& chunk, const float* x, float* product);
 
 // Sums the rows of a chunk, one after another, in double precision.
@@ -209,23 +208,13 @@ class AssembledMatrix {
   }
 
   // Calls finish(row, count, product) on blocks of rows, in parallel, with product the matrix times
-  // x there, C numbers a row, 1 or 3, still in the cache. x has `vector_room` extra numbers.
-  template <int C, class Finish>
+  // x there, three numbers a row, still in the cache. x has `vector_room` extra numbers.
+  template <class Finish>
   void visit_products(const float* x, Workers& workers, const Finish& finish) const {
-    workers.for_parts(chunk_.size(), 1, [&](std::size_t begin, std::size_t end) {
-      alignas(64) float product[C * chunk_rows + 4];
-      for (std::size_t c = begin; c < end; ++c) {
-        chunk_product<C>(chunk_[c], x, product);
-        finish(c * chunk_rows, chunk_[c].row.size(), static_cast<float*>(product));
-      }
-    });
-  }
-
-  // y <- the matrix times x
-  template <int C>
-  void apply(const float* x, Workers& workers, float* y) const {
-    visit_products<C>(x, workers, [=](std::size_t row, std::size_t count, const float* product) {
-      std::copy_n(product, C * count, y + C * row);
+    workers.for_each(chunk_.size(), 1, [&](std::size_t c) {
+      alignas(64) float product[3 * chunk_rows + 4];
+      chunk_product(chunk_[c], x, product);
+      finish(c * chunk_rows, chunk_[c].row.size(), static_cast<float*>(product));
     });
   }
 

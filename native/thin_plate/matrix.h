@@ -44,7 +44,7 @@ class PlateMatrix {
   // `vector_room` extra numbers.
   template <class Finish>
   void visit_products(const float* x, Workers& workers, const Finish& finish) const {
-    rows_->visit_products<3>(x, workers, [&](std::size_t first, std::size_t count, float* product) {
+    rows_->visit_products(x, workers, [&](std::size_t first, std::size_t count, float* product) {
       for (std::size_t i = 3 * first; i < std::min(3 * (first + count), weight_.size()); ++i)
         product[i - 3 * first] += weight_[i] * x[i];
       finish(first, count, static_cast<const float*>(product));

@@ -84,6 +84,10 @@ Points solve_directly(const Points& vertices, bool closed, const CurveScheme& sc
   return result;
 }
 
+Points refined(const Points& chain, bool closed, const CurveScheme& scheme) {
+  return refine_chain(chain, chain, closed, scheme);
+}
+
 TEST(Curve, MinimizesTheSquaredSecondDividedDifferences) {
   for (const double exponent : {0.0, 0.5, 1.0})
     for (const int count : {2, 3, 4, 7})
@@ -92,7 +96,7 @@ TEST(Curve, MinimizesTheSquaredSecondDividedDifferences) {
           for (const ChainEnds ends : {ChainEnds::natural, ChainEnds::parabolic}) {
             if (closed && count < 3) continue;
             const Points chain = random_chain(unsigned(count), count);
-            EXPECT_LT(distance(refine_chain(chain, closed, {n, exponent, ends}),
+            EXPECT_LT(distance(refined(chain, closed, {n, exponent, ends}),
                                solve_directly(chain, closed, {n, exponent, ends})),
                       1e-9)
                 << count << " vertices, N = " << n << ", exponent " << exponent
@@ -108,13 +112,13 @@ Points reversed_result(Points points) {
 TEST(Curve, BitIdenticalInBothDirections) {
   for (unsigned seed = 0; seed < 50; ++seed) {
     const Points chain = random_chain(seed, 2 + int(seed % 9));
-    EXPECT_EQ(refine_chain(reversed_result(chain), false, {5, 0.5}),
-              reversed_result(refine_chain(chain, false, {5, 0.5})));
+    EXPECT_EQ(refined(reversed_result(chain), false, {5, 0.5}),
+              reversed_result(refined(chain, false, {5, 0.5})));
   }
   Points bow = random_chain(3, 6);  // ends where it starts: the next vertices decide
   bow.back() = bow.front();
-  EXPECT_EQ(refine_chain(reversed_result(bow), false, {5, 0.5}),
-            reversed_result(refine_chain(bow, false, {5, 0.5})));
+  EXPECT_EQ(refined(reversed_result(bow), false, {5, 0.5}),
+            reversed_result(refined(bow, false, {5, 0.5})));
 }
 
 TEST(Curve, LoopsAreBitIdenticalFromAnyVertex) {
@@ -127,15 +131,15 @@ TEST(Curve, LoopsAreBitIdenticalFromAnyVertex) {
     if (seed % 2) std::rotate(loop.begin(), loop.begin() + 1, loop.end());
     if (seed % 2 && count > 3) std::swap(loop[0], loop[std::size_t(count) - 1]);
     if (seed % 2) loop[1] = Vec3(1, double(seed), 2);
-    const Points points = refine_chain(loop, true, {n, 0.5});
+    const Points points = refined(loop, true, {n, 0.5});
     for (int shift = 0; shift < count; ++shift) {
       Points turned = loop, expected = points;
       std::rotate(turned.begin(), turned.begin() + shift, turned.end());
       std::rotate(expected.begin(), expected.begin() + shift * (n - 1), expected.end());
-      EXPECT_EQ(refine_chain(turned, true, {n, 0.5}), expected);
+      EXPECT_EQ(refined(turned, true, {n, 0.5}), expected);
       // Backwards from the same vertex, the last segment comes first.
       std::reverse(turned.begin() + 1, turned.end());
-      EXPECT_EQ(refine_chain(turned, true, {n, 0.5}), reversed_result(expected));
+      EXPECT_EQ(refined(turned, true, {n, 0.5}), reversed_result(expected));
     }
   }
 }
@@ -144,7 +148,7 @@ TEST(Curve, LoopsAreBitIdenticalFromAnyVertex) {
 TEST(Curve, StrandsAtTheSamePlaceAgree) {
   Points slit = random_chain(4, 6);
   for (std::size_t i = 4; i > 0; --i) slit.push_back(slit[i]);
-  const Points points = refine_chain(slit, true, {4, 0.5});
+  const Points points = refined(slit, true, {4, 0.5});
   EXPECT_EQ(points, reversed_result(points));
 }
 

@@ -164,10 +164,12 @@ TEST(Rows, KeepNoMarksOfARowThatWasInterrupted) {
     EXPECT_THROW(AssembledMatrix::make(size, size, workers, writer(last)), std::bad_alloc);
     const auto whole = AssembledMatrix::make(size, size, workers, writer(size));
     ASSERT_NE(whole, nullptr);
-    const Eigen::VectorXf x = Eigen::VectorXf::Ones(size + 16);
-    Eigen::VectorXf y = Eigen::VectorXf::Zero(size + 16);
-    whole->apply<1>(x.data(), workers, y.data());
-    for (Index r = 0; r < size; ++r) EXPECT_EQ(y[r], float(size * r + size * (size - 1) / 2));
+    const Eigen::VectorXf x = Eigen::VectorXf::Ones(3 * size + 16);
+    whole->visit_products(x.data(), workers, [&](std::size_t, std::size_t count, const float* y) {
+      ASSERT_EQ(count, std::size_t(size));
+      for (Index i = 0; i < 3 * size; ++i)
+        EXPECT_EQ(y[i], float(size * (i / 3) + size * (size - 1) / 2));
+    });
   }
 }
 

@@ -78,9 +78,6 @@ void require_arrays(const PolygonMesh& mesh);
 
 bool repeats_a_vertex(std::span<const std::int64_t> face);
 
-// The warning of vertices without a face.
-Defect isolated_vertices(std::vector<std::int64_t> ids);
-
 // Vertices with a coordinate that is NaN, infinite or beyond 1e100.
 std::vector<std::int64_t> non_finite_vertices(std::span<const double> coordinates);
 

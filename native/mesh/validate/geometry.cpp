@@ -119,18 +119,15 @@ void check_areas(const PolygonMesh& mesh, Defects& found) {
                      Message{"{face} {has|have} no area.", "Dissolve or delete them."}, bad);
 }
 
-Defect isolated_vertices(std::vector<std::int64_t> ids) {
-  return {ErrorCode::isolated_vertices,
-          "{vertex} {belongs|belong} to no face: kept where they are.", std::move(ids),
-          Severity::warning};
-}
-
 void warn_of_isolated_vertices(const PolygonMesh& mesh, Defects& found) {
   const std::vector<std::uint8_t> used = used_vertices(mesh);
   Ids isolated;
   for (std::size_t v = 0; v < used.size(); ++v)
     if (!used[v]) isolated.push_back(std::int64_t(v));
-  if (!isolated.empty()) found.push_back(isolated_vertices(std::move(isolated)));
+  if (isolated.empty()) return;
+  found.emplace_back(ErrorCode::isolated_vertices,
+                     "{vertex} {belongs|belong} to no face: kept where they are.", isolated,
+                     Severity::warning);
 }
 
 }  // namespace fairing
