@@ -36,19 +36,11 @@ ENERGY_MEANINGS = {
     "MINIMUM_VARIATION": "Most even reflections",
 }
 
-# for buttons side by side
-SHORT_INTERPOLATIONS = {
-    "AUTO": "Auto",
-    "EXACT": "Through",
-    "APPROXIMATE": "Near",
-    "LIMIT": "Limit",
-}
-
 # numbered like files from before the third option existed
 INTERPOLATIONS = (
     (
         "AUTO",
-        "Automatic",
+        "Auto",
         "Limit where the source has a Subdivision Surface modifier, for which its vertices were placed; "
         "Through where it has none",
         3,
@@ -67,6 +59,8 @@ INTERPOLATIONS = (
         2,
     ),
 )
+
+INTERPOLATION_NAMES = {key: name for key, name, *_ in INTERPOLATIONS}
 
 TOLERANCE_UNITS = (
     (

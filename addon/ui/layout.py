@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 
-from ..choices import ENERGY_MEANINGS, ENERGY_NAMES, SHORT_INTERPOLATIONS
+from ..choices import ENERGY_MEANINGS, ENERGY_NAMES, INTERPOLATION_NAMES
 from ..curve_cage import HOLD
 from ..properties import FairingSettings, FitAmount
 from ..purposes import name_of_purpose
@@ -43,7 +43,7 @@ class Known:
     edges: str = ""  # border edges with their own boundary
     normals: str = ""  # fixed normals
     flats: str = ""  # faces that stay flat
-    vertices: str = ""  # the meaning of Automatic
+    vertices: str = ""  # the meaning of Auto
     follows: bool = False  # whether that is Limit
 
 
@@ -78,7 +78,7 @@ def draw_fairness(
     """The settings that a job sets: the energy and the meaning of vertices."""
     draw_choices(layout, settings, "energy", ENERGY_NAMES)
     _remark(layout, ENERGY_MEANINGS[settings.energy])
-    draw_choices(layout, settings, "interpolation", SHORT_INTERPOLATIONS)
+    draw_choices(layout, settings, "interpolation", INTERPOLATION_NAMES)
     if known.vertices:
         _remark(layout, known.vertices)
 

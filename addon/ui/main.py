@@ -247,7 +247,7 @@ def follows(settings: FairingSettings, sources: list[Object]) -> bool:
 
 
 def vertices_text(settings: FairingSettings, sources: list[Object]) -> str:
-    """The meaning of Automatic, or that an applied modifier is not followed; else empty."""
+    """The meaning of Auto, or that an applied modifier is not followed; else empty."""
     if not sources or settings.interpolation not in ("AUTO", "LIMIT"):
         return ""
     limit = [is_limit(Settings.of(settings).for_source(source)) for source in sources]
