@@ -53,9 +53,12 @@ def test_one_number_a_vertex_is_checked_by_the_core(name, values):
 
 
 def test_a_name_that_is_no_setting_is_refused():
-    with pytest.raises(TypeError, match="'padsize' is not a setting"):
+    with pytest.raises(TypeError, match="'padsize' is not a setting; do you mean pad_size"):
         df.fair([[0, 0, 0]], [], padsize=1.0)
-    assert "pad_size" in SETTINGS
+    with pytest.raises(
+        TypeError, match="'qwxz' is not a setting; the settings are metric_exponent,"
+    ):
+        df.fair([[0, 0, 0]], [], qwxz=1.0)
 
 
 @pytest.mark.parametrize(

@@ -8,6 +8,7 @@ Defaults and ranges are the core's (native/fairing/settings.h).
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from difflib import get_close_matches
 from enum import Enum
 from math import isfinite
 from typing import Annotated, Any, Literal, TypedDict, cast, get_args, get_type_hints
@@ -30,7 +31,9 @@ def native_options(settings: Mapping[str, Any]) -> _native.Options:
     options, given = _native.Options(), {}
     for name, value in settings.items():
         if name not in SETTINGS:
-            raise TypeError(f"{name!r} is not a setting; the settings are {', '.join(SETTINGS)}")
+            near = get_close_matches(name, SETTINGS)
+            known = "do you mean " if near else "the settings are "
+            raise TypeError(f"{name!r} is not a setting; {known}{', '.join(near or SETTINGS)}")
         if value is not None or name not in OPTIONAL:
             given[name] = SETTINGS[name](name, value)
     if "interpolation" not in given and ("weights" in given or np.any(given.get("tolerance", 0))):
