@@ -85,9 +85,7 @@ class ControlArrays:
         return self.edges[creased], _sharpness(self.edge_crease[creased])
 
     def vertex_sharpness(self) -> np.ndarray:
-        """(n,) sharpness as in Blender: a vertex with two edges, such as the corner of a sheet, is as
-        sharp as the softer of them, or as its own crease if that is sharper.
-        """
+        """(n,) as in Blender: corners of sheets are as sharp as their softer edge, or their own."""
         count = len(self.positions)
         own = np.zeros(count) if self.vertex_crease is None else _sharpness(self.vertex_crease)
         if self.edge_crease is None:

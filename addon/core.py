@@ -260,9 +260,7 @@ def tolerance(settings: AnySettings, edge_length: float) -> float:
 
 
 def at_tolerance(arguments: Mapping[str, Any], surface: np.ndarray) -> list[int]:
-    """How many vertices are as far from the surface as they may be, and how many are off it at all;
-    vertices on curves never are. `surface` (N, 3): its points, the vertices' first.
-    """
+    """How many vertices of `surface` (N, 3) are as far off as they may be, and off at all."""
     points = arguments["vertices"]
     allowed = np.broadcast_to(arguments["tolerance"], len(points))
     may = (allowed > 0) & np.isin(np.arange(len(points)), arguments["faces"][0])

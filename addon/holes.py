@@ -215,9 +215,7 @@ class HoleJob(TimedRun):
         return f"{counted(len(self.skipped), 'hole')} left, listed in the panel Check: {why}"
 
     def check_again(self, context: Context) -> None:
-        """Updates the list of holes if one was filled from it; lists skipped holes and ambiguous border
-        edges, with buttons that select and mend them.
-        """
+        """Checks again where holes were listed, skipped or ambiguous, for the panel's buttons."""
         target = self.reference.find()
         if target is None or not (self.skipped or self._unclear or self._options.edge is not None):
             return

@@ -76,9 +76,7 @@ class InPlaceJob(TimedRun):
     def __init__(
         self, context: Context, source: Object, settings: Settings, options: InPlaceOptions
     ) -> None:
-        """Reads the faces; raises JobError if that is impossible. In Object Mode all faces are used.
-        `settings`: creases and everything else that `options` does not have.
-        """
+        """Reads the faces, in Object Mode all; JobError. `settings`: all that `options` has not."""
         self._options, self.kind = options, options.energy
         self._units = Units.of(context.scene)
         self._preferences = of_runs()  # arguments are also made on the computing thread

@@ -78,9 +78,7 @@ def make_cage(context: Context, near: Sequence[Object], faces: int) -> MadeCage:
 
 
 def _make_quads_near(cage: Object, scan: Scan, faces: int, most: int) -> tuple[int, bool]:
-    """Gives the cage a new mesh by QuadriFlow, finer and finer until it is near the scan; the old mesh
-    stays in the file. Returns the number of meshes made, and whether the last one is near.
-    """
+    """Makes finer and finer meshes by QuadriFlow; returns their number, and whether near enough."""
     dense, made = cage.data, 0
     while True:
         before = cage.data
@@ -126,9 +124,7 @@ def _mean_edge(mesh: Mesh, faces: int) -> float:
 
 
 def _make_quads(mesh: Mesh, faces: int) -> bool:
-    """Of the active object's mesh. QuadriFlow leaves faces out, and vertices on one another: such holes are
-    closed, or the surface would have a border there.
-    """
+    """Of the active object's mesh; holes that QuadriFlow leaves are closed."""
     try:
         bpy.ops.object.quadriflow_remesh(mode="FACES", target_faces=faces, use_preserve_sharp=False)
     except RuntimeError:

@@ -36,9 +36,7 @@ class Fit:
 
     @classmethod
     def of(cls, context: Context, target: Object, again: bool = True) -> "Fit | None":
-        """What the surface `target` was fitted to, as it is now; None for other surfaces. `again`: the
-        weight is found again. Raises JobError where the scans are gone.
-        """
+        """What `target` was fitted to, if anything; `again`: weighs anew. JobError: scans gone."""
         kept = target.discrete_fairing_fit
         if not len(kept.scans):
             return None
@@ -185,9 +183,7 @@ class FitJob(Job):
         return text
 
     def _note_places(self, context: Context, near: Sequence[Object]) -> None:
-        """Lists what the words count in the panel Check, whose buttons select it: faces of the cage, and
-        points of a scan that is one plain mesh.
-        """
+        """Lists faces of the cage, and points of a scan of one plain mesh, in the panel Check."""
         found, cage = self.result, cast(Object, self.source)
         bare = np.flatnonzero(self._bare)
         _note(context, cage, {TOO_COARSE: found.too_coarse, UNCOVERED: bare}, "face")

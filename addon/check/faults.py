@@ -147,9 +147,7 @@ def _look(
 
 
 def _pairs(vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """(p, 2) crossing triangles without a common edge, each pair once. (The tree, in single precision,
-    also finds some that only share a vertex.)
-    """
+    """(p, 2) crossing triangles without a common edge, each pair once."""
     used, local = np.unique(triangles, return_inverse=True)
     tree: Any = BVHTree.FromPolygons(
         vertices[used].tolist(), local.reshape(-1, 3).tolist(), all_triangles=True

@@ -114,9 +114,7 @@ def _crease(found: list[Object], path: Path) -> None:
 
 
 def write_file(path: Path) -> None:
-    """Writes all objects of the scene to one file, and the materials of an OBJ to another. After a
-    failure existing files are unchanged.
-    """
+    """Writes the scene to a file and an OBJ's materials to another, or leaves all as it was."""
     with _explained(path):
         path.parent.mkdir(parents=True, exist_ok=True)
         target = _whole_files().real_place(path)

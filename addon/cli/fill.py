@@ -56,9 +56,7 @@ def shown(options: FillOptions) -> dict[str, Any]:
 
 
 def run(source: Object, options: FillOptions, **watchers: Any) -> tuple[dict[str, Any], list[str]]:
-    """Fills the holes of an object. Returns its entry for the report, and warnings. Raises JobError if
-    holes cannot be filled; a mesh without holes is no error.
-    """
+    """Fills an object's holes, if any; returns its entry and warnings. JobError if none can be."""
     entry: dict[str, Any] = {"name": source.name, "control": counts(source.data)}
     try:
         job = HoleJob(current_context(), source, options)

@@ -18,9 +18,7 @@ _OF_FOUR = np.radians(8.0)
 
 @dataclass(frozen=True)
 class Cell:
-    """`sides`: the half-edges along each, counter-clockwise: 2 k along the arc k, 2 k + 1 against it.
-    With fewer than two corners there are fewer than two sides.
-    """
+    """`sides`: half-edges along each, counter-clockwise: 2 k along the arc k, 2 k + 1 against."""
 
     sides: list[list[int]]
 

@@ -12,10 +12,7 @@ _CARRIED = 0.7  # a cosine: how far a normal carried along an arc is trusted
 
 
 class TangentPlanes:
-    """`normals` (n, 3): of the plane through the arcs of each node, all on one side of the surface.
-
-    Half-edge 2 k runs along the arc k, 2 k + 1 against it.
-    """
+    """`normals` (n, 3) at nodes, to one side; half-edge 2 k runs along the arc k, 2 k + 1 back."""
 
     def __init__(self, network: Network) -> None:
         self._arcs = network.arcs

@@ -298,9 +298,7 @@ class Session:
         )
 
     def _has_values_of(self, arrays: ControlArrays) -> bool:
-        """Whether values from groups are unchanged. Not read during a drag, which changes positions
-        only, since Blender returns weights one by one, which is slow.
-        """
+        """Whether values from groups are unchanged; a drag, which is quick, does not read them."""
         return (
             self._arrays is not None
             and not is_evaluated(self._settings)
@@ -388,9 +386,7 @@ class Session:
             own.write_keys(target, last=False)
 
     def release(self, hand_back: bool = True) -> None:
-        """Returns its own data to the surface, on its present level; drops them if its mesh is not the
-        one written. Handlers write all except shape keys.
-        """
+        """Returns its own data to the surface; drops them if its mesh is not the one written."""
         own, self._own = self._own, None
         target = self._target.find()
         if own is None:

@@ -62,10 +62,7 @@ def write_groups(
     transfer: AttributeTransfer,
     operators: bool = True,
 ) -> None:
-    """Gives the object `target`, in Object Mode, the vertex `groups` with transferred weights.
-
-    `operators`: whether Blender's operators may be called; handlers must not call them.
-    """
+    """Gives `target`, in Object Mode, the `groups`; `operators`: not within handlers."""
     target.vertex_groups.clear()
     for group in groups:
         weights = transfer.point(group.dense(transfer.control_count)).ravel()

@@ -40,9 +40,7 @@ class _Moving(PlateRun):
         go_on: bool = False,
         settings: Settings | None = None,
     ) -> None:
-        """Reads the mesh; raises JobError if that is impossible. `go_on`: start from an earlier result,
-        if any. `settings`: replace those of the source's surface.
-        """
+        """Reads the mesh; JobError. `go_on`: from an earlier result; `settings`: the surface's."""
 
         def start(_mesh: Mesh) -> np.ndarray:
             own = self.arrays.positions

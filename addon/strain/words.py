@@ -24,9 +24,7 @@ def name(index: int, names: Sequence[str]) -> str:
 def offs(
     ids: Sequence[int] | np.ndarray, lengths: np.ndarray, text: Text, names: Sequence[str] = ()
 ) -> str:
-    """For example `31 by 4.2 mm, 7 by 3 mm and 4 more`; `lengths`: (n,) by vertex. With `names` (n,):
-    `station 4, WL 300: 4.2 mm; station 5, WL 600: 3 mm`.
-    """
+    """For example `31 by 4.2 mm and 4 more`, or by `names`: `station 4, WL 300: 4.2 mm`."""
     named = {i: text(abs(float(lengths[i]))) for i in list(ids)[:_NAMED]}
     more = [f"{len(ids) - _NAMED:,} more"] * (len(ids) > _NAMED)
     if names:

@@ -20,9 +20,7 @@ def holes_in(points: np.ndarray, faces: tuple[np.ndarray, np.ndarray]) -> list[l
 def unclear_edges(
     arrays: core.ControlArrays, gone: np.ndarray, loops: list[list[int]]
 ) -> list[Side]:
-    """Border edges that bound no hole, of faces that have neighbours: where more than two faces meet at
-    an edge, or neighbours differ in orientation, holes are ambiguous.
-    """
+    """Border edges where more than two faces meet or orientations differ: holes are ambiguous."""
     uses = _uses(arrays, gone)
     known = {side for loop in loops for side in sides_of(loop)}
     left = [e for e in np.flatnonzero(uses == 1).tolist() if _side(arrays, e) not in known]

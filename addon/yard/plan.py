@@ -29,9 +29,7 @@ class Cut:
 
 
 def places(text: str, low: float, high: float, spacing: float, start: float) -> list[float]:
-    """The positions in a list such as `0, 1.5, 3`, or every `spacing` from `start`, strictly between
-    `low` and `high`. ValueError for an invalid list.
-    """
+    """Positions listed, or every `spacing` from `start`, between the ends; else ValueError."""
     if text.strip():
         return [float(part) for part in text.replace(";", ",").split(",") if part.strip()]
     if spacing <= 0.0:
