@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike
 
 from ._native import FairingError
 from .arrays import numbers
+from .converters import real
 from .errors import fairing_error
-from .options import real
 from .patches import SplinePatches
 
 # metres in each unit

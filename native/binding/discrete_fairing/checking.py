@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike
 
 from . import _native
 from .arrays import face_arrays, vertex_array
+from .converters import choice, switch, whole
 from .errors import fairing_error
-from .options import choice, switch, whole
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,7 +8,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from . import _native
-from .near_hole import MeshPart, NearHole, Wanted
+from .mesh_part import MeshPart
+from .near_hole import NearHole, Wanted
 from .rounds import Filling, RimEdges, numbered_on
 from .watching import SeveralRuns
 

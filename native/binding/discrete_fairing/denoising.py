@@ -17,8 +17,8 @@ from numpy.polynomial.chebyshev import chebinterpolate
 from numpy.typing import ArrayLike
 
 from .arrays import face_arrays, fixed_flags, following, vertex_array
+from .converters import whole
 from .errors import fairing_error
-from .options import whole
 from .stars import Stars
 
 # Amounts besides zero, from half of the noise to smoothing over six edges, and the polynomials' degree.

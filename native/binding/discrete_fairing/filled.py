@@ -13,7 +13,7 @@ import numpy as np
 from ._native import FairingError
 from .edge_cuts import Cuts, cut_faces
 from .errors import about, fairing_error
-from .near_hole import MeshPart
+from .mesh_part import MeshPart
 from .rounds import Filling
 
 

@@ -15,7 +15,8 @@ from .crossings import in_whole, with_less_crossing
 from .edge_cuts import cuts_for, sides_of
 from .errors import fairing_error
 from .filled import Filled, SkippedHole, put_together
-from .near_hole import NOISY_RINGS, RIMS, RINGS, MeshPart, NearHole, Wanted
+from .mesh_part import MeshPart
+from .near_hole import NOISY_RINGS, RIMS, RINGS, NearHole, Wanted
 from .options import native_options
 from .quad_grid import quad_filling
 from .rounds import Filling, RimEdges, faired_in_rounds, near_holes, without_folds

@@ -12,8 +12,8 @@ from numpy.typing import ArrayLike
 from . import _native
 from .arrays import face_arrays, vertex_array
 from .checking import predicted_size
+from .converters import switch, whole
 from .fairing import fair
-from .options import switch, whole
 from .patch_distances import distances_from
 from .patch_fits import PatchFits
 from .patch_levels import at_level, at_own_level

@@ -16,8 +16,9 @@ from numpy.typing import ArrayLike
 from . import _native
 from ._native import FairingError
 from .arrays import face_arrays, vertex_array
+from .converters import edges_with_values
 from .errors import about, fairing_error
-from .options import ONE_A_VERTEX, edges_with_values, native_options
+from .options import ONE_A_VERTEX, native_options
 
 PLANES = {"x": 0, "y": 1, "z": 2}
 SNAP = 1e-6  # share of the mesh's size: border vertices nearer to the plane lie in it
@@ -70,10 +71,8 @@ class Control:
 
 
 class Half:
-    """The given mesh, with n vertices, m faces and c corners, and its double.
-
-    In the double the caller's vertices, faces and corners come first, then their images; vertices
-    of border edges in the plane are their own.
+    """The given mesh, n vertices, m faces and c corners, and its double: the caller's come first, then
+    their images; vertices of border edges in the plane are their own.
     """
 
     def __init__(
@@ -100,7 +99,7 @@ class Half:
         self._image[shared] = shared
         self._copied = np.flatnonzero(self._image != np.arange(len(points)))
         self._image[self._copied] = len(points) + np.arange(len(self._copied))
-        self._in_plane = shared
+        self.in_plane = shared  # (k,) int64: vertices that are their own images
 
     def _shared(self, points: np.ndarray, corners: np.ndarray, offsets: np.ndarray) -> np.ndarray:
         """Ids of the ends of border edges in the plane, without faces that mending drops."""
@@ -132,8 +131,8 @@ class Half:
 
     def _refuse_gap(self, points: np.ndarray, where: str) -> None:
         """Raises an error for vertices that have left the plane, where the halves would separate."""
-        height = np.abs(points[self._in_plane, self.axis])
-        away = self._in_plane[(height > self._reach(points)) & (height <= FAR)].tolist()
+        height = np.abs(points[self.in_plane, self.axis])
+        away = self.in_plane[(height > self._reach(points)) & (height <= FAR)].tolist()
         if away:
             raise fairing_error(
                 "BAD_OPTION",
@@ -155,11 +154,6 @@ class Half:
         self._refuse_gap(points, "")
         return self._doubled(points)
 
-    @property
-    def in_plane(self) -> np.ndarray:
-        """(k,) int64: the vertices of the given mesh that are their own images."""
-        return self._in_plane
-
     def values(self, values: np.ndarray) -> np.ndarray:
         """Converts values (n,), or empty, to the double's."""
         return np.concatenate([values, values[self._copied]]) if len(values) else values
@@ -167,8 +161,8 @@ class Half:
     def _doubled(self, points: np.ndarray) -> np.ndarray:
         """Points (…, n, 3) of the double; border vertices near the plane are moved into it."""
         own = points.copy()
-        height = own[..., self._in_plane, self.axis]
-        own[..., self._in_plane, self.axis] = np.where(np.abs(height) <= FAR, 0.0, height)
+        height = own[..., self.in_plane, self.axis]
+        own[..., self.in_plane, self.axis] = np.where(np.abs(height) <= FAR, 0.0, height)
         return self._with_copies(own)
 
     def reflected(self, points: np.ndarray) -> np.ndarray:
@@ -226,7 +220,7 @@ class Half:
     def _normals(self, normals: Any) -> np.ndarray:
         """Normals of the double; in the plane without the part that no symmetric surface has."""
         own = np.array(normals, float)
-        own[self._in_plane, self.axis] *= 0.0  # NaN stays NaN
+        own[self.in_plane, self.axis] *= 0.0  # NaN stays NaN
         return self._with_copies(own)
 
     def with_images(self, name: str, kind: str, ids: Any) -> np.ndarray:
@@ -266,15 +260,14 @@ class Half:
         kept = {kind: whole[f"{kind}_polygon"] < self.face_count for kind in kinds}
         used = np.zeros(len(whole["vertices"]), bool)
         used[: self.vertex_count] = True
-        seam = used.copy()
-        seam[:] = False
+        seam = np.zeros_like(used)
         for kind in kinds:
             faces = whole[f"{kind}s"]
             used[faces[kept[kind]].ravel()] = True
             seam[faces[~kept[kind]].ravel()] = True
         seam &= used
         seam[: self.vertex_count] = False
-        seam[self._in_plane] = True
+        seam[self.in_plane] = True
         new_id = np.cumsum(used, dtype=np.int32) - 1
         for kind in kinds:
             given[f"{kind}s"] = new_id[whole[f"{kind}s"][kept[kind]]].astype(np.int32)
@@ -313,14 +306,14 @@ class Half:
         """The half's report: element ids and values per vertex are converted, other numbers kept."""
         given = dict(report)
         for name in ("warnings", "repairs"):
-            given[name] = [self._cut_entry(entry) for entry in report[name]]
+            given[name] = [
+                {**entry, "elements": self._own(entry["elements"], entry["kind"])}
+                for entry in report[name]
+            ]
         given["flipped_faces"] = self._own(report["flipped_faces"], "face")
         pads = report["pads"]
         given["pads"] = {**pads, "widths": pads["widths"][: self.vertex_count]}
         return given
-
-    def _cut_entry(self, entry: dict[str, Any]) -> dict[str, Any]:
-        return {**entry, "elements": self._own(entry["elements"], entry["kind"])}
 
 
 def _refuse_unknown(name: str, kind: str, ids: np.ndarray, count: int) -> None:

@@ -17,10 +17,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .borders import Border, Foot, border_edges, border_of, mesh_arrays, unit_vectors
+from .converters import vertex_pairs
 from .errors import fairing_error
 from .halfway import Halfway
 from .halves import Control
-from .options import vertex_pairs
 from .piecewise.lattice import Lattice
 from .turning import Angles, needed, rotation
 

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -11,8 +11,9 @@ from typing import Any
 import numpy as np
 
 from . import _native
-from .arrays import face_vectors, fans, following, ranges
+from .arrays import face_vectors, following
 from .fairing import fair
+from .mesh_part import MeshPart
 
 # Rings of faces around a hole whose vertices determine how the surface continues.
 RINGS = {"position": 0, "tangent": 1, "curvature": 2}
@@ -282,73 +283,17 @@ class _SidesBehind:
         self._at_rim = owner[alone]
         self._behind = normals[np.repeat(np.arange(len(faces)), sizes)[at]]
 
-    def folding(self, normals: np.ndarray) -> np.ndarray:
-        """Faces at edges that turn by more than a right angle if the faces have these `normals`."""
+    def _turned(self, normals: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Pairs, and faces at the rim, that turn by more than a right angle with these `normals`."""
         inside = (normals[self._pairs[0]] * normals[self._pairs[1]]).sum(axis=1) < 0.0
         at_rim = (normals[self._at_rim] * self._behind).sum(axis=1) < 0.0
-        return np.union1d(self._pairs[:, inside], self._at_rim[at_rim])
+        return self._pairs[:, inside], self._at_rim[at_rim]
+
+    def folding(self, normals: np.ndarray) -> np.ndarray:
+        """Faces at edges that turn by more than a right angle."""
+        return np.union1d(*self._turned(normals))
 
     def folds(self, normals: np.ndarray) -> tuple[int, int]:
-        """Number of edges that turn by more than a right angle if the filling's faces have the `normals`
-        (t, 3): of all edges, and of edges between two of these faces.
-        """
-        inside = int(((normals[self._pairs[0]] * normals[self._pairs[1]]).sum(axis=1) < 0.0).sum())
-        at_rim = int(((normals[self._at_rim] * self._behind).sum(axis=1) < 0.0).sum())
-        return inside + at_rim, inside
-
-
-@dataclass(frozen=True)
-class MeshPart:
-    """A mesh, or a part of one."""
-
-    points: np.ndarray  # (n, 3)
-    corners: np.ndarray  # (c,)
-    offsets: np.ndarray  # (m + 1,)
-    vertex_ids: np.ndarray  # (n,) ids in the whole mesh, ascending
-    face_ids: np.ndarray  # (m,) ids in the whole mesh
-
-    @classmethod
-    def of(cls, points: np.ndarray, corners: np.ndarray, offsets: np.ndarray) -> MeshPart:
-        return cls(points, corners, offsets, np.arange(len(points)), np.arange(len(offsets) - 1))
-
-    def part(self, faces: np.ndarray) -> MeshPart:
-        """A part with these faces and their vertices, which keep their order."""
-        sizes = self.offsets[faces + 1] - self.offsets[faces]
-        ids, corners = np.unique(self.corners_at(faces), return_inverse=True)
-        offsets = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64)
-        return MeshPart(self.points[ids], corners.astype(np.int64), offsets, ids, faces)
-
-    def renumbered(self, loop: Sequence[int]) -> list[int]:
-        """A loop of the whole mesh in this part's ids; the part must have all its vertices."""
-        return np.searchsorted(self.vertex_ids, loop).tolist()
-
-    def touching(self, vertices: np.ndarray) -> np.ndarray:
-        """(f,) ids of the faces with one of these vertices."""
-        marked = np.zeros(len(self.points), bool)
-        marked[vertices] = True
-        at = np.flatnonzero(marked[self.corners])
-        return np.unique(np.searchsorted(self.offsets, at, side="right") - 1)
-
-    def faces_at(self, vertices: np.ndarray) -> np.ndarray:
-        """The same as touching(); faster for many calls with few vertices each."""
-        faces, ends = self._faces_by_vertex
-        return np.unique(faces[ranges(ends[vertices], ends[vertices + 1])])
-
-    @cached_property
-    def _faces_by_vertex(self) -> tuple[np.ndarray, np.ndarray]:
-        faces = np.repeat(np.arange(len(self.offsets) - 1), np.diff(self.offsets))
-        ends = np.cumsum(np.bincount(self.corners + 1, minlength=len(self.points) + 1))
-        return faces[np.argsort(self.corners, kind="stable")], ends
-
-    def corner_fans(self, faces: np.ndarray) -> np.ndarray:
-        """(t, 3) triangles of these faces, as fans from their first corners."""
-        return self.corners[fans(self.offsets[faces], self.offsets[faces + 1])]
-
-    def corners_at(self, faces: np.ndarray) -> np.ndarray:
-        """All corners of these faces, face after face."""
-        return self.corners[ranges(self.offsets[faces], self.offsets[faces + 1])]
-
-
-def angles_between(u: np.ndarray, v: np.ndarray) -> np.ndarray:
-    """(…) angles between vectors (…, 3), radians."""
-    return np.arctan2(np.linalg.norm(np.cross(u, v), axis=-1), (u * v).sum(axis=-1))
+        """The numbers of such edges: of all, and of those between two faces of the filling."""
+        inside, at_rim = self._turned(normals)
+        return inside.shape[1] + len(at_rim), inside.shape[1]

@@ -10,8 +10,8 @@ from numpy.typing import ArrayLike
 
 from . import _native
 from .arrays import following, numbers
+from .converters import real
 from .errors import fairing_error
-from .options import real
 from .patches import SplinePatches, control_polygons
 from .result import Result
 from .scan_fitting import Fitted

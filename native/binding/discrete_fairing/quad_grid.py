@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from .near_hole import MeshPart, NearHole, Wanted, angles_between
+from .mesh_part import MeshPart, angles_between
+from .near_hole import NearHole, Wanted
 from .rounds import Filling
 
 # Sums of four angles that differ by less are equal: the sides then decide between the corners.

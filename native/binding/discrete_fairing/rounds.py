@@ -10,7 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import _native
-from .near_hole import Made, MeshPart, NearHole, Wanted, angles_between
+from .mesh_part import MeshPart, angles_between
+from .near_hole import Made, NearHole, Wanted
 from .watching import SeveralRuns
 
 # A filling is remeshed if fairing has enlarged its area by this factor. Below it the edges are within a

@@ -11,9 +11,9 @@ from numpy.typing import ArrayLike
 
 from . import _native
 from .arrays import fixed_flags, index_array, numbers, plain
+from .converters import real
 from .errors import fairing_error, written_report
 from .halves import Control, Half
-from .options import real
 from .result import Result
 from .watching import Progress, check_watchers
 

@@ -2,6 +2,7 @@
 """The steps by which clean() makes a closed surface of a raw scan."""
 
 from .holes import hole_width, holes_to_fill
-from .run import Act, Cleaned, clean
+from .run import clean
+from .steps import Act, Cleaned
 
 __all__ = ["Act", "Cleaned", "clean", "hole_width", "holes_to_fill"]

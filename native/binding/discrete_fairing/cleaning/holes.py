@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike
 
 from .. import _native
 from ..arrays import face_arrays, vertex_array
+from ..converters import distance
 from ..filling import asked_holes, fill_holes, with_islands
-from ..options import distance
 from ..watching import SeveralRuns
 from .state import State, diagonals, numbered_parts, of_parts
 from .topology import cut, vertices_split

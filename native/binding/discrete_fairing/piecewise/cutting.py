@@ -11,8 +11,9 @@ from numpy.typing import ArrayLike
 
 from .. import _native
 from ..arrays import face_arrays, ranges, shape_array, vertex_array
+from ..converters import whole
 from ..errors import fairing_error
-from ..options import Settings, whole
+from ..options import Settings
 from .outline import Outline
 from .partition import neighbours, partition
 from .piece import Piece

@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 
 from .. import _native
+from ..converters import whole
 from ..errors import fairing_error
-from ..options import ONE_A_VERTEX, SETTINGS, native_options, whole
+from ..options import ONE_A_VERTEX, SETTINGS, native_options
 from .outline import Outline
 
 # Arguments of fair() that pieces exclude, and the alternative.
