@@ -11,6 +11,7 @@ import numpy as np
 
 from addon import core
 from addon.cli import main as command
+from addon.cli.files import read_file
 
 ROOT = Path(__file__).resolve().parents[2]
 CORE = Path(core.module().__file__).parents[1]  # of this process, for others
@@ -30,7 +31,7 @@ def entries(*words):
 
 def imported(path):
     """All vertices of a file, as Blender reads them, and the face sizes."""
-    found = command.read_file(Path(path))
+    found = read_file(Path(path))
     positions = [vertex.co[:] for item in found for vertex in item.data.vertices]
     return np.array(positions), [
         len(face.vertices) for item in found for face in item.data.polygons

@@ -11,6 +11,7 @@ from cli_runs import contains, entries, imported, run
 
 from addon import core
 from addon.cli import main as command
+from addon.cli import one_file
 
 WRITERS = {"obj": write_obj, "ply": write_ply, "stl": write_stl}
 
@@ -191,13 +192,13 @@ def test_an_interruption_ends_all_and_is_reported(monkeypatch):
     write_obj("c.obj")
     after_first = iter([False, True])
 
-    class Interrupted(command.Job):
+    class Interrupted(one_file.Job):
         def compute(self, **watchers):
             if next(after_first):
                 signal.raise_signal(signal.SIGINT)
             super().compute(**watchers)
 
-    monkeypatch.setattr(command, "Job", Interrupted)
+    monkeypatch.setattr(one_file, "Job", Interrupted)
     code, records = entries("a.obj", "b.obj", "c.obj", "out/")
     assert code == command.INTERRUPTED
     assert [entry["status"] for entry in records] == ["done", "cancelled", "not_run"]
@@ -209,13 +210,13 @@ def test_a_fault_of_ours_spares_the_other_files(monkeypatch, capfd):
     write_obj("b.obj")
     faults = iter([True, False])
 
-    class Faulty(command.Job):
+    class Faulty(one_file.Job):
         def warnings(self):
             if next(faults):
                 raise AttributeError("oops")
             return super().warnings()
 
-    monkeypatch.setattr(command, "Job", Faulty)
+    monkeypatch.setattr(one_file, "Job", Faulty)
     code, (a, b) = entries("a.obj", "b.obj", "out/")
     assert (code, a["error"]["code"], b["status"]) == (1, "INTERNAL", "done")
     assert "oops" in capfd.readouterr().err

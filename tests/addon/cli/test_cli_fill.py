@@ -8,7 +8,7 @@ import numpy as np
 from cli_files import read_obj
 from cli_runs import entries, imported
 
-from addon.cli import main as command
+from addon.cli.files import read_file
 
 
 def write_ball(name, open_above=0.7, sides=24, rings=12, spoiled=""):
@@ -36,7 +36,7 @@ def write_ball(name, open_above=0.7, sides=24, rings=12, spoiled=""):
 def open_edges(path):
     uses = Counter(
         tuple(sorted(edge))
-        for item in command.read_file(Path(path))
+        for item in read_file(Path(path))
         for face in item.data.polygons
         for edge in face.edge_keys
     )

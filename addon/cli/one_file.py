@@ -1,0 +1,175 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One input of a call: fairs or mends its meshes, writes them, and notes the outcome in its record."""
+
+import argparse
+import sys
+import time
+import traceback
+from collections.abc import Sequence
+from typing import Any
+
+import bpy
+
+from .. import memory
+from ..blender import Object, current_context
+from ..cad.fit import PatchJob
+from ..errors import JobError, repairs_text
+from ..job import Job
+from ..scan_fit import Fit, FitJob
+from ..settings import PatchOptions, Settings
+from . import ease, fit, report, step
+from .files import FileError, read_file, write_file
+from .places import Place, is_cad, is_there
+from .report import Progress
+
+
+def run_one(
+    file: Place, record: dict[str, Any], arguments: argparse.Namespace, settings: Settings
+) -> None:
+    """Fairs one file, and notes the outcome in its record."""
+    start = time.perf_counter()
+    try:
+        for path in (file.target, arguments.tables.get(file)):
+            if arguments.overwrite is False and path is not None and is_there(path):
+                raise FileError("EXISTS", f"{path} exists, and is kept.")
+        if arguments.mending is None:
+            _fair_file(file, record, arguments, settings)
+        else:
+            _mend_file(file, record, arguments)
+        record["status"] = report.DONE
+    except (FileError, JobError) as error:
+        fail(
+            record,
+            *_code_and_elements(error),
+            f"{file.source}: {error}" if isinstance(error, JobError) else str(error),
+        )
+    except Exception as error:  # an error in the add-on must not stop the other inputs
+        traceback.print_exc()
+        fail(record, "INTERNAL", (), f"{file.source}: {type(error).__name__}: {error}")
+    finally:
+        record["seconds"] = round(time.perf_counter() - start, 3)
+
+
+def _fair_file(
+    file: Place, record: dict[str, Any], arguments: argparse.Namespace, settings: Settings
+) -> None:
+    near: Fit | None = None
+    if arguments.drawn is None:
+        sources = read_file(file.source, arguments.merge)
+    else:
+        sources, near = fit.read(file, arguments.drawn, arguments.merge)
+    prepared = arguments.prepared
+    ease.require_one(sources, prepared)
+    progress = Progress(sys.stderr, str(file.source), len(sources) * (1 + prepared.runs))
+    watchers: dict[str, Any] = {} if arguments.quiet else {"progress": progress}
+    patches = arguments.patches if is_cad(file.target) else None
+    is_read = not arguments.quiet or arguments.json is not None
+    asked = {
+        name: value
+        for name in ("weld", "threads")
+        if (value := getattr(arguments, name)) is not None
+    }
+    try:
+        preparing = ease.Preparing(prepared, settings, asked)
+        entries, tables = preparing.run(sources, progress.next_run, **watchers)
+        jobs = [_job(source, settings, patches, near) for source in sources]
+        for job in jobs:
+            # the table and the report contain energies
+            job.arguments |= asked | {"measure": is_read and patches is None}
+            job.pieces, job.spread = arguments.pieces, arguments.spread
+            job.compute(**watchers)
+            progress.next_run()
+    finally:
+        progress.clear()
+    if patches is not None:
+        step.require_patches(jobs)
+    for job, source, entry in zip(jobs, sources, entries):
+        if not arguments.quiet:
+            say_mended(file.source, job.result.report["repairs"])
+            say_eased(file.source, entry | {"name": source.name})
+        for warning in job.warnings():
+            record["warnings"].append(warning)
+            say(f"{file.source}: warning: {warning}")
+        if near is not None:
+            entry["fit"] = fit.entry(job)
+            if not arguments.quiet:
+                say(f"{file.source}: {fit.said(entry['fit'])}")
+        is_patches = isinstance(job, PatchJob)
+        done = step.object_entry(job) if is_patches else _replace(job, source)
+        record["objects"].append(done | entry)
+    if patches is None:
+        write_file(file.target)
+    else:
+        step.write_step_file(file, jobs, patches)
+    for found in tables:
+        ease.write_table(arguments.tables[file], found)
+
+
+def _mend_file(file: Place, record: dict[str, Any], arguments: argparse.Namespace) -> None:
+    sources = read_file(file.source, arguments.merge)
+    progress = Progress(sys.stderr, str(file.source), len(sources))
+    watchers: dict[str, Any] = {} if arguments.quiet else {"progress": progress}
+    if arguments.threads is not None:
+        watchers["threads"] = arguments.threads
+    warnings: list[str] = []
+    try:
+        for source in sources:
+            entry, said = arguments.mending.module.run(
+                source, arguments.mending.options, **watchers
+            )
+            record["objects"].append(entry)
+            warnings += said
+            progress.next_run()
+    finally:
+        progress.clear()
+    for warning in warnings:
+        record["warnings"].append(warning)
+        say(f"{file.source}: warning: {warning}")
+    write_file(file.target)
+
+
+def _job(source: Object, settings: Settings, patches: PatchOptions | None, near: Fit | None) -> Any:
+    if patches is not None:
+        return PatchJob(current_context(), source, patches, settings, near)
+    if near is not None:
+        return FitJob(current_context(), source, near, settings)
+    return Job(current_context(), source, settings)
+
+
+def _replace(job: Job, source: Object) -> dict[str, Any]:
+    """Replaces a job's source by its result, under the same name. Returns the entry for the report."""
+    entry: dict[str, Any] = {"name": source.name, "control": report.counts(source.data)}
+    target = job.write(current_context())
+    bpy.data.objects.remove(source)
+    target.name = entry["name"]
+    return entry | {"result": report.counts(target.data), "report": memory.recall(target, "report")}
+
+
+def _code_and_elements(error: Any) -> tuple[str, Sequence[Any]]:
+    """From the error itself, or from the core's error that caused it."""
+    for part in (error, error.__cause__):
+        if getattr(part, "code", None):
+            return part.code, getattr(part, "elements", ())
+    return "REFUSED", ()
+
+
+def fail(record: dict[str, Any], code: str, elements: Sequence[Any], message: str) -> None:
+    record["status"] = report.FAILED
+    record["error"] = report.error_entry(code, message, elements)
+    record["objects"].clear()
+    say(f"error: {message}")
+
+
+def say_mended(name: object, repairs: Any) -> None:
+    mended = repairs_text(repairs) if repairs else ""
+    if mended:
+        say(f"{name}: mended: {mended}")
+
+
+def say_eased(name: object, entry: dict[str, Any]) -> None:
+    if "eased" in entry:
+        say(f"{name}: {entry['name']}: {entry['eased']['said']}")
+
+
+def say(text: str) -> None:
+    print(text, file=sys.stderr, flush=True)
