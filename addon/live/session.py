@@ -8,24 +8,23 @@ from typing import Any, TypeAlias
 import bpy
 import numpy as np
 
-from .. import core, errors, memory, neighbours, place, size
+from .. import core, errors, memory, place, size
 from ..blender import Context, Mesh, Object, current_context, scene_of
 from ..core import ControlArrays
 from ..errors import JobError
 from ..inspection import display, overlay
 from ..memory import source_of
-from ..mesh import scans
 from ..mesh.layers import read_data
 from ..mesh.object import Reference, session_key
 from ..mesh.own import OwnData, carried_names, read_own, write_own
 from ..mesh.read import control_mesh, read_mesh, selected_faces, tolerance_factors, vertex_pulls
-from ..mesh.world_shape import WorldShape, world_matrix, world_shape
+from ..mesh.world_shape import WorldShape, world_shape
 from ..mesh.write import has_faces_of, rebuild_mesh, write_positions
 from ..preferences import preferences
 from ..queue import progress_text
-from ..scan_fit import live_scan
 from ..settings import Settings, halves, is_evaluated
 from .full_level import FullLevel, Schedule, is_dragging
+from .others import Others
 from .pace import Clock, Deadline, Pace
 from .registry import why_gone
 
@@ -68,14 +67,7 @@ class Session:
         self._arrays: Any = None
         self._settings: Any = None
         self._shape = WorldShape(None)
-        self._scan: Any = None  # for core.solver
-        self._neighbour: int | str | None = None  # its key
-        self._beside: dict[str, Any] = {}  # the neighbour's arguments for the core
-        # of scans and neighbour:
-        # keys of the data-blocks that they were read from
-        self._other_blocks: set[int | str] = set()
-        self._others_seen: Any = None  # the transforms of source and surface when they were read
-        self._others_due = False  # whether they may have changed since
+        self._others = Others()
         self._region: np.ndarray | None = None
         self._tolerance_factors: np.ndarray | None = None
         self._pulls: np.ndarray | None = None
@@ -108,10 +100,7 @@ class Session:
         """
         source, target = self._present()
         its = {session_key(source), session_key(source.data)}
-        self._others_due |= not self._other_blocks.isdisjoint(moved)
-        if self._other_blocks and self._others_seen != _places(source, target):
-            self._others_due = True
-        again = self._others_due and not moved and not is_dragging(current_context())
+        again = self._others.are_awaited(source, target, moved)
         if self._stale or self._unseen or again or not its.isdisjoint(reshaped):
             return True
         return not self._has_settings_of(source, target)
@@ -154,9 +143,9 @@ class Session:
             self._settings = Settings.of(target.discrete_fairing)
             self._chosen = _chosen_level(target)
             self._shape = world_shape(source)
-            self._read_others(source, target)
-        elif self._others_due and depsgraph is None:
-            self._read_others(source, target)
+            self._others.read(source, target, self._settings)
+        elif self._others.due and depsgraph is None:
+            self._others.read(source, target, self._settings)
         with self._mesh_now(source, depsgraph) as mesh:
             arrays = read_mesh(mesh)
             if not self._has_values_of(arrays):
@@ -181,21 +170,6 @@ class Session:
         self.updates += 1
         self._schedule.plan()
         return True
-
-    def _read_others(self, source: Object, target: Object) -> None:
-        context = current_context()
-        self._scan = live_scan(context, source, target)
-        self._neighbour = _key_of_neighbour(target)
-        neighbour = neighbours.neighbour_of(target)
-        if neighbour is not None:
-            mutual = neighbours.is_mutual(target)
-            self._beside = core.with_partner(
-                neighbours.arguments(context, neighbour, target, source, self._settings, mutual)
-            )
-        others = scans.watched(neighbours.with_scans(target))
-        self._other_blocks = set(map(session_key, others))
-        self._others_seen = _places(source, target)
-        self._others_due = False
 
     def _mesh_now(self, source: Object, depsgraph: Update) -> AbstractContextManager[Mesh]:
         """The present control mesh, from Object Mode, Sculpt Mode or during an edit; read only."""
@@ -244,9 +218,7 @@ class Session:
             "step_tolerance": _STEP,
         }
         arguments["energy"] = self._pace.energy(arguments["energy"])
-        if self._scan is not None:
-            arguments["scan"] = self._scan
-        arguments |= self._beside
+        arguments |= self._others.arguments
         if (
             self.solver is not None
             and core.are_equal(
@@ -294,7 +266,7 @@ class Session:
             self._settings == Settings.of(target.discrete_fairing)
             and self._chosen == _chosen_level(target)
             and self._shape == world_shape(source)
-            and self._neighbour == _key_of_neighbour(target)
+            and self._others.are_of(target)
         )
 
     def _has_values_of(self, arrays: ControlArrays) -> bool:
@@ -329,7 +301,7 @@ class Session:
 
     def follow_unseen(self) -> None:
         """Follows changes unseen by Blender's update, scans and neighbours; not within one."""
-        if self._unseen or self._others_due:
+        if self._unseen or self._others.due:
             self.follow()
 
     def complete(self, context: Context) -> None:
@@ -416,12 +388,3 @@ class Session:
 
 def _chosen_level(target: Object) -> int:
     return min(target.discrete_fairing_live.levels, target.discrete_fairing.levels)
-
-
-def _places(source: Object, target: Object) -> Any:
-    return world_matrix(source).copy(), world_matrix(target).copy()
-
-
-def _key_of_neighbour(target: Object) -> int | str | None:
-    neighbour = neighbours.neighbour_of(target)
-    return None if neighbour is None else session_key(neighbour)
