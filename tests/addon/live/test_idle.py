@@ -18,8 +18,8 @@ from addon.ui import main
 @pytest.fixture
 def counted(monkeypatch):
     """The calls that count faces."""
-    calls, count = [], size.face_sizes
-    monkeypatch.setattr(size, "face_sizes", lambda mesh: calls.append(mesh) or count(mesh))
+    calls, count = [], size.coarse_triangles
+    monkeypatch.setattr(size, "coarse_triangles", lambda sizes: calls.append(sizes) or count(sizes))
     return calls
 
 
