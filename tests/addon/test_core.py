@@ -91,13 +91,6 @@ def test_creases_from_the_mesh(name, data_type, value, changes, expected):
         assert "soft_creases" not in arguments(mesh, interpolation="LIMIT")
 
 
-@pytest.mark.parametrize("domain, data_type", [("FACE", "FLOAT"), ("POINT", "FLOAT")])
-def test_a_crease_of_another_domain_is_none(domain, data_type):
-    mesh = add("Box", *CUBE).data
-    mesh.attributes.new("crease_edge", data_type, domain)
-    assert read_mesh(mesh).edge_crease is None
-
-
 def triangle(**attributes):
     """One triangle 0 1 2 and a loose edge 2 3."""
     nothing = dict.fromkeys(("edge_crease", "vertex_crease", "sharp_edge"))

@@ -9,7 +9,6 @@ from scenes import (
     activate,
     add,
     add_suzanne,
-    again,
     edit,
     face_values,
     fair,
@@ -101,17 +100,3 @@ def test_edit_mode_sees_the_latest_edit(source):
     result = fair(levels=1)
     assert np.array_equal(positions(result.data)[:8], 2 * np.float32(CUBE[0]))
     assert bpy.context.mode == "OBJECT" and source.mode == "OBJECT"
-
-
-def test_a_border_keeps_its_corners_unless_it_is_a_smooth_curve():
-    """Two by two quads, drawn up in the middle: the border of a square."""
-    points = [(x, y, 0.8 * (x == 0 and y == 0)) for y in (-1, 0, 1) for x in (-1, 0, 1)]
-    source = add("Tent", points, [(a, a + 1, a + 4, a + 3) for a in (0, 1, 3, 4)])
-
-    def off(mesh):
-        uses = np.bincount(np.array([edge.vertices[:] for edge in mesh.edges]).ravel())
-        border = positions(mesh)[uses < 4]  # whose vertices have fewer than four edges
-        return np.abs(np.abs(border[:, :2]).max(axis=1) - 1).max()
-
-    assert off(fair(levels=3).data) < 1e-6
-    assert off(again(source, levels=3, boundary="CURVE").data) > 0.05

@@ -8,7 +8,7 @@ from live_scenes import live, move, pull, session
 from scenes import CUBE, activate, add, again, fair, positions, recompute, refused, reopen
 
 from addon.live import handlers
-from addon.memory import recall, why_unfit
+from addon.memory import why_unfit
 from addon.mesh.object import select_only
 from addon.ui import main
 
@@ -36,15 +36,6 @@ def test_surfaces_selected_beside_a_mesh_are_not_faired_a_second_time(source):
     assert len(fair(levels=1).data.polygons) == 6 * 4 * 4, "alone, it is a mesh like any other"
 
 
-def test_recompute_with_other_settings():
-    add("Box", *CUBE)
-    result = fair(levels=1)
-    result.discrete_fairing.levels = 3
-    recompute()
-    assert len(result.data.polygons) == 6 * 4**3
-    assert recall(result, "report")["levels"][-1]["level"] == 3
-
-
 def test_what_was_put_on_it_stays():
     add("Box", *CUBE)
     result = fair(levels=1)
@@ -57,15 +48,6 @@ def test_what_was_put_on_it_stays():
     assert list(result.data.materials) == [paint]
     assert result.modifiers["Thick"].thickness == 0.125 and tuple(result.location) == (1, 2, 3)
     assert result.data.name == name and len(bpy.data.meshes) == meshes
-
-
-def test_linked_duplicates_follow(source):
-    result = fair(levels=1)
-    twin = result.copy()
-    bpy.context.collection.objects.link(twin)
-    move(source)
-    recompute()
-    assert twin.data == result.data
 
 
 def test_a_failure_leaves_the_surface(source):

@@ -17,20 +17,6 @@ from addon.mesh.read import control_mesh, tolerance_factors
 from addon.properties import FairingSettings, _vertex_values
 
 
-@pytest.mark.parametrize(
-    "given, most",
-    [
-        ({"tolerance": 0.05, "tolerance_unit": "SCENE"}, 0.05),
-        ({"tolerance": 0.05}, 0.1),
-        ({}, 0.04),
-    ],
-)
-def test_near_keeps_the_tolerance_that_was_given(given, most):
-    source = add("Box", *CUBE)  # edges of 2
-    result = fair(levels=1, interpolation="APPROXIMATE", **given)
-    assert 0.9 * most < moved(source, result).max() <= most * (1 + 1e-5)
-
-
 def test_a_drag_does_not_change_what_the_tolerance_is_a_share_of(source, no_pause):
     """Otherwise each update would build a solver."""
     target = fair(levels=2, interpolation="APPROXIMATE")
@@ -178,14 +164,6 @@ def test_live_reads_no_group_while_a_mouse_drags(source, monkeypatch):
     assert len(asked) == 1
     assert positions(target.data)[0].tolist() == list(source.data.vertices[0].co)
     assert not np.array_equal(dragged, positions(target.data))
-
-
-def test_a_group_goes_from_nothing_to_what_holds(source):
-    add_group(source, {0: 1.0, 1: 0.5, 2: 0.25, 3: 0.0}, "Pulls")
-    pulls = vertex_values.pulls(source, source.data, "Pulls")
-    assert pulls[0] == np.inf
-    assert pulls[1:3] == pytest.approx([100, 100 / 9])
-    assert not pulls[3:].any()
 
 
 def test_an_attribute_is_taken_as_it_is(source):
