@@ -58,53 +58,26 @@ OF_HOLES = WITHOUT_MENDING | {
     "REPEATED_VERTEX": "Cut it there into two holes",
     "TOO_LARGE": "Lower Density, or fill it in parts",
 }
-# code: sentence for one element, for several
+# by code, of one element or several
 _WHAT = {
-    "NON_FINITE": ("vertex has no finite position", "vertices have no finite position"),
-    "REPEATED_VERTEX": ("face uses a vertex twice", "faces use a vertex twice"),
-    "DUPLICATE_FACE": ("face lies on another one", "faces lie on one another"),
-    "NONMANIFOLD_EDGE": ("edge joins more than two faces", "edges join more than two faces"),
-    "NONMANIFOLD_VERTEX": (
-        "vertex joins parts that touch only there",
-        "vertices join parts that touch only there",
-    ),
-    "INCONSISTENT_ORIENTATION": (
-        "face points against its neighbours",
-        "faces point against their neighbours",
-    ),
-    "DEGENERATE_FACE": ("face has no area", "faces have no area"),
-    "COINCIDENT_VERTICES": (
-        "vertex lies on another one without being joined",
-        "vertices lie on others without being joined",
-    ),
-    "ISOLATED_VERTICES": ("vertex has no face", "vertices have no face"),
-    "OPEN_HOLE": ("edge is at a hole", "edges are at holes"),
-    VERTEX_ON_EDGE: (
-        "vertex lies on a border edge without being joined to it",
-        "vertices lie on border edges without being joined to them",
-    ),
-    "CROSSING_FACES": ("face passes through others", "faces pass through others"),
-    "UNRESOLVED": (
-        "face has a surface that folds or turns too sharply for patches",
-        "faces have a surface that folds or turns too sharply for patches",
-    ),
-    "PATCH_TOLERANCE": (
-        "face has a patch that misses the tolerance",
-        "faces have patches that miss the tolerance",
-    ),
-    "FIT_TOO_COARSE": (
-        "face is too large to follow the scan",
-        "faces are too large to follow the scan",
-    ),
-    "FIT_NO_POINTS": ("face has no points of the scan", "faces have no points of the scan"),
-    "FIT_OUTLIERS": (
-        "point is far off the surface near this scan",
-        "points are far off the surface near this scan",
-    ),
-    "SURFACE_TOLERANCE": (
-        "face has a surface that still changes by more than the tolerance from level to level",
-        "faces have a surface that still changes by more than the tolerance from level to level",
-    ),
+    "NON_FINITE": "{vertex has|vertices have} no finite position",
+    "REPEATED_VERTEX": "{face uses|faces use} a vertex twice",
+    "DUPLICATE_FACE": "{face lies on another one|faces lie on one another}",
+    "NONMANIFOLD_EDGE": "{edge joins|edges join} more than two faces",
+    "NONMANIFOLD_VERTEX": "{vertex joins|vertices join} parts that touch only there",
+    "INCONSISTENT_ORIENTATION": "{face points against its|faces point against their} neighbours",
+    "DEGENERATE_FACE": "{face has|faces have} no area",
+    "COINCIDENT_VERTICES": "{vertex lies on another one|vertices lie on others} without being joined",
+    "ISOLATED_VERTICES": "{vertex has|vertices have} no face",
+    "OPEN_HOLE": "{edge is at a hole|edges are at holes}",
+    VERTEX_ON_EDGE: "{vertex lies on a border edge|vertices lie on border edges} without being joined to {it|them}",
+    "CROSSING_FACES": "{face passes|faces pass} through others",
+    "UNRESOLVED": "{face has|faces have} a surface that folds or turns too sharply for patches",
+    "PATCH_TOLERANCE": "{face has a patch that misses|faces have patches that miss} the tolerance",
+    "FIT_TOO_COARSE": "{face is|faces are} too large to follow the scan",
+    "FIT_NO_POINTS": "{face has|faces have} no points of the scan",
+    "FIT_OUTLIERS": "{point is|points are} far off the surface near this scan",
+    "SURFACE_TOLERANCE": "{face has|faces have} a surface that still changes by more than the tolerance from level to level",
 }
 _WHOLE = {
     "EMPTY_MESH": "The mesh is empty",
@@ -136,7 +109,7 @@ def what(defect: dict[str, Any]) -> str:
     """A defect (of defects.check_object) with the number of its elements, in one sentence."""
     code, count = defect["code"], len(defect["elements"])
     if code in _WHAT and count:
-        return f"{count:,} {_WHAT[code][count > 1]}."
+        return f"{counted(count, _WHAT[code])}."
     return _sentence(_WHOLE.get(code, defect["message"]))
 
 
@@ -295,35 +268,26 @@ def pads_text(pads: Mapping[str, Any]) -> str:
     gone = pads.get("gone", 0)
     if not gone:
         return ""
-    return f"Not held softly at {counted(gone, 'vertex', 'vertices')}, where faces turn sharply."
+    return f"Not held softly at {counted(gone, '{vertex|vertices}')}, where faces turn sharply."
 
 
-# repairs of one element, and of several
+# repairs of one element or several
 _DONE = {
-    "BAD_SHAPE": (
-        "face of fewer than three corners dropped",
-        "faces of fewer than three corners dropped",
-    ),
-    "INDEX_OUT_OF_RANGE": (
-        "face with a vertex that does not exist dropped",
-        "faces with vertices that do not exist dropped",
-    ),
-    "NON_FINITE": (
-        "vertex without a finite position moved",
-        "vertices without a finite position moved",
-    ),
-    "REPEATED_VERTEX": ("face freed of a doubled corner", "faces freed of doubled corners"),
-    "COINCIDENT_VERTICES": ("vertex merged", "vertices merged"),
-    "DUPLICATE_FACE": ("duplicate face dropped", "duplicate faces dropped"),
-    "DEGENERATE_FACE": ("face without area dissolved", "faces without area dissolved"),
-    "INCONSISTENT_ORIENTATION": ("face flipped", "faces flipped"),
+    "BAD_SHAPE": "{face|faces} of fewer than three corners dropped",
+    "INDEX_OUT_OF_RANGE": "{face with a vertex that does|faces with vertices that do} not exist dropped",
+    "NON_FINITE": "{vertex|vertices} without a finite position moved",
+    "REPEATED_VERTEX": "{face freed of a doubled corner|faces freed of doubled corners}",
+    "COINCIDENT_VERTICES": "{vertex|vertices} merged",
+    "DUPLICATE_FACE": "duplicate {face|faces} dropped",
+    "DEGENERATE_FACE": "{face|faces} without area dissolved",
+    "INCONSISTENT_ORIENTATION": "{face|faces} flipped",
 }
 REPAIR_CODES = frozenset(_DONE)
 
 
 def repairs_text(repairs: Iterable[Mapping[str, Any]]) -> str:
     """The repairs, in one sentence from the report's `repairs`; empty if there were none."""
-    done = [counted(len(act["elements"]), *_DONE[act["code"]]) for act in repairs]
+    done = [counted(len(act["elements"]), _DONE[act["code"]]) for act in repairs]
     return f"{', '.join(done)}; Check Mesh shows them." if done else ""
 
 

@@ -272,7 +272,7 @@ def _why_none(
 
 
 def _unclear_text(count: int) -> str:
-    edges = counted(count, "border edge is", "border edges are")
+    edges = counted(count, "{border edge is|border edges are}")
     return (
         f"Run Check Mesh, which shows where: {edges} around no hole, because more than two faces meet "
         "there at an edge, or faces point different ways"

@@ -175,11 +175,11 @@ class FitJob(Job):
         coarse, strays = len(found.too_coarse), len(found.outliers)
         bare = int(np.count_nonzero(self._bare))
         if coarse:
-            text += f" {counted(coarse, 'face is', 'faces are')} too coarse."
+            text += f" {counted(coarse, '{face is|faces are}')} too coarse."
         if bare:
-            text += f" {counted(bare, 'face has', 'faces have')} no points."
+            text += f" {counted(bare, '{face has|faces have}')} no points."
         if strays:
-            text += f" {counted(strays, 'point is a stray', 'points are strays')}."
+            text += f" {counted(strays, '{point is a stray|points are strays}')}."
         return text
 
     def _note_places(self, context: Context, near: Sequence[Object]) -> None:
@@ -204,7 +204,7 @@ def _require(cage: Object, fit: Fit) -> None:
         names = ", ".join(scan.name for scan in fit.objects) or cage.name
         raise JobError(
             f"{names}: {REMEDIES['NON_FINITE']}."
-            f" {counted(lost, 'point of the scan has', 'points of the scan have')} no finite position."
+            f" {counted(lost, '{point of the scan has|points of the scan have}')} no finite position."
         )
 
 

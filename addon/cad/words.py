@@ -17,7 +17,7 @@ def summary(
     mesh shown`; lengths in `unit`, `apart` may be unknown, `angle` in radians.
     """
     known = f"{short(off)} {unit} off a surface known to {short(settled)} {unit}"
-    text = f"{counted(patches, 'patch', 'patches')}, {known}, {short(degrees(angle))}° at edges"
+    text = f"{counted(patches, '{patch|patches}')}, {known}, {short(degrees(angle))}° at edges"
     return text if apart is None else f"{text}, {short(apart)} {unit} from the mesh shown"
 
 

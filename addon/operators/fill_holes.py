@@ -147,5 +147,5 @@ def _said(done: list[Filling]) -> str:
     faces = sum(len(hole.faces) for hole in holes)
     said = [f"{counted(len(holes), 'hole')} filled with {faces:,} faces"] * bool(holes or not cut)
     if cut:
-        said.append(counted(cut, "edge cut at a vertex on it", "edges cut at vertices on them"))
+        said.append(counted(cut, "{edge cut at a vertex on it|edges cut at vertices on them}"))
     return ", ".join(said)

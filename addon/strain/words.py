@@ -13,7 +13,7 @@ _NAMED = 5  # vertices named in a sentence
 
 def count(number: int) -> str:
     """For example `1 vertex`, `63 vertices`."""
-    return counted(number, "vertex", "vertices")
+    return counted(number, "{vertex|vertices}")
 
 
 def name(index: int, names: Sequence[str]) -> str:

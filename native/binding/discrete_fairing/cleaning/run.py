@@ -18,7 +18,7 @@ from ..errors import fairing_error
 from ..watching import Progress, SeveralRuns, check_watchers
 from . import topology
 from .state import State, all_pairs, diagonals, numbered_parts
-from .steps import Cleaned, Run, dropped
+from .steps import Cleaned, Run
 
 
 def clean(
@@ -126,28 +126,26 @@ def clean(
     run = Run(state, watched)
     run.mend(mend)
     if join:
-        run.step(
-            "join", 0.1, topology.borders_joined, "border vertex joined", "border vertices joined"
-        )
+        run.step("join", 0.1, topology.borders_joined, "border {vertex|vertices} joined")
         if run.count:
             run.mend(mend)
     if normals:
-        run.step("normals", 0.15, run.watched(topology.turned_alike), *TURNED)
+        run.step("normals", 0.15, run.watched(topology.turned_alike), TURNED)
     if fins:
-        run.step("fins", 0.18, topology.without_fins, *dropped("of a fin", "of fins"))
+        run.step("fins", 0.18, topology.without_fins, "{face of a fin|faces of fins} dropped")
     if join:
-        run.step("join", 0.19, run.watched(topology.edges_cut), *CUT)
+        run.step("join", 0.19, run.watched(topology.edges_cut), CUT)
     if islands > 0.0:
         apart = partial(_without_islands, share=float(islands))
-        run.step("islands", 0.2, apart, "island dropped", "islands dropped")
+        run.step("islands", 0.2, apart, "{island|islands} dropped")
     if inner:
-        run.step("inner", 0.25, topology.without_inner, *dropped("inside", "inside"))
+        run.step("inner", 0.25, topology.without_inner, "{face|faces} inside dropped")
     if spikes or folds:
         run.press(held, spikes, folds)
         if mend:
             run.mend(mend)
     if pinched:
-        run.step("pinched", 0.3, partial(topology.vertices_split, every=not fill), *SPLIT)
+        run.step("pinched", 0.3, partial(topology.vertices_split, every=not fill), SPLIT)
     skipped: list[Any] = []
     if fill:
         settings = {"joint": joint, "energy": energy, "density": density, "rim": rim}
@@ -155,21 +153,21 @@ def clean(
         if spikes or folds:
             run.press(held, spikes, folds, filled=True)
         if pinched:
-            run.step("pinched", 0.92, partial(topology.vertices_split, every=True), *SPLIT)
+            run.step("pinched", 0.92, partial(topology.vertices_split, every=True), SPLIT)
     if normals:
-        run.step("normals", 0.94, topology.turned_out, *TURNED)
+        run.step("normals", 0.94, topology.turned_out, TURNED)
     if passes is not None:
         smoothed = partial(_without_noise, fixed=run.held(held), passes=passes)
-        run.step("noise", 0.95, smoothed, "vertex smoothed", "vertices smoothed")
+        run.step("noise", 0.95, smoothed, "{vertex|vertices} smoothed")
     found = run.cleaned(skipped)
     watched.finish()
     return found
 
 
 SWITCHES = ("mend", "join", "fins", "normals", "inner", "pinched", "spikes", "folds", "fill")
-CUT = "edge cut at a vertex on it", "edges cut at vertices on them"
-TURNED = "face flipped", "faces flipped"
-SPLIT = "vertex split where parts touched", "vertices split where parts touched"
+CUT = "{edge cut at a vertex on it|edges cut at vertices on them}"
+TURNED = "{face|faces} flipped"
+SPLIT = "{vertex|vertices} split where parts touched"
 
 
 def _passes(noise: int | str) -> int | None:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -67,28 +68,16 @@ class Cleaned:
     left: list[Defect]
 
 
+# by code, of one element or several
 _MENDED = {
-    "BAD_SHAPE": (
-        "face of fewer than three corners dropped",
-        "faces of fewer than three corners dropped",
-    ),
-    "INDEX_OUT_OF_RANGE": (
-        "face with missing vertices dropped",
-        "faces with missing vertices dropped",
-    ),
-    "NON_FINITE": (
-        "vertex without a finite position dropped",
-        "vertices without a finite position dropped",
-    ),
-    "REPEATED_VERTEX": ("doubled corner dropped", "faces with doubled corners mended"),
-    "COINCIDENT_VERTICES": ("vertex of a face merged", "vertices of faces merged"),
-    "DUPLICATE_FACE": ("duplicate face dropped", "duplicate faces dropped"),
-    "DEGENERATE_FACE": ("face without area dissolved", "faces without area dissolved"),
+    "BAD_SHAPE": "{face|faces} of fewer than three corners dropped",
+    "INDEX_OUT_OF_RANGE": "{face|faces} with missing vertices dropped",
+    "NON_FINITE": "{vertex|vertices} without a finite position dropped",
+    "REPEATED_VERTEX": "{doubled corner dropped|faces with doubled corners mended}",
+    "COINCIDENT_VERTICES": "{vertex of a face|vertices of faces} merged",
+    "DUPLICATE_FACE": "duplicate {face|faces} dropped",
+    "DEGENERATE_FACE": "{face|faces} without area dissolved",
 }
-
-
-def dropped(one: str, several: str) -> tuple[str, str]:
-    return f"face {one} dropped", f"faces {several} dropped"
 
 
 class Run:
@@ -112,26 +101,26 @@ class Run:
         """A step that is called with the watchers for its share of the progress."""
         return lambda state: call(state, self.watchers)
 
-    def note(self, step: str, count: int, one: str, several: str) -> None:
+    def note(self, step: str, count: int, text: str) -> None:
+        """Reports a step; of `{one|several}` in the text the part that the count wants."""
         self.count = count
         if count:
-            text = f"1 {one}" if count == 1 else f"{count:,} {several}"
-            self.done.append(Act(step, count, text))
+            text = re.sub(r"{(.*?)\|(.*?)}", r"\1" if count == 1 else r"\2", text)
+            self.done.append(Act(step, count, f"{count:,} {text}"))
 
     def step(
         self,
         name: str,
         fraction: float,
         call: Callable[[State], tuple[State, int]],
-        one: str,
-        several: str,
+        text: str,
     ) -> None:
         self._at = fraction
         if not len(self.state.face_origin):
             return
         self._watched.run(fraction, fraction)["progress"](1.0, "check")
         self.state, count = call(self.state)
-        self.note(name, count, one, several)
+        self.note(name, count, text)
 
     def mend(self, wanted: bool) -> None:
         """Mends if `wanted`; meshes that no step could read are refused in any case."""
@@ -141,13 +130,11 @@ class Run:
             raise fairing_error(first.code, first.message)
         if wanted and not self._loose_told:
             loose = len(self.state.points) - len(np.unique(self.state.corners))
-            self.note(
-                "mend", loose, "vertex without a face dropped", "vertices without a face dropped"
-            )
+            self.note("mend", loose, "{vertex|vertices} without a face dropped")
         self._loose_told = True
         self.state = mended
         for code, count in acts.items():
-            self.note("mend", count, *_MENDED[code])
+            self.note("mend", count, _MENDED[code])
 
     def held(self, fixed: np.ndarray) -> np.ndarray:
         """(n,) bool: present vertices that come from `fixed` vertices of the input."""
@@ -157,18 +144,17 @@ class Run:
     def press(self, fixed: np.ndarray, spikes: bool, folds: bool, filled: bool = False) -> None:
         held = self.held(fixed)
         self.state, tips, folded = shape.flattened(self.state, held, spikes, folds, filled)
-        self.note("spikes", tips, "spike flattened", "spikes flattened")
-        self.note("folds", folded, "folded face flattened", "folded faces flattened")
+        self.note("spikes", tips, "{spike|spikes} flattened")
+        self.note("folds", folded, "folded {face|faces} flattened")
 
     def fill(self, largest: float, settings: dict[str, Any]) -> list[Any]:
         before = len(self.state.face_origin)
         self.state, count, faces, skipped = holes.closed(
             self.state, largest, settings, self._watched
         )
-        one = f"hole filled with {faces:,} faces"
-        self.note("fill", count, one, one.replace("hole", "holes"))
+        self.note("fill", count, f"{{hole|holes}} filled with {faces:,} faces")
         cut = before + faces - len(self.state.face_origin)
-        self.note("fill", cut, *dropped("at a bad rim", "at bad rims"))
+        self.note("fill", cut, "{face at a bad rim|faces at bad rims} dropped")
         return skipped
 
     def cleaned(self, skipped: list[Any]) -> Cleaned:
