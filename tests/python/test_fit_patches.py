@@ -143,6 +143,38 @@ def test_half_a_hull_is_refused():
         assert sorted(error.elements) == [0, 15]
 
 
+def box(width, height):
+    """Six quads around a box of length 1."""
+    corners = np.array(list(np.ndindex(2, 2, 2)), float) * (width, height, 1.0)
+    sides = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+    return corners, sides
+
+
+@pytest.fixture
+def levels_asked(monkeypatch):
+    """The levels of the surfaces that are asked for."""
+    fair, asked = fitting.fair, []
+    monkeypatch.setattr(
+        fitting, "fair", lambda *mesh, **options: asked.append(mesh[2]) or fair(*mesh, **options)
+    )
+    return asked
+
+
+@pytest.mark.parametrize("levels", [None, 5])
+@pytest.mark.parametrize("options", [{}, CURVED])
+def test_a_fold_is_refused_on_the_coarsest_surface(levels_asked, options, levels):
+    """The next one takes up to ten times as long, and the fold stays in it."""
+    error = refusal(df.fit_patches, *box(1, 1e-3), levels=levels, **options)
+    assert (error.code, error.elements) == ("UNRESOLVED", [0, 1, 4, 5])
+    assert levels_asked == [3]
+
+
+def test_a_fold_that_finer_levels_take_away_is_not_refused(levels_asked):
+    """This one turns by 162, 133 and 32 degrees on levels 2 to 4."""
+    assert not len(df.fit_patches(*box(0.01, 0.01)).unresolved)
+    assert levels_asked == [3, 4, 5, 6]
+
+
 @pytest.mark.skipif(not CAT.is_file(), reason="no shared meshes")
 def test_patches_in_narrow_corners_do_not_fold():
     patches = df.fit_patches(*read_obj(CAT), levels=5)
@@ -322,9 +354,7 @@ def test_curves_of_grids_that_are_cut_are_not_made_sharper():
 
 def test_faces_much_longer_than_wide_do_not_fold():
     """Normals along their sides once outweighed all that keeps the rows of a narrow patch apart."""
-    corners = np.array(list(np.ndindex(2, 2, 2)), float) * (0.1, 0.02, 1.0)
-    faces = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
-    patches = df.fit_patches(corners, faces, levels=5, force=True)
+    patches = df.fit_patches(*box(0.1, 0.02), levels=5, force=True)
     assert np.degrees(patches.turned).max() < 25  # 180; the surface turns by 22.6 from cell to cell
     assert patches.largest_residual < 1e-3
 

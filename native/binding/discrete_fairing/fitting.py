@@ -111,11 +111,12 @@ def fit_patches(
         energy = options.get("energy", "thin_plate")
         return halves * predicted_size(len(points), polygons, level, 0, energy)["vertices"]
 
+    # near a scan the weight of its points is that of the first surface
+    coarser = 2 if given is None else 1
     if levels is None:
-        # near a scan the weight of its points is that of the first surface
-        found = at_own_level(fits, surface, count, runs, 2 if given is None else 1)
+        found = at_own_level(fits, surface, count, runs, coarser)
     else:
-        found = at_level(fits, surface, whole("levels", levels), runs)
+        found = at_level(fits, surface, whole("levels", levels), runs, coarser)
     runs.finish()
     if given is not None and isinstance(found.result, Fitted):
         off = _on_one_side(np.asarray(given["points"], np.float64), found.result, options)

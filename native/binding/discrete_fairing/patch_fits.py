@@ -21,7 +21,7 @@ USUAL_TOLERANCE, USUAL_ANGLE = 1e-4, 8e-4  # share of the size; radians
 # Independent errors add by squares, so patches at this distance put points 12 % farther away.
 SHARE_OF_SCAN = 0.5
 TURN_LIMIT = np.radians(20.0)  # between neighbouring cells of the refined surface
-# the same on a coarse level, above which a fold remains on finer ones
+# the same on level 3 and finer ones, above which a fold remains; on level 2 some folds do not
 HOPELESS_TURN = np.radians(150.0)
 FOLD_LIMIT = np.radians(45.0)  # between a patch and the refined surface
 

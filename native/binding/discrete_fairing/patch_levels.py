@@ -27,13 +27,23 @@ ORDER = 3
 
 
 def at_level(
-    fits: PatchFits, surface: Callable[..., Result], level: int, runs: SeveralRuns
+    fits: PatchFits,
+    surface: Callable[..., Result],
+    level: int,
+    runs: SeveralRuns,
+    coarser_levels: int,
 ) -> SplinePatches:
-    """Patches of the surface of this level."""
+    """Patches of the surface of this level; folds are looked for on so many coarser levels first."""
     if level < 2:
         raise fairing_error("BAD_OPTION", f"levels is {level}; it must be 2 or more, or None.")
-    coarser = surface(level - 1, **runs.run(0.0, 0.1))
-    result = surface(level, **runs.run(0.1, 0.6))
+    done = 0.0
+    for at in range(max(level - coarser_levels, min(LEAST_LEVEL, level - 1)), level):
+        part = _part_at(at, level)
+        coarser = surface(at, **runs.run(done, part))
+        done = part
+        if at >= LEAST_LEVEL:
+            fits.stays_folded(coarser, at, inf, runs.run(done, done))
+    result = surface(level, **runs.run(done, 0.6))
     turns = fits.turns(result, level, runs.run(0.6, 0.6))
     fits.refuse(fits.sharp_faces(result, level, turns))
     error = change_between(coarser, result, level) / ORDER
@@ -60,18 +70,19 @@ def at_own_level(
     best: SplinePatches | None = None
     finest = _finest(count, level)
     for at in range(level - coarser_levels, LAST_LEVEL + 1):
-        part = done + 0.4 * (1 - done)
+        part = _part_at(at, level) if at < level else done + 0.4 * (1 - done)
         result = surface(at, **runs.run(done, part))
         done = part
         error = np.zeros(0) if coarser is None else change_between(coarser, result, at) / ORDER
         coarser = result
         size = float(np.ptp(result.vertices, axis=0).max(initial=0))
         missing, former = error.max(initial=0) / (fits.tolerance * size) if size else 0.0, missing
-        if at < level - 1:
-            continue
         if at < level:
-            folds = fits.stays_folded(result, at, finest - at, runs.run(done, done))
-            turns = fits.turns(result, at, runs.run(done, done))
+            # before the next level is solved, which takes much longer
+            if at >= min(LEAST_LEVEL, level - 1):
+                finer = finest - at if at == level - 1 else inf
+                folds = fits.stays_folded(result, at, finer, runs.run(done, done))
+                turns = fits.turns(result, at, runs.run(done, done))
             continue
         before, turns = turns, fits.turns(result, at, runs.run(done, done))
         sharp = fits.sharp_faces(result, at, turns)
@@ -130,6 +141,11 @@ def _has_all_spans(patches: SplinePatches, serves: bool) -> bool:
     level = 7 if len(patches.result.faces[0]) else 6
     settled = not len(patches.unresolved) and not (serves and len(patches.unmet_by_surface))
     return patches.levels >= level and settled
+
+
+def _part_at(at: int, level: int) -> float:
+    """The progress after a level coarser than `level`: each takes four times as long as the last one."""
+    return 0.4 * 4.0 ** (at - level)
 
 
 def _finest(count: Callable[[int], int], level: int) -> int:
