@@ -11,7 +11,6 @@
 #include "base/roundoff.h"
 #include "mesh/mend/cut_sides.h"
 #include "mesh/mend/edge_faces.h"
-#include "mesh/mend/flat_stack.h"
 #include "mesh/mend/merge.h"
 #include "mesh/validate/checks.h"
 #include "parallel/cancel.h"
@@ -71,8 +70,6 @@ class Dissolver {
       done_.faces.push_back(origin(f));
       if (!on_a_line(loop))
         cut(f, loop);
-      else if (const std::vector<Index> stack = stack_at(f, loop); stack.size() > 1)
-        dissolve_together(stack);
       else
         dissolve(f, loop);
     }
@@ -175,40 +172,6 @@ class Dissolver {
   }
   void cut_later(Index f) {
     if (std::exchange(state_[f], State::to_cut) == State::sound) to_cut_.push_back(f);
-  }
-
-  // A face on a line and all other faces with the same longest side.
-  std::vector<Index> stack_at(Index f, const Loop& loop) const {
-    const CutSide side = longest_side(coordinates_, loop);
-    std::vector<Index> stack;
-    if (!spans(coordinates_, loop, side)) return stack;
-    for (const Index other : edges_.around(side.low, side.high)) {
-      if (state_[other] != State::flat && other != f) continue;
-      const Loop one(face(other).begin(), face(other).end());
-      if (spans(coordinates_, one, side) && on_a_line(one)) stack.push_back(other);
-    }
-    return stack;
-  }
-
-  // If they were dissolved one by one, each would get the vertices of all before it.
-  void dissolve_together(const std::vector<Index>& stack) {
-    std::vector<Loop> loops;
-    for (const Index f : stack) {
-      loops.emplace_back(face(f).begin(), face(f).end());
-      done_.faces.push_back(origin(f));
-      set(f, {});
-    }
-    const std::vector<CutSide> sides = cuts_of_stack(coordinates_, loops);
-    for (const CutSide& side : sides) cut_.add(side);
-    for (const CutSide& side : sides) {
-      for (const Index other : edges_.around(side.low, side.high)) {
-        stop_if_cancelled(++steps_);
-        if (state_[other] == State::flat)
-          expand(other);
-        else
-          cut_later(other);
-      }
-    }
   }
 
   // Inserts the vertices inside the sides of faces with an area, once no flat face is left: a side
