@@ -11,7 +11,7 @@
 
 namespace fairing {
 
-// By cotangents and angles (cotangent_curvature.h), with k1^2 + k2^2 = 4 H^2 - 2 K. The fits of the
+// By cotangents and angles, with k1^2 + k2^2 = 4 H^2 - 2 K. The fits of the
 // Gauss-Newton steps are not used, since they overestimate it many times where triangles are thin.
 // The sum is over points with a fit: not those of curves, corners and boundaries in any mode, so
 // the half cells along these do not count. x: 3 numbers a point.

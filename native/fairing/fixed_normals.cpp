@@ -9,7 +9,6 @@
 
 #include "base/angle.h"
 #include "base/error.h"
-#include "fairing/steepest.h"
 #include "mesh/normal.h"
 #include "parallel/cancel.h"
 #include "thin_plate/options.h"

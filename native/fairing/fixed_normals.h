@@ -23,6 +23,11 @@ struct ChosenNormals {
 
 constexpr double degree = std::numbers::pi / 180;
 
+// Up to this angle a normal shows which side of a surface is up; a fixed normal farther from the
+// faces around is refused. If the control mesh turns by more, the surface may turn by over 90
+// degrees: a cube's does by 96 around its vertices, on point forces.
+constexpr double steepest = 80 * degree;
+
 // Normals outside a region and at vertices without faces are ignored. May throw
 // FairingError(cancelled).
 ChosenNormals choose_normals(const ControlMesh& mesh, const FairOptions& options);

@@ -8,7 +8,6 @@
 #include "base/roundoff.h"
 #include "curvature/fold_repair.h"
 #include "curvature/local_damping.h"
-#include "fairing/steepest.h"
 #include "grid/linear.h"
 #include "mesh/union_find.h"
 
