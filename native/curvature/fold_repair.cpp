@@ -17,14 +17,6 @@ namespace {
 constexpr int most_repairs = 3;
 constexpr int rings = 2;  // in the first round
 
-double point_energy(const Linearization& about, std::size_t i) {
-  return area_of(&about.shape[4 * i]) * square_of(&about.shape[4 * i]);
-}
-
-bool any(const Array<float>& marks) {
-  return std::find(marks.begin(), marks.end(), 1.0f) != marks.end();
-}
-
 using Map = Eigen::Map<const Vec3>;
 using Matrix = Eigen::SparseMatrix<double>;
 
@@ -148,22 +140,6 @@ void refill(SurfaceIterate& it, const Array<float>& marks, Array<double>& x) {
   it.system.symmetrize(it.level, x);
 }
 
-// Marks the surroundings of points whose energy has grown so much that the total is no longer
-// comparable. Returns whether there are any.
-bool mark_diverged(SurfaceIterate& it, const Linearization& before, double energy,
-                   Array<float>& marks) {
-  Array<float> bursts(marks.size());
-  for_each_index(it.workers(), bursts.size(), [&](std::size_t i) {
-    const double bound = point_energy(before, i) + (equal_energy - 1) * energy;
-    bursts[i] = point_energy(it.current.linearization, i) > bound ? 1.0f : 0.0f;
-  });
-  if (!any(bursts)) return false;
-  dilate_marks(it, 2 * rings, bursts);
-  for_each_index(it.workers(), marks.size(),
-                 [&](std::size_t i) { marks[i] = std::max(marks[i], bursts[i]); });
-  return true;
-}
-
 }  // namespace
 
 void repair_folds(SurfaceIterate& it, const StepStart& start, CurvatureLevelReport& report) {
@@ -172,19 +148,17 @@ void repair_folds(SurfaceIterate& it, const StepStart& start, CurvatureLevelRepo
   report.folds_before = report.folds = folds.count();
   if (report.folds == 0) return;
   LinearizedSurface best = it.current;
-  Array<float> folded(points, 0.0f), burst_before(points, 0.0f), marks;
+  Array<float> folded(points, 0.0f), marks;
   for (int round = 0; round < most_repairs && report.folds > 0; ++round) {
     mark_folds(it.grid(), it.current.points.data(), folds, marks);
-    for_each_index(it.workers(), points, [&](std::size_t i) {
-      folded[i] = std::max(folded[i], marks[i]) * (burst_before[i] > 0 ? 0.0f : 1.0f);
-    });
-    if (!any(folded)) break;
+    for_each_index(it.workers(), points,
+                   [&](std::size_t i) { folded[i] = std::max(folded[i], marks[i]); });
     marks = folded;
     dilate_marks(it, rings + round, marks);
     StepStart filled = start;
     refill(it, marks, filled.points);
     CurvatureLevelReport again;
-    run_damped(it, nullptr, filled, marks, again);
+    run_damped(it, filled, marks, again);
     folds = folds_of(it);
     again.folds_before = report.folds_before;
     again.folds = folds.count();
@@ -192,12 +166,9 @@ void repair_folds(SurfaceIterate& it, const StepStart& start, CurvatureLevelRepo
     const double most = again.folds < report.folds
                             ? std::min(other_minimum * report.energy, report.plate_energy)
                             : report.energy / other_minimum;
-    if (again.energy <= most) {
-      report = again;
-      best = it.current;
-    } else if (!mark_diverged(it, best.linearization, report.energy, burst_before)) {
-      break;
-    }
+    if (!(again.energy <= most)) break;
+    report = again;
+    best = it.current;
   }
   it.current = std::move(best);
 }

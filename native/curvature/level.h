@@ -41,7 +41,7 @@ struct CurvatureShared {
 struct Functional {
   CurvatureEnergy energy = CurvatureEnergy::total_curvature;
   // Pads of control vertices, for which the force is computed too; null: for the unknowns only.
-  Pads* pads = nullptr;
+  const Pads* pads = nullptr;
   bool with_axes = false;  // whether to compute the charts' axes
   // Total curvature as the A of apply_between(): the penalty is minimum variation's, in its share.
   bool in_cycles = false;

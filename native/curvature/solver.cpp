@@ -32,7 +32,7 @@ GaussNewtonSolver::GaussNewtonSolver(const ControlMesh& mesh, const GridLevels& 
                                      IntervalConstraints constraints, const Pads* pads,
                                      Symmetry symmetry, Workers& workers, Monitor& monitor)
     : constraints_(std::move(constraints)),
-      pads_{pads},
+      pads_(pads),
       system_(mesh, grids, base, stencils, unknowns, options,
               constraints_.any() ? &constraints_ : nullptr, std::move(symmetry), workers, monitor),
       iterate_{system_, constraints_, folded_control_faces(mesh, constraints_.targets(), workers)} {
@@ -43,12 +43,15 @@ CurvedSurface GaussNewtonSolver::solve_level(int level, const Array<double>& pla
                                              const Array<double>& plate_below, Reference reference,
                                              CurvatureLevelReport& report) {
   report.level = level;
+  on_points_ = false;
   const StepWork before = system_.work(level);
-  if (pads_.update()) iterate_.current.held.loads.clear();
+  if (pads_ && places_ != pads_->places()) {
+    places_ = pads_->places();
+    iterate_.current.held.loads.clear();
+  }
   const std::span<const Vec3> given =
       level == system_.finest() ? constraints_.targets() : std::span<const Vec3>{};
-  choose_start(iterate_, level, pads_.now(), plate, plate_below, std::move(reference), given,
-               report);
+  choose_start(iterate_, level, pads_, plate, plate_below, std::move(reference), given, report);
   const StepStart start{iterate_.current.points, iterate_.current.held, report};
   const bool is_plain = solve_total_curvature(start, plate, report);
   CurvedSurface out;
@@ -97,33 +100,25 @@ void GaussNewtonSolver::vary(bool is_plain, CurvatureLevelReport& report) {
 // finer levels too, and the fallback runs. If they converge with folds, the fallback's surface
 // replaces theirs only if it is as near to its solution and has fewer folds.
 bool GaussNewtonSolver::step(const StepStart& start, CurvatureLevelReport& report) {
-  if (below_.is_plain) run_plain(iterate_, pads_.now(), end(), long_patience, report);
+  if (below_.is_plain) run_plain(iterate_, pads_, end(), long_patience, report);
   const bool is_plain = below_.is_plain && is_settled(report);
   if (is_plain && is_finest()) report.folds_before = report.folds = folds_of(iterate_).count();
   if (is_lost(is_plain)) return false;
   if (is_plain && report.folds == 0) return true;
   const LinearizedSurface plain = iterate_.current;
   const CurvatureLevelReport of_plain = report;
-  const std::optional<Pads> pads = pads_.own;
-  run_fallback(iterate_, pads_.now(), start, report);
-  if (!is_plain || (report.folds < of_plain.folds && report.converged >= of_plain.converged))
-    return false;
+  run_fallback(iterate_, start, report);
+  on_points_ =
+      !is_plain || (report.folds < of_plain.folds && report.converged >= of_plain.converged);
+  if (on_points_) return false;
   iterate_.current = plain;
   report = of_plain;
-  pads_.own = pads;
-  return true;
-}
-
-bool GaussNewtonSolver::OwnPads::update() {
-  if (!given || (own && places == given->places())) return false;
-  own = *given;
-  places = given->places();
   return true;
 }
 
 StopCriterion GaussNewtonSolver::end() {
   if (is_finest() && (!varies() || variation_.vanishes)) return accurate_end(iterate_);
-  return {pads_.now() ? start_decrement : plain_decrement, 0};
+  return {pads_ ? start_decrement : plain_decrement, 0};
 }
 
 void GaussNewtonSolver::end_constraints(CurvatureLevelReport& report) {
@@ -185,7 +180,7 @@ bool GaussNewtonSolver::has_diverged(const Array<double>& x, const Array<double>
 }
 
 double GaussNewtonSolver::energy_bound(const CurvatureLevelReport& report) {
-  return (pads_.now() ? other_minimum : 1.0) * report.plate_energy;
+  return (pads_ ? other_minimum : 1.0) * report.plate_energy;
 }
 
 bool GaussNewtonSolver::is_settled(const CurvatureLevelReport& report) {
@@ -226,7 +221,7 @@ bool GaussNewtonSolver::steps_go_well(const CurvedSurface& before, CurvatureLeve
   if (varies())
     run_variation(iterate_, variation_, accurate_end(iterate_), report);
   else
-    run_plain(iterate_, pads_.now(), accurate_end(iterate_), short_patience, report);
+    run_plain(iterate_, pads_, accurate_end(iterate_), short_patience, report);
   report.folds_before = report.folds = folds_of(iterate_).count();
   const bool is_sound =
       report.converged && report.folds <= before.folds &&

@@ -24,7 +24,7 @@ class GaussNewtonSolver {
  public:
   // `levels`: all from 0 on; those below `base` have no unknowns. `constraints`: those of control
   // vertices that move, and the targets of all. `pads`: the pads of control vertices while total
-  // curvature is minimized, or null; their widths may change before each level. `symmetry`:
+  // curvature is minimized, or null; some may become inactive before each level. `symmetry`:
   // that of the surface, to keep. All references must outlive the solver.
   GaussNewtonSolver(const ControlMesh& mesh, const GridLevels& grids, int base,
                     const Stencils& stencils, const Unknowns& unknowns,
@@ -45,21 +45,11 @@ class GaussNewtonSolver {
   void solve_moved(Symmetry symmetry, const Array<double>& plate, Reference reference,
                    CurvedSurface& surface, CurvatureLevelReport& report);
 
-  // The pads that are active after the levels so far; null: none.
-  const Pads* pads() { return pads_.now(); }
+  // Whether the surface stands on point forces in spite of pads (fallback.h).
+  bool on_points() const { return on_points_; }
 
  private:
   Array<double>& surface() { return iterate_.current.points; }  // of the latest level
-  // A copy of the given pads, some of which become inactive.
-  struct OwnPads {
-    const Pads* given;  // null: no pads
-    std::optional<Pads> own{};
-    std::vector<std::uint8_t> places{};  // of the given pads when they were copied
-
-    Pads* now() { return own ? &*own : nullptr; }
-    // Copies the given pads if they have changed. Returns whether they have.
-    bool update();
-  };
   // Results of a level for the next one.
   struct Below {
     bool is_plain = true;  // whether plain steps led to the solution
@@ -97,7 +87,9 @@ class GaussNewtonSolver {
   bool is_finest() const { return iterate_.level == system_.finest(); }
 
   IntervalConstraints constraints_;
-  OwnPads pads_;
+  const Pads* pads_;                  // null: no pads
+  std::vector<std::uint8_t> places_;  // of the pads, on the latest level
+  bool on_points_ = false;
   GaussNewtonSystem system_;
   SurfaceIterate iterate_;
   std::optional<Thickness> thickness_;  // only below the finest level

@@ -37,7 +37,7 @@ void try_candidate(SurfaceIterate& it, const Array<double>& plate, CurvatureLeve
 
 }  // namespace
 
-void choose_start(SurfaceIterate& iterate, int level, Pads* pads, const Array<double>& plate,
+void choose_start(SurfaceIterate& iterate, int level, const Pads* pads, const Array<double>& plate,
                   const Array<double>& plate_below, Reference reference,
                   std::span<const Vec3> given, CurvatureLevelReport& report) {
   const LinearizedSurface below = std::exchange(iterate.current, {});

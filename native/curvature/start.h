@@ -23,7 +23,7 @@ namespace fairing {
 //      to four times the energy of the level below).
 //
 // Sets plate_energy and start_energy of `report`.
-void choose_start(SurfaceIterate& iterate, int level, Pads* pads, const Array<double>& plate,
+void choose_start(SurfaceIterate& iterate, int level, const Pads* pads, const Array<double>& plate,
                   const Array<double>& plate_below, Reference reference,
                   std::span<const Vec3> given, CurvatureLevelReport& report);
 

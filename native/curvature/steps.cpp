@@ -279,8 +279,8 @@ bool is_near(const CurvatureLevelReport& report, double decrement) {
 
 namespace {
 
-void run_steps(SurfaceIterate& iterate, Pads* pads, LocalDamping* damping, const StopCriterion& end,
-               int patience, CurvatureLevelReport& report) {
+void run_steps(SurfaceIterate& iterate, const Pads* pads, LocalDamping* damping,
+               const StopCriterion& end, int patience, CurvatureLevelReport& report) {
   // Local damping compares tensors in space, so it needs the charts' axes.
   StepLoop(iterate, {CurvatureEnergy::total_curvature, pads, damping != nullptr}, damping, end,
            patience)
@@ -308,13 +308,13 @@ void run_to_variation(SurfaceIterate& iterate, const StopCriterion& end,
   }
 }
 
-void run_plain(SurfaceIterate& iterate, Pads* pads, const StopCriterion& end, int patience,
+void run_plain(SurfaceIterate& iterate, const Pads* pads, const StopCriterion& end, int patience,
                CurvatureLevelReport& report) {
   run_steps(iterate, pads, nullptr, end, patience, report);
 }
 
-void run_damped(SurfaceIterate& iterate, Pads* pads, const StepStart& start,
-                const Array<float>& filled, CurvatureLevelReport& report) {
+void run_damped(SurfaceIterate& iterate, const StepStart& start, const Array<float>& filled,
+                CurvatureLevelReport& report) {
   iterate.current = {};
   iterate.current.points = start.points;
   iterate.current.held = start.held;
@@ -322,7 +322,7 @@ void run_damped(SurfaceIterate& iterate, Pads* pads, const StepStart& start,
   report.damped = true;
   LocalDamping damping(iterate.grid(), iterate.system.shared().unknowns, iterate.workers());
   if (!filled.empty()) damping.hold(filled);
-  run_steps(iterate, pads, &damping, {damped_decrement, 0, worthwhile_gain}, 0, report);
+  run_steps(iterate, nullptr, &damping, {damped_decrement, 0, worthwhile_gain}, 0, report);
 }
 
 void polish(SurfaceIterate& iterate, int patience, CurvatureLevelReport& report) {

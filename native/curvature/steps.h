@@ -72,12 +72,12 @@ double flat_energy_about(const LinearizedSurface& surface, Workers& workers);
 
 // Plain steps with control vertices on these pads; null: on point forces. Adds the steps to
 // `report`, and sets energy, `left` and `converged`.
-void run_plain(SurfaceIterate& iterate, Pads* pads, const StopCriterion& end, int patience,
+void run_plain(SurfaceIterate& iterate, const Pads* pads, const StopCriterion& end, int patience,
                CurvatureLevelReport& report);
-// Damped steps from `start` to damped_decrement, or until the gain is too small. Resets `report`.
-// Points that are `filled` (above zero; empty: none) are damped throughout.
-void run_damped(SurfaceIterate& iterate, Pads* pads, const StepStart& start,
-                const Array<float>& filled, CurvatureLevelReport& report);
+// Damped steps on point forces from `start` to damped_decrement, or until the gain is too small.
+// Resets `report`. Points that are `filled` (above zero; empty: none) are damped throughout.
+void run_damped(SurfaceIterate& iterate, const StepStart& start, const Array<float>& filled,
+                CurvatureLevelReport& report);
 // Damped steps on point forces to least variation. Adds the steps to `report`, and sets `left` and
 // `converged`.
 void run_to_variation(SurfaceIterate& iterate, const StopCriterion& end,

@@ -23,11 +23,13 @@ namespace {
 // between iterations for a surface that is replaced anyway and steps from a worse start.
 constexpr double start_tolerance = 1e-3;
 
-PadReport report_of(const Pads& pads, std::size_t vertices, double unit) {
+// `on_points`: none is active any more.
+PadReport report_of(const Pads& pads, std::size_t vertices, double unit, bool on_points) {
   PadReport out;
   for (std::size_t v = 0; v < vertices; ++v) {
-    out.widths.push_back(pads.under(v) ? unit * pads.reach(v) : 0.0);
-    out.gone += pads.began_under(v) && !pads.under(v);
+    const bool under = pads.under(v) && !on_points;
+    out.widths.push_back(under ? unit * pads.reach(v) : 0.0);
+    out.gone += pads.began_under(v) && !under;
   }
   return out;
 }
@@ -234,9 +236,9 @@ Loads FairingSystems::loads_of_moves(std::span<const Vec3> moves) {
 }
 
 void FairingSystems::report_held(Report& report) {
-  const Pads* const pads = steps_ && steps_->pads() ? steps_->pads() : plate().pads();
-  if (pads)
-    report.pads = report_of(*pads, std::size_t(problem_.mesh.input_vertices), problem_.frame.scale);
+  if (const Pads* const pads = plate().pads())
+    report.pads = report_of(*pads, std::size_t(problem_.mesh.input_vertices), problem_.frame.scale,
+                            steps_ && steps_->on_points());
   report_normals(problem_.normals, report.levels.back(), report);
 }
 
