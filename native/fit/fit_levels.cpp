@@ -66,13 +66,13 @@ void FitLevels::run(FitReport& report) {
   auto fit = std::make_unique<LevelFit>(rough, search_);
   begin(*fit);
   WeightChoice choice(*fit, settings_, problem_.frame.scale);
-  weight_ = choice.choose(monitor_);
+  weight_ = choice.choose(monitor_, !curves_.any());
   is_kept_ = choice.is_by_tolerance();
   const bool is_automatic = !(settings_.weight > 0) && !is_kept_;
   if (is_automatic && curves_.any()) {
     // so far the curves were those of weight 1, which follow the noise
     fit_curves(*fit, weight_, 2, true);
-    weight_ = choice.choose(monitor_);
+    weight_ = choice.choose(monitor_, true);
   }
   report.trials = choice.trials();
   weight_ *= choice.more_points(thin_.size());

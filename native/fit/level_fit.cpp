@@ -31,8 +31,7 @@ void LevelFit::set_surface(Array<double> x, Array<Foot> feet) {
 }
 
 double LevelFit::stiffest() const {
-  const double apart = std::sqrt(problem_.area / double(problem_.scan.size()));
-  const double shortest = std::max(problem_.edge / cells_.grid().n(), apart);
+  const double shortest = std::max(problem_.edge / cells_.grid().n(), apart());
   return std::max(1.0, std::pow(problem_.edge / shortest, 4));
 }
 

@@ -61,6 +61,9 @@ class LevelFit {
 
   // The largest useful weight: for waves as long as the level's edges, or as points are apart.
   double stiffest() const;
+  // Mean distance of adjacent points, and of control vertices, in the frame's unit.
+  double apart() const { return std::sqrt(problem_.area / double(problem_.scan.size())); }
+  double edge() const { return problem_.edge; }
 
  private:
   void update_spread();

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/points.h"
-#include "fit/weight_choice.h"
+#include "fit/held_out.h"
 #include "parallel/cancel.h"
 #include "parallel/reductions.h"
 

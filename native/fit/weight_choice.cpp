@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <numeric>
 
 #include "base/median.h"
 #include "fit/measure.h"
@@ -15,17 +15,57 @@ namespace {
 constexpr double ratio = 4;       // from one weight to the next
 constexpr double softest = 1e-4;  // keeps waves of ten control edges
 
-// One in ten, by a well mixed number [splitmix64].
-bool is_held_out(std::uint64_t blob) {
-  blob += 0x9e3779b97f4a7c15u;
-  blob = (blob ^ (blob >> 30)) * 0xbf58476d1ce4e5b9u;
-  blob = (blob ^ (blob >> 27)) * 0x94d049bb133111ebu;
-  return (blob ^ (blob >> 31)) % 10 == 0;
+std::size_t best_of(const std::vector<WeightTrial>& trials) {
+  const auto less = [](const auto& a, const auto& b) { return a.error < b.error; };
+  return std::size_t(std::min_element(trials.begin(), trials.end(), less) - trials.begin());
+}
+
+// How much worse each trial is than the best, over what is known: the error of n points is known
+// within 1 / sqrt(2 n) of itself.
+std::vector<double> worse_by_size(const std::vector<WeightTrial>& trials, std::size_t points) {
+  const double least = trials[best_of(trials)].error;
+  std::vector<double> out;
+  for (const auto& trial : trials)
+    out.push_back(least > 0 ? (trial.error / least - 1) * std::sqrt(2 * double(points)) : 0);
+  return out;
+}
+
+// The same of trials with the same groups, over the standard error of their difference: their noise
+// is nearly the same.
+std::vector<double> worse_by_groups(const std::vector<WeightTrial>& trials) {
+  const std::vector<double>& best = trials[best_of(trials)].squares;
+  const auto n = double(best.size());
+  std::vector<double> out;
+  for (const auto& trial : trials) {
+    double sum = 0, squares = 0;
+    for (std::size_t g = 0; g < best.size(); ++g) {
+      const double more = trial.squares[g] - best[g];
+      sum += more;
+      squares += more * more;
+    }
+    const double variance = squares - sum * sum / n;
+    out.push_back(n > 1 && variance > 0 ? sum / std::sqrt(variance * n / (n - 1)) : 0);
+  }
+  return out;
+}
+
+// The middle, by logarithms, of all weights around the best trial that are worse by no more than is
+// known, so that a least one among them says nothing.
+double middle_of_good(const std::vector<WeightTrial>& trials, const std::vector<double>& worse) {
+  const auto best = std::ptrdiff_t(best_of(trials)), count = std::ptrdiff_t(trials.size());
+  const auto reach = [&](int way) {
+    auto k = best;
+    while (k + way >= 0 && k + way < count && worse[k + way] <= 1) k += way;
+    double end = double(k - best);
+    if (k + way >= 0 && k + way < count) end += way * (1 - worse[k]) / (worse[k + way] - worse[k]);
+    return end;
+  };
+  return trials[best].weight * std::pow(ratio, -(reach(-1) + reach(1)) / 2);
 }
 
 }  // namespace
 
-double WeightChoice::choose(Monitor& monitor) {
+double WeightChoice::choose(Monitor& monitor, bool is_last) {
   if (settings_.weight > 0) {
     fit_.iterate(settings_.weight, 2, true);
     return settings_.weight;
@@ -35,104 +75,92 @@ double WeightChoice::choose(Monitor& monitor) {
     if (weight > 0) return weight;
   }
   is_chosen_by_points_ = true;
-  return by_held_out(monitor);
+  return by_held_out(monitor, is_last);
 }
 
 // For a plate under noise the best weight by area grows with the 2/5 power of the number of points:
 // the bias falls with the square of the weight, the variance grows with its root over that number.
 double WeightChoice::more_points(std::size_t points) const {
-  if (!is_chosen_by_points_) return 1;
-  const auto trained = std::count(trained_.begin(), trained_.end(), 1);
-  return trained > 0 ? std::pow(double(points) / double(trained), 2.0 / 5) : 1;
+  if (!is_chosen_by_points_ || trained_points_ == 0) return 1;
+  return std::pow(double(points) / double(trained_points_), 2.0 / 5);
 }
 
-// Holds out cells, since the noise of scanners is correlated between adjacent points. (Wider
-// groups, of half a control edge, favour weights three times too large.)
-void WeightChoice::hold_out() {
-  const GridLevel& grid = fit_.cells().grid();
-  const auto faces = double(grid.mesh().faces.size());
-  int level = fit_.level();
-  while (level > 1 && double(fit_.feet().size()) < points_a_blob * faces * std::pow(4.0, level))
-    --level;
-  const GridLevel coarse(grid.mesh(), level);
-  Workers workers(1);
-  const Cells blobs(coarse, workers);
-  trained_.assign(fit_.feet().size(), 1);
-  held_.clear();
-  for (std::size_t s = 0; s < trained_.size(); ++s) {
-    const Foot& foot = fit_.feet()[s];
-    if (foot.cell < 0) continue;
-    const FacePlace place = fit_.cells().place(foot.cell, foot.shares);
-    if (!is_held_out(std::uint64_t(blobs.cell_at(place, fit_.level()).cell))) continue;
-    trained_[s] = 0;
-    if (foot.is_used()) held_.push_back({s, foot, fit_.finder().normal_at(foot)});
-  }
-}
-
-// Root mean square distance along the normals of one smooth surface, with outliers limited as in
-// the fit. (Along its own normals, a rough surface is nearer to the points than the true one is.)
-double WeightChoice::held_out_error() {
+// Squared distances along the normals of one smooth surface, with outliers limited as in the fit.
+// (Along its own normals, a rough surface is nearer to the points than the true one is.)
+void WeightChoice::add_errors(const HeldOut& held, WeightTrial& trial) {
   std::vector<double> far;
-  for (const HeldOut& held : held_)
+  for (const HeldOut::Test& test : held.tests)
     far.push_back(std::abs(
-        (fit_.scan().point[held.point] - fit_.finder().point_at_foot(held.foot)).dot(held.normal)));
-  if (far.empty()) return 0;
-  if (trials_.empty()) cut_ = 2 * deviation_over_median * median(std::vector(far));
-  double sum = 0;
-  for (const double d : far)
-    sum += d <= cut_ ? d * d : cut_ * (2 * std::min(d, outlier / 2 * cut_) - cut_);
-  return std::sqrt(sum / double(far.size()));
+        (fit_.scan().point[test.point] - fit_.finder().point_at_foot(test.foot)).dot(test.normal)));
+  if (!(cut_ > 0) && !far.empty()) cut_ = 2 * deviation_over_median * median(std::vector(far));
+  const std::size_t first = trial.squares.size();
+  trial.squares.resize(first + std::size_t(held.groups));
+  for (std::size_t k = 0; k < far.size(); ++k)
+    trial.squares[first + std::size_t(held.tests[k].group)] +=
+        far[k] <= cut_ ? far[k] * far[k] : cut_ * (2 * std::min(far[k], outlier / 2 * cut_) - cut_);
 }
 
-// The middle, by logarithms, of all weights that are as good as the `best` trial's: the error of n
-// points is known within 1 / sqrt(2 n) of itself, so a least one among them says nothing. In trials
-// after the best.
-double WeightChoice::middle_of_good(std::size_t best) const {
-  if (held_.empty()) return 0;  // a tiny scan: no trial has an error
-  const double good = trials_[best][1] * (1 + 1 / std::sqrt(2 * double(held_.size())));
-  const auto reach = [&](int way) {
-    auto k = std::ptrdiff_t(best);
-    const auto count = std::ptrdiff_t(trials_.size());
-    while (k + way >= 0 && k + way < count && trials_[k + way][1] <= good) k += way;
-    double end = double(k) - double(best);
-    if (k + way >= 0 && k + way < count) {
-      const double here = trials_[k][1], beyond = trials_[k + way][1];
-      end += way * (good - here) / (beyond - here);
+// Trials from `weight` downwards, each the sum of all sets. Leaves the best one's surface of the
+// first set.
+std::vector<WeightTrial> WeightChoice::search(double weight, std::span<const HeldOut> sets,
+                                              const Place& start, Monitor& monitor) {
+  std::vector<WeightTrial> trials;
+  std::vector<Place> at(sets.size(), start);
+  std::size_t tests = 0;
+  for (const HeldOut& held : sets) tests += held.tests.size();
+  Place best;
+  cut_ = 0;
+  for (; trials.empty() || weight > softest; weight /= ratio) {
+    monitor.report(Phase::solve, 0.125 + 0.5 * double(trials.size()) / 16);
+    WeightTrial trial{weight, 0, {}};
+    for (std::size_t k = 0; k < sets.size(); ++k) {
+      fit_.train_on(sets[k].trained);
+      put(std::move(at[k]));
+      fit_.iterate(weight, trials.empty() ? 4 : 2, true);
+      add_errors(sets[k], trial);
+      at[k] = place();
     }
-    return end;
-  };
-  return (reach(-1) + reach(1)) / 2;
+    const double sum = std::accumulate(trial.squares.begin(), trial.squares.end(), 0.0);
+    trial.error = tests > 0 ? std::sqrt(sum / double(tests)) : 0;
+    trials.push_back(std::move(trial));
+    const std::size_t least = best_of(trials);
+    if (least + 1 == trials.size()) best = at[0];
+    if (trials.back().error > 1.25 * trials[least].error) break;
+  }
+  fit_.train_on({});
+  put(std::move(best));
+  return trials;
 }
 
-double WeightChoice::by_held_out(Monitor& monitor) {
+void WeightChoice::use(const std::vector<WeightTrial>& trials, const HeldOut& held) {
+  trained_points_ = held.trained_points();
+  trials_.clear();
+  for (const WeightTrial& trial : trials) trials_.push_back({trial.weight, scale_ * trial.error});
+}
+
+// Cells show white noise best. Where noise is correlated over them it seems to be shape, and the
+// weight is too large: then discs, which are wider, are better off with a smaller one.
+double WeightChoice::by_held_out(Monitor& monitor, bool is_last) {
   // Feet and normals are those of a surface with waves of two control edges and more. A surface
   // that follows the noise has tilted normals, and distances along them are too large.
-  trials_.clear();
-  Array<double> start = fit_.surface();
-  Array<Foot> feet = fit_.feet();
+  Place start = place();
   fit_.iterate(1 / (ratio * ratio), 2, false);
-  hold_out();
-  fit_.set_surface(std::move(start), std::move(feet));
-  fit_.train_on(trained_);
-  Array<double> best_surface;
-  Array<Foot> best_feet;
-  std::size_t best = 0;
-  for (double weight = fit_.stiffest(); weight > softest; weight /= ratio) {
-    monitor.report(Phase::solve, 0.125 + 0.5 * double(trials_.size()) / 16);
-    fit_.iterate(weight, trials_.empty() ? 4 : 2, true);
-    trials_.push_back({weight, scale_ * held_out_error()});
-    const double error = trials_.back()[1];
-    if (trials_.size() == 1 || error < trials_[best][1]) {
-      best = trials_.size() - 1;
-      best_surface = fit_.surface();
-      best_feet = fit_.feet();
-    }
-    if (error > 1.25 * trials_[best][1]) break;
-  }
-  const double weight = trials_[best][0] * std::pow(ratio, -middle_of_good(best));
-  fit_.train_on({});
-  fit_.set_surface(std::move(best_surface), std::move(best_feet));
-  return weight;
+  const HeldOut cells = cells_held_out(fit_);
+  const std::vector<HeldOut> discs = is_last ? discs_held_out(fit_) : std::vector<HeldOut>();
+  const Place calm = place();
+  const std::vector<WeightTrial> by_cells = search(fit_.stiffest(), {&cells, 1}, start, monitor);
+  use(by_cells, cells);
+  if (cells.tests.empty()) return by_cells[0].weight;  // a tiny scan: no trial has an error
+  const double weight = middle_of_good(by_cells, worse_by_size(by_cells, cells.tests.size()));
+  if (!is_last) return weight;
+  Place stiff = place();
+  // from a calm surface, which has not seen what a disc hides
+  const std::vector<WeightTrial> by_discs = search(weight, discs, calm, monitor);
+  put(std::move(stiff));
+  const std::vector<double> worse = worse_by_groups(by_discs);
+  if (worse[0] <= 1) return weight;
+  use(by_discs, discs[0]);
+  return middle_of_good(by_discs, worse);
 }
 
 double WeightChoice::by_tolerance(Monitor& monitor) {

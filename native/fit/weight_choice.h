@@ -3,14 +3,18 @@
 // least one that keeps the surface within a tolerance.
 #pragma once
 
+#include <span>
+#include <utility>
+
 #include "fit/fit_scan.h"
-#include "fit/level_fit.h"
+#include "fit/held_out.h"
 
 namespace fairing {
 
-// Average number of points in a cell that is held out, or that counts as covered: with this number
-// one cell in fifty is empty by chance.
-constexpr double points_a_blob = 4;
+struct WeightTrial {
+  double weight, error;         // root mean square
+  std::vector<double> squares;  // sums of each group that is held out
+};
 
 class WeightChoice {
  public:
@@ -19,7 +23,8 @@ class WeightChoice {
       : fit_(fit), settings_(settings), scale_(scale) {}
 
   // From the surface of `fit`, which may have changed since the last choice.
-  double choose(Monitor& monitor);
+  // `is_last`: there is no other choice, so correlated noise matters.
+  double choose(Monitor& monitor, bool is_last);
   bool is_by_tolerance() const { return !is_chosen_by_points_ && settings_.tolerance > 0; }
   // Factor of the weight for this total number of points.
   double more_points(std::size_t points) const;
@@ -28,22 +33,24 @@ class WeightChoice {
   const std::vector<std::array<double, 2>>& trials() const { return trials_; }
 
  private:
-  double by_held_out(Monitor& monitor);
-  double middle_of_good(std::size_t best) const;
+  struct Place {
+    Array<double> surface;
+    Array<Foot> feet;
+  };
+
+  double by_held_out(Monitor& monitor, bool is_last);
+  std::vector<WeightTrial> search(double weight, std::span<const HeldOut> sets, const Place& start,
+                                  Monitor& monitor);
   double by_tolerance(Monitor& monitor);
-  void hold_out();
-  double held_out_error();
+  Place place() const { return {fit_.surface(), fit_.feet()}; }
+  void put(Place place) { fit_.set_surface(std::move(place.surface), std::move(place.feet)); }
+  void add_errors(const HeldOut& held, WeightTrial& trial);
+  void use(const std::vector<WeightTrial>& trials, const HeldOut& held);
 
   LevelFit& fit_;
   const FitSettings& settings_;
   double scale_;
-  struct HeldOut {
-    std::size_t point;
-    Foot foot;
-    Vec3 normal;
-  };
-  std::vector<std::uint8_t> trained_;
-  std::vector<HeldOut> held_;
+  std::size_t trained_points_ = 0;
   double cut_ = 0;  // larger distances have less weight
   std::vector<std::array<double, 2>> trials_;
   bool is_chosen_by_points_ = false;

@@ -241,6 +241,20 @@ def test_weight_is_chosen_beside_curves_that_follow_no_noise():
     assert off(None) < 1.4 * off(0.0014)
 
 
+def test_noise_of_neighbours_that_is_alike_is_no_shape():
+    """Means over five points each way: held-out cells are narrower."""
+    points, triangles = sheet_scan(dome, 0.0, 1)
+    side = round(len(points) ** 0.5)
+    white = np.random.default_rng(1).standard_normal((side + 4, side + 4))
+    alike = sum(white[i : i + side, j : j + side] for i in range(5) for j in range(5)) / 5
+    points[:, 2] += 0.01 * alike.ravel()
+    even = np.linspace(-1, 1, 9)
+    cage = sheet(even, even, dome)
+    fitted = df.fit(*cage, points, triangles=triangles, corner_vertices=[0, 8, 72, 80])
+    x, y, z = fitted.vertices.T
+    assert rms(z - dome(x, y)) < 0.0045
+
+
 def test_crease_curves_come_to_where_both_sides_meet():
     even = np.linspace(-1, 1, 7)
     vertices, faces = sheet(even, even, roof)
