@@ -42,6 +42,10 @@ def why_unfit(target: Object, source: Object) -> str:
     return ""
 
 
+def _hidden(name: str, description: str) -> Any:
+    return StringProperty(name=name, description=description, options={"HIDDEN"})
+
+
 class FAIRING_PG_surface(FairingSettings, bpy.types.PropertyGroup):
     """The source of a faired object, and how it was made."""
 
@@ -60,27 +64,11 @@ class FAIRING_PG_surface(FairingSettings, bpy.types.PropertyGroup):
             other.type == "MESH" and other not in {group.id_data, group.source}
         ),
     )
-    report: StringProperty(
-        name="Report", description="What the core has reported, as JSON", options={"HIDDEN"}
-    )
-    readout: StringProperty(
-        name="Read-out", description="What Measure has measured, as JSON", options={"HIDDEN"}
-    )
-    carried: StringProperty(
-        name="Carried",
-        description="What came from the source, by name, as JSON",
-        options={"HIDDEN"},
-    )
-    made: StringProperty(
-        name="Made of",
-        description="Settings and source as they were when the surface was made, as JSON",
-        options={"HIDDEN"},
-    )
-    stood: StringProperty(
-        name="Stood",
-        description="Where the source stood when the surface followed it last, as JSON",
-        options={"HIDDEN"},
-    )
+    report: _hidden("Report", "What the core has reported, as JSON")
+    readout: _hidden("Read-out", "What Measure has measured, as JSON")
+    carried: _hidden("Carried", "What came from the source, by name, as JSON")
+    made: _hidden("Made of", "Settings and source as they were when the surface was made, as JSON")
+    stood: _hidden("Stood", "Where the source stood when the surface followed it last, as JSON")
     follow_transform: BoolProperty(
         name="Follow Transform",
         description="Moves, turns and scales with its source, until you transform the surface yourself",
@@ -91,9 +79,7 @@ class FAIRING_PG_surface(FairingSettings, bpy.types.PropertyGroup):
         description="The mesh has fewer levels than the settings say: Recompute makes the whole surface",
         options={"HIDDEN"},
     )
-    defects: StringProperty(
-        name="Defects", description="What Check Mesh has found, as JSON", options={"HIDDEN"}
-    )
+    defects: _hidden("Defects", "What Check Mesh has found, as JSON")
 
 
 class FAIRING_PG_scan(bpy.types.PropertyGroup):
@@ -111,7 +97,7 @@ class FAIRING_PG_fit(FitAmount, bpy.types.PropertyGroup):
 
     scans: CollectionProperty(type=FAIRING_PG_scan)
     weight: FloatProperty(name="Weight", description="How strongly points pull", options={"HIDDEN"})
-    said: StringProperty(name="Fit", description="How near the surface is", options={"HIDDEN"})
+    said: _hidden("Fit", "How near the surface is")
 
 
 class FAIRING_PG_mesh(bpy.types.PropertyGroup):

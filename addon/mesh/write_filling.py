@@ -119,25 +119,18 @@ def _layers(layers: Any, zero: Collection[str] = ()) -> Iterator[tuple[Read, Wri
     for kind in _NUMBERS:
         for name, layer in getattr(layers, kind).items():
             if name in zero:
-                yield (lambda _: [0.0]), _number(layer)[1]
+                yield (lambda _: [0.0]), _numbers(layer, True)[1]
                 continue
-            yield _number(layer) if kind == "float" else _vector(layer)
+            yield _numbers(layer, kind == "float")
     for layer in getattr(layers, "uv", {}).values():
         yield _uv(layer)
 
 
-def _number(layer: Any) -> tuple[Read, Write]:
+def _numbers(layer: Any, single: bool) -> tuple[Read, Write]:
     def write(element: Any, row: list[float]) -> None:
-        element[layer] = row[0]
+        element[layer] = row[0] if single else row
 
-    return lambda element: [element[layer]], write
-
-
-def _vector(layer: Any) -> tuple[Read, Write]:
-    def write(element: Any, row: list[float]) -> None:
-        element[layer] = row
-
-    return lambda element: list(element[layer]), write
+    return lambda element: [element[layer]] if single else list(element[layer]), write
 
 
 def _uv(layer: Any) -> tuple[Read, Write]:

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Makes single border edges smooth, straight or free, whatever the surface's setting."""
 
-from typing import TYPE_CHECKING
-
 import bpy
 from bpy.props import EnumProperty
 
@@ -14,17 +12,11 @@ from ..poll import in_edit_mode
 from ..words import counted
 from .mixins import Action
 
+_REASONS = in_edit_mode("border edges")
 _NAMES = {key: name for key, name, *_ in EDGE_BOUNDARIES}
 
 
-class _OfEdges(Action):
-    if TYPE_CHECKING:
-        boundary: str
-
-    reasons = in_edit_mode("border edges")
-
-
-class OBJECT_OT_fairing_boundary(_OfEdges, bpy.types.Operator):
+class OBJECT_OT_fairing_boundary(Action, bpy.types.Operator):
     """Make the selected edges of open borders smooth, straight or free, whatever the setting Boundary is"""
 
     bl_idname = "object.fairing_boundary"
@@ -34,6 +26,8 @@ class OBJECT_OT_fairing_boundary(_OfEdges, bpy.types.Operator):
         name="Boundary", description="What these edges become", items=EDGE_BOUNDARIES
     )
 
+    reasons = _REASONS
+
     def act(self, context: Context) -> str:
         meshes = [o.data for o in context.objects_in_mode_unique_data]
         count = sum(mark_selected(mesh, self.boundary) for mesh in meshes)
@@ -42,7 +36,7 @@ class OBJECT_OT_fairing_boundary(_OfEdges, bpy.types.Operator):
         return f"{counted(count, 'border edge')}: {_NAMES[self.boundary]}"
 
 
-class OBJECT_OT_fairing_select_boundary(_OfEdges, bpy.types.Operator):
+class OBJECT_OT_fairing_select_boundary(Action, bpy.types.Operator):
     """Select the border edges that have this Boundary of Edges"""
 
     bl_idname = "object.fairing_select_boundary"
@@ -53,6 +47,8 @@ class OBJECT_OT_fairing_select_boundary(_OfEdges, bpy.types.Operator):
         description="Which edges are selected",
         items=[choice for choice in EDGE_BOUNDARIES if choice[-1]],
     )
+
+    reasons = _REASONS
 
     def act(self, context: Context) -> str:
         meshes = [o.data for o in context.objects_in_mode_unique_data]

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Fixes the surface's normal at vertices, and frees it again."""
 
-from typing import TYPE_CHECKING
-
 import bpy
 from bpy.props import EnumProperty
 from mathutils import Vector
@@ -16,26 +14,22 @@ from ..poll import in_edit_mode
 from ..words import counted
 from .mixins import Action
 
+_REASONS = in_edit_mode("vertices")
 _FROM = (
     ("MESH", "The Mesh", "The normal that the mesh has at the vertex, custom normals included"),
     ("EMPTY", "Z of the Empty", "The Z axis of the empty that is selected beside the mesh"),
 )
 
 
-class _OfVertices(Action):
-    if TYPE_CHECKING:
-        origin: str
-
-    reasons = in_edit_mode("vertices")
-
-
-class OBJECT_OT_fairing_fix_normal(_OfVertices, bpy.types.Operator):
+class OBJECT_OT_fairing_fix_normal(Action, bpy.types.Operator):
     """Give the surface a fixed normal at the selected vertices"""
 
     bl_idname = "object.fairing_fix_normal"
     bl_label = "Fix Normal"
 
     origin: EnumProperty(name="From", description="Where the normals come from", items=_FROM)
+
+    reasons = _REASONS
 
     def act(self, context: Context) -> str:
         sources = context.objects_in_mode_unique_data
@@ -54,11 +48,13 @@ class OBJECT_OT_fairing_fix_normal(_OfVertices, bpy.types.Operator):
         return f"{counted(count, 'normal')} fixed"
 
 
-class OBJECT_OT_fairing_free_normal(_OfVertices, bpy.types.Operator):
+class OBJECT_OT_fairing_free_normal(Action, bpy.types.Operator):
     """Remove the fixed normal at the selected vertices"""
 
     bl_idname = "object.fairing_free_normal"
     bl_label = "Free Normal"
+
+    reasons = _REASONS
 
     def act(self, context: Context) -> str:
         count = sum(fixed_normals.free(o.data) for o in context.objects_in_mode_unique_data)

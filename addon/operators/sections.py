@@ -10,6 +10,7 @@ import numpy as np
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 
 from ..blender import Context, Object
+from ..cad.settings import METRES
 from ..errors import JobError
 from ..inspection.drawn import Drawn
 from ..inspection.sections import cut
@@ -26,8 +27,6 @@ from .written_files import WritesText, write_text_file
 
 _AXES = {"STATIONS": 0, "BUTTOCKS": 1, "WATERLINES": 2}
 _WORDS = {"STATIONS": "station", "BUTTOCKS": "buttock", "WATERLINES": "waterline"}
-# metres in each
-_FILE_UNITS = {"MM": 1e-3, "CM": 1e-2, "M": 1.0, "IN": 0.0254, "FT": 0.3048}
 
 
 def _surface(context: Context, target: Object) -> Drawn:
@@ -207,7 +206,7 @@ class EXPORT_SCENE_OT_fairing_lines(_Spaced, WritesText, bpy.types.Operator):
     unit: EnumProperty(
         name="Unit",
         description="Length of one unit of the drawing",
-        items=[(key, key.lower(), f"One unit is one {key.lower()}") for key in _FILE_UNITS],
+        items=[(key, key.lower(), f"One unit is one {key.lower()}") for key in METRES],
     )
     in_space: BoolProperty(
         name="Sections in Space",
@@ -238,7 +237,7 @@ class EXPORT_SCENE_OT_fairing_lines(_Spaced, WritesText, bpy.types.Operator):
         found = {kind: cuts(surface, planes) for kind, planes in listed.items()}
         if not any(found.values()):
             raise JobError("Select the surface of a hull: no plane cuts this mesh")
-        factor = context.scene.unit_settings.scale_length / _FILE_UNITS[self.unit] / self.scale
+        factor = context.scene.unit_settings.scale_length / METRES[self.unit] / self.scale
         title = f"{target.name}   1 : {self.scale:g}   {self.unit.lower()}"
         drawing = in_space(found) if self.in_space else sheet(title, *found.values())
         write_text_file(self.filepath, text(scaled(drawing, factor)))
