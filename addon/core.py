@@ -244,7 +244,7 @@ def plate_arguments(fairing: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def released_arguments(fairing: Mapping[str, Any], free: np.ndarray) -> dict[str, Any]:
-    """Arguments by which the first points are the vertices, `free` (n,) ones as the plate's."""
+    """Arguments of a surface that begins with the vertices, `free` (n,) ones as the plate's."""
     return plate_arguments(fairing) | {
         "interpolation": "approximate",
         "weights": np.where(free, 0.0, np.inf),

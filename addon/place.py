@@ -26,7 +26,7 @@ def moved(target: Object) -> bool:
 
 
 def next_of(source: Object, target: Object | None) -> Object:
-    """The object with the next surface's transform: the source unless the surface is moved."""
+    """The next surface's transform: of the source if it is new or follows in all parts."""
     if target is None:
         return source
     stood = memory.recall(target, "stood") or {}

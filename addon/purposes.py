@@ -100,7 +100,7 @@ def preset_values(path: Path) -> dict[str, Any]:
 
 
 def job_of(settings: Any) -> str:
-    """The job whose values the `settings` have, except for an eased source; else empty."""
+    """The job whose values the `settings` have; empty if none, or if it eases its source."""
     for purpose, *_ in PURPOSES:
         path = preset_file(purpose)
         if (

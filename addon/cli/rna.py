@@ -37,7 +37,7 @@ def number(what: str, accepts: Callable[[float], bool]) -> Callable[[str], float
 def add(
     group: argparse._ArgumentGroup, name: str, prop: Any, absent: Any = None, is_off: bool = False
 ) -> None:
-    """Adds an option for a property; `absent`: its value if not given, which `is_off`."""
+    """Adds an option for `prop`; `absent`: its value if not given; `is_off`: no effect then."""
     kind = _KINDS.get(prop.type)
     if kind is None or getattr(prop, "is_array", False):
         raise TypeError(f"the setting {name} has no option yet: {prop.type}")

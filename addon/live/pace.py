@@ -40,7 +40,7 @@ class Pace:
             self.slow_down(level, energy, hopeless=False)
 
     def slow_down(self, level: int, energy: str, hopeless: bool) -> bool:
-        """To the fastest energy if levels will not help, else by a level; whether it could."""
+        """Reduces to the fastest energy if levels will not help, else by a level, if it can."""
         if energy != FAST and (hopeless or level == 1):
             self.is_plain, self._too_slow = True, None
             return True

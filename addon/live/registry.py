@@ -70,7 +70,7 @@ def note(target: Object, on: bool) -> None:
 
 
 def remove(session: Session, reason: str = "", hand_back: bool = True) -> None:
-    """Ends a session; `reason`: not switched off; `hand_back`: its mesh is the surface's."""
+    """Ends a session; `reason`: why by itself; `hand_back`: the surface has the mesh written."""
     session.cancel_full(wait=True)
     session.release(hand_back)
     _sessions.pop(session.key, None)

@@ -270,7 +270,7 @@ class Session:
         )
 
     def _has_values_of(self, arrays: ControlArrays) -> bool:
-        """Whether values from groups are unchanged; a drag, which is quick, does not read them."""
+        """Whether values from groups are unchanged: a drag changes none, and reading is slow."""
         return (
             self._arrays is not None
             and not is_evaluated(self._settings)
