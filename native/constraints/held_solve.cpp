@@ -96,6 +96,8 @@ void HeldSolve<N>::solve(bool whole) {
   const int before = solved_.iterations;
   solved_ =
       system_.solve(now, {[this](const double* y, double* r) { compute_residual(y, r); }, x_, r_});
+  if (solved_.iterations > 0 && solved_.residuals.size() > 1 && solved_.residuals.back() > 0)
+    gain_ += std::log(solved_.residuals.front() / solved_.residuals.back());
   solved_.iterations += before;
   if (is_short) {
     const double scale =

@@ -100,6 +100,8 @@ class HeldSolve {
 
   // Whether loads and couples had settled at the end.
   bool loads_settled() const { return loads_settled_; }
+  // The product of all solves' gains, as a logarithm of residuals.
+  double gain() const { return gain_; }
 
  private:
   // The quantity that corrections reduce, and the share that one correction leaves: that of a
@@ -147,6 +149,7 @@ class HeldSolve {
   int iterations_ = 0;   // of this run
   bool loads_settled_ = true;
   LevelSolve solved_{};
+  double gain_ = 0;
 };
 
 }  // namespace fairing

@@ -17,6 +17,8 @@ constexpr double iterations_wanted = 14;
 // Largest rise of the degree at one probe, as a factor, and largest degree.
 constexpr double most_rise = 8;
 constexpr int most_degree = 96;  // steps before, and after, coarser levels
+// Largest factor between the degree at the end of a level and at the begin of the next.
+constexpr double most_rise_between_levels = 2;
 // After a level has become the coarsest, which removes the hardest part.
 constexpr int most_degree_over_factor = 12;
 
@@ -96,6 +98,23 @@ void Hierarchy::raise_degree(std::size_t index, const PcgResult& result, const P
   if (ahead <= iterations_wanted || corrects_eigenvalue(index)) return;
   const int degree = int(std::ceil(cycle_.degree * std::min(most_rise, ahead / iterations_wanted)));
   cycle_.degree = std::min(degree, limits.may_end_early ? most_degree_over_factor : most_degree);
+}
+
+// Harder meshes need a larger degree than the usual one. If a single iteration gained more than a
+// whole solve should, the degree is lowered, at most by half, where conjugate gradients cost as
+// much as the smoother. A raised degree is kept.
+void Hierarchy::choose_degree(const LevelSolve& last, double tolerance, double next_tolerance,
+                              double solve_gain) {
+  if (!adapts(last.direct) || last.iterations == 0) return;
+  const double ahead = last.iterations * std::log(next_tolerance) / std::log(tolerance);
+  const double for_iterations =
+      last.smoother_degree * std::min(most_rise_between_levels, ahead / iterations_wanted);
+  const double for_gain = std::min<double>(
+      last.smoother_degree * last.iterations * std::log(solve_gain) / std::log(tolerance),
+      usual_degree);
+  const int least = cycle_.degree > usual_degree ? cycle_.degree : usual_degree / 2;
+  cycle_.degree =
+      std::clamp(int(std::ceil(std::max(for_iterations, for_gain))), least, most_degree);
 }
 
 }  // namespace fairing

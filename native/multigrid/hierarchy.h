@@ -72,6 +72,11 @@ class Hierarchy {
   // a factorization finds the level singular.
   LevelSolve solve(std::size_t index, const PcgLimits& limits, const LinearSystem& system);
 
+  // Before a level's first solve: chooses the degree from the last solve, the tolerances of both,
+  // and the share that a solve leaves before a correction.
+  void choose_degree(const LevelSolve& last, double tolerance, double next_tolerance,
+                     double solve_gain);
+
  private:
   // Updates the cached data of the operators to their versions, except the factor.
   void update(std::size_t top);

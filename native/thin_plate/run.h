@@ -31,8 +31,12 @@ struct ThinPlateSolver::Run {
 
   PcgLimits limits(int level, double tolerance, double energy, double* room);
 
+  struct Solved {
+    LevelReport report;
+    LevelSolve equivalent;  // one solve equivalent to the level's many
+  };
   // `constraints`, which may be null, choose the weights (solve_held.cpp).
-  LevelReport solve(int level, const PcgLimits& limits, BallConstraints* constraints);
+  Solved solve(int level, const PcgLimits& limits, BallConstraints* constraints);
   HeldLimits held_limits(int level, const PcgLimits& limits) const;
 
   // A report of a level before its solve.

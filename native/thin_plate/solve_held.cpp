@@ -37,8 +37,8 @@ HeldLimits ThinPlateSolver::Run::held_limits(int level, const PcgLimits& limits)
   return out;
 }
 
-LevelReport ThinPlateSolver::Run::solve(int level, const PcgLimits& limits,
-                                        BallConstraints* constraints) {
+ThinPlateSolver::Run::Solved ThinPlateSolver::Run::solve(int level, const PcgLimits& limits,
+                                                         BallConstraints* constraints) {
   PlateSupports& supports = solver.supports_;
   Workers& workers = levels().workers();
   const Unknowns& unknowns = levels().shared().unknowns;
@@ -96,7 +96,10 @@ LevelReport ThinPlateSolver::Run::solve(int level, const PcgLimits& limits,
   }
   // Couples hold the tangent plane; the surface may still have the opposite normal.
   if (couples && level == top()) report.converged &= report.normal_angle <= largest_angle_left;
-  return report;
+  LevelSolve equivalent = report;
+  if (solve.gain() > 0 && (hats || constraints || couples))
+    equivalent.iterations = int(-report.iterations * std::log(limits.tolerance) / solve.gain());
+  return {report, equivalent};
 }
 
 }  // namespace fairing

@@ -105,17 +105,21 @@ PlateSurface ThinPlateSolver::solve_level(int level, const PlateData& data,
   // Energies hardly change between levels.
   if (is_base) limits.energy_scale = std::sqrt(levels_.energy(level, out.x.data()));
   if (is_top) out.state.limits = limits;
-  LevelReport solved = run.solve(level, limits, active);
+  Run::Solved solved = run.solve(level, limits, active);
   if (supports_.deactivate_diverged_pads(level, data.targets, out.x.data())) {
     run.start(level, !active, below, out.forces);
     if (is_top) out.state.limits = limits;
-    const LevelReport diverged = solved;
+    const LevelReport diverged = solved.report;
     solved = run.solve(level, limits, active);
-    solved.iterations += diverged.iterations;
-    solved.pad_corrections += diverged.pad_corrections;
+    solved.report.iterations += diverged.iterations;
+    solved.report.pad_corrections += diverged.pad_corrections;
   }
-  reports.push_back(solved);
-  if (!is_top) out.energy = levels_.energy(level, out.x.data());
+  reports.push_back(solved.report);
+  if (!is_top) {
+    out.energy = levels_.energy(level, out.x.data());
+    levels_.hierarchy().choose_degree(solved.equivalent, tolerance_of(level),
+                                      tolerance_of(level + 1), solve_gain);
+  }
   return out;
 }
 
@@ -136,7 +140,7 @@ void ThinPlateSolver::solve_moved(const PlateData& before, const PlateData& data
   Run run{*this, data, state, x};
   run.r.resize(x.size());
   run.reference = levels_.reference(levels_.top(), data);
-  reports.push_back(run.solve(levels_.top(), limits, nullptr));
+  reports.push_back(run.solve(levels_.top(), limits, nullptr).report);
 }
 
 namespace {
@@ -184,7 +188,7 @@ void ThinPlateSolver::add_difference(const PlateData& before, const PlateData& d
     Run run{*this, moving, change.state, change.x};
     run.begin(l, below);
     run.start(l, true, below, change.forces);
-    if (l < run.top()) reports.push_back(run.solve(l, rough, nullptr));
+    if (l < run.top()) reports.push_back(run.solve(l, rough, nullptr).report);
   }
   for_each_index(levels_.workers(), x.size(), [&](std::size_t i) { x[i] += change.x[i]; });
   for (std::size_t v = 0; v < state.loads.size(); ++v) state.loads[v] += change.state.loads[v];
@@ -206,7 +210,7 @@ LevelReport ThinPlateSolver::solve_again(const PlateData& data, double tolerance
   }
   levels_.put_fixed(top, data, x.data());
   limits.energy_scale = std::sqrt(levels_.energy(top, x.data()));
-  return run.solve(top, limits, nullptr);
+  return run.solve(top, limits, nullptr).report;
 }
 
 }  // namespace fairing
