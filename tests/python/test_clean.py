@@ -341,3 +341,37 @@ def test_a_rim_that_touches_another_part_at_many_vertices_is_closed():
     on_top = (corners[..., 2] == vertices[:, 2].max()).all(axis=1)
     found = df.clean(vertices, faces[~(on_top & (steps.sum(axis=1) == 4))])
     closed(found, np.ptp(vertices[:, 0]) ** 3)
+
+
+def bushing(around=64, rows=24):
+    """A bored cylinder of radii 1 and 0.4 and height 2.4 without its underside, into whose rims gaps run."""
+    turn = 2 * np.pi * np.arange(around) / around
+    circle = np.stack([np.cos(turn), np.sin(turn)], axis=1)
+    walls = [
+        np.column_stack([r * circle, np.full(around, 0.1 * z)])
+        for r in (1.0, 0.4)
+        for z in range(rows + 1)
+    ]
+    here, there = np.arange(around), (np.arange(around) + 1) % around
+    strips = [
+        np.stack([low + here, low + there, high + there, high + here], axis=1)
+        for low, high in [(around * z, around * (z + 1)) for z in range(rows)]
+        + [(around * (z + rows + 2), around * (z + rows + 1)) for z in range(rows)]
+        + [(around * rows, around * (2 * rows + 1))]
+    ]
+    gaps = {(z, at) for z in range(4) for at in range(5)}
+    gaps |= {(rows + z, 20 + at) for z in range(3) for at in range(4)}
+    faces = [strip[at] for z, strip in enumerate(strips) for at in here if (z, at) not in gaps]
+    return np.concatenate(walls), np.array(faces)
+
+
+def test_an_underside_is_flat_where_gaps_run_into_its_rims():
+    vertices, faces = bushing()
+    cleaned = df.clean(vertices, faces)
+    assert cleaned.watertight
+    assert not [defect.code for defect in cleaned.left]
+    used = np.asarray(cleaned.vertices)
+    radius = np.hypot(used[:, 0], used[:, 1])
+    on_a_wall = np.minimum(abs(radius - 1.0), abs(radius - 0.4)) < 0.03
+    assert (on_a_wall | (abs(used[:, 2]) < 1e-9) | (used[:, 2] > 2.39)).all()
+    assert (abs(used[:, 2]) < 1e-9).sum() > 500

@@ -14,6 +14,7 @@ from ..arrays import face_arrays, vertex_array
 from ..converters import distance
 from ..filling import asked_holes, fill_holes, with_islands
 from ..watching import SeveralRuns
+from .flat_rims import stood_on
 from .state import State, diagonals, numbered_parts, of_parts
 from .topology import cut, vertices_split
 
@@ -102,9 +103,14 @@ def closed(
         state, _ = vertices_split(state, every=False)
         run = watched.run(0.3, 0.9)
         watchers = run["monitor"], run["progress"]
-        filler = _native.Filler(state.points, state.corners, state.offsets)
-        loops, unclear = filler.find(*watchers)
-        narrow, wide = wanted_holes(state, filler.with_islands(loops, *watchers), largest)
+        loops, unclear = _found(state, watchers)
+        narrow, wide = wanted_holes(state, loops, largest)
+        before = len(state.face_origin)
+        state, flat = stood_on(state, wide, settings | watched.run(0.3, 0.3))
+        if flat:  # gaps at their rims are holes now
+            holes, faces = holes + flat, faces + len(state.face_origin) - before
+            loops, unclear = _found(state, watchers)
+            narrow, wide = wanted_holes(state, loops, largest)
         skipped = []
         for wanted, how in ((narrow, settings), (wide, settings | {"joint": "position"})):
             if not wanted:
@@ -130,6 +136,13 @@ def closed(
             break
         state = _cut_back(state, bad)
     return state, holes, faces, skipped
+
+
+def _found(state: State, watchers: tuple[Any, Any]) -> tuple[list[Any], list[Any]]:
+    """All holes, with their islands, and the reasons why other border edges surround none."""
+    filler = _native.Filler(state.points, state.corners, state.offsets)
+    loops, unclear = filler.find(*watchers)
+    return filler.with_islands(loops, *watchers), unclear
 
 
 def _coincident(points: np.ndarray, ids: np.ndarray) -> np.ndarray:

@@ -83,7 +83,8 @@ def clean(
         So do the corners of faces that look away from all faces around.
     fill : bool
         Holes are filled with fill_holes(), whose arguments are `joint`, `energy`, `density` and `rim`.
-        One wider than half of its part, as under a scan that stood on a table, is closed by the least area.
+        One wider than half of its part, as under a scan that stood on a table, is closed flat where its rim is
+        plane, straight across gaps that run into the rim, and by the least area elsewhere.
         Where one cannot be, the faces around it are dropped and it is tried again, up to three times.
     largest : float
         Wider holes stay open: a length, between the two vertices of the rim that are farthest apart. 0: those
