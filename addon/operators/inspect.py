@@ -91,6 +91,7 @@ class OBJECT_OT_fairing_viewport(Action, bpy.types.Operator):
 
     bl_idname = "object.fairing_viewport"
     bl_label = "Show in This Viewport"
+    bl_options = {"REGISTER"}  # undo does not concern views
 
     reasons = (
         needs(

@@ -130,6 +130,15 @@ def test_menus_have_every_operator():
     assert own - others == {entry for entry in log if entry.startswith("object.")}
 
 
+def test_only_what_changes_data_is_a_step_of_undo():
+    names = [name for name in dir(bpy.ops.object) if name.startswith("fairing_")]
+    without = {n[8:] for n in names if "UNDO" not in getattr(bpy.ops.object, n).bl_options}
+    assert without == {
+        *("cancel", "for", "hydrostatics_table", "joints", "preset_add", "preset_apply"),
+        *("strain_table", "viewport"),
+    }
+
+
 @pytest.mark.parametrize("name", menus._ENTRIES)
 def test_blender_draws_the_menus(name):
     assert menus._ENTRIES[name] in getattr(bpy.types, name)._dyn_ui_initialize()
