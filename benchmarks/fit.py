@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Noisy scans of known shapes with a cage each: the errors of surfaces on the scan. The rivals are those of
 Blender's users: the cage's Subdivision Surface with the modifier Shrinkwrap, its best mode, onto the scan
-itself, and onto the scan after Taubin's filter.
+itself, and onto the scan after Taubin's filter; of scans with defects PyMeshLab's screened Poisson with the
+same filter, too.
 """
 
+from collections.abc import Iterable
 from typing import Any
 
 import discrete_fairing as df
@@ -14,6 +16,8 @@ import table
 
 LEVELS = 3
 NOISES = (0.0, 0.002, 0.005)  # of the size
+KINDS = ("correlated", "strays", "holes", "uneven")  # of scans with the second noise
+DEPTHS = (5, 6)  # of Poisson's octree; deeper ones follow the noise
 MODES = ("NEAREST_SURFACEPOINT", "TARGET_PROJECT", "PROJECT", "NEAREST_VERTEX")
 PASSES = 10  # Taubin's
 FACTORS = (1 / 16, 1 / 4, 4, 16)  # of the weight, for others than the one chosen
@@ -45,55 +49,96 @@ def shrinkwrapped(
     return out
 
 
-def surfaces(shape: fit_shapes.Shape, noise: float) -> dict[str, tuple[float, float]]:
-    """The errors of each surface."""
-    points, triangles = shape.scanned(noise, 1)
+def poisson(points: np.ndarray, triangles: np.ndarray, depth: int) -> fit_shapes.Mesh:
+    """Screened Poisson through the points with the scan's normals, and Taubin's filter."""
+    import pymeshlab as ml
 
-    def fitted(weight: float | None = None) -> tuple[df.Fitted, tuple[float, float]]:
-        arguments = {"triangles": triangles, "levels": LEVELS, "weight": weight, **shape.options}
-        found = df.fit(*shape.cage, points, **arguments)
-        return found, shape.errors(found.vertices, found.triangles)
+    work = ml.MeshSet(verbose=False)
+    work.add_mesh(ml.Mesh(points, triangles.astype(np.int32)))
+    work.generate_surface_reconstruction_screened_poisson(depth=depth, preclean=True, threads=1)
+    work.apply_coord_taubin_smoothing(stepsmoothnum=PASSES)
+    mesh = work.current_mesh()
+    return mesh.vertex_matrix(), mesh.face_matrix()
 
-    surface, own = fitted()
-    tried = [own, *(fitted(surface.weight * factor)[1] for factor in FACTORS)]
+
+Errors = tuple[float, float]  # of distance and of normals
+
+
+def best(found: Iterable[Errors]) -> Errors:
+    """Those that are least in normals."""
+    return min(found, key=lambda errors: errors[1])
+
+
+def wrapped(shape: fit_shapes.Shape, scan: fit_shapes.Mesh) -> dict[str, Errors]:
+    """The errors of the cage's Subdivision Surface on the scan."""
+    points, triangles = scan
     creases = shape.options.get("crease_edges", np.empty((0, 2), int))
     subdivided = rivals.catmull_clark(*shape.cage, LEVELS, creases.tolist())
     smooth = df.denoise(points, triangles, passes=PASSES).vertices
 
-    def best(target: np.ndarray) -> tuple[float, float]:
-        """The errors of the mode that is nearest in normals."""
-        wrapped = (shrinkwrapped(subdivided, target, triangles, mode) for mode in MODES)
-        return min((shape.errors(each, subdivided[1]) for each in wrapped), key=lambda e: e[1])
+    def on(target: np.ndarray) -> Errors:
+        found = (shrinkwrapped(subdivided, target, triangles, mode) for mode in MODES)
+        return best(shape.errors(each, subdivided[1]) for each in found)
 
     return {
         "scan": shape.errors(points, triangles),
-        "Shrinkwrap": best(points),
-        "Taubin, Shrinkwrap": best(smooth),
-        "fit": own,
-        "at its best weights": (min(e[0] for e in tried), min(e[1] for e in tried)),
+        "Shrinkwrap": on(points),
+        "Taubin, Shrinkwrap": on(smooth),
     }
 
 
+def fitted(
+    shape: fit_shapes.Shape, scan: fit_shapes.Mesh, weight: float | None = None
+) -> tuple[float, Errors]:
+    """The weight and errors of a fit."""
+    points, triangles = scan
+    arguments = {"triangles": triangles, "levels": LEVELS, "weight": weight, **shape.options}
+    found = df.fit(*shape.cage, points, **arguments)
+    return found.weight, shape.errors(found.vertices, found.triangles)
+
+
+def with_noise(shape: fit_shapes.Shape, noise: float) -> dict[str, Errors]:
+    """The errors near a scan with white noise, and the least ones of other weights."""
+    scan = shape.scanned(noise, 1)
+    weight, own = fitted(shape, scan)
+    tried = [own, *(fitted(shape, scan, weight * factor)[1] for factor in FACTORS)]
+    least = min(e[0] for e in tried), min(e[1] for e in tried)
+    return wrapped(shape, scan) | {"fit": own, "at its best weights": least}
+
+
+def with_defects(shape: fit_shapes.Shape, kind: str) -> dict[str, Errors]:
+    """The errors near a scan of that kind."""
+    scan = shape.scanned(NOISES[1], 1, kind)
+    rebuilt = best(shape.errors(*shape.near(*poisson(*scan, depth))) for depth in DEPTHS)
+    return wrapped(shape, scan) | {"Poisson, Taubin": rebuilt, "fit": fitted(shape, scan)[1]}
+
+
 def run() -> dict[str, Any]:
-    """The errors by shape and noise."""
-    result: dict[str, Any] = {}
+    """The errors by shape and noise, and by shape and kind of scan."""
+    noises: dict[str, Any] = {}
+    kinds: dict[str, Any] = {}
     for name, make in fit_shapes.SHAPES.items():
         shape = make()
         for noise in NOISES:
-            result[f"{name} · {100 * noise:g} %"] = surfaces(shape, noise)
-    return result
+            noises[f"{name} · {100 * noise:g} %"] = with_noise(shape, noise)
+        for kind in KINDS[:-1] if shape.options else KINDS:  # points would move off curves
+            kinds[f"{name} · {kind}"] = with_defects(shape, kind)
+    return {"noises": noises, "kinds": kinds}
 
 
-def fit_table(result: dict[str, Any]) -> str:
+def fit_table(result: dict[str, Any], head: str) -> str:
     """The distance and angle of each surface from the true one."""
     names = list(next(iter(result.values())))
     rows = [
         [label, *(f"{table.short(found[n][0])} · {table.short(found[n][1])}°" for n in names)]
         for label, found in result.items()
     ]
-    return table.markdown(["shape · noise", *names], rows)
+    return table.markdown([head, *names], rows)
 
 
 def tables(result: dict[str, Any]) -> dict[str, str]:
     """The tables of the documents, by name."""
-    return {"fit": fit_table(result)}
+    return {
+        "fit": fit_table(result["noises"], "shape · noise"),
+        "fit.scans": fit_table(result["kinds"], "shape · scan"),
+    }

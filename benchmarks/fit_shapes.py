@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Shapes whose nearest points are known, scans of them with noise, and cages drawn over them."""
+"""Shapes whose nearest points are known, scans of them with noise and defects, and cages drawn over them."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
@@ -12,6 +12,9 @@ from scipy.spatial import cKDTree
 
 Mesh = tuple[np.ndarray, np.ndarray]  # points and quads
 Feet = tuple[np.ndarray, np.ndarray]  # nearest points, and normals there, of length one
+
+
+POINTS_A_DISC = 20  # five across
 
 
 @dataclass(frozen=True)
@@ -30,14 +33,52 @@ class Shape:
     def size(self) -> float:
         return float(np.ptp(self.scan[0], axis=0).max())
 
-    def scanned(self, noise: float, seed: int) -> Mesh:
-        """Points and triangles of a scan with noise along the normals, a share of the size."""
+    def scanned(self, noise: float, seed: int, kind: str = "white") -> Mesh:
+        """Points and triangles of a scan with noise along the normals, a share of the size.
+
+        Kinds: "white"; "correlated": means over discs as wide as five points; "strays": one point in
+        twenty off by up to 0.025 of the size; "holes": without the tenth of the points in six balls;
+        "uneven": seven times as dense at one end as at the other.
+        """
+        random = np.random.default_rng(seed)
         points, quads = self.scan
-        off = np.random.default_rng(seed).normal(0, noise * self.size, (len(points), 1))
-        return (
-            points + off * self.nearest(points)[1],
-            np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]),
-        )
+        if kind == "uneven":
+            points = self.nearest(self._crowded(points))[0]
+        off = random.normal(0, 1, len(points))
+        if kind == "correlated":
+            off = off[cKDTree(points).query(points, POINTS_A_DISC)[1]].mean(1)
+            off /= scans.rms(off)
+        off *= noise * self.size
+        if kind == "strays":
+            off += (
+                (random.random(len(points)) < 0.05)
+                * random.uniform(-0.025, 0.025, len(points))
+                * self.size
+            )
+        points = points + off[:, None] * self.nearest(points)[1]
+        triangles = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+        if kind != "holes":
+            return points, triangles
+        centres = points[random.choice(len(points), 6, replace=False)]
+        far = cKDTree(centres).query(points)[0]
+        kept = far > np.quantile(far, 0.1)
+        return points[kept], (np.cumsum(kept) - 1)[triangles[kept[triangles].all(1)]]
+
+    def _crowded(self, points: np.ndarray) -> np.ndarray:
+        """Points moved along x, which stay in order: the ends stay."""
+        low, length = points[:, 0].min(), np.ptp(points[:, 0])
+        t = (points[:, 0] - low) / length
+        return np.column_stack([low + length * (t + 0.75 * t * (1 - t)), points[:, 1:]])
+
+    def near(self, points: np.ndarray, triangles: np.ndarray) -> Mesh:
+        """What lies over the shape of a mesh, within 0.03 of the size."""
+        feet, normals = self.nearest(points)
+        apart = points - feet
+        beside = np.linalg.norm(apart - (apart * normals).sum(1)[:, None] * normals, axis=1)
+        kept = (np.linalg.norm(apart, axis=1) < 0.03 * self.size) & (beside < 1e-3 * self.size)
+        faces = triangles[kept[triangles].all(1)]
+        used, corners = np.unique(faces, return_inverse=True)
+        return points[used], corners.reshape(-1, 3)
 
     def errors(self, points: np.ndarray, triangles: np.ndarray) -> tuple[float, float]:
         """Distance in thousandths of the size, and degrees between normals, root mean square. Normals
