@@ -3,6 +3,7 @@
 
 #include <Eigen/Dense>
 #include <Eigen/SparseCholesky>
+#include <algorithm>
 #include <numbers>
 
 #include "base/points.h"
@@ -36,11 +37,16 @@ SidePlace beside(bool quad, int side, double u, double v) {
   return {both > 0 ? second / both : 0, 1 - both};
 }
 
+// The share of the way `along` at which a segment is nearest to a point; both from its first end.
+double nearest_share(const Vec3& point, const Vec3& along) {
+  return std::clamp(point.dot(along) / along.squaredNorm(), 0.0, 1.0);
+}
+
 }  // namespace
 
 CurveFit::CurveFit(const FairingProblem& problem, const Scan& scan,
                    std::span<const std::uint8_t> fixed)
-    : problem_(problem), scan_(scan) {
+    : problem_(problem) {
   const ControlMesh& mesh = problem.mesh;
   moves_.assign(std::size_t(mesh.vertex_count()), 0);
   for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
@@ -53,7 +59,9 @@ CurveFit::CurveFit(const FairingProblem& problem, const Scan& scan,
       moves_[v] = any_ = true;
     }
   }
-  if (any_) find_bends();
+  if (!any_) return;
+  find_bends();
+  find_borders(scan);
 }
 
 void CurveFit::find_bends() {
@@ -71,6 +79,28 @@ void CurveFit::find_bends() {
                         {2 * square / (before * sum), -2 * square / (before * after),
                          2 * square / (after * sum)}});
     }
+  }
+}
+
+// A border of the scan farther away than the reach is the rim of a hole. If it is so along the drawn
+// faces, it does not count when the curves have moved towards it either.
+void CurveFit::find_borders(const Scan& scan) {
+  const ControlMesh& mesh = problem_.mesh;
+  const std::vector<Vec3>& place = problem_.basis.working;
+  const auto is_near = [&](const Vec3& point, const Side& side) {
+    const Face& face = mesh.faces[side.face];
+    const int k = side.local;
+    const Vec3& from = place[face.vertex[k]];
+    const Vec3 along = place[face.vertex[(k + 1) % face.size]] - from;
+    const Vec3 normal = along.cross(place[face.vertex[(k + 2) % face.size]] - from).normalized();
+    const Vec3 off = point - from - nearest_share(point - from, along) * along;
+    return (off - off.dot(normal) * normal).norm() < reach();
+  };
+  for (const Vec3& point : scan.border) {
+    stop_if_cancelled();
+    if (std::any_of(mesh.sides.begin(), mesh.sides.end(),
+                    [&](const Side& side) { return is_border(side.edge) && is_near(point, side); }))
+      border_.push_back(point);
   }
 }
 
@@ -123,23 +153,20 @@ void CurveFit::add_borders(const LevelFit& fit, std::vector<MoveEquations>& equa
   };
   std::vector<Piece> pieces;
   for (std::size_t e = 0; e < mesh.edges.size(); ++e)
-    if (mesh.feature_edge[e] && mesh.edges[e].boundary())
+    if (is_border(Index(e)))
       for (int k = 0; k < grid.n(); ++k)
         pieces.push_back(
             {Index(e), k, grid.edge_point(Index(e), k), grid.edge_point(Index(e), k + 1)});
   const double* const x = fit.surface().data();
-  // A border of the scan that is farther away is the rim of a hole.
-  const double reach = problem_.units.edge_in_space / 2;
-  for (std::size_t b = 0; b < scan_.border.size(); ++b) {
+  for (const Vec3& point : border_) {
     stop_if_cancelled();
-    double least = reach * reach;
+    double least = reach() * reach();
     const Piece* nearest = nullptr;
     double share = 0;
     for (const Piece& piece : pieces) {
       const Vec3 from = point_at(x, piece.from), along = point_at(x, piece.to) - from;
-      const double t =
-          std::clamp((scan_.border[b] - from).dot(along) / along.squaredNorm(), 0.0, 1.0);
-      const double square = (scan_.border[b] - from - t * along).squaredNorm();
+      const double t = nearest_share(point - from, along);
+      const double square = (point - from - t * along).squaredNorm();
       if (!(square < least)) continue;
       least = square;
       nearest = &piece;
@@ -149,7 +176,7 @@ void CurveFit::add_borders(const LevelFit& fit, std::vector<MoveEquations>& equa
     const Vec3 from = point_at(x, nearest->from), along = point_at(x, nearest->to) - from;
     const Vec3 tangent = along.normalized();
     const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - tangent * tangent.transpose();
-    const Vec3 offset = scan_.border[b] - from - share * along;
+    const Vec3 offset = point - from - share * along;
     add(nearest->edge, (nearest->first + share) / grid.n(), 1, across, offset, equations);
   }
 }

@@ -38,7 +38,13 @@ class CurveFit {
     std::array<Index, 3> at;
     std::array<double, 3> row;
   };
+  bool is_border(Index e) const {
+    return problem_.mesh.feature_edge[e] && problem_.mesh.edges[e].boundary();
+  }
   void find_bends();
+  void find_borders(const Scan& scan);
+  // From a border to the scan's.
+  double reach() const { return problem_.units.edge_in_space / 2; }
   std::vector<Vec3> moves(const std::vector<MoveEquations>& equations, double weight,
                           std::span<const Vec3> place) const;
   // All add to one set of equations for each control vertex of the input.
@@ -48,7 +54,7 @@ class CurveFit {
   void add_borders(const LevelFit& fit, std::vector<MoveEquations>& equations) const;
 
   const FairingProblem& problem_;
-  const Scan& scan_;
+  std::vector<Vec3> border_;         // the scan's border points near the drawn borders
   std::vector<std::uint8_t> moves_;  // one a control vertex
   std::vector<Bend> bends_;
   bool any_ = false;

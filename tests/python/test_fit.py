@@ -17,6 +17,7 @@ from scans import (
     on_blob,
     rms,
     sheet,
+    vertex_normals,
 )
 from surface_measures import turns
 
@@ -170,6 +171,20 @@ def test_border_curves_come_to_the_border_of_the_scan():
     assert rms(off[border]) < NOISE
     reach = np.abs(found[: len(vertices)][np.abs(vertices[:, :2]).max(1) > 0.96, :2]).max(1)
     assert np.abs(reach - 1).max() < 0.01
+
+
+@pytest.mark.parametrize("hole", [0.4, 0.6, 0.8])
+def test_a_corner_without_points_stays_where_it_was_drawn(hole):
+    """Its curves once went to the rim of the hole, and faces turned over."""
+    even = np.linspace(-0.97, 0.97, 13)
+    vertices, faces = sheet(even, even, dome)
+    points, triangles = sheet_scan(dome, NOISE)
+    kept = np.linalg.norm(points[:, :2] - 1, axis=1) > hole
+    triangles = (np.cumsum(kept) - 1)[triangles[kept[triangles].all(1)]]
+    corners = [0, 12, 156, 168]
+    fitted = df.fit(vertices, faces, points[kept], triangles=triangles, corner_vertices=corners)
+    assert np.linalg.norm(fitted.vertices[168] - vertices[168]) < 0.05
+    assert vertex_normals(fitted.vertices, fitted.triangles)[:, 2].min() > 0.5
 
 
 def test_borders_of_a_flat_cage_come_to_a_bent_scan_far_above():
