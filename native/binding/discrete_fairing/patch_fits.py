@@ -104,7 +104,9 @@ class PatchFits:
         least = self.tolerance * float(np.ptp(result.vertices, axis=0).max(initial=0))
         return _native.lattice_turns(*_arrays(result), level, least, **watched)
 
-    def stays_folded(self, result: Result, level: int, finer: int, watched: dict[str, Any]) -> bool:
+    def stays_folded(
+        self, result: Result, level: int, finer: float, watched: dict[str, Any]
+    ) -> bool:
         """Whether folds will remain on the finest level, as turns halve; then it is refused."""
         limit = min(HOPELESS_TURN, 1.5 * TURN_LIMIT * 2**finer)
         turns = _native.lattice_turns(*_arrays(result), level, 0.0, **watched)
