@@ -268,6 +268,8 @@ def pads_text(pads: Mapping[str, Any]) -> str:
     gone = pads.get("gone", 0)
     if not gone:
         return ""
+    if not any(pads.get("widths", ())):
+        return "Not held softly, as the steps did not settle with it: faces turn sharply."
     return f"Not held softly at {counted(gone, '{vertex|vertices}')}, where faces turn sharply."
 
 

@@ -13,7 +13,7 @@ CRUMPLED = {"levels": 2, "pad_size": 1.0, "energy": "TOTAL_CURVATURE"}
 
 
 def add_crumpled():
-    """A ball with half of its vertices off at random: steps to total curvature leave out pads there."""
+    """A ball with half of its vertices off at random: steps to total curvature do not settle on pads."""
     bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=2)
     ball = bpy.context.object
     points = positions(ball.data)
@@ -29,11 +29,12 @@ def test_where_pads_gave_way_is_said_and_kept(capfd):
     source = add_crumpled()
     result = fair(**CRUMPLED, keep_symmetry=False)
     pads = recall(result, "report")["pads"]
-    assert pads["gone"] > 0
+    assert pads["gone"] == len(source.data.vertices)
     assert pads_text(pads) in capfd.readouterr().out
     widths = values(result.data, "fair_pad_size")
     assert np.array_equal(widths[: len(source.data.vertices)], np.float32(pads["widths"]))
-    assert 0 <= widths.min() < widths.max()
+    assert not widths.any()
+    assert "1 vertex, where" in pads_text({"gone": 1, "widths": [0.5, 0.0]})
 
 
 def test_recompute_replaces_where_pads_gave_way():
