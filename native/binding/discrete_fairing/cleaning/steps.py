@@ -136,14 +136,6 @@ class Run:
         for code, count in acts.items():
             self.note("mend", count, _MENDED[code])
 
-    def mend_in_place(self) -> None:
-        """Mends, unless that opens the surface: vertices pressed to the same place may leave a slit."""
-        before, told = self.state, len(self.done)
-        self.mend(True)
-        if self.state.sides.at_border.sum() > before.sides.at_border.sum():
-            self.state = before
-            del self.done[told:]
-
     def held(self, fixed: np.ndarray) -> np.ndarray:
         """(n,) bool: present vertices that come from `fixed` vertices of the input."""
         origin = self.state.vertex_origin
