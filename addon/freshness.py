@@ -191,7 +191,7 @@ def _that_count(settings: AnySettings) -> dict[str, Any]:
 
 
 def _differ(made: dict[str, Any], settings: FAIRING_PG_surface) -> bool:
-    """Whether the settings a surface was `made` with differ; later settings count as unset."""
+    """Whether a surface was `made` with other settings; settings added since then count as unset."""
     properties: Any = settings.bl_rna.properties
     return any(
         now != made.get(name, properties[name].default)

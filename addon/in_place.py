@@ -76,7 +76,9 @@ class InPlaceJob(TimedRun):
     def __init__(
         self, context: Context, source: Object, settings: Settings, options: InPlaceOptions
     ) -> None:
-        """Reads the faces, in Object Mode all; JobError. `settings`: all that `options` has not."""
+        """Reads the selected faces, in Object Mode all. `settings`: those that `options` lacks. Raises
+        JobError.
+        """
         self._options, self.kind = options, options.energy
         self._units = Units.of(context.scene)
         self._preferences = of_runs()  # arguments are also made on the computing thread
@@ -161,7 +163,7 @@ class InPlaceJob(TimedRun):
         self.result = Faired(part, chosen, points, splits, spread, levels, faults, noise)
 
     def _part_of_the_way(self, vertices: np.ndarray, before: np.ndarray) -> np.ndarray:
-        """Those of the part between `before` and the fairest place; others stay to the bit."""
+        """Positions of the part between `before` and the fairest place; others keep their bits."""
         if self._options.factor == 1.0:
             return vertices
         vertices = vertices.copy()

@@ -298,7 +298,7 @@ def run_warnings(
     control: core.ControlArrays,
     ids: np.ndarray | None = None,
 ) -> list[str]:
-    """The core's warnings on the mesh `control`, a sentence each; `ids` (m,): its faces."""
+    """The core's warnings, one sentence each; `ids` (m,): the faces of the mesh `control`."""
     sentences = [
         errors.warning_text(name, warning)
         for warning in report["warnings"]

@@ -59,7 +59,9 @@ def is_mutual(target: Object | None) -> bool:
 
 
 def watched(target: Object) -> Object | None:
-    """The object that outdates `target`: its neighbour, or if mutual that one's source."""
+    """The object whose changes make `target` out of date: its neighbour, or the neighbour's source if
+    each is the other's neighbour, since these would make each other out of date without end.
+    """
     neighbour = neighbour_of(target)
     if neighbour is None or neighbour_of(neighbour) != target:
         return neighbour

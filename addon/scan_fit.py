@@ -36,7 +36,9 @@ class Fit:
 
     @classmethod
     def of(cls, context: Context, target: Object, again: bool = True) -> "Fit | None":
-        """What `target` was fitted to, if anything; `again`: weighs anew. JobError: scans gone."""
+        """What `target` was fitted to, or None; `again`: the weight is chosen anew. Raises JobError if
+        the scans are gone.
+        """
         kept = target.discrete_fairing_fit
         if not len(kept.scans):
             return None

@@ -13,7 +13,7 @@ _PULL_OF_HALF = 100.0
 
 
 def names(source: Object) -> Iterator[tuple[str, str]]:
-    """(name, kind) of all values of `source`; of two with one name the one read is last."""
+    """(name, kind) of all values of `source`; where two share a name, the last one is read."""
     for attribute in source.data.attributes:
         if _is_float(attribute) and not attribute.name.startswith("."):
             yield attribute.name, "Attribute"

@@ -48,7 +48,7 @@ def store_defects(
     holes: list[dict[str, Any]] | None = None,
     cleaned: Sequence[str] = (),
 ) -> None:
-    """Stores the result of a check. `holes`: None: keep those known; `cleaned`: of Clean Scan."""
+    """Stores the result of a check, or of Clean Scan (`cleaned`). `holes`: None keeps the known ones."""
     if holes is None:
         holes, cleaned = recall_holes(target), recall_cleaned(target)
     counts = mesh_changes.watch(context, target.data)

@@ -30,7 +30,7 @@ class TimedRun:
 
     @contextmanager
     def _reading(self, context: Context, target: Object, evaluated: bool = False) -> Iterator[Mesh]:
-        """Notes object and mesh of the run; inside, the mesh is as from `control_mesh`."""
+        """Stores the object and the mesh of the run; yields the mesh that `control_mesh` yields."""
         self.name, self.reference = target.name, Reference(target)
         self.shape, self._mode = world_shape(target), target.mode
         with control_mesh(context, target, evaluated) as mesh:

@@ -42,7 +42,9 @@ class OBJECT_OT_fairing_for(ExplainedPoll, bpy.types.Operator):
         return self._run_or_say(context, "EXEC_DEFAULT")
 
     def _run_or_say(self, context: Context, how: str) -> Answer:
-        """Runs the operator; the error that it reports is an exception here, and reported."""
+        """Runs the operator; an error reported by it is an exception here, and is reported as a
+        message.
+        """
         try:
             return self._run(context, how)
         except RuntimeError as error:

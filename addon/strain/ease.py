@@ -40,7 +40,9 @@ class _Moving(PlateRun):
         go_on: bool = False,
         settings: Settings | None = None,
     ) -> None:
-        """Reads the mesh; JobError. `go_on`: from an earlier result; `settings`: the surface's."""
+        """Reads the mesh with the `settings` of its surface; `go_on`: from an earlier result. Raises
+        JobError.
+        """
 
         def start(_mesh: Mesh) -> np.ndarray:
             own = self.arrays.positions

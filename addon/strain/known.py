@@ -111,7 +111,9 @@ _reading = False  # whether changes reported by Blender are caused by our own re
 
 
 def job_for(context: Context, source: Object) -> StrainJob:
-    """A job for the source, done if nothing has changed; JobError. `keep` it when done."""
+    """A job for the source, which is done if nothing has changed; keep() stores its result. Raises
+    JobError.
+    """
     return StrainJob(context, source, _watch(source).job)
 
 

@@ -185,7 +185,9 @@ def border_of(
     rings: int = RINGS,
     only: np.ndarray | None = None,
 ) -> Border:
-    """The border of a mesh, of one of two that meet; `only`: (j,) border vertices, None: all."""
+    """The border of a mesh. A vertex where two borders meet has the values of one of them. `only`: (j,)
+    the border vertices to return; None: all.
+    """
     edge, face = border_edges(corners, offsets)
     vertex = np.unique(edge)
     slot = np.full(len(points), -1)

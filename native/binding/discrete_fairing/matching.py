@@ -99,7 +99,9 @@ def _settled(
 
 
 class _Strip:
-    """The faces that change, at a border that meets a neighbour; other sides of them do not."""
+    """The faces at a border that meets a neighbour: only they change, except their sides off the
+    border.
+    """
 
     def __init__(self, faces: list[_Face], edge: np.ndarray):
         joint = set(edge.ravel().tolist())

@@ -96,7 +96,9 @@ def _flat_area(points: np.ndarray) -> float:
 def closed(
     state: State, largest: float, settings: dict[str, Any], watched: SeveralRuns
 ) -> tuple[State, int, int, list[Any]]:
-    """The state with holes filled, numbers of holes and new faces, and those skipped at last."""
+    """The state with its holes filled, the numbers of holes and of new faces, and the skipped holes
+    (SkippedHole). Around a skipped hole the faces are removed and the larger hole is tried again.
+    """
     holes = faces = 0
     skipped: list[Any] = []
     for turn in range(CUTS + 1):
