@@ -75,13 +75,15 @@ struct MultiplierSpace {
     return sum;
   }
   void add(double factor, const Vector& a, const Vector& b, Vector& to) const {
-    const auto x = numbers_of(a), y = numbers_of(b), sum = numbers_of(to);
+    const auto x = numbers_of(a), y = numbers_of(b);
+    const auto sum = numbers_of(to);
     for (std::size_t kind = 0; kind < x.size(); ++kind)
       for (std::size_t i = 0; i < sum[kind].size(); ++i)
         sum[kind][i] += factor * (x[kind][i] + y[kind][i]);
   }
   void subtract(const Vector& a, Vector& from) const {
-    const auto x = numbers_of(a), left = numbers_of(from);
+    const auto x = numbers_of(a);
+    const auto left = numbers_of(from);
     for (std::size_t kind = 0; kind < x.size(); ++kind)
       for (std::size_t i = 0; i < left[kind].size(); ++i) left[kind][i] -= x[kind][i];
   }

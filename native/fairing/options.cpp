@@ -78,9 +78,8 @@ constexpr double tightest = 10;
 
 // By default errors remain that are invisible, as with the thin plate.
 CurveScheme FairOptions::curve_scheme() const {
-  const bool limit = interpolation == Interpolation::limit;
   return {1 << levels, paper.metric_exponent(metric_exponent),
-          limit ? ChainEnds::natural : ChainEnds::parabolic};
+          interpolation == Interpolation::limit ? ChainEnds::natural : ChainEnds::parabolic};
 }
 
 double FairOptions::step_tolerance_wanted() const {

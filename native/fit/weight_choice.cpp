@@ -153,10 +153,10 @@ double WeightChoice::by_held_out(Monitor& monitor, bool is_last) {
   if (cells.tests.empty()) return by_cells[0].weight;  // a tiny scan: no trial has an error
   const double weight = middle_of_good(by_cells, worse_by_size(by_cells, cells.tests.size()));
   if (!is_last) return weight;
-  Place stiff = place();
+  Place fitted = place();
   // from a calm surface, which has not seen what a disc hides
   const std::vector<WeightTrial> by_discs = search(weight, discs, calm, monitor);
-  put(std::move(stiff));
+  put(std::move(fitted));
   const std::vector<double> worse = worse_by_groups(by_discs);
   if (worse[0] <= 1) return weight;
   use(by_discs, discs[0]);

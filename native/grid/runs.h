@@ -71,14 +71,18 @@ constexpr std::size_t row_count(bool quad, int n, int j) {
   return std::size_t(quad ? n - 1 : n - 1 - j);
 }
 
-inline Run vertex_run(Index v) { return {RunKind::vertex, v, 0, false, std::size_t(v), 1}; }
+inline Run vertex_run(Index v) { return {{RunKind::vertex, v}, 0, false, std::size_t(v), 1}; }
 
 // Calls visit(run) for the inside of an edge, if it has points.
 template <class Visit>
 void for_edge_run(const GridLevel& grid, Index e, Visit&& visit) {
   if (grid.n() == 1) return;
   const EdgeRingLanes ring(grid.mesh(), e);
-  visit(Run{RunKind::edge, e, 0, false, std::size_t(grid.edge_base(e)), std::size_t(grid.n() - 1),
+  visit(Run{{RunKind::edge, e},
+            0,
+            false,
+            std::size_t(grid.edge_base(e)),
+            std::size_t(grid.n() - 1),
             &ring});
 }
 
@@ -91,7 +95,7 @@ void for_face_runs(const GridLevel& grid, Index f, Visit&& visit) {
   for (int j = 1; j <= rows; ++j) {
     stop_in_large_face(j);
     const std::size_t count = row_count(quad, n, j);
-    visit(Run{RunKind::face_row, f, j, quad, first, count});
+    visit(Run{{RunKind::face_row, f}, j, quad, first, count});
     first += count;
   }
 }
