@@ -1,25 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A surface, and a start for the next one, extrapolated from the last two that were found.
+// A start for the next surface, extrapolated from the last two that were found.
 #pragma once
 
 #include <Eigen/Core>
 #include <span>
 #include <vector>
 
-#include "curvature/solver.h"
-#include "thin_plate/plate_state.h"
+#include "base/types.h"
+#include "fairing/surface.h"
+#include "parallel/memory.h"
+#include "parallel/workers.h"
 
 namespace fairing {
-
-// A surface as solved: 3 numbers a point, in working coordinates.
-struct Surface {
-  Array<double> plate;     // the thin plate's
-  PlateState state;        // loads and targets that hold it
-  CurvedSurface curved{};  // that of a curvature energy, found by steps from the plate, or none
-
-  Array<double>& points() { return curved.points.empty() ? plate : curved.points; }
-  const Array<double>& points() const { return curved.points.empty() ? plate : curved.points; }
-};
 
 // Let p be the last control positions, x their thin-plate surface, and p*, x* those of an earlier
 // moment. The surface depends on the control positions by one linear map, the same for x, y and z,

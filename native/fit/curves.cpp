@@ -82,8 +82,9 @@ void CurveFit::find_bends() {
   }
 }
 
-// A border of the scan farther away than the reach is the rim of a hole. If it is so along the drawn
-// faces, it does not count when the curves have moved towards it either.
+// Border points of the scan that are farther from the drawn border than the reach, measured along the
+// drawn faces, are rims of holes. They are left out for good: otherwise the curves move to them step
+// by step.
 void CurveFit::find_borders(const Scan& scan) {
   const ControlMesh& mesh = problem_.mesh;
   const std::vector<Vec3>& place = problem_.basis.working;
