@@ -10,15 +10,13 @@ from typing import Any
 
 import numpy as np
 
-from ..arrays import following
 from ..filling import fill_holes
 from .state import State
 
 _FITS = 5  # of the plane, each to the vertices near the one before
 _BOW = 1 / 16  # four times the sagitta of the way across a gap, over its length
-_IN_PLANE = (
-    0.25  # edges: a vertex nearer to the plane belongs to it, a farther one gets a foot there
-)
+# edges: a vertex nearer to the plane belongs to it, a farther one gets a foot there
+_IN_PLANE = 0.25
 
 
 def stood_on(state: State, holes: list[Any], settings: dict[str, Any]) -> tuple[State, int]:
@@ -81,7 +79,9 @@ class _Plane:
 def _filled(
     state: State, plane: _Plane, loops: list[np.ndarray], settings: dict[str, Any]
 ) -> State:
-    """The state with a wall from the loops to the plane, and triangles in the plane."""
+    """The state with a wall from the loops to the plane, and triangles in the plane; unchanged if an edge would
+    get more than two faces.
+    """
     new: list[np.ndarray] = []
     rims: list[np.ndarray] = []
     ids: list[int] = []
@@ -113,14 +113,15 @@ def _filled(
     inside, triangles = _within(rims, plane, settings)
     known = np.concatenate([ids, len(state.points) + len(new) + np.arange(len(inside))])
     triangles = known[triangles]
-    if not len(triangles) or _joins_again(state, triangles):
+    if not len(triangles):
         return state
     faces = np.concatenate([np.array(wall, np.int64).reshape(-1, 3), triangles])
-    return state.extended(
+    filled = state.extended(
         np.concatenate([state.points, np.array(new).reshape(-1, 3), inside]),
         np.concatenate([state.corners, faces.ravel()]),
         np.concatenate([state.offsets, state.offsets[-1] + 3 * np.arange(1, len(faces) + 1)]),
     )
+    return filled if len(filled.sides.crowded) <= len(state.sides.crowded) else state
 
 
 def _within(
@@ -148,20 +149,3 @@ def _within(
     return filled.vertices[2 * len(ring) :], np.where(
         triangles < len(ring), triangles, triangles - len(ring)
     )
-
-
-def _joins_again(state: State, triangles: np.ndarray) -> bool:
-    """Whether the mesh would get an edge of more than two faces."""
-    count = int(max(state.corners.max(), triangles.max())) + 1
-
-    def keys(ends: np.ndarray) -> np.ndarray:
-        ends = np.sort(ends.astype(np.int64), axis=1)
-        return ends[:, 0] * count + ends[:, 1]
-
-    new, uses = np.unique(
-        keys(np.stack([triangles, np.roll(triangles, -1, axis=1)], -1).reshape(-1, 2)),
-        return_counts=True,
-    )
-    after = state.corners[following(state.offsets)]
-    old = keys(np.stack([state.corners, after], axis=1))
-    return bool(np.isin(new[uses > 1], old).any())
