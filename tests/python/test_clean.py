@@ -171,6 +171,64 @@ def test_a_corner_of_a_box_is_no_spike():
     assert df.clean(*two_boxes([3.0, 0.0, 0.0])).done == []
 
 
+TETRAHEDRON = np.array([[1.0, 1, 1], [-1, -1, 1], [-1, 1, -1], [1, -1, -1]]) * [1.0, 1.0, 3.0]
+
+
+def a_cone(sides, height, joined):
+    """Around the z axis; its base is one face, or a fan of triangles."""
+    turn = np.arange(sides) * 2.0 * np.pi / sides
+    rim = np.stack([np.cos(turn), np.sin(turn), 0.0 * turn], axis=1)
+    ring = [(k, (k + 1) % sides) for k in range(sides)]
+    faces = [[a, b, sides] for a, b in ring]
+    faces += [list(range(sides))[::-1]] if joined else [[b, a, sides + 1] for a, b in ring]
+    ends = [[0.0, 0.0, height]] if joined else [[0.0, 0.0, height], [0.0, 0.0, 0.0]]
+    return np.concatenate([rim, ends]), faces
+
+
+@pytest.mark.parametrize("joined", [True, False])
+@pytest.mark.parametrize(("sides", "height"), [(4, 1.0), (4, 5.0), (24, 3.0), (24, 0.1)])
+def test_the_tip_of_a_cone_is_no_spike_and_its_base_no_fold(sides, height, joined):
+    """They were flattened, down to no volume."""
+    found = df.clean(*a_cone(sides, height, joined))
+    assert found.done == [] and found.watertight
+    assert found.volume == pytest.approx(height * sides * np.sin(2.0 * np.pi / sides) / 6.0)
+
+
+def test_a_tetrahedron_has_no_spikes_and_no_folds():
+    assert df.clean(TETRAHEDRON, [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]).done == []
+
+
+def test_a_spike_on_a_sheet_of_quads_is_pressed_down():
+    points, faces = refine_quads(*refine_quads(*refine_quads(*cube())))
+    spoiled = points.copy()
+    spoiled[(points == [0.0, 0.0, 1.0]).all(axis=1)] = [0.0, 0.0, 5.0]
+    found = df.clean(spoiled, faces)
+    only(found, "spikes", 1)
+    assert np.abs(found.vertices - points).max() < 1e-12
+
+
+@pytest.mark.parametrize("rows", [1, 2])
+def test_a_surface_that_cannot_be_closed_keeps_its_faces(rows):
+    """Around rims that cannot be filled all faces of a Möbius strip were dropped."""
+    count = 40
+    turn = np.linspace(0.0, 2.0 * np.pi, count, endpoint=False)[:, None]
+    across = np.linspace(-0.3, 0.3, rows + 1)
+    radius = 1.0 + across * np.cos(turn / 2.0)
+    points = np.stack([radius * np.cos(turn), radius * np.sin(turn), across * np.sin(turn / 2)], 2)
+    ids = np.arange(count * (rows + 1)).reshape(count, -1)
+    after = np.concatenate([ids[1:], ids[:1, ::-1]])
+    faces = np.stack([ids[:, :-1], after[:, :-1], after[:, 1:], ids[:, 1:]], 2).reshape(-1, 4)
+    found = df.clean(points.reshape(-1, 3), faces)
+    assert len(found.face_origin) == len(faces)
+    assert {d.code for d in found.left} == {"NON_ORIENTABLE", "OPEN_HOLE"}
+
+
+def test_three_faces_at_an_edge_become_a_sheet():
+    points = np.array([[0.0, 0, 0], [0, 0, 1], [1, 0, 0], [-1, 1, 0], [-1, -1, 0]])
+    found = df.clean(points, [[0, 1, 2], [0, 1, 3], [0, 1, 4]])
+    assert len(found.faces) == 2 and [d.code for d in found.left] == ["OPEN_HOLE"]
+
+
 def test_a_hole_is_filled_and_the_border_of_a_sheet_is_not():
     points, faces = BALL
     height = points[faces].mean(axis=1)[:, 2]

@@ -134,9 +134,10 @@ def closed(
             bad[np.ravel(hole.elements).astype(np.int64)] = True
             if hole.loops:  # an error names one place, and a ragged rim has many
                 bad[_coincident(state.points, np.concatenate(hole.loops))] = True
-        if not bad.any() or turn == CUTS:
+        gone = _cut_back(state, bad)
+        if not gone.any() or turn == CUTS:
             break
-        state = _cut_back(state, bad)
+        state = state.without(gone)
     return state, holes, faces, skipped
 
 
@@ -153,10 +154,15 @@ def _coincident(points: np.ndarray, ids: np.ndarray) -> np.ndarray:
     return ids[uses[place.ravel()] > 1]
 
 
-def _cut_back(state: State, vertices: np.ndarray) -> State:
-    """The state without the faces at these `vertices`, (n,) bool, and without parts that this detaches."""
+def _cut_back(state: State, vertices: np.ndarray) -> np.ndarray:
+    """(m,) bool: the faces at these `vertices`, (n,) bool, and parts that only they attach. Parts of which
+    most faces would go stay.
+    """
     gone = np.logical_or.reduceat(vertices[state.corners], state.offsets[:-1])
-    state = state.without(gone)
-    uses = state.sides.uses[state.sides.edge]
-    alone = np.logical_and.reduceat(uses == 1, state.offsets[:-1])
-    return state.without(alone) if alone.any() else state
+    left = state.without(gone)
+    uses = left.sides.uses[left.sides.edge]
+    if len(left.face_origin):
+        gone[~gone] = np.logical_and.reduceat(uses == 1, left.offsets[:-1])
+    part, count = numbered_parts(state, state.sides.pairs)
+    of_part = np.bincount(part, gone, count)
+    return gone & (2 * of_part < np.bincount(part, minlength=count))[part]

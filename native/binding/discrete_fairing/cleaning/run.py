@@ -78,14 +78,16 @@ def clean(
         Where parts touch in a vertex or an edge, each gets its own.
     spikes : bool
         A vertex goes to the middle of its neighbours where the faces around it have together less than
-        half of the angle that they would have in a plane: tips higher than 1.6 edges.
+        half of the angle that they would have in a plane, as at tips higher than 1.6 edges, and the surface is
+        flat without it: the tip of a cone stays.
     folds : bool
-        So do the corners of faces that look away from all faces around.
+        So do the corners of faces whose normals are opposite to those of all faces around, which agree.
     fill : bool
         Holes are filled with fill_holes(), whose arguments are `joint`, `energy`, `density` and `rim`.
         One wider than half of its part, as under a scan that stood on a table, is closed flat where its rim is
         plane, straight across gaps that run into the rim, and by the least area elsewhere.
-        Where one cannot be, the faces around it are dropped and it is tried again, up to three times.
+        Where one cannot be, the faces around it are dropped and it is tried again, up to three times, if
+        they are less than half of their part.
     largest : float
         Wider holes stay open: a length, between the two vertices of the rim that are farthest apart. 0: those
         stay open whose flat area is over half of the surface's own, as at the border of a sheet.
@@ -130,10 +132,10 @@ def clean(
         run.step("join", 0.1, topology.borders_joined, "border {vertex|vertices} joined")
         if run.count:
             run.mend(mend)
-    if normals:
-        run.step("normals", 0.15, run.watched(topology.turned_alike), TURNED)
     if fins:
-        run.step("fins", 0.18, topology.without_fins, "{face of a fin|faces of fins} dropped")
+        run.step("fins", 0.15, topology.without_fins, "{face of a fin|faces of fins} dropped")
+    if normals:
+        run.step("normals", 0.18, run.watched(topology.turned_alike), TURNED)
     if join:
         run.step("join", 0.19, run.watched(topology.edges_cut), CUT)
     if islands > 0.0:

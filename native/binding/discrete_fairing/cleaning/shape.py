@@ -9,6 +9,8 @@ from .state import State
 
 # Times that vertices move to their neighbours' mean; spikes of several vertices need more.
 ROUNDS = 10
+# Faces agree if their normals have a mean at least so long: that of normals within an eighth of a turn of it.
+AGREE = np.sqrt(0.5)
 
 
 def flattened(
@@ -16,8 +18,9 @@ def flattened(
 ) -> tuple[State, int, int]:
     """The state with spikes and folded faces flattened, and the numbers of both. Tips of spikes, where the
     angles of the faces sum to less than half a turn, and corners of faces whose normals are opposite to
-    all faces around move to the mean of their neighbours. Vertices `fixed`, (n,) bool, stay. `filled`:
-    only the rims of filled holes are examined again.
+    all faces around move to the mean of their neighbours, unless the surface closes there, as at the tip of a
+    cone. Vertices `fixed`, (n,) bool, stay. `filled`: only the rims of filled holes are
+    examined again.
     """
     rim = np.zeros(len(state.points), bool)
     lone = state.sides.uses[state.sides.edge] != 2
@@ -33,17 +36,17 @@ def flattened(
     folded: np.ndarray = np.empty(0, np.int64)
     for turn in range(ROUNDS):
         fans = _Fans(state, points, near)
-        bad = np.zeros(len(points), bool)
-        if spikes:
-            sharp = fans.sharp(free)
-            tips |= sharp
-            bad |= sharp
+        sharp = fans.sharp(free) & spikes
+        bad = sharp.copy()
         if folds:
             over = fans.folded()
             if turn == 0:
                 folded = over
             bad[fans.vertices_of(over)] = True
         bad &= free
+        if turn == 0 and bad.any():
+            bad &= ~_closes(state, points, rim)
+        tips |= sharp & bad
         if not bad.any():
             break
         points = _in_the_middle(state, points, bad)
@@ -55,6 +58,27 @@ def flattened(
         bool(moved[state.corners[state.offsets[f] : state.offsets[f + 1]]].any()) for f in folded
     )
     return state.replaced(points=points), int((tips & moved).sum()), mended
+
+
+def _closes(state: State, points: np.ndarray, rim: np.ndarray) -> np.ndarray:
+    """(n,) whether the angles missing at a vertex and its neighbours sum to at least a quarter of a turn, as at
+    the tip of a cone. The sum is the surface's curvature there [Gauss and Bonnet]; a spike does not change it.
+    """
+    a, b, c = state.triangles().T
+    missing = np.where(rim, np.pi, 2.0 * np.pi)
+    for i, j, k in ((a, b, c), (b, c, a), (c, a, b)):
+        missing -= np.bincount(
+            i, _angles(points[j] - points[i], points[k] - points[i]), len(points)
+        )
+    ways = np.concatenate([[a, b], [b, a], [b, c], [c, b], [c, a], [a, c]], axis=1)
+    ways = np.unique(ways[0] * np.int64(len(points)) + ways[1])
+    begin, end = np.divmod(ways, len(points))
+    return missing + np.bincount(begin, missing[end], len(points)) >= 0.5 * np.pi
+
+
+def _angles(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    cross = np.cross(a, b)
+    return np.arctan2(np.sqrt((cross * cross).sum(axis=1)), (a * b).sum(axis=1))
 
 
 class _Fans:
@@ -74,9 +98,7 @@ class _Fans:
         back = -way[before]
         first = np.repeat(here[self._starts], sizes, axis=0)
         self._normals = np.add.reduceat(np.cross(here - first, after - first), self._starts)
-        cross = np.cross(way, back)
-        sine, cosine = np.sqrt((cross * cross).sum(axis=1)), (way * back).sum(axis=1)
-        self._angles = np.arctan2(sine, cosine)
+        self._angles = _angles(way, back)
         if len(faces) == len(state.face_origin):
             self._complete = np.ones(len(points), bool)
         else:
@@ -89,13 +111,13 @@ class _Fans:
         return (total > 0.0) & (total < np.pi) & self._complete & free
 
     def folded(self) -> np.ndarray:
-        """Ids of the faces whose normals are opposite to those of the other faces at every corner."""
+        """Ids of the faces whose normals are opposite to those of the other faces at every corner, which agree."""
         rows = np.repeat(self._normals, self._sizes, axis=0)
-        around = np.stack(
-            [np.bincount(self._corner, rows[:, k], self._count) for k in range(3)], axis=1
-        )
-        others = around[self._corner] - rows
+        area = np.linalg.norm(rows, axis=1)
+        around = [np.bincount(self._corner, r, self._count)[self._corner] for r in (*rows.T, area)]
+        others = np.stack(around[:3], axis=1) - rows
         away = ((others * rows).sum(axis=1) < 0.0) & self._complete[self._corner]
+        away &= np.linalg.norm(others, axis=1) >= AGREE * (around[3] - area)
         return self._faces[np.logical_and.reduceat(away, self._starts)]
 
     def vertices_of(self, faces: np.ndarray) -> np.ndarray:

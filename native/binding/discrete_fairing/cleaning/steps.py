@@ -152,7 +152,8 @@ class Run:
         self.state, count, faces, skipped = holes.closed(
             self.state, largest, settings, self._watched
         )
-        self.note("fill", count, f"{{hole|holes}} filled with {faces:,} faces")
+        made = f"{faces:,} face" + "s" * (faces != 1)
+        self.note("fill", count, f"{{hole|holes}} filled with {made}")
         cut = before + faces - len(self.state.face_origin)
         self.note("fill", cut, "{face at a bad rim|faces at bad rims} dropped")
         return skipped
