@@ -41,8 +41,8 @@ INTERPOLATIONS = (
     (
         "AUTO",
         "Auto",
-        "Limit where the source has a Subdivision Surface modifier, for which its vertices were placed; "
-        "Through where it has none",
+        "Limit where the source has a Subdivision Surface modifier, or is closed and has flat faces between tight "
+        "rims, such as a phone case; else Through",
         3,
     ),
     ("EXACT", "Through", "The surface passes exactly through every vertex of the source", 0),

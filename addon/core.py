@@ -92,7 +92,7 @@ def fair_arguments(
     }
     if arrays.normals is not None and keeps_marks(settings):
         arguments["normals"] = arrays.normals
-    if arrays.flat_face is not None and keeps_marks(settings):
+    if arrays.flat_face is not None and keeps_flats(settings):
         arguments["flat_faces"] = np.flatnonzero(arrays.flat_face)
     if is_limit(settings):
         arguments |= _limit(arrays, settings)
@@ -125,8 +125,13 @@ def _limit(arrays: ControlArrays, settings: Settings) -> dict[str, Any]:
 
 
 def keeps_marks(settings: AnySettings) -> bool:
-    """Whether fixed normals and flat faces apply; the other energies cannot hold them."""
+    """Whether fixed normals apply, and flat faces; the other energies cannot hold them."""
     return settings.energy == "THIN_PLATE"
+
+
+def keeps_flats(settings: AnySettings) -> bool:
+    """Whether flat faces apply: limit positions are not in the planes of the faces."""
+    return keeps_marks(settings) and not is_limit(settings)
 
 
 def with_partner(arguments: Mapping[str, Any]) -> dict[str, Any]:

@@ -13,6 +13,7 @@ import numpy as np
 
 from . import core, errors, freshness, memory, neighbours, place, prediction, size
 from .blender import Context, Mesh, Object, scene_of
+from .check import cages
 from .check.faults import find_faults
 from .choices import ENERGY_NAMES
 from .errors import JobError
@@ -31,7 +32,7 @@ from .mesh.shape_keys import write_shape_keys
 from .mesh.timed_run import TimedRun
 from .mesh.write import attributes_left_out, refill_mesh, write_mesh, write_pad_sizes
 from .preferences import preferences
-from .settings import Settings, halves, is_evaluated, is_limit, wants_modifiers
+from .settings import Settings, halves, is_evaluated, is_limit, subdivision, wants_modifiers
 from .transfer.attributes import AttributeTransfer
 from .transfer.lattice import edge_table, fine_edges
 from .transfer.mirror import find_mirrors, symmetrize, uneven_axes
@@ -65,14 +66,15 @@ class Job(TimedRun):
         None: the target. `halfway`: whether both change; None: as the neighbours are now.
         """
         self._target = None if target is None else Reference(target)
-        self.settings = settings.for_source(source)
-        self.kind = self.settings.energy
-        evaluated = is_evaluated(self.settings)
+        evaluated = is_evaluated(settings)
         with (
             without_inspection(context, source) if evaluated else nullcontext(),
             self._reading(context, source, evaluated) as mesh,
         ):
             self.data = read_data(source, mesh, evaluated)
+            world = self.shape.of_arrays(self.arrays)
+            by_shape = cages.wants_limit(settings, world)
+            self.settings = settings.for_source(source, by_shape)
             factors = tolerance_factors(source, mesh, self.settings)
             pulls = vertex_pulls(source, mesh, self.settings)
             selection = shown_selection(mesh.polygons) if self.settings.use_selection else None
@@ -82,8 +84,8 @@ class Job(TimedRun):
                 region = selected_faces(mesh, self.name)
         self.keys = self.data.shape_keys if self.settings.use_shape_keys else None
         own = freshness.OwnMesh(self.arrays, selection, (factors, pulls), self.keys)
+        self.kind = self.settings.energy
         self._made = freshness.made_of(context, source, self.settings, None if evaluated else own)
-        world = self.shape.of_arrays(self.arrays)
         self.edge_length = world.mean_edge_length
         self.triangles = size.triangle_count(self.arrays.face_sizes, self.settings.levels)
         too_large = size.why_too_large(self.triangles)
@@ -104,6 +106,11 @@ class Job(TimedRun):
         self._meet(context, source, neighbour or neighbours.neighbour_of(target), stands)
         # remarks for the user, a sentence each
         self.notes = [*self.data.notes, *self._not_done()]
+        if by_shape and subdivision(source) is None:
+            self.notes.append(
+                f"Passes where Subdivision Surface would (Limit), for its {cages.REASON}. To pass through every "
+                "vertex, set Vertices to Through."
+            )
         # number of pieces, faired one after another; None: faired as a whole
         self.pieces: int | None = None
         self.spread: core.Spread | None = None  # another way to fair pieces
@@ -137,12 +144,13 @@ class Job(TimedRun):
         """Settings that the energy ignores, a sentence each."""
         if "shapes" in self.arguments and self.settings.energy != "THIN_PLATE":
             yield "Each shape key is faired separately. Mixtures of them are fair with Bending only."
-        if core.keeps_marks(self.settings):
-            return
-        if self.arrays.normals is not None:
+        if self.arrays.normals is not None and not core.keeps_marks(self.settings):
             yield "Fixed normals are not used: only Bending supports them."
-        if self.arrays.flat_face is not None and self.arrays.flat_face.any():
+        marked = self.arrays.flat_face is not None and self.arrays.flat_face.any()
+        if marked and not core.keeps_marks(self.settings):
             yield "Flat faces are not kept: only Bending keeps them. Choose Bending."
+        elif marked and not core.keeps_flats(self.settings):
+            yield "Flat faces are not kept: Limit passes beside them. Set Vertices to Through."
 
     def _compute(self, watchers: dict[str, Any]) -> None:
         with errors.explained(self.name, self.remedies):

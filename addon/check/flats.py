@@ -11,8 +11,14 @@ from ..inspection.measures import fold_angles
 _IN_PLANE = 1e-3
 
 
-def find_flats(arrays: core.ControlArrays, angle: float) -> np.ndarray:
-    """(m,) bool: the faces of flats.
+def find_flats(
+    arrays: core.ControlArrays,
+    angle: float,
+    sharp: np.ndarray | None = None,
+    tight: bool = False,
+) -> np.ndarray:
+    """(m,) bool: the faces of flats. `sharp`: (e,) bool, edges that count as open borders. `tight`: only
+    flats with quads all around that are no deeper, from the flat's border on, than the flat is wide.
 
     Faces that are joined within `angle` (degrees) and lie in one plane form a part. A part is a flat if
     at each of its borders, except open ones, the mesh turns away, the part is at least as wide as the
@@ -23,22 +29,31 @@ def find_flats(arrays: core.ControlArrays, angle: float) -> np.ndarray:
     if not len(arrays.face_sizes):
         return np.zeros(0, bool)
     folds, inside = fold_angles(arrays)
+    if sharp is not None:
+        inside &= ~sharp
     part, plane = _parts(arrays, inside & (folds <= angle))
     edge = arrays.corner_edges
-    owner = part[np.repeat(np.arange(len(arrays.face_sizes)), arrays.face_sizes)]
+    face = np.repeat(np.arange(len(arrays.face_sizes)), arrays.face_sizes)
+    owner = part[face]
     pair = part[faces_of_edges(arrays)]
     borders = np.flatnonzero((pair[edge, 0] != pair[edge, 1]) | ~inside[edge])
     borders = borders[np.argsort(owner[borders], kind="stable")]
-    edge, owner = edge[borders], owner[borders]
+    edge, owner, face = edge[borders], owner[borders], face[borders]
     turn = np.where(inside[edge], folds[edge], 0.0)
     width = _widths(arrays, part, edge, owner)[owner]
     beyond = _turns_beyond(arrays, edge, owner, turn)
     twin = _twins(edge)
     joined = twin >= 0
+    if sharp is not None:
+        joined &= ~sharp[edge]
     here, there = np.flatnonzero(joined), twin[joined]
     turns = (turn[here] > angle) & (width[here] >= width[there])
     # turn / width <= 0.5 * beyond / width, without a division by zero
     turns &= 2.0 * turn[here] * width[there] <= beyond[there] * width[here]
+    if tight:
+        length = _lengths(arrays, edge[there])
+        area = face_areas(arrays.positions, arrays.corners, arrays.offsets)[face[there]]
+        turns &= (arrays.face_sizes[face[there]] == 4) & (area <= length * width[here])
     some = np.zeros(len(plane), bool)
     some[owner[here]] = True
     some[owner[here[~turns]]] = False
@@ -81,26 +96,37 @@ def _widths(
     """(parts,) twice the area over the length of the border, the edges `edge` (b,) of the parts
     `owner`: the width of a strip or ring, half the width of a square or disc.
     """
-    ends = arrays.positions[arrays.edges[edge]]
-    border = np.bincount(owner, np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1), len(part))
+    border = np.bincount(owner, _lengths(arrays, edge), len(part))
     area = np.bincount(
         part, face_areas(arrays.positions, arrays.corners, arrays.offsets), len(part)
     )
     return 2.0 * np.divide(area, border, out=np.zeros(len(part)), where=border > 0)
 
 
+def _lengths(arrays: core.ControlArrays, edge: np.ndarray) -> np.ndarray:
+    ends = arrays.positions[arrays.edges[edge]]
+    return np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+
+
 def _turns_beyond(
     arrays: core.ControlArrays, edge: np.ndarray, owner: np.ndarray, turn: np.ndarray
 ) -> np.ndarray:
     """(b,) for each border edge, the largest `turn` at others of its part; `owner` ascends."""
-    sizes = np.bincount(owner)
-    own = sizes[owner]
-    begin = np.cumsum(own) - own
-    here = np.repeat(np.arange(len(edge)), own)
-    other = np.arange(len(here)) + np.repeat((np.cumsum(sizes) - sizes)[owner] - begin, own)
     ends = arrays.edges[edge]
-    apart = (ends[here][:, :, None] != ends[other][:, None, :]).all(axis=(1, 2))
-    return np.maximum(np.maximum.reduceat(np.where(apart, turn[other], 0.0), begin), turn)
+    falling = np.lexsort((-turn, owner))
+    begin = np.searchsorted(owner, owner)
+    after = np.searchsorted(owner, owner, side="right")
+    found, open_ = turn.copy(), np.arange(len(edge))
+    # the largest that shares no vertex: few do, so few are tried
+    for tried in range(len(edge)):
+        open_ = open_[begin[open_] + tried < after[open_]]
+        if not len(open_):
+            break
+        other = falling[begin[open_] + tried]
+        apart = (ends[open_][:, :, None] != ends[other][:, None, :]).all(axis=(1, 2))
+        found[open_[apart]] = np.maximum(turn[open_], turn[other])[apart]
+        open_ = open_[~apart]
+    return found
 
 
 def _twins(edge: np.ndarray) -> np.ndarray:

@@ -7,9 +7,12 @@ import bpy
 
 from .. import core, memory, place
 from ..blender import Context, Mesh, Object
+from ..check.cages import wants_limit
 from ..live import switch
 from ..mesh.modifiers import copy_modifiers
 from ..mesh.object import is_in_view_layer, new_object, nothing_left_behind
+from ..mesh.read import control_mesh, read_mesh
+from ..mesh.world_shape import world_shape
 from ..poll import in_mode
 from ..settings import Settings, is_limit, wants_modifiers
 from .mixins import Action
@@ -64,7 +67,10 @@ class OBJECT_OT_fairing_live(Action, bpy.types.Operator):
     def _make(self, context: Context) -> Object:
         """A faired object of the active mesh, with the panel's settings and a live first surface."""
         source = cast(Object, context.active_object)
-        settings = Settings.of(context.scene.discrete_fairing).for_source(source)
+        settings = Settings.of(context.scene.discrete_fairing)
+        with control_mesh(context, source) as edited:
+            cage = world_shape(source).of_arrays(read_mesh(edited))
+        settings = settings.for_source(source, wants_limit(settings, cage))
         mesh = cast(Mesh, bpy.data.meshes.new(f"{source.name} Fair"))
         for material in source.data.materials:
             mesh.materials.append(material)

@@ -8,6 +8,7 @@ from bl_ui.utils import PresetPanel
 
 from .. import core, errors, neighbours, prediction, size, vertex_values
 from ..blender import Context, Mesh, Object
+from ..check.cages import REASON, shown_settings
 from ..core import keeps_marks, tolerance
 from ..live import switch
 from ..memory import FAIRING_PG_fit, FAIRING_PG_surface, recall, source_of, source_problem
@@ -78,6 +79,8 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
             _draw_purposes(layout)
         sources = _sources(context, memory)
         triangles = sum(coarse_triangles(o.data) for o in sources) * 4**settings.levels
+        found = [shown_settings(settings, source) for source in sources]
+        limit = any(own is not None and is_limit(own) for own in found)
         known = Known(
             _size_text(settings, sources, triangles),
             tolerance_text(context, settings, sources),
@@ -85,9 +88,9 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
             missing_groups(settings, sources),
             boundary_marks.summary(o for o in sources if len(o.data.edges) <= _MEASURED),
             normals_text(settings, sources),
-            flats_text(settings, sources),
-            vertices_text(settings, sources),
-            follows(settings, sources),
+            flats_text(settings, sources, limit),
+            vertices_text(found, settings, sources),
+            limit,
         )
         near = _near_scans(context) if memory is not None else None
         job = "SCAN_SURFACE" if near is not None else job_of(settings)
@@ -233,32 +236,31 @@ def normals_text(settings: FairingSettings, sources: list[Object]) -> str:
     return f"Normals: {count} fixed" + ("" if keeps_marks(settings) else ", by Bending only")
 
 
-def flats_text(settings: FairingSettings, sources: list[Object]) -> str:
+def flats_text(settings: FairingSettings, sources: list[Object], limit: bool) -> str:
     """For example `Flat faces: 6`, or why they do not apply; empty if none is marked."""
     count = flat_marks.count(o for o in sources if len(o.data.edges) <= _MEASURED)
     if not count:
         return ""
-    return f"Flat faces: {count}" + ("" if keeps_marks(settings) else ", choose Bending")
+    if not keeps_marks(settings):
+        return f"Flat faces: {count}, choose Bending"
+    return f"Flat faces: {count}" + (", choose Through" if limit else "")
 
 
-def follows(settings: FairingSettings, sources: list[Object]) -> bool:
-    """Whether a surface will pass through limit positions."""
-    return any(is_limit(Settings.of(settings).for_source(source)) for source in sources)
-
-
-def vertices_text(settings: FairingSettings, sources: list[Object]) -> str:
-    """The meaning of Auto, or that an applied modifier is not followed; else empty."""
-    if not sources or settings.interpolation not in ("AUTO", "LIMIT"):
+def vertices_text(
+    found: list[Settings | None], settings: FairingSettings, sources: list[Object]
+) -> str:
+    """The meaning of Auto, or that an applied modifier is not followed; else empty. `found`: shown_settings."""
+    if None in found or not sources or settings.interpolation not in ("AUTO", "LIMIT"):
         return ""
-    limit = [is_limit(Settings.of(settings).for_source(source)) for source in sources]
-    subdivided = any(subdivision(source) for source in sources)
+    limit = [own is not None and is_limit(own) for own in found]
+    subdivided = any(subdivision(source) is not None for source in sources)
     if is_evaluated(settings) and subdivided and not any(limit):
         return "Through: subdivided already"
     if settings.interpolation == "LIMIT":
         return ""
     if all(limit):
-        return "Limit: has Subdivision Surface"
-    return "Limit with Subdivision Surface" if any(limit) else "Through every vertex"
+        return "Limit: has Subdivision Surface" if subdivided else f"Limit: {REASON}"
+    return "Limit for some of them" if any(limit) else "Through every vertex"
 
 
 def missing_groups(settings: FairingSettings, sources: list[Object]) -> dict[str, str]:

@@ -86,6 +86,11 @@ inline constexpr Conflict conflicts[] = {
      "flat_faces are for the thin plate only, other energies leave waves in them; use "
      "energy=\"thin_plate\", or leave flat_faces out."},
     {[](const FairOptions& o) {
+       return o.interpolation == Interpolation::limit && !o.features.flat_faces.empty();
+     },
+     "flat_faces keep their own planes, in which limit positions are not; use "
+     "interpolation=\"exact\", or leave flat_faces out."},
+    {[](const FairOptions& o) {
        return o.energy == Energy::minimum_variation && o.membrane.tension > 0;
      },
      "tension cannot be used with minimum variation; use energy=\"thin_plate\" or "

@@ -52,7 +52,10 @@ REFUSED = {
     ),
     "flat faces": (
         partial(df.fair, *BALL, 1, flat_faces=[0]),
-        each(OPTION, "thin plate", energy=["total_curvature", "minimum_variation"]),
+        [
+            *each(OPTION, "thin plate", energy=["total_curvature", "minimum_variation"]),
+            ({"interpolation": "limit"}, OPTION, "limit positions"),
+        ],
     ),
     "shapes": (
         partial(df.fair, *BALL, 1),

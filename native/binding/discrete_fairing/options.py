@@ -129,7 +129,7 @@ class Settings(TypedDict, total=False):
 
     flat_faces: Annotated[ArrayLike | None, face_ids]
     """(f,) int: faces that are meant flat: there the surface is a hundred thousand times as stiff, and the
-    rest blends into them. For the thin plate."""
+    rest blends into them. For the thin plate; not for limit positions, which are not in these planes."""
 
     crease_angle: Annotated[float | None, real]
     """Radians: edges folded by more are creases. None: no such rule."""

@@ -111,7 +111,7 @@ def flatness(surface):
 
 def test_the_surface_keeps_them_flat_until_they_are_cleared():
     source = box()
-    surface = fair(levels=3)
+    surface = fair(levels=3, interpolation="EXACT")
     assert flatness(surface) > 0.1
     assert bpy.ops.object.fairing_flat_faces() == {"FINISHED"}, "its source is meant"
     assert len(marked(source)) == 6
@@ -123,17 +123,20 @@ def test_the_surface_keeps_them_flat_until_they_are_cleared():
     assert flatness(surface) > 0.1
 
 
-def test_other_energies_say_that_bending_keeps_them():
+def test_what_cannot_keep_them_says_so():
     source = box()
 
-    def told(energy):
-        job = Job(bpy.context, source, settings(energy=energy))
+    def told(energy, interpolation="AUTO"):
+        job = Job(bpy.context, source, settings(energy=energy, interpolation=interpolation))
         lines = [s for s in draw(main.VIEW3D_PT_fairing) if str(s).startswith("Flat faces:")]
-        return "flat_faces" in job.arguments, [n for n in job.notes if "lat faces" in n], lines
+        return "flat_faces" in job.arguments, [n for n in job.notes if "Flat faces" in n], lines
 
     assert told("TOTAL_CURVATURE") == (False, [], [])
     bpy.ops.object.fairing_flat_faces()
     kept, notes, lines = told("TOTAL_CURVATURE")
     assert not kept and len(notes) == 1 and "Choose Bending" in notes[0]
     assert lines == ["Flat faces: 6, choose Bending"]
+    kept, notes, lines = told("THIN_PLATE", "LIMIT")
+    assert not kept and len(notes) == 1 and "Through" in notes[0]
+    assert lines == ["Flat faces: 6, choose Through"]
     assert told("THIN_PLATE") == (True, [], ["Flat faces: 6"])

@@ -1,0 +1,156 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Auto takes closed cages with flat faces between tight rims as Subdivision Surface does, and says so."""
+
+import bpy
+import numpy as np
+import pytest
+from fake_layout import draw
+from scenes import add, add_suzanne, again, edit, fair, positions, settings, to_object_mode
+
+from addon.job import Job
+from addon.ui import main
+
+SIZE, LOOP = np.array([75.0, 150.0, 9.0]), 1.5
+
+
+def phone():
+    """A box with two loop cuts beside each edge, as for Subdivision Surface."""
+    cuts = [np.array([-s / 2, LOOP - s / 2, s / 2 - LOOP, s / 2]) for s in SIZE]
+    ids, faces = {}, []
+    for axis in range(3):
+        u, v = (axis + 1) % 3, (axis + 2) % 3
+        for end in (0, 3):
+            for i in range(3):
+                for j in range(3):
+                    face = []
+                    for a, b in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)):
+                        at = [0, 0, 0]
+                        at[axis], at[u], at[v] = end, a, b
+                        face.append(ids.setdefault(tuple(at), len(ids)))
+                    faces.append(face if end else face[::-1])
+    return add("Phone", [[cuts[k][at[k]] for k in range(3)] for at in ids], faces)
+
+
+def bevelled(segments):
+    bpy.ops.mesh.primitive_cube_add(size=1.0)
+    source = bpy.context.object
+    source.data.transform(np.diag([*SIZE, 1.0]).tolist())
+    edit(source, "FACE", range(6))
+    bpy.ops.mesh.bevel(offset=LOOP, segments=segments, profile=0.5)
+    to_object_mode()
+    return source
+
+
+def changed(mode, operator, **options):
+    """The phone, all of it changed by an operator of Edit Mode."""
+    source = phone()
+    edit(source, mode, range(54))
+    getattr(bpy.ops.mesh, operator)(**options)
+    to_object_mode()
+    return source
+
+
+def open_phone():
+    source = phone()
+    edit(source, "FACE", [4])
+    bpy.ops.mesh.delete(type="FACE")
+    to_object_mode()
+    return source
+
+
+def creased():
+    source = phone()
+    crease = source.data.attributes.new("crease_edge", "FLOAT", "EDGE").data
+    crease.foreach_set("value", np.ones(len(source.data.edges), np.float32))
+    return source
+
+
+def marked():
+    source = phone()
+    bpy.ops.object.fairing_flat_faces()
+    return source
+
+
+def stack():
+    """A cylinder as Blender makes it: its side is one face high, longer than the caps are wide."""
+    bpy.ops.mesh.primitive_cylinder_add()
+    return bpy.context.object
+
+
+def vertices_line():
+    lines = [str(line) for line in draw(main.VIEW3D_PT_fairing)]
+    return [line for line in lines if line.startswith(("Limit: ", "Through every"))]
+
+
+CAGES = {
+    "loops": phone,
+    "chamfer": lambda: bevelled(1),
+    "rim": lambda: bevelled(2),
+    "round rim": lambda: bevelled(4),
+}
+OTHERS = {
+    "open": open_phone,
+    "creased": creased,
+    "kept flat": marked,
+    "triangles": lambda: changed("FACE", "quads_convert_to_tris"),
+    "stack": stack,
+    "Suzanne": add_suzanne,
+}
+
+
+@pytest.mark.parametrize("name", CAGES)
+def test_they_pass_where_subdivision_surface_does(name):
+    source = CAGES[name]()
+    job = Job(bpy.context, source, settings())
+    assert job.settings.interpolation == "LIMIT"
+    assert [n for n in job.notes if "flat faces between tight rims" in n and "Through" in n]
+    assert vertices_line() == ["Limit: flat faces between tight rims"]
+
+
+@pytest.mark.parametrize("name", OTHERS)
+def test_all_else_passes_through_its_vertices(name):
+    job = Job(bpy.context, OTHERS[name](), settings())
+    assert job.settings.interpolation == "EXACT" and not job.notes
+    assert vertices_line() == ["Through every vertex"]
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"interpolation": "EXACT"},
+        {"use_selection": True},
+        {"use_crease_angle": True},
+        {"mesh_source": "EVALUATED"},
+    ],
+)
+def test_settings_that_decide_otherwise(changes):
+    source = phone()
+    source.data.polygons[4].select = True
+    assert Job(bpy.context, source, settings(**changes)).settings.interpolation == "EXACT"
+
+
+def test_flat_faces_are_flat_and_through_remains_a_choice():
+    """Of both large sides, off their rims: what Through quilts by 1.5 mm is flat."""
+    source = phone()
+
+    def off(surface):
+        points = positions(surface.data)
+        inside = (np.abs(points[:, :2]) < 0.3 * SIZE[:2]).all(axis=1)
+        return np.abs(np.abs(points[inside, 2]) - SIZE[2] / 2).max() / SIZE.max()
+
+    surface = fair()
+    assert surface.discrete_fairing.interpolation == "LIMIT" and off(surface) < 1e-4
+    through = again(source, interpolation="EXACT")
+    assert off(through) > 5e-3
+    given = positions(source.data)
+    np.testing.assert_array_equal(positions(through.data)[: len(given)], given)
+
+
+def test_live_and_edit_mode_take_the_same():
+    source = phone()
+    edit(source, "FACE", [4])
+    assert vertices_line() == [], "the edit is not read to draw"
+    assert Job(bpy.context, source, settings()).settings.interpolation == "LIMIT"
+    bpy.ops.object.fairing_live(state="ON")
+    surface = next(o for o in bpy.data.objects if o.discrete_fairing.source == source)
+    assert surface.discrete_fairing.interpolation == "LIMIT"
