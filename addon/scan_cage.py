@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cages over scans, by QuadriFlow."""
+"""Cages over scans: of quads by QuadriFlow, or the scan with fewer faces."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -8,6 +8,7 @@ from typing import Any, cast
 import bmesh
 import bpy
 import numpy as np
+from mathutils import Matrix
 from mathutils.bvhtree import BVHTree
 
 from .blender import Context, Mesh, Object, column
@@ -24,6 +25,10 @@ from .words import counted
 POINTS_A_FACE = 25
 # QuadriFlow fails for fewer.
 LEAST_CAGE_FACES = 20
+# QuadriFlow refuses edges shorter than 1e-4, in any unit: it gets the scan with mean edges of about this length.
+MEAN_EDGE = 2.0**12
+MOST_FINER = 4  # times as many quads as were asked for, where fewer leave out a part
+JOINED = 0.7  # radians: triangles of a cage become a quad if it is as flat and as square as this
 VOXELS_AN_EDGE = 4  # of a cage over several scans
 POINTS_ASKED = 10_000  # of a scan, whether a cage is near them
 # Share of a scan's points that may be farther from its cage than an edge: strays.
@@ -37,13 +42,14 @@ class MadeCage:
     object: Object
     is_whole: bool  # no part of the scan is farther from it than one of its edges
     is_finer: bool  # it has more faces, as fewer left out a part
+    is_by_quads: bool  # otherwise QuadriFlow made none, or left out a part, and it has triangles
     is_limited: bool  # it has fewer faces: one for `POINTS_A_FACE` points at most
 
 
 def make_cage(context: Context, near: Sequence[Object], faces: int) -> MadeCage:
-    """A new object with some `faces` quads over the scans `near`, or as many as their points allow, by
-    QuadriFlow: of one scan in its place, of several in the world. It has more faces where fewer leave
-    out a part, such as an ear. Raises JobError.
+    """A new object with some `faces` over the scans `near`, or as many as their points allow: of one scan in its
+    place, of several in the world. Its quads are QuadriFlow's; where these leave out a part, such as an
+    ear, it is the scan with fewer faces. Raises JobError.
     """
     scan = read_scans(context, near)
     names = ", ".join(scan.name for scan in near)
@@ -57,43 +63,69 @@ def make_cage(context: Context, near: Sequence[Object], faces: int) -> MadeCage:
     faces = min(faces, most)
     if not scan.triangles.size:
         raise JobError(
-            f"{names}: Draw a cage over it, and select it last. The scan has no faces, which QuadriFlow needs."
+            f"{names}: Draw a cage over it, and select it last. The scan has no faces to make one of."
         )
     cage = _copy_of(context, near, scan)
     select_only(context, [cage])
-    mesh = cage.data
-    tried, is_whole = 0, False
-    if len(near) == 1 or _unite(cage, faces):
-        tried, is_whole = _make_quads_near(cage, scan, faces, most)
-    if not tried:
+    dense = cage.data
+    if len(near) > 1 and not _unite(cage, faces):
         bpy.data.objects.remove(cage)
-        bpy.data.meshes.remove(mesh)
+        bpy.data.meshes.remove(dense)
         raise JobError(
-            f"{names}: Close its holes first (Clean Scan), or draw a cage over it. QuadriFlow made no cage of it."
+            f"{names}: Close their holes first (Clean Scan), or draw a cage over them. Together they enclose nothing."
         )
-    name = mesh.name
-    bpy.data.meshes.remove(mesh)
+    tried, is_whole = _make_quads_near(cage, scan, faces, min(MOST_FINER * faces, most))
+    is_by_quads = is_whole
+    if not is_whole:
+        tried = 1
+        _replace(cage, _with_fewer_faces(context, cage, dense, faces), keep=dense)
+        is_whole = _is_near(cage, scan)
+    name = dense.name
+    bpy.data.meshes.remove(dense)
     cage.data.name = name
-    return MadeCage(cage, is_whole, tried > 1, is_limited)
+    return MadeCage(cage, is_whole, tried > 1, is_by_quads, is_limited)
 
 
 def _make_quads_near(cage: Object, scan: Scan, faces: int, most: int) -> tuple[int, bool]:
     """Makes finer and finer meshes by QuadriFlow; returns their number, and whether near enough."""
     dense, made = cage.data, 0
     while True:
-        before = cage.data
-        cage.data = dense.copy()
+        _replace(cage, dense.copy(), keep=dense)
         if not _make_quads(cage.data, faces):
-            failed, cage.data = cage.data, before
-            bpy.data.meshes.remove(failed)
             return made, False
         made += 1
-        if before != dense:
-            bpy.data.meshes.remove(before)
         is_whole = _is_near(cage, scan)
-        if is_whole or faces == most:
+        if is_whole or faces >= most:
             return made, is_whole
         faces = min(2 * faces, most)
+
+
+def _replace(cage: Object, mesh: Mesh, keep: Mesh) -> None:
+    """Gives `cage` another mesh; the one before goes, unless it is the mesh to `keep`."""
+    before, cage.data = cage.data, mesh
+    if before != keep:
+        bpy.data.meshes.remove(before)
+
+
+def _with_fewer_faces(context: Context, cage: Object, dense: Mesh, faces: int) -> Mesh:
+    """The `dense` mesh with two triangles a face; those become one quad that lie and fit well."""
+    cage.data, before = dense, cage.data
+    modifier = cast(bpy.types.DecimateModifier, cage.modifiers.new("Fewer", "DECIMATE"))
+    triangles = sum(len(polygon.vertices) - 2 for polygon in dense.polygons)
+    modifier.ratio = min(2 * faces / triangles, 1.0)
+    fewer = cage.evaluated_get(context.evaluated_depsgraph_get()).to_mesh()
+    edit = bmesh.new()
+    edit.from_mesh(fewer)
+    cage.modifiers.remove(modifier)
+    cage.data = before
+    bmesh.ops.join_triangles(
+        edit, faces=edit.faces[:], angle_face_threshold=JOINED, angle_shape_threshold=JOINED
+    )
+    made = cast(Mesh, bpy.data.meshes.new(dense.name))
+    places = [vertex.co for vertex in edit.verts]
+    made.from_pydata(places, [], [[v.index for v in face.verts] for face in edit.faces])
+    edit.free()
+    return made
 
 
 def _copy_of(context: Context, near: Sequence[Object], scan: Scan) -> Object:
@@ -125,12 +157,15 @@ def _mean_edge(mesh: Mesh, faces: int) -> float:
 
 def _make_quads(mesh: Mesh, faces: int) -> bool:
     """Of the active object's mesh; holes that QuadriFlow leaves are closed."""
+    larger = 2.0 ** np.round(np.log2(MEAN_EDGE / _mean_edge(mesh, len(mesh.polygons))))
+    mesh.transform(Matrix.Scale(larger, 4))
     try:
         bpy.ops.object.quadriflow_remesh(mode="FACES", target_faces=faces, use_preserve_sharp=False)
     except RuntimeError:
         return False
     if not 0 < len(mesh.polygons) <= 10 * faces:
         return False
+    mesh.transform(Matrix.Scale(1.0 / larger, 4))
     apart = 1e-6 * _mean_edge(mesh, len(mesh.polygons))
     edit = bmesh.new()
     edit.from_mesh(mesh)

@@ -114,6 +114,8 @@ class OBJECT_OT_fairing_fit(Shown, WholeFairing, FitAmount, bpy.types.Operator):
         faces = counted(len(made.object.data.polygons), "face")
         if not made.is_whole:
             return f"The cage leaves out a part of the scan: draw one over it. It has {faces}."
+        if not made.is_by_quads:
+            return f"QuadriFlow made no cage of the whole scan: this one has triangles, {faces} in all."
         if made.is_limited:
             return f"The scan has few points: its cage has {faces}, and not more."
         if made.is_finer:

@@ -40,6 +40,8 @@ class Mending {
   void restore_points(double* world) const;
   void restore(OutputFaces& faces) const;
   void restore(Report& report) const;
+  // Ids of faces in the input, in order.
+  std::vector<std::int64_t> faces_of_input(std::span<const std::int64_t> faces) const;
 
   // Runs call() and translates its errors to the input's ids.
   template <class Call>
@@ -53,7 +55,6 @@ class Mending {
 
  private:
   FairingError restored(const FairingError& error) const;
-  std::vector<std::int64_t> faces_of_input(std::span<const std::int64_t> faces) const;
   void restore(std::vector<Warning>& warnings) const;
   void map_options(const PolygonMesh& input);
   void map_edges(const PolygonMesh& input);

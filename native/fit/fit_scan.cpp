@@ -124,6 +124,23 @@ FitResult fit_all(const PolygonMesh& input, const FairOptions& options, const Sc
   return result;
 }
 
+// Gives faces of the mended mesh the ids of the input; a face in pieces has the mean of their
+// coverage.
+void restore(const Mending& mending, std::int64_t faces, FitReport& fit) {
+  if (!mending.mended()) return;
+  const auto& origin = mending.mended()->face_origin;
+  for (std::int32_t& f : fit.faces)
+    if (f >= 0) f = std::int32_t(origin[f]);
+  fit.too_coarse = mending.faces_of_input(fit.too_coarse);
+  std::vector<double> sum(faces), pieces(faces);
+  for (std::size_t f = 0; f < origin.size(); ++f) {
+    sum[origin[f]] += fit.coverage[f];
+    pieces[origin[f]] += 1;
+  }
+  fit.coverage.resize(sum.size());
+  for (std::size_t f = 0; f < sum.size(); ++f) fit.coverage[f] = sum[f] / pieces[f];
+}
+
 }  // namespace
 
 FitResult fit_scan(const PolygonMesh& mesh, const FairOptions& options, const ScanInput& scan,
@@ -136,6 +153,7 @@ FitResult fit_scan(const PolygonMesh& mesh, const FairOptions& options, const Sc
       return fit_all(mending.mesh(), mending.options(), scan, settings, ledger, monitor);
     });
     restore(mending, result);
+    restore(mending, mesh.face_count(), result.fit);
     return result;
   });
 }

@@ -23,7 +23,7 @@ struct FitReport {
   double noise = 0;                           // root mean square of the residuals without outliers
   double weight = 0;                          // as FitSettings::weight
   double within = 0, largest = 0;             // of 95 % of the covered points; of all but outliers
-  std::vector<double> coverage;               // of each face: the share that has points
+  std::vector<double> coverage;               // share of each face with points; NaN: mended away
   std::vector<std::int64_t> too_coarse;       // faces to split
   std::vector<std::int64_t> outliers;         // points
   std::vector<std::array<double, 2>> trials;  // weights tried, and the error at held-out points

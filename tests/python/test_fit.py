@@ -413,6 +413,20 @@ def test_scan_of_a_plane_leaves_a_closed_cage_whole(cage):
     assert (extent > 0.8).all() and (extent < 1.3).all()
 
 
+def test_faces_have_the_ids_of_the_input_if_it_was_mended(cage, scan):
+    """Faces after one that mending drops had each other's."""
+    vertices, faces = cage
+    half = scan[scan[:, 2] > 0.0]
+    plain = df.fit(vertices, faces, half, levels=1)
+    twice = df.fit(vertices, [faces[0], *faces], half, levels=1, repair="mend")
+    assert np.isnan(twice.coverage[1])
+    assert np.array_equal(np.delete(twice.coverage, 1), plain.coverage)
+    ids = np.delete(np.arange(len(faces) + 1), 1)
+    assert np.array_equal(twice.faces_of_points, ids[plain.faces_of_points])
+    assert np.array_equal(twice.too_coarse, ids[plain.too_coarse])
+    assert 0 < np.count_nonzero(plain.coverage == 0.0) < len(faces)
+
+
 def test_memory_is_predicted(cage, scan):
     report = df.fit(*cage, np.tile(scan, (4, 1)), levels=4).report
     assert 0.5 * report["predicted_bytes"] < report["peak_bytes"] < 1.5 * report["predicted_bytes"]

@@ -30,7 +30,7 @@ class Fitted(Result):
     control edge, and waves half as long sixteen times more.
     within: (float, float), the distance that 95 % of the covered points are within, and the largest
     of all covered points that are no outliers.
-    coverage: (m,) float64, the share of each face that has points.
+    coverage: (m,) float64, the share of each face that has points; NaN: a face that mending dropped.
     too_coarse: (k,) int64, faces where the surface stays on one side of the points by more than the
     noise: to be split.
     outliers: (k,) int64, points farther off than eight times the noise, and those over no face.

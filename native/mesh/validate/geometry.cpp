@@ -126,7 +126,7 @@ void warn_of_isolated_vertices(const PolygonMesh& mesh, Defects& found) {
     if (!used[v]) isolated.push_back(std::int64_t(v));
   if (isolated.empty()) return;
   found.emplace_back(ErrorCode::isolated_vertices,
-                     "{vertex} {belongs|belong} to no face: kept where they are.", isolated,
+                     "{vertex} {belongs|belong} to no face and {stays|stay} in place.", isolated,
                      Severity::warning);
 }
 
