@@ -16,7 +16,7 @@ from .inspection.curvature import face_normals
 from .mesh.edited import edited, select_nothing
 from .mesh.timed_run import TimedRun
 from .mesh.world_shape import WorldShape
-from .mesh.write_filling import cut_sides, write_hole
+from .mesh.write_filling import cut_sides, with_new, write_hole
 from .transfer.filling import Patch
 from .transfer.hole_loops import (
     flat_faces,
@@ -74,7 +74,7 @@ class Filled:
         none = np.empty((0, 3))
         new = np.concatenate([none, *(hole.vertices for hole in found.holes)])
         return cls(
-            [Patch.of(hole.faces, points, new) for hole in found.holes],
+            [Patch.of([hole.faces], points, new) for hole in found.holes],
             shape.back(new, none, none),
             found.holes,
             found.cuts,
@@ -291,8 +291,9 @@ def _write(
     made: list[Any] = []
     at = 0
     for patch, rim in zip(patches, rims, strict=True):
-        made += write_hole(bm, patch, rim, places[at : at + len(patch.fresh)])
-        at += len(patch.fresh)
+        its = places[at : at + len(patch.fresh)]
+        made += write_hole(bm, patch, with_new(bm, patch, rim, its))
+        at += len(its)
     for face in made:
         face.normal_update()
         face.select_set(True)

@@ -12,7 +12,7 @@ from ..blender import Object
 from ..core import ControlArrays, module
 from ..transfer.filling import Patch
 from .edited import edited
-from .write_filling import write_hole
+from .write_filling import with_new, write_hole
 
 
 @dataclass(frozen=True)
@@ -40,38 +40,33 @@ def write_cleaned(target: Object, arrays: ControlArrays, made: Cleaned) -> None:
 
 
 def _change(bm: Any, arrays: ControlArrays, made: Cleaned) -> None:
-    for elements in (bm.verts, bm.edges, bm.faces):
-        elements.ensure_lookup_table()
-    old_verts, old_faces = list(bm.verts), list(bm.faces)
-    verts = _vertices(bm, arrays, made, old_verts)
+    old_verts, old_edges, old_faces = list(bm.verts), list(bm.edges), list(bm.faces)
     state = _states(arrays, made)
+    patches = _fillings(made)
+    verts = _vertices(bm, arrays, made, patches, old_verts)
+    models = _models(arrays, made, state == _OTHER, old_faces)
     for row in np.flatnonzero(state == _TURNED).tolist():
         old_faces[int(made.face_origin[row])].normal_flip()
-    kept = np.zeros(len(old_faces), bool)
-    kept[made.face_origin[(state == _SAME) | (state == _TURNED)]] = True
-    other = np.flatnonzero(state == _OTHER).tolist()
-    dropped = np.flatnonzero(~np.isin(np.arange(len(old_faces)), made.face_origin)).tolist()
-    again = np.flatnonzero(~kept & np.isin(np.arange(len(old_faces)), made.face_origin)).tolist()
-    edges, loose = _left_alone(arrays, [*dropped, *again])
-    old_edges = [bm.edges[e] for e in edges]
-    bmesh.ops.delete(bm, geom=[old_faces[f] for f in dropped], context="FACES_ONLY")
-    for row in other:
-        _make_again(bm, arrays, made, row, verts, old_verts, old_faces)
-    bmesh.ops.delete(bm, geom=[old_faces[f] for f in again], context="FACES_ONLY")
-    _fill(bm, made, verts)
-    for edge in old_edges:
-        if edge.is_valid and not edge.link_faces:
+    gone = np.ones(len(old_faces), bool)
+    gone[made.face_origin[(state == _SAME) | (state == _TURNED)]] = False
+    edges, loose = _left_alone(arrays, gone)
+    going = [old_faces[f] for f in np.flatnonzero(gone).tolist()]
+    bmesh.ops.delete(bm, geom=going, context="FACES_ONLY")
+    for row in np.flatnonzero(state == _OTHER).tolist():
+        _make_again(bm, arrays, made, row, verts, old_verts, models)
+    for patch in patches:
+        write_hole(bm, patch, [verts[v] for v in (*patch.rim.tolist(), *patch.fresh.tolist())])
+    for edge in [old_edges[e] for e in edges]:
+        if not edge.link_faces:
             bm.edges.remove(edge)
-    for vertex in (old_verts[v] for v in loose):
-        if vertex.is_valid and not vertex.link_edges:
-            bm.verts.remove(vertex)
+    spent = [corner.vert for corner in models.values()]
+    spent += [old_verts[v] for v in loose if not old_verts[v].link_edges]
+    bmesh.ops.delete(bm, geom=spent, context="VERTS")
     bm.normal_update()
 
 
-def _left_alone(arrays: ControlArrays, faces: list[int]) -> tuple[list[int], list[int]]:
-    """Edges that may lose their last face with `faces`, and vertices their last edge."""
-    gone = np.zeros(len(arrays.face_sizes), bool)
-    gone[faces] = True
+def _left_alone(arrays: ControlArrays, gone: np.ndarray) -> tuple[list[int], list[int]]:
+    """Edges that may lose their last face with the faces `gone`, (m,) bool, and vertices their last edge."""
     beside = np.zeros(len(arrays.positions), bool)
     beside[arrays.corners[np.repeat(gone, arrays.face_sizes)]] = True
     edges = beside[arrays.edges].all(axis=1) & (arrays.edge_uses > 0)
@@ -79,25 +74,43 @@ def _left_alone(arrays: ControlArrays, faces: list[int]) -> tuple[list[int], lis
     return np.flatnonzero(edges).tolist(), np.flatnonzero(beside).tolist()
 
 
-def _vertices(bm: Any, arrays: ControlArrays, made: Cleaned, old: Sequence[Any]) -> list[Any]:
-    """The BMesh vertex of each vertex of `made`, or None; moved ones move in all shape keys."""
+def _vertices(
+    bm: Any, arrays: ControlArrays, made: Cleaned, patches: list[Patch], old: Sequence[Any]
+) -> list[Any]:
+    """The BMesh vertex of each vertex of `made`. Copies, and new vertices of old faces only, take over the
+    data of the old vertex there, and move in all shape keys as moved ones do.
+    """
     keys = bm.verts.layers.shape.values()
-    origin = made.vertex_origin[: made.known]
-    first = np.zeros(len(origin), bool)
-    first[np.unique(origin, return_index=True)[1]] = True
-    way = made.positions[: len(origin)] - arrays.positions[origin]
-    moved = (way != 0.0).any(axis=1)
-    verts = [old[o] for o in origin.tolist()]
-    for row in np.flatnonzero(~first).tolist():
-        like = verts[row]
-        verts[row] = bm.verts.new(like.co, like)
-    for row in np.flatnonzero(moved).tolist():
+    known, there = made.vertex_origin >= 0, made.corner_origin >= 0
+    like = np.zeros(len(known), np.int64)
+    like[made.corners[there]] = arrays.corners[made.corner_origin[there]]
+    like[known] = made.vertex_origin[known]
+    inside = np.zeros(len(known), bool)
+    for patch in patches:
+        inside[patch.fresh] = True
+    verts = [old[v] for v in like.tolist()]
+    for row in np.flatnonzero(~inside & ~_in_place(made)).tolist():
+        verts[row] = bm.verts.new(verts[row].co, verts[row])
+    way = made.positions - arrays.positions[like]
+    for row in np.flatnonzero(~inside & (way != 0.0).any(axis=1)).tolist():
         vertex, (x, y, z) = verts[row], way[row].tolist()
         for key in keys:
             place = vertex[key]
             vertex[key] = (place[0] + x, place[1] + y, place[2] + z)
         vertex.co = made.positions[row].tolist()
+    for patch in patches:
+        rim = [verts[v] for v in patch.rim.tolist()]
+        new = with_new(bm, patch, rim, made.positions[patch.fresh])[len(rim) :]
+        for row, vertex in zip(patch.fresh.tolist(), new, strict=True):
+            verts[row] = vertex
     return verts
+
+
+def _in_place(made: Cleaned) -> np.ndarray:
+    """(N,) whether a vertex is the old one itself, not a copy or new."""
+    first = np.zeros(len(made.vertex_origin), bool)
+    first[np.unique(made.vertex_origin, return_index=True)[1]] = True
+    return first & (made.vertex_origin >= 0)
 
 
 _SAME, _TURNED, _OTHER, _NEW = range(4)
@@ -105,30 +118,41 @@ _SAME, _TURNED, _OTHER, _NEW = range(4)
 
 def _states(arrays: ControlArrays, made: Cleaned) -> np.ndarray:
     """(M,) the state of each face's original face."""
-    origin = made.face_origin
+    origin, following = made.face_origin, module().arrays.following
     sizes = np.diff(made.offsets)
     old = origin >= 0
     f = np.where(old, origin, 0)
     fits = old & (sizes == arrays.face_sizes[f]) & (np.bincount(f[old], minlength=1)[f] == 1)
-    starts = np.repeat(arrays.offsets[f], sizes)
-    place = np.arange(len(made.corners)) - np.repeat(made.offsets[:-1], sizes)
-    turned_place = np.where(place == 0, 0, np.repeat(sizes, sizes) - place)
-    origin_v = made.vertex_origin[made.corners]
-    first = np.zeros(len(made.vertex_origin), bool)
-    known = made.vertex_origin[: made.known]
-    first[np.unique(known, return_index=True)[1]] = True
-    own = first[made.corners]
-    corner = np.where(made.corner_origin >= 0, made.corner_origin, 0)
-    own &= (made.corner_origin >= 0) & (origin_v == arrays.corners[corner])
+    corner = np.maximum(made.corner_origin, 0)
+    own = (made.corner_origin >= 0) & _in_place(made)[made.corners]
+    own &= made.vertex_origin[made.corners] == arrays.corners[corner]
+    own &= np.repeat(np.arange(len(arrays.face_sizes)), arrays.face_sizes)[corner] == f.repeat(
+        sizes
+    )
+    after = corner[following(made.offsets)]
+    next_old = following(arrays.offsets)
 
     def all_of(flags: np.ndarray) -> np.ndarray:
-        return np.logical_and.reduceat(flags, made.offsets[:-1])
+        return fits & np.logical_and.reduceat(own & flags, made.offsets[:-1])
 
-    same = fits & all_of(own & (made.corner_origin == starts + place))
-    turned = fits & all_of(own & (made.corner_origin == starts + turned_place))
     found = np.where(old, _OTHER, _NEW)
-    found[turned] = _TURNED
-    found[same] = _SAME
+    found[all_of(next_old[after] == corner)] = _TURNED
+    found[all_of(next_old[corner] == after)] = _SAME
+    return found
+
+
+def _models(
+    arrays: ControlArrays, made: Cleaned, again: np.ndarray, old_faces: Sequence[Any]
+) -> dict[int, Any]:
+    """By id, the corners of the faces whose data the faces `again`, (M,) bool, take over; in copies on
+    vertices of their own, since no face can be made where another still is.
+    """
+    face_of = np.repeat(np.arange(len(old_faces)), arrays.face_sizes)
+    corners = made.corner_origin[np.repeat(again, np.diff(made.offsets))]
+    faces = np.union1d(made.face_origin[again], face_of[corners[corners >= 0]])
+    found: dict[int, Any] = {}
+    for face, begin in zip(faces.tolist(), arrays.offsets[faces].tolist(), strict=True):
+        found.update(enumerate(old_faces[face].copy().loops, begin))
     return found
 
 
@@ -139,23 +163,20 @@ def _make_again(
     row: int,
     verts: Sequence[Any],
     old_verts: Sequence[Any],
-    old_faces: Sequence[Any],
+    models: dict[int, Any],
 ) -> None:
-    """Makes a face with other vertices; corners and edges take over its data, and it goes."""
+    """Makes a face with other vertices; corners and edges take over the data of the `models`."""
     span = slice(int(made.offsets[row]), int(made.offsets[row + 1]))
     origins = made.corner_origin[span].tolist()
-    face = old_faces[int(made.face_origin[row])]
-    begin = int(arrays.offsets[made.face_origin[row]])
-    end = int(arrays.offsets[made.face_origin[row] + 1])
+    model = models[int(arrays.offsets[made.face_origin[row]])]
     corners = [verts[v] for v in made.corners[span].tolist()]
-    known = [bm.edges.get((a, b)) for a, b in _around(corners)]
-    fresh = bm.faces.new(corners, face)
+    known = [bm.edges.get(ends) for ends in _around(corners)]
+    fresh = bm.faces.new(corners, model.face)
     for corner, origin in zip(fresh.loops, origins, strict=True):
-        if begin <= origin < end:
-            corner.copy_from(face.loops[origin - begin])
-    before = [old_verts[v] for v in arrays.corners[origins].tolist()]
+        corner.copy_from(models.get(origin, model))
+    before = [old_verts[arrays.corners[o]] if o >= 0 else None for o in origins]
     for corner, there, (a, b) in zip(fresh.loops, known, _around(before), strict=True):
-        edge = bm.edges.get((a, b)) if there is None and a != b else None
+        edge = bm.edges.get((a, b)) if there is None and a and b and a != b else None
         if edge is not None:
             corner.edge.copy_from(edge)
 
@@ -164,30 +185,33 @@ def _around(items: Sequence[Any]) -> list[tuple[Any, Any]]:
     return list(zip(items, [*items[1:], items[0]], strict=True))
 
 
-def _fill(bm: Any, made: Cleaned, verts: Sequence[Any]) -> None:
-    for faces in _fillings(made):
-        patch = Patch.of(faces, made.points[: made.known], made.points[made.known :])
-        rim = [verts[v] for v in patch.rim.tolist()]
-        write_hole(bm, patch, rim, made.positions[patch.fresh])
-
-
-def _fillings(made: Cleaned) -> list[np.ndarray]:
-    """(t, 3) ids of the new faces of each filling, connected by edges."""
+def _fillings(made: Cleaned) -> list[Patch]:
+    """The new faces, in patches that share neither edges nor new vertices."""
     rows = np.flatnonzero(made.face_origin < 0)
-    if not len(rows):
-        return []
     sizes = np.diff(made.offsets)[rows]
-    ends = np.cumsum(sizes)
+    arrays = module().arrays
+    corners = made.corners[arrays.ranges(made.offsets[rows], made.offsets[rows + 1])]
+    after = corners[arrays.following(np.append(0, np.cumsum(sizes)))]
     owner = np.repeat(np.arange(len(rows)), sizes)
-    corners = made.corners[np.arange(len(owner)) + (made.offsets[rows] - ends + sizes)[owner]]
-    after = corners[module().arrays.following(np.append(0, ends))]
-    sides = np.sort(np.stack([corners, after], axis=1), axis=1)
-    order = np.lexsort(sides.T)
-    same = np.flatnonzero((sides[order[1:]] == sides[order[:-1]]).all(axis=1))
-    pairs = np.stack([owner[order[same]], owner[order[same + 1]]], axis=1)
+    fresh = made.vertex_origin[corners] < 0
+    low, high = np.minimum(corners, after), np.maximum(corners, after)
+    shared = np.concatenate([low * len(made.positions) + high, -1 - corners[fresh]])
+    order = np.argsort(shared, kind="stable")
+    same = np.flatnonzero(shared[order[1:]] == shared[order[:-1]])
+    owners = np.concatenate([owner, owner[fresh]])[order]
+    pairs = np.stack([owners[same], owners[same + 1]], axis=1)
     part = module().patches.connected_parts(len(rows), pairs)
-    groups, group = np.unique(np.stack([part, sizes], axis=1), axis=0, return_inverse=True)
-    of_corners = group.reshape(-1)[owner]
-    by_group = corners[np.argsort(of_corners, kind="stable")]
-    found = np.split(by_group, np.cumsum(np.bincount(of_corners, minlength=len(groups)))[:-1])
-    return [its.reshape(-1, size) for its, size in zip(found, groups[:, 1], strict=True)]
+    by_part: dict[int, list[np.ndarray]] = {}
+    for size in np.unique(sizes).tolist():
+        faces, of = corners[sizes[owner] == size].reshape(-1, size), part[sizes == size]
+        order = np.argsort(of, kind="stable")
+        names, starts = np.unique(of[order], return_index=True)
+        for name, its in zip(names.tolist(), np.split(faces[order], starts[1:]), strict=True):
+            by_part.setdefault(name, []).append(its)
+    return [_patch(made, faces) for faces in by_part.values()]
+
+
+def _patch(made: Cleaned, faces: list[np.ndarray]) -> Patch:
+    # where all vertices are new, the first is the rim
+    known = max(made.known, 1 + min(int(its.min()) for its in faces))
+    return Patch.of(faces, made.points[:known], made.points[known:])

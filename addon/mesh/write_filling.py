@@ -19,31 +19,24 @@ Spread = list[tuple[Write, np.ndarray]]
 _NUMBERS = ("float", "float_vector", "color", "float_color")
 
 
-def write_hole(bm: Any, patch: Patch, rim: list[Any], places: np.ndarray) -> list[Any]:
-    """Makes the faces of `patch` between its `rim` (r vertices of `bm`) and new vertices at `places`
-    (k, 3), in the object's coordinates; returns them.
+def write_hole(bm: Any, patch: Patch, verts: list[Any]) -> list[Any]:
+    """Makes the faces of `patch` between its `verts`, r of the rim and k new ones; returns them.
 
     Numbers are interpolated from the rim. Other data are those of the nearest vertex of the rim, and of
     a face there.
     """
+    rim = verts[: len(patch.rim)]
     beside = [next(iter(v.link_loops), None) for v in rim]
     of_vertices = _spread_vertices(bm, rim, patch)
     of_corners = _spread_corners(bm, rim, patch)
     nearest = patch.nearest.tolist()
-    verts = list(rim)
-    for row, place in enumerate(places.tolist(), start=len(rim)):
-        made = bm.verts.new(place, rim[nearest[row]])
-        made.co = place
-        for key in bm.verts.layers.shape.values():
-            made[key] = made.co
-        verts.append(made)
     for write, rows in of_vertices:
         for vertex, values in zip(verts[len(rim) :], rows[len(rim) :].tolist(), strict=True):
             write(vertex, values)
     found = []
-    for corners in patch.faces.tolist():
+    for corners in (corners for faces in patch.faces for corners in faces.tolist()):
         model = beside[nearest[corners[0]]]
-        face = bm.faces.new([verts[v] for v in corners], None if model is None else model.face)
+        face = bm.faces.new([verts[v] for v in corners], *([model.face] if model else []))
         for corner, v in zip(face.loops, corners, strict=True):
             if beside[nearest[v]] is not None:
                 corner.copy_from(beside[nearest[v]])
@@ -53,6 +46,21 @@ def write_hole(bm: Any, patch: Patch, rim: list[Any], places: np.ndarray) -> lis
                 write(corner, rows[v].tolist())
         found.append(face)
     return found
+
+
+def with_new(bm: Any, patch: Patch, rim: list[Any], places: np.ndarray) -> list[Any]:
+    """The `rim` (r vertices) of a patch and its new vertices, made at `places` (k, 3) with the data of the
+    nearest vertex of the rim.
+    """
+    keys = bm.verts.layers.shape.values()
+    verts = list(rim)
+    for place, like in zip(places.tolist(), patch.nearest[len(rim) :].tolist(), strict=True):
+        made = bm.verts.new(place, rim[like])
+        made.co = place
+        for key in keys:
+            made[key] = made.co
+        verts.append(made)
+    return verts
 
 
 def cut_sides(bm: Any, sides: list[list[Any]]) -> None:

@@ -15,24 +15,25 @@ class Patch:
     rim: np.ndarray  # (r,) ids in the mesh, ascending
     fresh: np.ndarray  # (k,) ids of the new vertices, which follow those of the mesh
     points: np.ndarray  # (r + k, 3)
-    faces: np.ndarray  # (t, 3) rows, or (t, 4) for quads
+    faces: list[np.ndarray]  # rows, an array (t, k) for each size k of faces
     nearest: np.ndarray  # (r + k,) row of the nearest vertex of the rim
 
     @property
     def triangles(self) -> np.ndarray:
-        """(t, 3) rows: its faces, with quads halved."""
-        return self.faces[:, [[0, k, k + 1] for k in range(1, self.faces.shape[1] - 1)]].reshape(
-            -1, 3
+        """(t, 3) rows: its faces as fans."""
+        return np.concatenate(
+            [its[:, [0, k, k + 1]] for its in self.faces for k in range(1, its.shape[1] - 1)]
         )
 
     @classmethod
-    def of(cls, faces: np.ndarray, points: np.ndarray, new: np.ndarray) -> "Patch":
-        """`faces` (t, 3) or (t, 4) of ids: of the mesh at `points`, then of the `new` ones."""
-        ids, rows = np.unique(faces, return_inverse=True)
+    def of(cls, faces: list[np.ndarray], points: np.ndarray, new: np.ndarray) -> "Patch":
+        """`faces` of ids, an array (t, k) for each size: of the mesh at `points`, then of the `new` ones."""
+        ids = np.unique(np.concatenate([its.ravel() for its in faces]))
         split = int(np.searchsorted(ids, len(points)))
         fresh = ids[split:]
         spots = np.concatenate([points[ids[:split]], new[fresh - len(points)]])
-        return cls(ids[:split], fresh, spots, rows.reshape(faces.shape), _nearest(spots, split))
+        rows = [np.searchsorted(ids, its) for its in faces]
+        return cls(ids[:split], fresh, spots, rows, _nearest(spots, split))
 
 
 def _nearest(points: np.ndarray, known: int) -> np.ndarray:
