@@ -18,17 +18,23 @@ bool all_quads(const ControlMesh& control) {
                      [](const Face& face) { return face.quad(); });
 }
 
-// Whether the run is in a flat face or on its sides.
-bool is_on_flat(const ControlMesh& mesh, std::span<const std::uint8_t> flat, const Run& run) {
-  const auto is_flat = [&](Index face) { return face >= 0 && flat[std::size_t(face)] != 0; };
+// Whether the run is in a face amid flats or on its sides, or among faces beside such ones only.
+bool is_on_flat(const ControlMesh& mesh, std::span<const Flatness> flatness, const Run& run) {
+  Flatness least = Flatness::amid, most = Flatness::none;
+  const auto count = [&](Index face) {
+    if (face < 0) return;
+    least = std::min(least, flatness[std::size_t(face)]);
+    most = std::max(most, flatness[std::size_t(face)]);
+  };
   if (run.kind == RunKind::vertex) {
-    const auto ring = mesh.ring(run.element);
-    return std::any_of(ring.begin(), ring.end(), [&](const Spoke& s) { return is_flat(s.face); });
+    for (const Spoke& spoke : mesh.ring(run.element)) count(spoke.face);
+  } else if (run.kind == RunKind::edge) {
+    for (const Index s : mesh.edges[std::size_t(run.element)].side)
+      if (s >= 0) count(mesh.sides[std::size_t(s)].face);
+  } else {
+    count(run.element);
   }
-  if (run.kind != RunKind::edge) return is_flat(run.element);
-  const Edge& edge = mesh.edges[std::size_t(run.element)];
-  return std::any_of(edge.side.begin(), edge.side.end(),
-                     [&](Index s) { return s >= 0 && is_flat(mesh.sides[std::size_t(s)].face); });
+  return most == Flatness::amid || (most == Flatness::beside && least == Flatness::beside);
 }
 
 }  // namespace
@@ -191,7 +197,7 @@ Array<float> LimitSurface::penalty(const GridLevel& grid, std::span<const Vec3> 
   refine_linearly(grid, at_vertex, workers, at_point.data());
   Array<float> out(grid.size());
   for_each_run(grid, workers, [&](const Run& run) {
-    const bool is_flat = is_on_flat(mesh, flat_, run);
+    const bool is_flat = is_on_flat(mesh, flatness_, run);
     for (std::size_t p = run.first; p < run.first + run.count; ++p)
       out[p] = is_flat && at_point[3 * p + 1] == 1
                    ? std::numeric_limits<float>::infinity()

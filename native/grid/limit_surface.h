@@ -27,7 +27,7 @@ class LimitSurface {
   // `subdivision`: of the input, with so many steps.
   // `cage`: the control mesh, at the input's positions.
   LimitSurface(std::shared_ptr<const CatmullClark> subdivision, const ControlMesh& cage)
-      : subdivision_(std::move(subdivision)), flat_(faces_amid_flats(cage)) {}
+      : subdivision_(std::move(subdivision)), flatness_(flatness(cage)) {}
 
   // 3 numbers a point of the finest grid. `cage`: the input's vertices. Control vertices are at
   // their `held` positions. Polygons that were cut otherwise than around their centre, except
@@ -40,14 +40,15 @@ class LimitSurface {
   // bending times (d / r)^2 (S / r^2)^2: it grows with the length of faces over r, and with their
   // turn. r is the shortest control edge at the control vertices near the point: their geometric
   // mean, smoothly from vertex to vertex. One number a point, the fourth root of 1 / r^6; infinite
-  // where this surface is flat. It fades to zero at the rim of a region.
+  // where this surface is flat, and in faces between there and a rim. It fades to zero at the rim of
+  // a region.
   Array<float> penalty(const GridLevel& grid, std::span<const Vec3> control,
                        Workers& workers) const;
 
  private:
   class FaceMap;
   std::shared_ptr<const CatmullClark> subdivision_;
-  std::vector<std::uint8_t> flat_;  // control faces
+  std::vector<Flatness> flatness_;  // of control faces
 };
 
 }  // namespace fairing

@@ -26,19 +26,32 @@ void mark_flat_faces(std::span<const std::int64_t> faces, ControlMesh& control) 
   }
 }
 
-std::vector<std::uint8_t> faces_amid_flats(const ControlMesh& control) {
+std::vector<Flatness> flatness(const ControlMesh& control) {
   std::vector<FacePlane> planes;
   for (const Face& face : control.faces) planes.push_back(plane_of(face, control.positions));
-  std::vector<std::uint8_t> flags(control.faces.size(), 1);
-  for (Index v = 0; v < control.vertex_count(); ++v) {
-    const auto ring = control.ring(v);
-    const bool is_flat = std::all_of(ring.begin(), ring.end(), [&](const Spoke& spoke) {
+  const auto vertices = std::size_t(control.vertex_count());
+  std::vector<std::uint8_t> flat(vertices), inside(vertices), paired(vertices);
+  for (std::size_t v = 0; v < vertices; ++v) {
+    const auto ring = control.ring(Index(v));
+    flat[v] = std::all_of(ring.begin(), ring.end(), [&](const Spoke& spoke) {
       return spoke.face < 0 || in_one_plane(planes[ring[0].face], planes[spoke.face]);
     });
-    for (const Spoke& spoke : ring)
-      if (spoke.face >= 0 && !is_flat) flags[spoke.face] = 0;
+    inside[v] = flat[v] && Index(v) < control.first_centre() &&
+                std::none_of(ring.begin(), ring.end(), [](const Spoke& s) { return s.face < 0; });
   }
-  return flags;
+  for (const Edge& edge : control.edges) {
+    const auto [a, b] = edge.vertex;
+    if (inside[a] && inside[b]) paired[a] = paired[b] = 1;
+  }
+  std::vector<Flatness> out;
+  for (const Face& face : control.faces) {
+    const auto corners = std::span(face.vertex).first(std::size_t(face.size));
+    const bool amid = std::all_of(corners.begin(), corners.end(), [&](Index v) { return flat[v]; });
+    const bool beside =
+        std::any_of(corners.begin(), corners.end(), [&](Index v) { return paired[v]; });
+    out.push_back(amid ? Flatness::amid : beside ? Flatness::beside : Flatness::none);
+  }
+  return out;
 }
 
 }  // namespace fairing

@@ -12,8 +12,12 @@ namespace fairing {
 // faces.
 void mark_flat_faces(std::span<const std::int64_t> faces, ControlMesh& control);
 
-// A flag for each face that lies in one plane with all faces around its corners, so that the limit
-// surface of subdivision is flat there.
-std::vector<std::uint8_t> faces_amid_flats(const ControlMesh& control);
+// A vertex is flat if all faces around it lie in one plane. Of a control face all corners are, so that the
+// limit surface of subdivision is flat there; or it lies beside: a corner is, and its neighbour by an edge,
+// off borders. A single one, as in a fan of triangles or a triangulated cube, is no flat.
+enum class Flatness : std::uint8_t { none, beside, amid };
+
+// One a face.
+std::vector<Flatness> flatness(const ControlMesh& control);
 
 }  // namespace fairing
