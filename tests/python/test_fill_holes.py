@@ -37,6 +37,24 @@ def diameter(points):
     return np.linalg.norm(points[:, None] - points[None], axis=2).max()
 
 
+def test_a_long_rim_of_straight_sides_is_filled():
+    """Over 400 corners, all but four of them straight, and faces behind that turn sharply into it."""
+    side, rows = 150, 3
+    steps = np.arange(4 * side) / side
+    corners = np.array([[0, 0], [1, 0], [1, 1], [0, 1], [0, 0]], dtype=float)
+    number, share = steps.astype(int), (steps % 1)[:, None]
+    square = corners[number] * (1 - share) + corners[number + 1] * share
+    low = [np.c_[square, np.full(len(square), -row / side)] for row in reversed(range(rows))]
+    vertices, walls = np.concatenate(low), lattice_faces(rows, 4 * side, (False, True))[:, ::-1]
+    rim = np.arange(len(vertices) - 4 * side, len(vertices))
+    filled = df.fill_holes(vertices, walls, holes=[rim], density=0)
+    assert not filled.skipped
+    corners = filled.vertices[filled.holes[0].faces]
+    areas = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])[:, 2] / 2
+    assert (areas > 0).all()
+    assert np.isclose(areas.sum(), 1.0)
+
+
 @pytest.mark.parametrize("height", [0.85, 0.5, 0.0])
 def test_a_cap_of_a_sphere_comes_back(height):
     whole, all_faces = sphere(4)

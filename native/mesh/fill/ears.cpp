@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <queue>
+#include <utility>
 
 #include "base/points.h"
 #include "mesh/sharp_turn.h"
@@ -26,7 +27,8 @@ class Ears {
 
   Shortened cut(std::size_t enough) {
     Shortened found;
-    while (count_ > enough && !open_.empty()) {
+    while (count_ > enough) {
+      if (open_.empty() && !admit_sharp_ears()) break;
       stop_if_cancelled(count_);
       const Candidate best = open_.top();
       open_.pop();
@@ -73,12 +75,20 @@ class Ears {
     return unit_or_zero(side(before_[i], i).cross(side(i, after_[i])));
   }
 
+  // Returns whether ears of any angle were not admitted before.
+  bool admit_sharp_ears() {
+    if (std::exchange(any_turn_, true)) return false;
+    std::size_t i = after_[last_cut_];
+    for (std::size_t k = 0; k < count_; ++k, i = after_[i]) look_at(i);
+    return true;
+  }
+
   void look_at(std::size_t i) {
     const int change = ++changes_[i];
     const std::size_t a = before_[i], b = after_[i];
     const Vec3 ear = normal(i), leaving = side(i, a), arriving = side(i, b);
     for (const Vec3& behind : {normals_[a], normals_[i]})
-      if (!behind.isZero() && ear.dot(behind) < sharp_turn) return;
+      if (!any_turn_ && !behind.isZero() && ear.dot(behind) < sharp_turn) return;
     if (ear.isZero() || !polygon_.may_join(std::min(a, b), std::max(a, b))) return;
     open_.push({leaving.dot(arriving) / (leaving.norm() * arriving.norm()), i, change});
   }
@@ -88,6 +98,7 @@ class Ears {
   std::size_t count_, last_cut_ = 0;
   std::vector<std::size_t> before_, after_;
   std::vector<int> changes_;
+  bool any_turn_ = false;
   std::priority_queue<Candidate> open_;
 };
 

@@ -15,8 +15,9 @@ struct Shortened {
   std::vector<Vec3> normals;   // of the face behind the side from each of these to the next
 };
 
-// Cuts off ears, the sharpest corner first, until `enough` corners are left or no ear is smooth: it
-// must turn by less than 60 degrees against the faces behind its two sides.
+// Cuts off ears, the sharpest corner first, until `enough` corners are left: first those that turn
+// by less than 60 degrees against the faces behind their two sides, then any. More corners are left
+// only where no ear has an area and an allowed third side.
 Shortened cut_ears(const SpacePolygon& polygon, std::size_t enough);
 
 }  // namespace fairing
