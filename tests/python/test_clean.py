@@ -5,6 +5,10 @@ import discrete_fairing as df
 import numpy as np
 import pytest
 from control_meshes import cube, refine_quads
+from discrete_fairing.cleaning.left import is_watertight
+from discrete_fairing.cleaning.state import State
+from discrete_fairing.cleaning.steps import Run
+from discrete_fairing.watching import SeveralRuns
 from ragged_holes import lattice, mapped, sheet_with_hanging_vertices, sphere
 from refusing import refusal
 from surfaces import assert_oriented_manifold
@@ -433,3 +437,25 @@ def test_an_underside_is_flat_where_gaps_run_into_its_rims():
     on_a_wall = np.minimum(abs(radius - 1.0), abs(radius - 0.4)) < 0.03
     assert (on_a_wall | (abs(used[:, 2]) < 1e-9) | (used[:, 2] > 2.39)).all()
     assert (abs(used[:, 2]) < 1e-9).sum() > 500
+
+
+@pytest.mark.parametrize("seed", [0, 1, 3])
+def test_what_is_pressed_after_filling_leaves_no_face_without_area(seed):
+    vertices, faces = bushing()
+    vertices += np.random.default_rng(seed).normal(0, 0.03, vertices.shape)
+    cleaned = df.clean(vertices, faces)
+    assert cleaned.watertight
+    assert df.check(cleaned.vertices, cleaned.faces) == []
+
+
+@pytest.mark.parametrize("slit", [False, True])
+def test_pressed_vertices_are_mended_unless_a_slit_is_left(slit):
+    """One vertex is pressed to the middle of the edge opposite, or those of both of its faces."""
+    vertices, faces = sphere()
+    a, b, one = faces[100].tolist()
+    (other,) = {v for f in faces.tolist() if {a, b} <= set(f) for v in f} - {a, b, one}
+    vertices[[one, other] if slit else one] = (vertices[a] + vertices[b]) / 2
+    run = Run(State.of(vertices, *df.arrays.face_arrays(faces)), SeveralRuns(None, None, 0))
+    run.mend_pressed()
+    assert is_watertight(run.state)
+    assert len(run.state.face_origin) == len(faces) - (not slit)

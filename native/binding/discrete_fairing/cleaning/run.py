@@ -155,6 +155,8 @@ def clean(
         skipped = run.fill(float(largest), settings)
         if spikes or folds:
             run.press(held, spikes, folds, filled=True)
+            if mend:
+                run.mend_pressed()
         if pinched:
             run.step("pinched", 0.92, partial(topology.vertices_split, every=True), SPLIT)
     if normals:

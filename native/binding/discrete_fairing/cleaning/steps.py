@@ -132,6 +132,17 @@ class Run:
             loose = len(self.state.points) - len(np.unique(self.state.corners))
             self.note("mend", loose, "{vertex|vertices} without a face dropped")
         self._loose_told = True
+        self._note_mended(mended, acts)
+
+    def mend_pressed(self) -> None:
+        """Mends faces that press() has left without area, unless a slit would be left, as where two vertices
+        lie in the middle of an edge between them.
+        """
+        mended, acts = topology.mended(self.state, self.watchers)
+        if mended.sides.at_border.sum() <= self.state.sides.at_border.sum():
+            self._note_mended(mended, acts)
+
+    def _note_mended(self, mended: State, acts: dict[str, int]) -> None:
         self.state = mended
         for code, count in acts.items():
             self.note("mend", count, _MENDED[code])
