@@ -117,8 +117,9 @@ class Fitting {
   }
 
   double tolerance() const { return options_.tolerance * lattice_.size(); }
-  // The other half is for the refined surface. A curve with an error also has wrong normals, which
-  // patches cannot correct; where these differ the tolerance is smaller.
+  // A curve may use half of the tolerance; the refined surface's own error may use the other half. A
+  // curve with an error also has wrong normals, which patches cannot correct, so a curve at which
+  // neighbours meet at too large an angle (sharper_) has a smaller tolerance.
   double curve_tolerance(std::size_t c) const {
     return lattice_.size() * std::min(options_.tolerance, options_.normal_tolerance / 8) /
            (sharper_[c] ? 8 : 2);
@@ -184,7 +185,8 @@ class Fitting {
     const auto fit = [&](int u, int v, bool last) {
       choose_fitted(lattice_, place, u, v, data);
       FittedPatch next = fit_patch(data, u, v, last && !place.several());
-      // one that leans less at an edge, and turns by more inside, swings between its samples
+      // a patch that meets its neighbours better, but turns by more inside, oscillates between its
+      // samples
       const bool swings = !to_tolerance && next.turned > std::max(folded / 4, fitted_[p].turned);
       if (fitted_[p].patch.net.empty() || (next.misses < fitted_[p].misses && !swings))
         fitted_[p] = std::move(next);
@@ -195,7 +197,7 @@ class Fitting {
                 more_v = spans_v < most_v ? 2 * spans_v : spans_v;
       const bool grows = to_tolerance && (more_u > spans_u || more_v > spans_v);
       if (fit(spans_u, spans_v, !grows) || !grows) return;
-      // of several faces one direction may do
+      // for a patch of several faces more spans in one direction may suffice
       if (place.several() && more_u > spans_u && more_v > spans_v &&
           (fit(spans_u, more_v, false) || fit(more_u, spans_v, false)))
         return;

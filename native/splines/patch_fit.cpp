@@ -17,10 +17,11 @@ namespace {
 // of the tangent plane at a side, and of third differences of the net.
 constexpr double tilt = 0.3, rough = 1e-3;
 // Tried one after another until one succeeds. `slide` is the weight of a sample's distance along
-// the patch: the less it is, the sooner patches fold. In narrow corners all do, unless
-// `shear`, a weight on the deviation of the net's cells from parallelograms, keeps their rows
-// apart. An angle at a side is weighted against distances of the model's size, or of the patch's
-// width, since in a narrow patch the former would outweigh `shear`. Or it has no weight.
+// the patch: the less it is, the sooner patches fold. In narrow corners patches fold with any
+// `slide`, unless `shear`, a weight on the deviation of the net's cells from parallelograms, keeps
+// the net's rows apart. `lean` says with which length an angle at a side becomes a distance: with
+// the model's size; with the patch's width, since in a narrow patch the size would outweigh
+// `shear`; or angles at sides have no weight.
 enum class Lean { of_model, of_patch, free };
 struct Way {
   double slide, shear;
@@ -123,8 +124,8 @@ bool fit_once(const PatchData& data, SplinePatch& patch, const Way* way) {
                      n.weight * squared(scale) * n.normal * n.normal.transpose(), Vec3::Zero());
       }
   SplinePatch solved = patch;
-  // Least squares alone may lie on one side. The volumes on both sides are made equal if that moves
-  // the patch by less than its tolerance on average.
+  // A patch of least squares may lie on one side of its samples. It is moved so that the volumes on
+  // both sides are equal, if the move is less than its tolerance on average.
   if (!system.solve(solved, data.tolerance)) return false;
   patch = std::move(solved);
   return true;
@@ -176,7 +177,7 @@ FittedPatch measured(const PatchData& data, SplinePatch patch) {
     const SurfacePoint p = patch.at(sample.u, sample.v);
     double& most = out.residuals[std::size_t(sample.place)];
     most = std::max(most, (p.at - sample.at).norm());
-    // with zero the angle would be 0 or 180 degrees, depending on signs
+    // a zero normal has no angle: the signs of its zeros would make it 0 or 180 degrees
     if (!sample.normal.isZero())
       out.turned = std::max(out.turned, angle_between(p.normal(), sample.normal));
   }
