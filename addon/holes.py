@@ -133,7 +133,8 @@ class HoleJob(TimedRun):
                 if any(not chosen.isdisjoint(sides_of(loop)) for loop in hole)
             ]
         if not self._holes:
-            code, why = _why_none(options, self._editing, self._unclear, len(loops), units)
+            rims = self._points[np.unique(arrays.edges[arrays.edge_uses == 1])]
+            code, why = _why_none(options, self._editing, self._unclear, rims, units)
             raise JobError(f"{self.name}: {why}", code)
         self.triangles = sum(_triangles_in(sum(map(len, h)), options.density) for h in self._holes)
 
@@ -250,18 +251,23 @@ def _triangles_in(edges: int, density: float) -> int:
 
 
 def _why_none(
-    options: FillOptions, editing: bool, unclear: int, loops: int, units: Units
+    options: FillOptions, editing: bool, unclear: int, rims: np.ndarray, units: Units
 ) -> tuple[str, str]:
-    """The error's code, and a sentence."""
+    """The error's code, and a sentence. `rims`: (k, 3) all border vertices."""
     if options.edge is not None:
         return NO_HOLE, "Press Check Mesh again: this hole is no longer there"
     if unclear:
         return NO_HOLE, _unclear_text(unclear)
-    if not editing and not loops:
+    if not editing and not len(rims):
         return NO_HOLE, "Delete faces first: there is no hole, every edge has a face on both sides"
     if not editing and options.largest > 0.0:
         most = units.lengths(options.largest)(options.largest)
         return LARGER_HOLES, f"Raise Largest Hole: there is no hole of a width of at most {most}"
+    if not editing and 2 * len(np.unique(rims, axis=0)) <= len(rims):
+        return (
+            NO_HOLE,
+            "Merge vertices by distance first, or use Clean Scan: its faces are not joined",
+        )
     if not editing:
         why = "Set Largest Hole to a width, or select the border in Edit Mode: it seems to be that of a sheet"
         return LARGER_HOLES, why

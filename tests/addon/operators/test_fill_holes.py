@@ -7,7 +7,7 @@ import pytest
 from hole_scenes import ball, borders, is_closed, radii, without
 from lattices import lattice_faces
 from mathutils import Vector
-from scenes import activate, add, edit, positions, refused, to_object_mode
+from scenes import CUBE, activate, add, edit, positions, refused, to_object_mode
 
 
 def test_larger_holes_stay_open():
@@ -31,6 +31,13 @@ def test_the_border_of_a_sheet_stays_open():
     assert bpy.ops.object.fairing_fill() == {"FINISHED"}
     assert len(borders(target)) == 24
     refused("it seems to be that of a sheet", bpy.ops.object.fairing_fill)
+
+
+def test_faces_that_are_not_joined_are_no_sheet():
+    """As an STL file has them."""
+    corners = np.array(CUBE[0])[np.array(CUBE[1])].reshape(-1, 3)
+    activate(add("Box", corners.tolist(), np.arange(24).reshape(6, 4).tolist()))
+    refused("Box: Merge vertices by distance", bpy.ops.object.fairing_fill)
 
 
 def test_one_edge_names_its_hole():
