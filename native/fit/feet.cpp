@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nanoflann.hpp>
 
 #include "base/points.h"
+#include "fit/point_tree.h"
 #include "grid/runs.h"
 #include "parallel/reductions.h"
 
@@ -39,20 +39,6 @@ Vec3 nearest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3
 std::size_t nearest_corner(const CornerShares& shares) {
   return std::size_t(std::max_element(shares.begin(), shares.end()) - shares.begin());
 }
-
-// The points of a surface, as an adaptor for nanoflann.
-struct PointsOfSurface {
-  const double* x;
-  std::size_t count;
-  std::size_t kdtree_get_point_count() const { return count; }
-  double kdtree_get_pt(std::size_t p, std::size_t a) const { return x[3 * p + a]; }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<
-    nanoflann::L2_Simple_Adaptor<double, PointsOfSurface, double>, PointsOfSurface, 3, Index>;
 
 // The nearest of the points that count; at equal distance the one with the smaller number.
 template <class Counts>
@@ -219,8 +205,8 @@ void FeetFinder::find_beyond(double distance, Array<Foot>& feet) const {
 }
 
 void FeetFinder::search(Array<Foot>& feet, bool any_side, double beyond) const {
-  const PointsOfSurface surface{x_, cells_.grid().size()};
-  const Tree tree(3, surface);
+  const PointsOfTree surface{x_, cells_.grid().size()};
+  const PointTree tree(3, surface);
   const auto nearest_to = [&](std::size_t s, const auto& counts, double most) {
     NearestThatCounts nearest(counts, most);
     tree.findNeighbors(nearest, scan_.point[s].data(), {});

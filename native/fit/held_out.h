@@ -15,21 +15,23 @@ struct HeldOut {
     std::size_t point;
     Foot foot;
     Vec3 normal;
-    Index group;
   };
   std::vector<std::uint8_t> trained;  // of each point, whether the fit sees it
-  std::vector<Test> tests;            // points whose distances count, sorted by group
-  Index groups = 0;
+  std::vector<Test> tests;            // points whose distances count
 
   std::size_t trained_points() const;
 };
 
-// A tenth of the cells, each of some points; each point is a group.
+// A tenth of the cells, each of some points.
 HeldOut cells_held_out(const LevelFit& fit);
 
 // Discs as wide as a scanner's noise is correlated to both sides, but no wider than a control edge,
-// with tests in their middles only: points near a rim share their noise with points outside. Each
-// disc is a group. Together the sets hold out the whole scan, about once.
+// with tests in their middles only: points near a rim share their noise with points outside.
+// Together the sets hold out the whole scan, about once.
 std::vector<HeldOut> discs_held_out(const LevelFit& fit);
+
+// The noise that a point which is held out shares with others: the sum of the covariances of their offsets over a
+// disc around it, without those over a ring of the same area around that, which are shape.
+double shared_noise(const LevelFit& fit, const HeldOut& held);
 
 }  // namespace fairing

@@ -64,6 +64,10 @@ class LevelFit {
   // Mean distance of adjacent points, and of control vertices, in the frame's unit.
   double apart() const { return std::sqrt(problem_.area / double(problem_.scan.size())); }
   double edge() const { return problem_.edge; }
+  // How far a surface under points of this weight follows a single one: a plate on springs.
+  double share_followed(double weight) const {
+    return std::sqrt(weight) * std::pow(2 * std::numbers::pi * apart() / edge(), 2) / 8;
+  }
 
  private:
   void update_spread();

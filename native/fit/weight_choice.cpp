@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "base/median.h"
 #include "fit/measure.h"
@@ -20,38 +19,14 @@ std::size_t best_of(const std::vector<WeightTrial>& trials) {
   return std::size_t(std::min_element(trials.begin(), trials.end(), less) - trials.begin());
 }
 
-// How much worse each trial is than the best, over what is known: the error of n points is known
-// within 1 / sqrt(2 n) of itself.
-std::vector<double> worse_by_size(const std::vector<WeightTrial>& trials, std::size_t points) {
-  const double least = trials[best_of(trials)].error;
-  std::vector<double> out;
-  for (const auto& trial : trials)
-    out.push_back(least > 0 ? (trial.error / least - 1) * std::sqrt(2 * double(points)) : 0);
-  return out;
-}
-
-// The same of trials with the same groups, over the standard error of their difference: their noise
-// is nearly the same.
-std::vector<double> worse_by_groups(const std::vector<WeightTrial>& trials) {
-  const std::vector<double>& best = trials[best_of(trials)].squares;
-  const auto n = double(best.size());
-  std::vector<double> out;
-  for (const auto& trial : trials) {
-    double sum = 0, squares = 0;
-    for (std::size_t g = 0; g < best.size(); ++g) {
-      const double more = trial.squares[g] - best[g];
-      sum += more;
-      squares += more * more;
-    }
-    const double variance = squares - sum * sum / n;
-    out.push_back(n > 1 && variance > 0 ? sum / std::sqrt(variance * n / (n - 1)) : 0);
-  }
-  return out;
-}
-
 // The middle, by logarithms, of all weights around the best trial that are worse by no more than is
-// known, so that a least one among them says nothing.
-double middle_of_good(const std::vector<WeightTrial>& trials, const std::vector<double>& worse) {
+// known, so that a least one among them says nothing: the error of n points is known within
+// 1 / sqrt(2 n) of itself.
+double middle_of_good(const std::vector<WeightTrial>& trials, std::size_t points) {
+  const double least = trials[best_of(trials)].error;
+  std::vector<double> worse;
+  for (const auto& trial : trials)
+    worse.push_back(least > 0 ? (trial.error / least - 1) * std::sqrt(2 * double(points)) : 0);
   const auto best = std::ptrdiff_t(best_of(trials)), count = std::ptrdiff_t(trials.size());
   const auto reach = [&](int way) {
     auto k = best;
@@ -61,6 +36,12 @@ double middle_of_good(const std::vector<WeightTrial>& trials, const std::vector<
     return end;
   };
   return trials[best].weight * std::pow(ratio, -(reach(-1) + reach(1)) / 2);
+}
+
+std::size_t tests_of(std::span<const HeldOut> sets) {
+  std::size_t tests = 0;
+  for (const HeldOut& held : sets) tests += held.tests.size();
+  return tests;
 }
 
 }  // namespace
@@ -93,11 +74,16 @@ void WeightChoice::add_errors(const HeldOut& held, WeightTrial& trial) {
     far.push_back(std::abs(
         (fit_.scan().point[test.point] - fit_.finder().point_at_foot(test.foot)).dot(test.normal)));
   if (!(cut_ > 0) && !far.empty()) cut_ = 2 * deviation_over_median * median(std::vector(far));
-  const std::size_t first = trial.squares.size();
-  trial.squares.resize(first + std::size_t(held.groups));
-  for (std::size_t k = 0; k < far.size(); ++k)
-    trial.squares[first + std::size_t(held.tests[k].group)] +=
-        far[k] <= cut_ ? far[k] * far[k] : cut_ * (2 * std::min(far[k], outlier / 2 * cut_) - cut_);
+  for (const double d : far)
+    trial.squares += d <= cut_ ? d * d : cut_ * (2 * std::min(d, outlier / 2 * cut_) - cut_);
+}
+
+// A surface follows the noise that a point that is held out shares with trained ones, and is too
+// near to it [Mallows 1973].
+void WeightChoice::set_error(WeightTrial& trial, std::size_t tests) const {
+  trial.error = tests > 0 ? std::sqrt(trial.squares / double(tests) +
+                                      2 * shared_ * fit_.share_followed(trial.weight))
+                          : 0;
 }
 
 // Trials from `weight` downwards, each the sum of all sets. Leaves the best one's surface of the
@@ -106,13 +92,12 @@ std::vector<WeightTrial> WeightChoice::search(double weight, std::span<const Hel
                                               const Place& start, Monitor& monitor) {
   std::vector<WeightTrial> trials;
   std::vector<Place> at(sets.size(), start);
-  std::size_t tests = 0;
-  for (const HeldOut& held : sets) tests += held.tests.size();
+  const std::size_t tests = tests_of(sets);
   Place best;
   cut_ = 0;
   for (; trials.empty() || weight > softest; weight /= ratio) {
     monitor.report(Phase::solve, 0.125 + 0.5 * double(trials.size()) / 16);
-    WeightTrial trial{weight, 0, {}};
+    WeightTrial trial{weight, 0, 0};
     for (std::size_t k = 0; k < sets.size(); ++k) {
       fit_.train_on(sets[k].trained);
       put(std::move(at[k]));
@@ -120,8 +105,7 @@ std::vector<WeightTrial> WeightChoice::search(double weight, std::span<const Hel
       add_errors(sets[k], trial);
       at[k] = place();
     }
-    const double sum = std::accumulate(trial.squares.begin(), trial.squares.end(), 0.0);
-    trial.error = tests > 0 ? std::sqrt(sum / double(tests)) : 0;
+    set_error(trial, tests);
     trials.push_back(std::move(trial));
     const std::size_t least = best_of(trials);
     if (least + 1 == trials.size()) best = at[0];
@@ -139,7 +123,8 @@ void WeightChoice::use(const std::vector<WeightTrial>& trials, const HeldOut& he
 }
 
 // Cells show white noise best. Where noise is correlated over them it seems to be shape, and the
-// weight is too large: then discs, which are wider, are better off with a smaller one.
+// weight is too large. Discs, which are wider, are then better off with a smaller one, but how small
+// they do not tell: a surface with a gap is too calm there. That follows from the noise itself.
 double WeightChoice::by_held_out(Monitor& monitor, bool is_last) {
   // Feet and normals are those of a surface with waves of two control edges and more. A surface
   // that follows the noise has tilted normals, and distances along them are too large.
@@ -147,20 +132,31 @@ double WeightChoice::by_held_out(Monitor& monitor, bool is_last) {
   fit_.iterate(1 / (ratio * ratio), 2, false);
   const HeldOut cells = cells_held_out(fit_);
   const std::vector<HeldOut> discs = is_last ? discs_held_out(fit_) : std::vector<HeldOut>();
+  const double shared = is_last ? shared_noise(fit_, cells) : 0;
   const Place calm = place();
   const std::vector<WeightTrial> by_cells = search(fit_.stiffest(), {&cells, 1}, start, monitor);
   use(by_cells, cells);
   if (cells.tests.empty()) return by_cells[0].weight;  // a tiny scan: no trial has an error
-  const double weight = middle_of_good(by_cells, worse_by_size(by_cells, cells.tests.size()));
+  const double weight = middle_of_good(by_cells, cells.tests.size());
   if (!is_last) return weight;
   Place fitted = place();
-  // from a calm surface, which has not seen what a disc hides
-  const std::vector<WeightTrial> by_discs = search(weight, discs, calm, monitor);
+  // from a calm surface, which has not seen what a disc hides, and from two weights above that of
+  // the cells on, so that the middle has weights to both sides
+  const std::vector<WeightTrial> by_discs = search(ratio * ratio * weight, discs, calm, monitor);
   put(std::move(fitted));
-  const std::vector<double> worse = worse_by_groups(by_discs);
-  if (worse[0] <= 1) return weight;
-  use(by_discs, discs[0]);
-  return middle_of_good(by_discs, worse);
+  if (by_discs[best_of(by_discs)].weight >= weight) return weight;
+  shared_ = shared;
+  std::vector<WeightTrial> by_shared = search(fit_.stiffest(), {&cells, 1}, calm, monitor);
+  for (std::size_t best = by_shared.size(); best_of(by_shared) < best;) {
+    best = best_of(by_shared);
+    fit_.iterate(by_shared[best].weight, 2, true);
+    shared_ =
+        std::min(shared_, shared_noise(fit_, cells));  // a calmer surface's includes some shape
+    for (WeightTrial& trial : by_shared) set_error(trial, cells.tests.size());
+  }
+  use(by_shared, cells);
+  return std::min(middle_of_good(by_shared, cells.tests.size()),
+                  middle_of_good(by_discs, tests_of(discs)));
 }
 
 double WeightChoice::by_tolerance(Monitor& monitor) {

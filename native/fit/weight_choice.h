@@ -12,8 +12,8 @@
 namespace fairing {
 
 struct WeightTrial {
-  double weight, error;         // root mean square
-  std::vector<double> squares;  // sums of each group that is held out
+  double weight, error;  // root mean square
+  double squares;        // the sum over points that are held out
 };
 
 class WeightChoice {
@@ -45,13 +45,15 @@ class WeightChoice {
   Place place() const { return {fit_.surface(), fit_.feet()}; }
   void put(Place place) { fit_.set_surface(std::move(place.surface), std::move(place.feet)); }
   void add_errors(const HeldOut& held, WeightTrial& trial);
+  void set_error(WeightTrial& trial, std::size_t tests) const;
   void use(const std::vector<WeightTrial>& trials, const HeldOut& held);
 
   LevelFit& fit_;
   const FitSettings& settings_;
   double scale_;
   std::size_t trained_points_ = 0;
-  double cut_ = 0;  // larger distances have less weight
+  double shared_ = 0;  // noise that points share
+  double cut_ = 0;     // larger distances have less weight
   std::vector<std::array<double, 2>> trials_;
   bool is_chosen_by_points_ = false;
 };

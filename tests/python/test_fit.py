@@ -12,6 +12,7 @@ from scans import (
     angles_to_blob,
     blob_cage,
     blob_scan,
+    cube_sphere,
     distance_to_blob,
     normals_of_blob,
     on_blob,
@@ -19,6 +20,7 @@ from scans import (
     sheet,
     vertex_normals,
 )
+from scipy.spatial import cKDTree
 from surface_measures import turns
 
 NOISE = 0.004  # a thousandth of the blob's size
@@ -268,6 +270,29 @@ def test_noise_of_neighbours_that_is_alike_is_no_shape():
     fitted = df.fit(*cage, points, triangles=triangles, corner_vertices=[0, 8, 72, 80])
     x, y, z = fitted.vertices.T
     assert rms(z - dome(x, y)) < 0.0045
+
+
+def dense_scan(pieces: int, noise: float, alike: int = 1) -> tuple[np.ndarray, np.ndarray]:
+    """Points and triangles of the blob with noise that is the mean over so many neighbours."""
+    sphere, quads = cube_sphere(pieces)
+    points = on_blob(sphere * [1.9, 1.2, 1.1])
+    off = np.random.default_rng(1).standard_normal(len(points))
+    off = off[cKDTree(points).query(points, [*range(1, alike + 1)])[1]].mean(1)
+    return cut_quads((points + noise / rms(off) * off[:, None] * normals_of_blob(points), quads))
+
+
+@pytest.mark.parametrize(
+    "scan, weight",
+    [(dense_scan(58, 2 * NOISE, 20), 0.125), (dense_scan(130, 5 * NOISE), 0.4)],
+    ids=["correlated over five points", "larger than points are apart"],
+)
+def test_weight_is_near_the_best_under_noise(cage, scan, weight):
+    points, triangles = scan
+
+    def off(weight: float | None) -> float:
+        return errors(df.fit(*cage, points, triangles=triangles, weight=weight))[0]
+
+    assert off(None) < 1.1 * off(weight)
 
 
 def test_crease_curves_come_to_where_both_sides_meet():
