@@ -20,7 +20,7 @@ def flattened(
     angles of the faces sum to less than half a turn, and corners of faces whose normals are opposite to
     all faces around move to the mean of their neighbours, unless the surface closes there, as at the tip of a
     cone. Vertices `fixed`, (n,) bool, stay. `filled`: only the rims of filled holes are
-    examined again.
+    examined again, where folded faces need not agree around others.
     """
     rim = np.zeros(len(state.points), bool)
     lone = state.sides.uses[state.sides.edge] != 2
@@ -39,7 +39,7 @@ def flattened(
         sharp = fans.sharp(free) & spikes
         bad = sharp.copy()
         if folds:
-            over = fans.folded()
+            over = fans.folded(agree=not filled)
             if turn == 0:
                 folded = over
             bad[fans.vertices_of(over)] = True
@@ -110,14 +110,17 @@ class _Fans:
         total = np.bincount(self._corner, self._angles, self._count)
         return (total > 0.0) & (total < np.pi) & self._complete & free
 
-    def folded(self) -> np.ndarray:
-        """Ids of the faces whose normals are opposite to those of the other faces at every corner, which agree."""
+    def folded(self, agree: bool) -> np.ndarray:
+        """Ids of the faces whose normals are opposite to those of the other faces at every corner, which must
+        `agree`, or need not.
+        """
         rows = np.repeat(self._normals, self._sizes, axis=0)
         area = np.linalg.norm(rows, axis=1)
         around = [np.bincount(self._corner, r, self._count)[self._corner] for r in (*rows.T, area)]
         others = np.stack(around[:3], axis=1) - rows
         away = ((others * rows).sum(axis=1) < 0.0) & self._complete[self._corner]
-        away &= np.linalg.norm(others, axis=1) >= AGREE * (around[3] - area)
+        if agree:
+            away &= np.linalg.norm(others, axis=1) >= AGREE * (around[3] - area)
         return self._faces[np.logical_and.reduceat(away, self._starts)]
 
     def vertices_of(self, faces: np.ndarray) -> np.ndarray:
