@@ -69,21 +69,25 @@ def best(found: Iterable[Errors]) -> Errors:
     return min(found, key=lambda errors: errors[1])
 
 
-def wrapped(shape: fit_shapes.Shape, scan: fit_shapes.Mesh) -> dict[str, Errors]:
-    """The errors of the cage's Subdivision Surface on the scan."""
-    points, triangles = scan
+def wrapped_on(shape: fit_shapes.Shape, scan: fit_shapes.Mesh) -> Errors:
+    """The errors of the cage's Subdivision Surface on a scan, in the best mode."""
     creases = shape.options.get("crease_edges", np.empty((0, 2), int))
     subdivided = rivals.catmull_clark(*shape.cage, LEVELS, creases.tolist())
-    smooth = df.denoise(points, triangles, passes=PASSES).vertices
+    found = (shrinkwrapped(subdivided, *scan, mode) for mode in MODES)
+    return best(shape.errors(each, subdivided[1]) for each in found)
 
-    def on(target: np.ndarray) -> Errors:
-        found = (shrinkwrapped(subdivided, target, triangles, mode) for mode in MODES)
-        return best(shape.errors(each, subdivided[1]) for each in found)
 
+def smoothed(scan: fit_shapes.Mesh) -> fit_shapes.Mesh:
+    """The scan after Taubin's filter."""
+    return df.denoise(*scan, passes=PASSES).vertices, scan[1]
+
+
+def wrapped(shape: fit_shapes.Shape, scan: fit_shapes.Mesh) -> dict[str, Errors]:
+    """The errors of the scan and of surfaces wrapped on it."""
     return {
-        "scan": shape.errors(points, triangles),
-        "Shrinkwrap": on(points),
-        "Taubin, Shrinkwrap": on(smooth),
+        "scan": shape.errors(*scan),
+        "Shrinkwrap": wrapped_on(shape, scan),
+        "Taubin, Shrinkwrap": wrapped_on(shape, smoothed(scan)),
     }
 
 

@@ -17,6 +17,7 @@ import exactness
 import fill_lengths
 import fills
 import fit
+import fit_cages
 import jobs
 import limits
 import machine_parts
@@ -52,6 +53,7 @@ BENCHMARKS = {
     "exact": exactness,
     "fills": fills,
     "fit": fit,
+    "fit_cages": fit_cages,
     "fill_lengths": fill_lengths,
     "drag": drag,
 }
