@@ -30,8 +30,8 @@ HeldOut cells_held_out(const LevelFit& fit);
 // Together the sets hold out the whole scan, about once.
 std::vector<HeldOut> discs_held_out(const LevelFit& fit);
 
-// The noise that a point which is held out shares with others: the sum of the covariances of their offsets over a
-// disc around it, without those over a ring of the same area around that, which are shape.
+// The noise that a held-out point shares with others: the sum of the covariances of their offsets
+// over a disc around it, without those over a ring of the same area around that, which are shape.
 double shared_noise(const LevelFit& fit, const HeldOut& held);
 
 }  // namespace fairing

@@ -12,9 +12,10 @@ namespace fairing {
 // faces.
 void mark_flat_faces(std::span<const std::int64_t> faces, ControlMesh& control);
 
-// A vertex is flat if all faces around it lie in one plane. Of a control face all corners are, so that the
-// limit surface of subdivision is flat there; or it lies beside: a corner is, and its neighbour by an edge,
-// off borders. A single one, as in a fan of triangles or a triangulated cube, is no flat.
+// A vertex is flat if all faces around it lie in one plane. A face is `amid` flats if all its
+// corners are flat, so that the limit surface of subdivision is flat there. It is `beside` them if a
+// corner and a neighbour of that by an edge are flat, off borders: a single flat vertex, as in a fan
+// of triangles or a triangulated cube, is none.
 enum class Flatness : std::uint8_t { none, beside, amid };
 
 // One a face.

@@ -132,6 +132,7 @@ std::vector<Triangle> triangulate(const SpacePolygon& polygon) {
   if (polygon.points.size() < 3) return {};
   if (polygon.points.size() <= longest_whole) return Search(polygon).run();
   Shortened rest = cut_ears(polygon, longest_whole);
+  if (rest.corners.size() > longest_whole) return {};
   SpacePolygon left;
   for (const Index corner : rest.corners) left.points.push_back(polygon.points[corner]);
   left.normals = std::move(rest.normals);
