@@ -172,6 +172,18 @@ def test_spikes_are_pressed_down_but_not_fixed_ones(factor):
     assert told(df.clean(points, faces, fixed=fixed), "spikes")[0].count == 1
 
 
+def test_a_spike_where_the_surface_turns_much_is_pressed_down():
+    """At the end of an egg a vertex and its neighbours have a sixth of the whole curvature."""
+    points, faces = sphere(2)
+    points = points * [1.0, 1.0, 2.0]
+    at = int(np.argmax(points[:, 2]))
+    spoiled = points.copy()
+    spoiled[at] *= 4.0
+    found = df.clean(spoiled, faces)
+    only(found, "spikes", 1)
+    assert np.linalg.norm(found.vertices[at] - points[at]) < 0.2
+
+
 def test_a_corner_of_a_box_is_no_spike():
     assert df.clean(*two_boxes([3.0, 0.0, 0.0])).done == []
 

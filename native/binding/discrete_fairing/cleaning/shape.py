@@ -61,8 +61,8 @@ def flattened(
 
 
 def _closes(state: State, points: np.ndarray, rim: np.ndarray) -> np.ndarray:
-    """(n,) whether the angles missing at a vertex and its neighbours sum to at least a quarter of a turn, as at
-    the tip of a cone. The sum is the surface's curvature there [Gauss and Bonnet]; a spike does not change it.
+    """(n,) whether the angles missing at a vertex and its neighbours sum to a quarter of a turn and to half of its own,
+    as at the tip of a cone. The sum is the surface's curvature there [Gauss and Bonnet]; a spike does not change it.
     """
     a, b, c = state.triangles().T
     missing = np.where(rim, np.pi, 2.0 * np.pi)
@@ -73,7 +73,8 @@ def _closes(state: State, points: np.ndarray, rim: np.ndarray) -> np.ndarray:
     ways = np.concatenate([[a, b], [b, a], [b, c], [c, b], [c, a], [a, c]], axis=1)
     ways = np.unique(ways[0] * np.int64(len(points)) + ways[1])
     begin, end = np.divmod(ways, len(points))
-    return missing + np.bincount(begin, missing[end], len(points)) >= 0.5 * np.pi
+    around = missing + np.bincount(begin, missing[end], len(points))
+    return around >= 0.5 * np.maximum(missing, np.pi)
 
 
 def _angles(a: np.ndarray, b: np.ndarray) -> np.ndarray:
