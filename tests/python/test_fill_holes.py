@@ -73,6 +73,20 @@ def test_a_cap_of_a_sphere_comes_back(height):
     assert dihedrals(filled.vertices, filled.faces).max() < 2 * inner
 
 
+def test_far_from_the_rim_of_a_wide_hole_edges_are_longer():
+    """A third of a sphere comes back with little more than half of its triangles."""
+    points, faces = sphere(6)
+    kept = faces[points[faces].mean(1)[:, 2] < 0.3]
+    filled = df.fill_holes(points, kept)
+    new = filled.vertices[len(points) :]
+    assert np.abs(np.linalg.norm(new, axis=1) - 1.0).max() < 1e-6
+    assert len(filled.new_faces) < 0.6 * (len(faces) - len(kept))
+    around = filled.vertices[filled.faces[filled.new_faces]]
+    lengths = np.linalg.norm(around - np.roll(around, 1, axis=1), axis=2).max(1)
+    top = around.mean(1)[:, 2]
+    assert 2.0 < np.median(lengths[top > 0.9]) / np.median(lengths[top < 0.35]) < 4.0
+
+
 def cylinder(a, b):
     return np.cos(2 * np.pi * a), np.sin(2 * np.pi * a), 4 * b
 

@@ -75,9 +75,9 @@ def fill_holes(
     """Fill holes with the fairest surface that continues the faces around.
 
     The rim is triangulated with the least largest dihedral angle and then the least area [Barequet
-    and Sharir 1995; Liepa 2003]; the triangles are split, flipped and relaxed to the density of the rim
-    [Botsch and Kobbelt 2004], then faired with the faces around held. Existing elements do not change,
-    bit for bit. Only the faces near a hole are used.
+    and Sharir 1995; Liepa 2003]; the triangles are split, flipped and relaxed to the density of the rim, far
+    inside to edges of 8 % of the distance from it [Botsch and Kobbelt 2004], then faired with the faces
+    around held. Existing elements do not change, bit for bit. Only the faces near a hole are used.
 
     Parameters
     ----------
@@ -98,7 +98,7 @@ def fill_holes(
         triangulation spread as a membrane, the triangulation without new vertices (FilledHole.energy,
         FilledHole.joint).
     density : float
-        Length of the rim's edges over that of new edges: 1 as long, 2 half as long. 0: no new vertices,
+        Length of the rim's edges over that of new edges beside them: 1 as long, 2 half as long. 0: no new vertices,
         unless the mesh would get an edge twice.
     rim : "exact" or "noisy"
         Noisy: six rings of faces are continued, and all but the outermost may be missed, so that the

@@ -5,6 +5,7 @@
 #include <OpenMesh/Core/Mesh/TriConnectivity.hh>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "base/error.h"
@@ -24,6 +25,10 @@ using VertexHandle = OpenMesh::VertexHandle;
 // An edge is split or collapsed if its length becomes closer to the requested one: halves of 4/3
 // are as far from 1 as 4/3 is, and so is an edge of 4/5 after it becomes half as long again.
 constexpr double too_long = 4.0 / 3.0, too_short = 4.0 / 5.0;
+
+// Far inside, edges are as long as this share of the distance from the rim: a wide hole needs few
+// triangles.
+constexpr double grown_edge = 0.08;
 
 // Rounds of splits with sweeps of relaxation: angles change no more after about ten rounds, of
 // which the first find the number of points to one per cent.
@@ -50,6 +55,7 @@ class Refinement {
     flip_all();
     int settled = 0;
     for (int round = 0; round < most_refinements && settled < settled_rounds; ++round) {
+      find_depths();
       const std::size_t split = split_all(), collapsed = collapse_all();
       flip_all();
       const std::size_t one_percent = mesh_.n_edges() / 100;
@@ -64,12 +70,31 @@ class Refinement {
 
  private:
   const Vec3& point(VertexHandle v) const { return patch_.points[v.idx()]; }
-  double& wanted(VertexHandle v) { return patch_.lengths[v.idx()]; }
+  double wanted(VertexHandle v) const {
+    return std::hypot(patch_.lengths[v.idx()], grown_edge * depths_[v.idx()]);
+  }
   VertexHandle from(Half h) const { return mesh_.from_vertex_handle(h); }
   VertexHandle to(Half h) const { return mesh_.to_vertex_handle(h); }
   bool on_rim(VertexHandle v) const { return v.idx() < patch_.rim; }
   bool is_gone(EdgeHandle e) const { return mesh_.status(e).deleted(); }
   VertexHandle opposite(Half h) const { return to(mesh_.next_halfedge_handle(h)); }
+
+  // The distance of each point from the rim along edges.
+  void find_depths() {
+    depths_.assign(patch_.points.size(), std::numeric_limits<double>::infinity());
+    std::fill_n(depths_.begin(), patch_.rim, 0.0);
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (int e = 0; e < int(mesh_.n_edges()); ++e) {
+        if (is_gone(EdgeHandle(e))) continue;
+        const Half h = mesh_.halfedge_handle(EdgeHandle(e), 0);
+        double &a = depths_[from(h).idx()], &b = depths_[to(h).idx()];
+        const double length = (point(to(h)) - point(from(h))).norm();
+        changed = changed || a > b + length || b > a + length;
+        a = std::min(a, b + length), b = std::min(b, a + length);
+      }
+    }
+  }
 
   // Length relative to the requested one.
   double relative_length(EdgeHandle e) {
@@ -115,7 +140,8 @@ class Refinement {
     const Half h = mesh_.halfedge_handle(e, 0);
     const VertexHandle a = from(h), b = to(h);
     const Vec3 middle = (point(a) + point(b)) / 2 + bulge(a, b);
-    const double length = (wanted(a) + wanted(b)) / 2;
+    const double length = (patch_.lengths[a.idx()] + patch_.lengths[b.idx()]) / 2;
+    depths_.push_back((depths_[a.idx()] + depths_[b.idx()]) / 2);
     patch_.points.push_back(middle);
     patch_.lengths.push_back(length);
     mesh_.split(e, mesh_.add_vertex());
@@ -260,7 +286,7 @@ class Refinement {
       double length = 0;
       for (std::size_t i = 0; i < ring_.size(); ++i) {
         mean += point(to(ring_[i]));
-        length += wanted(to(ring_[i]));
+        length += patch_.lengths[to(ring_[i]).idx()];
         normal += ring_area(i, point(vertex));
       }
       const auto count = double(ring_.size());
@@ -268,7 +294,7 @@ class Refinement {
       if (relaxation_ != Relaxation::taut && normal.squaredNorm() > 0)
         step -= step.dot(normal) / normal.squaredNorm() * normal;
       move(vertex, step);
-      wanted(vertex) = length / count;
+      patch_.lengths[vertex.idx()] = length / count;
     }
   }
 
@@ -346,6 +372,7 @@ class Refinement {
   Patch& patch_;
   const std::function<bool(Index, Index)>& joined_;
   Relaxation relaxation_;
+  std::vector<double> depths_;
   Mesh mesh_;
   std::vector<Half> ring_;
   std::vector<std::optional<Vec3>> beyond_;

@@ -61,8 +61,9 @@ def flattened(
 
 
 def _closes(state: State, points: np.ndarray, rim: np.ndarray) -> np.ndarray:
-    """(n,) whether the angles missing at a vertex and its neighbours sum to a quarter of a turn and to half of its own,
-    as at the tip of a cone. The sum is the surface's curvature there [Gauss and Bonnet]; a spike does not change it.
+    """(n,) whether the angles missing at a vertex and its neighbours sum to a quarter of a turn, and to two
+    thirds of those at the vertex, as at the tip of a cone. The sum is the surface's curvature there [Gauss
+    and Bonnet]; a spike does not change it, and noise changes it by up to half of a spike's.
     """
     a, b, c = state.triangles().T
     missing = np.where(rim, np.pi, 2.0 * np.pi)
@@ -74,7 +75,7 @@ def _closes(state: State, points: np.ndarray, rim: np.ndarray) -> np.ndarray:
     ways = np.unique(ways[0] * np.int64(len(points)) + ways[1])
     begin, end = np.divmod(ways, len(points))
     around = missing + np.bincount(begin, missing[end], len(points))
-    return around >= 0.5 * np.maximum(missing, np.pi)
+    return around >= np.maximum(2.0 / 3.0 * missing, 0.5 * np.pi)
 
 
 def _angles(a: np.ndarray, b: np.ndarray) -> np.ndarray:
