@@ -25,7 +25,8 @@ def _is_auto(settings: Settings) -> bool:
 
 def wants_limit(settings: Settings, cage: core.ControlArrays) -> bool:
     """Whether AUTO is LIMIT for the shape of `cage` in the world: closed, with flats between tight rims of
-    quads, none of them kept flat.
+    quads, none of them kept flat. Flats only of vertices with three faces are those of boxes and prisms,
+    which have no rims.
 
     Through its vertices such a cage is quilted, and with stiff flats its rims bulge. Open meshes are measured
     sheets, hulls and terrain as often as they are cages.
@@ -39,7 +40,9 @@ def wants_limit(settings: Settings, cage: core.ControlArrays) -> bool:
         sharp |= cage.edge_crease > 0
     if settings.use_sharp_edges and cage.sharp_edge is not None:
         sharp |= cage.sharp_edge
-    return bool(find_flats(cage, _ANGLE, sharp, tight=True).any())
+    flats = find_flats(cage, _ANGLE, sharp, tight=True)
+    faces_at = np.bincount(cage.corners)
+    return bool((faces_at[cage.corners[np.repeat(flats, cage.face_sizes)]] > 3).any())
 
 
 def shown_settings(properties: FairingSettings, source: Object) -> Settings | None:

@@ -71,6 +71,11 @@ def marked():
     return source
 
 
+def slab():
+    bpy.ops.mesh.primitive_cube_add(scale=(1.0, 3.0, 0.4))
+    return bpy.context.object
+
+
 def stack():
     """A cylinder as Blender makes it: its side is one face high, longer than the caps are wide."""
     bpy.ops.mesh.primitive_cylinder_add()
@@ -93,6 +98,7 @@ OTHERS = {
     "creased": creased,
     "kept flat": marked,
     "triangles": lambda: changed("FACE", "quads_convert_to_tris"),
+    "slab": slab,
     "stack": stack,
     "Suzanne": add_suzanne,
 }
