@@ -78,8 +78,8 @@ def clean(
         Where parts touch in a vertex or an edge, each gets its own.
     spikes : bool
         A vertex goes to the middle of its neighbours where the faces around it have together less than
-        half of the angle that they would have in a plane, as at tips higher than 1.6 edges, and the surface is
-        flat without it: the tip of a cone stays.
+        half of the angle that they would have in a plane, as at tips higher than 1.6 edges. The tip of a cone
+        stays: the surface closes there.
     folds : bool
         So do the corners of faces whose normals are opposite to those of all faces around, which agree.
     fill : bool
