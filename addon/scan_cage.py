@@ -53,6 +53,7 @@ def make_cage(context: Context, near: Sequence[Object], faces: int) -> MadeCage:
     """
     scan = read_scans(context, near)
     names = ", ".join(scan.name for scan in near)
+    scans.require_finite(scan.points, names)  # QuadriFlow does not end then
     if 0 < len(scan.points) < LEAST_CAGE_FACES:
         raise JobError(
             f"{names}: Select a scan. This mesh has {counted(len(scan.points), 'point')}, and a cage at least"
@@ -61,16 +62,15 @@ def make_cage(context: Context, near: Sequence[Object], faces: int) -> MadeCage:
     most = max(len(scan.points) // POINTS_A_FACE, LEAST_CAGE_FACES)
     is_limited = faces > most
     faces = min(faces, most)
-    if not scan.triangles.size:
+    a, b, c = scan.points[scan.triangles].swapaxes(0, 1)
+    if not np.cross(b - a, c - a).any():
         raise JobError(
-            f"{names}: Draw a cage over it, and select it last. The scan has no faces to make one of."
+            f"{names}: Draw a cage over it, and select it last. The scan has no faces with an area to make one of."
         )
     cage = _copy_of(context, near, scan)
     select_only(context, [cage])
     dense = cage.data
     if len(near) > 1 and not _unite(cage, faces):
-        bpy.data.objects.remove(cage)
-        bpy.data.meshes.remove(dense)
         raise JobError(
             f"{names}: Close their holes first (Clean Scan), or draw a cage over them. Together they enclose nothing."
         )
@@ -113,9 +113,8 @@ def _with_fewer_faces(context: Context, cage: Object, dense: Mesh, faces: int) -
     modifier = cast(bpy.types.DecimateModifier, cage.modifiers.new("Fewer", "DECIMATE"))
     triangles = sum(len(polygon.vertices) - 2 for polygon in dense.polygons)
     modifier.ratio = min(2 * faces / triangles, 1.0)
-    fewer = cage.evaluated_get(context.evaluated_depsgraph_get()).to_mesh()
     edit = bmesh.new()
-    edit.from_mesh(fewer)
+    edit.from_object(cage, context.evaluated_depsgraph_get())
     cage.modifiers.remove(modifier)
     cage.data = before
     bmesh.ops.join_triangles(

@@ -10,7 +10,7 @@ import numpy as np
 from . import core, freshness, memory, prediction
 from .blender import Context, Mesh, Object
 from .check.defects import entry, recall_defects, store_defects
-from .errors import OF_FITS, REMEDIES, JobError
+from .errors import OF_FITS, JobError
 from .job import Job
 from .mesh import scans
 from .mesh.layers import fill_layer, make_layer
@@ -201,13 +201,7 @@ def _require(cage: Object, fit: Fit) -> None:
         raise JobError(
             f"{cage.name}: Select the scan, too. What is selected beside the cage has no points."
         )
-    lost = int(np.count_nonzero(~np.isfinite(points).all(axis=1)))
-    if lost:
-        names = ", ".join(scan.name for scan in fit.objects) or cage.name
-        raise JobError(
-            f"{names}: {REMEDIES['NON_FINITE']}."
-            f" {counted(lost, '{point of the scan has|points of the scan have}')} no finite position."
-        )
+    scans.require_finite(points, ", ".join(scan.name for scan in fit.objects) or cage.name)
 
 
 def _note(context: Context, target: Object, places: dict[str, np.ndarray], kind: str) -> None:

@@ -10,10 +10,9 @@ from ..mesh.read import read_mesh
 from ..mesh.world_shape import world_shape
 from ..properties import FairingSettings
 from ..settings import Settings, is_evaluated, subdivision
-from .flats import find_flats
+from .flats import ANGLE, find_flats
 
 REASON = "flat faces between tight rims"
-_ANGLE = 1.0  # degrees: as in Keep Faces Flat
 
 
 def _is_auto(settings: Settings) -> bool:
@@ -40,7 +39,7 @@ def wants_limit(settings: Settings, cage: core.ControlArrays) -> bool:
         sharp |= cage.edge_crease > 0
     if settings.use_sharp_edges and cage.sharp_edge is not None:
         sharp |= cage.sharp_edge
-    flats = find_flats(cage, _ANGLE, sharp, tight=True)
+    flats = find_flats(cage, ANGLE, sharp, tight=True)
     faces_at = np.bincount(cage.corners)
     return bool((faces_at[cage.corners[np.repeat(flats, cage.face_sizes)]] > 3).any())
 

@@ -9,6 +9,7 @@ from ..inspection.measures import fold_angles
 
 # largest distance of a flat's corners from its plane, relative to its size; files have about six digits
 _IN_PLANE = 1e-3
+ANGLE = 1.0  # degrees, within which faces are joined unless a user says otherwise
 
 
 def find_flats(

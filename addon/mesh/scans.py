@@ -10,8 +10,9 @@ import bpy
 import numpy as np
 
 from ..blender import Context, Mesh, Object, column
-from ..errors import JobError
+from ..errors import REMEDIES, JobError
 from ..triangles import normals
+from ..words import counted
 from .read import control_mesh
 from .world_shape import matrix_relative_to, transformed, world_matrix, world_shape
 
@@ -80,6 +81,16 @@ def read_scans(context: Context, targets: Sequence[Object]) -> Scan:
             ]
         ),
     )
+
+
+def require_finite(points: np.ndarray, names: str) -> None:
+    """Raises JobError where a point (S, 3) of the scans `names` has no finite position."""
+    lost = int(np.count_nonzero(~np.isfinite(points).all(axis=1)))
+    if lost:
+        raise JobError(
+            f"{names}: {REMEDIES['NON_FINITE']}."
+            f" {counted(lost, '{point of the scan has|points of the scan have}')} no finite position."
+        )
 
 
 def made_of(context: Context, targets: Sequence[Object], cage: Object) -> dict[str, Any]:

@@ -10,6 +10,7 @@ from bpy.props import IntProperty
 from ..blender import Context, Object
 from ..errors import JobError
 from ..job import Job
+from ..mesh.object import nothing_left_behind
 from ..mesh.scans import is_scan, read_scans
 from ..poll import in_mode
 from ..properties import FitAmount
@@ -90,6 +91,10 @@ class OBJECT_OT_fairing_fit(Shown, WholeFairing, FitAmount, bpy.types.Operator):
         return ("levels", *amount_names(self), "cage_faces")
 
     def make_jobs(self, context: Context) -> list[Job]:
+        with nothing_left_behind():  # such as a cage over a scan that is refused then
+            return [self._job(context)]
+
+    def _job(self, context: Context) -> Job:
         cage, scans = _chosen(context)
         scan = read_scans(context, scans)
         note = ""
@@ -107,7 +112,7 @@ class OBJECT_OT_fairing_fit(Shown, WholeFairing, FitAmount, bpy.types.Operator):
         job = FitJob(context, cage, fit, settings)
         if note:
             job.notes.append(note)
-        return [job]
+        return job
 
     def _note_of(self, made: MadeCage) -> str:
         """What a cage that was made leaves out, or why it has another number of faces than was asked for."""

@@ -8,7 +8,7 @@ import bpy
 from bpy.props import BoolProperty, FloatProperty
 
 from ..blender import Context, Object
-from ..check.flats import find_flats
+from ..check.flats import ANGLE, find_flats
 from ..errors import JobError
 from ..memory import source_of
 from ..mesh import flat_marks
@@ -32,7 +32,7 @@ class OBJECT_OT_fairing_flat_faces(Shown, Action, bpy.types.Operator):
     angle: FloatProperty(
         name="Angle",
         description="In Object Mode: faces that meet at a smaller angle are one flat, if they lie in a plane",
-        default=radians(1.0),
+        default=radians(ANGLE),
         min=0.0,
         max=radians(30.0),
         subtype="ANGLE",

@@ -35,6 +35,17 @@ def add_suzanne():
     return bpy.context.object
 
 
+def add_rounded_box(size, rim, segments):
+    """A box with rounded rims; its six flats come last."""
+    bpy.ops.mesh.primitive_cube_add(size=1.0)
+    made = bpy.context.object
+    made.data.transform(np.diag([*size, 1.0]).tolist())
+    edit(made, "FACE", range(6))
+    bpy.ops.mesh.bevel(offset=rim, segments=segments, profile=0.5)
+    to_object_mode()
+    return made
+
+
 def activate(target):
     for other in bpy.context.selected_objects:
         other.select_set(False)

@@ -5,7 +5,17 @@ import bpy
 import numpy as np
 import pytest
 from fake_layout import draw
-from scenes import add, add_suzanne, again, edit, fair, positions, settings, to_object_mode
+from scenes import (
+    add,
+    add_rounded_box,
+    add_suzanne,
+    again,
+    edit,
+    fair,
+    positions,
+    settings,
+    to_object_mode,
+)
 
 from addon.job import Job
 from addon.ui import main
@@ -29,16 +39,6 @@ def phone():
                         face.append(ids.setdefault(tuple(at), len(ids)))
                     faces.append(face if end else face[::-1])
     return add("Phone", [[cuts[k][at[k]] for k in range(3)] for at in ids], faces)
-
-
-def bevelled(segments):
-    bpy.ops.mesh.primitive_cube_add(size=1.0)
-    source = bpy.context.object
-    source.data.transform(np.diag([*SIZE, 1.0]).tolist())
-    edit(source, "FACE", range(6))
-    bpy.ops.mesh.bevel(offset=LOOP, segments=segments, profile=0.5)
-    to_object_mode()
-    return source
 
 
 def changed(mode, operator, **options):
@@ -89,9 +89,9 @@ def vertices_line():
 
 CAGES = {
     "loops": phone,
-    "chamfer": lambda: bevelled(1),
-    "rim": lambda: bevelled(2),
-    "round rim": lambda: bevelled(4),
+    "chamfer": lambda: add_rounded_box(SIZE, LOOP, 1),
+    "rim": lambda: add_rounded_box(SIZE, LOOP, 2),
+    "round rim": lambda: add_rounded_box(SIZE, LOOP, 4),
 }
 OTHERS = {
     "open": open_phone,

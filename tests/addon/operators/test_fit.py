@@ -205,9 +205,14 @@ def test_what_cannot_be_fitted_is_said():
     cloud = add("Cloud", positions(scan.data).tolist(), [])
     activate(cloud)
     refused("Cloud: Draw a cage over it", bpy.ops.object.fairing_fit)
+    ball("Lost", 3).data.vertices[3].co.x = np.nan
+    refused("Lost: Delete", bpy.ops.object.fairing_fit)
+    line = [(i, i + 1, i + 2) for i in range(40)]
+    activate(add("Line", [(float(i), 0.0, 0.0) for i in range(42)], line))
+    refused("Line: Draw a cage over it", bpy.ops.object.fairing_fit)
     activate(add("Box", *CUBE))
     refused("Box: Select a scan. This mesh has 8 points", bpy.ops.object.fairing_fit)
-    assert len(bpy.data.objects) == count + 2
+    assert len(bpy.data.objects) == count + 4
 
 
 def test_a_scan_that_is_inside_out_is_said(capsys):

@@ -5,7 +5,16 @@ import bpy
 import numpy as np
 import pytest
 from fake_layout import draw
-from scenes import add_suzanne, edit, fair, positions, refused, settings, to_object_mode
+from scenes import (
+    add_rounded_box,
+    add_suzanne,
+    edit,
+    fair,
+    positions,
+    refused,
+    settings,
+    to_object_mode,
+)
 
 from addon.job import Job
 from addon.mesh import flat_marks
@@ -16,14 +25,7 @@ RIM = 2.0
 
 
 def box(size=(40.0, 30.0, 20.0), segments=2):
-    """A box with rounded rims; its six flats come last."""
-    bpy.ops.mesh.primitive_cube_add(size=1.0)
-    made = bpy.context.object
-    made.data.transform(np.diag([*size, 1.0]).tolist())
-    edit(made, "FACE", range(6))
-    bpy.ops.mesh.bevel(offset=RIM, segments=segments, profile=0.5)
-    to_object_mode()
-    return made
+    return add_rounded_box(size, RIM, segments)
 
 
 def shape(name):
