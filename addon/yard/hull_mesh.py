@@ -85,13 +85,33 @@ def _sharp_middle(
     for index, face in enumerate(faces):
         for side in _sides(face):
             beside.setdefault(side, []).append(index)
-    found = set()
+    found, unknown, known = set(), set(), set()
     for middle in beside:
         if middle in knuckles or places[list(middle), 1].any():
             continue
         section, ends = _section(places, faces, beside, middle, knuckles)
         if _is_sharp(section, at_knuckle=ends in knuckles):
             found.add(middle)
+        elif len(section) == 2 and len(ends) == 1:
+            unknown.add(middle)
+        else:
+            known.add(middle)
+    return found | _between_sharp(unknown, found | knuckles, known)
+
+
+def _between_sharp(
+    unknown: set[frozenset[int]], sharp: set[frozenset[int]], smooth: set[frozenset[int]]
+) -> set[frozenset[int]]:
+    """The runs of `unknown` edges, beside triangles, that join `sharp` edges and no `smooth` one."""
+    found, left = set(), set(unknown)
+    while left:
+        run = {left.pop()}
+        while more := {edge for edge in left if any(edge & other for other in run)}:
+            run |= more
+            left -= more
+        ends = frozenset().union(*run)
+        if any(edge & ends for edge in sharp) and not any(edge & ends for edge in smooth):
+            found |= run
     return found
 
 

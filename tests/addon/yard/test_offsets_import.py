@@ -12,7 +12,7 @@ from scenes import EXAMPLES, activate, computed, fair, positions, settings
 from addon.mesh.offset_names import read_names, stations
 from addon.strain.measure import StrainJob
 from addon.yard.hull_mesh import hull_mesh
-from addon.yard.offsets import Offset, Offsets
+from addon.yard.offsets import Offset, Offsets, read
 
 
 def imported(path, **options):
@@ -51,6 +51,18 @@ def test_the_middle_is_sharp_where_the_sections_are(section, sharp, side):
     points = [Offset(f"{x}", f"L{k}", (x, side * y, z)) for x, k, y, z in rows]
     made = hull_mesh(Offsets(["0", "1"], [p.line for p in points[: len(section)]], points))
     assert made.creases == ([(0, len(section))] if sharp else [])
+
+
+def test_a_sharp_keel_stays_sharp_where_waterlines_end_on_it():
+    head = "station (m),Keel,WL 0.1,WL 0.2,WL 0.4,WL 0.6,WL 0.8"
+    rows = [head]
+    for x in range(9):
+        keel = 0.01 * x**2
+        breadths = (f"{2 * (z - keel):.3f}" if z > keel else "" for z in (0.1, 0.2, 0.4, 0.6, 0.8))
+        rows.append(",".join([str(x), f"{keel:.3f}", *breadths]))
+    made = hull_mesh(read("\n".join(rows)))
+    keel = [made.names.index(f"station {x}, Keel") for x in range(9)]
+    assert made.creases == sorted((min(pair), max(pair)) for pair in zip(keel, keel[1:]))
 
 
 def test_a_dropped_file_is_imported_and_the_menu_asks():
