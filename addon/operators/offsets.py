@@ -13,11 +13,11 @@ from ..errors import JobError
 from ..mesh.layers import write_creases
 from ..mesh.object import linked_object, select_only
 from ..mesh.offset_names import write_names
-from ..purposes import preset_file
 from ..yard.hull_mesh import HullMesh, hull_mesh
 from ..yard.offsets import read
 from ..yard.sheet import UNITS, OffsetsError
 from .mixins import Action
+from .purposes import set_job
 
 _UNITS = (
     ("AUTO", "As in the File", "The unit that the file names"),
@@ -73,18 +73,16 @@ class IMPORT_MESH_OT_fairing_offsets(ImportHelper, Action, bpy.types.Operator):
             raise JobError(f"{path.name}: Add offsets: no two stations have points to join.")
         target = _object(context, path.stem, made)
         select_only(context, [target])
-        _set_panel(context, made)
         if self.symmetry and made.is_half:
             context.scene.discrete_fairing.symmetry_plane = "Y"
-        knuckles = f", {len(made.creases)} edges creased" if made.creases else ""
-        return f"{len(table.points)} offsets at {len(table.stations)} stations, {len(made.faces)} faces{knuckles}"
-
-
-def _set_panel(context: Context, made: HullMesh) -> None:
-    """The job Hull; bending where a crease ends inside, since flow lines oscillate there."""
-    cast(Any, bpy.ops.object).fairing_preset_apply(filepath=str(preset_file("HULL")))
-    if made.fades:
-        context.scene.discrete_fairing.energy = "THIN_PLATE"
+        parts = [
+            f"{len(table.points)} offsets at {len(table.stations)} stations",
+            f"{len(made.faces)} faces",
+        ]
+        if made.creases:
+            parts.append(f"{len(made.creases)} edges creased")
+        bending = set_job(context, "HULL", [target])
+        return ", ".join(parts) + (f". {bending}" if bending else "")
 
 
 def _object(context: Context, name: str, made: HullMesh) -> Object:

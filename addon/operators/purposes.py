@@ -1,14 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Fair for …: sets a job's settings and runs, in one click."""
 
+from collections.abc import Iterable
 from dataclasses import asdict
-from typing import Any
+from typing import Any, cast
 
 import bpy
 from bpy.props import EnumProperty
 
-from ..blender import Answer, Context
-from ..mesh.read import source_objects
+from ..blender import Answer, Context, Object
+from ..check.hulls import why_bending
+from ..memory import source_of
+from ..mesh.read import control_mesh, control_meshes, read_mesh, source_objects
+from ..mesh.world_shape import world_shape
 from ..poll import ExplainedPoll, needs
 from ..purposes import EASED_FIRST, OPERATORS, PURPOSES, preset_file
 from ..settings import Settings
@@ -18,6 +22,23 @@ from .fair import can_fair
 # an operator called by another one makes no undo step by itself; one called by a script makes none at
 # all
 _UNDO = True
+
+
+def set_job(context: Context, purpose: str, sources: Iterable[Object]) -> str:
+    """Gives the panel the settings of a job for these `sources`; a sentence if their shapes change them."""
+    cast(Any, bpy.ops.object).fairing_preset_apply(filepath=str(preset_file(purpose)))
+    if purpose != "HULL":
+        return ""
+    panel = active_settings(context)
+    for source in sources:
+        source = source_of(source) or source
+        with control_mesh(context, source) as mesh:
+            cage = world_shape(source).of_arrays(read_mesh(mesh))
+        reason = why_bending(cage, Settings.of(panel))
+        if reason:
+            panel.energy = "THIN_PLATE"
+            return f"Bending in place of Flow Lines for {source.name}: {reason}"
+    return ""
 
 
 class OBJECT_OT_fairing_for(ExplainedPoll, bpy.types.Operator):
@@ -60,7 +81,9 @@ class OBJECT_OT_fairing_for(ExplainedPoll, bpy.types.Operator):
             if context.mode == "OBJECT":
                 return operators.fairing_scan(how, _UNDO)
             return operators.fairing_in_place(how, _UNDO, vertices="MEASURED", levels=0)
-        operators.fairing_preset_apply(filepath=str(path))
+        said = set_job(context, self.purpose, control_meshes(context))
+        if said:
+            self.report({"INFO"}, said)
         if self.purpose in EASED_FIRST:
             if how == "INVOKE_DEFAULT":
                 return operators.fairing_ease(how, _UNDO, fair_afterwards=True)

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Meshes a table of offsets: quads between stations and lines, triangles where these end."""
 
-from collections import Counter
 from dataclasses import dataclass
 from difflib import SequenceMatcher
 
@@ -24,15 +23,6 @@ class HullMesh:
     def is_half(self) -> bool:
         """Whether it ends in the plane y = 0."""
         return bool(len(self.positions)) and bool((self.positions[:, 1] == 0.0).any())
-
-    @property
-    def fades(self) -> bool:
-        """Whether a crease ends inside the hull, such as that of a sharp stem at a round keel."""
-        uses = Counter(side for face in self.faces for side in _sides(face))
-        border = [list(s) for s, n in uses.items() if n == 1 and self.positions[list(s), 1].any()]
-        ends = Counter(v for pair in self.creases for v in pair)
-        outside = {v for side in border for v in side}
-        return any(count == 1 and v not in outside for v, count in ends.items())
 
 
 def hull_mesh(table: Offsets) -> HullMesh:

@@ -3,10 +3,22 @@
 
 import bpy
 import numpy as np
+import panel_meshes
 import pytest
 from fake_layout import draw
 from lattices import lattice_faces
-from scenes import CUBE, TRIANGLE, activate, add, add_suzanne, fair, positions, refused, shown
+from scenes import (
+    CUBE,
+    TRIANGLE,
+    activate,
+    add,
+    add_suzanne,
+    fair,
+    positions,
+    refused,
+    set_edge_attribute,
+    shown,
+)
 
 from addon.purposes import EASED_FIRST, PURPOSES, job_of, name_of_purpose, preset_file
 from addon.ui.main import VIEW3D_PT_fairing
@@ -119,6 +131,29 @@ def test_after_a_job_the_panel_shows_its_slider_and_the_rest_under_more(purpose)
     assert {"Fairness", "Vertices"} <= set(seen[seen.index("More") :])
     made.metric_exponent = 0.125
     assert job_of(made) == "", "settings of one's own are no job"
+
+
+@pytest.mark.parametrize(
+    ("hull", "creases", "energy"),
+    [
+        (panel_meshes.tumblehome(), None, "MINIMUM_VARIATION"),
+        (panel_meshes.kayak(), None, "THIN_PLATE"),
+        (panel_meshes.hard_chine(), None, "MINIMUM_VARIATION"),
+        (panel_meshes.hard_chine(), 3, "THIN_PLATE"),
+    ],
+    ids=["even", "long faces", "chine", "chine that ends inside"],
+)
+def test_a_hull_has_flow_lines_where_they_do_not_swing(hull, creases, energy):
+    source = add("Hull", hull.vertices.tolist(), hull.faces)
+    set_edge_attribute(source.data, "crease_edge", "FLOAT", hull.crease_edges[:creases], 1.0)
+    assert bpy.ops.object.fairing_for(purpose="HULL") == {"FINISHED"}
+    surface = bpy.context.active_object
+    assert surface.discrete_fairing.energy == energy
+    low, high = positions(source.data), positions(surface.data)
+    assert (high.max(axis=0) - low.max(axis=0)).max() < 0.01 * np.ptp(low, axis=0).max()
+    surface.discrete_fairing.energy = "TOTAL_CURVATURE"
+    assert bpy.ops.object.fairing_for(purpose="HULL") == {"FINISHED"}
+    assert surface.discrete_fairing.energy == energy, "on a surface, its source decides"
 
 
 def test_a_scan_with_shape_keys_is_refused_in_object_mode():
