@@ -85,9 +85,7 @@ class CleanJob(TimedRun):
         target, found = cast(Object, self.reference.find()), self.result
         origin = found.vertex_origin[found.vertex_origin >= 0]
         sent = self.shape.of(self.arrays.positions)[origin]
-        flat = isinstance(found.faces, tuple)
-        corners = found.faces[0] if flat else found.faces.ravel()
-        offsets = found.faces[1] if flat else np.arange(len(found.faces) + 1) * 3
+        corners, offsets = core.module().arrays.face_arrays(found.faces)
         made = Cleaned(
             self.shape.back(found.vertices, sent, self.arrays.positions[origin]),
             found.vertices,

@@ -9,16 +9,16 @@ import bmesh
 import numpy as np
 
 from . import core, errors
-from .blender import Context, Object
+from .blender import Context, Object, column
 from .check.defects import check_object, entry, store_defects
 from .errors import JobCancelled, JobError
 from .inspection.curvature import face_normals
 from .mesh.edited import edited, select_nothing
 from .mesh.timed_run import TimedRun
-from .mesh.world_shape import WorldShape
 from .mesh.write_filling import cut_sides, with_new, write_hole
 from .transfer.filling import Patch
 from .transfer.hole_loops import (
+    Side,
     flat_faces,
     holes_in,
     sides_of,
@@ -46,95 +46,47 @@ class FillOptions:
     edge: tuple[int, int] | None = None  # only the hole with this edge, whatever else is selected
 
 
-@dataclass(frozen=True)
-class Filling:
-    """What has been done to a mesh."""
-
-    holes: list[Any]  # the core's reports of those that were filled
-    energy: str  # the requested one, as the core names it
-    unclear: int  # border edges around ambiguous holes
-    cut: int  # edges that were cut at the vertices on them
-
-
-@dataclass(frozen=True)
-class Filled:
-    """The result of the core, for `apply`."""
-
-    patches: list[Patch]
-    places: np.ndarray  # (k, 3) all new vertices, in the object's coordinates
-    holes: list[Any]  # the core's reports
-    cuts: dict[tuple[int, int], list[int]]  # the core's cuts
-    # the skipped holes, a dict each, like the defects of Check Mesh
-    skipped: list[dict[str, Any]]
-    reasons: list[str]  # the reasons, each once, with all elements
-
-    @classmethod
-    def of(cls, found: Any, points: np.ndarray, shape: WorldShape) -> "Filled":
-        """From the core's result for a mesh at `points` (n, 3), in the world's `shape`."""
-        none = np.empty((0, 3))
-        new = np.concatenate([none, *(hole.vertices for hole in found.holes)])
-        return cls(
-            [Patch.of([hole.faces], points, new) for hole in found.holes],
-            shape.back(new, none, none),
-            found.holes,
-            found.cuts,
-            [_skipped(hole) for hole in found.skipped],
-            found.reasons,
-        )
-
-
-def _skipped(hole: Any) -> dict[str, Any]:
-    """A hole that the core has skipped."""
-    code = errors.VERTEX_ON_EDGE if hole.cure == "cut" else hole.code
-    return entry(code, hole.kind, hole.elements, "error", hole.message)
-
-
 class HoleJob(TimedRun):
-    """The holes of one object: read, filled on any thread, applied; keeps an `error` for later."""
+    """The holes of one object: read, filled on any thread, applied. `result`: the package's Filled;
+    `error`: why nothing can be filled, found while computing.
+    """
 
     again = "Fill"
 
     def __init__(self, context: Context, target: Object, options: FillOptions) -> None:
         """Reads the holes; raises JobError if that is impossible."""
         self._options, self.kind = options, options.energy
-        self.error: JobError | None = None  # why nothing can be filled
+        self.error: JobError | None = None
         with self._reading(context, target) as mesh:
             arrays = self.arrays
-            gone = np.zeros(len(arrays.face_sizes), bool)
-            edges = np.zeros(len(arrays.edges), bool)
-            if self._editing and options.edge is None:
-                mesh.polygons.foreach_get("select", gone)
-                mesh.edges.foreach_get("select", edges)
-            if not options.replaces:
-                gone[:] = False
+            selects = self._editing and options.edge is None
+            gone = column(mesh.polygons, "select", bool) & (selects and options.replaces)
+            edges = column(mesh.edges, "select", bool) & selects
         self._gone = gone
         self._points = self.shape.of(arrays.positions)
         self._faces = flat_faces(arrays, ~gone if gone.any() else None)
         with errors.explained(self.name, errors.OF_HOLES):
             holes = holes_in(self._points, self._faces)
         loops = [loop for hole in holes for loop in hole]
-        unclear = unclear_edges(arrays, gone, loops)
-        if self._editing and not options.replaces:  # those that the user has selected
-            chosen = set(map(frozenset, arrays.edges[edges].tolist()))
-            unclear = [side for side in unclear if side in chosen]
-        self._unclear, units = len(unclear), Units.of(context.scene)
+        unclear, chosen = unclear_edges(arrays, gone, loops), set[Side]()
         if options.edge is not None:
-            side = frozenset(options.edge)
-            self._holes = [hole for hole in holes if any(side in sides_of(loop) for loop in hole)]
-        elif not self._editing:
+            chosen = {frozenset(options.edge)}
+        elif self._editing and not options.replaces:
+            chosen = set(map(frozenset, arrays.edges[edges].tolist()))
+        if self._editing and not options.replaces:
+            unclear = [side for side in unclear if side in chosen]
+        self.unclear = len(unclear)  # border edges around ambiguous holes
+        if options.edge is None and not self._editing:
             wanted = core.module().holes_to_fill(self._points, self._faces, holes, options.largest)
             self._holes = [[loop.tolist() for loop in hole] for hole in wanted]
-        elif options.replaces:
+        elif options.edge is None and options.replaces:
             self._holes = where_faces_were(arrays, gone, loops)
         else:
-            self._holes = [
-                hole
-                for hole in holes
-                if any(not chosen.isdisjoint(sides_of(loop)) for loop in hole)
-            ]
+            self._holes = [h for h in holes if not all(map(chosen.isdisjoint, map(sides_of, h)))]
         if not self._holes:
             rims = self._points[np.unique(arrays.edges[arrays.edge_uses == 1])]
-            code, why = _why_none(options, self._editing, self._unclear, rims, units)
+            units = Units.of(context.scene)
+            code, why = _why_none(options, self._editing, self.unclear, rims, units)
             raise JobError(f"{self.name}: {why}", code)
         self.triangles = sum(_triangles_in(sum(map(len, h)), options.density) for h in self._holes)
 
@@ -164,48 +116,54 @@ class HoleJob(TimedRun):
     def _editing(self) -> bool:
         return self._mode == "EDIT"
 
+    @property
+    def energy(self) -> str:
+        """The requested energy, as the core names it."""
+        return self._options.energy.lower()
+
     def _compute(self, watchers: dict[str, Any]) -> None:
         try:
             with errors.explained(self.name, errors.OF_HOLES):
-                self.result = self._filled(watchers)
-            if not (self.result.holes or self.result.cuts):
-                self.error = JobError(f"{self.name}: {self.left_text}", self.skipped[0]["code"])
+                self.result = core.module().fill_holes(
+                    self._points,
+                    self._faces,
+                    holes=self._holes,
+                    joint="position" if self._is_flat else self._options.joint.lower(),
+                    energy=self.energy,
+                    density=0.0 if self._is_flat else self._options.density,
+                    rim="noisy" if self._options.noisy else "exact",
+                    quads=self._options.quads,
+                    **watchers,
+                )
         except JobCancelled:
             raise
         except JobError as error:
             self.error = error
+            return
+        none = np.empty((0, 3))
+        new = np.concatenate([none, *(hole.vertices for hole in self.result.holes)])
+        self._patches = [Patch.of([h.faces], self._points, new) for h in self.result.holes]
+        self._places = self.shape.back(new, none, none)  # (k, 3) in the object's coordinates
+        if not (self.result.holes or self.result.cuts):
+            self.error = JobError(f"{self.name}: {self.left_text}", self.skipped[0]["code"])
 
-    def _filled(self, watchers: dict[str, Any]) -> Filled:
-        found = core.module().fill_holes(
-            self._points,
-            self._faces,
-            holes=self._holes,
-            joint="position" if self._is_flat else self._options.joint.lower(),
-            energy=self._options.energy.lower(),
-            density=0.0 if self._is_flat else self._options.density,
-            rim="noisy" if self._options.noisy else "exact",
-            quads=self._options.quads,
-            **watchers,
-        )
-        return Filled.of(found, self._points, self.shape)
-
-    def apply(self) -> Filling:
+    def apply(self) -> None:
         target = cast(Object, self.reference.find())
-        patches, holes, cuts = self.result.patches, self.result.holes, self.result.cuts
         if not self._editing:
             select_nothing(target)
         with edited(target) as bm:
             bm.verts.ensure_lookup_table()
-            sides = [[bm.verts[v] for v in (a, *on, b)] for (a, b), on in cuts.items()]
-            _write(bm, np.flatnonzero(self._gone), patches, self.result.places, self._is_flat)
+            cuts = self.result.cuts.items()
+            sides = [[bm.verts[v] for v in (a, *on, b)] for (a, b), on in cuts]
+            gone = np.flatnonzero(self._gone)
+            _write(bm, gone, self._patches, self._places, self._is_flat)
             cut_sides(bm, sides)
         self.note()
-        return Filling(holes, self._options.energy.lower(), self._unclear, len(cuts))
 
     @property
     def skipped(self) -> list[dict[str, Any]]:
         """The skipped holes of a finished job, like the defects of Check Mesh."""
-        return [] if self.result is None else self.result.skipped
+        return [] if self.result is None else list(map(_skipped, self.result.skipped))
 
     @property
     def left_text(self) -> str:
@@ -218,13 +176,18 @@ class HoleJob(TimedRun):
     def check_again(self, context: Context) -> None:
         """Checks again where holes were listed, skipped or ambiguous, for the panel's buttons."""
         target = self.reference.find()
-        if target is None or not (self.skipped or self._unclear or self._options.edge is not None):
+        if target is None or not (self.skipped or self.unclear or self._options.edge is not None):
             return
         known = check_object(context, target)
         if self.skipped:
             codes = {defect["code"] for defect in known}
             new = [defect for defect in self.skipped if defect["code"] not in codes]
             store_defects(context, target, known + new)
+
+
+def _skipped(hole: Any) -> dict[str, Any]:
+    code = errors.VERTEX_ON_EDGE if hole.cure == "cut" else hole.code
+    return entry(code, hole.kind, hole.elements, "error", hole.message)
 
 
 _BY_CHANCE = 6  # vertices of a rim that may be planar by chance: twice as many as determine a plane
@@ -332,15 +295,15 @@ _REMARKS: tuple[tuple[Callable[[Any, str], bool], str], ...] = (
 )
 
 
-def fill_warnings(done: list[Filling]) -> list[str]:
-    """Warnings about fillings, a sentence each."""
-    unclear = sum(filling.unclear for filling in done)
+def fill_warnings(done: list[HoleJob]) -> list[str]:
+    """Warnings about the fillings of applied jobs, a sentence each."""
+    unclear = sum(job.unclear for job in done)
     said = [_unclear_text(unclear)] if unclear else []
     for is_so, sentence in _REMARKS:
-        count = sum(is_so(hole, filling.energy) for filling in done for hole in filling.holes)
+        count = sum(is_so(hole, job.energy) for job in done for hole in job.result.holes)
         if count:
             said.append(sentence.format(counted(count, "hole")))
-    reasons = [h.why_triangles for filling in done for h in filling.holes if h.why_triangles]
+    reasons = [h.why_triangles for job in done for h in job.result.holes if h.why_triangles]
     if reasons:
         said.append(f"{counted(len(reasons), 'hole')} filled with triangles: {_listed(reasons)}")
     return said

@@ -13,7 +13,7 @@ from mathutils import kdtree
 
 from . import core, errors, measured, size
 from .blender import Context, Object, column
-from .check.faults import Faults, find_faults_in_place
+from .check.faults import find_faults_in_place
 from .errors import JobError
 from .job import run_warnings
 from .mesh.edited import edited
@@ -49,23 +49,6 @@ class InPlaceOptions:
     @property
     def moves(self) -> bool:
         return self.release or self.measured or not self.levels
-
-
-@dataclass(frozen=True)
-class Faired:
-    """The result of a run, for `apply`."""
-
-    part: CutOut
-    chosen: np.ndarray  # (r,) ids of the selected faces
-    points: np.ndarray  # (N, 3) in the object's coordinates, the vertices of `part` first
-    # for each selected face that was split: the points common to all its triangles, a centre or a
-    # diagonal
-    splits: dict[int, list[int]]
-    # (N, 3) float32, labels: all different, linear between those of the vertices; None if faces stay
-    labels: np.ndarray
-    levels: int
-    faults: Faults
-    noise: float = 0.0  # noise of measured vertices, a length
 
 
 class InPlaceJob(TimedRun):
@@ -133,34 +116,34 @@ class InPlaceJob(TimedRun):
         return made, found.noise
 
     def _compute(self, watchers: dict[str, Any]) -> None:
-        arguments, part = self._arguments, self._part
-        noise, moved = 0.0, {}
+        arguments, part, levels = self._arguments, self._part, self._options.levels
+        self._noise, moved = 0.0, {}  # of measured vertices, a length
         with errors.explained(self.name, errors.WITHOUT_MENDING):
             if self._options.measured:
-                result, noise = self._smoothed(watchers)
+                result, self._noise = self._smoothed(watchers)
                 moved = {"vertices": self._part_of_the_way(result.vertices, arguments["vertices"])}
-            if self._options.levels or not self._options.measured:
+            if levels or not self._options.measured:
                 result = core.module().fair(**arguments | moved, **watchers)
-        self._report = result.report
-        if not (moved and self._options.levels):
+        if not (moved and levels):
             result.vertices = self._part_of_the_way(result.vertices, arguments["vertices"])
-        points = self.shape.back(result.vertices, arguments["vertices"], part.arrays.positions)
-        unseen = 0 if self._options.measured else _UNSEEN_LEVELS
-        transfer = AttributeTransfer(result, part.arrays, self._options.levels or unseen)
+        # (N, 3) in the object's coordinates, the vertices of the part first
+        self._points = self.shape.back(
+            result.vertices, arguments["vertices"], part.arrays.positions
+        )
+        transfer = AttributeTransfer(result, part.arrays, self._asked.levels)
         world = self.shape.of_arrays(part.arrays)
-        levels = self._options.levels
-        labels = np.random.default_rng(0).random((len(part.vertices) if levels else 0, 3))
-        splits = _split_faces(transfer, part) if levels else {}
-        if any(not common for index, common in splits.items() if self._chosen[index]):
-            raise JobError(
-                f"{self.name}: Triangulate faces of many corners (Ctrl T). "
-                "One is too bent to be refined in place."
-            )
-        chosen = np.flatnonzero(self._chosen)
         theirs = self._chosen[part.faces]
-        faults = find_faults_in_place(result, transfer, world, theirs, self._options)
-        spread = transfer.point(labels) if levels else labels
-        self.result = Faired(part, chosen, points, splits, spread, levels, faults, noise)
+        self._faults = find_faults_in_place(result, transfer, world, theirs, self._options)
+        if levels:
+            self._splits = _split_faces(transfer, part)
+            if any(not common for index, common in self._splits.items() if self._chosen[index]):
+                raise JobError(
+                    f"{self.name}: Triangulate faces of many corners (Ctrl T). "
+                    "One is too bent to be refined in place."
+                )
+            # (N, 3) float32: all different, linear between those of the vertices
+            self._labels = transfer.point(np.random.default_rng(0).random((len(part.vertices), 3)))
+        self.result = result
 
     def _part_of_the_way(self, vertices: np.ndarray, before: np.ndarray) -> np.ndarray:
         """Positions of the part between `before` and the fairest place; others keep their bits."""
@@ -173,9 +156,9 @@ class InPlaceJob(TimedRun):
     def warnings(self) -> list[str]:
         world = self.shape.of_arrays(self._part.arrays)
         sentences = run_warnings(
-            self.name, self._report, self._options.energy, world, self._part.faces
+            self.name, self.result.report, self._options.energy, world, self._part.faces
         )
-        counts = self.result.faults.counts
+        counts = self._faults.counts
         if counts:
             # Near is no option here, and removing noise has neither Fairness nor Tension
             settings = replace(self._asked, interpolation="APPROXIMATE")
@@ -188,16 +171,84 @@ class InPlaceJob(TimedRun):
     def notes(self) -> list[str]:
         if not self._options.measured:
             return []
-        noise = self.result.noise
-        return [f"{self.name}: noise of {self._units.lengths(noise)(noise)} (rms) removed."]
+        text = self._units.lengths(self._noise)(self._noise)
+        return [f"{self.name}: noise of {text} (rms) removed."]
 
     def apply(self) -> None:
-        apply(cast(Object, self.reference.find()), self.result)
+        """Moves the faces that were read, and with levels refines them."""
+        source, vertices = cast(Object, self.reference.find()), self._part.vertices
+        if source.mode != "EDIT" and not self._options.levels:  # without a copy: scans are large
+            points = column(source.data.vertices, "co", width=3)
+            points[vertices] = self._points[: len(vertices)]
+            source.data.vertices.foreach_set("co", points.ravel())
+            source.data.update()
+        else:
+            with edited(source) as bm:
+                bm.verts.ensure_lookup_table()
+                if self._options.levels:
+                    self._refine(bm, *dependent_keys(source))
+                else:
+                    for index, point in zip(vertices.tolist(), self._points.tolist()):
+                        bm.verts[index].co = point
+                bm.normal_update()
         self.note()
+
+    def _refine(self, bm: bmesh.types.BMesh, key: str, following: list[str]) -> None:
+        """Refines by Blender's own subdivision, which interpolates all data on the faces and the labels of
+        the vertices; a label identifies the point of a new vertex. `key`, `following`: of dependent_keys().
+        """
+        of_vertices: Any = bm.verts.layers.float_vector
+        label = of_vertices.new("fairing_label")
+        bm.verts.ensure_lookup_table()
+        for row, index in enumerate(self._part.vertices.tolist()):
+            bm.verts[index][label] = self._labels[row].tolist()
+        old = set(bm.verts)
+        of_faces: Any = bm.faces.layers.int
+        chosen = of_faces.new("fairing_chosen")
+        bm.faces.ensure_lookup_table()
+        for index in np.flatnonzero(self._chosen).tolist():
+            bm.faces[index][chosen] = 1
+        self._split(bm, label, chosen)
+        faces = [face for face in bm.faces if face[chosen]]
+        edges = list({edge for face in faces for edge in face.edges})
+        cast(Any, bmesh.ops).subdivide_edges(
+            bm, edges=edges, cuts=2**self._options.levels - 1, use_grid_fill=True
+        )
+        tree: Any = kdtree.KDTree(len(self._labels))
+        for row, place in enumerate(self._labels.tolist()):
+            tree.insert(place, row)
+        tree.balance()
+        layers: Any = bm.verts.layers.shape
+        edited_key, others = layers.get(key), [layers[name] for name in following]
+        for vertex in {v for face in bm.faces if face[chosen] for v in face.verts}:
+            vertex.co = self._points[tree.find(vertex[label])[1]].tolist()
+            if vertex not in old:  # Blender itself passes on the move of old ones
+                for other in others:
+                    vertex[other] += vertex.co - vertex[edited_key]
+        for face in bm.faces:
+            face.select_set(face.select or bool(face[chosen]))
+        of_vertices.remove(label)
+        of_faces.remove(chosen)
+
+    def _split(self, bm: bmesh.types.BMesh, label: Any, chosen: Any) -> None:
+        """Splits the faces to be refined like the core."""
+        bm.faces.ensure_lookup_table()
+        faces = [(bm.faces[index], common) for index, common in self._splits.items()]
+        known = [bm.verts[index] for index in self._part.vertices.tolist()]
+        for face, common in faces:
+            if not face[chosen]:
+                continue
+            if len(common) == 1:
+                made: Any = bmesh.ops.poke(bm, faces=[face])
+                made["verts"][0][label] = self._labels[common[0]].tolist()
+            else:
+                bmesh.utils.face_split(face, *(known[row] for row in common))
 
 
 def _split_faces(transfer: AttributeTransfer, part: CutOut) -> dict[int, list[int]]:
-    """The selected faces that the core splits: five corners and more, and warped quads."""
+    """By selected face that the core splits, of five corners or more, or warped: the points common to all
+    its triangles, a centre or a diagonal.
+    """
     found: dict[int, list[int]] = {}
     for patch in transfer.patches:
         if patch.faces.size == 3:
@@ -244,77 +295,3 @@ def _settings(settings: Settings, options: InPlaceOptions) -> Settings:
         repair="REFUSE",
         symmetry_plane="NONE",
     )
-
-
-def apply(source: Object, faired: Faired) -> None:
-    """Moves the faces that were read, and with levels refines them."""
-    mesh = source.data
-    if source.mode != "EDIT" and not faired.levels:  # without a copy, since scans are large
-        points = column(mesh.vertices, "co", width=3)
-        points[faired.part.vertices] = faired.points[: len(faired.part.vertices)]
-        mesh.vertices.foreach_set("co", points.ravel())
-        mesh.update()
-        return
-    with edited(source) as bm:
-        if faired.levels:
-            _refine(bm, faired, dependent_keys(source))
-        else:
-            bm.verts.ensure_lookup_table()
-            for index, point in zip(faired.part.vertices.tolist(), faired.points.tolist()):
-                bm.verts[index].co = point
-        bm.normal_update()
-
-
-def _split(bm: bmesh.types.BMesh, faired: Faired, label: Any, chosen: Any) -> None:
-    """Splits the faces to be refined like the core."""
-    bm.faces.ensure_lookup_table()
-    faces = [(bm.faces[index], common) for index, common in faired.splits.items()]
-    known = [bm.verts[index] for index in faired.part.vertices.tolist()]
-    for face, common in faces:
-        if not face[chosen]:
-            continue
-        if len(common) == 1:
-            made: Any = bmesh.ops.poke(bm, faces=[face])
-            made["verts"][0][label] = faired.labels[common[0]].tolist()
-        else:
-            bmesh.utils.face_split(face, *(known[row] for row in common))
-
-
-def _refine(bm: bmesh.types.BMesh, faired: Faired, keys: tuple[str, list[str]]) -> None:
-    """Refines by Blender's own subdivision, which interpolates all data on the faces and the labels of
-    the vertices; a label identifies the point of a new vertex. `keys`: as returned by `dependent_keys`.
-    """
-    of_vertices: Any = bm.verts.layers.float_vector
-    of_faces: Any = bm.faces.layers.int
-    label, chosen = of_vertices.new("fairing_label"), of_faces.new("fairing_chosen")
-    bm.verts.ensure_lookup_table()
-    for row, index in enumerate(faired.part.vertices.tolist()):
-        bm.verts[index][label] = faired.labels[row].tolist()
-    old = set(bm.verts)
-    bm.faces.ensure_lookup_table()
-    for index in faired.chosen.tolist():
-        bm.faces[index][chosen] = 1
-    _split(bm, faired, label, chosen)
-    faces = [face for face in bm.faces if face[chosen]]
-    edges = list({edge for face in faces for edge in face.edges})
-    cast(Any, bmesh.ops).subdivide_edges(
-        bm, edges=edges, cuts=2**faired.levels - 1, use_grid_fill=True
-    )
-    tree: Any = kdtree.KDTree(len(faired.labels))
-    for row, place in enumerate(faired.labels.tolist()):
-        tree.insert(place, row)
-    tree.balance()
-    edited_key, following = bm.verts.layers.shape.get(keys[0]), keys[1]
-    layers: Any = bm.verts.layers.shape
-    others = [layers[name] for name in following]
-    for vertex in {v for face in bm.faces if face[chosen] for v in face.verts}:
-        row = tree.find(vertex[label])[1]
-        vertex.co = faired.points[row].tolist()
-        if vertex in old:  # Blender itself passes on the move of these
-            continue
-        for other in others:
-            vertex[other] += vertex.co - vertex[edited_key]
-    for face in bm.faces:
-        face.select_set(face.select or bool(face[chosen]))
-    of_vertices.remove(label)
-    of_faces.remove(chosen)

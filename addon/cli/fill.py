@@ -68,7 +68,7 @@ def run(source: Object, options: FillOptions, **watchers: Any) -> tuple[dict[str
     job.compute(**watchers)
     if job.error is not None:
         raise job.error
-    done = job.apply()
+    job.apply()
     holes = [
         {
             "edges": [len(loop) for loop in hole.loops],
@@ -82,7 +82,7 @@ def run(source: Object, options: FillOptions, **watchers: Any) -> tuple[dict[str
         for hole in job.result.holes
     ]
     entry |= {"result": counts(source.data), "report": {"holes": holes}}
-    said = [job.left_text, *fill_warnings([done])]
+    said = [job.left_text, *fill_warnings([job])]
     return entry, [f"{source.name}: {sentence}." for sentence in said if sentence]
 
 

@@ -10,7 +10,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntVectorProper
 from ..blender import Answer, Context, Object
 from ..choices import ENERGIES, JOINTS
 from ..errors import JobError
-from ..holes import Filling, FillOptions, HoleJob, fill_warnings
+from ..holes import FillOptions, HoleJob, fill_warnings
 from ..mesh.read import source_objects
 from ..poll import of_meshes
 from ..settings import values_of
@@ -123,27 +123,26 @@ class OBJECT_OT_fairing_fill(Shown, LargestHole, WholeFairing, bpy.types.Operato
 
     def finish(self, context: Context, jobs: Sequence[HoleJob]) -> None:
         """Changes the meshes that can be filled, and reports why others cannot."""
-        reasons = list(self._reasons)
-        ready = []
-        for job in jobs:
-            reason = str(job.error or job.why_outdated(context))
-            reasons += [reason] * bool(reason)
-            ready += [job] * (not reason)
+        why = [(job, str(job.error or job.why_outdated(context))) for job in jobs]
+        ready = [job for job, reason in why if not reason]
+        reasons = [*self._reasons, *(reason for _, reason in why if reason)]
         if ready and context.mode == "EDIT_MESH":  # then only new faces become selected
             bpy.ops.mesh.select_all(action="DESELECT")
-        done = [job.apply() for job in ready]
+        for job in ready:
+            job.apply()
         for job in jobs:
             job.check_again(context)
-        if not done:
+        if not ready:
             raise JobError(" ".join(reasons))
         reasons += [f"{job.name}: {job.left_text}" for job in ready if job.left_text]
-        self.report({"INFO"}, _said(done))
-        for sentence in reasons + fill_warnings(done):
+        self.report({"INFO"}, _said(ready))
+        for sentence in reasons + fill_warnings(ready):
             self.report({"WARNING"}, sentence)
 
 
-def _said(done: list[Filling]) -> str:
-    holes, cut = [hole for filling in done for hole in filling.holes], sum(f.cut for f in done)
+def _said(done: list[HoleJob]) -> str:
+    holes = [hole for job in done for hole in job.result.holes]
+    cut = sum(len(job.result.cuts) for job in done)
     faces = sum(len(hole.faces) for hole in holes)
     said = [f"{counted(len(holes), 'hole')} filled with {faces:,} faces"] * bool(holes or not cut)
     if cut:
