@@ -1,32 +1,34 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Hulls on which Flow Lines swings, known by their creases and the length of their faces. No Blender."""
+"""Hulls on which Flow Lines swings, known by their creases and by faces that are long at turns. No Blender."""
 
 import numpy as np
 
 from ..control_arrays import ControlArrays
+from ..inspection.curvature import face_areas, faces_of_edges
+from ..inspection.measures import fold_angles
 from ..settings import Settings
 
-# length of the faces over their width, from which Bending is nearer to sampled hulls: equal between 6
-# and 9 (docs/developers/notes/figures.md)
-_LONG = 6.0
+# length of an edge over the radius of the turn across it, above which sections relax between their
+# stations: Bending is nearer to sampled hulls from about 2 on (docs/developers/notes/figures.md)
+_LONG = 3.0
 _NEAR = 1e-6  # of the size: distance of vertices that count as in the symmetry plane
 
 
 def why_bending(cage: ControlArrays, settings: Settings) -> str:
     """Why Flow Lines would swing on this hull, as half a sentence; empty if it would not."""
-    if _ends_inside(cage, settings):
-        return "a crease ends inside"
-    length = _face_length(cage)
-    return f"faces are {length:.0f} times as long as wide" if length > _LONG else ""
-
-
-def _ends_inside(cage: ControlArrays, settings: Settings) -> bool:
-    """Whether a crease ends inside the surface, such as that of a sharp stem at a round keel."""
     threshold = settings.crease_threshold if settings.use_crease_attribute else None
     creases = cage.crease_edges(threshold, settings.use_sharp_edges)
+    if _ends_inside(cage, creases, settings.symmetry_plane):
+        return "a crease ends inside"
+    length = _longest(cage, creases)
+    return f"faces are up to {length:.0f} radii long at a turn" if length > _LONG else ""
+
+
+def _ends_inside(cage: ControlArrays, creases: np.ndarray, plane: str) -> bool:
+    """Whether a crease (k, 2) ends inside the surface, such as that of a sharp stem at a round keel."""
     border = cage.edges[cage.edge_uses == 1]
-    if settings.symmetry_plane != "NONE":
-        across = cage.positions[:, "XYZ".index(settings.symmetry_plane)]
+    if plane != "NONE":
+        across = cage.positions[:, "XYZ".index(plane)]
         near = np.abs(across) <= _NEAR * np.ptp(cage.positions, axis=0).max(initial=0.0)
         border = border[~near[border].all(axis=1)]
     ends = np.bincount(creases.ravel(), minlength=len(cage.positions)) == 1
@@ -34,13 +36,15 @@ def _ends_inside(cage: ControlArrays, settings: Settings) -> bool:
     return bool(ends.any())
 
 
-def _face_length(cage: ControlArrays) -> float:
-    """The median over the quads of the longer sides over the shorter ones; 1 without quads."""
-    starts = cage.offsets[:-1][cage.face_sizes == 4]
-    if not len(starts):
-        return 1.0
-    points = cage.positions[cage.corners[starts[:, None] + np.arange(4)]]
-    sides = np.linalg.norm(np.roll(points, -1, axis=1) - points, axis=2)
-    across = sides[:, :2] + sides[:, 2:]
-    shorter = np.maximum(across.min(axis=1), np.finfo(float).tiny)
-    return float(np.median(across.max(axis=1) / shorter))
+def _longest(cage: ControlArrays, creases: np.ndarray) -> float:
+    """The largest length of a smooth edge over the radius of the turn across it: its angle times its
+    length over the mean width of its two faces.
+    """
+    angles, inside = fold_angles(cage)
+    keys = len(cage.positions), 1
+    smooth = inside & ~np.isin(cage.edges @ keys, creases @ keys)
+    ends = cage.positions[cage.edges[smooth]]
+    squared = ((ends[:, 1] - ends[:, 0]) ** 2).sum(axis=1)
+    areas = face_areas(cage.positions, cage.corners, cage.offsets)
+    both = areas[faces_of_edges(cage)[smooth]].mean(axis=1)
+    return float((np.radians(angles[smooth]) * squared / both).max(initial=0.0))
