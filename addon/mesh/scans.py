@@ -119,10 +119,18 @@ def watched(targets: Iterable[Object]) -> Iterator[bpy.types.ID]:
             yield from watched(cast(Iterable[Object], target.instance_collection.all_objects))
 
 
-def in_metres(context: Context, target: Object) -> tuple[np.ndarray, np.ndarray]:
-    """One object: points (n, 3) in metres, and triangles (m, 3)."""
+def with_faces(context: Context, target: Object) -> tuple[np.ndarray, np.ndarray]:
+    """One object as shown: points (n, 3) in the world, and triangles (m, 3); JobError if there are none."""
     found = read_scans(context, [target])
-    return found.points * context.scene.unit_settings.scale_length, found.triangles
+    if not len(found.triangles):
+        raise JobError(f"{target.name}: {REMEDIES['EMPTY_MESH']}. It has no faces.")
+    return found.points, found.triangles
+
+
+def in_metres(context: Context, target: Object) -> tuple[np.ndarray, np.ndarray]:
+    """The same in metres."""
+    points, triangles = with_faces(context, target)
+    return points * context.scene.unit_settings.scale_length, triangles
 
 
 def _parts(context: Context, targets: Sequence[Object]) -> list[tuple[Scan, np.ndarray]]:

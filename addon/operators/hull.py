@@ -98,5 +98,6 @@ def _crease(mesh: Mesh, made: Whole, weights: dict[frozenset[int], float]) -> No
 
 
 def _solid_text(found: Solid) -> str:
-    centre = ", ".join(f"{value:.4g}" for value in found.centroid)
+    noise = 1e-6 * np.abs(found.centroid).max()
+    centre = ", ".join(f"{value if abs(value) > noise else 0:.4g}" for value in found.centroid)
     return f"volume {found.volume:.5g} m³, area {found.area:.5g} m², centroid ({centre}) m"

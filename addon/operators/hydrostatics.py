@@ -6,6 +6,7 @@ from math import degrees, radians
 from typing import cast
 
 import bpy
+import numpy as np
 from bpy.props import FloatProperty, IntProperty, StringProperty
 
 from ..blender import Context, Object
@@ -29,8 +30,8 @@ class _Afloat(Action):
 
     draught: FloatProperty(
         name="Draught",
-        description="Height of the waterplane above the lowest point of the hull, in the middle of its length",
-        default=0.5,
+        description="Waterplane above the lowest point of the hull, in the middle of its length; 0: half its height",
+        default=0.0,
         min=0.0,
         subtype="DISTANCE",
     )
@@ -48,20 +49,27 @@ class _Afloat(Action):
         min=0.0,
     )
 
-    def afloat(self, context: Context, draughts: list[float]) -> list[Hydrostatics]:
-        """The hydrostatics at each of the `draughts`, in metres; raises JobError."""
+    def afloat(self, context: Context, count: int) -> dict[float, Hydrostatics]:
+        """The hydrostatics at `count` even draughts, in metres, up to the draught; raises JobError."""
         target = cast(Object, context.active_object)
         points, triangles = in_metres(context, target)
-        low, pivot = points[:, 2].min(), 0.5 * (points[:, 0].min() + points[:, 0].max())
+        low, height = points[:, 2].min(), np.ptp(points[:, 2])
+        pivot = 0.5 * (points[:, 0].min() + points[:, 0].max())
+        deepest = self.draught * context.scene.unit_settings.scale_length or 0.5 * height
         try:
-            return [
-                hydrostatics(points, triangles, low + draught, self.trim, pivot)
-                for draught in draughts
-            ]
+            found = {
+                draught: hydrostatics(points, triangles, low + draught, self.trim, pivot)
+                for draught in (deepest * (k + 1) / count for k in range(count))
+            }
         except NotClosed as error:
             raise JobError(
                 f"Press Close Hull, or fill holes: {target.name} has {error.args[0]} open edges below the waterplane."
             ) from error
+        if not all(one.length for one in found.values()):
+            raise JobError(
+                f"Set Draught below {height:.4g} m: the waterplane does not cross {target.name}."
+            )
+        return found
 
 
 class OBJECT_OT_fairing_hydrostatics(Shown, _Afloat, bpy.types.Operator):
@@ -73,8 +81,7 @@ class OBJECT_OT_fairing_hydrostatics(Shown, _Afloat, bpy.types.Operator):
     said: StringProperty(options={"HIDDEN", "SKIP_SAVE"})
 
     def act(self, context: Context) -> str:
-        draught = self.draught * context.scene.unit_settings.scale_length
-        (found,) = self.afloat(context, [draught])
+        ((draught, found),) = self.afloat(context, 1).items()
         lines = _said(found, draught, self.density)
         self.said = "\n".join(lines)
         return ", ".join(lines)
@@ -91,7 +98,7 @@ class OBJECT_OT_fairing_hydrostatics(Shown, _Afloat, bpy.types.Operator):
 
 def _said(found: Hydrostatics, draught: float, density: float) -> list[str]:
     return [
-        f"Displacement {found.volume * density:,.5g} kg, {found.volume:.5g} m³",
+        f"Draught {draught:.4g} m: displacement {found.volume * density:,.5g} kg, {found.volume:.5g} m³",
         f"LCB {found.buoyancy[0]:.4g} m, VCB {found.buoyancy[2]:.4g} m",
         f"Wetted surface {found.wetted:.5g} m²",
         f"Waterplane {found.waterplane:.5g} m², LCF {found.flotation:.4g} m",
@@ -113,10 +120,9 @@ class OBJECT_OT_fairing_hydrostatics_table(_Afloat, WritesText, bpy.types.Operat
     )
 
     def act(self, context: Context) -> str:
-        deepest = self.draught * context.scene.unit_settings.scale_length
-        draughts = [deepest * (k + 1) / self.count for k in range(self.count)]
-        found = self.afloat(context, draughts)
-        rows = [self._row(one, draught) for one, draught in zip(found, draughts, strict=True)]
+        rows = [
+            self._row(one, draught) for draught, one in self.afloat(context, self.count).items()
+        ]
         write_text_file(self.filepath, "\r\n".join([_COLUMNS, *rows, ""]))
         return f"{len(rows)} draughts written to {bpy.path.abspath(self.filepath)}"
 

@@ -17,7 +17,7 @@ from ..inspection.sections import cut
 from ..memory import active_source
 from ..mesh.object import linked_object, select_only
 from ..mesh.offset_names import read_names, stations
-from ..mesh.scans import of_mesh, read_scans
+from ..mesh.scans import of_mesh, with_faces
 from ..mesh.world_shape import world_matrix
 from ..yard.dxf import text
 from ..yard.plan import Cut, Plane, in_space, opened, places, scaled, sheet
@@ -31,8 +31,8 @@ _WORDS = {"STATIONS": "station", "BUTTOCKS": "buttock", "WATERLINES": "waterline
 
 def _surface(context: Context, target: Object) -> Drawn:
     """The mesh as displayed, in the world, without normals, which would divide it at sharp edges."""
-    found = read_scans(context, [target])
-    return Drawn(found.points, np.zeros_like(found.points), found.triangles)
+    points, triangles = with_faces(context, target)
+    return Drawn(points, np.zeros_like(points), triangles)
 
 
 def _imported_stations(context: Context, target: Object) -> list[tuple[str, float]]:
@@ -80,9 +80,9 @@ def cuts(surface: Drawn, planes: list[Plane]) -> list[Cut]:
 class _Spaced:
     spacing: FloatProperty(
         name="Spacing",
-        description="From one plane to the next, where no places are given",
-        default=0.25,
-        min=1e-6,
+        description="Between planes, if none are listed; 0: five to ten planes at round places",
+        default=0.0,
+        min=0.0,
         subtype="DISTANCE",
     )
     start: FloatProperty(
@@ -152,6 +152,10 @@ class OBJECT_OT_fairing_section_curves(Shown, _Spaced, Action, bpy.types.Operato
         if self.kind == "OBJECT":
             active = context.active_object
             others = [o for o in context.selected_objects if o != active]
+            if not others:
+                raise JobError(
+                    "Select the object whose Z axis the plane is to cross, then the mesh"
+                )
             matrices = [(o.name, np.array(o.matrix_world)) for o in others]
             normals = [(n, m[:3, 2] / np.linalg.norm(m[:3, 2]), m[:3, 3]) for n, m in matrices]
             return [Plane(n, tuple(z.tolist()), float(z @ at)) for n, z, at in normals]
@@ -194,7 +198,7 @@ class EXPORT_SCENE_OT_fairing_lines(_Spaced, WritesText, bpy.types.Operator):
     filter_glob: StringProperty(default="*.dxf", options={"HIDDEN"})
     stations: StringProperty(
         name="Stations",
-        description="Where stations are, such as 0, 1.5, 3; empty: those of the imported table, else ten even ones",
+        description="Where stations are, such as 0, 1.5, 3; empty: those of the imported table, else by Spacing",
     )
     scale: FloatProperty(
         name="Scale 1 :",
@@ -225,7 +229,7 @@ class EXPORT_SCENE_OT_fairing_lines(_Spaced, WritesText, bpy.types.Operator):
                     kind,
                     surface,
                     self.stations if kind == "STATIONS" else "",
-                    self._tenth(surface) if kind == "STATIONS" else self.spacing,
+                    self.spacing,
                     self.start,
                 )
                 for kind in _AXES
@@ -243,7 +247,3 @@ class EXPORT_SCENE_OT_fairing_lines(_Spaced, WritesText, bpy.types.Operator):
         write_text_file(self.filepath, text(scaled(drawing, factor)))
         count = ", ".join(f"{len(cuts)} {kind.lower()}" for kind, cuts in found.items())
         return f"{count} written to {bpy.path.abspath(self.filepath)}"
-
-    @staticmethod
-    def _tenth(surface: Drawn) -> float:
-        return float(np.ptp(surface.points[:, 0])) / 10.0

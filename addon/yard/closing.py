@@ -29,6 +29,8 @@ class Whole:
 
 def whole(positions: np.ndarray, corners: np.ndarray, offsets: np.ndarray, axis: int = 1) -> Whole:
     """The closed hull of a half that ends in the plane across `axis`; raises NotHalf."""
+    if not len(corners):
+        raise NotHalf("it has no faces")
     sizes = np.diff(offsets)
     half = positions.astype(float)
     middle = np.abs(half[:, axis]) <= _NEAR * np.ptp(half, axis=0).max(initial=0.0)

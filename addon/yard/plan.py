@@ -29,14 +29,26 @@ class Cut:
 
 
 def places(text: str, low: float, high: float, spacing: float, start: float) -> list[float]:
-    """Positions listed, or every `spacing` from `start`, between the ends; else ValueError."""
+    """Positions listed, or every `spacing` from `start`, between the ends; 0: five to ten at round
+    places. Raises ValueError. After semicolons a comma may be the decimal sign.
+    """
     if text.strip():
-        return [float(part) for part in text.replace(";", ",").split(",") if part.strip()]
+        parts = text.replace(",", ".").split(";") if ";" in text else text.replace(",", " ").split()
+        return [float(part) for part in parts if part.strip()]
+    spacing = spacing or _round_step(high - low)
     if spacing <= 0.0:
         return []
     first = int(np.floor((low - start) / spacing)) + 1
     last = int(np.ceil((high - start) / spacing)) - 1
     return [start + spacing * k for k in range(first, last + 1)]
+
+
+def _round_step(extent: float) -> float:
+    """The smallest step of 1, 2 or 5 times a power of ten that fits at most ten times."""
+    if extent <= 0.0:
+        return 0.0
+    power = 10.0 ** np.floor(np.log10(extent / 10.0))
+    return float(next(step * power for step in (1, 2, 5, 10) if step * power >= extent / 10.0))
 
 
 def sheet(

@@ -104,6 +104,36 @@ def test_hydrostatics_of_half_whole_and_closed_agree(tmp_path):
     assert float(rows[-1]["displacement_kg"]) == pytest.approx(1025 * whole.volume, rel=1e-6)
 
 
+def test_without_a_draught_the_hull_floats_at_half_its_height(tmp_path):
+    bpy.context.scene.unit_settings.scale_length = 0.001
+    imported("offsets_yacht.tsv")
+    bpy.ops.object.fairing_close()
+    points, triangles = in_metres(bpy.context, bpy.context.active_object)
+    low, height = points[:, 2].min(), np.ptp(points[:, 2])
+    path = tmp_path / "h.csv"
+    assert bpy.ops.object.fairing_hydrostatics_table(filepath=str(path)) == {"FINISHED"}
+    rows = list(csv.DictReader(path.open(newline="")))
+    assert float(rows[-1]["draught_m"]) == pytest.approx(0.5 * height)
+    volume = hydrostatics(points, triangles, low + 0.5 * height).volume
+    assert float(rows[-1]["volume_m3"]) == pytest.approx(volume)
+    refused("Set Draught below", bpy.ops.object.fairing_hydrostatics, draught=2e3 * height)
+
+
+@pytest.mark.parametrize(
+    "operator",
+    [
+        bpy.ops.object.fairing_close,
+        bpy.ops.object.fairing_hydrostatics,
+        bpy.ops.object.fairing_section_curves,
+        bpy.ops.export_scene.fairing_lines,
+    ],
+)
+def test_a_mesh_without_faces_is_refused_in_words(operator, tmp_path):
+    add("Wire", [(0, 0, 0), (1, 0, 0)], [], [(0, 1)])
+    file = {"filepath": str(tmp_path / "l.dxf")} if "lines" in operator.idname() else {}
+    refused("^Error: Wire.* has no faces", operator, **file)
+
+
 def test_sections_are_at_the_stations_of_the_table():
     half = imported("offsets_chine.csv")
     surface = fair(levels=3, symmetry_plane="Y")
@@ -128,6 +158,10 @@ def test_sections_are_at_the_stations_of_the_table():
         ({"kind": "WATERLINES", "spacing": 0.5, "start": 0.1}, 4),
         ({"kind": "BUTTOCKS", "spacing": 0.4, "start": 0.2}, 4),
         ({"kind": "DIAGONALS", "places": "0.5", "angle": 0.6}, 1),
+        ({"kind": "WATERLINES", "places": "0.5 -0.5"}, 2),
+        ({"kind": "WATERLINES", "places": "0,5; 9,5"}, 1),
+        ({"kind": "WATERLINES"}, 9),
+        ({"kind": "STATIONS"}, 5),
     ],
 )
 def test_sections_are_where_they_are_asked_for(options, count):
@@ -145,6 +179,7 @@ def test_a_list_that_is_none_is_refused():
     refused("Write Places as numbers", bpy.ops.object.fairing_section_curves, places="one, two")
     with pytest.raises(RuntimeError, match="none cuts the mesh"):
         bpy.ops.object.fairing_section_curves(kind="WATERLINES", places="99")
+    refused("Select the object whose Z", bpy.ops.object.fairing_section_curves, kind="OBJECT")
 
 
 def test_a_plane_object_cuts_across_its_z():
