@@ -28,6 +28,11 @@ _UNITS = (
     ("ft", "Feet", "All numbers are in feet; 3-4-5 are feet, inches and eighths"),
 )
 
+_CROWDED = (
+    "If the stations' names are no places, give places in a column x, or a row 'spacing, 1200' above the head. "
+    "This hull is shorter than it is wide"
+)
+
 
 class IMPORT_MESH_OT_fairing_offsets(ImportHelper, Action, bpy.types.Operator):
     """Make half a hull from a table of offsets (CSV), with vertices named by station and line"""
@@ -81,6 +86,8 @@ class IMPORT_MESH_OT_fairing_offsets(ImportHelper, Action, bpy.types.Operator):
         ]
         if made.creases:
             parts.append(f"{len(made.creases)} edges creased")
+        if made.is_crowded:
+            self.report({"WARNING"}, _CROWDED)
         bending = set_job(context, "HULL", [target])
         return ", ".join(parts) + (f". {bending}" if bending else "")
 

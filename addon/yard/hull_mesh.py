@@ -24,6 +24,11 @@ class HullMesh:
         """Whether it ends in the plane y = 0."""
         return bool(len(self.positions)) and bool((self.positions[:, 1] == 0.0).any())
 
+    @property
+    def is_crowded(self) -> bool:
+        """Whether it is shorter than wide, as if stations 0, 1, 2 … of a table in cm were 1 cm apart."""
+        return bool(np.ptp(self.positions[:, 0]) < 2.0 * np.abs(self.positions[:, 1]).max())
+
 
 def hull_mesh(table: Offsets) -> HullMesh:
     """The mesh of a table; stations are sorted by position."""

@@ -106,9 +106,10 @@ def read_sheet(text: str) -> Sheet:
             rows.append(cells)
     if len(rows) < 2:
         raise OffsetsError("Row 1, column 1: the file has no table: a head and rows below it")
-    return Sheet(
-        _squared(rows), keys, _unit([*units, *(c.text for c in rows[0])]), separator != ","
-    )
+    unit = _unit([*units, *(c.text for c in rows[0])])
+    if unit is None and any(_FEET.match(cell.text) for row in rows[1:] for cell in row):
+        unit = UNITS["feet"]
+    return Sheet(_squared(rows), keys, unit, separator != ",")
 
 
 def _squared(rows: list[list[Cell]]) -> list[list[Cell]]:

@@ -79,6 +79,17 @@ def test_the_scene_has_its_own_unit():
     assert positions(hull.data)[:, 0].max() == pytest.approx(1e7)
 
 
+def test_stations_without_places_are_told(tmp_path, capfd):
+    file = tmp_path / "numbered.csv"
+    table = "station (cm),Keel,WL 50,WL 100\n0,0,90,140\n1,0,95,150\n2,5,60,120\n"
+    file.write_text(table)
+    imported(file)
+    assert "give places in a column x" in capfd.readouterr().out
+    file.write_text(f"spacing,200\n{table}")
+    assert np.ptp(positions(imported(file).data)[:, 0]) == pytest.approx(4.0)
+    assert "column x" not in capfd.readouterr().out
+
+
 def test_a_table_with_an_error_leaves_nothing(tmp_path):
     file = tmp_path / "bad.csv"
     file.write_text("station (mm),Keel,WL 0\n0,1,2\n1,2,3x\n")

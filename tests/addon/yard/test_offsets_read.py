@@ -73,6 +73,8 @@ def test_feet_inches_and_eighths():
     made = hull_mesh(read("station (ft),Keel height,WL 1\n0,0-0-0,1-6-4\n3-0-0,-0-1-0,1-6-4+\n"))
     assert made.positions[1] == pytest.approx([0, 18.5 * 0.0254, 0.3048])
     assert made.positions[3] == pytest.approx([3 * 0.3048, (18.5 + 1 / 16) * 0.0254, 0.3048])
+    bare = read("station,Keel,WL 1-0-0\n0,0-3-0,1-6-0\n3,0-0-4,2-0-0\n")
+    assert bare.points[-1].place == pytest.approx((0.9144, 0.6096, 0.3048)), "no unit is needed"
 
 
 def test_buttocks_and_waterlines_stand_along_the_section():
