@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Which parts of the curves were left out, and where: a sentence each, with the cure."""
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from ..units import Text
@@ -10,7 +8,8 @@ from .crossings import Meeting
 from .cubics import Curve, points_at
 from .network import Loose, Network
 
-_SHOWN = 8
+_SHOWN = 8  # as warnings
+_TOLD = 3  # in an error
 
 
 def plain(length: float) -> str:
@@ -29,11 +28,11 @@ def remarks(network: Network, text: Text = plain) -> list[str]:
     for i, curve in enumerate(network.curves):
         if i not in used:
             said.append(
-                f"'{curve.name}' encloses nothing, and was left out. {_nearest(network.curves, i, None, text)}"
+                f"'{curve.name}' encloses nothing, and was left out. {_nearest(network, i, None, text)}"
             )
     said += [_loose(network, one, text) for one in network.loose if one.curve in used]
     if len(said) > _SHOWN:
-        said[_SHOWN:] = [f"So are {len(said) - _SHOWN} other places."]
+        said[_SHOWN:] = [f"There are {len(said) - _SHOWN} more such places."]
     return said
 
 
@@ -49,24 +48,26 @@ def _loose(network: Network, one: Loose, text: Text) -> str:
     name = network.curves[one.curve].name
     return (
         f"'{name}' ends loose at {place_text(one.place, text)}: {text(one.length)} of it was left out. "
-        f"{_nearest(network.curves, one.curve, one.place, text)}"
+        f"{_nearest(network, one.curve, one.place, text)}"
     )
 
 
-def _nearest(curves: Sequence[Curve], i: int, place: np.ndarray | None, text: Text) -> str:
-    """The nearest curve to a place, or to the ends of a curve."""
-    others = [(k, _samples(curve)) for k, curve in enumerate(curves) if k != i]
+def _nearest(network: Network, i: int, place: np.ndarray | None, text: Text) -> str:
+    """The nearest curve to a loose place, or to those ends of a curve that meet no other one."""
+    curve = network.curves[i]
+    others = [(k, _samples(other)) for k, other in enumerate(network.curves) if k != i]
     if not others:
         return "There is no other curve."
-    ends = points_at(curves[i].pieces, np.array([0.0, curves[i].end])) if place is None else [place]
-    gap, k = min(
-        (float(np.linalg.norm(points - end, axis=1).min()), k)
-        for k, points in others
+    ends = points_at(curve.pieces, np.array([0.0, curve.end])) if place is None else [place]
+    gaps = [
+        min((float(np.linalg.norm(points - end, axis=1).min()), k) for k, points in others)
         for end in ends
-    )
-    return (
-        f"'{curves[k].name}' is {text(gap)} away from its end: extend it to there, or shorten it."
-    )
+    ]
+    loose = [(gap, k) for gap, k in gaps if gap > network.tolerance]
+    if not loose:
+        return "Draw curves across it."
+    gap, k = min(loose)
+    return f"'{network.curves[k].name}' is {text(gap)} away from its end: extend it to there, or shorten it."
 
 
 def _samples(curve: Curve) -> np.ndarray:
@@ -79,4 +80,4 @@ def none_text(network: Network, text: Text = plain) -> str:
     start = "Draw curves across one another, whose ends lie on others: these enclose nothing. "
     if not network.crossings and len(network.curves) > 1:
         start += f"No two of them come nearer to each other than {text(network.tolerance)} (Snap). "
-    return (start + " ".join(said)).strip()
+    return (start + " ".join(said[:_TOLD])).strip()

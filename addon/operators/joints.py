@@ -19,6 +19,7 @@ from ..job import Job
 from ..memory import source_of
 from ..poll import LINKED_SURFACE, ExplainedPoll, in_mode, needs
 from ..settings import Settings
+from ..words import counted
 from .fair import Fairing, can_fair
 from .mixins import Action
 
@@ -93,7 +94,8 @@ class OBJECT_OT_fairing_joints(ExplainedPoll, bpy.types.Operator):
             return {"CANCELLED"}
         worst = max(found, key=lambda row: row.kink)
         self.report(
-            {"INFO"}, f"{len(found)} joints, listed in the panel Check; the worst is {worst.text()}"
+            {"INFO"},
+            f"{counted(len(found), 'joint')}, listed in the panel Check; the worst is {worst.text()}",
         )
         return {"FINISHED"}
 

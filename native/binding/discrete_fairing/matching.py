@@ -253,6 +253,6 @@ def _chosen(
         raise fairing_error(
             "BAD_OPTION",
             "No border edge meets the neighbour.",
-            cure="Put the border's vertices on the neighbour's border, or name the edges.",
+            cure="Move the border's vertices onto the neighbour's border, within a twentieth of an edge.",
         )
     return np.asarray(named)
