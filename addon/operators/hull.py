@@ -48,6 +48,7 @@ class OBJECT_OT_fairing_close(Action, bpy.types.Operator):
                 f"Run Check Mesh on {source.name}: {error.args[0]} edges stay open."
             ) from error
         select_only(context, [closed])
+        active.hide_set(True)  # the closed hull lies on it
         if settings is not None:
             options = asdict(replace(settings, symmetry_plane="NONE", use_selection=False))
             cast(Any, bpy.ops.object).fairing_surface(**options)

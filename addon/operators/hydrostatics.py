@@ -82,6 +82,8 @@ class OBJECT_OT_fairing_hydrostatics(Shown, _Afloat, bpy.types.Operator):
 
     def act(self, context: Context) -> str:
         ((draught, found),) = self.afloat(context, 1).items()
+        if found.beam > found.length:
+            self.report({"WARNING"}, "Turn the hull, unless it is wider than long: X is along it")
         lines = _said(found, draught, self.density)
         self.said = "\n".join(lines)
         return ", ".join(lines)

@@ -33,6 +33,7 @@ def test_one_click_closes_a_half_hull(file):
     assert bpy.ops.object.fairing_close() == {"FINISHED"}
     closed = bpy.context.active_object
     assert closed != half and len(half.data.vertices) == count
+    assert closed.visible_get() and not half.visible_get(), "one of two coincident hulls is shown"
     found = solid(*in_metres(bpy.context, closed))
     assert found.volume > 0 and abs(found.centroid[1]) < 1e-6
     points = positions(closed.data)
@@ -104,7 +105,7 @@ def test_hydrostatics_of_half_whole_and_closed_agree(tmp_path):
     assert float(rows[-1]["displacement_kg"]) == pytest.approx(1025 * whole.volume, rel=1e-6)
 
 
-def test_without_a_draught_the_hull_floats_at_half_its_height(tmp_path):
+def test_without_a_draught_the_hull_floats_at_half_its_height(tmp_path, capfd):
     bpy.context.scene.unit_settings.scale_length = 0.001
     imported("offsets_yacht.tsv")
     bpy.ops.object.fairing_close()
@@ -116,6 +117,12 @@ def test_without_a_draught_the_hull_floats_at_half_its_height(tmp_path):
     assert float(rows[-1]["draught_m"]) == pytest.approx(0.5 * height)
     volume = hydrostatics(points, triangles, low + 0.5 * height).volume
     assert float(rows[-1]["volume_m3"]) == pytest.approx(volume)
+    capfd.readouterr()
+    bpy.ops.object.fairing_hydrostatics()
+    assert "Turn the hull" not in capfd.readouterr().out
+    bpy.context.active_object.rotation_euler.z = np.pi / 2
+    bpy.ops.object.fairing_hydrostatics()
+    assert "Turn the hull" in capfd.readouterr().out
     refused("Set Draught below", bpy.ops.object.fairing_hydrostatics, draught=2e3 * height)
 
 
