@@ -40,7 +40,11 @@ STEPS = (
         "Spikes",
         "Flattens tips higher than 1.6 edges; creased and sharp ones stay",
     ),
-    ("folds", "Folds", "Flattens faces that point away from all faces around"),
+    (
+        "folds",
+        "Folds",
+        "Flattens faces that point away from all faces around, or cross those beside them",
+    ),
     ("fill", "Holes", "Fills holes with a surface that continues the faces around"),
 )
 

@@ -184,6 +184,32 @@ def test_a_spike_where_the_surface_turns_much_is_pressed_down():
     assert np.linalg.norm(found.vertices[at] - points[at]) < 0.2
 
 
+def crossing_faces(cleaned):
+    return sum(len(d.elements) for d in cleaned.left if d.code == "CROSSING_FACES")
+
+
+@pytest.mark.parametrize("corner", [False, True])
+def test_faces_that_noise_has_pushed_through_others_move_back(corner):
+    """On a sheet, flat or with a right angle; both were left with crossing faces."""
+    across = (lambda a: np.minimum(a, 20.0), lambda a: np.maximum(a - 20.0, 0.0))
+    flat = (lambda a: a, lambda a: 0.0 * a)
+    x, z = across if corner else flat
+    points, faces = mapped(lambda a, b: (x(40.0 * a), 40.0 * b, z(40.0 * a)), 41, 41)
+    points = points + np.random.default_rng(1).normal(0.0, 0.27, points.shape)
+    assert crossing_faces(df.clean(points, faces, folds=False)) > 4
+    found = df.clean(points, faces)
+    assert crossing_faces(found) == 0 and "moved back" in told(found, "folds")[-1].text
+    moved = (found.vertices != points[found.vertex_origin]).any(axis=1)
+    assert np.count_nonzero(moved) < 150
+
+
+def test_parts_that_pass_through_each_other_stay():
+    points, faces = BALL
+    both = np.concatenate([points, points + [1.4, 0.1, 0.2]])
+    found = df.clean(both, np.concatenate([faces, faces + len(points)]))
+    assert np.array_equal(found.vertices, both) and crossing_faces(found) > 10
+
+
 def test_a_corner_of_a_box_is_no_spike():
     assert df.clean(*two_boxes([3.0, 0.0, 0.0])).done == []
 

@@ -81,7 +81,8 @@ def clean(
         half of the angle that they would have in a plane, as at tips higher than 1.6 edges. The tip of a cone
         stays: the surface closes there.
     folds : bool
-        So do the corners of faces whose normals are opposite to those of all faces around, which agree.
+        So do the corners of faces whose normals are opposite to those of all faces around, which agree, and
+        corners of faces that cross others beside them, where that ends the crossing.
     fill : bool
         Holes are filled with fill_holes(), whose arguments are `joint`, `energy`, `density` and `rim`.
         One wider than half of its part, as under a scan that stood on a table, is closed flat where its rim is

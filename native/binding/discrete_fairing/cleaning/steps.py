@@ -13,7 +13,7 @@ import numpy as np
 from ..checking import Defect, check
 from ..errors import about, fairing_error
 from ..watching import SeveralRuns
-from . import holes, left, shape, topology
+from . import crossed, holes, left, shape, topology
 from .state import State
 
 
@@ -157,6 +157,9 @@ class Run:
         self.state, tips, folded = shape.flattened(self.state, held, spikes, folds, filled)
         self.note("spikes", tips, "{spike|spikes} flattened")
         self.note("folds", folded, "folded {face|faces} flattened")
+        if folds:
+            self.state, through = crossed.uncrossed(self.state, held, self.watchers)
+            self.note("folds", through, "crossing {face|faces} moved back")
 
     def fill(self, largest: float, settings: dict[str, Any]) -> list[Any]:
         before = len(self.state.face_origin)
