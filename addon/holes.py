@@ -25,6 +25,7 @@ from .transfer.hole_loops import (
     unclear_edges,
     where_faces_were,
 )
+from .triangles import marked
 from .units import Units
 from .words import counted
 
@@ -201,8 +202,7 @@ def _is_cap(points: np.ndarray, arrays: core.ControlArrays, hole: list[list[int]
     _, sizes, ways = np.linalg.svd(away, full_matrices=False)
     if len(sizes) < 3 or np.abs(away @ ways[2]).max() > _PLANAR * np.ptp(away @ ways[0]):
         return False
-    on_rim = np.zeros(len(points), bool)
-    on_rim[[v for loop in hole for v in loop]] = True
+    on_rim = marked([v for loop in hole for v in loop], len(points))
     around = np.flatnonzero(np.add.reduceat(on_rim[arrays.corners], arrays.offsets[:-1]) >= 2)
     normals = face_normals(points, arrays.corners, arrays.offsets)[around]
     return bool(len(around)) and float(np.abs(normals @ ways[2]).mean()) < np.sqrt(0.5)

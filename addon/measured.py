@@ -15,7 +15,7 @@ import numpy as np
 from . import core
 from .transfer.blocks import blocks
 from .transfer.cut_out import grown
-from .triangles import fans, normals
+from .triangles import fans, marked, normals
 
 # Weights to try, from strong to weak: 10 hardly smooths, 1e-4 leaves a plate. Between neighbouring
 # weights the least error of a noisy sphere differs by at most a fifth.
@@ -37,8 +37,7 @@ _SOUGHT = 0.2  # share of the progress until the amount is known
 
 def sample(arrays: core.ControlArrays, chosen: np.ndarray) -> np.ndarray:
     """(m,) bool: a connected part of the faces `chosen`, (m,) bool, to find the amount on."""
-    found = np.zeros(len(chosen), bool)
-    found[np.flatnonzero(chosen)[:1]] = True
+    found = marked(np.flatnonzero(chosen)[:1], len(chosen))
     while found.sum() < SAMPLE:
         more = grown(arrays, found, 1) & chosen
         if (more == found).all():
@@ -97,8 +96,9 @@ def smoothed(
         fit = _Fit(arguments_of(part.arrays), free[part.vertices], runs.run(*span))
         surface = fit.own(fit.run(weight).vertices)
         off = _along(surface - fit.points, fit.normals(surface))
-        mine = np.zeros(len(part.vertices), bool)
-        mine[part.arrays.corners[np.repeat(own, part.arrays.face_sizes)]] = True
+        mine = marked(
+            part.arrays.corners[np.repeat(own, part.arrays.face_sizes)], len(part.vertices)
+        )
         mine &= free[part.vertices]
         rows = part.vertices[mine]
         result.vertices[rows] = points[rows] + off[mine]

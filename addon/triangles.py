@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Faces of meshes, and their triangles: plain arrays, no Blender."""
+"""Elements of meshes, and triangles of faces: plain arrays, no Blender."""
+
+from typing import Any
 
 import numpy as np
 
@@ -10,6 +12,13 @@ def fans(first: np.ndarray, sizes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     polygons = np.repeat(np.arange(len(each)), each)
     start = first[polygons] + np.arange(len(polygons)) - np.repeat(np.cumsum(each) - each, each)
     return np.stack([first[polygons], start + 1, start + 2], axis=1), polygons
+
+
+def marked(ids: Any, count: int) -> np.ndarray:
+    """(count,) bool: the elements with these `ids`."""
+    found = np.zeros(count, bool)
+    found[ids] = True
+    return found
 
 
 def normals(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:

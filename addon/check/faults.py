@@ -16,8 +16,8 @@ from ..core import ControlArrays, folds, module
 from ..inspection.curvature import cross
 from ..mesh.layers import fill_layer, layer_values, make_layer
 from ..mesh.write import FAULTS
-from ..transfer.attributes import AttributeTransfer
-from ..transfer.coarse import coarse_triangles
+from ..transfer.attributes import AttributeTransfer, coarse_triangles
+from ..triangles import marked
 from .folds import folded, folded_in_place
 
 # triangles that are searched for crossings at a time, about 0.3 seconds; of a finer surface fewer
@@ -219,9 +219,7 @@ def _on_others(vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:
     """(N,) bool: vertices of the `triangles` that coincide with others."""
     used = np.unique(triangles)
     _, place, count = np.unique(vertices[used], axis=0, return_inverse=True, return_counts=True)
-    on = np.zeros(len(vertices), bool)
-    on[used[count[place.ravel()] > 1]] = True
-    return on
+    return marked(used[count[place.ravel()] > 1], len(vertices))
 
 
 def _ordered(a: int, b: int) -> tuple[int, int]:

@@ -6,6 +6,7 @@ import numpy as np
 from .. import core
 from ..inspection.curvature import face_areas, face_normals, faces_of_edges
 from ..inspection.measures import fold_angles
+from ..triangles import marked
 
 # largest distance of a flat's corners from its plane, relative to its size; files have about six digits
 _IN_PLANE = 1e-3
@@ -55,8 +56,7 @@ def find_flats(
         length = _lengths(arrays, edge[there])
         area = face_areas(arrays.positions, arrays.corners, arrays.offsets)[face[there]]
         turns &= (arrays.face_sizes[face[there]] == 4) & (area <= length * width[here])
-    some = np.zeros(len(plane), bool)
-    some[owner[here]] = True
+    some = marked(owner[here], len(plane))
     some[owner[here[~turns]]] = False
     return (some & plane)[part]
 

@@ -6,14 +6,14 @@ from typing import Any
 import numpy as np
 
 from ..inspection.curvature import cross, unit
-from ..transfer.attributes import AttributeTransfer
-from ..transfer.coarse import coarse_triangles
+from ..transfer.attributes import AttributeTransfer, coarse_triangles
 from ..transfer.lattice import fine_edges, pair_keys
+from ..triangles import marked
 
 
 def folded(vertices: np.ndarray, triangles: np.ndarray, cosine: float = 0.0) -> np.ndarray:
     """(N,) bool: the ends of edges whose two triangles have normals with a cosine below `cosine`."""
-    return _at(vertices, _folds(vertices, triangles, cosine)[0])
+    return marked(_folds(vertices, triangles, cosine)[0], len(vertices))
 
 
 def folded_in_place(
@@ -36,9 +36,8 @@ def folded_in_place(
     coarsest, owner = coarse_triangles(transfer, 0)
     theirs = chosen[polygon]
     edges, sides = _folds(before, coarsest)
-    at = _at(vertices, edges[theirs[owner[sides]].all(axis=1)])
-    excused = np.zeros(len(polygon), bool)
-    excused[owner[at[coarsest].any(axis=1)]] = True
+    at = marked(edges[theirs[owner[sides]].all(axis=1)], len(vertices))
+    excused = marked(owner[at[coarsest].any(axis=1)], len(polygon))
     triangles, face = coarse_triangles(transfer, levels)
     edges, sides = _folds(vertices, triangles)
     inside = theirs[face[sides]]
@@ -47,13 +46,7 @@ def folded_in_place(
         counted |= inside.any(axis=1) & ~inside.all(axis=1)
     pairs = result.crease_edges
     creases = fine_edges(result.faces, pairs, levels) if levels else pairs
-    return _at(vertices, edges[counted & ~np.isin(pair_keys(edges), pair_keys(creases))])
-
-
-def _at(vertices: np.ndarray, edges: np.ndarray) -> np.ndarray:
-    marked = np.zeros(len(vertices), bool)
-    marked[edges.ravel()] = True
-    return marked
+    return marked(edges[counted & ~np.isin(pair_keys(edges), pair_keys(creases))], len(vertices))
 
 
 def _folds(

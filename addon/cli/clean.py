@@ -8,7 +8,7 @@ from typing import Any
 from ..blender import Object, current_context
 from ..cleaning import STEPS, CleanJob, CleanOptions
 from .report import counts
-from .rna import OfOperator
+from .rna import OfOperator, whole_number
 
 _NAMES = [name for name, *_ in STEPS]
 OPTIONS = OfOperator(
@@ -34,7 +34,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     OPTIONS.add(group)
     group.add_argument(
         "--clean-noise",
-        type=_passes,
+        type=whole_number(0, 1000, "auto"),
         metavar="N",
         help="auto: remove noise by an amount chosen around each vertex; a number: passes of a filter, the same "
         "everywhere, up to 1000; ten are enough for most scans [0]",
@@ -44,15 +44,6 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def options_of(said: dict[str, Any]) -> CleanOptions:
     steps = {name: name not in said["clean_without"] for name in _NAMES}
     return CleanOptions(steps, said["clean_islands"], said["largest_hole"], said["clean_noise"])
-
-
-def shown(options: CleanOptions) -> dict[str, Any]:
-    return {
-        "clean_without": [name for name in _NAMES if not options.steps[name]],
-        "clean_islands": options.islands,
-        "clean_noise": options.noise,
-        "largest_hole": options.largest,
-    }
 
 
 def run(source: Object, options: CleanOptions, **watchers: Any) -> tuple[dict[str, Any], list[str]]:
@@ -81,13 +72,3 @@ def cells(objects: list[dict[str, Any]], _record: dict[str, Any]) -> tuple[str, 
     closed = all(item["report"]["watertight"] for item in objects)
     left = sum(part["count"] for item in objects for part in item["report"]["left"])
     return "yes" if closed else "no", f"{left:,}"
-
-
-def _passes(text: str) -> int | str:
-    if text == "auto":
-        return text
-    if not text.isdecimal() or int(text) > 1000:
-        raise argparse.ArgumentTypeError(
-            f"{text!r} is neither auto nor a whole number from 0 to 1000"
-        )
-    return int(text)

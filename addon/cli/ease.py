@@ -20,7 +20,6 @@ from ..strain.ease import EaseJob, EaseOptions
 from ..strain.measure import StrainJob
 from ..strain.strained import Strained
 from ..units import digits_of
-from .files import write_text
 from .places import Place, tables
 from .rna import number
 
@@ -99,58 +98,39 @@ def shown(prepare: PrepareOptions) -> dict[str, Any]:
     }
 
 
-class Preparing:
-    """Prepares the meshes of one file before they are faired."""
+def prepare(
+    source: Object,
+    options: PrepareOptions,
+    settings: Settings,
+    asked: dict[str, Any],
+    done: Callable[[], None],
+    **watchers: Any,
+) -> tuple[dict[str, Any], list[table.Table]]:
+    """Measures a mesh's strain and eases it, `done` after each; returns its entry, and a table if wanted.
 
-    def __init__(self, prepare: PrepareOptions, settings: Settings, asked: dict[str, Any]) -> None:
-        """`asked`: arguments of the core that replace those made from the settings."""
-        self._asked_for, self._settings, self._asked = prepare, settings, asked
-
-    def run(
-        self, sources: Sequence[Object], done: Callable[[], None], **watchers: Any
-    ) -> tuple[list[dict[str, Any]], list[table.Table]]:
-        """Eases meshes and measures strain, `done` after each; returns entries and tables."""
-        entries: list[dict[str, Any]] = []
-        found: list[table.Table] = []
-        for source in sources:
-            entry: dict[str, Any] = {}
-            strained = self._strained(source, done, watchers)
-            if strained is not None:
-                entry["strain"] = _largest(strained)
-            eased = self._eased(source, done, watchers)
-            if eased is not None:
-                entry["eased"] = _what_moved(eased)
-            if strained is not None:
-                places = None if eased is None else eased.positions
-                found.append(
-                    table.rows(strained.positions, strained.lengths, places, strained.names)
-                )
-            entries.append(entry)
-        return entries, found
-
-    def _strained(
-        self, source: Object, done: Callable[[], None], watchers: dict[str, Any]
-    ) -> Strained | None:
-        if self._asked_for.tables is None:
-            return None
-        job = StrainJob(current_context(), source, settings=self._settings)
-        job.arguments |= self._asked
-        job.compute(**watchers)
+    `asked`: arguments of the core that replace those made from the settings.
+    """
+    entry: dict[str, Any] = {}
+    strained = places = None
+    if options.tables is not None:
+        measured = StrainJob(current_context(), source, settings=settings)
+        measured.arguments |= asked
+        measured.compute(**watchers)
         done()
-        return job.result
-
-    def _eased(
-        self, source: Object, done: Callable[[], None], watchers: dict[str, Any]
-    ) -> EaseJob | None:
-        if self._asked_for.options is None:
-            return None
-        job = EaseJob(current_context(), source, self._asked_for.options, self._settings)
-        job.arguments |= self._asked
+        strained = measured.result
+    if options.options is not None:
+        job = EaseJob(current_context(), source, options.options, settings)
+        job.arguments |= asked
         job.compute(**watchers)
-        source.data.vertices.foreach_set("co", np.float32(job.positions).ravel())
+        places = job.positions
+        source.data.vertices.foreach_set("co", np.float32(places).ravel())
         source.data.update()
         done()
-        return job
+        entry["eased"] = _what_moved(job)
+    if strained is None:
+        return entry, []
+    entry["strain"] = _largest(strained)
+    return entry, [table.rows(strained.positions, strained.lengths, places, strained.names)]
 
 
 def require_one(sources: Sequence[Object], prepare: PrepareOptions) -> None:
@@ -160,10 +140,6 @@ def require_one(sources: Sequence[Object], prepare: PrepareOptions) -> None:
             f"--strain: Give each mesh a file of its own. The table is of one, and this file has {len(sources)}: "
             f"{', '.join(source.name for source in sources)}."
         )
-
-
-def write_table(path: Path, found: table.Table) -> None:
-    write_text(str(path), table.text(found), newline="")
 
 
 def _largest(strained: Strained) -> dict[str, Any]:

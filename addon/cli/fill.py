@@ -18,7 +18,6 @@ OPTIONS = OfOperator(
     fill_noisy="noisy",
     fill_quads="quads",
 )
-ENERGY = "TOTAL_CURVATURE"
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -42,17 +41,6 @@ def options_of(said: dict[str, Any]) -> FillOptions:
         said["fill_noisy"],
         said["fill_quads"],
     )
-
-
-def shown(options: FillOptions) -> dict[str, Any]:
-    return {
-        "energy": options.energy,
-        "fill_joint": options.joint,
-        "fill_density": options.density,
-        "fill_noisy": options.noisy,
-        "fill_quads": options.quads,
-        "largest_hole": options.largest,
-    }
 
 
 def run(source: Object, options: FillOptions, **watchers: Any) -> tuple[dict[str, Any], list[str]]:

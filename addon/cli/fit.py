@@ -18,7 +18,7 @@ from ..scan_fit import Fit, FitJob
 from ..settings import Settings
 from .files import FileError, read_file
 from .places import FORMATS, Place, file_format
-from .rna import option
+from .rna import option, whole_number
 
 _CAGE_FACES = 300
 # options that a fit decides itself, or that have another meaning there
@@ -57,7 +57,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
     group.add_argument(
         "--cage-faces",
-        type=_count,
+        type=whole_number(6, 100_000),
         metavar="N",
         help=f"faces of the cage that is made, about [{_CAGE_FACES}]",
     )
@@ -162,9 +162,3 @@ COLUMNS = {"within": 10, "noise": 10}
 def cells(objects: list[dict[str, Any]], _record: dict[str, Any]) -> tuple[str, ...]:
     told = objects[0]["fit"]
     return words.short(told["within"]), words.short(told["noise"])
-
-
-def _count(text: str) -> int:
-    if not text.isdecimal() or not 6 <= int(text) <= 100_000:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number from 6 to 100000")
-    return int(text)

@@ -67,7 +67,7 @@ def _run_all(
     """Records of all inputs, including those not reached after an interruption, and the exit code."""
     reported = shown(settings) | ease.shown(arguments.prepared) | fit.shown(arguments.drawn)
     if arguments.mending is not None:
-        reported = arguments.mending.module.shown(arguments.mending.options)
+        reported = arguments.mending.said
     records = [report.new_record(file, reported) for file in files]
     table = _Table(arguments, files, records, settings.energy)
     spread = executors.is_spread(arguments)

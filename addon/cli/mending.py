@@ -18,10 +18,11 @@ _MODULES: dict[str, Any] = {"fill": fill, "clean": clean}
 
 @dataclass(frozen=True)
 class Mending:
-    """One of the two: its `module`, and its options."""
+    """One of the two: its `module`, and its options, also as they were `said`."""
 
     module: Any
     options: Any
+    said: dict[str, Any]
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -56,5 +57,6 @@ def asked_of(arguments: argparse.Namespace, files: Sequence[Place]) -> Mending |
         raise ValueError(f"--{name} writes meshes: OUT cannot be a STEP file")
     module = _MODULES[name]
     said = _OF_BOTH.said(arguments) | module.OPTIONS.said(arguments)
-    said["energy"] = getattr(arguments, "energy", fill.ENERGY)
-    return Mending(module, module.options_of(said))
+    if name == "fill":
+        said["energy"] = getattr(arguments, "energy", "TOTAL_CURVATURE")
+    return Mending(module, module.options_of(said), said)

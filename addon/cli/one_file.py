@@ -13,12 +13,14 @@ import bpy
 from .. import memory
 from ..blender import Object, current_context
 from ..cad.fit import PatchJob
+from ..cad.step import write_jobs
 from ..errors import JobError, repairs_text
 from ..job import Job
 from ..scan_fit import Fit, FitJob
 from ..settings import PatchOptions, Settings
+from ..strain import table
 from . import ease, fit, report, step
-from .files import FileError, read_file, write_file
+from .files import FileError, read_file, write_file, write_text, write_whole
 from .places import Place, is_cad, is_there
 from .report import Progress
 
@@ -70,8 +72,13 @@ def _fair_file(
         if (value := getattr(arguments, name)) is not None
     }
     try:
-        preparing = ease.Preparing(prepared, settings, asked)
-        entries, tables = preparing.run(sources, progress.next_run, **watchers)
+        entries, tables = [], []
+        for source in sources:
+            entry, found = ease.prepare(
+                source, prepared, settings, asked, progress.next_run, **watchers
+            )
+            entries.append(entry)
+            tables += found
         jobs = [_job(source, settings, patches, near) for source in sources]
         for job in jobs:
             # the table and the report contain energies
@@ -100,9 +107,9 @@ def _fair_file(
     if patches is None:
         write_file(file.target)
     else:
-        step.write_step_file(file, jobs, patches)
-    for found in tables:
-        ease.write_table(arguments.tables[file], found)
+        write_whole(file.target, lambda path: write_jobs(path, jobs, patches.unit, 1.0))
+    for rows in tables:
+        write_text(str(arguments.tables[file]), table.text(rows), newline="")
 
 
 def _mend_file(file: Place, record: dict[str, Any], arguments: argparse.Namespace) -> None:

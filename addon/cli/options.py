@@ -10,7 +10,7 @@ from ..properties import FAIRING_PG_settings
 from ..settings import NAMES, OF_NEAR, Settings
 from . import ease, fit, mending, step
 from .places import FORMATS
-from .rna import add, default, number, option
+from .rna import add, default, number, option, whole_number
 
 # Settings that apply only in an open scene, or to data that OBJ, PLY and STL files do not have.
 NOT_HERE = frozenset(
@@ -189,18 +189,21 @@ def parser(version: str) -> argparse.ArgumentParser:
         "[none]",
     )
     made.add_argument(
-        "--threads", type=_threads, metavar="N", help="0: all cores [as in the preferences]"
+        "--threads",
+        type=whole_number(0, 1024),
+        metavar="N",
+        help="0: all cores [as in the preferences]",
     )
     made.add_argument(
         "--pieces",
-        type=_whole_number,
+        type=whole_number(1),
         metavar="N",
         help="fair each mesh in this number of pieces, in the memory of one; needs the Python package "
         "pymetis [whole]",
     )
     made.add_argument(
         "--jobs",
-        type=_whole_number,
+        type=whole_number(1),
         default=1,
         metavar="N",
         help="files at a time, each in a Blender of its own; with --pieces, pieces at a time [1]",
@@ -247,15 +250,3 @@ def _share(text: str) -> slice:
     """A range of the inputs, for one task of an executor."""
     first, end = map(int, text.split(":"))
     return slice(first, end)
-
-
-def _whole_number(text: str) -> int:
-    if not text.isdecimal() or not 0 < int(text) < 2**31:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number, 1 or more")
-    return int(text)
-
-
-def _threads(text: str) -> int:
-    if not text.isdecimal() or int(text) > 1024:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number from 0 to 1024")
-    return int(text)

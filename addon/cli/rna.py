@@ -34,6 +34,21 @@ def number(what: str, accepts: Callable[[float], bool]) -> Callable[[str], float
     return read
 
 
+def whole_number(lowest: int, highest: int = 2**31 - 1, *words: str) -> Callable[[str], Any]:
+    """The `type` of an argument that is a number in this range, or one of `words`."""
+    span = f", {lowest} or more" if highest == 2**31 - 1 else f" from {lowest} to {highest}"
+    what = "".join(f"{word} or " for word in words) + "a whole number" + span
+
+    def read(text: str) -> int | str:
+        if text in words:
+            return text
+        if not text.isdecimal() or not lowest <= int(text) <= highest:
+            raise argparse.ArgumentTypeError(f"{text!r} is not {what}")
+        return int(text)
+
+    return read
+
+
 def add(
     group: argparse._ArgumentGroup, name: str, prop: Any, absent: Any = None, is_off: bool = False
 ) -> None:

@@ -8,10 +8,8 @@ from typing import Any
 
 from ..cad import words
 from ..cad.fit import PatchJob, refused
-from ..cad.step import write_jobs
 from ..errors import JobError
 from ..settings import PatchOptions, Settings
-from .files import write_whole
 from .places import Place, is_cad
 from .rna import OfOperator, option
 
@@ -54,11 +52,6 @@ def require_patches(jobs: Sequence[PatchJob]) -> None:
             "face",
             faulty[0].refused,
         )
-
-
-def write_step_file(file: Place, jobs: Sequence[PatchJob], options: PatchOptions) -> None:
-    """Writes all parts to one file, with unchanged coordinates."""
-    write_whole(file.target, lambda path: write_jobs(path, jobs, options.unit, 1.0))
 
 
 def object_entry(job: PatchJob) -> dict[str, Any]:

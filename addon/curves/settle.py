@@ -10,6 +10,7 @@ import numpy as np
 
 from .. import core
 from ..errors import JobError
+from ..triangles import marked
 from ..words import counted
 from .cells import Cells, border_arcs, find_cells
 from .control_mesh import ControlMesh, control_mesh
@@ -109,6 +110,4 @@ def _in_caps(mesh: ControlMesh, found: Cells) -> np.ndarray:
         for k, cell in enumerate(found.cells)
         if len(cell.sides) == 1 and borders.isdisjoint(half // 2 for half in cell.halves)
     ]
-    inside = np.zeros(len(mesh.points), bool)
-    inside[mesh.faces[np.isin(mesh.cell_of_face, caps)]] = True
-    return inside
+    return marked(mesh.faces[np.isin(mesh.cell_of_face, caps)], len(mesh.points))

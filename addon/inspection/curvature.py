@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..core import ControlArrays
-from ..triangles import fans
+from ..triangles import fans, marked
 
 
 @dataclass(frozen=True)
@@ -39,7 +39,7 @@ class Curvature:
 def curvature(arrays: ControlArrays) -> Curvature:
     """Curvature of a polygon mesh; not at borders and edges marked sharp."""
     triangles, weights = triangulate(arrays.positions, arrays.corners, arrays.offsets)
-    rim = marked_vertices(arrays.edges, rim_edges(arrays), len(arrays.positions))
+    rim = marked(arrays.edges[rim_edges(arrays)], len(arrays.positions))
     return triangle_curvature(arrays.positions, triangles, weights, rim, arrays.edges)
 
 
@@ -144,13 +144,6 @@ def rim_edges(arrays: ControlArrays) -> np.ndarray:
     count = arrays.edge_uses
     rim = (count == 1) | (count > 2)
     return rim if arrays.sharp_edge is None else rim | arrays.sharp_edge
-
-
-def marked_vertices(edges: np.ndarray, marked: np.ndarray, count: int) -> np.ndarray:
-    """(count,) bool: vertices at the ends of the `marked` edges."""
-    vertices = np.zeros(count, bool)
-    vertices[edges[marked].ravel()] = True
-    return vertices
 
 
 def faces_of_edges(arrays: ControlArrays) -> np.ndarray:

@@ -17,8 +17,8 @@ from mathutils import Matrix
 from ..blender import Object, current_context
 from ..mesh.object import Showing, changed_keys, session_key
 from ..redraw import tag_areas
-from .drawn import Drawn
 from .overlay_arrays import lines_of, pulled, surface_of
+from .sections import Drawn
 
 gpu: Any = _gpu  # its stubs are incomplete
 batch_for_shader: Any = _batch.batch_for_shader

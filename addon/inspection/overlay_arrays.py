@@ -7,8 +7,7 @@ import bpy
 import numpy as np
 
 from ..blender import Object, column
-from .drawn import Drawn, drawn
-from .sections import combs, sections, segments, teeth
+from .sections import Drawn, combs, drawn, sections, segments, teeth
 
 CURVE = (0.02, 0.02, 0.02, 1.0)
 # for planes across X, Y, Z: distinguishable if combs overlap

@@ -11,6 +11,7 @@ import numpy as np
 from ..blender import Object
 from ..core import ControlArrays, module
 from ..transfer.filling import Patch
+from ..triangles import marked
 from .edited import edited
 from .write_filling import with_new, write_hole
 
@@ -67,8 +68,7 @@ def _change(bm: Any, arrays: ControlArrays, made: Cleaned) -> None:
 
 def _left_alone(arrays: ControlArrays, gone: np.ndarray) -> tuple[list[int], list[int]]:
     """Edges that may lose their last face with the faces `gone`, (m,) bool, and vertices their last edge."""
-    beside = np.zeros(len(arrays.positions), bool)
-    beside[arrays.corners[np.repeat(gone, arrays.face_sizes)]] = True
+    beside = marked(arrays.corners[np.repeat(gone, arrays.face_sizes)], len(arrays.positions))
     edges = beside[arrays.edges].all(axis=1) & (arrays.edge_uses > 0)
     beside |= np.bincount(arrays.edges.ravel(), minlength=len(beside)) == 0
     return np.flatnonzero(edges).tolist(), np.flatnonzero(beside).tolist()
@@ -108,8 +108,7 @@ def _vertices(
 
 def _in_place(made: Cleaned) -> np.ndarray:
     """(N,) whether a vertex is the old one itself, not a copy or new."""
-    first = np.zeros(len(made.vertex_origin), bool)
-    first[np.unique(made.vertex_origin, return_index=True)[1]] = True
+    first = marked(np.unique(made.vertex_origin, return_index=True)[1], len(made.vertex_origin))
     return first & (made.vertex_origin >= 0)
 
 

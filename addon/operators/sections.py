@@ -12,8 +12,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
 from ..blender import Context, Object
 from ..cad.settings import METRES
 from ..errors import JobError
-from ..inspection.drawn import Drawn
-from ..inspection.sections import cut
+from ..inspection.sections import Drawn, cut
 from ..memory import active_source
 from ..mesh.object import linked_object, select_only
 from ..mesh.offset_names import read_names, stations

@@ -14,6 +14,7 @@ from ..in_place import floats
 from ..live.switch import look_again
 from ..mesh.shape_keys import EASED, key_positions, put_key
 from ..settings import Settings
+from ..triangles import marked
 from . import words
 from .measure import PlateRun, knuckle_of
 
@@ -117,9 +118,7 @@ class EaseJob(_Moving):
         arguments = core.plate_arguments(self.arguments)
         found = core.module().strain(**arguments, **watch)
         self.knuckle = knuckle_of(found.excess, self.arrays, self._world.positions)
-        fixed = np.zeros(len(self.positions), bool)
-        fixed[self.knuckle] = True
-        return fixed
+        return marked(self.knuckle, len(self.positions))
 
     def _places(self) -> np.ndarray:
         return self.result.vertices
@@ -203,7 +202,6 @@ class EaseSelectedJob(_Moving):
 
 def _inner(arrays: core.ControlArrays) -> np.ndarray:
     """(n,) bool: vertices with faces that are not on an open border."""
-    inner = np.zeros(len(arrays.positions), bool)
-    inner[arrays.corners] = True
+    inner = marked(arrays.corners, len(arrays.positions))
     inner[arrays.edges[arrays.edge_uses == 1].ravel()] = False
     return inner

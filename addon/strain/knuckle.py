@@ -7,6 +7,8 @@ vertex after vertex: the most strained ones on that side form a chain of edges, 
 
 import numpy as np
 
+from ..triangles import marked
+
 _LEAST = 3  # vertices in a row that are not a coincidence
 
 
@@ -28,8 +30,7 @@ def knuckle(
         beside.setdefault(v, []).append(w)
         beside.setdefault(w, []).append(v)
     uses = np.bincount(edges[creased].ravel(), minlength=len(points))
-    on_border = np.zeros(len(points), bool)
-    on_border[edges[border].ravel()] = True
+    on_border = marked(edges[border].ravel(), len(points))
     crease_ends = (uses == 1) & ~on_border
     found: list[list[int]] = [[]]
     for side in (-1.0, 1.0):

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ..core import ControlArrays
+from ..triangles import marked
 from .cut_out import CutOut, cut_out
 
 
@@ -41,8 +42,7 @@ def _cut(
     low, high = centres[rows].min(axis=0) - around, centres[rows].max(axis=0) + around
     near = ((centres >= low) & (centres <= high)).all(axis=1)
     found = cut_out(part.arrays, near)
-    own = np.zeros(len(near), bool)
-    own[rows] = True
+    own = marked(rows, len(near))
     whole = CutOut(found.arrays, part.vertices[found.vertices], part.faces[found.faces])
     return whole, own[found.faces]
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..core import ControlArrays
+from ..triangles import marked
 
 
 @dataclass(frozen=True)
@@ -21,8 +22,7 @@ def grown(arrays: ControlArrays, chosen: np.ndarray, rings: int) -> np.ndarray:
     """(m,) bool: the faces `chosen` (m,) bool, and `rings` rings of faces around them."""
     face_of = np.repeat(np.arange(len(chosen)), arrays.face_sizes)
     for _ in range(rings):
-        touched = np.zeros(len(arrays.positions), bool)
-        touched[arrays.corners[chosen[face_of]]] = True
+        touched = marked(arrays.corners[chosen[face_of]], len(arrays.positions))
         chosen = chosen.copy()
         chosen[face_of[touched[arrays.corners]]] = True
     return chosen
@@ -31,8 +31,7 @@ def grown(arrays: ControlArrays, chosen: np.ndarray, rings: int) -> np.ndarray:
 def inside(arrays: ControlArrays, chosen: np.ndarray) -> np.ndarray:
     """(n,) bool: vertices all of whose faces are `chosen` (m,) bool, and that are not on a border."""
     in_chosen = chosen[np.repeat(np.arange(len(chosen)), arrays.face_sizes)]
-    found = np.zeros(len(arrays.positions), bool)
-    found[arrays.corners[in_chosen]] = True
+    found = marked(arrays.corners[in_chosen], len(arrays.positions))
     found[arrays.corners[~in_chosen]] = False
     found[arrays.edges[arrays.edge_uses == 1].ravel()] = False
     return found

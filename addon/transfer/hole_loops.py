@@ -7,6 +7,7 @@ from typing import TypeAlias
 import numpy as np
 
 from .. import core
+from ..triangles import marked
 
 Side: TypeAlias = frozenset[int]  # the two vertices of an edge
 
@@ -27,8 +28,9 @@ def unclear_edges(
     if not left:
         return []
     shared = np.add.reduceat(uses[arrays.corner_edges] > 1, arrays.offsets[:-1]) > 0
-    beside = np.zeros(len(arrays.edges), bool)
-    beside[arrays.corner_edges[np.repeat(shared & ~gone, arrays.face_sizes)]] = True
+    beside = marked(
+        arrays.corner_edges[np.repeat(shared & ~gone, arrays.face_sizes)], len(arrays.edges)
+    )
     return [_side(arrays, e) for e in left if beside[e]]
 
 

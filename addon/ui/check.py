@@ -12,8 +12,7 @@ from ..check import joints, repair
 from ..check.defects import recall_cleaned, recall_defects, recall_holes
 from ..check.holes import MOST
 from ..units import Text, Units
-from .layout import Folded
-from .notice import draw_notice
+from .layout import Folded, draw_notice
 
 _SHOWN = 8  # rows; more kinds of defects are unlikely
 

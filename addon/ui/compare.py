@@ -7,8 +7,7 @@ from ..blender import Context, Object, Scene, all_objects
 from ..choices import ENERGIES, ENERGY_NAMES
 from ..inspection import readout
 from ..memory import recall, source_of
-from .layout import Folded
-from .notice import draw_notice
+from .layout import Folded, draw_notice
 
 _HEADS = ("", "Curvature", "Worst fold")
 _ORDER = [key for key, *_ in ENERGIES]

@@ -10,8 +10,7 @@ from ..blender import Context, Object
 from ..curve_cage import CageSettings
 from ..memory import source_of
 from ..mesh.read_curves import has_curves
-from .layout import Sidebar
-from .notice import draw_notice
+from .layout import Sidebar, draw_notice
 
 
 class VIEW3D_PT_fairing_curves(Sidebar, bpy.types.Panel):

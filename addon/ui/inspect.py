@@ -11,8 +11,7 @@ from ..inspection.display import VALUES
 from ..inspection.settings import MODES
 from ..inspection.stripes import STRIPES
 from ..memory import recall
-from .layout import Sidebar
-from .notice import draw_notice
+from .layout import Sidebar, draw_notice
 
 
 class VIEW3D_PT_fairing_inspect(Sidebar, bpy.types.Panel):

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The layout of settings, for sidebar, redo panel and stored surfaces."""
 
+import textwrap
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +13,8 @@ from ..properties import FairingSettings, FitAmount
 from ..purposes import name_of_purpose
 from ..settings import is_evaluated, is_limit, is_near
 from .pictures import draw_choices, draw_ends, icon, name_of
+
+WIDTH = 33  # characters that fit a sidebar of default width
 
 
 class Sidebar:
@@ -30,6 +33,14 @@ class Folded(Sidebar):
 
     bl_parent_id = "VIEW3D_PT_fairing_inspect"
     bl_options = {"DEFAULT_CLOSED"}
+
+
+def draw_notice(layout: bpy.types.UILayout, text: str, icon: Any = "ERROR") -> None:
+    """Sentences, broken into lines, since Blender's labels do not wrap."""
+    box = layout.box().column(align=True)
+    for line in textwrap.wrap(text, WIDTH):
+        box.label(text=line, icon=icon)
+        icon = "BLANK1"
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ import bpy
 from ..blender import Context, Object
 from ..freshness import stale_surfaces, why_stale
 from ..live import switch
-from .notice import draw_notice
+from .layout import draw_notice
 
 
 def draw_live(layout: bpy.types.UILayout, context: Context) -> None:

@@ -24,9 +24,17 @@ from ..purposes import PRESET_FOLDER, is_shipped, job_of
 from ..queue import Queue, running, status_text
 from ..settings import Settings, halves, is_evaluated, is_limit, is_near, subdivision
 from ..units import length_text
-from .layout import Known, Sidebar, amount_names, draw_fairness, draw_folded, draw_job, draw_shape
+from .layout import (
+    Known,
+    Sidebar,
+    amount_names,
+    draw_fairness,
+    draw_folded,
+    draw_job,
+    draw_notice,
+    draw_shape,
+)
 from .live import draw_live, draw_stale, draw_stale_surfaces
-from .notice import draw_notice
 from .pictures import PRESETS, draw_pictures, draw_purposes
 
 _MEASURED = 100_000  # edges: some 30 ms

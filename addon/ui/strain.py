@@ -12,8 +12,7 @@ from ..strain.drawn import magnification
 from ..strain.strained import Strained
 from ..strain.words import looks_like_knuckle
 from ..units import Units
-from .layout import Folded
-from .notice import draw_notice
+from .layout import Folded, draw_notice
 
 
 class VIEW3D_PT_fairing_strain(Folded, bpy.types.Panel):

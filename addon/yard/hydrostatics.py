@@ -35,7 +35,6 @@ class Hydrostatics:
     waterplane: float  # area
     flotation: float  # x of the waterplane's centroid (LCF)
     transverse: float  # second moment of the waterplane about its centre line
-    longitudinal: float  # second moment across it, about LCF
     length: float  # of the waterplane
     beam: float
 
@@ -90,7 +89,6 @@ def hydrostatics(
         double * plane,
         float((turn.T @ np.array([along, 0.0, 0.0]) + origin)[0]),
         double * float((down * (y**2).mean(axis=1)).sum()),
-        double * float((down * ((x - along) ** 2).mean(axis=1)).sum()),
         float(ends[0]),
         float(2.0 * np.abs(cut[:, 1]).max(initial=0.0) if half else ends[1]),
     )

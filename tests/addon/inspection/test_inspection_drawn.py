@@ -11,7 +11,7 @@ from refined import values
 from scenes import CUBE, activate, add, edit
 
 from addon.inspection import overlay_arrays, sections
-from addon.inspection.drawn import drawn
+from addon.inspection.sections import drawn
 
 
 def ball(radius=2.0, subdivisions=5):
