@@ -99,13 +99,6 @@ def test_total_curvature_of_a_torus_is_its_own(cut):
     assert np.log2(errors[-2] / errors[-1]) > 1.9
 
 
-def test_so_does_its_own_method_under_tension():
-    options = {"levels": 2, "tension": 0.5}
-    swept = tight.fair(*meshes.cube(), method="back_leg", sweeps=2000, **options).vertices
-    solved = tight.fair(*meshes.cube(), relative_residual=1e-11, **options).vertices
-    assert np.abs(swept - solved).max() < 1e-8
-
-
 @pytest.mark.parametrize("name", ["random_hull", "torus_triangles", "wavy_patch", "cube"])
 def test_the_papers_own_method_comes_down_to_the_same(name):
     """Refine and smooth: more sweeps, less energy, never less than the solution's."""

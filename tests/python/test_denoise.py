@@ -80,19 +80,6 @@ def test_passes_are_the_fast_choice():
     assert np.isnan(found.noise) and not len(found.rejected)
 
 
-def test_one_more_pass_moves_along_the_filter_of_taubin():
-    truth, faces = sheet(12, lambda x, y: 0.01 * x * y)
-    measured = noisy(truth)
-    fixed = np.ones(len(truth), bool)
-    middle = 12 * 6 + 6
-    fixed[middle] = False
-    beside = np.setdiff1d(np.unique(faces[(faces == middle).any(axis=1)]), [middle])
-    off = measured[middle] - measured[beside].mean(axis=0)
-    found = df.denoise(measured, faces, passes=1, fixed=fixed)
-    left = (1 - 0.6307) * (1 + 0.6732) * off
-    assert np.allclose(found.vertices[middle], measured[beside].mean(axis=0) + left)
-
-
 @pytest.mark.parametrize("size", [0.02, 0.1])
 def test_the_noise_is_read(size):
     truth, faces = sheet(70, smooth_and_detailed)

@@ -44,12 +44,6 @@ def test_scatter_goes_near_the_best_amount(shape):
     assert np.mean(after) <= 1.2 * np.mean(best)
 
 
-def test_scatter_is_read():
-    truth, faces, inner = sheet("bump")
-    noise = [df.ease(scattered(truth, inner, seed), faces).noise for seed in range(6)]
-    assert abs(np.mean(noise) / NOISE - 1) < 0.25
-
-
 @pytest.mark.parametrize("shape", ["bump", "saddle"])
 def test_a_bound_above_all_moves_changes_none(shape):
     """Once the border, whose scatter cannot be read, moved by the whole bound."""

@@ -14,10 +14,8 @@ import numpy as np
 import pytest
 import thin_walls
 from discrete_fairing import fitting
-from discrete_fairing.patch_fits import PatchFits
 from refusing import refusal
 from shared_data import SHARED, read_obj
-from sliver_meshes import uneven_drum
 from spline_measures import basis, evaluate, radii, volume
 
 sys.path.append(str(Path(__file__).resolve().parents[2] / "benchmarks"))
@@ -205,14 +203,6 @@ def test_edges_may_leave_the_lattices_lines_within_the_surface():
     assert patches.patch_spans.prod(axis=1).mean() <= 16
 
 
-def test_torus(fitted):
-    """The Clifford torus: its distance from the circle through the middle of the tube is 1."""
-    patches, t = fitted("torus"), np.linspace(0, 1, 17)
-    at = np.concatenate([evaluate(patches, p, t, t)[0].reshape(-1, 3) for p in range(len(patches))])
-    ring = np.hypot(at[:, 0], at[:, 1]) - 2**0.5
-    assert np.abs(np.hypot(ring, at[:, 2]) - 1).max() < 1e-4 * patches.size
-
-
 def test_edges_end_at_vertices_and_patches_cover_all_polygons(fitted):
     patches = fitted("triangles and quads")
     ends = np.stack([patches.edge_offsets[:-1], patches.edge_offsets[1:] - 1], axis=1)
@@ -394,14 +384,6 @@ def test_patches_whose_points_slide_less_meet_their_neighbours_better():
     points, faces, _ = wall_with_boss(angle, height, 12, rings)
     patches = df.fit_patches(points, faces, levels=4)
     assert len(patches.unmet_by_fit) <= 4 and patches.largest_angle < np.radians(0.25)
-
-
-def test_curves_fitted_more_sharply_make_no_patch_fold():
-    """Beside needles patches were once fitted anew to sharper curves, and turned over."""
-    fits = PatchFits(1e-4, 8e-4, False)
-    result = df.fair(*uneven_drum(), 6, threads=1)
-    watched = {"threads": 1, "monitor": df.Monitor(), "progress": None}
-    assert not fits.still_folded(result, 6, [82, 89, 90], watched)
 
 
 def test_rows_of_quads_are_one_patch_whose_curvature_does_not_jump():

@@ -224,16 +224,6 @@ def test_what_cannot_move_is_interpolated(name):
         assert np.array_equal(near((vertices, faces), **option, **pads).vertices, exact)
 
 
-@pytest.mark.parametrize("name", ["tolerance", "weights"])
-@pytest.mark.parametrize(
-    "each", [np.ones(11), [1.0], np.ones((12, 1)), [[1], [1, 2]], ["a"] * 12, np.ones(12) * 1j]
-)
-def test_values_of_another_shape_are_refused(name, each):
-    with pytest.raises(df.FairingError, match=name) as caught:
-        near(meshes.icosahedron(), **{name: each})
-    assert caught.value.code in ("BAD_OPTION", "BAD_SHAPE")
-
-
 @pytest.mark.parametrize("option", [{"tolerance": 0.02}, {"weights": np.full(98, 30.0)}], ids=str)
 def test_no_force_is_left_at_a_point(option):
     """Interpolated on pads, at the places where the vertices went, they give the same surface."""

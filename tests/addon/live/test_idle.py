@@ -5,47 +5,13 @@ from types import SimpleNamespace
 
 import bpy
 import numpy as np
-import pytest
 from fake_layout import draw
 from live_scenes import follow, live, pull
 from scenes import CUBE, activate, add, fair, weights
 
-from addon import events, size
+from addon import events
 from addon.mesh import groups, mesh_changes
 from addon.ui import main
-
-
-@pytest.fixture
-def counted(monkeypatch):
-    """The calls that count faces."""
-    calls, count = [], size.coarse_triangles
-    monkeypatch.setattr(size, "coarse_triangles", lambda sizes: calls.append(sizes) or count(sizes))
-    return calls
-
-
-def test_faces_are_counted_once(source, counted):
-    for _ in range(3):
-        assert "768 triangles" in draw(main.VIEW3D_PT_fairing)
-    assert len(counted) == 1
-    source.data.clear_geometry()
-    source.data.from_pydata(CUBE[0], [], CUBE[1][:5])
-    assert "640 triangles" in draw(main.VIEW3D_PT_fairing) and len(counted) == 2
-
-
-class Update:
-    """A depsgraph that fails when it is read."""
-
-    @property
-    def updates(self):
-        raise AssertionError("looked at while nothing is watched")
-
-
-def test_nothing_is_walked_while_nothing_is_watched():
-    mesh_changes._note_changes(bpy.context.scene, Update())
-    source = add("Box", *CUBE)
-    mesh_changes.watch(bpy.context, source.data)
-    with pytest.raises(AssertionError, match="looked at"):
-        mesh_changes._note_changes(bpy.context.scene, Update())
 
 
 def test_no_operator_is_called_in_a_handler(source, monkeypatch):

@@ -8,7 +8,6 @@ import pytest
 from live_scenes import follow, live, move, pull, session, surface_of, through
 from scenes import CUBE, activate, add, add_suzanne, fair, positions, set_edge_attribute, snapshot
 
-from addon import core
 from addon.live import handlers, pace
 
 
@@ -197,23 +196,6 @@ def test_what_cannot_be_faired_anew_is_said_with_the_full_level(source):
     assert "another vertex of the same face" in target.discrete_fairing_live.status
     pull(source, by=-1.0)
     assert not session(target).trouble and session(target).is_waiting
-
-
-def test_vertices_that_were_together_part_again(source):
-    """The solver built while they were together has merged them."""
-    target = live(source)
-    source.data.vertices[0].co = source.data.vertices[1].co
-    source.data.update()
-    follow()
-    session(target).complete(bpy.context)
-    now = positions(source.data).astype(float)
-    fresh = core.module().Solver(**{**session(target)._arguments, "vertices": now})
-    session(target).solver = fresh
-    assert fresh.vertex_origin[1] == 0
-    pull(source, index=1, by=-0.25)
-    assert not session(target).trouble
-    assert through(target, source)
-    assert session(target).solver.vertex_origin is None
 
 
 def test_an_empty_mesh_is_said():

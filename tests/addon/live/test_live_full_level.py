@@ -1,11 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The full level of a live surface: when it comes, how it ends, and where the next edit begins."""
 
-from types import SimpleNamespace
-
 import bpy
 import numpy as np
-import pytest
 from live_scenes import box, follow, live, pull, session, through, tick_until, whole
 from scenes import activate, fair, positions, recompute, to_object_mode
 
@@ -101,14 +98,3 @@ def test_switched_off_in_a_window(no_pause, monkeypatch):
     tick_until(lambda: not registry.sessions())
     assert len(target.data.polygons) == 6 * 4**2
     assert handlers.on_timer() is None, "the timer ends"
-
-
-@pytest.mark.parametrize(
-    "name, edits",
-    [("TRANSFORM_OT_translate", True), ("MESH_OT_bevel", True), ("WM_OT_watch", False)],
-)
-def test_which_modal_operators_are_edits(name, edits):
-    screen = SimpleNamespace(is_animation_playing=False)
-    window = SimpleNamespace(screen=screen, modal_operators=[SimpleNamespace(bl_idname=name)])
-    context = SimpleNamespace(window_manager=SimpleNamespace(windows=[window]))
-    assert full_level.is_editing(context) == edits

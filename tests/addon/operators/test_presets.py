@@ -5,7 +5,6 @@ from pathlib import Path
 
 import bpy
 import pytest
-from bl_operators.presets import AddPresetOperator
 from scenes import CUBE, add, fair
 
 import addon
@@ -20,13 +19,6 @@ SHIPPED = ("Default", "Character", "Hull", "Mechanical", "Panel", "Points")
 
 def values(name):
     return preset_values(FOLDER / f"{name}.py")
-
-
-def test_blender_finds_them_for_the_operator():
-    folder = AddPresetOperator.operator_path("OBJECT_OT_fairing_surface")
-    paths = [Path(path) for path in bpy.utils.preset_paths(folder)]
-    found = {file.stem for path in paths for file in path.glob("*.py")}
-    assert set(SHIPPED) <= found
 
 
 def same(settings, given):

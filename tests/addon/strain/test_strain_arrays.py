@@ -55,20 +55,3 @@ def test_a_needle_goes_from_its_vertex_to_where_the_surface_wants_to_be():
     assert red[0] > red[2] and blue[2] > blue[0], "outside is red, inside blue"
     assert np.array_equal(colours[::2], colours[1::2])
     assert np.ptp(colours[0, :3]) < np.ptp(red[:3]), "small strains are pale"
-
-
-def test_dots_are_two_triangles_each_and_the_worst_lies_on_top():
-    places, away, colours = drawn.dots(strained())
-    assert places.shape == (18, 3) and away.shape == (18, 2) and colours.shape == (18, 4)
-    assert np.array_equal(places[-6:], np.tile(np.float32([3, 4, 5]), (6, 1))), "vertex 1"
-    corners = away[:6].reshape(2, 3, 2)
-    a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    assert (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).tolist() == [4.0, 4.0], "they fill a square"
-    assert [len(part) for part in drawn.dots(strained((NAN,)))] == [0, 0, 0]
-
-
-def test_labels_stand_at_the_tips_of_the_worst():
-    (first, said, wrong), (_, second, fair) = drawn.labels(strained(), 2, 10.0, "{:g}".format)
-    assert (said, second) == ("1: 0.04", "3: 0.02")
-    assert wrong and not fair, "0.02 is below the floor"
-    assert first == pytest.approx([3.0, 4.0, 5.0 - 0.4])

@@ -44,8 +44,3 @@ def test_each_value_is_the_weighted_mean_of_its_neighbours():
         weight = 1 / np.linalg.norm(points[beside] - points[v], axis=1)
         mean = (weight[:, None] * found[beside]).sum(axis=0) / weight.sum()
         assert np.abs(mean - found[v]).max() < 1e-6
-
-
-def test_without_new_vertices_there_is_nothing_to_spread():
-    points, faces = fan(rings=1)
-    assert np.array_equal(spread(points[:3], np.array([[0, 1, 2]]), np.eye(3)), np.eye(3))
