@@ -6,15 +6,14 @@ A smoothing spline [Reinsch 1967] on the mesh itself, with its amount by general
 [Craven, Wahba 1979; Golub, Heath, Wahba 1979]. Plain arrays, no Blender.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from . import core
-from .transfer.blocks import blocks
-from .transfer.cut_out import grown
+from .transfer.cut_out import CutOut, cut_out, grown
 from .triangles import fans, marked, normals
 
 # Weights to try, from strong to weak: 10 hardly smooths, 1e-4 leaves a plate. Between neighbouring
@@ -187,3 +186,44 @@ class _Trial:
 
 def _along(way: np.ndarray, normals: np.ndarray) -> np.ndarray:
     return np.einsum("ij,ij->i", way, normals)[:, None] * normals
+
+
+def blocks(
+    arrays: core.ControlArrays, chosen: np.ndarray, most: int, around: float
+) -> Iterator[tuple[CutOut, np.ndarray]]:
+    """(cut-out, (f,) bool: whether a face is the block's own): together the own faces are the faces
+    `chosen` (m,) bool, at most `most` a block. A cut-out also has all faces whose centres are within
+    `around`, a length, of the bounding box of its own.
+
+    Blocks are halved across the longest axis, recursively, so that no step reads more than it divides.
+    """
+    whole = CutOut(arrays, np.arange(len(arrays.positions)), np.arange(len(chosen)))
+    waiting = [(whole, chosen)] if chosen.any() else []
+    while waiting:
+        part, own = waiting.pop()
+        if own.sum() <= most:
+            yield part, own
+            continue
+        centres = _centres(part.arrays)
+        rows = np.flatnonzero(own)
+        axis = int(np.argmax(np.ptp(centres[rows], axis=0)))
+        order = rows[np.argsort(centres[rows, axis], kind="stable")]
+        for half in (order[len(order) // 2 :], order[: len(order) // 2]):
+            waiting.append(_cut(part, centres, half, around))
+
+
+def _cut(
+    part: CutOut, centres: np.ndarray, rows: np.ndarray, around: float
+) -> tuple[CutOut, np.ndarray]:
+    low, high = centres[rows].min(axis=0) - around, centres[rows].max(axis=0) + around
+    near = ((centres >= low) & (centres <= high)).all(axis=1)
+    found = cut_out(part.arrays, near)
+    own = marked(rows, len(near))
+    whole = CutOut(found.arrays, part.vertices[found.vertices], part.faces[found.faces])
+    return whole, own[found.faces]
+
+
+def _centres(arrays: core.ControlArrays) -> np.ndarray:
+    """(m, 3): means of the faces' corners."""
+    sums = np.add.reduceat(arrays.positions[arrays.corners], arrays.offsets[:-1], axis=0)
+    return sums / arrays.face_sizes[:, None]

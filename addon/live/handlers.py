@@ -8,20 +8,21 @@ there is none.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Collection, Hashable, Iterable
 from typing import TYPE_CHECKING, Any
 
 import bpy
 
-from .. import events
-from ..blender import Context, Scene, current_context
+from .. import curve_cage, errors, events
+from ..blender import Context, Object, Scene, current_context
+from ..errors import JobError
 from ..mesh.object import changed_keys
 from ..redraw import Progress, tag_sidebars
-from . import curve_cages, registry
+from . import registry
+from .registry import session_key
 
 if TYPE_CHECKING:
     from .session import Session
-
 
 INTERVAL = 0.1  # seconds between two checks
 
@@ -98,7 +99,7 @@ def _follow(_scene: Scene, depsgraph: bpy.types.Depsgraph) -> None:
         return
     reshaped = changed_keys(depsgraph, moved=False)
     moved = changed_keys(depsgraph, moved=True)
-    reshaped |= curve_cages.refreshed(filter(_is_awake, registry.sessions()), moved)
+    reshaped |= _refreshed(filter(_is_awake, registry.sessions()), moved)
 
     def step(session: Session) -> None:
         session.stand()
@@ -164,6 +165,30 @@ def _end_all(*_: Any) -> None:
     _rendering = False
     registry.clear()
     events.stop_timer(on_timer)
+
+
+def _refreshed(sessions: Iterable[Session], changed: Collection[int | str]) -> set[int | str]:
+    """Keys of the control meshes updated because one of their curves is among `changed`."""
+    found: dict[int | str, str] = {}  # control mesh: why it could not be updated
+    for session in sessions:
+        source = session.objects()[0]
+        if source is None or not curve_cage.is_cage(source):
+            continue
+        key = session_key(source.data)
+        if key not in found and not curve_cage.keys(curve_cage.watched(source)).isdisjoint(changed):
+            found[key] = _followed(source)
+        if found.get(key):
+            session.wait(found[key])
+    return {key for key, trouble in found.items() if not trouble}
+
+
+def _followed(cage: Object) -> str:
+    try:
+        with registry.ignoring_updates(), errors.explained(cage.name):
+            curve_cage.follow(cage)
+    except JobError as error:
+        return str(error)
+    return ""
 
 
 HANDLERS = {

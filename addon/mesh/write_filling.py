@@ -7,8 +7,7 @@ from typing import Any
 import bmesh
 import numpy as np
 
-from ..transfer.filling import Patch
-from ..transfer.harmonic import spread
+from ..transfer.filling import Patch, spread
 from .layers import OWN_VERTICES_ONLY
 
 Read = Callable[[Any], list[float]]

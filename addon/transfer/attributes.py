@@ -2,7 +2,7 @@
 """Interpolates values from control faces to refined faces, in chunks, without large copies."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -10,7 +10,6 @@ import numpy as np
 from ..core import ControlArrays
 from .control_faces import Centres, ControlFaces, find_control_faces
 from .lattice import Cells, make_cells, pair_keys, sides
-from .mended import faired_mesh
 
 CHUNK = 1 << 18  # values at a time, which fit in a processor's cache
 
@@ -285,3 +284,44 @@ def _coarse_faces(patch: Patch, levels: int) -> np.ndarray:
     corner = cells.first_corner[cells.lattice.at(i, j)][coarse.corner_point]
     fine = patch.fine.reshape(len(patch.faces.polygon), -1)
     return fine[:, corner].reshape(len(fine), -1, size)
+
+
+@dataclass(frozen=True)
+class FairedMesh:
+    """Its own `arrays`, with the vertices and edges of the control mesh under their ids."""
+
+    arrays: ControlArrays
+    # the faces in `arrays` of refined triangles and of refined quads
+    polygons: tuple[np.ndarray, np.ndarray]
+    # (c, 2) corners of the control mesh from which each corner is interpolated
+    origin: np.ndarray | None
+    share: np.ndarray | None  # (c,) float64, share of the second one
+
+    def corner(self, values: np.ndarray) -> np.ndarray:
+        """(control corners, w) numbers → (c, w), interpolated."""
+        if self.origin is None or self.share is None:
+            return values
+        share = self.share[:, None]
+        return (1.0 - share) * values[self.origin[:, 0]] + share * values[self.origin[:, 1]]
+
+    def pick_corner(self, values: np.ndarray) -> np.ndarray:
+        """(control corners, …) of any type → (c, …), from the nearer one."""
+        if self.origin is None or self.share is None:
+            return values
+        return values[np.where(self.share > 0.5, self.origin[:, 1], self.origin[:, 0])]
+
+
+def faired_mesh(result: Any, arrays: ControlArrays) -> FairedMesh:
+    """`result`: the core's; `arrays`: the control mesh."""
+    mended = result.mended
+    if mended is None:
+        return FairedMesh(arrays, (result.triangle_polygon, result.quad_polygon), None, None)
+    own = replace(
+        arrays,
+        edges=mended.vertex_origin[arrays.edges],
+        corners=mended.corners.astype(np.int32),
+        corner_edges=arrays.corner_edges[mended.corner_origin[:, 0]],
+        offsets=mended.offsets.astype(np.int32),
+    )
+    polygons = (mended.triangle_face, mended.quad_face)
+    return FairedMesh(own, polygons, mended.corner_origin, mended.corner_share)

@@ -11,8 +11,8 @@ from cli_files import materials_of, write_obj
 from cli_runs import entries, run
 
 from addon.cli import files
+from addon.cli.files import why_incomplete
 from addon.cli.places import BadPlaces, places
-from addon.cli.whole import why_incomplete
 
 
 def names():

@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 
-from addon.transfer.harmonic import spread
+from addon.transfer.filling import spread
 
 pytestmark = pytest.mark.plain
 
