@@ -19,7 +19,7 @@ from .choices import ENERGY_NAMES
 from .errors import JobError
 from .inspection import display, measures
 from .mesh.layers import read_data, write_data
-from .mesh.modifiers import copy_modifiers, without_inspection
+from .mesh.modifiers import copy_modifiers, left_out, without_inspection
 from .mesh.object import Reference, new_object
 from .mesh.own import OwnData, carried_names, read_own, write_own
 from .mesh.read import (
@@ -106,6 +106,8 @@ class Job(TimedRun):
         self._meet(context, source, neighbour or neighbours.neighbour_of(target), stands)
         # remarks for the user, a sentence each
         self.notes = [*self.data.notes, *self._not_done()]
+        if target is None and not (evaluated or settings.copy_modifiers):
+            self.notes += left_out(source)
         if by_shape and subdivision(source) is None:
             self.notes.append(
                 f"Passes where Subdivision Surface would (Limit), for its {cages.REASON}. To pass through every "

@@ -52,6 +52,23 @@ def copy_modifiers(
     return notes
 
 
+def left_out(source: Object) -> list[str]:
+    """What a surface of `source` as modelled lacks, and the cure: a sentence, or none. The surface takes the
+    place of Subdivision Surface.
+    """
+    shown = [m for m in cast(Iterable[Any], source.modifiers) if m.show_viewport]
+    inspection = inspection_modifier(source)
+    missing = [m for m in shown if m.type != "SUBSURF" and m != inspection]
+    if not missing:
+        return []
+    names = ", ".join(modifier.name for modifier in missing)
+    cure = "turn on Copy Modifiers, or set Control Mesh to With Modifiers"
+    axes = [a for m in missing if m.type == "MIRROR" for a, on in zip("XYZ", m.use_axis) if on]
+    if len(axes) == 1:
+        cure = f"turn on Copy Modifiers and set Symmetry Plane to {axes[0]}"
+    return [f"The surface is without {names}: {cure}."]
+
+
 def inspection_modifier(target: Object) -> Any:
     """The inspection modifier of `target`, or None."""
     return next(

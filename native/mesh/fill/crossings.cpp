@@ -3,7 +3,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <unordered_map>
 
 #include "base/roundoff.h"
@@ -91,11 +93,7 @@ class Cells {
         return false;
     if (!box_of(a).intersects(box_of(b))) return false;
     if (lie_on_one_another(a, b)) return true;
-    for (std::size_t i = 0; i < 3; ++i)
-      if (passes(corner(a, i), corner(a, (i + 1) % 3), b) ||
-          passes(corner(b, i), corner(b, (i + 1) % 3), a))
-        return true;
-    return false;
+    return cross(a, b);
   }
 
   // Whether two triangles in a plane overlap: no side of either separates them.
@@ -122,19 +120,45 @@ class Cells {
     return true;
   }
 
-  // Whether a segment passes through the inside of a triangle [Möller and Trumbore 1997]. Points
-  // within rounding of a side, barycentric, or of an end of the segment only touch.
-  bool passes(const Vec3& from, const Vec3& to, std::size_t t) const {
-    const Vec3 direction = to - from, u = corner(t, 1) - corner(t, 0),
-               v = corner(t, 2) - corner(t, 0);
-    const Vec3 across = direction.cross(v);
-    const double determinant = u.dot(across);
-    if (std::abs(determinant) <= roundoff * u.norm() * v.norm() * direction.norm()) return false;
-    const Vec3 offset = from - corner(t, 0), turned = offset.cross(u);
-    const double first = offset.dot(across) / determinant,
-                 second = direction.dot(turned) / determinant;
-    const double along = v.dot(turned) / determinant;
-    return std::min({first, second, 1 - first - second, along, 1 - along}) > roundoff;
+  // Whether two triangles have corners on both sides of each other's plane, and a piece of the line
+  // where these planes meet in common [Möller 1997].
+  bool cross(std::size_t a, std::size_t b) const {
+    const Vec3 of_a = normal(a), of_b = normal(b), line = of_a.cross(of_b);
+    const Vec3& origin = corner(a, 0);
+    const auto in_a = on_line(a, corner(b, 0), of_b, origin, line);
+    if (in_a[0] >= in_a[1]) return false;
+    const auto in_b = on_line(b, corner(a, 0), of_a, origin, line);
+    const double length = std::min(in_a[1] - in_a[0], in_b[1] - in_b[0]);
+    return std::min(in_a[1], in_b[1]) - std::max(in_a[0], in_b[0]) >
+           roundoff * std::max(length, 0.0);
+  }
+
+  Vec3 normal(std::size_t t) const {
+    return (corner(t, 1) - corner(t, 0)).cross(corner(t, 2) - corner(t, 0));
+  }
+
+  // Where a triangle meets a plane `across` a normal, along `line` from `origin`; both ends are 0 if it
+  // has no corners on both sides. Corners within rounding of the plane lie in it.
+  std::array<double, 2> on_line(std::size_t t, const Vec3& in_plane, const Vec3& across,
+                                const Vec3& origin, const Vec3& line) const {
+    std::array<double, 3> height, place;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3 way = corner(t, i) - in_plane;
+      height[i] = across.dot(way);
+      if (std::abs(height[i]) <= roundoff * across.norm() * way.norm()) height[i] = 0;
+      place[i] = line.dot(corner(t, i) - origin);
+    }
+    const auto [low, high] = std::minmax_element(height.begin(), height.end());
+    if (!(*low < 0 && *high > 0)) return {0, 0};
+    std::array<double, 2> ends{std::numeric_limits<double>::infinity(),
+                               -std::numeric_limits<double>::infinity()};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t k = (i + 1) % 3;
+      if (height[i] * height[k] > 0) continue;
+      const double at = place[i] + (place[k] - place[i]) * (height[i] / (height[i] - height[k]));
+      ends = {std::min(ends[0], at), std::max(ends[1], at)};
+    }
+    return ends;
   }
 
   std::span<const Vec3> points_;

@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Modifiers of the source, copied to another object."""
 
+import bmesh
 import bpy
+import numpy as np
 import pytest
-from scenes import CUBE, TRIANGLE, add, add_suzanne
+from scenes import CUBE, TRIANGLE, add, add_suzanne, fair, settings, shown
 
+from addon.job import Job
 from addon.mesh.modifiers import copy_modifiers
 
 
@@ -88,3 +91,39 @@ def test_bindings_are_undone():
     assert not found.is_bound and found.target == cage
     assert len(notes) == 1 and "bind it again" in notes[0]
     assert modifier.is_bound
+
+
+@pytest.mark.parametrize(
+    ("kinds", "said"),
+    [
+        (["SUBSURF"], []),
+        (["MIRROR", "SUBSURF"], ["Mirror", "Copy Modifiers", "Symmetry Plane to X"]),
+        (["SOLIDIFY", "SIMPLE_DEFORM"], ["Solidify, Simple_Deform", "With Modifiers"]),
+    ],
+)
+def test_what_the_surface_lacks_is_said_with_the_cure(kinds, said):
+    """Half a head came without a word."""
+    source = add("Cube", *CUBE)
+    for kind in kinds:
+        source.modifiers.new(kind.title(), kind)
+    notes = [n for n in Job(bpy.context, source, settings()).notes if "is without" in n]
+    assert len(notes) == bool(said) and all(word in notes[0] for word in said)
+    cured = Job(bpy.context, source, settings(copy_modifiers=True))
+    assert not [n for n in cured.notes if "is without" in n]
+    source.modifiers[0].show_viewport = False
+    hidden = Job(bpy.context, source, settings(copy_modifiers=False)).notes
+    assert not [n for n in hidden if kinds[0].title() in n]
+
+
+def test_a_mirrored_half_is_whole_and_smooth_by_the_cure_that_is_said():
+    source = add_suzanne()
+    mesh = bmesh.new()
+    mesh.from_mesh(source.data)
+    left = [face for face in mesh.faces if face.calc_center_median().x < 0.0]
+    bmesh.ops.delete(mesh, geom=left, context="FACES")
+    mesh.to_mesh(source.data)
+    mesh.free()
+    source.modifiers.new("Mirror", "MIRROR").use_clip = True
+    source.modifiers.new("Subdivision", "SUBSURF")
+    result = fair(copy_modifiers=True, symmetry_plane="X")
+    assert np.ptp(shown(result)[:, 0]) > 2.5 and [m.type for m in result.modifiers] == ["MIRROR"]
