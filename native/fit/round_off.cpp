@@ -12,8 +12,8 @@ namespace {
 
 // A surface bends about no radius shorter than a control edge divided by this.
 constexpr double bends_an_edge = 10;
-// Each takes two iterations; the last ones change little.
-constexpr int most_passes = 9;
+// Passes, of two iterations each; the last ones change little, and a finer level corrects only.
+constexpr int most_passes = 9, passes_when_finer = 2;
 
 // Makes the shares of faces that turn by more than the limit smaller, as a plate is stiffer against
 // the shorter wave. Where a face's own points hardly act any more, those around it make the bend.
@@ -37,11 +37,11 @@ void lessen(const ControlMesh& mesh, const std::vector<double>& turn, double lim
 
 }  // namespace
 
-void round_off(LevelFit& fit, double weight) {
+void round_off(LevelFit& fit, double weight, std::vector<double>& share) {
   const GridLevel& grid = fit.cells().grid();
   const double limit = std::min(std::numbers::pi / 2, bends_an_edge / grid.n());
-  std::vector<double> share(grid.mesh().faces.size(), 1.0);
-  for (int pass = 0; pass < most_passes; ++pass) {
+  const int passes = fit.level() > level_of_bends ? passes_when_finer : most_passes;
+  for (int pass = 0; pass < passes; ++pass) {
     const std::vector<double> turn = sharpest_turns(grid, fit.workers(), fit.surface().data());
     if (*std::max_element(turn.begin(), turn.end()) <= limit) return;
     lessen(grid.mesh(), turn, limit, share);

@@ -9,6 +9,10 @@ namespace fairing {
 // A surface bends about no radius below a tenth of a control edge: a patch of one face cannot
 // follow that, and where points ask for less the surface folds. Points over such faces act less,
 // pass by pass; where they hardly act any more, the points around make the fold, and act less too.
-void round_off(LevelFit& fit, double weight);
+// `share` has a share for each face: 1 at first, then that of the coarser level.
+void round_off(LevelFit& fit, double weight, std::vector<double>& share);
+
+// The coarsest level whose faces show such a bend: sixteen an edge turn by .6 radians there.
+constexpr int level_of_bends = 4;
 
 }  // namespace fairing
