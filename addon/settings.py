@@ -11,6 +11,8 @@ from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from .blender import Object
     from .properties import FairingSettings
 
@@ -115,6 +117,12 @@ def subdivision(source: Object) -> Any:
     modifiers: Any = source.modifiers
     shown = (m for m in modifiers if m.type == "SUBSURF" and m.show_viewport)
     return next((m for m in shown if m.subdivision_type == "CATMULL_CLARK"), None)
+
+
+def are_mirrored(sources: Iterable[Object]) -> bool:
+    """Whether the modifiers that these objects show are Mirror alone."""
+    modifiers = (modifier for source in sources for modifier in source.modifiers)
+    return {modifier.type for modifier in modifiers if modifier.show_viewport} == {"MIRROR"}
 
 
 def is_evaluated(settings: AnySettings) -> bool:

@@ -15,7 +15,7 @@ from ..mesh.read import control_mesh, control_meshes, read_mesh, source_objects
 from ..mesh.world_shape import world_shape
 from ..poll import ExplainedPoll, needs
 from ..purposes import EASED_FIRST, OPERATORS, PURPOSES, preset_file
-from ..settings import Settings
+from ..settings import Settings, are_mirrored
 from ..ui.main import active_settings, fairing_operator, remembered
 from .fair import can_fair
 
@@ -25,20 +25,27 @@ _UNDO = True
 
 
 def set_job(context: Context, purpose: str, sources: Iterable[Object]) -> str:
-    """Gives the panel the settings of a job for these `sources`; a sentence if their shapes change them."""
+    """Gives the panel the settings of a job for these `sources`; sentences on what their shapes change."""
     cast(Any, bpy.ops.object).fairing_preset_apply(filepath=str(preset_file(purpose)))
-    if purpose != "HULL":
-        return ""
     panel = active_settings(context)
-    for source in sources:
-        source = source_of(source) or source
-        with control_mesh(context, source) as mesh:
-            cage = world_shape(source).of_arrays(read_mesh(mesh))
-        reason = why_bending(cage, Settings.of(panel))
+    found = [source_of(source) or source for source in sources]
+    said = []
+    if purpose not in EASED_FIRST and panel.symmetry_plane == "NONE" and are_mirrored(found):
+        panel.mesh_source = "EVALUATED"
+        said.append("The whole mesh is faired, with its Mirror modifier")
+    if purpose == "HULL":
+        reasons = ((source.name, _why_bending(context, source)) for source in found)
+        name, reason = next((one for one in reasons if one[1]), ("", ""))
         if reason:
             panel.energy = "THIN_PLATE"
-            return f"Bending in place of Flow Lines for {source.name}: {reason}"
-    return ""
+            said.append(f"Bending in place of Flow Lines for {name}: {reason}")
+    return ". ".join(said)
+
+
+def _why_bending(context: Context, source: Object) -> str:
+    with control_mesh(context, source) as mesh:
+        cage = world_shape(source).of_arrays(read_mesh(mesh))
+    return why_bending(cage, Settings.of(active_settings(context)))
 
 
 class OBJECT_OT_fairing_for(ExplainedPoll, bpy.types.Operator):

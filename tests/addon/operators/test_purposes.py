@@ -156,6 +156,28 @@ def test_a_hull_has_flow_lines_where_they_do_not_swing(hull, creases, energy):
     assert surface.discrete_fairing.energy == energy, "on a surface, its source decides"
 
 
+def test_half_a_panel_with_a_mirror_modifier_gives_the_whole(capfd):
+    rows = np.linspace(0.0, 1.0, 5)
+    x, y = np.meshgrid(rows, rows, indexing="ij")
+    points = np.stack([x, y, 0.2 - 0.1 * x**2 - 0.2 * y**2], axis=2).reshape(-1, 3)
+    half = add("Bonnet", points.tolist(), lattice_faces(5, 5).tolist())
+    half.modifiers.new("Mirror", "MIRROR").use_axis = (False, True, False)
+    assert bpy.ops.object.fairing_for(purpose="PANEL") == {"FINISHED"}
+    surface = bpy.context.active_object
+    there = positions(surface.data)
+    assert there[:, 1].min() == -there[:, 1].max() and there[:, 1].max() > 0.9
+    middle = [v.normal.y for v in surface.data.vertices if v.co.y == 0.0]
+    assert len(middle) == 4 * 8 + 1 and np.abs(middle).max() < 1e-6, "smooth across the middle"
+    assert job_of(surface.discrete_fairing) == "PANEL"
+    assert "Mirror" in capfd.readouterr().out
+    half.hide_set(False)
+    activate(half)
+    bpy.context.scene.discrete_fairing.symmetry_plane = "Y"
+    assert bpy.ops.object.fairing_for(purpose="PANEL") == {"FINISHED"}
+    assert positions(bpy.context.active_object.data)[:, 1].min() == 0.0
+    assert "switch on Copy Modifiers" in capfd.readouterr().out
+
+
 def test_a_scan_with_shape_keys_is_refused_in_object_mode():
     scan = noisy_sphere(subdivisions=3)
     scan.shape_key_add(name="Basis")
