@@ -3,13 +3,13 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 from math import floor, isfinite, log10
 from typing import Any, TypeAlias
 
 Text: TypeAlias = Callable[[float], str]  # formats a length in scene units
 
 DIGITS = 3  # of lengths
+_ROUNDED = 1e-12  # of the longest of a list
 
 # by the scene's name of a unit: the symbol, and metres in it; the longest first
 _METRIC = {
@@ -45,12 +45,19 @@ class Units:
         return cls((chosen,) if chosen else tuple(named.values()), settings.scale_length)
 
     def lengths(self, longest: float, digits: int = DIGITS) -> Text:
-        """A function that formats lengths in scene units, all in the one unit that suits the `longest`."""
-        if not self.known:
-            return partial(digits_of, digits=digits)
-        metres = abs(longest) * self.scale or 1.0
-        name, each = next((unit for unit in self.known if unit[1] <= metres), self.known[-1])
-        return lambda length: f"{digits_of(length * self.scale / each, digits)} {name}"
+        """A function that formats lengths in scene units, all in the one unit that suits the `longest`.
+        Lengths that are rounding errors beside it are 0.
+        """
+        name, each = "", 1.0
+        if self.known:
+            metres = abs(longest) * self.scale or 1.0
+            name, each = next((unit for unit in self.known if unit[1] <= metres), self.known[-1])
+
+        def text(length: float) -> str:
+            seen = 0.0 if abs(length) < _ROUNDED * abs(longest) else length * self.scale / each
+            return f"{digits_of(seen, digits)} {name}".rstrip()
+
+        return text
 
     def volume(self, volume: float) -> str:
         """A volume in cubed scene units, with its unit."""

@@ -38,6 +38,7 @@ def test_a_length(told, length, text):
 def test_a_list_has_one_unit():
     text = Units.of(scene("ADAPTIVE")).lengths(2.5)
     assert [text(x) for x in (2.5, 0.0421, 0.0)] == ["2.5 m", "0.0421 m", "0 m"]
+    assert text(4.86e-20) == "0 m"
     finer = Units.of(scene("ADAPTIVE")).lengths(-0.0421)
     assert [finer(x) for x in (-0.0421, 0.000153)] == ["-4.21 cm", "0.0153 cm"]
     assert Units.of(scene()).volume(4.18879) == "4.19 m³"
