@@ -8,32 +8,30 @@
 // where c minimizes the norm of f - sum_k c_k dF_k. On linear problems it is GMRES.
 #pragma once
 
-#include <Eigen/Dense>
 #include <deque>
-#include <utility>
+#include <functional>
 
-#include "base/roundoff.h"
+#include "parallel/memory.h"
 
 namespace fairing {
 
-// `Space` provides the vectors and their norm:
-//
-//   Vector product(const Vector& a)                                     the norm's matrix times a
-//   double dot(const Vector& a, const Vector& b)
-//   void add(double factor, const Vector& a, const Vector& b, Vector& to)   to += factor (a + b)
-//   void subtract(const Vector& a, Vector& from)
-template <class Space>
 class Anderson {
  public:
-  using Vector = typename Space::Vector;
+  using Vector = Array<double>;
 
-  // Remembers `depth` steps; each costs a product and two vectors.
-  Anderson(Space space, std::size_t depth) : space_(std::move(space)), depth_(depth) {}
+  // Remembers `depth` steps; each costs a product and two vectors. `product`: the norm's matrix times
+  // a vector; numbers after the last one of the product are not in the norm. `dot`: of so many
+  // numbers of two vectors.
+  Anderson(std::size_t depth, std::function<Vector(const Vector&)> product,
+           std::function<double(std::size_t, const Vector&, const Vector&)> dot)
+      : depth_(depth), product_(std::move(product)), dot_(std::move(dot)) {}
 
   // The change of the iterate, from this step and the last few.
   Vector change(const Vector& step);
   // Call it if this share of the last change() was made.
-  void took_share(double share) { space_.scale(share, last_change_); }
+  void took_share(double share) {
+    for (double& number : last_change_) number *= share;
+  }
   // Makes the next step the first one.
   void forget() {
     pairs_.clear();
@@ -44,44 +42,12 @@ class Anderson {
   struct Pair {
     Vector step_change, iterate_change;  // dF and dx
   };
-  Space space_;
   std::size_t depth_;
+  std::function<Vector(const Vector&)> product_;
+  std::function<double(std::size_t, const Vector&, const Vector&)> dot_;
   std::deque<Pair> pairs_;
   bool any_ = false;
   Vector last_, last_change_;
 };
-
-template <class Space>
-typename Space::Vector Anderson<Space>::change(const Vector& step) {
-  if (any_) {
-    Pair pair{step, std::move(last_change_)};
-    space_.subtract(last_, pair.step_change);
-    pairs_.push_back(std::move(pair));
-    if (pairs_.size() > depth_) pairs_.pop_front();
-  }
-  any_ = true;
-  last_ = step;
-  Vector out = step;
-  if (!pairs_.empty()) {
-    const auto count = Eigen::Index(pairs_.size());
-    Eigen::MatrixXd gram(count, count);
-    Eigen::VectorXd right(count);
-    for (Eigen::Index a = 0; a < count; ++a) {
-      const Vector product = space_.product(pairs_[a].step_change);
-      right(a) = space_.dot(product, step);
-      for (Eigen::Index b = 0; b < count; ++b)
-        gram(a, b) = space_.dot(product, pairs_[b].step_change);
-    }
-    gram.diagonal() *= 1 + roundoff;  // steps near the end may be linearly dependent
-    const Eigen::VectorXd share = gram.ldlt().solve(right);
-    if (share.allFinite())
-      for (Eigen::Index a = 0; a < count; ++a) {
-        const Pair& pair = pairs_[a];
-        space_.add(-share(a), pair.step_change, pair.iterate_change, out);
-      }
-  }
-  last_change_ = out;
-  return out;
-}
 
 }  // namespace fairing

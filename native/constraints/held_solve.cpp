@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "base/roundoff.h"
@@ -18,13 +19,15 @@ LoadsOf<N> zeros(std::size_t count) {
 }
 
 template <int N>
-MultiplierSteps<N> steps_of(const HeldSystem<N>& system,
-                            const typename HeldSolve<N>::Constraints* constraints) {
-  std::vector<double> weights;
+std::vector<double> bound_weights(const HeldSystem<N>& system,
+                                  const typename HeldSolve<N>::Constraints* constraints) {
   if constexpr (N == 3)
-    if (constraints) weights = constraints->comparable(system.hats);
-  return multiplier_steps<N>(system.hats, std::move(weights),
-                             system.couples ? system.couples->mass() : Moments{});
+    if (constraints) return constraints->comparable(system.hats);
+  return {};
+}
+
+double dot_product(std::size_t size, const Array<double>& a, const Array<double>& b) {
+  return std::inner_product(a.begin(), a.begin() + std::ptrdiff_t(size), b.begin(), 0.0);
 }
 
 }  // namespace
@@ -44,7 +47,9 @@ HeldSolve<N>::HeldSolve(const HeldSystem<N>& system, const HeldLimits& limits,
       constraints_(constraints),
       multipliers_(multipliers),
       report_(report),
-      steps_(steps_of<N>(system, constraints)),
+      bound_weights_(bound_weights<N>(system, constraints)),
+      steps_(
+          6, [this](const Array<double>& a) { return product(a); }, dot_product),
       forces_(zeros<N>(multipliers.loads.size())),
       vertices_(zeros<N>(system.unknowns.vertex.size())) {}
 
@@ -191,6 +196,18 @@ bool HeldSolve<N>::nearly_settled() const {
          gap_.share * gap_.now <= solve_gain * limits_.gap;
 }
 
+// By M for loads and moments; shifts of targets are scaled.
+template <int N>
+Array<double> HeldSolve<N>::product(const Array<double>& numbers) const {
+  const Multipliers<N> of = multipliers_of(numbers, correction_);
+  Multipliers<N> out = of;
+  if (system_.hats) system_.hats->template multiply_mass<N>(of.loads, out.loads);
+  for (std::size_t v = 0; v < out.bounds.size(); ++v) out.bounds[v] *= bound_weights_[v];
+  for (std::size_t c = 0; c < out.moments.size(); ++c)
+    out.moments[c] = system_.couples->mass()[c].cwiseProduct(of.moments[c]);
+  return numbers_of(out);
+}
+
 // Earlier corrections do not apply to other springs. After a correction of loads only, the residual
 // is known: that of the solve plus theirs.
 template <int N>
@@ -211,7 +228,7 @@ void HeldSolve<N>::correct() {
       ++report_.constraint_rounds;
     }
   report_.pad_corrections += system_.hats || system_.couples;
-  const Multipliers<N> change = steps_.change(correction_);
+  const Multipliers<N> change = multipliers_of(steps_.change(numbers_of(correction_)), correction_);
   for (std::size_t v = 0; v < change.loads.size(); ++v) multipliers_.loads[v] += change.loads[v];
   for (std::size_t c = 0; c < change.moments.size(); ++c)
     multipliers_.moments[c] += change.moments[c];

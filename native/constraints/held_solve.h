@@ -29,6 +29,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "constraints/anderson.h"
 #include "constraints/ball_constraints.h"
 #include "constraints/held_report.h"
 #include "constraints/interval_constraints.h"
@@ -132,16 +133,18 @@ class HeldSolve {
   bool check_bounds();
   bool nearly_settled() const;
   void correct();
+  Array<double> product(const Array<double>& numbers) const;
 
   const HeldSystem<N>& system_;
   const HeldLimits limits_;
   Constraints* constraints_;
   Multipliers<N>& multipliers_;
   HeldReport& report_;
-  MultiplierSteps<N> steps_;
   Multipliers<N> correction_{};
-  LoadsOf<N> own_forces_, forces_;  // left at vertices on pads: by their own rows, and corrected
-  LoadsOf<N> vertices_;             // their positions after a whole solve
+  std::vector<double> bound_weights_;  // which make shifts of targets comparable with loads
+  Anderson steps_;                     // accelerates corrections, in the norm of M
+  LoadsOf<N> own_forces_, forces_;     // left at vertices on pads: by their own rows, and corrected
+  LoadsOf<N> vertices_;                // their positions after a whole solve
   double *x_ = nullptr, *r_ = nullptr;
   Convergence force_{}, gap_{};  // forces and slopes together
   double tilt_ = 0;  // of a tangent plane from a fixed one; a normal may point to the wrong side

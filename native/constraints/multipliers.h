@@ -7,11 +7,8 @@
 // GMRES.
 #pragma once
 
-#include <array>
-#include <span>
 #include <vector>
 
-#include "constraints/anderson.h"
 #include "constraints/couples.h"
 
 namespace fairing {
@@ -37,66 +34,27 @@ struct Multipliers {
 };
 
 // All numbers of multipliers, kind by kind.
-template <class Of>
-auto numbers_of(Of& a) {
-  const auto of = [](auto& kind) {
-    using Kind = std::remove_reference_t<decltype(kind)>;
-    using Number = std::conditional_t<std::is_const_v<Kind>, const double, double>;
-    using Entry = typename Kind::value_type;
-    return std::span(reinterpret_cast<Number*>(kind.data()),
-                     kind.size() * (sizeof(Entry) / sizeof(double)));
-  };
-  return std::array{of(a.loads), of(a.bounds), of(a.moments)};
+template <int N>
+Array<double> numbers_of(const Multipliers<N>& multipliers) {
+  Array<double> out;
+  for (const auto& load : multipliers.loads) out.insert(out.end(), load.begin(), load.end());
+  out.insert(out.end(), multipliers.bounds.begin(), multipliers.bounds.end());
+  for (const auto& moment : multipliers.moments)
+    out.insert(out.end(), moment.begin(), moment.end());
+  return out;
 }
 
-// The norm of M for loads. Shifts of targets are scaled by `weights`, one each, to be comparable
-// with changes of loads, and moments by `mass`. The hats must outlive it; null without loads.
+// As many multipliers as `like` has, from their numbers.
 template <int N>
-struct MultiplierSpace {
-  using Vector = Multipliers<N>;
-
-  const Hats* hats;
-  std::vector<double> weights;
-  Moments mass{};
-
-  Vector product(const Vector& a) const {
-    Vector out{{}, a.bounds, a.moments};
-    if (hats) hats->multiply_mass<N>(a.loads, out.loads);
-    for (std::size_t v = 0; v < out.bounds.size(); ++v) out.bounds[v] *= weights[v];
-    for (std::size_t c = 0; c < out.moments.size(); ++c)
-      out.moments[c] = mass[c].cwiseProduct(a.moments[c]);
-    return out;
-  }
-  double dot(const Vector& a, const Vector& b) const {
-    double sum = 0;
-    const auto x = numbers_of(a), y = numbers_of(b);
-    for (std::size_t kind = 0; kind < x.size(); ++kind)
-      for (std::size_t i = 0; i < x[kind].size(); ++i) sum += x[kind][i] * y[kind][i];
-    return sum;
-  }
-  void add(double factor, const Vector& a, const Vector& b, Vector& to) const {
-    const auto x = numbers_of(a), y = numbers_of(b);
-    const auto sum = numbers_of(to);
-    for (std::size_t kind = 0; kind < x.size(); ++kind)
-      for (std::size_t i = 0; i < sum[kind].size(); ++i)
-        sum[kind][i] += factor * (x[kind][i] + y[kind][i]);
-  }
-  void subtract(const Vector& a, Vector& from) const {
-    const auto x = numbers_of(a);
-    const auto left = numbers_of(from);
-    for (std::size_t kind = 0; kind < x.size(); ++kind)
-      for (std::size_t i = 0; i < left[kind].size(); ++i) left[kind][i] -= x[kind][i];
-  }
-};
-
-// Accelerates f <- f + M^-1 r, together with the other multipliers.
-template <int N>
-using MultiplierSteps = Anderson<MultiplierSpace<N>>;
-
-template <int N>
-MultiplierSteps<N> multiplier_steps(const Hats* hats, std::vector<double> weights = {},
-                                    Moments mass = {}) {
-  return {{hats, std::move(weights), std::move(mass)}, 6};
+Multipliers<N> multipliers_of(const Array<double>& numbers, const Multipliers<N>& like) {
+  Multipliers<N> out = like;
+  auto next = numbers.begin();
+  for (auto& load : out.loads)
+    for (double& number : load) number = *next++;
+  for (double& number : out.bounds) number = *next++;
+  for (auto& moment : out.moments)
+    for (double& number : moment) number = *next++;
+  return out;
 }
 
 }  // namespace fairing

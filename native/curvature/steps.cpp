@@ -36,45 +36,6 @@ constexpr double share_of_curvature = 0.1;
 // relative to the variation plus this share of the mean squared curvature.
 constexpr double flat_share = 1e-4;
 
-// A step with its change of the loads on pads.
-struct HeldStep {
-  Array<double> along;  // along the normals, 1 number a point
-  NormalLoads loads;    // empty: no pads
-};
-
-// Steps with the norm of the operator, linearized at the start of the latest step. Loads are
-// extrapolated with them but are not in the norm, since they follow from the surface.
-struct StepSpace {
-  using Vector = HeldStep;
-
-  SurfaceIterate* iterate;
-
-  Vector product(const Vector& a) const {
-    Vector out{Array<double>(a.along.size()), {}};
-    iterate->op().apply(a.along.data(), out.along.data());
-    return out;
-  }
-  double dot(const Vector& a, const Vector& b) const {
-    return sum(iterate->workers(), a.along.size(),
-               [&](std::size_t i) { return a.along[i] * b.along[i]; });
-  }
-  void add(double factor, const Vector& a, const Vector& b, Vector& to) const {
-    for_each_index(iterate->workers(), to.along.size(),
-                   [&](std::size_t i) { to.along[i] += factor * (a.along[i] + b.along[i]); });
-    for (std::size_t v = 0; v < to.loads.size(); ++v)
-      to.loads[v] += factor * (a.loads[v] + b.loads[v]);
-  }
-  void subtract(const Vector& a, Vector& from) const {
-    for_each_index(iterate->workers(), from.along.size(),
-                   [&](std::size_t i) { from.along[i] -= a.along[i]; });
-    for (std::size_t v = 0; v < from.loads.size(); ++v) from.loads[v] -= a.loads[v];
-  }
-  void scale(double factor, Vector& a) const {
-    for (double& entry : a.along) entry *= factor;
-    for (auto& load : a.loads) load *= factor;
-  }
-};
-
 // The integral of |M|^2, and the area.
 struct Bending {
   double square, area;
@@ -97,7 +58,11 @@ class StepLoop {
         damping_(damping),
         end_(end),
         patience_(patience),
-        anderson_({&iterate}, accelerated_steps),
+        anderson_(
+            accelerated_steps, [this](const Array<double>& a) { return product(a); },
+            [this](std::size_t size, const Array<double>& a, const Array<double>& b) {
+              return sum(it_.workers(), size, [&](std::size_t i) { return a[i] * b[i]; });
+            }),
         remainder_(iterate.system.error_reduction(iterate.level, functional)) {
     it_.trial.points.resize(3 * it_.grid().size());
     it_.ensure_linearized(functional);
@@ -221,12 +186,20 @@ class StepLoop {
     const NormalLoads& before = it_.current.held.loads;
     const bool with_loads = !varies() && !damping_ && !it_.system.is_bound();
     if (with_loads && before.size() != held_.loads.size()) return anderson_.forget();
-    HeldStep step{std::move(it_.step), {}};
-    if (with_loads) step.loads = held_.loads;
-    for (std::size_t v = 0; v < step.loads.size(); ++v) step.loads[v] -= before[v];
-    step = anderson_.change(step);
-    for (std::size_t v = 0; v < step.loads.size(); ++v) held_.loads[v] = before[v] + step.loads[v];
-    it_.step = std::move(step.along);
+    const std::size_t points = it_.step.size(), loads = with_loads ? before.size() : 0;
+    it_.step.reserve(points + loads);
+    for (std::size_t v = 0; v < loads; ++v) it_.step.push_back((held_.loads[v] - before[v])[0]);
+    it_.step = anderson_.change(it_.step);
+    for (std::size_t v = 0; v < loads; ++v) held_.loads[v][0] = before[v][0] + it_.step[points + v];
+    it_.step.resize(points);
+  }
+
+  // Steps have the norm of the operator, linearized at the start of the latest step. Loads are
+  // extrapolated with them but are not in the norm, since they follow from the surface.
+  Array<double> product(const Array<double>& step) const {
+    Array<double> out(it_.grid().size());
+    it_.op().apply(step.data(), out.data());
+    return out;
   }
 
   // Whether plain steps have climbed too long, or damped ones gain next to nothing. The work of the
@@ -252,7 +225,7 @@ class StepLoop {
   LocalDamping* damping_;
   StopCriterion end_;
   int patience_;
-  Anderson<StepSpace> anderson_;
+  Anderson anderson_;
   Array<float> predicted_;
   Multipliers<1> held_;  // of the latest step
   ErrorEstimate remainder_;
