@@ -4,19 +4,12 @@
 #include <algorithm>
 #include <numbers>
 
+#include "base/mixed.h"
 #include "fit/point_tree.h"
 #include "parallel/reductions.h"
 
 namespace fairing {
 namespace {
-
-// A well mixed number [splitmix64].
-std::uint64_t mixed(std::uint64_t number) {
-  number += 0x9e3779b97f4a7c15u;
-  number = (number ^ (number >> 30)) * 0xbf58476d1ce4e5b9u;
-  number = (number ^ (number >> 27)) * 0x94d049bb133111ebu;
-  return number ^ (number >> 31);
-}
 
 // Leaves out points without a foot.
 void add_test(const LevelFit& fit, std::size_t point, HeldOut& out) {

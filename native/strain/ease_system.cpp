@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "base/median.h"
+#include "base/mixed.h"
 #include "base/roundoff.h"
 #include "parallel/cancel.h"
 
@@ -39,15 +40,11 @@ constexpr double faint = 2, leeway = 1.15;
 constexpr double bound_tolerance = 1e-3;
 constexpr int most_iterations = 200;  // of the alternating directions
 
-// Random signs by Steele's splitmix64.
 VectorXd random_signs(Eigen::Index n, std::uint64_t seed) {
   VectorXd out(n);
-  std::uint64_t state = seed;
   for (double& sign : out) {
-    std::uint64_t z = state += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    sign = (z ^ (z >> 31)) & 1 ? 1.0 : -1.0;
+    sign = mixed(seed) & 1 ? 1.0 : -1.0;
+    seed += mixed_apart;
   }
   return out;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/mixed.h"
 #include "base/points.h"
 #include "base/roundoff.h"
 #include "mesh/validate/checks.h"
@@ -40,12 +41,7 @@ class Cubes {
 
  private:
   std::size_t slot(const std::array<double, 3>& cube) const {
-    std::uint64_t h = 0;
-    for (const double value : cube) {
-      h = (h ^ std::bit_cast<std::uint64_t>(value + 0.0)) * 0x9e3779b97f4a7c15u;
-      h ^= h >> 29;
-    }
-    return std::size_t(h) & (first_.size() - 1);
+    return std::size_t(hash_of(cube.data())) & (first_.size() - 1);
   }
   double side_;
   Array<Index> first_, next_;

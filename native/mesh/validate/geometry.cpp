@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "base/mixed.h"
 #include "base/points.h"
 #include "base/roundoff.h"
 #include "mesh/validate/checks.h"
@@ -13,16 +14,6 @@ namespace {
 
 using Ids = std::vector<std::int64_t>;
 
-std::uint64_t hash(const double* point) {
-  std::uint64_t h = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double value = point[axis] + 0.0;  // −0 becomes 0
-    h = (h ^ std::bit_cast<std::uint64_t>(value)) * 0x9e3779b97f4a7c15u;
-    h ^= h >> 32;
-  }
-  return h;
-}
-
 // For every vertex the first vertex with the same coordinates, mostly itself. Linear time.
 std::vector<std::int32_t> first_at_same_point(std::span<const double> coordinates) {
   const std::size_t vertices = coordinates.size() / 3;
@@ -30,7 +21,7 @@ std::vector<std::int32_t> first_at_same_point(std::span<const double> coordinate
   std::vector<std::int32_t> table(mask + 1, -1), first(vertices);
   for (const std::size_t v : Cancellable(vertices)) {
     const double* p = &coordinates[3 * v];
-    for (std::size_t slot = hash(p) & mask;; slot = (slot + 1) & mask) {
+    for (std::size_t slot = hash_of(p) & mask;; slot = (slot + 1) & mask) {
       if (table[slot] < 0) table[slot] = std::int32_t(v);
       const double* q = &coordinates[3 * std::size_t(table[slot])];
       if (p[0] != q[0] || p[1] != q[1] || p[2] != q[2]) continue;

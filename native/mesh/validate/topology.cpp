@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 
+#include "base/mixed.h"
 #include "mesh/counting_sort.h"
 #include "mesh/validate/checks.h"
 #include "parallel/cancel.h"
@@ -9,13 +10,6 @@ namespace fairing {
 namespace {
 
 using Ids = std::vector<std::int64_t>;
-
-std::uint64_t scramble(std::uint64_t x) {  // splitmix64
-  x += 0x9e3779b97f4a7c15u;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return x ^ (x >> 31);
-}
 
 struct Fingerprint {
   std::uint64_t hash;  // of the set of vertices: a sum, which does not depend on their order
@@ -58,7 +52,7 @@ std::vector<SameVertices> faces_with_same_vertices(const PolygonMesh& mesh) {
   const auto lowest = [&](std::size_t f) { return std::ranges::min(mesh.face(std::int64_t(f))); };
   const auto print_of = [&](std::size_t f) {
     Fingerprint print{0, std::int32_t(f)};
-    for (std::int64_t v : mesh.face(print.face)) print.hash += scramble(std::uint64_t(v));
+    for (std::int64_t v : mesh.face(print.face)) print.hash += mixed(std::uint64_t(v));
     return print;
   };
   CountingSort<Fingerprint> fingerprints(std::size_t(mesh.vertex_count()),
