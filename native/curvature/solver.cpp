@@ -7,14 +7,38 @@
 #include <utility>
 
 #include "constraints/diverged.h"
-#include "curvature/fallback.h"
 #include "curvature/fold_repair.h"
 #include "curvature/start.h"
+#include "curvature/steps.h"
 #include "curvature/total_curvature.h"
 #include "parallel/reductions.h"
 
 namespace fairing {
 namespace {
+
+// Plain steps to the end, undone if they make folds.
+void polish_without_folds(SurfaceIterate& it, CurvatureLevelReport& report) {
+  if (!is_near(report, damped_decrement)) return;
+  LinearizedSurface before = it.current;
+  CurvatureLevelReport polished = report;
+  polish(it, longest_climb, polished);
+  polished.folds = folds_of(it).count();
+  if (polished.folds <= report.folds)
+    report = std::move(polished);
+  else
+    it.current = std::move(before);
+}
+
+// Steps from `start` to least total curvature on point forces, with repair of folds on the finest
+// level. Resets `report`. Throws ErrorCode::cancelled.
+void run_fallback(SurfaceIterate& it, const StepStart& start, CurvatureLevelReport& report) {
+  run_damped(it, start, {}, report);
+  if (it.level < it.system.finest()) return;
+  repair_folds(it, start, report);
+  report.converged = report.left <= accurate_end(it).movement;
+  // Vertices within tolerances are fixed first.
+  if (!report.converged && !it.system.is_bound()) polish_without_folds(it, report);
+}
 
 // Below the finest level, steps on pads end at this decrement, as do steps that only start another
 // energy: the remaining error is smaller than the change by the next level or by that energy.

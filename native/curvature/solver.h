@@ -45,7 +45,7 @@ class GaussNewtonSolver {
   void solve_moved(Symmetry symmetry, const Array<double>& plate, Reference reference,
                    CurvedSurface& surface, CurvatureLevelReport& report);
 
-  // Whether the surface stands on point forces in spite of pads (fallback.h).
+  // Whether the surface stands on point forces in spite of pads.
   bool on_points() const { return on_points_; }
 
  private:

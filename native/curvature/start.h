@@ -16,7 +16,7 @@ namespace fairing {
 //      filling of a long tube they are a tube, and the plate a thread;
 //   2. the same plus the prolongated change (solution minus plate) of the level below;
 //   3. if that is not near the energy of the level below: that level's surface with new midpoints
-//      raised along its normals (transfer/point_normal.h), exact to fourth order;
+//      raised along its normals, exact to fourth order;
 //   4. if all energies are far above it: its polyhedron, with new midpoints on its edges. On
 //      crumpled meshes the plate can diverge, and normals raise midpoints the wrong way (measured:
 //      Spot's plate has energies of 2.5e3, 1.1e5 and 2.1e7 on levels 2 to 4; a polyhedron has two

@@ -3,11 +3,107 @@
 
 #include <algorithm>
 
-#include "curves/straight.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
 namespace {
+
+class NarrowFaces {
+ public:
+  NarrowFaces(const ControlMesh& mesh, std::span<const Vec3> positions, const FeatureCurves& curves)
+      : mesh_(mesh),
+        positions_(positions),
+        curves_(curves),
+        held_(positions.size(), 0),
+        narrow_(curves.run.size(), 0) {
+    for (std::size_t e = 0; e < mesh.edges.size(); ++e)
+      for (const Index v : mesh.edges[e].vertex) held_[v] |= curves.run[e] >= 0;
+  }
+
+  std::vector<Index> edges() {
+    for (const std::size_t s : Cancellable(mesh_.sides.size())) {
+      const Side& side = mesh_.sides[s];
+      if (curves_.run[side.edge] < 0) continue;
+      const Face& face = mesh_.faces[side.face];
+      if (!face.quad())
+        check_triangle(side, face);
+      else if (side.local < 2)
+        check_quad(side, mesh_.sides[s + 2]);
+    }
+    return edges_of_narrow_runs();
+  }
+
+ private:
+  struct Line {
+    Vec3 from, to;
+    Vec3 direction() const { return (to - from).normalized(); }
+    Vec3 at(double t) const { return (1 - t) * from + t * to; }
+  };
+
+  static Vec3 across(const Vec3& v, const Vec3& direction) {
+    return v - direction.dot(v) * direction;
+  }
+  Line chord(const Side& side) const {
+    const auto& v = mesh_.edges[side.edge].vertex;
+    const Vec3 &a = positions_[v[0]], &b = positions_[v[1]];
+    return side.reversed ? Line{b, a} : Line{a, b};
+  }
+  // The offset of point k, counted along the side, from the edge.
+  Vec3 bulge(const Side& side, int k) const {
+    const int last = curves_.points_per_edge + 1;
+    const Vec3& point = curves_.of(side.edge)[std::size_t(side.reversed ? last - k : k) - 1];
+    return point - chord(side).at(double(k) / last);
+  }
+  void mark(const Side& side) { narrow_[curves_.run[side.edge]] = 1; }
+
+  void check_triangle(const Side& side, const Face& face) {
+    const Index corner = face.vertex[(side.local + 2) % 3];
+    const Line line = chord(side);
+    const Vec3 height = across(positions_[corner] - line.from, line.direction());
+    for (int k = 1; k <= curves_.points_per_edge; ++k) {
+      const Vec3 away = across(bulge(side, k), line.direction());
+      const double into = away.dot(height.normalized());
+      if ((held_[corner] ? away.norm() : into) > height.norm()) mark(side);
+    }
+  }
+
+  void check_quad(const Side& side, const Side& opposite) {
+    if (curves_.run[opposite.edge] < 0) return;
+    const Line line = chord(side), beside = chord(opposite);
+    const Vec3 direction = ((line.to - line.from) - (beside.to - beside.from)).normalized();
+    const int last = curves_.points_per_edge + 1;
+    for (int k = 1; k < last; ++k) {
+      const double t = double(k) / last;
+      const Vec3 width = across(beside.at(1 - t) - line.at(t), direction);
+      const Vec3 apart = across(bulge(opposite, last - k) - bulge(side, k), direction);
+      if (!(apart.norm() > width.norm())) continue;
+      mark(side);
+      mark(opposite);
+    }
+  }
+
+  std::vector<Index> edges_of_narrow_runs() const {
+    std::vector<Index> out;
+    for (std::size_t e = 0; e < mesh_.edges.size(); ++e)
+      if (curves_.run[e] >= 0 && narrow_[curves_.run[e]]) out.push_back(Index(e));
+    return out;
+  }
+
+  const ControlMesh& mesh_;
+  std::span<const Vec3> positions_;
+  const FeatureCurves& curves_;
+  std::vector<std::uint8_t> held_;    // by control vertex: on a curve
+  std::vector<std::uint8_t> narrow_;  // by run
+};
+
+// Control edges, ascending, whose curve leaves them by more than the width of an adjacent face: the
+// face would be more than twice as wide, or turn over. If both sides of a quad are curves, only
+// their bulges against each other count, because narrow faces may follow a bend. A triangle's
+// corner that no curve holds may follow a curve that goes away from it.
+std::vector<Index> edges_to_straighten(const ControlMesh& mesh, std::span<const Vec3> positions,
+                                       const FeatureCurves& curves) {
+  return NarrowFaces(mesh, positions, curves).edges();
+}
 
 std::vector<Vec3> straight_points(std::span<const Vec3> vertices, bool closed, int subdivisions) {
   std::vector<Vec3> points;

@@ -15,7 +15,7 @@ struct FeatureCurves {
   // Per edge: the number of its run in `points`; -1: not on a chain. Copies share a run.
   std::vector<Index> run;
   std::vector<Vec3> points;           // run after run, points_per_edge each
-  std::vector<Index> straightened{};  // control edges (curves/straight.h), ascending
+  std::vector<Index> straightened{};  // control edges, ascending
 
   // The interior points of a feature edge, from its vertex[0] to its vertex[1].
   std::span<const Vec3> of(Index edge) const {
@@ -30,7 +30,7 @@ void straighten(const ControlMesh& mesh, std::span<const Index> edges,
 
 // Straight chains stay on their edges (point k is at k / scheme.subdivisions, the same from either end,
 // bit for bit). All others are refined by refine_chain, and become straight where faces are too
-// narrow for them (curves/straight.h).
+// narrow for them.
 //
 // Through these positions of the control vertices. The parameters of the chains come from
 // `parameters`; if both are the same array, the result is that of a mesh with these positions.

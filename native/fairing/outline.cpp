@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fairing/outline.h"
 
-#include <new>
 #include <utility>
 
 #include "curves/feature_curves.h"
@@ -101,12 +100,10 @@ Outline outline_of(const Mending& mending) {
 
 Outline outline_of(const PolygonMesh& input, const FairOptions& options, Monitor& monitor) {
   const CancelScope scope(&monitor);
-  try {
+  return with_named_errors([&] {
     const Mending mending(input, options);
     return mending.in_input_ids([&] { return outline_of(mending); });
-  } catch (const std::bad_alloc&) {
-    throw out_of_memory();
-  }
+  });
 }
 
 }  // namespace fairing

@@ -2,19 +2,90 @@
 #include "fairing/problem.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <string>
 #include <utility>
 
+#include "base/error.h"
 #include "base/points.h"
 #include "base/roundoff.h"
 #include "fairing/checked.h"
 #include "fairing/memory_plan.h"
-#include "fairing/unknowns.h"
 #include "fairing/warnings.h"
+#include "grid/accumulate.h"
 #include "mesh/validate/check.h"
+#include "parallel/cancel.h"
+#include "stencil/weights.h"
 
 namespace fairing {
 namespace {
+
+// Whether control vertex v is an unknown of the solve. A vertex where sheets touch is fixed, since
+// each sheet would move it differently.
+bool control_vertex_moves(const ControlMesh& mesh, const FairOptions& options, Index v) {
+  if (v >= mesh.first_centre()) return true;
+  if (mesh.fans_meet(v)) return false;
+  const auto original = std::size_t(mesh.original_vertex(v));
+  return options.tolerance_of(original) > 0 &&
+         (options.weights.empty() || std::isfinite(options.weights[original]));
+}
+
+// Inside the region: free and weighted control vertices, and all points off feature curves. May
+// throw FairingError(cancelled).
+Unknowns choose_unknowns(const ControlMesh& mesh, const FairOptions& options) {
+  Unknowns u;
+  u.vertex.assign(std::size_t(mesh.vertex_count()), 0);
+  for (const Index v : Cancellable(mesh.vertex_count())) {
+    const bool on_curve = mesh.feature_vertex[v] || mesh.ring(v).empty();
+    const bool moves = control_vertex_moves(mesh, options, v);
+    u.vertex[v] = moves && !on_curve && mesh.vertex_part(v) == RegionPart::inside;
+    u.any_vertex |= bool(u.vertex[v]);
+  }
+  u.edge.resize(mesh.edges.size());
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e)
+    u.edge[e] = !mesh.feature_edge[e] && mesh.edge_part(Index(e)) == RegionPart::inside;
+  for (const RegionPart part : mesh.region.face) u.face.push_back(part == RegionPart::inside);
+  return u;
+}
+
+// Throws FairingError(underdetermined), naming the vertices, if a component has neither a fixed nor
+// a weighted control vertex: any single point would be its fairest surface. `weights`: per control
+// vertex, or empty.
+void require_anchored(const ControlMesh& mesh, const Unknowns& unknowns,
+                      const VertexWeights& weights) {
+  const auto anchored = [&](std::size_t v) {
+    return !unknowns.vertex[v] || (!weights.empty() && weights[v] > 0);
+  };
+  // All vertices that are connected to anchors by edges are held.
+  std::vector<std::uint8_t> held(std::size_t(mesh.vertex_count()), 0);
+  std::vector<Index> front;
+  for (std::size_t v = 0; v < held.size(); ++v)
+    if (anchored(v)) {
+      held[v] = 1;
+      front.push_back(Index(v));
+    }
+  for (std::size_t step = 0; !front.empty(); ++step) {
+    stop_if_cancelled(step);
+    const Index v = front.back();
+    front.pop_back();
+    for (const Spoke& spoke : mesh.ring(v)) {
+      const Index other = mesh.end_of(spoke);
+      if (held[other]) continue;
+      held[other] = 1;
+      front.push_back(other);
+    }
+  }
+  std::vector<std::int64_t> loose;
+  for (std::size_t v = 0; v < std::size_t(mesh.input_vertices); ++v)
+    if (!held[v]) loose.push_back(std::int64_t(v));
+  if (!loose.empty())
+    throw FairingError(
+        ErrorCode::underdetermined,
+        {"Nothing holds the part of the mesh around vertex " + std::to_string(loose[0]) + ".",
+         "Give a vertex of it a weight, or interpolate one."},
+        loose);
+}
 
 // Size of a run, including `held` and the memory of mending.
 RunSize size_of(const PolygonMesh& input, const FairOptions& options, std::int64_t held) {

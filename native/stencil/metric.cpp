@@ -3,16 +3,177 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <functional>
 #include <numbers>
+#include <queue>
+#include <utility>
 
+#include "base/angle.h"
+#include "mesh/opposite.h"
+#include "mesh/union_find.h"
 #include "parallel/cancel.h"
-#include "stencil/ridges.h"
 
 namespace fairing {
 namespace {
 
+// Ridges: strips of quads much longer than the radius by which the mesh turns across them.
+//
+// Number 2 f + k is a quad in the direction of its sides k and k + 2: these are its long sides, the
+// others its ends. Quads that share ends form a strip.
+class Ridges {
+ public:
+  Ridges(const ControlMesh& mesh, double exponent)
+      : mesh_(mesh), strips_(2 * mesh.faces.size()), shares_(2 * mesh.faces.size(), 1.0) {
+    planes_.reserve(mesh.faces.size());
+    for (const Face& face : mesh.faces) planes_.push_back(plane_of(face, mesh.positions));
+    for (std::size_t k = 0; k < shares_.size(); ++k) {
+      for (const int s : ends(k)) {
+        if (const Side* const other = beside(k / 2, s); joins(other)) {
+          strips_.unite(Index(k), along(*other, 1));
+        }
+      }
+    }
+    find(exponent);
+  }
+
+  std::vector<std::array<double, 2>> run() {
+    while (!next_.empty()) {
+      const auto [share, k] = next_.top();
+      next_.pop();
+      if (share > shares_[k]) continue;
+      for (const int s : ends(k)) pass(k, s, 1, share);
+      for (const int s : long_sides(k)) pass(k, s, 0, 1.25 * share);
+    }
+    std::vector<std::array<double, 2>> of_faces(planes_.size());
+    for (std::size_t k = 0; k < shares_.size(); ++k) of_faces[k / 2][k % 2] = shares_[k];
+    return of_faces;
+  }
+
+ private:
+  static std::array<int, 2> long_sides(std::size_t k) { return {int(k % 2), int(k % 2) + 2}; }
+  static std::array<int, 2> ends(std::size_t k) { return {1 - int(k % 2), 3 - int(k % 2)}; }
+  static Index along(const Side& side, int ends) { return 2 * side.face + (side.local + ends) % 2; }
+
+  bool quad(std::size_t f) const { return mesh_.faces[f].quad(); }
+  bool joins(const Side* other) const { return other && quad(std::size_t(other->face)); }
+
+  // The side of the next face across side s of a quad; null at borders, creases, triangles.
+  const Side* beside(std::size_t f, int s) const {
+    if (!quad(f)) return nullptr;
+    const Index own = mesh_.faces[f].first_side + s;
+    const Index e = mesh_.sides[own].edge;
+    const Edge& edge = mesh_.edges[e];
+    if (edge.boundary() || mesh_.feature_edge[e]) return nullptr;
+    return &mesh_.sides[edge.side[edge.side[0] == own ? 1 : 0]];
+  }
+
+  double length(std::size_t f, int s) const {
+    const Face& face = mesh_.faces[f];
+    const auto at = [&](int c) -> const Vec3& {
+      return mesh_.positions[face.vertex[c % face.size]];
+    };
+    return (at(s + 1) - at(s)).norm();
+  }
+
+  // Positive if the mesh is convex.
+  double angle(std::size_t f, std::size_t o) const {
+    const double angle = angle_between(planes_[f].normal, planes_[o].normal);
+    return planes_[f].normal.dot(planes_[o].middle - planes_[f].middle) > 0 ? -angle : angle;
+  }
+
+  // The excess of the turns at the long sides over those at the ends. Each turn is divided between
+  // the two faces by their widths.
+  double turn(std::size_t k) const {
+    const std::size_t f = k / 2;
+    double across = 0, at_ends = 0;
+    for (const int s : long_sides(k)) {
+      if (const Side* const other = beside(f, s)) {
+        const auto o = std::size_t(other->face);
+        across += angle(f, o) * planes_[f].area / (planes_[f].area + planes_[o].area);
+      }
+    }
+    for (const int s : ends(k)) {
+      if (const Side* const other = beside(f, s)) {
+        at_ends += std::abs(angle(f, std::size_t(other->face)));
+      }
+    }
+    return std::abs(across) - at_ends;
+  }
+
+  bool goes_on(std::size_t k) const {
+    return std::ranges::all_of(ends(k), [&](int s) {
+      const Side* const other = beside(k / 2, s);
+      return !other || joins(other);
+    });
+  }
+
+  // Starts with the strips that are ridges along their whole length.
+  void find(double exponent) {
+    std::vector<double> shares(shares_.size(), 1.0);  // of strips, by their leaders; 0: not a ridge
+    for (const std::size_t k : Cancellable(shares.size())) {
+      double& share = shares[strips_.lead(Index(k))];
+      const double by = quad(k / 2) && goes_on(k) ? turn(k) : 0;
+      if (!(by > 0)) {
+        share = 0;
+      } else if (share > 0) {
+        share = std::min(share, std::max(1.0, 1 / by) / std::pow(slenderness(k), exponent));
+      }
+    }
+    for (std::size_t k = 0; k < shares.size(); ++k) {
+      if (const double share = shares[strips_.lead(Index(k))]; share > 0) {
+        lower(k, share);
+      }
+    }
+  }
+
+  double slenderness(std::size_t k) const {
+    const auto sum = [&](const std::array<int, 2>& s) {
+      return length(k / 2, s[0]) + length(k / 2, s[1]);
+    };
+    return sum(long_sides(k)) / sum(ends(k));
+  }
+
+  void pass(std::size_t k, int s, int ends, double share) {
+    const Side* const other = beside(k / 2, s);
+    if (joins(other)) lower(std::size_t(along(*other, ends)), share);
+  }
+
+  void lower(std::size_t k, double share) {
+    if (!(share < shares_[k])) return;
+    shares_[k] = share;
+    next_.emplace(share, k);
+  }
+
+  using Next = std::pair<double, std::size_t>;
+
+  const ControlMesh& mesh_;
+  UnionFind strips_;
+  std::vector<FacePlane> planes_;
+  std::vector<double> shares_;
+  std::priority_queue<Next, std::vector<Next>, std::greater<>> next_;
+};
+
+// Factors of lengths raised to the exponent in the control metric: for each face along its sides 0
+// and 2, and along its sides 1 and 3. 1 off ridges, for triangles, and for the exponents 0 and 1.
+//
+// Between the ends of long quads no vertex holds the curvature across them. The surface of least
+// energy through rings of a tube with the radius r, l apart, is hollow half way between them by (l
+// / r)^4 / 384 of r where l is small, by 3 % for l = 2 r, and by all of r where l is large. So
+// along a strip of quads that is such a tube no quad counts as longer than the radius. A tube runs
+// from border to border, from crease to crease or into itself, and all along it the mesh turns by
+// less from quad to quad than across it; the sides and bevels of boxes do not qualify. A strip is
+// shortened as a whole, because the surface waves where lengths jump; so the strips beside it
+// follow, each by up to a quarter less.
+std::vector<std::array<double, 2>> ridge_shares(const ControlMesh& mesh, double exponent) {
+  if (exponent == 0 || exponent == 1 || std::ranges::none_of(mesh.faces, &Face::quad)) {
+    return std::vector<std::array<double, 2>>(mesh.faces.size(), {1.0, 1.0});
+  }
+  return Ridges(mesh, exponent).run();
+}
+
 // The angle between sides a and b of a triangle with third side c.
-double angle_between(double a, double b, double c) {
+double corner_angle(double a, double b, double c) {
   return std::acos(std::clamp((a * a + b * b - c * c) / (2 * a * b), -1.0, 1.0));
 }
 
@@ -31,7 +192,7 @@ FlatFace flat_triangle(const std::array<Vec3, 3>& p, double exponent) {
   FlatFace flat{};
   for (std::size_t s = 0; s < 3; ++s) {
     flat.length[s] = l[s];
-    flat.angle[s] = angle_between(l[s], l[(s + 2) % 3], l[(s + 1) % 3]);
+    flat.angle[s] = corner_angle(l[s], l[(s + 2) % 3], l[(s + 1) % 3]);
   }
   flat.area = triangle_area(l[0], l[1], l[2]);
   return flat;
@@ -46,7 +207,7 @@ FlatFace flat_quad(const std::array<Vec3, 4>& p, const std::array<double, 2>& sh
   const double plus = std::pow((u + v).norm(), exponent),
                minus = std::pow((u - v).norm(), exponent);
   const double angle =
-      0.5 * ((std::numbers::pi - angle_between(a, b, plus)) + angle_between(a, b, minus));
+      0.5 * ((std::numbers::pi - corner_angle(a, b, plus)) + corner_angle(a, b, minus));
   FlatFace flat;
   flat.length = {a, b, a, b};
   flat.angle = {angle, std::numbers::pi - angle, angle, std::numbers::pi - angle};

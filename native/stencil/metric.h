@@ -22,7 +22,7 @@ struct FlatFace {
 // holds for any exponent up to 1.
 //
 // A quad becomes the parallelogram of its bilinear map's centre: sides |u|^b and |v|^b, and the
-// mean of the angles that fit its two diagonals. Along ridges it counts as shorter (ridges.h),
+// mean of the angles that fit its two diagonals. Along ridges it counts as shorter,
 // except at the exponent 1. Throws FairingError(cancelled).
 std::vector<FlatFace> flatten(const ControlMesh& mesh, double exponent);
 

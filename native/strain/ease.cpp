@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "strain/ease.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <new>
+#include <functional>
 #include <numeric>
 #include <optional>
 
@@ -12,11 +13,45 @@
 #include "fairing/mending.h"
 #include "fairing/systems.h"
 #include "parallel/cancel.h"
+#include "strain/ease_system.h"
 #include "strain/strain.h"
-#include "strain/worst.h"
 
 namespace fairing {
 namespace {
+
+// The rows with the largest of these lengths, `count` of them: one of each that are images of each
+// other. Rows whose length is not positive are left out. `images`: of each row, itself and its
+// mirror images.
+std::vector<Index> worst_rows(const std::vector<double>& lengths, std::size_t count,
+                              const std::vector<std::vector<Index>>& images) {
+  std::vector<Index> rows, out;
+  for (std::size_t i = 0; i < lengths.size(); ++i)
+    if (lengths[i] > 0) rows.push_back(Index(i));
+  std::ranges::stable_sort(rows, std::greater(), [&](Index i) { return lengths[i]; });
+  std::vector<std::uint8_t> taken(lengths.size());
+  for (const Index row : rows) {
+    if (out.size() == count) break;
+    if (taken[row]) continue;
+    out.push_back(row);
+    for (const Index image : images[row]) taken[image] = 1;
+  }
+  return out;
+}
+
+// The moves of these rows after which none of them carries a load, a row each. g is square.
+Columns moves_without_loads(const LoadMatrix& g, const Columns& loads,
+                            std::span<const Index> rows) {
+  const auto k = Eigen::Index(rows.size());
+  Columns own(k, 3);
+  if (rows.empty()) return own;
+  Eigen::MatrixXd part(k, k);
+  for (Eigen::Index i = 0; i < k; ++i) {
+    stop_if_cancelled();
+    own.row(i) = -loads.row(rows[i]);
+    for (Eigen::Index j = 0; j < k; ++j) part(i, j) = g.coeff(rows[i], rows[j]);
+  }
+  return part.colPivHouseholderQr().solve(own);  // without pivots that are rounding
+}
 
 // Number of input vertices above which the loads are those of level 1, at a quarter of the cost.
 constexpr std::int64_t on_second_level = 2000;
@@ -325,7 +360,7 @@ struct Mapped {
 EaseResult ease_control_mesh(const PolygonMesh& input, const FairOptions& options,
                              const EaseOptions& wanted, Monitor& monitor) {
   const CancelScope scope(&monitor);
-  try {
+  return with_named_errors([&] {
     FairOptions own = options_of_strain(options);
     if (input.vertex_count() > on_second_level) own.levels = 1;
     const MemoryLedger ledger(own.bytes_allowed());
@@ -336,9 +371,7 @@ EaseResult ease_control_mesh(const PolygonMesh& input, const FairOptions& option
     monitor.enter_part(0, 1);
     monitor.report(Phase::done, 1);
     return out;
-  } catch (const std::bad_alloc&) {
-    throw out_of_memory();
-  }
+  });
 }
 
 }  // namespace fairing

@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// G (probes.h) as a sparse matrix, by one solve for each set of distant vertices.
+// G, the loads on pads (constraints/pads.h) that moves of control vertices cause while all else
+// stays, as a sparse matrix. The loads of the thin plate depend linearly on the control vertices,
+// f = G c plus a constant, in the same way for x, y and z. The effect of a move falls by a factor of
+// 2.6 with every ring of control faces, so distant vertices share a solve, a set for each coordinate.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
+#include "fairing/systems.h"
 #include "strain/ease_system.h"
-#include "strain/probes.h"
 
 namespace fairing {
+
+// Called before each solve with its part of the whole.
+using OnPart = std::function<void(double begin, double end)>;
 
 struct ProbedMatrix {
   LoadMatrix g;    // rows and columns of the given vertices
@@ -21,6 +28,12 @@ struct ProbedMatrix {
 // vertices has correct loads. Exact if every set has one member.
 ProbedMatrix load_matrix(FairingSystems& systems, const std::vector<Index>& vertices,
                          int rings_apart, const OnPart& on_part);
+
+// Calls visit(i, around) for each of the `vertices`, where `around` has it, its copies, and all
+// vertices at most `rings` rings away.
+void visit_around(
+    const ControlMesh& mesh, const std::vector<Index>& vertices, int rings,
+    const std::function<void(std::size_t i, const std::vector<Index>& around)>& visit);
 
 // The place of each vertex in `vertices`, of so many in all; -1: none.
 std::vector<Index> numbered(std::size_t count, std::span<const Index> vertices);

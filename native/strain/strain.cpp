@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <new>
 #include <utility>
 
 #include "fairing/fair.h"
@@ -125,7 +124,7 @@ Strain strain_of(const Mending& mending, Monitor& monitor) {
 
 Strain measure_strain(const PolygonMesh& input, const FairOptions& options, Monitor& monitor) {
   const CancelScope scope(&monitor);
-  try {
+  return with_named_errors([&] {
     const FairOptions own = options_of_strain(options);
     const MemoryLedger ledger(own.bytes_allowed());
     const Mending mending(input, own);
@@ -138,9 +137,7 @@ Strain measure_strain(const PolygonMesh& input, const FairOptions& options, Moni
     }
     monitor.report(Phase::done, 1);
     return out;
-  } catch (const std::bad_alloc&) {
-    throw out_of_memory();
-  }
+  });
 }
 
 }  // namespace fairing

@@ -2,15 +2,73 @@
 #include "thin_plate/surface_rows.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <span>
 
+#include "base/roundoff.h"
 #include "grid/limit_surface.h"
 #include "grid/ring_shape.h"
-#include "stencil/surface_chart.h"
+#include "stencil/angle.h"
+#include "stencil/chart.h"
 #include "stencil/weights.h"
 
 namespace fairing {
 namespace {
+
+// One ring in space, counter-clockwise.
+struct SpaceRing {
+  std::span<const Vec3> offset;       // of the neighbours from the point, at unit grid spacing
+  std::span<const std::uint8_t> far;  // whether they lie across a quad
+  std::size_t first = 0;              // start of an open ring
+  bool closed = true;
+};
+
+double power(const Vec3& offset, double exponent) {
+  const double square = offset.squaredNorm();
+  return exponent == centripetal ? std::sqrt(std::sqrt(square)) : std::pow(square, 0.5 * exponent);
+}
+
+// Unfolds the ring with lengths raised to `exponent` as in flatten(): every triangle of the point
+// and two neighbours is flattened with these. Neighbours are in the order of the ring. False if the
+// ring is degenerate; the chart is then invalid.
+bool chart_in_space(const SpaceRing& ring, double exponent, Chart& chart) {
+  const std::size_t size = ring.offset.size(), steps = ring.closed ? size : size - 1;
+  chart.ring.resize(size);
+  chart.area = 0;
+  chart.closed = ring.closed;
+  const auto at = [&](std::size_t k) { return (ring.first + k) % size; };
+  // radii and turns, stored in place of coordinates
+  double longest = 0, shortest = HUGE_VAL, total = 0;
+  for (std::size_t j = 0; j < size; ++j) {
+    const double radius = power(ring.offset[j], exponent);
+    longest = std::max(longest, radius);
+    shortest = std::min(shortest, radius);
+    chart.ring[j] = Vec2(radius, 0);
+  }
+  if (!(shortest > single_roundoff * longest) || !std::isfinite(longest)) return false;
+  for (std::size_t k = 0; k < steps; ++k) {
+    const std::size_t i = at(k), j = at(k + 1);
+    const double a = chart.ring[i].x(), b = chart.ring[j].x(),
+                 c = power(ring.offset[j] - ring.offset[i], exponent);
+    const double cosine = std::clamp((a * a + b * b - c * c) / (2 * a * b), -1.0, 1.0),
+                 sine = std::sqrt(1 - cosine * cosine);
+    chart.ring[i].y() = angle_of(sine, cosine, 1);
+    total += chart.ring[i].y();
+    chart.area += 0.5 * a * b * sine / (ring.far[i] || ring.far[j] ? 4 : 3);
+  }
+  if (!(total > single_roundoff * full_turn) || !(chart.area > 0)) return false;
+  const double scale = turn_scale(ring.closed, total);
+  double angle = 0;
+  for (std::size_t k = 0; k < size; ++k) {
+    Vec2& p = chart.ring[at(k)];
+    const double turn = k < steps ? p.y() : 0;
+    p = p.x() * Vec2(std::cos(scale * angle), std::sin(scale * angle));
+    angle += turn;
+  }
+  return true;
+}
 
 // The point's share of the ring's area, as Chart::area, with the ring's own lengths.
 double area_of(const SpaceRing& ring) {

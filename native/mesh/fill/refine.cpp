@@ -79,6 +79,17 @@ class Refinement {
   bool is_gone(EdgeHandle e) const { return mesh_.status(e).deleted(); }
   VertexHandle opposite(Half h) const { return to(mesh_.next_halfedge_handle(h)); }
 
+  // Calls visit(h) for the half-edges that leave a vertex, in the direction of its triangles.
+  template <class Visit>
+  void visit_spokes(VertexHandle v, const Visit& visit) const {
+    const Half first = mesh_.halfedge_handle(v);
+    Half h = first;
+    do {
+      visit(h);
+      h = mesh_.opposite_halfedge_handle(mesh_.prev_halfedge_handle(h));
+    } while (h != first);
+  }
+
   // The distance of each point from the rim along edges.
   void find_depths() {
     depths_.assign(patch_.points.size(), std::numeric_limits<double>::infinity());
@@ -160,12 +171,9 @@ class Refinement {
   // Unit normal: the mean of the triangles around and of the faces behind the rim.
   Vec3 normal(VertexHandle v) const {
     Vec3 sum = Vec3::Zero();
-    const Half first = mesh_.halfedge_handle(v);
-    Half h = first;
-    do {
+    visit_spokes(v, [&](Half h) {
       if (!mesh_.is_boundary(h)) sum += unit_or_zero(area(from(h), to(h), opposite(h)));
-      h = mesh_.opposite_halfedge_handle(mesh_.prev_halfedge_handle(h));
-    } while (h != first);
+    });
     if (on_rim(v) && !patch_.rim_normals.empty()) sum += patch_.rim_normals[v.idx()];
     return unit_or_zero(sum);
   }
@@ -302,13 +310,10 @@ class Refinement {
   void find_ring(VertexHandle vertex) {
     ring_.clear();
     beyond_.clear();
-    const Half first = mesh_.halfedge_handle(vertex);
-    Half h = first;
-    do {
+    visit_spokes(vertex, [&](Half h) {
       ring_.push_back(h);
       beyond_.push_back(normal_beyond(mesh_.next_halfedge_handle(h)));
-      h = mesh_.opposite_halfedge_handle(mesh_.prev_halfedge_handle(h));
-    } while (h != first);
+    });
   }
 
   // Area vector of the triangle of two neighbours and the vertex at `middle`.

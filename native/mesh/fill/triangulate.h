@@ -25,8 +25,7 @@ using Triangle = std::array<Index, 3>;
 // edges, those beyond the sides included; among these with the least largest angle between
 // neighbours, and then with the least area. Empty if the allowed pairs give no triangulation. By
 // dynamic programming over all pairs of corners, cubic in their number; of more than some hundreds
-// the sharpest corners are cut off first
-// (ears.h); empty too if too many are left.
+// the sharpest corners are cut off first; empty too if too many are left.
 std::vector<Triangle> triangulate(const SpacePolygon& polygon);
 
 }  // namespace fairing
