@@ -15,14 +15,14 @@ from ..mesh.object import new_object, select_only
 from ..mesh.offset_names import read_names, write_names
 from ..mesh.read import active_mesh, control_mesh, read_mesh
 from ..mesh.scans import in_metres, of_mesh
-from ..poll import IN_OBJECT_MODE, of_meshes
+from ..poll import IN_OBJECT_MODE, needs
 from ..settings import Settings
 from ..strain.measure import mixed_positions
 from ..yard.closing import NotHalf, Whole, whole
 from ..yard.hydrostatics import NotClosed, Solid, solid
 from .mixins import Action
 
-ACTIVE_MESH = (IN_OBJECT_MODE, of_meshes(active_mesh))
+ACTIVE_MESH = (IN_OBJECT_MODE, needs(active_mesh, "Select a mesh object first"))
 
 
 class OBJECT_OT_fairing_close(Action, bpy.types.Operator):

@@ -120,7 +120,7 @@ def test_after_a_job_the_panel_shows_its_slider_and_the_rest_under_more(purpose)
     bpy.ops.object.fairing_for(purpose=purpose)
     made = bpy.context.active_object.discrete_fairing
     assert job_of(made) == purpose
-    made.levels, made.tolerance, made.limit = 2, 0.02, 0.5
+    made.levels, made.tolerance, made.limit, made.joint = 2, 0.02, 0.5, "CURVATURE"
     assert job_of(made) == purpose, "what the panel offers leaves it the job"
     seen = draw(VIEW3D_PT_fairing)
     slider = {"CHARACTER": "limit", "PANEL": "limit"}.get(purpose, "tolerance")

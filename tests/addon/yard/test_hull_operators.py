@@ -47,6 +47,24 @@ def test_one_click_closes_a_half_hull(file):
     assert all(weights[e.index].value == 1.0 for e in along)
 
 
+def test_a_linked_hull_is_measured_cut_and_closed(tmp_path):
+    imported("offsets_yacht.tsv")
+    path = str(tmp_path / "library.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.read_homefile(use_empty=True)
+    with bpy.data.libraries.load(path, link=True) as (there, here):
+        here.objects = there.objects
+    (linked,) = here.objects
+    bpy.context.collection.objects.link(linked)
+    activate(linked)
+    assert bpy.ops.object.fairing_section_curves() == {"FINISHED"}
+    activate(linked)
+    assert bpy.ops.object.fairing_close() == {"FINISHED"}
+    assert not bpy.context.active_object.library
+    activate(linked)
+    assert bpy.ops.object.fairing_hydrostatics(draught=0.2) == {"FINISHED"}
+
+
 def test_of_a_surface_the_closed_one_is_faired_alike():
     imported("offsets_chine.csv")
     surface = fair(levels=2, symmetry_plane="Y")
