@@ -20,7 +20,7 @@ STEPS = (
     (
         "mend",
         "Bad Faces",
-        "Removes duplicate faces, faces without area and vertices without a face",
+        "Removes duplicate faces and parts, faces without area and vertices without a face",
     ),
     (
         "join",

@@ -74,6 +74,23 @@ def test_duplicate_and_empty_faces():
     closed(found)
 
 
+@pytest.mark.parametrize("back", [False, True])
+def test_a_shell_that_lies_on_another_one_is_dropped(back):
+    """As in two scans of one file; the volume was twice as large."""
+    points, faces = BALL
+    copy = len(points) + (faces[::-1, ::-1] if back else np.roll(faces, 1, axis=1))
+    found = df.clean(np.concatenate([points, points]), np.concatenate([faces, copy]))
+    only(found, "mend", len(faces))
+    closed(found)
+
+
+def test_boxes_that_share_a_wall_keep_it():
+    points, faces = cube()
+    both = np.concatenate([points, points + np.ptp(points, axis=0) * [1.0, 0.0, 0.0]])
+    found = df.clean(both, np.concatenate([faces, np.array(faces) + len(points)]), inner=False)
+    assert told(found, "mend") == [] and found.watertight
+
+
 def test_what_cannot_be_read_is_refused_without_mending():
     points, faces = BALL
     assert (

@@ -13,8 +13,6 @@ from ..patches import connected_parts
 from .shape import ROUNDS
 from .state import State
 
-_RINGS = 2  # around the corners of crossing faces: these faces and vertices are examined
-
 
 def uncrossed(state: State, fixed: np.ndarray, watchers: tuple[Any, Any]) -> tuple[State, int]:
     """The state without faces that cross others next to them, as far as this can be: corners of such faces
@@ -41,24 +39,20 @@ def uncrossed(state: State, fixed: np.ndarray, watchers: tuple[Any, Any]) -> tup
 
 def _places(state: State, crossing: np.ndarray) -> Iterator[np.ndarray]:
     """The faces around `crossing` ones (ids), a list for each place where these are next to each other."""
-    face_of = state.face_of
-    order = np.argsort(state.corners, kind="stable")  # the corners of each vertex in turn
-    starts = np.searchsorted(state.corners[order], np.arange(len(state.points) + 1))
-
-    def around(faces: np.ndarray) -> np.ndarray:
-        vertices = np.unique(_gathered(state, faces)[0])
-        return np.unique(face_of[order[_ranges(starts[vertices], starts[vertices + 1])]])
-
-    ringed = [around(np.array([face])) for face in crossing]
-    known = np.unique(np.concatenate(ringed))
-    rows = np.repeat(np.arange(len(crossing)), list(map(len, ringed)))
-    links = np.stack([rows, len(crossing) + np.searchsorted(known, np.concatenate(ringed))], axis=1)
-    part = connected_parts(len(crossing) + len(known), links)[: len(crossing)]
-    for place in np.unique(part):
-        faces = crossing[part == place]
-        for _ in range(_RINGS):
-            faces = around(faces)
-        yield faces
+    starts, count = state.offsets[:-1], len(state.points)
+    at = np.zeros(count, bool)
+    at[_gathered(state, crossing)[0]] = True
+    near = np.flatnonzero(np.logical_or.reduceat(at[state.corners], starts))
+    corners, ends = _gathered(state, near)
+    first = np.repeat(state.corners[starts[near]], np.diff(ends, prepend=0))
+    part = connected_parts(count, np.stack([first, corners], axis=1))
+    inside = np.zeros(count, bool)
+    inside[corners] = True
+    around = np.flatnonzero(np.logical_or.reduceat(inside[state.corners], starts))
+    corners, ends = _gathered(state, around)
+    rows = np.repeat(around, np.diff(ends, prepend=0))[inside[corners]]
+    pairs = np.unique(np.stack([part[corners[inside[corners]]], rows], axis=1), axis=0)
+    yield from np.split(pairs[:, 1], np.flatnonzero(np.diff(pairs[:, 0])) + 1)
 
 
 def _relaxed(part: State, fixed: np.ndarray, watchers: tuple[Any, Any]) -> tuple[np.ndarray, int]:
@@ -75,6 +69,8 @@ def _relaxed(part: State, fixed: np.ndarray, watchers: tuple[Any, Any]) -> tuple
         if not len(found):
             return points, first
         first = first or len(found)
+        if len(found) > 2 * first:
+            break
         bad[triangles[found]] = True
         points = np.where((bad & free)[:, None], _middles(part, points), points)
     return part.points, 0

@@ -18,7 +18,7 @@ from ..errors import fairing_error
 from ..watching import Progress, SeveralRuns, check_watchers
 from . import topology
 from .state import State, all_pairs, diagonals, numbered_parts
-from .steps import Cleaned, Run
+from .steps import MENDED, Cleaned, Run
 
 
 def clean(
@@ -58,7 +58,7 @@ def clean(
     faces : (m, 3) or (m, 4) int, a list of polygons, or the pair (corners, offsets) of flat arrays
         As they come.
     mend : bool
-        Duplicate faces, faces without area, doubled corners and faces that name vertices which the mesh
+        Duplicate faces and parts, faces without area, doubled corners and faces that name vertices which the mesh
         does not have, as fair() mends them; vertices without a face go.
     join : bool
         Border edges that lie on one another, end on end, become one: files such as STL know no others. Those
@@ -129,6 +129,8 @@ def clean(
     watched = SeveralRuns(progress, monitor, threads)
     run = Run(state, watched)
     run.mend(mend)
+    if mend:
+        run.step("mend", 0.05, topology.without_copies, MENDED["DUPLICATE_FACE"])
     if join:
         run.step("join", 0.1, topology.borders_joined, "border {vertex|vertices} joined")
         if run.count:

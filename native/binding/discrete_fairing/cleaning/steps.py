@@ -69,7 +69,7 @@ class Cleaned:
 
 
 # by code, of one element or several
-_MENDED = {
+MENDED = {
     "BAD_SHAPE": "{face|faces} of fewer than three corners dropped",
     "INDEX_OUT_OF_RANGE": "{face|faces} with missing vertices dropped",
     "NON_FINITE": "{vertex|vertices} without a finite position dropped",
@@ -145,7 +145,7 @@ class Run:
     def _note_mended(self, mended: State, acts: dict[str, int]) -> None:
         self.state = mended
         for code, count in acts.items():
-            self.note("mend", count, _MENDED[code])
+            self.note("mend", count, MENDED[code])
 
     def held(self, fixed: np.ndarray) -> np.ndarray:
         """(n,) bool: present vertices that come from `fixed` vertices of the input."""

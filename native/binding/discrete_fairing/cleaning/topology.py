@@ -11,7 +11,7 @@ import numpy as np
 
 from .. import _native
 from ..edge_cuts import Cuts, cuts_for, pieces
-from .state import State, numbered_parts, of_parts
+from .state import State, all_pairs, numbered_parts, of_parts
 
 
 def mended(state: State, watchers: tuple[Any, Any]) -> tuple[State, dict[str, int]]:
@@ -30,6 +30,22 @@ def mended(state: State, watchers: tuple[Any, Any]) -> tuple[State, dict[str, in
         face_origin=state.face_origin[found["face_origin"]],
         corner_origin=state.corner_origin[corner],
     ), dict(found["acts"])
+
+
+def without_copies(state: State) -> tuple[State, int]:
+    """The state without parts all of whose triangles lie on those of earlier parts, and the number of faces removed."""
+    part, count = numbered_parts(state, all_pairs(state))
+    if count < 2:
+        return state, 0
+    triangles = np.sort(_places(state.points)[state.triangles()], axis=1)
+    owner = part[state.face_of[state.triangle_corners[:, 0]]]
+    _, group = np.unique(triangles, axis=0, return_inverse=True)
+    first = np.full(len(group), count)
+    np.minimum.at(first, group.ravel(), owner)
+    new = np.zeros(count, bool)
+    new[owner[first[group.ravel()] == owner]] = True
+    gone = ~new[part]
+    return (state.without(gone), int(gone.sum())) if gone.any() else (state, 0)
 
 
 def borders_joined(state: State) -> tuple[State, int]:
