@@ -5,11 +5,14 @@ import numpy as np
 
 from .. import core
 from ..blender import Mesh, Object
+from ..inspection.curvature import faces_of_edges
+from ..inspection.measures import fold_angles
 from ..mesh.mesh_changes import shown
 from ..mesh.read import read_mesh
 from ..mesh.world_shape import world_shape
 from ..properties import FairingSettings
 from ..settings import Settings, is_evaluated, subdivision
+from ..triangles import marked
 from .flats import ANGLE, find_flats
 
 REASON = "flat faces between tight rims"
@@ -24,8 +27,7 @@ def _is_auto(settings: Settings) -> bool:
 
 def wants_limit(settings: Settings, cage: core.ControlArrays) -> bool:
     """Whether AUTO is LIMIT for the shape of `cage` in the world: closed, with flats between tight rims of
-    quads, none of them kept flat. Flats only of vertices with three faces are those of boxes and prisms,
-    which have no rims.
+    quads, none of them kept flat.
 
     Through its vertices such a cage is quilted, and with stiff flats its rims bulge. Open meshes are measured
     sheets, hulls and terrain as often as they are cages.
@@ -39,9 +41,22 @@ def wants_limit(settings: Settings, cage: core.ControlArrays) -> bool:
         sharp |= cage.edge_crease > 0
     if settings.use_sharp_edges and cage.sharp_edge is not None:
         sharp |= cage.sharp_edge
-    flats = find_flats(cage, ANGLE, sharp, tight=True)
+    return _has_rims(cage, find_flats(cage, ANGLE, sharp, tight=True))
+
+
+def _has_rims(cage: core.ControlArrays, flats: np.ndarray) -> bool:
+    """Whether loops run along the borders of `flats`, or faces beside them turn on their other side too, as a
+    chamfer does. Boxes and prisms have neither.
+    """
+    if not flats.any():
+        return False
     faces_at = np.bincount(cage.corners)
-    return bool((faces_at[cage.corners[np.repeat(flats, cage.face_sizes)]] > 3).any())
+    if (faces_at[cage.corners[np.repeat(flats, cage.face_sizes)]] > 3).any():
+        return True
+    pair = faces_of_edges(cage)
+    known = flats | marked(pair[flats[pair].any(axis=1)], len(flats))
+    beyond = known[pair].sum(axis=1) == 1
+    return bool((fold_angles(cage)[0][beyond] > ANGLE).any())
 
 
 def shown_settings(properties: FairingSettings, source: Object) -> Settings | None:

@@ -13,7 +13,7 @@ from mathutils.bvhtree import BVHTree
 
 from ..blender import Mesh
 from ..core import ControlArrays, folds, module
-from ..inspection.curvature import cross
+from ..inspection.curvature import cross, face_areas, face_normals, unit
 from ..mesh.layers import fill_layer, layer_values, make_layer
 from ..mesh.write import FAULTS
 from ..transfer.attributes import AttributeTransfer, coarse_triangles
@@ -98,13 +98,20 @@ def find_faults_in_place(
 def _departure(
     vertices: np.ndarray, transfer: AttributeTransfer, control: ControlArrays
 ) -> np.ndarray:
-    """(N,) each vertex's distance from its place on the control mesh, in lengths of its edges."""
+    """(N,) each vertex's distance from its place on the control mesh, along the normal there, in lengths of its
+    edges: in flat faces with many corners a surface may slide by several.
+    """
     ends = control.positions[control.edges]
     length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
     count = len(control.positions)
     sums = np.bincount(control.edges.ravel(), np.repeat(length, 2), count)
     size = sums / np.maximum(np.bincount(control.edges.ravel(), minlength=count), 1)
-    away = np.linalg.norm(vertices - transfer.point(control.positions), axis=1)
+    mesh = control.positions, control.corners, control.offsets
+    across = face_areas(*mesh)[:, None] * face_normals(*mesh)
+    normals = np.zeros((count, 3))
+    np.add.at(normals, control.corners, np.repeat(across, control.face_sizes, axis=0))
+    way = unit(transfer.point(normals))
+    away = np.abs(((vertices - transfer.point(control.positions)) * way).sum(axis=1))
     around = transfer.point(size).ravel()
     return away / np.where(around > 0.0, around, np.inf)
 
