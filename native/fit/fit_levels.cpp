@@ -99,7 +99,7 @@ void FitLevels::run(FitReport& report) {
       fit_curves(*fit, weight_, 2, true);
     }
     left_below = left;
-    if (level >= level_of_bends && !is_last) round_off(*fit, weight_, share);
+    if (shows_bends(levels_.grid(level)) && !is_last) round_off(*fit, weight_, share);
     monitor_.report(Phase::solve, 1 - std::pow(2, level - levels_.top() - 3));
   }
   keep_tolerance(*fit);

@@ -12,8 +12,8 @@ namespace {
 
 // A surface bends about no radius shorter than a control edge divided by this.
 constexpr double bends_an_edge = 10;
-// Passes, of two iterations each; the last ones change little, and a finer level corrects only.
-constexpr int most_passes = 9, passes_when_finer = 2;
+// Each takes two iterations; the last ones change little.
+constexpr int most_passes = 9;
 
 // Makes the shares of faces that turn by more than the limit smaller, as a plate is stiffer against
 // the shorter wave. Where a face's own points hardly act any more, those around it make the bend.
@@ -37,10 +37,13 @@ void lessen(const ControlMesh& mesh, const std::vector<double>& turn, double lim
 
 }  // namespace
 
+bool shows_bends(const GridLevel& grid) { return bends_an_edge < grid.n(); }
+
 void round_off(LevelFit& fit, double weight, std::vector<double>& share) {
   const GridLevel& grid = fit.cells().grid();
   const double limit = std::min(std::numbers::pi / 2, bends_an_edge / grid.n());
-  const int passes = fit.level() > level_of_bends ? passes_when_finer : most_passes;
+  // levels above the first that shows bends correct only
+  const int passes = bends_an_edge < grid.n() / 2 ? most_passes / 4 : most_passes;
   for (int pass = 0; pass < passes; ++pass) {
     const std::vector<double> turn = sharpest_turns(grid, fit.workers(), fit.surface().data());
     if (*std::max_element(turn.begin(), turn.end()) <= limit) return;

@@ -12,7 +12,7 @@ namespace fairing {
 // `share` has a share for each face: 1 at first, then that of the coarser level.
 void round_off(LevelFit& fit, double weight, std::vector<double>& share);
 
-// The coarsest level whose faces show such a bend: sixteen an edge turn by .6 radians there.
-constexpr int level_of_bends = 4;
+// Whether cells of this level show such a bend: it turns by less than a radian from one to the next.
+bool shows_bends(const GridLevel& grid);
 
 }  // namespace fairing
