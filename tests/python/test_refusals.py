@@ -147,8 +147,14 @@ REFUSED = {
     ),
     "clean": (
         partial(df.clean, *BALL),
-        each(OPTION, islands=[2.0], largest=[-1.0], noise=[1001, 1.5, "much"], progress=[1])
-        + each(SHAPE, fixed=[[True]]),
+        each(
+            OPTION,
+            islands=[2.0],
+            largest=[-1.0],
+            noise=[1001, 1.5, "much"],
+            progress=[1],
+            fixed=[[True]],
+        ),
     ),
     "denoise": (
         lambda faces=BALL[1], **more: df.denoise(BALL[0], faces, **more),

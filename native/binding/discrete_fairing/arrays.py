@@ -175,11 +175,18 @@ def numbers(values: ArrayLike, name: str, kinds: str) -> np.ndarray:
     return array
 
 
-def fixed_flags(fixed: ArrayLike | None, count: int) -> np.ndarray:
-    """(count,) uint8, 1 for fixed vertices; empty if none are given."""
-    if fixed is None:
-        return np.empty(0, dtype=np.uint8)
-    stays = np.asarray(fixed)
+def fixed_vertices(fixed: ArrayLike | None, count: int) -> np.ndarray:
+    """(count,) bool. Raises FairingError BAD_OPTION."""
+    stays = np.zeros(count, bool) if fixed is None else np.asarray(fixed)
     if stays.shape != (count,) or stays.dtype != bool:
         raise fairing_error("BAD_OPTION", f"fixed must be {count} bools, one a vertex.")
-    return stays.astype(np.uint8)
+    return stays
+
+
+def faces_by_vertex(
+    corners: np.ndarray, offsets: np.ndarray, count: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """(c,) the faces at each of `count` vertices, vertex after vertex, and (count + 1,) where those begin."""
+    faces = np.repeat(np.arange(len(offsets) - 1), np.diff(offsets))
+    starts = np.cumsum(np.bincount(corners + 1, minlength=count + 1))
+    return faces[np.argsort(corners, kind="stable")], starts

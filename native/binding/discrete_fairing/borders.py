@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .arrays import face_arrays, following, ranges, vertex_array
+from .arrays import face_arrays, faces_by_vertex, following, ranges, vertex_array
 from .errors import fairing_error
 
 # (vertices, faces)
@@ -231,10 +231,8 @@ class _Around:
 
     def __init__(self, corners: np.ndarray, offsets: np.ndarray):
         self.corners, self.offsets = corners, offsets
-        face = np.repeat(np.arange(len(offsets) - 1), np.diff(offsets))
-        order = np.argsort(corners, kind="stable")
-        self.face = face[order]
-        self.begin = np.searchsorted(corners[order], np.arange(int(corners.max(initial=0)) + 2))
+        count = int(corners.max(initial=0)) + 1
+        self.face, self.begin = faces_by_vertex(corners, offsets, count)
 
     def rings(self, vertex: np.ndarray, count: int) -> list[np.ndarray]:
         """For each vertex: the vertices within `count` rings of faces around it, and itself."""

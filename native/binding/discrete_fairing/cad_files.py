@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from ._native import FairingError
 from .arrays import numbers
-from .converters import real
+from .converters import positive
 from .errors import fairing_error
 from .patches import SplinePatches
 
@@ -35,7 +35,7 @@ def cad_parts(
     colours: ArrayLike | Sequence[ArrayLike | None] | None,
 ) -> list[Part]:
     """The parts of a file, scaled. Raises FairingError BAD_OPTION for values that cannot be written."""
-    factor = _positive(scale)
+    factor = positive("scale", scale)
     single = isinstance(patches, SplinePatches)
     found = [patches] if single else _listed("patches", patches)
     titles = _one_a_part("names", names, len(found), isinstance(names, str))
@@ -51,13 +51,6 @@ def require_unit(unit: object) -> None:
     if not isinstance(unit, str) or unit not in UNITS:
         known = " or ".join(f'"{name}"' for name in UNITS)
         raise fairing_error("BAD_OPTION", f"unit is {unit!r}; it must be {known}.")
-
-
-def _positive(scale: object) -> float:
-    factor = real("scale", scale)
-    if factor <= 0:
-        raise fairing_error("BAD_OPTION", f"scale is {factor}; it must be greater than 0.")
-    return factor
 
 
 def _scaled(patches: object, factor: float, k: int) -> SplinePatches:

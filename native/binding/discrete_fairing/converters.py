@@ -140,6 +140,14 @@ def real(name: str, value: object) -> float:
     return number
 
 
+def positive(name: str, value: object) -> float:
+    """A finite number over 0."""
+    number = real(name, value)
+    if number <= 0:
+        raise fairing_error("BAD_OPTION", f"{name} is {number}; it must be over 0.")
+    return number
+
+
 def distance(name: str, value: object) -> float:
     """A finite number, 0 or more."""
     number = real(name, value)

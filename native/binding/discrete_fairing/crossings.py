@@ -85,10 +85,7 @@ def crossing_faces(
     number = np.where(faces < count, np.searchsorted(old, faces), faces - count + len(old))
     points = np.concatenate([around.whole.points[old], *(f.own for f in fillings)])
     first = len(faces) - len(new)
-    quiet = watched.run(1.0, 1.0)
-    found = _native._crossings(
-        points, number.astype(np.int32), first, quiet["monitor"], quiet["progress"]
-    )
+    found = _native._crossings(points, number.astype(np.int32), first, *watched.watchers(1.0))
     ends = np.cumsum([first, *map(len, split[:asked])])
     return [
         np.unique((found[(found >= a) & (found < b)] - a) // (f.faces.shape[1] - 2))

@@ -16,8 +16,8 @@ import numpy as np
 from numpy.polynomial.chebyshev import chebinterpolate
 from numpy.typing import ArrayLike
 
-from .arrays import face_arrays, fixed_flags, following, vertex_array
-from .converters import whole
+from .arrays import face_arrays, fixed_vertices, following, vertex_array
+from .converters import positive, whole
 from .errors import fairing_error
 from .stars import Stars
 
@@ -92,9 +92,9 @@ def denoise(
     points = vertex_array(vertices)
     corners, offsets = face_arrays(faces)
     count = len(points)
-    stays = np.zeros(count, bool) if fixed is None else fixed_flags(fixed, count) > 0
-    if amount is not None and not _is_length(amount):
-        raise fairing_error("BAD_OPTION", f"amount is {amount!r}; it must be a length over 0.")
+    stays = fixed_vertices(fixed, count)
+    if amount is not None:
+        amount = positive("amount", amount)
     passes = whole("passes", passes)
     if passes > 1000 or (passes and amount is not None):
         raise fairing_error(
@@ -135,11 +135,6 @@ def denoised(
     found, spikes = heights.weighed(noise)
     moves = stars.as_given(found[:, None] * normals)
     return Denoised(points, moves, noise, stars.order[spikes])
-
-
-def _is_length(amount: object) -> bool:
-    number = isinstance(amount, (int, float, np.number)) and not isinstance(amount, bool)
-    return number and 0 < float(amount) < np.inf  # type: ignore[arg-type]
 
 
 def _passed(stars: Stars, points: np.ndarray, held: np.ndarray, passes: int) -> np.ndarray:

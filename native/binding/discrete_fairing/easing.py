@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
-from .arrays import fixed_flags, vertex_array
+from .arrays import fixed_vertices, vertex_array
 from .errors import fairing_error
 from .halves import Control
 from .watching import Progress, check_watchers
@@ -100,7 +100,7 @@ def ease(
     """
     check_watchers(progress, monitor)
     start = vertex_array(vertices)
-    bounds, stays = _bounds(tolerance, len(start)), fixed_flags(fixed, len(start))
+    bounds, stays = _bounds(tolerance, len(start)), fixed_vertices(fixed, len(start))
     chosen = _most(most, tolerance)
     control = Control(start, faces, dict(settings), symmetry_plane)
     with control.named():
@@ -109,7 +109,7 @@ def ease(
             control.values(bounds),
             _amount(amount, most),
             chosen,
-            control.values(stays),
+            control.values(stays.astype(np.uint8)),
             control.options,
             monitor or _native.Monitor(),
             progress,

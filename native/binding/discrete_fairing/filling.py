@@ -142,8 +142,7 @@ def fill_holes(
     corners, offsets = face_arrays(faces)
     watched = SeveralRuns(progress, monitor, threads)
     whole = MeshPart.of(points, corners, offsets)
-    quiet = watched.run(0.0, 0.1)
-    watchers = quiet["monitor"], quiet["progress"]
+    watchers = watched.watchers(0.1)
     skipped = []
     if holes is None:
         finder = _native.Filler(points, corners, offsets)
@@ -222,8 +221,7 @@ def _with_triangles(
         nears = near_holes(mesh, found)
         rows = [row for row, grid in enumerate(grids) if isinstance(grid, str)]
         fillings = faired_in_rounds(mesh, filler, nears, wanted, watched, rows)
-        quiet = watched.run(1.0, 1.0)
-        watchers = quiet["monitor"], quiet["progress"]
+        watchers = watched.watchers(1.0)
         folding = [row for row, filling in fillings.items() if filling.made.folds]
         if wanted.density > 0.0 and folding:
             asked = [loops[row] for row in folding]

@@ -9,7 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
-from .arrays import fans, ranges
+from .arrays import faces_by_vertex, fans, ranges
 
 
 @dataclass(frozen=True)
@@ -46,14 +46,12 @@ class MeshPart:
 
     def faces_at(self, vertices: np.ndarray) -> np.ndarray:
         """The same as touching(); faster for many calls with few vertices each."""
-        faces, ends = self._faces_by_vertex
-        return np.unique(faces[ranges(ends[vertices], ends[vertices + 1])])
+        faces, starts = self._faces_by_vertex
+        return np.unique(faces[ranges(starts[vertices], starts[vertices + 1])])
 
     @cached_property
     def _faces_by_vertex(self) -> tuple[np.ndarray, np.ndarray]:
-        faces = np.repeat(np.arange(len(self.offsets) - 1), np.diff(self.offsets))
-        ends = np.cumsum(np.bincount(self.corners + 1, minlength=len(self.points) + 1))
-        return faces[np.argsort(self.corners, kind="stable")], ends
+        return faces_by_vertex(self.corners, self.offsets, len(self.points))
 
     def corner_fans(self, faces: np.ndarray) -> np.ndarray:
         """(t, 3) triangles of these faces, as fans from their first corners."""

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from . import _native
 from .arrays import following, numbers
-from .converters import real
+from .converters import positive
 from .errors import fairing_error
 from .patches import SplinePatches, control_polygons
 from .result import Result
@@ -35,8 +35,11 @@ class PatchFits:
     def __init__(self, tolerance: object, normal_tolerance: object, force: bool):
         self._has_tolerance = tolerance is not None
         self._has_angle = normal_tolerance is not None
-        self.tolerance = _positive("tolerance", tolerance, USUAL_TOLERANCE)
-        self.normal_tolerance = _positive("normal_tolerance", normal_tolerance, USUAL_ANGLE)
+        self.tolerance, self.normal_tolerance = USUAL_TOLERANCE, USUAL_ANGLE
+        if self._has_tolerance:
+            self.tolerance = positive("tolerance", tolerance)
+        if self._has_angle:
+            self.normal_tolerance = positive("normal_tolerance", normal_tolerance)
         self.force = force
         self._groups = np.empty(0, np.int32)  # of the input's faces
 
@@ -146,13 +149,6 @@ class PatchFits:
         """Whether any control face is `bad`: refuses them."""
         self.refuse(_faces_of(result, level, bad))
         return bool(bad.any())
-
-
-def _positive(name: str, given: object, usual: float) -> float:
-    value = usual if given is None else real(name, given)
-    if value <= 0:
-        raise fairing_error("BAD_OPTION", f"{name} is {value}; it must be greater than 0.")
-    return value
 
 
 def _arrays(result: Result) -> Arrays:

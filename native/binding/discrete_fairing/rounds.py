@@ -89,8 +89,7 @@ def faired_in_rounds(
         rows = left
         if not rows or turn + 1 == _MOST_ROUNDS:
             break
-        quiet = watched.run(float(shares[-1]), float(shares[-1]))
-        watchers = quiet["monitor"], quiet["progress"]
+        watchers = watched.watchers(float(shares[-1]))
         nears = near_holes(mesh, filler.refine(np.concatenate(onward), rows, fair, *watchers))
     return _apart(last, best, len(mesh.points))
 

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
-from .arrays import fixed_flags, index_array, numbers, plain
-from .converters import real
+from .arrays import fixed_vertices, index_array, numbers, plain
+from .converters import positive
 from .errors import fairing_error, written_report
 from .halves import Control, Half
 from .result import Result
@@ -111,8 +111,8 @@ def fit(
     """
     check_watchers(progress, monitor)
     scan, outward, sides = _points(points), _normals(normals), _triangles(triangles)
-    bound = _positive("tolerance", tolerance)
-    strength = _positive("weight", weight)
+    bound = 0.0 if tolerance is None else positive("tolerance", tolerance)
+    strength = 0.0 if weight is None else positive("weight", weight)
     if bound and strength:
         raise fairing_error(
             "BAD_OPTION", "tolerance and weight exclude each other.", cure="Give one."
@@ -126,7 +126,7 @@ def fit(
     # without the border of a mesh nothing along the surface fixes a border curve
     border = {"boundary": "free"} if triangles is None else {}
     control = Control(vertices, faces, {**border, **options, "levels": levels}, symmetry_plane)
-    stays, half = fixed_flags(fixed, control.count), control.half
+    stays, half = fixed_vertices(fixed, control.count), control.half
     if half:
         scan, sides, _ = half.beside(scan, sides, np.arange(0, len(sides) + 1, 3))
         outward = np.concatenate([outward, half.reflected(outward)])
@@ -138,7 +138,7 @@ def fit(
             sides,
             bound,
             strength,
-            control.values(stays),
+            control.values(stays.astype(np.uint8)),
             control.options,
             monitor or _native.Monitor(),
             progress,
@@ -179,12 +179,3 @@ def _triangles(triangles: ArrayLike | None) -> np.ndarray:
     if array.size and (array.ndim != 2 or array.shape[1] != 3):
         raise fairing_error("BAD_SHAPE", f"triangles has shape {array.shape}; it must be (T, 3).")
     return np.ascontiguousarray(array.reshape(-1))
-
-
-def _positive(name: str, value: float | None) -> float:
-    if value is None:
-        return 0.0
-    found = real(name, value)
-    if not found > 0:
-        raise fairing_error("BAD_OPTION", f"{name} is {value!r}; it must be over 0, or None.")
-    return found

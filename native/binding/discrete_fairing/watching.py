@@ -42,6 +42,11 @@ class SeveralRuns:
 
         return {"threads": self.threads, "monitor": _native.Monitor(), "progress": told}
 
+    def watchers(self, at: float) -> tuple[Any, Any]:
+        """The same for a short run: monitor and progress, which stays `at` this fraction."""
+        run = self.run(at, at)
+        return run["monitor"], run["progress"]
+
     def finish(self) -> None:
         self._tell(1.0, "done")
 

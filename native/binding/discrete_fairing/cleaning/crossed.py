@@ -80,7 +80,7 @@ def _agree(part: State, moved: np.ndarray) -> bool:
     """Whether the normals of the faces without `moved` vertices, (n,) bool, have a mean of half a length, as
     at a noisy rim of a right angle, and not at ears and fins.
     """
-    normals = part.face_vectors()[~np.logical_or.reduceat(moved[part.corners], part.offsets[:-1])]
+    normals = part.face_vectors[~np.logical_or.reduceat(moved[part.corners], part.offsets[:-1])]
     area = np.linalg.norm(normals, axis=1).sum()
     return bool(np.linalg.norm(normals.sum(axis=0)) >= 0.5 * area)
 

@@ -76,7 +76,7 @@ def wanted_holes(state: State, holes: list[Any], largest: float) -> tuple[list[A
     of_vertex[state.corners] = part[state.face_of]
     sizes = diagonals(state, part, count)
     if largest == 0.0:
-        areas = of_parts(part, np.linalg.norm(state.face_vectors(), axis=1), count)
+        areas = of_parts(part, np.linalg.norm(state.face_vectors, axis=1), count)
     narrow: list[Any] = []
     wide: list[Any] = []
     for hole in holes:
@@ -103,8 +103,7 @@ def closed(
     skipped: list[Any] = []
     for turn in range(CUTS + 1):
         state, _ = vertices_split(state, every=False)
-        run = watched.run(0.3, 0.9)
-        watchers = run["monitor"], run["progress"]
+        watchers = watched.watchers(0.3)
         loops, unclear = _found(state, watchers)
         narrow, wide = wanted_holes(state, loops, largest)
         before = len(state.face_origin)

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import _native
-from ..arrays import face_arrays, vertex_array
+from ..arrays import face_arrays, fixed_vertices, vertex_array
 from ..converters import switch, whole
 from ..denoising import denoised
 from ..errors import fairing_error
@@ -125,7 +125,7 @@ def clean(
     passes = _passes(noise)
     points = vertex_array(vertices)
     state = State.of(points, *face_arrays(faces))
-    held = _fixed(fixed, len(points))
+    held = fixed_vertices(fixed, len(points))
     watched = SeveralRuns(progress, monitor, threads)
     run = Run(state, watched)
     run.mend(mend)
@@ -196,17 +196,6 @@ def _require_number(name: str, value: Any, most: float) -> None:
     if isinstance(value, bool) or not (isinstance(value, int | float) and 0.0 <= value <= most):
         limit = f"from 0 to {most:g}" if np.isfinite(most) else "0 or more"
         raise fairing_error("BAD_OPTION", f"{name} is {value!r}; it must be {limit}.")
-
-
-def _fixed(fixed: ArrayLike | None, count: int) -> np.ndarray:
-    if fixed is None:
-        return np.zeros(count, bool)
-    array = np.asarray(fixed)
-    if array.shape != (count,) or array.dtype != bool:
-        raise fairing_error(
-            "BAD_SHAPE", f"fixed has shape {array.shape}; it must be ({count},), True or False."
-        )
-    return array
 
 
 def _without_noise(state: State, fixed: np.ndarray, passes: int) -> tuple[State, int]:

@@ -5,6 +5,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..arrays import ranges
+from ..mesh_part import angles_between
 from .state import State
 
 # Times that vertices move to their neighbours' mean; spikes of several vertices need more.
@@ -69,18 +71,13 @@ def _closes(state: State, points: np.ndarray, rim: np.ndarray) -> np.ndarray:
     missing = np.where(rim, np.pi, 2.0 * np.pi)
     for i, j, k in ((a, b, c), (b, c, a), (c, a, b)):
         missing -= np.bincount(
-            i, _angles(points[j] - points[i], points[k] - points[i]), len(points)
+            i, angles_between(points[j] - points[i], points[k] - points[i]), len(points)
         )
     ways = np.concatenate([[a, b], [b, a], [b, c], [c, b], [c, a], [a, c]], axis=1)
     ways = np.unique(ways[0] * np.int64(len(points)) + ways[1])
     begin, end = np.divmod(ways, len(points))
     around = missing + np.bincount(begin, missing[end], len(points))
     return around >= np.maximum(2.0 / 3.0 * missing, 0.5 * np.pi)
-
-
-def _angles(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    cross = np.cross(a, b)
-    return np.arctan2(np.sqrt((cross * cross).sum(axis=1)), (a * b).sum(axis=1))
 
 
 class _Fans:
@@ -91,7 +88,7 @@ class _Fans:
         self._faces, self._count = faces, len(points)
         self._starts = np.cumsum(sizes) - sizes
         self._sizes = sizes
-        rows = np.arange(sizes.sum()) + np.repeat(state.offsets[faces] - self._starts, sizes)
+        rows = ranges(state.offsets[faces], state.offsets[faces + 1])
         self._corner = state.corners[rows]
         here, after = points[self._corner], points[state.corners[state.sides.next[rows]]]
         way = after - here
@@ -100,7 +97,7 @@ class _Fans:
         back = -way[before]
         first = np.repeat(here[self._starts], sizes, axis=0)
         self._normals = np.add.reduceat(np.cross(here - first, after - first), self._starts)
-        self._angles = _angles(way, back)
+        self._angles = angles_between(way, back)
         if len(faces) == len(state.face_origin):
             self._complete = np.ones(len(points), bool)
         else:

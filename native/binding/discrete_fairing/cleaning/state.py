@@ -125,11 +125,9 @@ class State:
         )
         return compact, number
 
+    @cached_property
     def face_vectors(self) -> np.ndarray:
         """(m, 3) normals, whose lengths are twice the areas."""
-        if (np.diff(self.offsets) == 3).all():
-            corner = self.points[self.corners.reshape(-1, 3)]
-            return np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
         return face_vectors(self.points, self.corners, self.offsets)
 
     def triangles(self) -> np.ndarray:

@@ -92,8 +92,7 @@ class Run:
 
     @property
     def watchers(self) -> tuple[Any, Any]:
-        run = self._watched.run(self._at, self._at)
-        return run["monitor"], run["progress"]
+        return self._watched.watchers(self._at)
 
     def watched(
         self, call: Callable[..., tuple[State, int]]

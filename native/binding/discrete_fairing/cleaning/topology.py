@@ -109,7 +109,7 @@ def without_fins(state: State) -> tuple[State, int]:
         return state, 0
     part, count = numbered_parts(state, sides.pairs)
     of_side = part[state.face_of]
-    area = of_parts(part, np.linalg.norm(state.face_vectors(), axis=1), count)
+    area = of_parts(part, np.linalg.norm(state.face_vectors, axis=1), count)
     ends = np.zeros(count, bool)
     ends[of_side[sides.at_border]] = True
     ends[np.argmax(area)] = False
@@ -198,7 +198,7 @@ def _winding(triangles: np.ndarray) -> float:
 def without_inner(state: State) -> tuple[State, int]:
     """The state without parts and walls inside others, and the number of faces removed."""
     part, volume, closed = closed_parts(state)
-    area = of_parts(part, np.linalg.norm(state.face_vectors(), axis=1), len(volume))
+    area = of_parts(part, np.linalg.norm(state.face_vectors, axis=1), len(volume))
     gone = np.zeros(len(part), bool)
     for name in np.argsort(area, kind="stable")[:-1].tolist():
         if closed[name] and volume[name] < 0.0:

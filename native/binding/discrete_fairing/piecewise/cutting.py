@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import _native
-from ..arrays import face_arrays, ranges, shape_array, vertex_array
+from ..arrays import face_arrays, faces_by_vertex, ranges, shape_array, vertex_array
 from ..converters import whole
 from ..errors import fairing_error
 from ..options import Settings
@@ -92,11 +92,9 @@ class Cutter:
         self.count = int(labels.max()) + 1
         self.vertex_owner = outline.vertex_owner(labels)
         self.edge_owner = outline.edge_owner(labels)
-        sizes = np.diff(outline.offsets)
-        owner = np.repeat(np.arange(outline.polygon_count), sizes)
-        order = np.argsort(outline.corners, kind="stable")
-        self.faces_at = owner[order]  # vertex after vertex
-        self.at = np.searchsorted(outline.corners[order], np.arange(outline.input_vertices + 1))
+        self.faces_at, self.at = faces_by_vertex(
+            outline.corners, outline.offsets, outline.input_vertices
+        )
         self.control_at = np.searchsorted(outline.polygon, np.arange(outline.polygon_count + 1))
         self.curve_of = np.full(len(outline.edge), -1, np.int64)
         self.curve_of[outline.curve] = np.arange(len(outline.curve))
