@@ -21,8 +21,6 @@ UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "in": 0.0254, "ft": 0.3048}
 
 @dataclass(frozen=True)
 class Part:
-    """One part of a CAD file."""
-
     patches: SplinePatches
     name: str
     colours: np.ndarray | None  # (3,) or (P, 3) float64, red, green and blue from 0 to 1

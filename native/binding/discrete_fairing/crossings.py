@@ -111,7 +111,6 @@ class _Chosen:
         self._boxes = np.array([self._box(f) for f in fillings]).reshape(-1, 2, 3)
 
     def counts(self) -> list[int]:
-        """Number of crossing faces of each filling."""
         if not self.fillings:
             return []
         return list(map(len, self._crossing(self.fillings, self._boxes)))
@@ -121,7 +120,6 @@ class _Chosen:
         self._boxes[row] = self._box(filling)
 
     def crossing(self, row: int) -> np.ndarray:
-        """The faces of a filling that cross."""
         low, high = self._boxes[row]
         beside = (self._boxes[:, 0] <= high) & (self._boxes[:, 1] >= low)
         others = np.setdiff1d(np.flatnonzero(beside.all(axis=1)), row)

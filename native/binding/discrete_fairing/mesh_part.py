@@ -14,8 +14,6 @@ from .arrays import faces_by_vertex, fans, ranges
 
 @dataclass(frozen=True)
 class MeshPart:
-    """A mesh, or a part of one."""
-
     points: np.ndarray  # (n, 3)
     corners: np.ndarray  # (c,)
     offsets: np.ndarray  # (m + 1,)

@@ -45,8 +45,6 @@ class Made:
 
 @dataclass(frozen=True, slots=True)
 class Wanted:
-    """The settings of fill_holes()."""
-
     energy: str
     joint: str
     noisy: bool  # more rings determine the continuation, none of them exactly
@@ -249,7 +247,6 @@ class NearHole:
         return np.cross(corner[:, 2] - corner[:, 0], corner[:, -1] - corner[:, 1])
 
     def area(self, own: np.ndarray) -> float:
-        """The area of the filling."""
         return float(np.linalg.norm(self._normals(own), axis=1).sum())
 
     def _folds(self, own: np.ndarray) -> tuple[int, int]:

@@ -222,7 +222,8 @@ class SplinePatches:
     def _fit(self) -> np.ndarray:
         """(P,) the largest distance of each patch and its edges from the refined surface."""
         fit = self.residual.copy()
-        np.maximum.at(fit, self._patch_of_steps, self.edge_error[self.loop_edges])
+        patch_of_steps = np.repeat(np.arange(len(self)), np.diff(self.loop_offsets))
+        np.maximum.at(fit, patch_of_steps, self.edge_error[self.loop_edges])
         return fit
 
     @property
@@ -243,10 +244,6 @@ class SplinePatches:
     @property
     def _patch_of_faces(self) -> np.ndarray:
         return np.repeat(np.arange(len(self)), np.diff(self.patch_face_offsets))
-
-    @property
-    def _patch_of_steps(self) -> np.ndarray:
-        return np.repeat(np.arange(len(self)), np.diff(self.loop_offsets))
 
     @property
     def largest_residual(self) -> float:

@@ -164,7 +164,6 @@ class RimEdges:
             self.put(row, its)
 
     def put(self, row: int, faces: np.ndarray) -> None:
-        """Replaces the faces of the filling `row`."""
         self._uses.subtract(self._of.get(row, ()))
         self._of[row] = self._keys(faces)
         self._uses.update(self._of[row])

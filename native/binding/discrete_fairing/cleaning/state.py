@@ -176,7 +176,6 @@ class Sides:
         return np.flatnonzero(self.uses > 2)
 
     def around(self, edge: int) -> np.ndarray:
-        """The sides at an edge."""
         return self.order[self.starts[edge] : self.starts[edge] + self.uses[edge]]
 
 

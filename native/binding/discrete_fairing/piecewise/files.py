@@ -51,7 +51,6 @@ class Record:
 
 
 def is_group(path: str | PathLike) -> bool:
-    """Whether the path names a Zarr group."""
     return str(path).rstrip("/").endswith(".zarr")
 
 

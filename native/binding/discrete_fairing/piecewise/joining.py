@@ -73,7 +73,6 @@ def jumps(seams: list[tuple[int, np.ndarray, np.ndarray]], owner: Any, size: flo
 
 
 def loaded(parts: Parts) -> Iterable[Part]:
-    """Loads the parts, one after another."""
     for part in parts:
         yield part if isinstance(part, Part) else Part.load(part)
 

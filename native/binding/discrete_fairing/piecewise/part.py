@@ -121,7 +121,6 @@ class Part(Record):
             vertices[rows] = points
 
     def of_shape(self, shape: int) -> Part:
-        """The same part of a shape's surface."""
         of_shape: dict[str, Any] = dict(self.shapes[str(shape)])
         return replace(self, shapes={}, **of_shape)
 
