@@ -67,8 +67,6 @@ class CageSettings:
 
 
 class FAIRING_PG_curve(bpy.types.PropertyGroup):
-    """One curve object of a network."""
-
     source: PointerProperty(type=bpy.types.Object)
 
 

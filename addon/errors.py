@@ -205,7 +205,6 @@ def _thickness_text(warning: Mapping[str, Any]) -> tuple[str, str]:
 
 
 def warning_text(object_name: str, warning: Mapping[str, Any]) -> str:
-    """A warning of the core as a text for the user."""
     if warning["code"] in ("THICKNESS_CHANGED", "BULGES"):
         return f"{object_name}: {' '.join(map(_sentence, _thickness_text(warning)))}"
     sentences = _UNFINISHED.get(warning["code"], (warning["message"],))

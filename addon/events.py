@@ -42,7 +42,6 @@ def start_timer(function: Callable[[], float | None], seconds: float) -> None:
 
 
 def stop_timer(function: Callable[[], float | None]) -> None:
-    """Cancels a pending call."""
     if bpy.app.timers.is_registered(function):
         bpy.app.timers.unregister(function)
 

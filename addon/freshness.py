@@ -123,7 +123,6 @@ def know(target: Object) -> None:
 
 
 def known_surfaces() -> Iterator[Object]:
-    """The known surfaces that still exist."""
     for reference in list(_surfaces.values()):
         target = reference.find()
         if target is not None and target.users_scene and is_own(target):
@@ -236,7 +235,6 @@ def _checksum(
 
 
 def _values(modifier: Any) -> list[Any]:
-    """The modifier's properties with plain values."""
     plain = (bool, int, float, str)
     found = [getattr(modifier, p.identifier) for p in modifier.bl_rna.properties]
     return [value for value in found if isinstance(value, plain)]

@@ -69,7 +69,8 @@ class InPlaceJob(TimedRun):
             chosen = np.full(len(self.arrays.face_sizes), source.mode != "EDIT")
             if source.mode == "EDIT":
                 chosen[selected_faces(mesh, source.name)] = True
-        near = grown(self.arrays, chosen, self._rings)
+        rings = _RINGS_REFINED if options.levels else _RINGS[options.joint]
+        near = grown(self.arrays, chosen, rings)
         free = inside(self.arrays, chosen)
         _refuse(source.name, self.arrays, chosen, free, options)
         self._chosen = chosen
@@ -93,10 +94,6 @@ class InPlaceJob(TimedRun):
     def _arguments_of(self, arrays: Any, region: np.ndarray | None = None) -> dict[str, Any]:
         world = self.shape.of_arrays(arrays)
         return core.fair_arguments(world, self._asked, self._preferences, region)
-
-    @property
-    def _rings(self) -> int:
-        return _RINGS_REFINED if self._options.levels else _RINGS[self._options.joint]
 
     def _smoothed(self, watchers: dict[str, Any]) -> tuple[Any, float]:
         """The measured vertices without noise, at level 0, and the noise, found on a part."""

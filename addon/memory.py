@@ -83,8 +83,6 @@ class FAIRING_PG_surface(FairingSettings, bpy.types.PropertyGroup):
 
 
 class FAIRING_PG_scan(bpy.types.PropertyGroup):
-    """One of the scans of a surface."""
-
     target: PointerProperty(
         name="Scan",
         description="The object whose points the surface is near",
@@ -224,7 +222,6 @@ def _unset_unsound(group: Any) -> None:
 
 
 def _is_sound(known: Any, value: Any) -> bool:
-    """Whether `value` is a valid value of the property `known`."""
     if known.type == "ENUM":
         return value != ""
     if known.type not in {"INT", "FLOAT"}:

@@ -164,7 +164,6 @@ def progress_text(queue: Queue) -> str:
 
 
 def phase_text(phase: str) -> str:
-    """The name of a phase for users."""
     return _PHASES.get(phase, phase.capitalize())
 
 

@@ -82,8 +82,6 @@ class Settings:
 
 @dataclass(frozen=True)
 class PatchOptions:
-    """Settings of spline patches and of their file."""
-
     fit_tolerance: float  # relative to the surface's size; 0: the usual one, more near a scan
     fit_angle: float  # radians; 0: the usual one, more near a scan
     fit_levels: int  # 0: as many as the tolerance needs

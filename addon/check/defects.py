@@ -37,7 +37,6 @@ def entry(
 
 
 def as_dicts(found: Sequence[Any]) -> list[dict[str, Any]]:
-    """The core's defects as dicts, for storage."""
     return [entry(d.code, d.kind, d.elements, d.severity, d.message) for d in found]
 
 

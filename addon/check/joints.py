@@ -39,7 +39,6 @@ def rows() -> list[Row]:
 
 
 def chosen(context: Context) -> list[Object]:
-    """The selected mesh objects."""
     return [o for o in context.selected_objects if o.type == "MESH"]
 
 

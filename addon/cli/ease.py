@@ -29,8 +29,6 @@ _LENGTH = number("a length above 0", lambda value: 0.0 < value < inf)
 
 @dataclass(frozen=True)
 class PrepareOptions:
-    """The preparation of the control meshes of each input."""
-
     options: EaseOptions | None  # None: no easing
     tables: tuple[Path, ...] | None  # tables of strain, one an input; None: none are written
 

@@ -213,7 +213,6 @@ def _merge(mesh: Mesh) -> None:
 
 
 def _reason(error: Exception) -> str:
-    """The message of an operator's RuntimeError."""
     return str(error).strip().removeprefix("Error: ")
 
 

@@ -27,8 +27,6 @@ _NOT_HERE = ("energy", "interpolation", "limit", "tolerance_group", "pull_group"
 
 @dataclass(frozen=True)
 class FitOptions:
-    """The settings of a fit to scans."""
-
     cage: Path | None  # None: a cage is made
     cage_faces: int
     tolerance: float | None

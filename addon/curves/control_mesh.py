@@ -105,8 +105,8 @@ class _Builder:
     def fill(self, cell: Cell, number: int) -> None:
         sides = [self._side(side) for side in cell.sides]
         if len(sides) == 1:
-            sides = _in_four(sides[0])
-            self._round(sides)
+            quarter = (len(sides[0]) - 1) // 4
+            self._round([sides[0][k * quarter : (k + 1) * quarter + 1] for k in range(4)])
         elif len(sides) == 4:
             self._grid(*sides)
         else:
@@ -166,11 +166,6 @@ class _Builder:
         for k, side in enumerate(sides):
             self._grid(side, spokes[(k + 1) % 4], square[k][::-1], spokes[k][::-1])
         self._grid(*square)
-
-
-def _in_four(side: np.ndarray) -> list[np.ndarray]:
-    quarter = (len(side) - 1) // 4
-    return [side[k * quarter : (k + 1) * quarter + 1] for k in range(4)]
 
 
 def coons(bottom: np.ndarray, right: np.ndarray, top: np.ndarray, left: np.ndarray) -> np.ndarray:

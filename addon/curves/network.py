@@ -127,7 +127,6 @@ class _Stops:
         return number
 
     def _way(self, curve: int, t: float, u: float) -> float:
-        """Distance along the curve."""
         table = self._lengths[curve]
         way = abs(float(np.interp(t, table[0], table[1]) - np.interp(u, table[0], table[1])))
         return min(way, table[1][-1] - way) if self._curves[curve].closed else way

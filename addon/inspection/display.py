@@ -61,7 +61,6 @@ def _write_deviation(context: Context, target: Object, other: Object | None) -> 
 
 
 def have_values(mesh: Mesh, mode: str) -> bool:
-    """Whether the mesh has values for `mode`."""
     names = (VALUES[mode],) if mode == "DEVIATION" else (*CURVATURES.values(), INNER)
     return all(name in mesh.attributes for name in names)
 
@@ -115,7 +114,6 @@ def shows_uncovered(mesh: Mesh) -> bool:
 
 
 def remove_values(mesh: Mesh) -> None:
-    """Removes all values and colours from the mesh."""
     for name in (*VALUES.values(), INNER, COLOUR):
         attribute = mesh.attributes.get(name)
         if attribute is not None:
@@ -138,8 +136,8 @@ def value_text(scene: Scene, mode: str, value: float) -> str:
 
 def show(target: Object, mode: str, settings: Any) -> None:
     """Shows `mode`: NONE, one of STRIPES or VALUES. Edit Mode measures nothing: `refresh` later."""
-    if mode not in VALUES:
-        _clear_attributes(target)
+    if mode not in VALUES and target.mode != "EDIT" and not _shared_with_others(target):
+        remove_values(target.data)
     if mode == "NONE":
         viewport_material.take_off(target)
     elif mode in STRIPES:
@@ -195,11 +193,6 @@ def redraw(target: Object, settings: Any) -> None:
         viewport_material.put_on(target, mode, stripes_material(mode, settings), settings)
     elif mode in VALUES:
         viewport_material.put_on(target, CURVATURE_MODE, curvature_material(), settings)
-
-
-def _clear_attributes(target: Object) -> None:
-    if target.mode != "EDIT" and not _shared_with_others(target):
-        remove_values(target.data)
 
 
 def _shared_with_others(target: Object) -> bool:

@@ -80,7 +80,6 @@ def active_surfaces(context: Context) -> list[Object]:
 
 
 def live_surfaces_of(source: Object) -> list[Object]:
-    """The live surfaces that follow `source`."""
     pairs = [session.objects() for session in registry.sessions() if not session.ending]
     return [target for its, target in pairs if target is not None and its == source]
 

@@ -21,6 +21,7 @@ _BOUND = {
     "LAPLACIANDEFORM": ("laplaciandeform_bind", "is_bind"),
     "CORRECTIVE_SMOOTH": ("correctivesmooth_bind", "is_bind"),
 }
+_FOLLOWED = {"SUBSURF": "the surface already passes where it would"}
 _USELESS = {"MULTIRES": "its sculpted detail belongs to the faces of the control mesh"}
 
 
@@ -42,9 +43,8 @@ def copy_modifiers(
         object=source, active_object=source, selected_objects=both, selected_editable_objects=both
     ):
         bpy.ops.object.make_links_data(type="MODIFIERS")
-    notes = _missing(source, target) + _drop_useless(target) + _unbind(context, target)
-    if subdivided:
-        notes += _drop_subdivision(target)
+    left = _USELESS | _FOLLOWED if subdivided else _USELESS
+    notes = _missing(source, target) + _drop(target, left) + _unbind(context, target)
     copy_drivers(source, target, "modifiers[")
     inspection = inspection_modifier(target)
     if inspection is not None:  # the inspection display of the source
@@ -70,7 +70,6 @@ def left_out(source: Object) -> list[str]:
 
 
 def inspection_modifier(target: Object) -> Any:
-    """The inspection modifier of `target`, or None."""
     return next(
         (
             m
@@ -106,20 +105,11 @@ def _missing(source: Object, target: Object) -> list[str]:
     ]
 
 
-def _drop_useless(target: Object) -> list[str]:
+def _drop(target: Object, kinds: dict[str, str]) -> list[str]:
+    """Removes the modifiers of these `kinds`; returns the reasons, by kind, as sentences."""
     notes = []
-    for modifier in [m for m in target.modifiers if m.type in _USELESS]:
-        notes.append(f"The modifier '{modifier.name}' is not copied: {_USELESS[modifier.type]}.")
-        target.modifiers.remove(modifier)
-    return notes
-
-
-def _drop_subdivision(target: Object) -> list[str]:
-    notes = []
-    for modifier in [m for m in target.modifiers if m.type == "SUBSURF"]:
-        notes.append(
-            f"The modifier '{modifier.name}' is not copied: the surface already passes where it would."
-        )
+    for modifier in [m for m in target.modifiers if m.type in kinds]:
+        notes.append(f"The modifier '{modifier.name}' is not copied: {kinds[modifier.type]}.")
         target.modifiers.remove(modifier)
     return notes
 

@@ -41,7 +41,7 @@ class OBJECT_OT_fairing_fix_normal(Action, bpy.types.Operator):
                 raise JobError(
                     "Select one empty beside the mesh before Edit Mode: its Z axis is the normal"
                 )
-            axis = _z_axis(empties[0])
+            axis = Vector(tuple(row[2] for row in world_matrix(empties[0]))[:3])
             count = sum(fixed_normals.fix_along(source, axis) for source in sources)
         if not count:
             raise JobError("Select a vertex with faces first")
@@ -65,7 +65,3 @@ def _fix_own(context: Context, source: Object) -> int:
     with control_mesh(context, source) as mesh:
         normals = fixed_normals.own_normals(mesh)
     return fixed_normals.fix(source.data, normals)
-
-
-def _z_axis(empty: Object) -> Vector:
-    return Vector(tuple(row[2] for row in world_matrix(empty))[:3])

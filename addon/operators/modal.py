@@ -47,7 +47,9 @@ class ModalRun(OperatorBase):
             # while something is dragged, `finish` must not remove it
             if self._queue.finished and not is_dragging(context):
                 return self._end(context)
-            self._show_progress(context)
+            text = status_text(self._queue) + "     ESC: Cancel"
+            if self._progress.is_due(text):
+                self._show(context, text)
         return {"PASS_THROUGH"}
 
     def cancel(self, context: Context) -> None:
@@ -73,11 +75,6 @@ class ModalRun(OperatorBase):
             set_running(None)
         context.window_manager.event_timer_remove(self._timer)
         self._show(context, None)
-
-    def _show_progress(self, context: Context) -> None:
-        text = status_text(self._queue) + "     ESC: Cancel"
-        if self._progress.is_due(text):
-            self._show(context, text)
 
     def _show(self, context: Context, text: str | None) -> None:
         """Updates status bars and sidebars, not slow viewports; None restores Blender's text."""

@@ -53,7 +53,6 @@ class _Straining(WholeFairing):
         self.use(context, list(jobs))
 
     def use(self, context: Context, jobs: list[StrainJob]) -> None:
-        """Uses the strain of all objects that still exist."""
         raise NotImplementedError
 
 

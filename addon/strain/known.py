@@ -55,13 +55,10 @@ class _Watch:
             self.stale = True
         if self._queue is not None:
             return self._look(self._queue)
-        if self.stale and not (self._is_slow and is_dragging(context)):
+        is_slow = self.job is not None and self.job.taken > BRIEF
+        if self.stale and not (is_slow and is_dragging(context)):
             return self._begin(context, source)
         return False
-
-    @property
-    def _is_slow(self) -> bool:
-        return self.job is not None and self.job.taken > BRIEF
 
     def _look(self, queue: Queue) -> bool:
         if queue.finished:
@@ -131,7 +128,6 @@ def found_of(source: Object) -> Strained | None:
 
 
 def is_behind(source: Object) -> bool:
-    """Whether the result is being updated."""
     watch = _watches.get(session_key(source))
     return watch is not None and (watch.is_measured or watch.stale)
 
@@ -142,8 +138,8 @@ def trouble(source: Object) -> str:
     return "" if watch is None else watch.error
 
 
-def shown_changed() -> None:
-    """Call this when an object's display of strain is switched on or off."""
+def shown_changed(*_: Any) -> None:
+    """Call this when an object's display of strain is switched on or off, or a file was opened."""
     shown_sources.forget()
     _start_timer()
 
@@ -211,18 +207,13 @@ def _forget(*_: Any) -> None:
     shown_sources.forget()
 
 
-def _resume(*_: Any) -> None:
-    """Starts again if a file was saved with strain shown."""
-    shown_changed()
-
-
 HANDLERS = {
     "depsgraph_update_post": _note_changes,
     "frame_change_post": _mark_stale,
     "undo_post": _mark_all_stale,
     "redo_post": _mark_all_stale,
     "load_pre": _forget,
-    "load_post": _resume,
+    "load_post": shown_changed,
 }
 TIMERS = (_on_timer,)
 

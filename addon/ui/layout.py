@@ -79,7 +79,6 @@ def draw_job(
 
 
 def amount_names(near: FitAmount) -> tuple[str, ...]:
-    """The settings of a fit's amount that apply."""
     return ("amount", "tolerance") if near.amount == "TOLERANCE" else ("amount",)
 
 

@@ -25,7 +25,6 @@ def draw_live(layout: bpy.types.UILayout, context: Context) -> None:
 
 
 def draw_stale(layout: bpy.types.UILayout, target: Object) -> None:
-    """The badge of a surface that is out of date."""
     reason = "" if switch.is_seen_to(target) else why_stale(target)
     if reason:
         row = layout.row()

@@ -21,7 +21,7 @@ from ..mesh.world_shape import world_shape
 from ..mesh.write import FAULTS, NO_POINTS
 from ..properties import FairingSettings
 from ..purposes import PRESET_FOLDER, is_shipped, job_of
-from ..queue import Queue, running, status_text
+from ..queue import running, status_text
 from ..settings import Settings, halves, is_evaluated, is_limit, is_near, subdivision
 from ..units import length_text
 from .layout import (
@@ -114,7 +114,8 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
             )
         queue = running()
         if queue is not None:
-            _draw_progress(layout, queue)
+            layout.progress(factor=queue.fraction, text=status_text(queue))
+            layout.operator("object.fairing_cancel", icon="X")
         elif memory is not None:
             draw_stale(layout, cast(Object, context.active_object))
             _draw_button(layout, "object.fairing_recompute", "FILE_REFRESH", "Recompute")
@@ -343,8 +344,3 @@ def _draw_cad(layout: bpy.types.UILayout) -> None:
     row = layout.row(align=True)
     row.operator("export_scene.fairing_step", text="Export STEP", icon="EXPORT")
     row.operator("object.fairing_show_patches", icon="OUTLINER_OB_SURFACE")
-
-
-def _draw_progress(layout: bpy.types.UILayout, queue: Queue) -> None:
-    layout.progress(factor=queue.fraction, text=status_text(queue))
-    layout.operator("object.fairing_cancel", icon="X")

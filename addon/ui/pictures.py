@@ -70,7 +70,6 @@ def draw_choices(layout: bpy.types.UILayout, owner: Any, name: str, labels: dict
 
 
 def draw_ends(layout: bpy.types.UILayout, low: str, high: str) -> None:
-    """Pictures of the two ends of a slider."""
     row = layout.row()
     for key, text in ((low, "0"), (high, "1")):
         column = row.column()
