@@ -34,7 +34,6 @@ from .mesh.write import attributes_left_out, refill_mesh, write_mesh, write_pad_
 from .preferences import preferences
 from .settings import (
     Settings,
-    are_mirrored,
     halves,
     is_evaluated,
     is_limit,
@@ -151,13 +150,7 @@ class Job(TimedRun):
             )
 
     def _not_done(self) -> Iterator[str]:
-        """What the run or the energy ignores, a sentence each."""
-        settings, source = self.settings, self.source
-        used = is_evaluated(settings) or wants_modifiers(settings)
-        if self._target is None and source is not None and not used and are_mirrored([source]):
-            half = settings.symmetry_plane != "NONE"
-            cure = "switch on Copy Modifiers" if half else "set Control Mesh to With Modifiers"
-            yield f"Its Mirror modifier is not used: for the whole, {cure}."
+        """Settings that the energy ignores, a sentence each."""
         if "shapes" in self.arguments and self.settings.energy != "THIN_PLATE":
             yield "Each shape key is faired separately. Mixtures of them are fair with Bending only."
         if self.arrays.normals is not None and not core.keeps_marks(self.settings):
