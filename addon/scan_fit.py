@@ -102,6 +102,12 @@ class FitJob(Job):
             self._made["scans"] = scans.made_of(context, fit.objects, cage)
         self._points = len(fit.scan.points)
 
+    @property
+    def made_from(self) -> list[Object]:
+        """The cage and the scans, those that still exist."""
+        found = (reference.find() for reference in (self.reference, *self._scans))
+        return [target for target in found if target is not None]
+
     def _is_open(self) -> bool:
         return bool((np.bincount(self.arrays.corner_edges) == 1).any())
 

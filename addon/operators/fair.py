@@ -13,7 +13,7 @@ from ..freshness import is_own, stale_surfaces
 from ..job import Job
 from ..live import switch
 from ..live.pace import Deadline
-from ..memory import no_source_reason, source_of
+from ..memory import no_source_reason, scans_of, source_of
 from ..mesh.object import is_in_view_layer, nothing_left_behind, select_only, why_not_here
 from ..mesh.read import control_meshes, source_objects
 from ..poll import IN_EITHER_MODE, LINKED_SURFACE, ExplainedPoll, in_mode, needs
@@ -166,12 +166,15 @@ class FairSurface(Fairing, FairingSettings):
 
     def after(self, context: Context, jobs: Sequence[Job]) -> None:
         for job in jobs:
-            source = cast(Object, job.source)  # `finish` has checked it
-            # one with a live surface is being edited
-            hidden = self.hide_source and not switch.live_surfaces_of(source)
-            hidden = hidden and source.mode == "OBJECT"
-            if hidden and is_in_view_layer(context, source):
-                source.hide_set(True)
+            if self.hide_source:
+                hide(context, cast(Object, job.source))  # `finish` has checked it
+
+
+def hide(context: Context, source: Object) -> None:
+    """Hides what a surface was made from, unless it is edited, as one with a live surface is."""
+    edited = source.mode != "OBJECT" or switch.live_surfaces_of(source)
+    if not edited and is_in_view_layer(context, source):
+        source.hide_set(True)
 
 
 class WholeFairing(Fairing):
@@ -252,7 +255,7 @@ class OBJECT_OT_fairing_recompute_stale(Fairing, bpy.types.Operator):
 
 
 class OBJECT_OT_fairing_show_source(Action, bpy.types.Operator):
-    """Show the source of this surface and select it, to edit its vertices"""
+    """Show the source of this surface, and its scans, and select it, to edit its vertices"""
 
     bl_idname = "object.fairing_show_source"
     bl_label = "Show Source"
@@ -266,7 +269,10 @@ class OBJECT_OT_fairing_show_source(Action, bpy.types.Operator):
     reasons = (in_mode("Go to Object Mode first", "OBJECT"), _source_reason)
 
     def act(self, context: Context) -> None:
-        source = source_of(cast(Object, context.active_object))
+        surface = cast(Object, context.active_object)
+        source = source_of(surface)
         assert source is not None  # poll has checked it
-        source.hide_set(False)
+        for target in (source, *scans_of(surface)):
+            if is_in_view_layer(context, target):
+                target.hide_set(False)
         select_only(context, [source])

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Fair Surface on Scan: the fairest surface of a cage near a scan."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 import bpy
@@ -19,7 +19,7 @@ from ..scan_fit import Fit, FitJob
 from ..settings import Settings
 from ..ui.layout import amount_names
 from ..words import counted
-from .fair import WholeFairing, can_fair
+from .fair import WholeFairing, can_fair, hide
 from .mixins import Shown
 
 
@@ -113,6 +113,12 @@ class OBJECT_OT_fairing_fit(Shown, WholeFairing, FitAmount, bpy.types.Operator):
         if note:
             job.notes.append(note)
         return job
+
+    def after(self, context: Context, jobs: Sequence[FitJob]) -> None:
+        """Hides scans and cage, which lie in the surface, among its points."""
+        for job in jobs:
+            for target in job.made_from if job.settings.hide_source else ():
+                hide(context, target)
 
     def _note_of(self, made: MadeCage) -> str:
         """What a cage that was made leaves out, or why it has another number of faces than was asked for."""

@@ -221,6 +221,7 @@ def test_a_scan_that_is_inside_out_is_said(capsys):
     bpy.context.view_layer.update()
     fit(scan, levels=1, cage_faces=40)
     assert "inside out" not in capsys.readouterr().out
+    scan.hide_set(False)
     scan.data.flip_normals()
     fit(scan, levels=1, cage_faces=40)
     said = capsys.readouterr().out
@@ -230,6 +231,17 @@ def test_a_scan_that_is_inside_out_is_said(capsys):
 def fitted():
     scan, cage = ball("Scan", 5, noise=0.01), cage_of_cube()
     return scan, cage, fit(scan, cage, levels=3)
+
+
+def test_the_surface_alone_is_shown_and_show_source_shows_what_it_was_made_from():
+    """All three lay among one another."""
+    scan, cage, made = fitted()
+    assert [o.visible_get() for o in (scan, cage, made)] == [False, False, True]
+    assert bpy.ops.object.fairing_show_source() == {"FINISHED"}
+    assert scan.visible_get() and cage.visible_get() and cage.select_get() and not scan.select_get()
+    bpy.context.scene.discrete_fairing.hide_source = False
+    fit(scan, cage, levels=1)
+    assert scan.visible_get() and cage.visible_get()
 
 
 def off(target, centre=(0, 0, 0)):
