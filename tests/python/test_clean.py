@@ -485,10 +485,11 @@ def test_an_underside_is_flat_where_gaps_run_into_its_rims():
     assert (abs(used[:, 2]) < 1e-9).sum() > 500
 
 
-@pytest.mark.parametrize("seed", range(3))
-def test_a_noisy_bushing_leaves_no_face_without_area_and_none_that_crosses(seed):
+# at the last one a slit remains where two vertices lie on an edge
+@pytest.mark.parametrize("noise, seed", [(0.03, 0), (0.03, 1), (0.03, 2), (0.05, 3)])
+def test_a_noisy_bushing_leaves_no_face_without_area_and_none_that_crosses(noise, seed):
     vertices, faces = bushing()
-    vertices += np.random.default_rng(seed).normal(0, 0.03, vertices.shape)
+    vertices += np.random.default_rng(seed).normal(0, noise, vertices.shape)
     cleaned = df.clean(vertices, faces)
     assert cleaned.watertight
     assert cleaned.left == []  # of 503 to 552 crossing faces

@@ -134,10 +134,11 @@ class Run:
         self._note_mended(mended, acts)
 
     def mend_pressed(self) -> None:
-        """Mends faces that press() has left without area, unless a slit would be left, as where two vertices
-        lie in the middle of an edge between them.
+        """Mends faces that press() has left without area, and joins the slits that stay where two vertices lie
+        on an edge between them; not if that opens a border.
         """
         mended, acts = topology.mended(self.state, self.watchers)
+        mended, _ = topology.borders_joined(mended)
         if mended.sides.at_border.sum() <= self.state.sides.at_border.sum():
             self._note_mended(mended, acts)
 
