@@ -256,7 +256,7 @@ def faults_remedy(settings: AnySettings) -> str:
     if _may_be_tauter(settings):
         help_by.insert(0, "raise Tension")
     if settings.interpolation == "EXACT":
-        help_by.append("set Vertices to Near")
+        help_by.append("set Vertices to Limit or Near")
     help_by.append("add vertices there")
     words = listed(help_by, "or")
     return _sentence(words[0].upper() + words[1:])

@@ -35,7 +35,7 @@ def test_an_inner_wall_that_breaks_through_is_told_and_its_places_can_be_selecte
     target = fair(levels=2, energy="TOTAL_CURVATURE")
     said = capfd.readouterr().out
     assert "The surface crosses itself and bulges" in said
-    assert "aise Tension" in said and "Near" in said and "Bending" in said
+    assert "aise Tension" in said and "Limit or Near" in said and "Bending" in said
     crossing = marked(target, "crossing")
     radius = np.linalg.norm(positions(target.data)[crossing][:, :2], axis=1)
     assert len(radius) > 20 and radius.min() > 0.5, "where the walls are, not in the bottom"
@@ -79,3 +79,9 @@ def test_fine_surfaces_are_looked_at_by_fewer_points(most, monkeypatch):
     assert job.transfer.triangle_count == 1536 and found.counts["crossing"] > 20
     plain = job_of(add("Thin", *mug(wall=0.07)), energy="THIN_PLATE", levels=3)
     assert faults.find_faults(plain.result, plain.transfer, plain.arrays).counts == {}
+
+
+def test_limit_cures_an_inner_wall_that_breaks_through(capfd):
+    add("Mug", *mug(wall=0.1, around=12))
+    fair(levels=2, energy="TOTAL_CURVATURE", interpolation="LIMIT")
+    assert "crosses itself" not in capfd.readouterr().out
