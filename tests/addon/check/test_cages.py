@@ -16,6 +16,7 @@ from scenes import (
     settings,
     to_object_mode,
 )
+from shapes import lathe
 
 from addon.job import Job
 from addon.ui import main
@@ -92,6 +93,13 @@ def chamfered():
     return source
 
 
+def vase():
+    """A vase with walls, on a base of one face that flares into its side."""
+    outside = [(3, 0), (4, 2), (4.5, 5), (3.5, 8), (2, 10), (2.5, 11)]
+    inside = [(2.2, 11), (1.7, 10), (3.2, 8), (4.2, 5), (3.7, 2), (2.7, 0.4)]
+    return add("Vase", *lathe(outside + inside, 16))
+
+
 def vertices_line():
     lines = [str(line) for line in draw(main.VIEW3D_PT_fairing)]
     return [line for line in lines if line.startswith(("Limit: ", "Through every"))]
@@ -103,6 +111,7 @@ CAGES = {
     "rim": lambda: add_rounded_box(SIZE, LOOP, 2),
     "round rim": lambda: add_rounded_box(SIZE, LOOP, 4),
     "chamfered stack": chamfered,
+    "vase": vase,
 }
 OTHERS = {
     "open": open_phone,
@@ -182,3 +191,9 @@ def test_a_chamfered_cylinder_keeps_its_radius_and_nothing_is_wrong_with_it(capf
         radii[how] = np.hypot(*positions(target.data)[:, :2].T).max()
     assert 0.98 < radii["AUTO"] <= 1.0 and radii["EXACT"] > 1.04
     assert "bulges" not in capfd.readouterr().out
+
+
+def test_a_vase_stands_on_its_base():
+    """Through its vertices the base bulges by 0.87 below them, of 11."""
+    vase()
+    assert positions(fair(levels=3).data)[:, 2].min() >= 0.0
