@@ -94,6 +94,7 @@ class HeldSolve {
   // `constraints`: null if no control vertex has a tolerance. All must outlive it.
   HeldSolve(const HeldSystem<N>& system, const HeldLimits& limits, Constraints* constraints,
             Multipliers<N>& multipliers, HeldReport& report);
+  HeldSolve(const HeldSolve&) = delete;  // its steps use its own product
 
   // Improves x in place, together with its multipliers. r: room for a residual. `residual` of the
   // result is relative to the limits' scale, whatever each solve's own tolerance was.
