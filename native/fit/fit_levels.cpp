@@ -80,7 +80,6 @@ void FitLevels::run(FitReport& report) {
   // The decrease of the residual from level to level is not noise but the resolution of the
   // level. Such shapes need the shorter waves of the next level, so the weight grows with them.
   double left_below = 0;
-  std::vector<double> share(problem_.mesh.faces.size(), 1.0);
   for (int level = search_; level <= levels_.top(); ++level) {
     const bool is_last = level == levels_.top();
     Array<double> x = level == search_ ? fit->surface() : above(*fit);
@@ -90,20 +89,18 @@ void FitLevels::run(FitReport& report) {
     if (is_last) weight_ *= choice.more_points(scan_.size()) / choice.more_points(thin_.size());
     fit->set_surface(std::move(x));
     fit->stay_near(prior(*fit));
-    fit->set_shares(share);
-    fit_curves(*fit, weight_, level == search_ ? 4 : 2, true);
+    fit_curves(*fit, weight_, 2, true);
     const double left = spread_of(fit->feet(), {}).rms;
     if (is_automatic && level > search_) {
       const double grown = weight_ * std::pow(std::max(left_below / left, 1.0), 2);
       weight_ = std::max(weight_, std::min(grown, fit->stiffest()));
-      fit_curves(*fit, weight_, 2, true);
     }
     left_below = left;
-    if (shows_bends(levels_.grid(level)) && !is_last) round_off(*fit, weight_, share);
+    fit_curves(*fit, weight_, 2, true);
     monitor_.report(Phase::solve, 1 - std::pow(2, level - levels_.top() - 3));
   }
   keep_tolerance(*fit);
-  round_off(*fit, weight_, share);
+  round_off(*fit, weight_);
   report.iterations += fit->iterations();
   report.weight = weight_;
   surface_ = fit->surface();

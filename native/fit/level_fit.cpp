@@ -14,8 +14,7 @@ LevelFit::LevelFit(const FitProblem& problem, int level)
       cells_(problem.levels.grid(level), problem.levels.workers()),
       finder_(cells_, problem.scan, 2 * problem.edge, problem.levels.workers()),
       sums_(cells_, problem.levels.workers()),
-      unknown_(unknown_points(problem.levels.grid(level), problem.levels.shared().unknowns)),
-      share_(cells_.grid().mesh().faces.size(), 1.0) {}
+      unknown_(unknown_points(problem.levels.grid(level), problem.levels.shared().unknowns)) {}
 
 void LevelFit::set_surface(Array<double> x) {
   x_ = std::move(x);
@@ -59,7 +58,8 @@ void LevelFit::compute_forces(double weight, bool robust) {
   robust_weight_.resize(feet_.size());
   for_each_index(workers, feet_.size(), [&](std::size_t s) {
     const bool counts = trained_.empty() || trained_[s];
-    const double share = !feet_[s].is_used() ? 1 : share_[cells_.face(feet_[s].cell)];
+    const double share =
+        share_.empty() || !feet_[s].is_used() ? 1 : share_[cells_.face(feet_[s].cell)];
     // where points act less the surface leaves them: they are not outliers
     const bool doubted = robust && share == 1;
     robust_weight_[s] =

@@ -53,7 +53,7 @@ class LevelFit {
   // Flags of points that are used; empty: all.
   void train_on(std::vector<std::uint8_t> points) { trained_ = std::move(points); }
   void stay_near(Prior prior) { prior_ = std::move(prior); }
-  // Points over a control face act with its share of their force from now on; at first in full.
+  // Points over a control face act with its share of their force from now on.
   void set_shares(std::vector<double> share) { share_ = std::move(share); }
 
   // `count` iterations of feet, forces and solve. `robust`: outliers have less weight.
@@ -81,7 +81,7 @@ class LevelFit {
   PointForces sums_;
   std::vector<std::uint8_t> unknown_;
   std::vector<std::uint8_t> trained_;
-  std::vector<double> share_;
+  std::vector<double> share_;  // empty: 1
   Prior prior_;
   Array<double> x_, r_, right_side_;  // right_side_ is the right-hand side
   Array<Foot> feet_;

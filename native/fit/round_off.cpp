@@ -37,14 +37,11 @@ void lessen(const ControlMesh& mesh, const std::vector<double>& turn, double lim
 
 }  // namespace
 
-bool shows_bends(const GridLevel& grid) { return bends_an_edge < grid.n(); }
-
-void round_off(LevelFit& fit, double weight, std::vector<double>& share) {
+void round_off(LevelFit& fit, double weight) {
   const GridLevel& grid = fit.cells().grid();
   const double limit = std::min(std::numbers::pi / 2, bends_an_edge / grid.n());
-  // levels above the first that shows bends correct only
-  const int passes = bends_an_edge < grid.n() / 2 ? most_passes / 4 : most_passes;
-  for (int pass = 0; pass < passes; ++pass) {
+  std::vector<double> share(grid.mesh().faces.size(), 1.0);
+  for (int pass = 0; pass < most_passes; ++pass) {
     const std::vector<double> turn = sharpest_turns(grid, fit.workers(), fit.surface().data());
     if (*std::max_element(turn.begin(), turn.end()) <= limit) return;
     lessen(grid.mesh(), turn, limit, share);

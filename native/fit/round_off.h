@@ -9,10 +9,6 @@ namespace fairing {
 // A surface bends about no radius below a tenth of a control edge: a patch of one face cannot
 // follow that, and where points ask for less the surface folds. Points over such faces act less,
 // pass by pass; where they hardly act any more, the points around make the fold, and act less too.
-// `share` has a share for each face: 1 at first, then that of the coarser level.
-void round_off(LevelFit& fit, double weight, std::vector<double>& share);
-
-// Whether cells of this level show such a bend: it turns by less than a radian from one to the next.
-bool shows_bends(const GridLevel& grid);
+void round_off(LevelFit& fit, double weight);
 
 }  // namespace fairing
