@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from .. import _native
+from ..arrays import ranges
 from ..patches import connected_parts
 from .shape import ROUNDS
 from .state import State
@@ -96,10 +97,4 @@ def _middles(part: State, points: np.ndarray) -> np.ndarray:
 def _gathered(state: State, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """The corners of `faces` (ids), one face after another, and the end of each."""
     first, last = state.offsets[faces], state.offsets[faces + 1]
-    return state.corners[_ranges(first, last)], np.cumsum(last - first)
-
-
-def _ranges(first: np.ndarray, last: np.ndarray) -> np.ndarray:
-    """The numbers of each range from `first` to before `last`, one range after another."""
-    sizes = last - first
-    return np.arange(sizes.sum()) + np.repeat(first - np.cumsum(sizes) + sizes, sizes)
+    return state.corners[ranges(first, last)], np.cumsum(last - first)
