@@ -26,25 +26,18 @@ NEWTON = 6
 
 
 @dataclass(frozen=True)
-class Border:
-    """The border edges of a mesh, and its surface at their ends.
+class BorderCurve:
+    """The curve through the vertices of border edges.
 
-    edge: (b, 2) vertices, with the face on the left; face: (b,) that face. vertex: (k,) the border's
-    vertices; by vertex, (k, 3): point, normal, and `inward`, across the border; bend: (k, 3, 3), the
-    second fundamental form with that normal, positive where the surface turns towards it.
+    edge: (b, 2) vertices, with the face on the left; face: (b,) that face. vertex: (k,) the vertices;
+    point: (k, 3).
     """
 
     edge: np.ndarray
     face: np.ndarray
     vertex: np.ndarray
     point: np.ndarray
-    normal: np.ndarray
-    inward: np.ndarray
-    bend: np.ndarray
     slot: np.ndarray  # (n,): the row of each vertex of the mesh; -1 off the border
-    # By vertex: (m,) points, and (2, m) the changes of the slope and of the curvature across the border
-    # per move of each point along the normal.
-    fits: list[tuple[np.ndarray, np.ndarray]]
 
     @cached_property
     def links(self) -> np.ndarray:
@@ -60,11 +53,12 @@ class Border:
 
     @cached_property
     def along(self) -> np.ndarray:
-        """(k, 3): unit tangents of the curve through the vertices; at a corner the tangent of one side."""
+        """(k, 3): unit tangents of the curve; at a corner the mean of both sides."""
         rows, weights = self.cubics
-        out = np.empty_like(self.point)
+        out = np.zeros_like(self.point)
         for end, slope in ((1, [0, 1, 2, 3]), (0, [0, 1, 0, 0])):
-            out[self.ends[end]] = np.einsum("c,bcs,bsj->bj", slope, weights, self.point[rows])
+            way = np.einsum("c,bcs,bsj->bj", slope, weights, self.point[rows])
+            np.add.at(out, self.ends[end], unit_vectors(way))
         return unit_vectors(out)
 
     @cached_property
@@ -149,6 +143,22 @@ class Border:
                 share = np.where(moved, 1 - over if side == 0 else over, share)
         return edge, share, points - away
 
+
+@dataclass(frozen=True)
+class Border(BorderCurve):
+    """The border edges of a mesh, and its surface at their ends.
+
+    By vertex, (k, 3): normal, and `inward`, across the border; bend: (k, 3, 3), the second fundamental
+    form with that normal, positive where the surface turns towards it.
+    """
+
+    normal: np.ndarray
+    inward: np.ndarray
+    bend: np.ndarray
+    # By vertex: (m,) points, and (2, m) the changes of the slope and of the curvature across the border
+    # per move of each point along the normal.
+    fits: list[tuple[np.ndarray, np.ndarray]]
+
     def at(self, points: np.ndarray) -> Foot:
         """The nearest points on the border curve, which lie between its vertices too."""
         edge, share, _ = self.feet(points)
@@ -178,32 +188,33 @@ def border_edges(corners: np.ndarray, offsets: np.ndarray) -> tuple[np.ndarray, 
     return edge[single], np.repeat(np.arange(len(sizes)), sizes)[single]
 
 
+def border_curve(
+    points: np.ndarray, corners: np.ndarray, offsets: np.ndarray, only: np.ndarray | None = None
+) -> BorderCurve:
+    """The border's curve. `only`: (j,) the border vertices to take; None: all."""
+    edge, face = border_edges(corners, offsets)
+    if only is not None:
+        kept = np.isin(edge, only).all(axis=1)
+        edge, face = edge[kept], face[kept]
+    vertex = np.unique(edge)
+    slot = np.full(len(points), -1)
+    slot[vertex] = np.arange(len(vertex))
+    return BorderCurve(edge, face, vertex, points[vertex], slot)
+
+
 def border_of(
     points: np.ndarray,
     corners: np.ndarray,
     offsets: np.ndarray,
-    rings: int = RINGS,
     only: np.ndarray | None = None,
 ) -> Border:
-    """The border of a mesh. A vertex where two borders meet has the values of one of them. `only`: (j,)
-    the border vertices to return; None: all.
+    """The border of a mesh, or `only` some of its vertices, as in border_curve(). A vertex where two
+    borders meet, and a corner, have the values of one of them.
     """
-    edge, face = border_edges(corners, offsets)
-    vertex = np.unique(edge)
-    slot = np.full(len(points), -1)
-    slot[vertex] = np.arange(len(vertex))
-    before, after = (np.full(len(vertex), -1) for _ in range(2))
-    after[slot[edge[:, 0]]] = edge[:, 1]
-    before[slot[edge[:, 1]]] = edge[:, 0]
-    along = _tangents(points, vertex, before, after)
-    if only is not None:
-        kept = np.isin(edge, only).all(axis=1)
-        edge, face, along = edge[kept], face[kept], along[np.isin(vertex, edge[kept])]
-        vertex = np.unique(edge)
-        slot[:] = -1
-        slot[vertex] = np.arange(len(vertex))
+    curve = border_curve(points, corners, offsets, only)
+    vertex, along = curve.vertex, curve.along
     around = _Around(corners, offsets)
-    up, near = around.normals(points, vertex), around.rings(vertex, rings)
+    up, near = around.normals(points, vertex), around.rings(vertex, RINGS)
     ids = [found[found != v] for found, v in zip(near, vertex)]
     count = np.array([len(found) for found in ids])
     normal, inward = np.empty((len(vertex), 3)), np.empty((len(vertex), 3))
@@ -214,16 +225,9 @@ def border_of(
         normal[at], inward[at], bend[at], rows = _fitted(away, along[at], up[at])
         for k, row in zip(at, rows):
             fits[k] = ids[k], row
-    return Border(edge, face, vertex, points[vertex], normal, inward, bend, slot, fits)
-
-
-def _tangents(
-    points: np.ndarray, vertex: np.ndarray, before: np.ndarray, after: np.ndarray
-) -> np.ndarray:
-    """Tangents of the border at its vertices, by the parabola through three vertices."""
-    back, on = points[vertex] - points[before], points[after] - points[vertex]
-    p, q = (np.linalg.norm(side, axis=1, keepdims=True) for side in (back, on))
-    return unit_vectors(back * q / p + on * p / q)
+    return Border(
+        curve.edge, curve.face, vertex, curve.point, curve.slot, normal, inward, bend, fits
+    )
 
 
 class _Around:
@@ -296,6 +300,12 @@ def _fitted(near: np.ndarray, along: np.ndarray, up: np.ndarray) -> tuple[np.nda
     bend = solved[:, [[2, 3], [3, 4]]] / size[:, None, None]
     rows = inverse[:, [1, 4]] / np.stack([size, size * size], 1)[..., None]
     return up, axes[:, 1], np.einsum("gai,gab,gbj->gij", axes, bend, axes), rows
+
+
+def across(surface: Border | Foot, along: np.ndarray) -> np.ndarray:
+    """(k, 3): unit vectors into the surface, in its tangent planes and at right angles to `along`."""
+    way = unit_vectors(np.cross(surface.normal, along))
+    return way * np.sign(dot(way, surface.inward))[:, None]
 
 
 def dot(a: np.ndarray, b: np.ndarray) -> np.ndarray:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .borders import Border, Foot, dot, unit_vectors
+from .borders import Border, Foot, across, dot, unit_vectors
 
 
 @dataclass(frozen=True)
@@ -20,18 +20,21 @@ class Halfway:
     def at(self, points: np.ndarray) -> Foot:
         """As Border.at() of the other: `inward` is the other's way."""
         own, other = self.own.at(points), self.other.at(points)
-        along = np.cross(other.inward, other.normal)
+        edge, share, _ = self.own.feet(points)
+        curve = unit_vectors(self.own.between(self.own.along, edge, share))
+        ways = [across(foot, curve) for foot in (own, other)]
+        along = np.cross(ways[1], other.normal)
         # the borders run in opposite directions, unless the faces of one are flipped
-        same = -np.sign(dot(np.cross(own.inward, own.normal), along))
-        inward = unit_vectors(other.inward - own.inward)
-        bend = (_across(other) + same * _across(own)) / 2
+        same = -np.sign(dot(np.cross(ways[0], own.normal), along))
+        inward = unit_vectors(ways[1] - ways[0])
+        bends = [
+            np.einsum("ki,kij,kj->k", way, foot.bend, way) for way, foot in zip(ways, (own, other))
+        ]
         return Foot(
             (own.point + other.point) / 2,
             unit_vectors(np.cross(along, inward)),
             inward,
-            bend[:, None, None] * inward[:, :, None] * inward[:, None, :],
+            ((bends[1] + same * bends[0]) / 2)[:, None, None]
+            * inward[:, :, None]
+            * inward[:, None, :],
         )
-
-
-def _across(foot: Foot) -> np.ndarray:
-    return np.asarray(np.einsum("ki,kij,kj->k", foot.inward, foot.bend, foot.inward))

@@ -31,7 +31,7 @@ NEAR = 0.05
 PASSES = {
     "position": {"position": 1},
     "tangent": {"position": 1, "tangent": 4},
-    "curvature": {"position": 1, "curvature": 12},
+    "curvature": {"position": 1, "curvature": 16},
 }
 
 

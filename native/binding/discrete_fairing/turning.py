@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .borders import Border, Foot, dot, unit_vectors
+from .borders import Border, Foot, across, dot
 
 # Steps of conjugate gradients, and the relative residual at which they end.
 STEPS, LEFT = 2000, 1e-4
@@ -39,11 +39,12 @@ class Angles:
         self.profiles = [profile / unit for profile, unit in zip(profiles, self.units)]
         self.rows, self.weights = shares[0], self._from_lines(*shares)
         entries = []
-        for k in np.flatnonzero(self.inside):
+        for k in range(self.count):
             near, fit = own.fits[k]
             on = np.flatnonzero(where[near] >= 0)
             p = where[near[on]]
-            for row, unit in enumerate(self.units):
+            # at ends no curvature: between triangles the fits hardly see it
+            for row, unit in enumerate(self.units[: 1 + self.inside[k]]):
                 seen = unit * fit[row, on] * (lift[p] @ own.normal[k])
                 for column, profile in enumerate(self.profiles):
                     values = (seen * profile[p])[:, None] * self.weights[p]
@@ -68,8 +69,8 @@ class Angles:
         """(p, 1): angles with the `wanted` turns and changes of curvature in the fits; by conjugate
         gradients on the normal equations, stopped before insensitive components grow.
         """
-        parts = [np.where(self.inside, w * unit, 0) for w, unit in zip(wanted, self.units)]
-        left = np.concatenate(parts)
+        rows = (1, self.inside)
+        left = np.concatenate([row * w * unit for row, w, unit in zip(rows, wanted, self.units)])
         found, enough = np.zeros(len(left)), LEFT * np.linalg.norm(left)
         way = slope = self._back(left)
         for _ in range(STEPS):
@@ -91,12 +92,7 @@ class Angles:
 
 def needed(own: Border, foot: Foot) -> tuple[np.ndarray, np.ndarray]:
     """(k,) the angles about the border to the neighbour's tangent plane, and the change of curvature."""
-
-    def across(of: Border | Foot) -> np.ndarray:
-        inward = unit_vectors(np.cross(of.normal, own.along))
-        return inward * np.sign(dot(inward, of.inward))[:, None]
-
-    before, after = across(own), -across(foot)  # away from the neighbour
+    before, after = across(own, own.along), -across(foot, own.along)  # away from the neighbour
     turn = np.arctan2(dot(own.along, np.cross(before, after)), dot(before, after))
     side = np.sign(dot(np.cross(own.along, after), foot.normal))
     # Across the border only: along it both have the same curve, and errors of the fits would matter.
