@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from . import core, errors, freshness, memory, neighbours, place, prediction, size
+from . import core, errors, freshness, joint_normals, memory, neighbours, place, prediction, size
 from .blender import Context, Mesh, Object, scene_of
 from .check import cages
 from .check.faults import find_faults
@@ -291,6 +291,8 @@ class Job(TimedRun):
             place.note(source, target)
         else:
             place.follow(context, target)
+        joint_normals.update(context, target)
+        joint_normals.update_others(context, target)
         freshness.note(target, self._made)
         display.refresh(target, scene_of(target).discrete_fairing_inspection)
         self.note()

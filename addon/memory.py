@@ -99,12 +99,17 @@ class FAIRING_PG_fit(FitAmount, bpy.types.PropertyGroup):
 
 
 class FAIRING_PG_mesh(bpy.types.PropertyGroup):
-    """Properties that belong to a mesh's curvature colours."""
+    """Properties of a mesh beside its colours and normals."""
 
     curvature_range: FloatVectorProperty(
         name="Curvature Range",
         description="The values that have the lowest and the highest colour",
         size=2,
+        options={"HIDDEN"},
+    )
+    joint_normals: BoolProperty(
+        name="Joint Normals",
+        description="The mesh has custom normals where its border meets another's",
         options={"HIDDEN"},
     )
 

@@ -8,6 +8,7 @@ be alone, from its source, so that neither depends on the other's mesh.
 from collections.abc import Callable
 from typing import Any
 
+import bpy
 import numpy as np
 
 from . import core, memory
@@ -122,10 +123,15 @@ def _alone(
 
 
 def shown(
-    context: Context, target: Object, way: np.ndarray | None = None
+    context: Context,
+    target: Object,
+    way: np.ndarray | None = None,
+    depsgraph: bpy.types.Depsgraph | None = None,
 ) -> tuple[np.ndarray, tuple[np.ndarray, np.ndarray]]:
-    """Points and faces (corners, offsets) as shown in the window; `way`: (4, 4) from the world."""
-    with control_mesh(context, target, evaluated=True) as mesh:
+    """Points and faces (corners, offsets) as shown in the window; `way`: (4, 4) from the world. `depsgraph`:
+    as in control_mesh.
+    """
+    with control_mesh(context, target, evaluated=True, depsgraph=depsgraph) as mesh:
         arrays = read_mesh(mesh)
     matrix = np.array(world_matrix(target), np.float64)
     matrix = matrix if way is None else way @ matrix

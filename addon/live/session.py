@@ -8,7 +8,7 @@ from typing import Any, TypeAlias
 import bpy
 import numpy as np
 
-from .. import core, errors, memory, place, size
+from .. import core, errors, joint_normals, memory, place, size
 from ..blender import Context, Mesh, Object, current_context, scene_of
 from ..core import ControlArrays
 from ..errors import JobError
@@ -247,6 +247,7 @@ class Session:
                 target.discrete_fairing.unfinished = True
         else:
             write_positions(target.data, result.vertices)
+        joint_normals.update(current_context(), target, depsgraph)
         overlay.moved(target)
         display.remeasure(target, scene_of(target).discrete_fairing_inspection)
         self.level = self._level

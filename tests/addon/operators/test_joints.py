@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from fake_layout import draw
 from lattices import lattice_faces
+from mathutils import Vector
 from scenes import activate, add, fair, positions, recompute, refused, to_object_mode
 
 from addon import core, neighbours
@@ -260,3 +261,83 @@ def test_the_worst_place_is_shown(panels):
     assert target.mode == "EDIT"
     to_object_mode()
     assert [v.index for v in target.data.vertices if v.select] == [row.worst]
+
+
+def shading_apart(first, other):
+    """Degrees, the largest: between the normals that two meshes show at common vertices."""
+    shown = []
+    for panel in (first, other):
+        normals = np.zeros((len(panel.data.vertices), 3))
+        corners = [loop.vertex_index for loop in panel.data.loops]
+        normals[corners] = [normal.vector for normal in panel.data.corner_normals]
+        shown.append({tuple(np.round(v.co, 4)): n for v, n in zip(panel.data.vertices, normals)})
+    common = shown[0].keys() & shown[1].keys()
+    assert len(common) == 4 * 8 + 1
+    turns = [np.cross(shown[0][at], shown[1][at]) for at in common]
+    return np.degrees(np.linalg.norm(turns, axis=1).max())
+
+
+@pytest.mark.parametrize("options", [{}, {"joint": "CURVATURE"}, {"both": True}])
+def test_reflections_run_across_a_joint(panels, options):
+    """Blender's normals at a border are those of the faces on one side, 0.9° off together."""
+    bonnet, fender = panels
+    select(*panels)
+    assert bpy.ops.object.fairing_match_border(**options) == {"FINISHED"}
+    assert shading_apart(*panels) < 0.05
+    for panel in panels:
+        recompute(panel)
+        assert shading_apart(*panels) < 0.05
+    for panel in panels:
+        panel.discrete_fairing.neighbour = None
+    recompute(fender)
+    assert not any(panel.data.has_custom_normals for panel in panels)
+    assert shading_apart(*panels) > 0.5
+
+
+def test_live_keeps_reflections_across_a_joint(panels):
+    bonnet, fender = panels
+    select(*panels)
+    bpy.ops.object.fairing_match_border()
+    activate(fender)
+    assert bpy.ops.object.fairing_live() == {"FINISHED"}
+    (session,) = registry.sessions()
+    session.follow()
+    fender.discrete_fairing.source.data.vertices[10].co.z += 0.05
+    fender.discrete_fairing.source.data.update()
+    bpy.context.view_layer.update()
+    assert shading_apart(*panels) < 0.2
+    session.complete(bpy.context)
+    assert shading_apart(*panels) < 0.05
+
+
+def test_normals_of_the_user_stay(panels):
+    bonnet, fender = panels
+    own = np.tile([0.0, 0.0, 1.0], (len(bonnet.data.loops), 1))
+    bonnet.data.normals_split_custom_set(own)
+    select(*panels)
+    assert bpy.ops.object.fairing_match_border() == {"FINISHED"}
+    shown = [normal.vector.z for normal in bonnet.data.corner_normals]
+    assert min(shown) > 0.999 and fender.data.discrete_fairing.joint_normals
+
+
+def test_a_crease_that_crosses_a_joint_keeps_its_normals(panels):
+    """Each side of a crease has its own fan of faces."""
+    bonnet, fender = panels
+    for panel in panels:
+        crease = panel.discrete_fairing.source.data
+        layer = crease.attributes.new("crease_edge", "FLOAT", "EDGE")
+        for edge, item in zip(crease.edges, layer.data):
+            ends = [crease.vertices[i].co for i in edge.vertices]
+            item.value = float(all(abs(co.x - 0.7) < 1e-5 for co in ends))
+        for vertex in crease.vertices:
+            vertex.co.z -= 0.4 * abs(vertex.co.x - 0.7)
+        recompute(panel)
+    select(*panels)
+    assert bpy.ops.object.fairing_match_border() == {"FINISHED"}
+    normals = [normal.vector for normal in bonnet.data.corner_normals]
+    on = [
+        normals[loop.index]
+        for loop in bonnet.data.loops
+        if (bonnet.data.vertices[loop.vertex_index].co.xy - Vector((0.7, 1.2))).length < 1e-5
+    ]
+    assert len(on) == 2 and np.degrees(on[0].angle(on[1])) > 20

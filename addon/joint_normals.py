@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Custom normals at joints: where borders of surfaces meet, each vertex has the normal of its surface.
+
+Blender's own normal there is the mean of the faces on one side, so reflections would break at a joint
+without a kink. Other borders keep Blender's: a Mirror or Weld modifier that closes them would spoil custom
+normals.
+"""
+
+from collections.abc import Iterator
+from typing import Any
+
+import bpy
+import numpy as np
+
+from . import core, memory, neighbours
+from .blender import Context, Object, all_objects, column
+from .mesh.read import read_mesh
+from .mesh.world_shape import world_matrix
+
+
+def update(context: Context, target: Object, depsgraph: bpy.types.Depsgraph | None = None) -> None:
+    """Gives the surface `target` the normals at its present joints, and takes away those of earlier
+    ones. A mesh with the user's custom normals keeps them. `depsgraph`: that of an update in progress.
+    """
+    mesh = target.data
+    ours = mesh.discrete_fairing.joint_normals
+    if not mesh.is_editable or target.mode == "EDIT" or (mesh.has_custom_normals and not ours):
+        return
+    way = _way_to(target)
+    others = [neighbours.shown(context, o, way, depsgraph) for o in _met_by(target)]
+    found = _normals(target, others) if others else None
+    if found is not None:
+        mesh.normals_split_custom_set(found)
+    elif mesh.has_custom_normals:
+        mesh.attributes.remove(mesh.attributes["custom_normal"])
+    mesh.discrete_fairing.joint_normals = found is not None
+
+
+def update_others(context: Context, target: Object) -> None:
+    """The same for the other surfaces with joints, present or earlier ones, with `target` or another."""
+    for other in all_objects():
+        if other.type != "MESH" or other == target or memory.source_of(other) is None:
+            continue
+        met = list(_met_by(other))
+        if target in met or (other.data.discrete_fairing.joint_normals and not met):
+            update(context, other)
+
+
+def _met_by(target: Object) -> Iterator[Object]:
+    """The objects that the border of `target` meets: its neighbour, and surfaces whose neighbour it is."""
+    for other in all_objects():
+        if other.type == "MESH" and other.users_scene:
+            known = (neighbours.neighbour_of(target), neighbours.neighbour_of(other))
+            if other == known[0] or target == known[1]:
+                yield other
+
+
+def _way_to(target: Object) -> np.ndarray:
+    return np.linalg.inv(np.array(world_matrix(target), np.float64))
+
+
+def _normals(target: Object, others: list[Any]) -> np.ndarray | None:
+    """(c, 3) by corner: the normals at joints with the `others`, elsewhere zero; None without a joint."""
+    borders, arrays = core.module().borders, read_mesh(target.data)
+    points, offsets = arrays.positions, arrays.offsets.astype(np.int64)
+    edge, _ = borders.border_edges(arrays.corners.astype(np.int64), offsets)
+    length = np.linalg.norm(points[edge[:, 1]] - points[edge[:, 0]], axis=1)
+    vertex = np.unique(edge)
+    reach = np.zeros(len(points))
+    reach[edge] = core.module().matching.NEAR * length[:, None]
+    near = np.zeros(len(vertex), bool)
+    for met, (corners, starts) in others:
+        if len(borders.border_edges(corners, starts)[0]):
+            curve = borders.border_curve(met, corners, starts)
+            feet = curve.between(curve.point, *curve.feet(points[vertex])[:2])
+            near |= np.linalg.norm(feet - points[vertex], axis=1) <= reach[vertex]
+    if not near.any():
+        return None
+    fan = _fans(arrays)
+    corner = np.flatnonzero(np.isin(arrays.corners, vertex[near]))
+    place = np.empty((fan.max() + 1, 3))
+    place[fan] = points[arrays.corners]
+    border = borders.border_of(place, fan, offsets, only=np.unique(fan[corner]))
+    out = np.zeros((len(fan), 3), np.float32)
+    row = border.slot[fan]
+    # both sides of a joint have the same curve, and their fits see it differently
+    aside = borders.dot(border.normal, border.along)[:, None] * border.along
+    out[row >= 0] = borders.unit_vectors(border.normal - aside)[row[row >= 0]]
+    flat = column(target.data.polygons, "use_smooth", bool)
+    out[~np.repeat(flat, np.diff(offsets))] = 0
+    return out
+
+
+def _fans(arrays: core.ControlArrays) -> np.ndarray:
+    """(c,): the fan of faces that each corner is in, around its vertex between sharp edges."""
+    if arrays.sharp_edge is None or not arrays.sharp_edge.any():
+        return arrays.corners.astype(np.int64)
+    after = core.module().arrays.following(arrays.offsets)
+    order = np.argsort(arrays.corner_edges, kind="stable")
+    edge = arrays.corner_edges[order]
+    same = np.flatnonzero((edge[1:] == edge[:-1]) & ~arrays.sharp_edge[edge[1:]])
+    a, b = order[same], order[same + 1]
+    alike = arrays.corners[a] == arrays.corners[b]  # faces that are flipped against each other
+    pairs = np.concatenate(
+        [
+            np.stack([a, np.where(alike, b, after[b])], axis=1),
+            np.stack([after[a], np.where(alike, after[b], b)], axis=1),
+        ]
+    )
+    return core.module().patches.connected_parts(len(arrays.corners), pairs).astype(np.int64)
