@@ -147,7 +147,6 @@ class StepLoop {
     if (step.length != 1) anderson_.took_share(step.length);
     std::swap(it_.current, it_.trial);
     if (!varies()) it_.current.held = held_;
-    const double before = remainder_.last_decrement();
     report.left = remainder_.after(step.decrement, step.movement / step.length, step.solved);
     report.converged = end_.is_reached(step.decrement, report.left);
     if (it_.system.is_bound()) report.constraint_gap = step.constraint_gap;
@@ -155,9 +154,7 @@ class StepLoop {
     const bool too_late =
         patience_ > 0 && accepted_ >= patience_ && step.decrement > plain_decrement;
     flat_ = flat_energy_about(it_.current, it_.workers());
-    // If an unfinished solve does not halve the decrement, later steps would gain as little.
-    const bool is_stuck = varies() && !step.solved && before > 0 && 2 * step.decrement > before;
-    return report.converged || too_late || is_stuck || leads_nowhere(step);
+    return report.converged || too_late || leads_nowhere(step);
   }
 
   void reject() {
