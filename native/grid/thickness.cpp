@@ -126,6 +126,18 @@ double highest_rise(const Face& face, const FacePlane& plane, double turn, const
   return half_width + length / 2 * std::tan(std::min(turn, std::numbers::pi) / 4);
 }
 
+// Whether two faces are the sides of a wedge, whose edge is a crease: its thickness ends in nothing, and its
+// sides may be hollow, as those of a bow are at a sharp stem.
+bool is_wedge(const ControlMesh& mesh, Index f, Index o) {
+  const Face& face = mesh.faces[f];
+  for (std::size_t i = 0; i < std::size_t(face.size); ++i) {
+    const Index e = mesh.sides[std::size_t(face.first_side) + i].edge;
+    if (!mesh.feature_edge[e] || mesh.edges[e].boundary()) continue;
+    if (mesh.face_beside(e, 0) == o || mesh.face_beside(e, 1) == o) return true;
+  }
+  return false;
+}
+
 // The area of the flat side that each face is a part of: whether a body is thin does not depend on how
 // finely its sides are divided.
 std::vector<double> areas_of_sides(const ControlMesh& mesh, std::span<const FacePlane> planes) {
@@ -192,6 +204,7 @@ ThicknessChange Thickness::of(const GridLevel& grid, Workers& workers, const dou
     const double thin_share = is_flat ? unlifted_share : seen_share;
     const double thick_share = is_flat ? seen_share : 1.0;
     if (!(std::abs(otherwise) > (is_thin ? thin_share : thick_share))) continue;
+    if (change < 0 && is_wedge(mesh_, Index(f), opposite.face)) continue;
     seen.emplace_back(Index(f), change);
     if (change > 0) swollen += planes_[f].area / area_;
     if (std::abs(change) > lost_change) out.lost += planes_[f].area / area_;
