@@ -36,7 +36,6 @@ from .settings import (
     Settings,
     halves,
     is_evaluated,
-    is_limit,
     subdivision,
     wants_modifiers,
 )
@@ -277,7 +276,7 @@ class Job(TimedRun):
             self.notes += write_own(target, own)
         memory.keep(target, "carried", carried)
         if wants_modifiers(settings) and old is None:
-            self.notes += copy_modifiers(context, source, target, is_limit(settings))
+            self.notes += copy_modifiers(context, source, target)
         self.mark(target.data)
         report = {
             **result.report,

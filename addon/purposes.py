@@ -77,7 +77,15 @@ EASED_FIRST = {"POINTS"}
 # jobs that are operators of their own, not settings of Fair Surface
 OPERATORS = {"SCAN_SURFACE": "fairing_fit"}
 # settings that may be changed without changing the job
-OFFERED = {"levels", "limit", "tolerance", "tolerance_unit", "mesh_source", "joint"}
+OFFERED = {
+    "levels",
+    "limit",
+    "tolerance",
+    "tolerance_unit",
+    "mesh_source",
+    "copy_modifiers",
+    "joint",
+}
 _DIGITS = 1e-6  # precision of Blender's numbers, which are single
 
 

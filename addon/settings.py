@@ -123,6 +123,20 @@ def are_mirrored(sources: Iterable[Object]) -> bool:
     return {modifier.type for modifier in modifiers if modifier.show_viewport} == {"MIRROR"}
 
 
+def mirror_axis(sources: Iterable[Object]) -> str:
+    """The axis of the halves that Mirror completes under Subdivision Surface, as `X`; empty for other objects."""
+    axes = set()
+    for source in sources:
+        shown: list[Any] = [m for m in source.modifiers if m.show_viewport]
+        by_plane = [m.type for m in shown] == ["MIRROR", "SUBSURF"] and shown[
+            0
+        ].mirror_object is None
+        used = zip("XYZ", shown[0].use_axis) if by_plane else ()
+        axes.add("".join(axis for axis, is_used in used if is_used))
+    axis = axes.pop() if len(axes) == 1 else ""
+    return axis if len(axis) == 1 else ""
+
+
 def is_evaluated(settings: AnySettings) -> bool:
     """Whether the source is faired with its modifiers; never if faces are selected."""
     return settings.mesh_source == "EVALUATED" and not settings.use_selection

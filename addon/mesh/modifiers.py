@@ -21,15 +21,15 @@ _BOUND = {
     "LAPLACIANDEFORM": ("laplaciandeform_bind", "is_bind"),
     "CORRECTIVE_SMOOTH": ("correctivesmooth_bind", "is_bind"),
 }
-_FOLLOWED = {"SUBSURF": "the surface already passes where it would"}
-_USELESS = {"MULTIRES": "its sculpted detail belongs to the faces of the control mesh"}
+_USELESS = {
+    "SUBSURF": "the surface takes its place",
+    "MULTIRES": "its sculpted detail belongs to the faces of the control mesh",
+}
 
 
-def copy_modifiers(
-    context: Context, source: Object, target: Object, subdivided: bool = False
-) -> list[str]:
+def copy_modifiers(context: Context, source: Object, target: Object) -> list[str]:
     """Replaces the modifiers of the object `target` by those of `source`, with their settings, targets
-    and drivers. `subdivided`: without Subdivision Surface, since the surface follows it already.
+    and drivers, but without Subdivision Surface, whose place the surface takes.
 
     Both objects must be in the view layer. Returns sentences on what could not be copied, which is
     everything if Blender is not in Object Mode.
@@ -43,8 +43,7 @@ def copy_modifiers(
         object=source, active_object=source, selected_objects=both, selected_editable_objects=both
     ):
         bpy.ops.object.make_links_data(type="MODIFIERS")
-    left = _USELESS | _FOLLOWED if subdivided else _USELESS
-    notes = _missing(source, target) + _drop(target, left) + _unbind(context, target)
+    notes = _missing(source, target) + _drop(target) + _unbind(context, target)
     copy_drivers(source, target, "modifiers[")
     inspection = inspection_modifier(target)
     if inspection is not None:  # the inspection display of the source
@@ -105,11 +104,11 @@ def _missing(source: Object, target: Object) -> list[str]:
     ]
 
 
-def _drop(target: Object, kinds: dict[str, str]) -> list[str]:
-    """Removes the modifiers of these `kinds`; returns the reasons, by kind, as sentences."""
+def _drop(target: Object) -> list[str]:
+    """Removes the modifiers that are of no use there; returns the reasons, as sentences."""
     notes = []
-    for modifier in [m for m in target.modifiers if m.type in kinds]:
-        notes.append(f"The modifier '{modifier.name}' is not copied: {kinds[modifier.type]}.")
+    for modifier in [m for m in target.modifiers if m.type in _USELESS]:
+        notes.append(f"The modifier '{modifier.name}' is not copied: {_USELESS[modifier.type]}.")
         target.modifiers.remove(modifier)
     return notes
 

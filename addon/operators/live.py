@@ -14,7 +14,7 @@ from ..mesh.object import is_in_view_layer, new_object, nothing_left_behind
 from ..mesh.read import control_mesh, read_mesh
 from ..mesh.world_shape import world_shape
 from ..poll import in_mode
-from ..settings import Settings, is_limit, wants_modifiers
+from ..settings import Settings, wants_modifiers
 from .mixins import Action
 
 _MODES = {"OBJECT", "EDIT_MESH", "SCULPT"}
@@ -78,7 +78,7 @@ class OBJECT_OT_fairing_live(Action, bpy.types.Operator):
         memory.remember(target, source, settings, {})
         place.note(source, target)
         if wants_modifiers(settings):
-            for sentence in copy_modifiers(context, source, target, is_limit(settings)):
+            for sentence in copy_modifiers(context, source, target):
                 self.report({"INFO"}, sentence)
         return target
 

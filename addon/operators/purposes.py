@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Fair for …: sets a job's settings and runs, in one click."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import asdict
 from typing import Any, cast
 
@@ -15,7 +15,8 @@ from ..mesh.read import control_mesh, control_meshes, read_mesh, source_objects
 from ..mesh.world_shape import world_shape
 from ..poll import ExplainedPoll, needs
 from ..purposes import EASED_FIRST, OPERATORS, PURPOSES, preset_file
-from ..settings import Settings, are_mirrored
+from ..settings import Settings, are_mirrored, mirror_axis
+from ..transfer.seams import half_axes
 from ..ui.main import active_settings, fairing_operator, remembered
 from .fair import can_fair
 
@@ -40,6 +41,22 @@ def set_job(context: Context, purpose: str, sources: Iterable[Object]) -> str:
             panel.energy = "THIN_PLATE"
             said.append(f"Bending in place of Flow Lines for {name}: {reason}")
     return ". ".join(said)
+
+
+def _whole(context: Context, sources: Sequence[Object]) -> dict[str, Any]:
+    """Settings by which the next surface of halves under Mirror and Subdivision Surface is the whole. They are not
+    those of the panel, which the next mesh gets too.
+    """
+    axis = mirror_axis(sources)
+    is_set = remembered(context) is not None or active_settings(context).symmetry_plane != "NONE"
+    if is_set or not axis or not all(_is_half(context, source, axis) for source in sources):
+        return {}
+    return {"symmetry_plane": axis, "copy_modifiers": True}
+
+
+def _is_half(context: Context, source: Object, axis: str) -> bool:
+    with control_mesh(context, source) as mesh:
+        return "XYZ".index(axis) in half_axes(read_mesh(mesh))
 
 
 def _why_bending(context: Context, source: Object) -> str:
@@ -88,14 +105,16 @@ class OBJECT_OT_fairing_for(ExplainedPoll, bpy.types.Operator):
             if context.mode == "OBJECT":
                 return operators.fairing_scan(how, _UNDO)
             return operators.fairing_in_place(how, _UNDO, vertices="MEASURED", levels=0)
-        said = set_job(context, self.purpose, control_meshes(context))
+        sources = control_meshes(context)
+        said = set_job(context, self.purpose, sources)
         if said:
             self.report({"INFO"}, said)
+        whole = _whole(context, sources)
         if self.purpose in EASED_FIRST:
             if how == "INVOKE_DEFAULT":
                 return operators.fairing_ease(how, _UNDO, fair_afterwards=True)
             operators.fairing_ease(how)
         if how == "INVOKE_DEFAULT" or remembered(context) is not None:
-            return fairing_operator(context)(how, _UNDO)
+            return fairing_operator(context)(how, _UNDO, **whole)
         settings = asdict(Settings.of(active_settings(context)))
-        return operators.fairing_surface(how, _UNDO, **settings)
+        return operators.fairing_surface(how, _UNDO, **(settings | whole))

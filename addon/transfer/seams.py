@@ -23,7 +23,7 @@ def seam_pairs(
     `settings`, all of it, so that the fold does not end where it gets flat. None for a surface faired
     across its symmetry plane. `edges`: from `edge_table`.
     """
-    axes = [axis for axis in _half_axes(arrays) if AXES[axis] != settings.symmetry_plane]
+    axes = [axis for axis in half_axes(arrays) if AXES[axis] != settings.symmetry_plane]
     found = [np.empty((0, 2), np.int32)]
     if axes:
         table, corner_edges = edges or edge_table(result.faces)
@@ -45,7 +45,7 @@ def _reach(points: np.ndarray) -> float:
     return float(core.module().halves.SNAP * np.ptp(points, axis=0).max(initial=0.0))
 
 
-def _half_axes(arrays: ControlArrays) -> list[int]:
+def half_axes(arrays: ControlArrays) -> list[int]:
     """The axes whose plane has the whole mesh on one side, and border edges in it."""
     ends = arrays.positions[arrays.edges[arrays.edge_uses == 1]]
     used = arrays.positions[arrays.corners]

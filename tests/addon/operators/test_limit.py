@@ -113,7 +113,7 @@ def test_the_modifier_is_not_applied_twice():
     result = fair(levels=1, copy_modifiers=True)
     assert [m.type for m in result.modifiers] == ["TRIANGULATE"]
     through = again(source, levels=1, copy_modifiers=True, interpolation="EXACT")
-    assert [m.type for m in through.modifiers] == ["SUBSURF", "TRIANGULATE"]
+    assert [m.type for m in through.modifiers] == ["TRIANGULATE"]
 
 
 @pytest.mark.parametrize("interpolation", ["AUTO", "LIMIT"])

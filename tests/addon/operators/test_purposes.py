@@ -7,6 +7,7 @@ import panel_meshes
 import pytest
 from fake_layout import draw
 from lattices import lattice_faces
+from mathutils import Matrix
 from scenes import (
     CUBE,
     TRIANGLE,
@@ -176,6 +177,34 @@ def test_half_a_panel_with_a_mirror_modifier_gives_the_whole(capfd):
     assert bpy.ops.object.fairing_for(purpose="PANEL") == {"FINISHED"}
     assert positions(bpy.context.active_object.data)[:, 1].min() == 0.0
     assert "turn on Copy Modifiers" in capfd.readouterr().out
+
+
+def test_half_a_cage_under_mirror_and_subdivision_surface_gives_the_whole():
+    """The commonest stack: the surface takes the place of Subdivision Surface, and gets the Mirror modifier."""
+    x, y = np.meshgrid(np.linspace(0.0, 1.0, 4), np.linspace(-1.0, 1.0, 5), indexing="ij")
+    points = np.stack([x, y, 0.5 - 0.3 * x**2 - 0.2 * y**2], axis=2).reshape(-1, 3)
+    half = add("Half", points.tolist(), lattice_faces(4, 5).tolist())
+    half.modifiers.new("Mirror", "MIRROR")
+    half.modifiers.new("Subdivision", "SUBSURF")
+    assert bpy.ops.object.fairing_for(purpose="CHARACTER") == {"FINISHED"}
+    surface = bpy.context.active_object
+    assert [m.type for m in surface.modifiers] == ["MIRROR"]
+    assert job_of(surface.discrete_fairing) == "CHARACTER"
+    shown = surface.evaluated_get(bpy.context.evaluated_depsgraph_get()).to_mesh()
+    assert positions(shown)[:, 0].min() == -positions(shown)[:, 0].max()
+    middle = [v.normal.x for v in shown.vertices if v.co.x == 0.0]
+    assert len(middle) == 4 * 8 + 1 and np.abs(middle).max() < 1e-6, "smooth across the middle"
+    assert bpy.context.scene.discrete_fairing.symmetry_plane == "NONE", "the next mesh may be whole"
+
+
+def test_a_mirror_beside_the_mesh_is_left_out(capfd):
+    wheel = add("Wheel", *CUBE)
+    wheel.data.transform(Matrix.Translation((3.0, 0.0, 0.0)))
+    wheel.modifiers.new("Mirror", "MIRROR")
+    wheel.modifiers.new("Subdivision", "SUBSURF")
+    assert bpy.ops.object.fairing_for(purpose="CHARACTER") == {"FINISHED"}
+    assert bpy.context.active_object.discrete_fairing.symmetry_plane == "NONE"
+    assert "without Mirror" in capfd.readouterr().out
 
 
 def test_a_scan_with_shape_keys_is_refused_in_object_mode():
