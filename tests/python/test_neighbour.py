@@ -151,6 +151,43 @@ def test_both_meet_half_way(pair, levels):
         assert turned == pytest.approx(np.degrees(seam(own, other).kink) / 2, abs=0.05)
 
 
+def keel_halves(deadrise):
+    """Two mirrored halves of a hull with a sharp keel: `deadrise` in degrees, up to its chine."""
+
+    def half(side):
+        def place(u, v):
+            wide = 0.25 + 0.75 * np.sin(np.pi * (0.15 + 0.7 * u))
+            out = wide * np.sin(0.45 * np.pi * v) * np.cos(np.radians(deadrise))
+            up = wide * (v * np.sin(np.radians(deadrise)) + 0.35 * v**3)
+            return 4 * u, side * out, up + 0.3 * (2 * u - 1) ** 2
+
+        return sheet(place, np.linspace(0, 1, 8), np.linspace(0, 1, 6))
+
+    return half(1), flipped(half(-1))
+
+
+@pytest.mark.parametrize("joint", ["tangent", "curvature"])
+@pytest.mark.parametrize(
+    "deadrise, meets", [(10, (True, True)), (45, (False, True)), (80, (False, False))]
+)
+def test_halves_meet_at_a_sharp_keel_without_crossing(deadrise, meets, joint):
+    """They once crossed the middle, by 6 % of the beam, and folded back by 180 degrees without a word."""
+    free = [fair(mesh, 3) for mesh in keel_halves(deadrise)]
+    before = np.degrees(seam(*free).kink.max())
+    for halfway, smooth in zip((False, True), meets):
+        met = [
+            fair(mesh, 3, neighbour=(o.vertices, o.faces), halfway=halfway, joint=joint)
+            for mesh, o in zip(keel_halves(deadrise), free[::-1])
+        ]
+        starboard, port = met if halfway else (free[0], met[1])
+        assert starboard.vertices[:, 1].min() > -1e-12 and port.vertices[:, 1].max() < 1e-12
+        found = seam(port, starboard)
+        assert found.gap.max() < 1e-12
+        assert np.degrees(found.kink.max()) == pytest.approx(0 if smooth else before, abs=0.05)
+        told = [warning["code"] for warning in port.report["warnings"]]
+        assert told == ([] if smooth else ["JOINT_NOT_MET"])
+
+
 def flipped(mesh):
     return mesh[0], mesh[1][:, ::-1]
 

@@ -27,12 +27,10 @@ from .turning import Angles, needed, rotation
 # Ends nearer to the neighbour's border than this share of a border edge lie on it.
 NEAR = 0.05
 # Passes: needed with curvature by two halves of a bottle of 60 faces, which meet at 34 degrees before,
-# on levels 3 and 4.
-PASSES = {
-    "position": {"position": 1},
-    "tangent": {"position": 1, "tangent": 4},
-    "curvature": {"position": 1, "curvature": 16},
-}
+# on levels 3 and 4, and by a hull's triangles.
+PASSES = {"position": 1, "tangent": 4, "curvature": 16}
+# Radians: a kink that is left shows that the passes diverge; where they converge it is below 0.0003.
+LEFT = float(np.radians(1))
 
 
 def require_matchable(settings: dict[str, Any], shapes: int) -> None:
@@ -70,9 +68,40 @@ def match_border(
         return border_of(at, corners, offsets, only=strip.on)
 
     goal = Halfway(own(points), other) if halfway else other
-    for name, passes in PASSES[joint].items():
-        points = _settled(points, strip.changes(points, own, goal, name), passes)
-    found["vertices"] = points
+
+    def settled(at: np.ndarray, name: str) -> np.ndarray:
+        return _settled(at, strip.changes(at, own, goal, name), PASSES[name])
+
+    def kink(at: np.ndarray) -> float:
+        now = own(at)
+        return float(np.abs(needed(now, goal.at(now.point))[0]).max())
+
+    found["vertices"] = points = settled(points, "position")
+    if joint == "position":
+        return
+    turn = kink(points)
+    for name in (joint, "tangent") if turn < np.pi / 2 else ():  # beyond, faces would turn back
+        met = settled(points, name)
+        if kink(met) < LEFT:
+            found["vertices"] = met
+            break
+    else:
+        name = "position"
+    if name != joint:
+        found["report"]["warnings"].append(_not_met(turn, name))
+
+
+def _not_met(turn: float, name: str) -> dict[str, Any]:
+    """The warning of a joint that meets with `name` only, since the surface would have to turn by too much."""
+    stays = {"position": "the edge between them stays", "tangent": "their curvatures differ"}[name]
+    return {
+        "code": "JOINT_NOT_MET",
+        "kind": "mesh",
+        "elements": [],
+        "cause": f"The border turns by {np.degrees(turn):.0f} degrees from the neighbour's, too much for its faces: the two "
+        f"meet, but {stays}.",
+        "cure": "To change that, let both change, each by half, or use more levels.",
+    }
 
 
 def _settled(
