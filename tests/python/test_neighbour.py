@@ -188,6 +188,26 @@ def test_halves_meet_at_a_sharp_keel_without_crossing(deadrise, meets, joint):
         assert told == ([] if smooth else ["JOINT_NOT_MET"])
 
 
+@pytest.mark.parametrize("weight", [1.0, 0.5])
+def test_a_crease_that_ends_on_a_joint_is_named_unless_it_fades_there(weight):
+    bonnet, fender = bonnet_and_fender()
+    line = [(8 + k, 9 + k) for k in range(3)]  # across, from the joint
+    fender[0][8:11, 2] += weight**2 * np.array([0.1, 0.08, 0.06])
+    bonnet[0][12:15, 2] += weight**2 * np.array([0.03, 0.04, 0.1])
+    first = fair(bonnet, 3)
+    met = fair(
+        fender,
+        3,
+        neighbour=(first.vertices, first.faces),
+        **({"crease_edges": line} if weight == 1 else {"soft_creases": (line, [weight] * 3)}),
+    )
+    warnings = [w for w in met.report["warnings"] if w["code"] == "JOINT_NOT_MET"]
+    if weight == 1:
+        assert warnings[0]["elements"] == [8]
+    else:
+        assert not warnings and np.degrees(seam(met, first).kink.max()) < 0.05
+
+
 def flipped(mesh):
     return mesh[0], mesh[1][:, ::-1]
 

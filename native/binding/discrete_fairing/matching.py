@@ -88,11 +88,24 @@ def match_border(
     else:
         name = "position"
     if name != joint:
-        found["report"]["warnings"].append(_not_met(turn, name))
+        on = np.isin(found["crease_edges"], strip.on)
+        creased = found["crease_edges"][on & ~on[:, ::-1]]
+        found["report"]["warnings"].append(_not_met(turn, name, creased))
 
 
-def _not_met(turn: float, name: str) -> dict[str, Any]:
-    """The warning of a joint that meets with `name` only, since the surface would have to turn by too much."""
+def _not_met(turn: float, name: str, creased: np.ndarray) -> dict[str, Any]:
+    """The warning of a joint that meets with `name` only, since the surface would have to turn by too
+    much, or since creases end on it at the vertices `creased`.
+    """
+    if len(creased):
+        return {
+            "code": "JOINT_NOT_MET",
+            "kind": "vertex",
+            "elements": np.unique(creased).tolist(),
+            "cause": "A crease ends on the border that is to meet the neighbour's, at {vertex}: the edge between them "
+            "stays.",
+            "cure": "Give the crease a weight below 1 there, or end it one face before.",
+        }
     stays = {"position": "the edge between them stays", "tangent": "their curvatures differ"}[name]
     return {
         "code": "JOINT_NOT_MET",
