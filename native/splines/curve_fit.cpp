@@ -206,6 +206,17 @@ std::vector<double> length_parameters(const CurveData& data) {
   return t;
 }
 
+// By the length of the whole polygon.
+std::vector<double> whole_length_parameters(const std::vector<Vec3>& points) {
+  std::vector<double> t{0.0};
+  for (std::size_t k = 1; k < points.size(); ++k)
+    t.push_back(t.back() + (points[k] - points[k - 1]).norm());
+  if (const double all = t.back(); all > 0)
+    for (double& at : t) at /= all;
+  t.back() = 1;
+  return t;
+}
+
 // The parameter whose length is `share` with shorter spans at both ends.
 double graded(double share) {
   constexpr double turn = 2 * std::numbers::pi;
@@ -274,8 +285,15 @@ FittedCurve fit_from(const CurveData& data, const CurveSystem& system,
 FittedCurve fit_with(const CurveData& data, int spans, double tolerance) {
   const CurveSystem system(data, spans);
   FittedCurve even = fit_evenly(data, system);
+  const double exact = roundoff * length_of(data.points);
   // the lattice's parameters, as for creases
-  if (data.own || even.error <= roundoff * length_of(data.points)) return even;
+  if (data.own || even.error <= exact) return even;
+  if (data.edges > 1 && data.is_uncut()) {
+    // A straight line along edges of very different lengths: with vertices at knots it turns back, or
+    // almost, and the patches beside it fold.
+    FittedCurve whole = fit_from(data, system, whole_length_parameters(data.points));
+    if (whole.error <= exact) return whole;
+  }
   std::vector<double> start = length_parameters(data);
   FittedCurve plain = fit_from(data, system, start);
   if (plain.error <= tolerance || (spans <= 2 && data.edges == 1)) return plain;

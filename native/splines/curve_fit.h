@@ -28,6 +28,9 @@ struct CurveData {
   bool own = false;     // also has the lattice's parameters
   std::array<double, 2> corner{4, 4};  // narrowest angle to other curves at each end, radians
 
+  bool is_uncut() const {
+    return std::all_of(cuts.begin(), cuts.end(), [](const Cut& c) { return c.t == 0 || c.t == 1; });
+  }
   bool halved() const { return edges == 1 && !cuts.empty(); }
   bool is_cut(std::size_t k) const {
     return std::any_of(cuts.begin(), cuts.end(), [&](const Cut& cut) { return cut.point == k; });

@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 import thin_walls
 from discrete_fairing import fitting
+from lattices import lattice_faces
 from refusing import refusal
 from shared_data import SHARED, read_obj
 from spline_measures import basis, evaluate, radii, volume
@@ -384,6 +385,19 @@ def test_patches_whose_points_slide_less_meet_their_neighbours_better():
     points, faces, _ = wall_with_boss(angle, height, 12, rings)
     patches = df.fit_patches(points, faces, levels=4)
     assert len(patches.unmet_by_fit) <= 4 and patches.largest_angle < np.radians(0.25)
+
+
+@pytest.mark.parametrize("margin", [0.4, 0.1])
+def test_a_flat_sheet_with_lines_beside_its_straight_borders_is_one_patch(margin):
+    """It was nine patches, of which six and three missed, the sheet folded in its plane."""
+    x, y = (
+        np.array([-8, margin - 8, 8 - margin, 8]),
+        np.array([-0.9, margin - 0.9, 0.9 - margin, 0.9]),
+    )
+    points = [(a, b, 0) for a in x for b in y]
+    patches = df.fit_patches(points, lattice_faces(4, 4), boundary="linear")
+    assert len(patches.patch_spans) == 1
+    assert patches.largest_off < 1e-9
 
 
 def test_rows_of_quads_are_one_patch_whose_curvature_does_not_jump():
