@@ -103,8 +103,6 @@ class LevelCouples {
   const Moments& mass() const { return mass_; }
   // Converts moments of another level to this one.
   void carry(const LevelCouples& from, Moments& moments) const;
-  // sum Omega psi_c . (u, v) for each.
-  const std::vector<double>& totals() const { return total_; }
 
  private:
   Vec3 goal(std::size_t c, const Couple& slopes) const;
@@ -113,7 +111,7 @@ class LevelCouples {
 
   const Couples& couples_;
   const GridLevel& grid_;
-  std::vector<double> total_;
+  std::vector<double> total_;  // sum Omega psi_c . (u, v) for each
   Moments mass_;
 };
 

@@ -59,6 +59,9 @@ struct Linearization {
   Array<float> axis;     // 3 a point: the chart's u axis in space
 };
 
+struct PointTensors;
+class PointValues;
+
 class CurvatureLevel final : public LevelOperator {
  public:
   CurvatureLevel(CurvatureShared& shared, const GridLevel& grid);
@@ -115,9 +118,13 @@ class CurvatureLevel final : public LevelOperator {
   void write_lines(LineBand& band, Workers& workers) override;
 
  private:
-  struct Tensors;
-  double connect(RingRows cotangents, const double* x, const Tensors& tensors, const double* normal,
-                 double* force);
+  double linearize_points(const double* x, const Unknowns& force_rows, const PointValues& values,
+                          RingRows* cotangents, double* force);
+  std::optional<RingRows> room_for_cotangents();
+  double add_tension(const double* x, const double* normal, const Unknowns& force_rows,
+                     double* force);
+  double connect(RingRows cotangents, const double* x, const PointTensors& tensors,
+                 const double* normal, double* force);
   void find_between(const Array<double>& area);
   void update_diagonal();
   void invert_diagonal();

@@ -10,6 +10,71 @@
 #include "stencil/weights.h"
 
 namespace fairing {
+// The connection's input at the points, in double: rounding errors must not exceed the small force.
+struct PointTensors {
+  Array<double> shape, axis, area;
+
+  void resize(std::size_t points) {
+    shape.resize(3 * points);
+    axis.resize(3 * points);
+    area.resize(points);
+  }
+  void put(std::size_t p, const Vec3& m, const Vec3& u, double root) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      shape[3 * p + a] = m[a];
+      axis[3 * p + a] = u[a];
+    }
+    area[p] = root * root;
+  }
+  void clear(std::size_t p, std::size_t count) {
+    std::fill_n(shape.data() + 3 * p, 3 * count, 0.0);
+    std::fill_n(axis.data() + 3 * p, 3 * count, 0.0);
+    std::fill_n(area.data() + p, count, 0.0);
+  }
+};
+
+// The values at points that are computed beside rows and force.
+class PointValues {
+ public:
+  // `tensors`: for the connection; null: none. `wanted`: whether any values are.
+  PointValues(Linearization& to, std::size_t points, bool wanted, bool with_axes,
+              PointTensors* tensors)
+      : to_(to), wanted_(wanted), with_axes_(with_axes), tensors_(tensors) {
+    if (!wanted) return;
+    to.normal.resize(3 * points);
+    to.shape.resize(4 * points);
+    if (with_axes) to.axis.resize(3 * points);
+    if (tensors) tensors->resize(points);
+  }
+
+  bool need_axes() const { return with_axes_ || tensors_; }
+
+  void put(std::size_t p, const Vec3& normal, const Vec3& shape, double root,
+           const Vec3& axis) const {
+    if (!wanted_) return;
+    for (std::size_t a = 0; a < 3; ++a) {
+      to_.normal[3 * p + a] = normal[a];
+      to_.shape[4 * p + a] = float(shape[a]);
+      if (with_axes_) to_.axis[3 * p + a] = float(axis[a]);
+    }
+    to_.shape[4 * p + 3] = float(root);
+    if (tensors_) tensors_->put(p, shape, axis, root);
+  }
+
+  void clear(std::size_t p, std::size_t count) const {
+    if (!wanted_) return;
+    std::fill_n(to_.normal.data() + 3 * p, 3 * count, 0.0);
+    std::fill_n(to_.shape.data() + 4 * p, 4 * count, 0.0f);
+    if (with_axes_) std::fill_n(to_.axis.data() + 3 * p, 3 * count, 0.0f);
+    if (tensors_) tensors_->clear(p, count);
+  }
+
+ private:
+  Linearization& to_;
+  bool wanted_, with_axes_;
+  PointTensors* tensors_;
+};
+
 namespace {
 
 // A thread's buffers; they do not depend on the surface.
@@ -83,6 +148,58 @@ PointScratch& point_scratch() {
   return own;
 }
 
+// Linearizes the points of one run.
+struct RunLinearizer {
+  const Run& run;
+  CurvatureEnergy energy;
+  const EnergyWeight& factor;
+  const PointValues& values;
+  RowRun<float> rows, cotangents;  // the latter without slots unless there is a connection
+  double* const* force;
+  PointScratch& point;
+
+  // One point; returns its energy.
+  double alone(std::size_t i, const RingInSpace& ring, bool closed) const {
+    const double out = point.store(ring, closed, energy, factor.point(run, i), rows, i, force);
+    const Vec3& normal = point.rows.point.normal;
+    const Vec3 axis =
+        values.need_axes() ? chart_axis(normal, point.rows.chart) : Vec3(Vec3::Zero());
+    values.put(run.first + i, normal, point.rows.shape, point.root, axis);
+    if (cotangents.slots > 0) point.store_cotangents(ring, cotangents, i);
+    return out;
+  }
+
+  // All points in lanes, and those alone that the lanes leave out; returns the run's energy.
+  double in_lanes(const RunRings& rings) const {
+    const auto weight = [&](std::size_t i) { return factor.point(run, i); };
+    double out = 0;
+    for (std::size_t i = 0; i < run.count; i += lane_count) {
+      const std::size_t count = std::min<std::size_t>(lane_count, run.count - i);
+      linearize(rings, i, energy, values.need_axes(), point.lanes);
+      out += point.store_lanes(count, weight, rows, i, force);
+      for (std::size_t l = 0; l < count; ++l) {
+        if (point.lanes.done[l]) {
+          put_lane(i, l);
+          continue;
+        }
+        ring_at(rings, i + l, point.ring);
+        out += alone(i + l, point.ring, true);
+      }
+    }
+    return out;
+  }
+
+ private:
+  void put_lane(std::size_t i, std::size_t l) const {
+    const CurvatureLanes& lanes = point.lanes;
+    const auto at = [&](const auto& v) { return Vec3(v[0][l], v[1][l], v[2][l]); };
+    values.put(run.first + i + l, at(lanes.normal), at(lanes.shape), point.lane_root[l],
+               values.need_axes() ? at(lanes.axis) : Vec3(Vec3::Zero()));
+    for (int s = 0; s < cotangents.slots; ++s)
+      cotangents.at(0, s, i + l) = float(lanes.cotangent[s][l]);
+  }
+};
+
 // A thread's data of one surface, reused from run to run.
 struct Gather {
   PointScratch& point;
@@ -92,152 +209,89 @@ struct Gather {
 
 }  // namespace
 
-// The connection's input at the points, in double: rounding errors must not exceed the small force.
-struct CurvatureLevel::Tensors {
-  Array<double> shape, axis, area;
-
-  void resize(std::size_t points) {
-    shape.resize(3 * points);
-    axis.resize(3 * points);
-    area.resize(points);
-  }
-  void put(std::size_t p, const Vec3& m, const Vec3& u, double root) {
-    for (std::size_t a = 0; a < 3; ++a) {
-      shape[3 * p + a] = m[a];
-      axis[3 * p + a] = u[a];
-    }
-    area[p] = root * root;
-  }
-  void clear(std::size_t p, std::size_t count) {
-    std::fill_n(shape.data() + 3 * p, 3 * count, 0.0);
-    std::fill_n(axis.data() + 3 * p, 3 * count, 0.0);
-    std::fill_n(area.data() + p, count, 0.0);
-  }
-};
-
 double CurvatureLevel::linearize(const double* x, const Functional& functional,
                                  Linearization* out) {
   energy_ = functional.energy;
   in_cycles_ = functional.in_cycles;
   share_ = 0;
-  const ControlMesh& mesh = shared_.mesh;
   const Unknowns& force_rows = functional.pads ? functional.pads->rows() : shared_.unknowns;
-  const EnergyWeight factor(grid_);
-  const Array<float> lifts = area_lifts(grid_, shared_.workers, x);
-  const float* lift = lifts.empty() ? nullptr : lifts.data();
-  Tensors tensors;
-  std::optional<RingRows> edge_weights;
-  if (varies()) {
-    if (!variation_) variation_ = std::make_unique<Variation>();
-    auto& before = variation_->connection;
-    edge_weights.emplace(before ? std::move(*before).release() : RingRows(grid_));
-    tensors.resize(grid_.size());
-  }
-  ElementSums energy(mesh);
   Linearization own;
   Linearization& to = out ? *out : own;
   to.force.resize(grid_.size());
-  const bool wants_points = out || varies(), wants_axis = functional.with_axes || varies();
-  if (wants_points) {
-    to.normal.resize(3 * grid_.size());
-    to.shape.resize(4 * grid_.size());
-    if (functional.with_axes) to.axis.resize(3 * grid_.size());
-  }
-  const auto put_point = [&](std::size_t p, const Vec3& normal, const Vec3& shape, double root,
-                             const Vec3& axis) {
-    if (!wants_points) return;
-    for (std::size_t a = 0; a < 3; ++a) {
-      to.normal[3 * p + a] = normal[a];
-      to.shape[4 * p + a] = float(shape[a]);
-      if (functional.with_axes) to.axis[3 * p + a] = float(axis[a]);
-    }
-    to.shape[4 * p + 3] = float(root);
-    if (varies()) tensors.put(p, shape, axis, root);
-  };
-  const auto clear_points = [&](std::size_t p, std::size_t count) {
-    if (!wants_points) return;
-    std::fill_n(to.normal.data() + 3 * p, 3 * count, 0.0);
-    std::fill_n(to.shape.data() + 4 * p, 4 * count, 0.0f);
-    if (functional.with_axes) std::fill_n(to.axis.data() + 3 * p, 3 * count, 0.0f);
-    if (varies()) tensors.clear(p, count);
-  };
-  if (!mesh.region.whole())  // points outside are not visited
-    shared_.workers.for_parts(
-        grid_.size(), vector_grain / 8,
-        [&](std::size_t begin, std::size_t end) { clear_points(begin, end - begin); });
-
+  PointTensors tensors;
+  const PointValues values(to, grid_.size(), out || varies(), functional.with_axes,
+                           varies() ? &tensors : nullptr);
+  std::optional<RingRows> cotangents = room_for_cotangents();
   ++linearizations_;
   square_.is_old = true;
-  const auto body = [&](const Run& run, double* const* force, Gather& gather) {
-    if (!has_fit(mesh, run)) return clear_points(run.first, run.count);
-    PointScratch& point = gather.point;
-    const RowRun<float> rows = rows_.of(run);
-    const RowRun<float> cotangents = edge_weights ? edge_weights->of(run) : RowRun<float>{};
-    const auto weight = [&](std::size_t i) { return factor.point(run, i); };
-    const auto store_alone = [&](std::size_t i, const RingInSpace& ring, bool closed) {
-      const double e = point.store(ring, closed, energy_, weight(i), rows, i, force);
-      const Vec3& normal = point.rows.point.normal;
-      const Vec3 axis = wants_axis ? chart_axis(normal, point.rows.chart) : Vec3(Vec3::Zero());
-      put_point(run.first + i, normal, point.rows.shape, point.root, axis);
-      if (varies()) point.store_cotangents(ring, cotangents, i);
-      return e;
-    };
-    const bool is_regular = run.kind == RunKind::face_row ||
-                            (run.kind == RunKind::edge && !mesh.edges[run.element].boundary());
-    if (!is_regular) {
-      gather.walk(run, [&](std::size_t i, const RingInSpace& ring, bool closed) {
-        energy.of(run) += store_alone(i, ring, closed);
-      });
-      return;
-    }
-    const RunRings& rings = gather.lanes(run);
-    const CurvatureLanes& lanes = point.lanes;
-    double of_run = 0;
-    for (std::size_t i = 0; i < run.count; i += lane_count) {
-      const std::size_t count = std::min<std::size_t>(lane_count, run.count - i);
-      fairing::linearize(rings, i, energy_, wants_axis, point.lanes);
-      of_run += point.store_lanes(count, weight, rows, i, force);
-      for (std::size_t l = 0; l < count; ++l) {
-        if (!lanes.done[l]) {
-          ring_at(rings, i + l, point.ring);
-          of_run += store_alone(i + l, point.ring, true);
-          continue;
-        }
-        const auto at = [&](const auto& v) { return Vec3(v[0][l], v[1][l], v[2][l]); };
-        put_point(run.first + i + l, at(lanes.normal), at(lanes.shape), point.lane_root[l],
-                  wants_axis ? at(lanes.axis) : Vec3(Vec3::Zero()));
-        for (int s = 0; s < cotangents.slots; ++s)
-          cotangents.at(0, s, i + l) = float(lanes.cotangent[s][l]);
-      }
-    }
-    energy.of(run) += of_run;
-  };
-  accumulate_runs(
-      grid_, shared_.workers, shared_.double_slots, &force_rows, to.force.data(),
-      [&] { return Gather{point_scratch(), RingWalk(grid_, x, lift), RingLanes(grid_, x, lift)}; },
-      body);
-
-  bending_ = energy.total();
+  bending_ =
+      linearize_points(x, force_rows, values, cotangents ? &*cotangents : nullptr, to.force.data());
+  const double* const normal = to.normal.empty() ? nullptr : to.normal.data();
   if (varies()) {
-    const double variation =
-        connect(std::move(*edge_weights), x, tensors, to.normal.data(), to.force.data());
+    const double variation = connect(std::move(*cotangents), x, tensors, normal, to.force.data());
     if (std::isfinite(bending_)) bending_ = variation;
   }
-  if (shared_.tension > 0) {
-    if (!area_) area_ = std::make_unique<AreaTerm>(grid_);
-    tension_ = area_->linearize(shared_.tension, x, wants_points ? to.normal.data() : nullptr,
-                                force_rows, shared_.workers, to.force.data());
-  } else {
-    tension_ = 0;
-  }
+  tension_ = add_tension(x, normal, force_rows, to.force.data());
   if (varies()) find_between(tensors.area);
   penalty_energy_ = penalty_ ? penalty_->energy(x, varies(), shared_.workers) : 0.0;
-  if (penalty_ && wants_points)
-    penalty_->add_force(x, to.normal.data(), varies(), shared_.workers, to.force.data());
+  if (penalty_ && normal)
+    penalty_->add_force(x, normal, varies(), shared_.workers, to.force.data());
   update_diagonal();
   damping_.clear();
   invert_diagonal();
   return objective();
+}
+
+// The cotangents' rows for a new connection, in the storage of the one before.
+std::optional<RingRows> CurvatureLevel::room_for_cotangents() {
+  if (!varies()) return std::nullopt;
+  if (!variation_) variation_ = std::make_unique<Variation>();
+  auto& before = variation_->connection;
+  return before ? std::move(*before).release() : RingRows(grid_);
+}
+
+// Rows, force, values and cotangents (null: none) of all points. Returns their total curvature.
+double CurvatureLevel::linearize_points(const double* x, const Unknowns& force_rows,
+                                        const PointValues& values, RingRows* cotangents,
+                                        double* force) {
+  const ControlMesh& mesh = shared_.mesh;
+  const EnergyWeight factor(grid_);
+  const Array<float> lifts = area_lifts(grid_, shared_.workers, x);
+  const float* lift = lifts.empty() ? nullptr : lifts.data();
+  if (!mesh.region.whole())  // points outside are not visited
+    shared_.workers.for_parts(
+        grid_.size(), vector_grain / 8,
+        [&](std::size_t begin, std::size_t end) { values.clear(begin, end - begin); });
+  ElementSums energy(mesh);
+  const auto body = [&](const Run& run, double* const* to, Gather& gather) {
+    if (!has_fit(mesh, run)) return values.clear(run.first, run.count);
+    const RunLinearizer pass{
+        run,    energy_,       factor,
+        values, rows_.of(run), cotangents ? cotangents->of(run) : RowRun<float>{},
+        to,     gather.point};
+    const bool is_regular = run.kind == RunKind::face_row ||
+                            (run.kind == RunKind::edge && !mesh.edges[run.element].boundary());
+    if (is_regular) {
+      energy.of(run) += pass.in_lanes(gather.lanes(run));
+      return;
+    }
+    gather.walk(run, [&](std::size_t i, const RingInSpace& ring, bool closed) {
+      energy.of(run) += pass.alone(i, ring, closed);
+    });
+  };
+  accumulate_runs(
+      grid_, shared_.workers, shared_.double_slots, &force_rows, force,
+      [&] { return Gather{point_scratch(), RingWalk(grid_, x, lift), RingLanes(grid_, x, lift)}; },
+      body);
+  return energy.total();
+}
+
+// Adds the force of tension, and by `normal` (null: not) K's part; returns the energy.
+double CurvatureLevel::add_tension(const double* x, const double* normal,
+                                   const Unknowns& force_rows, double* force) {
+  if (!(shared_.tension > 0)) return 0;
+  if (!area_) area_ = std::make_unique<AreaTerm>(grid_);
+  return area_->linearize(shared_.tension, x, normal, force_rows, shared_.workers, force);
 }
 
 void CurvatureLevel::penalize(Reference reference, const double* x, Linearization& about) {
@@ -249,7 +303,7 @@ void CurvatureLevel::penalize(Reference reference, const double* x, Linearizatio
 }
 
 // Computes L about the surface and the force, minus J^T L M. Returns the energy M . L M.
-double CurvatureLevel::connect(RingRows cotangents, const double* x, const Tensors& tensors,
+double CurvatureLevel::connect(RingRows cotangents, const double* x, const PointTensors& tensors,
                                const double* normal, double* force) {
   const std::size_t points = grid_.size();
   Array<double> moment(3 * points);

@@ -103,26 +103,26 @@ LevelSolve GaussNewtonSystem::solve_held(int level, const LinearizedSurface& abo
   };
   const std::size_t index = std::size_t(level - base_);
   const HeldSystem<1> system{
-      workers(),
-      h.size(),
-      shared_.unknowns,
-      op(level).weights(),
-      constraints_ ? std::span(constraints_->stiffness()) : std::span<const double>{},
-      hats.get(),
-      nullptr,
-      [&](std::size_t v) { return Vector(constraints_->target(v)); },
-      residual,
-      op(level).single_precision_suffices(),
-      [&](const PcgLimits& now, const LinearSystem& linear) {
-        return hierarchy_->solve(index, now, linear);
-      },
-      [&](std::span<const double> r, std::span<Vector> sums) {
-        restrict_to_vertices<1>(
-            transfers_, level, rows, workers(), r,
-            [this](int l) { return hierarchy_->room(std::size_t(l - base_)); }, sums);
-      },
-      [&](const VertexWeights&) { set_weights(level); },
-      [&](const double*) { return about.energy; }};
+      .workers = workers(),
+      .size = h.size(),
+      .unknowns = shared_.unknowns,
+      .weights = op(level).weights(),
+      .stiffness = constraints_ ? std::span(constraints_->stiffness()) : std::span<const double>{},
+      .hats = hats.get(),
+      .couples = nullptr,
+      .target = [&](std::size_t v) { return Vector(constraints_->target(v)); },
+      .residual = residual,
+      .leaves_residual = op(level).single_precision_suffices(),
+      .solve = [&](const PcgLimits& now,
+                   const LinearSystem& linear) { return hierarchy_->solve(index, now, linear); },
+      .restrict_to_vertices =
+          [&](std::span<const double> r, std::span<Vector> sums) {
+            restrict_to_vertices<1>(
+                transfers_, level, rows, workers(), r,
+                [this](int l) { return hierarchy_->room(std::size_t(l - base_)); }, sums);
+          },
+      .set_weights = [&](const VertexWeights&) { set_weights(level); },
+      .energy = [&](const double*) { return about.energy; }};
   Array<double> r(h.size());
   const LevelSolve solved =
       HeldSolve<1>(system, held_limits(level, about.functional), constraints, held, report)

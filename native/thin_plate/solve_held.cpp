@@ -65,23 +65,25 @@ ThinPlateSolver::Run::Solved ThinPlateSolver::Run::solve(int level, const PcgLim
     levels().restrict_to_vertices(level, y.data(), sums);
   };
   const HeldSystem<3> system{
-      workers,
-      size(level),
-      unknowns,
-      levels().weights(level),
-      supports.stiffness(),
-      hats.get(),
-      couples.get(),
-      [&](std::size_t v) {
-        return (constraints ? constraints->shifted_targets() : data.targets)[v];
-      },
-      residual,
-      levels().op(level).single_precision_suffices(),
-      solve_level,
-      has_free_border(levels().shared().mesh, unknowns) ? Restriction{} : restrict_to_vertices,
-      [&](const VertexWeights& weights) { levels().set_weights(weights, level); },
-      [&](const double* y) { return levels().energy(level, y); },
-      [&]() -> const Compliance& {
+      .workers = workers,
+      .size = size(level),
+      .unknowns = unknowns,
+      .weights = levels().weights(level),
+      .stiffness = supports.stiffness(),
+      .hats = hats.get(),
+      .couples = couples.get(),
+      .target =
+          [&](std::size_t v) {
+            return (constraints ? constraints->shifted_targets() : data.targets)[v];
+          },
+      .residual = residual,
+      .leaves_residual = levels().op(level).single_precision_suffices(),
+      .solve = solve_level,
+      .restrict_to_vertices =
+          has_free_border(levels().shared().mesh, unknowns) ? Restriction{} : restrict_to_vertices,
+      .set_weights = [&](const VertexWeights& weights) { levels().set_weights(weights, level); },
+      .energy = [&](const double* y) { return levels().energy(level, y); },
+      .compliance_of_couples = [&]() -> const Compliance& {
         return supports.compliance(level, solver.options_.solve.max_iterations);
       }};
   const HeldLimits held = held_limits(level, limits);
