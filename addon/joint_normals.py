@@ -32,8 +32,16 @@ def update(context: Context, target: Object, depsgraph: bpy.types.Depsgraph | No
     if found is not None:
         mesh.normals_split_custom_set(found)
     elif mesh.has_custom_normals:
-        mesh.attributes.remove(mesh.attributes["custom_normal"])
-    mesh.discrete_fairing.joint_normals = found is not None
+        _remove(mesh)
+    mesh.discrete_fairing.joint_normals = mesh.has_custom_normals
+
+
+def _remove(mesh: Any) -> None:
+    stored = mesh.attributes.get("custom_normal")
+    if stored is not None:
+        mesh.attributes.remove(stored)
+    else:  # no attribute before Blender 4.5; zero stands for Blender's own normals
+        mesh.normals_split_custom_set(np.zeros((len(mesh.loops), 3), np.float32))
 
 
 def update_others(context: Context, target: Object) -> None:

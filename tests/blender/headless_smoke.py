@@ -95,6 +95,51 @@ def test_a_hole_in_a_large_mesh_is_filled():
         bpy.data.meshes.remove(mesh)
 
 
+def sheet(name, first, last):
+    """A bent sheet of 4 x 3 quads between two y."""
+    x, y = np.meshgrid(np.linspace(0, 1.4, 5), np.linspace(first, last, 4), indexing="ij")
+    points = np.stack([x, y, 0.3 - 0.2 * y * y + 0.1 * np.sin(2 * x)], axis=2).reshape(-1, 3)
+    quads = [(k, k + 4, k + 5, k + 1) for k in range(16) if k % 4 < 3]
+    mesh = bpy.data.meshes.new(name)
+    mesh.from_pydata(points.tolist(), [], quads)
+    source = bpy.data.objects.new(name, mesh)
+    bpy.context.collection.objects.link(source)
+    select(source)
+    return fair(source)
+
+
+def select(*objects):
+    bpy.ops.object.select_all(action="DESELECT")
+    for one in objects:
+        one.select_set(True)
+    bpy.context.view_layer.objects.active = objects[0]
+
+
+def normals_apart(one, other):
+    """The largest length by which normals of two surfaces differ at vertices of both."""
+    shown = []
+    for surface in (one, other):
+        normals = [tuple(normal.vector) for normal in surface.data.corner_normals]
+        at = positions(surface.data).round(4)[[loop.vertex_index for loop in surface.data.loops]]
+        shown.append(dict(zip(map(tuple, at.tolist()), normals)))
+    common = shown[0].keys() & shown[1].keys()
+    assert len(common) == 4 * 2**LEVELS + 1
+    return max(np.linalg.norm(np.subtract(shown[0][at], shown[1][at])) for at in common)
+
+
+def test_joined_surfaces_have_common_normals_until_they_are_free():
+    panels = sheet("Bonnet", 0, 1.2), sheet("Fender", 1.2, 2)
+    before = normals_apart(*panels)
+    select(*panels)
+    assert bpy.ops.object.fairing_match_border() == {"FINISHED"}
+    assert before > 0.01 and normals_apart(*panels) < 0.001
+    taker = next(panel for panel in panels if panel.discrete_fairing.neighbour)
+    taker.discrete_fairing.neighbour = None
+    select(taker)
+    assert bpy.ops.object.fairing_recompute() == {"FINISHED"}
+    assert normals_apart(*panels) > 0.01
+
+
 def test_disable_and_enable_again():
     bpy.ops.preferences.addon_disable(module=EXTENSION)
     assert not hasattr(bpy.types, "OBJECT_OT_fairing_surface")
