@@ -26,9 +26,10 @@ def update(context: Context, target: Object, depsgraph: bpy.types.Depsgraph | No
     ours = mesh.discrete_fairing.joint_normals
     if not mesh.is_editable or target.mode == "EDIT" or (mesh.has_custom_normals and not ours):
         return
-    way = _way_to(target)
-    others = [neighbours.shown(context, o, way, depsgraph) for o in _met_by(target)]
-    found = _normals(target, others) if others else None
+    found = None
+    if met := list(_met_by(target)):
+        way = np.linalg.pinv(np.array(world_matrix(target), np.float64))  # a scale may be zero
+        found = _normals(target, [neighbours.shown(context, o, way, depsgraph) for o in met])
     if found is not None:
         mesh.normals_split_custom_set(found)
     elif mesh.has_custom_normals:
@@ -61,10 +62,6 @@ def _met_by(target: Object) -> Iterator[Object]:
             known = (neighbours.neighbour_of(target), neighbours.neighbour_of(other))
             if other == known[0] or target == known[1]:
                 yield other
-
-
-def _way_to(target: Object) -> np.ndarray:
-    return np.linalg.inv(np.array(world_matrix(target), np.float64))
 
 
 def _normals(target: Object, others: list[Any]) -> np.ndarray | None:
