@@ -109,7 +109,7 @@ class OBJECT_OT_fairing_for(ExplainedPoll, bpy.types.Operator):
         said = set_job(context, self.purpose, sources)
         if said:
             self.report({"INFO"}, said)
-        whole = _whole(context, sources)
+        whole = {} if self.purpose in EASED_FIRST else _whole(context, sources)
         if self.purpose in EASED_FIRST:
             if how == "INVOKE_DEFAULT":
                 return operators.fairing_ease(how, _UNDO, fair_afterwards=True)
