@@ -47,11 +47,12 @@ def _remove(mesh: Any) -> None:
 
 def update_others(context: Context, target: Object) -> None:
     """The same for the other surfaces with joints, present or earlier ones, with `target` or another."""
+    met = list(_met_by(target))
     for other in all_objects():
         if other.type != "MESH" or other == target or memory.source_of(other) is None:
             continue
-        met = list(_met_by(other))
-        if target in met or (other.data.discrete_fairing.joint_normals and not met):
+        is_free = other.data.discrete_fairing.joint_normals and not any(_met_by(other))
+        if other in met or is_free:
             update(context, other)
 
 

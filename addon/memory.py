@@ -99,7 +99,7 @@ class FAIRING_PG_fit(FitAmount, bpy.types.PropertyGroup):
 
 
 class FAIRING_PG_mesh(bpy.types.PropertyGroup):
-    """Properties of a mesh beside its colours and normals."""
+    """Properties of a mesh that belong to its curvature colours and its normals."""
 
     curvature_range: FloatVectorProperty(
         name="Curvature Range",

@@ -72,9 +72,9 @@ def kinks_at_ends(met, first):
     """Degrees, at the ends of joints, which `joint` leaves out: between the surfaces' fits there."""
     own, other = (mesh_arrays((part.vertices, part.faces)) for part in (met, first))
     neighbour = border_of(*other)
-    points = border_curve(*own).point
-    on = np.linalg.norm(neighbour.at(points).point - points, axis=1) < 1e-9
-    border = border_of(*own, only=border_curve(*own).vertex[on])
+    curve = border_curve(*own)
+    on = np.linalg.norm(neighbour.at(curve.point).point - curve.point, axis=1) < 1e-9
+    border = border_of(*own, only=curve.vertex[on])
     turn, _ = needed(border, neighbour.at(border.point))
     ends = np.bincount(border.ends.ravel()) == 1
     assert ends.sum() in (2, 4)

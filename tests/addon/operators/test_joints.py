@@ -77,14 +77,20 @@ def test_curvature_too_and_again_by_recompute(panels):
     assert np.degrees(check(*panels).kink) > 3
 
 
-def test_live_follows_the_neighbour(panels):
-    bonnet, fender = panels
-    select(*panels)
+def matched_live(bonnet, fender):
+    """The live session of the fender, whose border meets the bonnet's."""
+    select(bonnet, fender)
     bpy.ops.object.fairing_match_border()
     activate(fender)
     assert bpy.ops.object.fairing_live() == {"FINISHED"}
     (session,) = registry.sessions()
     session.follow()
+    return session
+
+
+def test_live_follows_the_neighbour(panels):
+    bonnet, fender = panels
+    session = matched_live(*panels)
     assert not session.needs_look()
     rotated(bonnet, 10)
     assert np.degrees(check(*panels).kink) > 3
@@ -296,12 +302,7 @@ def test_reflections_run_across_a_joint(panels, options):
 
 def test_live_keeps_reflections_across_a_joint(panels):
     bonnet, fender = panels
-    select(*panels)
-    bpy.ops.object.fairing_match_border()
-    activate(fender)
-    assert bpy.ops.object.fairing_live() == {"FINISHED"}
-    (session,) = registry.sessions()
-    session.follow()
+    session = matched_live(*panels)
     fender.discrete_fairing.source.data.vertices[10].co.z += 0.05
     fender.discrete_fairing.source.data.update()
     bpy.context.view_layer.update()
