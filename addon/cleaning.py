@@ -46,6 +46,11 @@ STEPS = (
         "Flattens faces that point away from all faces around, or cross those beside them",
     ),
     ("fill", "Holes", "Fills holes with a surface that continues the faces around"),
+    (
+        "noise",
+        "Noise",
+        "Takes noise off, around each vertex as much as the scan there allows: edges and details stay sharp",
+    ),
 )
 
 
@@ -56,7 +61,6 @@ class CleanOptions:
     steps: dict[str, bool]
     islands: float
     largest: float
-    noise: int | str  # passes, or "auto"
 
 
 class CleanJob(TimedRun):
@@ -78,7 +82,6 @@ class CleanJob(TimedRun):
                 (arrays.corners.astype(np.int64), arrays.offsets.astype(np.int64)),
                 islands=self._options.islands,
                 largest=self._options.largest,
-                noise=self._options.noise,
                 fixed=_marked(arrays),
                 **self._options.steps,
                 **watchers,

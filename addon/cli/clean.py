@@ -8,11 +8,11 @@ from typing import Any
 from ..blender import Object, current_context
 from ..cleaning import STEPS, CleanJob, CleanOptions
 from .report import counts
-from .rna import OfOperator, whole_number
+from .rna import OfOperator
 
-_NAMES = [name for name, *_ in STEPS]
+_NAMES = [name for name, *_ in STEPS if name != "noise"]
 OPTIONS = OfOperator(
-    "object.fairing_clean", {"clean_without": (), "clean_noise": 0}, clean_islands="islands"
+    "object.fairing_clean", {"clean_without": ()}, clean_islands="islands", clean_noise="noise"
 )
 
 
@@ -32,18 +32,12 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         help=f"leave out a step; may be repeated: {', '.join(_NAMES)} [none]",
     )
     OPTIONS.add(group)
-    group.add_argument(
-        "--clean-noise",
-        type=whole_number(0, 1000, "auto"),
-        metavar="N",
-        help="auto: remove noise by an amount chosen around each vertex; a number: passes of a filter, the same "
-        "everywhere, up to 1000; ten are enough for most scans [0]",
-    )
 
 
 def options_of(said: dict[str, Any]) -> CleanOptions:
     steps = {name: name not in said["clean_without"] for name in _NAMES}
-    return CleanOptions(steps, said["clean_islands"], said["largest_hole"], said["clean_noise"])
+    steps["noise"] = said["clean_noise"]
+    return CleanOptions(steps, said["clean_islands"], said["largest_hole"])
 
 
 def run(source: Object, options: CleanOptions, **watchers: Any) -> tuple[dict[str, Any], list[str]]:
@@ -62,13 +56,3 @@ def run(source: Object, options: CleanOptions, **watchers: Any) -> tuple[dict[st
     }
     good = found.watertight and not found.left
     return entry, [] if good else [f"{source.name}: {said[-1]}."]
-
-
-COLUMNS = {"watertight": 11, "left": 7}
-
-
-def cells(objects: list[dict[str, Any]], _record: dict[str, Any]) -> tuple[str, ...]:
-    """Cells of a finished input's row in the table: sums over its objects."""
-    closed = all(item["report"]["watertight"] for item in objects)
-    left = sum(part["count"] for item in objects for part in item["report"]["left"])
-    return "yes" if closed else "no", f"{left:,}"

@@ -34,14 +34,12 @@ def number(what: str, accepts: Callable[[float], bool]) -> Callable[[str], float
     return read
 
 
-def whole_number(lowest: int, highest: int = 2**31 - 1, *words: str) -> Callable[[str], Any]:
-    """The `type` of an argument that is a number in this range, or one of `words`."""
+def whole_number(lowest: int, highest: int = 2**31 - 1) -> Callable[[str], int]:
+    """The `type` of an argument that is a number in this range."""
     span = f", {lowest} or more" if highest == 2**31 - 1 else f" from {lowest} to {highest}"
-    what = "".join(f"{word} or " for word in words) + "a whole number" + span
+    what = "a whole number" + span
 
-    def read(text: str) -> int | str:
-        if text in words:
-            return text
+    def read(text: str) -> int:
         if not text.isdecimal() or not lowest <= int(text) <= highest:
             raise argparse.ArgumentTypeError(f"{text!r} is not {what}")
         return int(text)

@@ -4,7 +4,7 @@
 from collections.abc import Iterator, Sequence
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
+from bpy.props import BoolProperty, FloatProperty
 
 from ..blender import Context
 from ..cleaning import STEPS, CleanJob, CleanOptions
@@ -31,6 +31,7 @@ class OBJECT_OT_fairing_clean(Shown, LargestHole, InMeshes, bpy.types.Operator):
     spikes: BoolProperty(name=STEPS[6][1], description=STEPS[6][2], default=True)
     folds: BoolProperty(name=STEPS[7][1], description=STEPS[7][2], default=True)
     fill: BoolProperty(name=STEPS[8][1], description=STEPS[8][2], default=True)
+    noise: BoolProperty(name=STEPS[9][1], description=STEPS[9][2], default=False)
     islands: FloatProperty(
         name="Islands",
         description="Removes parts whose box has a diagonal below this share of the longest",
@@ -39,33 +40,6 @@ class OBJECT_OT_fairing_clean(Shown, LargestHole, InMeshes, bpy.types.Operator):
         max=1.0,
         subtype="FACTOR",
     )
-    noise: EnumProperty(
-        name="Noise",
-        description="What happens to the noise of measured vertices; creased and sharp edges stay",
-        items=(
-            ("NONE", "Leave", "Noise stays"),
-            (
-                "AUTO",
-                "Take Off",
-                "Removes noise by an amount chosen around each vertex: edges and details stay sharp",
-            ),
-            (
-                "PASSES",
-                "Fast",
-                "Runs a number of filter passes, the same everywhere: edges are rounded",
-            ),
-        ),
-        default="NONE",
-    )
-    passes: IntProperty(
-        name="Passes",
-        description="Ten are enough for a scan whose noise is a tenth of its edges",
-        default=10,
-        min=1,
-        max=1000,
-        soft_max=30,
-    )
-
     reasons = (can_fair, of_meshes(source_objects))
 
     def shown(self, _context: Context) -> Iterator[str]:
@@ -73,16 +47,12 @@ class OBJECT_OT_fairing_clean(Shown, LargestHole, InMeshes, bpy.types.Operator):
             yield name
             if name == "join":
                 yield "islands"
-        if self.fill:
-            yield "largest"
-        yield "noise"
-        if self.noise == "PASSES":
-            yield "passes"
+            if name == "fill" and self.fill:
+                yield "largest"
 
     def make_jobs(self, context: Context) -> list[CleanJob]:
         steps = {name: bool(getattr(self, name)) for name, *_ in STEPS}
-        noise = {"NONE": 0, "AUTO": "auto", "PASSES": self.passes}[self.noise]
-        options = CleanOptions(steps, self.islands, self.largest, noise)
+        options = CleanOptions(steps, self.islands, self.largest)
         targets = {target.data: target for target in source_objects(context)}.values()
         return [CleanJob(context, target, options) for target in targets]
 

@@ -69,17 +69,6 @@ def test_as_near_to_the_truth_as_taubin_with_the_steps_that_suit_best(shape, sha
     assert error(found.vertices, truth, chosen) < share * best < 0.5 * NOISE
 
 
-def test_passes_are_the_fast_choice():
-    """They are those of Taubin's filter: nothing shrinks, borders stay, and no spike is looked for."""
-    truth, faces = sheet(40, sphere)
-    measured, border = noisy(truth), ~(np.abs(truth[:, :2]) < 16).all(axis=1)
-    found = df.denoise(measured, faces, passes=10)
-    assert error(found.vertices, truth, ~border) < 0.5 * NOISE
-    assert abs((found.vertices - truth)[~border, 2].mean()) < 0.05 * NOISE
-    assert not found.moves[[0, 39, 1560, 1599]].any()
-    assert np.isnan(found.noise) and not len(found.rejected)
-
-
 @pytest.mark.parametrize("size", [0.02, 0.1])
 def test_the_noise_is_read(size):
     truth, faces = sheet(70, smooth_and_detailed)

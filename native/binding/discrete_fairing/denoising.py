@@ -17,7 +17,7 @@ from numpy.polynomial.chebyshev import chebinterpolate
 from numpy.typing import ArrayLike
 
 from .arrays import face_arrays, fixed_vertices, following, vertex_array
-from .converters import positive, whole
+from .converters import positive
 from .errors import fairing_error
 from .stars import Stars
 
@@ -33,9 +33,6 @@ _AVERAGES = 8
 _SPIKE, _OVER_NEIGHBOURS = 5.0, 4.0
 _OF_MEDIAN = 1.4826022185056018  # standard deviation over median of absolute values, if normal
 _FARTHEST = 1e15  # largest height over the noise; sums of squares still fit into float32
-# Taubin's two factors, forth and back; waves longer than about seven edges keep their size
-# [Taubin 1995: a pass band of 0.1].
-_THERE, _BACK = 0.6307, -0.6732
 
 
 class Denoised:
@@ -43,7 +40,7 @@ class Denoised:
 
     vertices: (n, 3) float64, mesh units, the new positions.
     moves: (n,) float64, mesh units, the distance by which each vertex has moved.
-    noise: float, mesh units: root mean square distance of a vertex from the surface; NaN with `passes`.
+    noise: float, mesh units: root mean square distance of a vertex from the surface.
     rejected: (k,) int64, spikes, the worst first; their new places depend on their neighbours alone.
     """
 
@@ -64,7 +61,6 @@ def denoise(
     faces: ArrayLike | Sequence[Sequence[int]],
     *,
     amount: float | None = None,
-    passes: int = 0,
     fixed: ArrayLike | None = None,
 ) -> Denoised:
     """Remove the noise of a scan by a linear filter whose strength is chosen around each vertex.
@@ -76,18 +72,13 @@ def denoise(
     amount
         Mesh units, over 0: how far vertices are off the surface, root mean square. None: read from
         the vertices. More takes more off.
-    passes
-        0, or the fast choice: so many passes of Taubin's filter, up to 1000, everywhere the same. Ten do for a
-        scan whose noise is a tenth of its edges. It rounds sharp edges, rejects no spikes, and borders stay.
-        Not with `amount`.
     fixed
         (n,) bool: vertices that stay.
 
     Raises
     ------
     FairingError
-        BAD_OPTION for an amount that is no length, passes that are no such number, both, and bools of
-        another shape; as fair() for arrays.
+        BAD_OPTION for an amount that is no length, and bools of another shape; as fair() for arrays.
     """
     points = vertex_array(vertices)
     corners, offsets = face_arrays(faces)
@@ -95,16 +86,11 @@ def denoise(
     stays = fixed_vertices(fixed, count)
     if amount is not None:
         amount = positive("amount", amount)
-    passes = whole("passes", passes)
-    if passes > 1000 or (passes and amount is not None):
-        raise fairing_error(
-            "BAD_OPTION", f"passes is {passes}; it must be from 0 to 1000, and 0 with an amount."
-        )
     if len(corners) and not 0 <= corners.min() <= corners.max() < len(points):
         raise fairing_error(
             "INDEX_OUT_OF_RANGE", f"A face has a vertex that is not among the {len(points)}."
         )
-    return denoised(points, corners, offsets, stays, amount, passes)
+    return denoised(points, corners, offsets, stays, amount)
 
 
 def denoised(
@@ -113,7 +99,6 @@ def denoised(
     offsets: np.ndarray,
     stays: np.ndarray,
     amount: float | None,
-    passes: int,
 ) -> Denoised:
     """denoise() for checked arrays."""
     none = np.empty(0, np.int64)
@@ -121,9 +106,6 @@ def denoised(
         return Denoised(points, np.zeros_like(points), 0.0, none)
     stars = Stars(len(points), corners, offsets)
     here, held = stars.ordered(points), stars.ordered(stays) | (stars.counts == 0)
-    if passes:
-        moved = _passed(stars, here, held | stars.on_border, passes)
-        return Denoised(points, stars.as_given(moved - here), float("nan"), none)
     middle = stars.mean(here)
     calm = stars.as_given(0.5 * (here + middle))
     normals = stars.ordered(_normals(calm - points.mean(axis=0), corners, offsets))
@@ -135,13 +117,6 @@ def denoised(
     found, spikes = heights.weighed(noise)
     moves = stars.as_given(found[:, None] * normals)
     return Denoised(points, moves, noise, stars.order[spikes])
-
-
-def _passed(stars: Stars, points: np.ndarray, held: np.ndarray, passes: int) -> np.ndarray:
-    free = (~held)[:, None].astype(float)
-    for share in (_THERE, _BACK) * passes:
-        points = points - share * free * stars.off_mean(points)
-    return points
 
 
 class _Heights:

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from .. import _native
 from ..arrays import face_arrays, fixed_vertices, vertex_array
-from ..converters import switch, whole
+from ..converters import switch
 from ..denoising import denoised
 from ..errors import fairing_error
 from ..watching import Progress, SeveralRuns, check_watchers
@@ -40,7 +40,7 @@ def clean(
     energy: str = "thin_plate",
     density: float = 1.0,
     rim: str = "exact",
-    noise: int | str = 0,
+    noise: bool = False,
     fixed: ArrayLike | None = None,
     threads: int = 0,
     progress: Progress | None = None,
@@ -92,10 +92,8 @@ def clean(
     largest : float
         Wider holes stay open: a length, between the two vertices of the rim that are farthest apart. 0: those
         stay open whose flat area is over half of the surface's own, as at the border of a sheet.
-    noise : int or "auto"
-        "auto": it is taken off by denoise(), around each vertex as much as the scan there allows. A number:
-        by so many of its passes, the fast choice, up to 1000; they round sharp edges that are not
-        `fixed`. 0: none is.
+    noise : bool
+        It is taken off by denoise(), around each vertex as much as the scan there allows.
     fixed : (n,) bool
         Vertices that no step moves. None: none.
     threads : int
@@ -117,12 +115,13 @@ def clean(
     """
     check_watchers(progress, monitor)
     for name, value in zip(
-        SWITCHES, (mend, join, fins, normals, inner, pinched, spikes, folds, fill), strict=True
+        SWITCHES,
+        (mend, join, fins, normals, inner, pinched, spikes, folds, fill, noise),
+        strict=True,
     ):
         switch(name, value)
     _require_number("islands", islands, 1.0)
     _require_number("largest", largest, np.inf)
-    passes = _passes(noise)
     points = vertex_array(vertices)
     state = State.of(points, *face_arrays(faces))
     held = fixed_vertices(fixed, len(points))
@@ -164,32 +163,21 @@ def clean(
             run.step("pinched", 0.92, partial(topology.vertices_split, every=True), SPLIT)
     if normals:
         run.step("normals", 0.94, topology.turned_out, TURNED)
-    if passes is not None:
-        smoothed = partial(_without_noise, fixed=run.held(held), passes=passes)
+    if noise:
+        smoothed = partial(_without_noise, fixed=run.held(held))
         run.step("noise", 0.95, smoothed, "{vertex|vertices} smoothed")
     found = run.cleaned(skipped)
     watched.finish()
     return found
 
 
-SWITCHES = ("mend", "join", "fins", "normals", "inner", "pinched", "spikes", "folds", "fill")
+SWITCHES = (
+    *("mend", "join", "fins", "normals", "inner", "pinched", "spikes", "folds", "fill"),
+    "noise",
+)
 CUT = "{edge cut at a vertex on it|edges cut at vertices on them}"
 TURNED = "{face|faces} flipped"
 SPLIT = "{vertex|vertices} split where parts touched"
-
-
-def _passes(noise: int | str) -> int | None:
-    """The argument `passes` of denoise(); None: no denoising."""
-    if isinstance(noise, str):
-        if noise != "auto":
-            raise fairing_error(
-                "BAD_OPTION", f'noise is {noise!r}; it must be "auto" or a number of passes.'
-            )
-        return 0
-    passes = whole("noise", noise)
-    if passes > 1000:
-        raise fairing_error("BAD_OPTION", f"noise is {passes}; it must be from 0 to 1000.")
-    return passes or None
 
 
 def _require_number(name: str, value: Any, most: float) -> None:
@@ -198,8 +186,8 @@ def _require_number(name: str, value: Any, most: float) -> None:
         raise fairing_error("BAD_OPTION", f"{name} is {value!r}; it must be {limit}.")
 
 
-def _without_noise(state: State, fixed: np.ndarray, passes: int) -> tuple[State, int]:
-    found = denoised(state.points, state.corners, state.offsets, fixed, None, passes)
+def _without_noise(state: State, fixed: np.ndarray) -> tuple[State, int]:
+    found = denoised(state.points, state.corners, state.offsets, fixed, None)
     return state.replaced(points=found.vertices), int(np.count_nonzero(found.moves))
 
 
