@@ -3,9 +3,8 @@
 
 import os
 import re
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from itertools import chain, count
 from pathlib import Path
 from typing import Any, cast
 
@@ -21,7 +20,6 @@ from .places import FORMATS, file_format
 # With the same axes for reading and writing, coordinates in the file are those of the mesh.
 _AXES = {"forward_axis": "Y", "up_axis": "Z"}
 _BLOCK = 1 << 20
-_PLY_BYTES = {b"float": 4, b"double": 8, b"uchar": 1, b"int": 4, b"uint": 4, b"short": 2}
 
 
 def _append_meshes(filepath: str) -> None:
@@ -120,12 +118,11 @@ def write_file(path: Path) -> None:
     with _explained(path):
         path.parent.mkdir(parents=True, exist_ok=True)
         target = _whole_files().real_place(path)
-        stem = free_stem(target) if file_format(path) == "obj" else None
-        with _whole_files().whole_file(path, path.suffix, stem) as part:
+        with _whole_files().whole_file(path, path.suffix) as part:
             part.write_bytes(b"")  # its error is clearer than those of the exporters
             _export(part)
             materials = part.with_suffix(".mtl")
-            if stem is not None and materials.exists():
+            if materials.exists():
                 _whole_files().put(materials, target.with_name(materials.name))
 
 
@@ -172,11 +169,15 @@ def _export(path: Path) -> None:
         export[file_format(path)](filepath=str(path), check_existing=False, **_AXES)
     except RuntimeError as error:
         raise _NotWritten(_reason(error).rstrip(".")) from error
-    meshes = [o.data for o in current_context().scene.objects if o.type == "MESH"]
-    faces, corners = (sum(len(getattr(m, of)) for m in meshes) for of in ("polygons", "loops"))
-    incomplete = why_incomplete(path, faces, corners)
-    if incomplete:
-        raise _NotWritten(incomplete)
+    # exporters ignore a full disk, which has no room for another block either
+    with path.open("ab") as stream:
+        end = stream.tell()
+        stream.write(bytes(_BLOCK))
+        stream.flush()
+        os.fsync(stream.fileno())
+        stream.truncate(end)
+    if not end:
+        raise _NotWritten("nothing was written")
 
 
 def _write_obj(**arguments: Any) -> set[Any]:
@@ -214,81 +215,3 @@ def _merge(mesh: Mesh) -> None:
 
 def _reason(error: Exception) -> str:
     return str(error).strip().removeprefix("Error: ")
-
-
-def why_incomplete(path: Path, faces: int, corners: int) -> str:
-    """What is missing in a file with so many faces and corners, in a few words; else empty. Exporters ignore a
-    full disk.
-    """
-    size = path.stat().st_size if path.exists() else 0
-    if not size:
-        return "nothing was written"
-    checks = {".obj": _obj_has_all, ".ply": _ply_has_all, ".stl": _stl_has_all}
-    complete = checks[path.suffix.lower()](path, size, faces, corners)
-    return "" if complete else "the file ends too early; is the disk full?"
-
-
-def _obj_has_all(path: Path, _size: int, faces: int, _corners: int) -> bool:
-    found, before = 0, b"\n"
-    with path.open("rb") as stream:
-        while block := stream.read(_BLOCK):
-            text = before + block  # a line may begin in the previous block
-            found += text.count(b"\nf ")
-            before = text[-2:]
-    return found == faces and before.endswith(b"\n")
-
-
-def _ply_has_all(path: Path, size: int, faces: int, corners: int) -> bool:
-    """Checks a binary file of Blender: one byte for the size of each face, then 4 a corner."""
-    with path.open("rb") as stream:
-        header, vertex_bytes, vertices = 0, 0, 0
-        element = b""
-        for line in stream:
-            header += len(line)
-            words = line.split()
-            if words[:1] == [b"element"]:
-                element = words[1]
-                if element == b"vertex":
-                    vertices = int(words[2])
-            elif words[:1] == [b"property"] and element == b"vertex":
-                vertex_bytes += _PLY_BYTES.get(words[1], 0)
-            elif words == [b"end_header"]:
-                return size >= header + vertices * vertex_bytes + faces + 4 * corners
-    return False
-
-
-def _stl_has_all(path: Path, size: int, _faces: int, _corners: int) -> bool:
-    with path.open("rb") as stream:
-        head = stream.read(84)
-    return len(head) == 84 and size == 84 + 50 * int.from_bytes(head[80:], "little")
-
-
-def free_stem(target: Path) -> str:
-    """A name for the materials of the OBJ `target`: its own, numbered if another file has it."""
-    own = _named_in(target)
-    names = chain([target.stem], (f"{target.stem}-{number}" for number in count(1)))
-    return next(
-        stem
-        for stem in names
-        if f"{stem}.mtl" in own or not os.path.lexists(target.with_name(f"{stem}.mtl"))
-    )
-
-
-def _named_in(target: Path) -> set[str]:
-    """The materials that an OBJ names before its first vertex; a device is not read."""
-    if not target.is_file():
-        return set()
-    try:
-        with target.open("rb") as stream:
-            return set(_materials(stream))
-    except OSError:
-        return set()
-
-
-def _materials(lines: Iterable[bytes]) -> Iterable[str]:
-    for line in lines:
-        word, _, name = line.strip().partition(b" ")
-        if word in (b"v", b"f"):
-            return
-        if word == b"mtllib":
-            yield os.fsdecode(name.strip())

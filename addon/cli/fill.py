@@ -72,12 +72,3 @@ def run(source: Object, options: FillOptions, **watchers: Any) -> tuple[dict[str
     entry |= {"result": counts(source.data), "report": {"holes": holes}}
     said = [job.left_text, *fill_warnings([job])]
     return entry, [f"{source.name}: {sentence}." for sentence in said if sentence]
-
-
-COLUMNS = {"holes": 7, "folded": 7}
-
-
-def cells(objects: list[dict[str, Any]], _record: dict[str, Any]) -> tuple[str, ...]:
-    """Cells of a finished input's row in the table: sums over its objects."""
-    holes = [hole for item in objects for hole in item["report"]["holes"]]
-    return f"{len(holes):,}", f"{sum(hole['folds'] > 0 for hole in holes):,}"

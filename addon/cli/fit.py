@@ -148,15 +148,5 @@ def said(told: dict[str, Any]) -> str:
         f"within {words.short(told['within'])} of 95 % of {told['points']:,} points, "
         f"largest {words.short(told['largest'])}; noise about {words.short(told['noise'])}"
     )
-    if "off_allowed" in told:
-        text += "; " + words.allowed(words.short(told["off_allowed"]), told["angle_allowed"])
     coarse = len(told["too_coarse"])
     return text + (f"; {coarse} faces of the cage are too coarse" if coarse else "")
-
-
-COLUMNS = {"within": 10, "noise": 10}
-
-
-def cells(objects: list[dict[str, Any]], _record: dict[str, Any]) -> tuple[str, ...]:
-    told = objects[0]["fit"]
-    return words.short(told["within"]), words.short(told["noise"])

@@ -7,7 +7,6 @@ import signal
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, nullcontext
-from pathlib import Path
 from typing import Any, TextIO
 
 import bpy
@@ -16,9 +15,9 @@ from .. import core
 from ..settings import Settings
 from . import ease, executors, fit, mending, report, step
 from .files import FileError, write_text
-from .one_file import fail, run_one, say, say_eased, say_mended
+from .one_file import fail, run_one, say, tell
 from .options import parser, settings_of, shown
-from .places import BadPlaces, Place, is_cad, no_report_over, places
+from .places import BadPlaces, Place, no_report_over, places
 
 ALL_DONE, SOME_FAILED, WRONG_USAGE, NO_NATIVE_MODULE, INTERRUPTED = 0, 1, 2, 3, 130
 
@@ -69,20 +68,16 @@ def _run_all(
     if arguments.mending is not None:
         reported = arguments.mending.said
     records = [report.new_record(file, reported) for file in files]
-    table = _Table(arguments, files, records, settings.energy)
     spread = executors.is_spread(arguments)
-    if why := table.why_no_log():
-        say(f"error: {why}")
-        return records, SOME_FAILED
     try:
         with executors.executor(arguments) if spread else nullcontext() as executor:
             if executor is not None and arguments.pieces is None:
-                _run_batches(executor, argv, records, table)
+                _run_batches(executor, argv, records, arguments.quiet)
             else:
                 arguments.spread = executor and executor.faired
                 for index, file in enumerate(files):
                     run_one(file, records[index], arguments, settings)
-                    table.line(index)
+                    tell(records[index], arguments.quiet)
     except executors.NoExecutor as error:
         say(f"error: {error}")
         return records, SOME_FAILED
@@ -103,69 +98,21 @@ def _note_interruption(records: list[dict[str, Any]], all_of_them: bool) -> None
         say(f"{waiting[0]['input']}: interrupted")
 
 
-class _Table:
-    """Prints a row for each finished input, unless the user has turned that off."""
-
-    def __init__(
-        self,
-        arguments: argparse.Namespace,
-        files: list[Place],
-        records: list[dict[str, Any]],
-        energy: str,
-    ) -> None:
-        self.is_wanted = not arguments.quiet
-        meshes = report if arguments.drawn is None else fit
-        self._of_meshes: Any = arguments.mending.module if arguments.mending else meshes
-        self._files, self._records = files, records
-        # processes of an executor leave this to the process that started them
-        self._log = Path(arguments.log) if arguments.log and arguments.only is None else None
-        self._width = max((len(record["input"]) for record in records), default=0)
-        if self.is_wanted:
-            module = self._of_meshes if arguments.patches is None else step
-            say(report.table_head(self._width, module, energy))
-
-    def why_no_log(self) -> str:
-        """A sentence; empty if rows can be appended."""
-        try:
-            if self._log is not None:
-                self._log.open("a").close()
-        except OSError as error:
-            return f"{self._log} cannot be written: {error.strerror}."
-        return ""
-
-    def line(self, index: int) -> None:
-        record = self._records[index]
-        if self._log is not None:
-            with self._log.open("a", encoding="utf-8") as log:
-                log.write(report.log_line(record))
-        if record["status"] == report.DONE and self.is_wanted:
-            is_step = is_cad(self._files[index].target)  # STEP files contain no mended mesh
-            module = step if is_step else self._of_meshes
-            say(report.table_line(record, self._width, module))
-
-
 def _run_batches(
     executor: executors.TaskExecutor,
     argv: Sequence[str],
     records: list[dict[str, Any]],
-    table: _Table,
+    quiet: bool,
 ) -> None:
-    """Runs all files in parallel, and prints what this process would have printed for each."""
+    """Runs all files in parallel."""
     for share, found in executors.run_files(executor, argv, len(records)):
         for k, index in enumerate(share):
             record = records[index]
             if isinstance(found, str):
                 fail(record, "INTERNAL", (), f"{record['input']}: {found}")
-                continue
-            record.update(found[k])
-            if record["error"] is not None:
-                say(f"error: {record['error']['message']}")
-            for entry in record["objects"] if table.is_wanted else ():
-                say_mended(record["input"], entry["report"].get("repairs"))
-                say_eased(record["input"], entry)
-            for warning in record["warnings"]:
-                say(f"{record['input']}: warning: {warning}")
-            table.line(index)
+            else:
+                record.update(found[k])
+            tell(record, quiet)
 
 
 def _write_report(

@@ -13,7 +13,7 @@ import bpy
 from .. import memory
 from ..blender import Object, current_context
 from ..cad.fit import PatchJob
-from ..cad.step import write_jobs
+from ..cad.step import summary, write_jobs
 from ..errors import JobError, repairs_text
 from ..job import Job
 from ..scan_fit import Fit, FitJob
@@ -28,7 +28,6 @@ from .report import Progress
 def run_one(
     file: Place, record: dict[str, Any], arguments: argparse.Namespace, settings: Settings
 ) -> None:
-    """Fairs one file, and notes the outcome in its record."""
     start = time.perf_counter()
     try:
         for path in (file.target, arguments.tables.get(file)):
@@ -65,7 +64,6 @@ def _fair_file(
     progress = Progress(sys.stderr, str(file.source), len(sources) * (1 + prepared.runs))
     watchers: dict[str, Any] = {} if arguments.quiet else {"progress": progress}
     patches = arguments.patches if is_cad(file.target) else None
-    is_read = not arguments.quiet or arguments.json is not None
     asked = {
         name: value
         for name in ("weld", "threads")
@@ -81,8 +79,8 @@ def _fair_file(
             tables += found
         jobs = [_job(source, settings, patches, near) for source in sources]
         for job in jobs:
-            # the table and the report contain energies
-            job.arguments |= asked | {"measure": is_read and patches is None}
+            # the report contains energies
+            job.arguments |= asked | {"measure": arguments.json is not None and patches is None}
             job.pieces, job.spread = arguments.pieces, arguments.spread
             job.compute(**watchers)
             progress.next_run()
@@ -91,16 +89,15 @@ def _fair_file(
     if patches is not None:
         step.require_patches(jobs)
     for job, source, entry in zip(jobs, sources, entries):
-        if not arguments.quiet:
-            say_mended(file.source, job.result.report["repairs"])
-            say_eased(file.source, entry | {"name": source.name})
-        for warning in job.warnings():
-            record["warnings"].append(warning)
-            say(f"{file.source}: warning: {warning}")
+        if mended := repairs_text(job.result.report["repairs"]):
+            record["notes"].append(f"mended: {mended}")
+        if "eased" in entry:
+            record["notes"].append(f"{source.name}: {entry['eased']['said']}")
+        record["warnings"] += job.warnings()
         if near is not None:
             entry["fit"] = fit.entry(job)
-            if not arguments.quiet:
-                say(f"{file.source}: {fit.said(entry['fit'])}")
+            if patches is None:  # `summary` says the same of patches
+                record["notes"].append(fit.said(entry["fit"]))
         is_patches = isinstance(job, PatchJob)
         done = step.object_entry(job) if is_patches else _replace(job, source)
         record["objects"].append(done | entry)
@@ -108,6 +105,7 @@ def _fair_file(
         write_file(file.target)
     else:
         write_whole(file.target, lambda path: write_jobs(path, jobs, patches.unit, 1.0))
+        record["notes"].append(summary(jobs, patches.unit, 1.0))
     for rows in tables:
         write_text(str(arguments.tables[file]), table.text(rows), newline="")
 
@@ -118,20 +116,16 @@ def _mend_file(file: Place, record: dict[str, Any], arguments: argparse.Namespac
     watchers: dict[str, Any] = {} if arguments.quiet else {"progress": progress}
     if arguments.threads is not None:
         watchers["threads"] = arguments.threads
-    warnings: list[str] = []
     try:
         for source in sources:
-            entry, said = arguments.mending.module.run(
+            entry, warnings = arguments.mending.module.run(
                 source, arguments.mending.options, **watchers
             )
             record["objects"].append(entry)
-            warnings += said
+            record["warnings"] += warnings
             progress.next_run()
     finally:
         progress.clear()
-    for warning in warnings:
-        record["warnings"].append(warning)
-        say(f"{file.source}: warning: {warning}")
     write_file(file.target)
 
 
@@ -164,18 +158,19 @@ def fail(record: dict[str, Any], code: str, elements: Sequence[Any], message: st
     record["status"] = report.FAILED
     record["error"] = report.error_entry(code, message, elements)
     record["objects"].clear()
-    say(f"error: {message}")
 
 
-def say_mended(name: object, repairs: Any) -> None:
-    mended = repairs_text(repairs) if repairs else ""
-    if mended:
-        say(f"{name}: mended: {mended}")
-
-
-def say_eased(name: object, entry: dict[str, Any]) -> None:
-    if "eased" in entry:
-        say(f"{name}: {entry['name']}: {entry['eased']['said']}")
+def tell(record: dict[str, Any], quiet: bool) -> None:
+    """Prints the outcome of an input; with `quiet` only what went wrong."""
+    if record["error"] is not None:
+        say(f"error: {record['error']['message']}")
+    notes = [f"warning: {warning}" for warning in record["warnings"]]
+    if not quiet:
+        notes = [*record["notes"], *notes]
+    for note in notes:
+        say(f"{record['input']}: {note}")
+    if record["status"] == report.DONE and not quiet:
+        say(report.line(record))
 
 
 def say(text: str) -> None:

@@ -61,7 +61,7 @@ examples:
   {_PROGRAM} hull.obj hull.step --unit m --fit-tolerance 1e-5
   {_PROGRAM} offsets.obj hull.step --unit m --ease --strain offsets.csv
   {_PROGRAM} scan.ply closed.ply --fill --largest-hole 30
-  {_PROGRAM} scan.stl closed.ply --clean --clean-noise 10
+  {_PROGRAM} scan.stl closed.ply --clean --clean-noise
   {_PROGRAM} --fit scan.ply --cage cage.obj --tolerance 0.2 part.step
   {_PROGRAM} *.obj 'fair/{{name}}_fair.obj' --quiet --json report.json
 
@@ -221,12 +221,9 @@ def parser(version: str) -> argparse.ArgumentParser:
         help="write a report to a file; -: to standard output, which then has nothing else",
     )
     made.add_argument(
-        "--log",
-        metavar="FILE",
-        help="append a line for each input as soon as it ends: status, seconds, input, output, what went wrong",
-    )
-    made.add_argument(
-        "--quiet", action="store_true", help="no progress and no table; errors are still written"
+        "--quiet",
+        action="store_true",
+        help="no progress and no notes; errors and warnings are still written",
     )
     made.add_argument(
         "--version", action="version", version=version, help="print the versions and exit"

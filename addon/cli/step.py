@@ -3,7 +3,6 @@
 
 import argparse
 from collections.abc import Sequence
-from math import degrees
 from typing import Any
 
 from ..cad import words
@@ -78,13 +77,3 @@ def object_entry(job: PatchJob) -> dict[str, Any]:
             "unresolved": patches.unresolved.tolist(),
         },
     }
-
-
-COLUMNS = {"off": 10, "angle": 9}
-
-
-def cells(objects: list[dict[str, Any]], _record: dict[str, Any]) -> tuple[str, ...]:
-    """Cells of a finished input's row in the table: the accuracy of the worst object."""
-    off = max(item["report"]["off"] for item in objects)
-    angle = degrees(max(item["report"]["largest_angle"] for item in objects))
-    return words.short(off), words.short(angle) + "°"

@@ -3,6 +3,7 @@
 
 import json
 import os
+import resource
 import subprocess
 import sys
 from pathlib import Path
@@ -54,12 +55,15 @@ os._exit(code)  # as Blender does: bpy as a module is slow to end
 """
 
 
-def process(*words, **extra):
-    """A process of its own with these variables: exit code, standard output, standard error."""
+def process(*words, largest_file=resource.RLIM_INFINITY, **extra):
+    """A process of its own with these variables: exit code, standard output, standard error. What it
+    writes beyond `largest_file` bytes of a file is lost, as on a full disk.
+    """
     done = subprocess.run(
         [sys.executable, "-c", PROCESS, *map(str, words)],
         env={"PYTHONPATH": os.pathsep.join((str(ROOT), str(CORE))), "PATH": "", **extra},
         capture_output=True,
         timeout=120,
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (largest_file,) * 2),
     )
     return done.returncode, done.stdout.decode(), done.stderr.decode()

@@ -32,11 +32,9 @@ def file_name(path: object) -> str:
 
 
 @contextmanager
-def whole_file(
-    path: str | os.PathLike, suffix: str | None = None, stem: str | None = None
-) -> Iterator[Path]:
+def whole_file(path: str | os.PathLike, suffix: str | None = None) -> Iterator[Path]:
     """A path to write to inside the `with`, in a private folder. Its name is that of the file, unless
-    `suffix` or `stem` is given.
+    `suffix` is given.
 
     At the end the new file replaces the old one and keeps its permissions; a link stays a link. After an
     error nothing has changed, and an OSError names `path`. Pipes and devices get the bytes at the end.
@@ -51,7 +49,7 @@ def whole_file(
         beside = target.parent if is_file else None
         folder = Path(tempfile.mkdtemp(prefix=".", suffix=".part", dir=beside))
         try:
-            place = folder / ((stem or target.stem) + (target.suffix if suffix is None else suffix))
+            place = folder / (target.stem + (target.suffix if suffix is None else suffix))
             yield place
             if is_file:
                 put(place, target)

@@ -139,6 +139,5 @@ def test_what_is_left_is_warned_of_and_is_no_failure(capsys):
     assert warning == "Ball: Watertight: no; left: 27 edges are at holes."
     assert open_edges("out.obj") == 27
     assert run("in.obj", "again.obj", "--clean", "--largest-hole", 0.5) == 0
-    line = capsys.readouterr().err.splitlines()[-1].split()
-    assert line[0] == "in.obj" and line[-2:] == ["no", "24"]
+    assert "left: 24 edges are at holes" in capsys.readouterr().err
     assert open_edges("again.obj") == 24

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""File types that are only read, and the log with a line for each file."""
+"""File types that are only read."""
 
 from pathlib import Path
 
@@ -52,25 +52,9 @@ def test_creases_of_an_obj_are_read(capfd):
         assert run("cube.obj", "out.obj") == 1 and why in capfd.readouterr().err
 
 
-def test_a_table_of_offsets_is_read():
+def test_a_table_of_offsets_is_read(capfd):
     assert run(EXAMPLES / "offsets_yacht.tsv", "hull.obj", "--levels", 1, "--quiet") == 0
     assert imported("hull.obj")[0][:, 0].max() == pytest.approx(10.0, abs=1e-5)
     Path("bad.csv").write_text("station (mm),Keel,WL 0\n0,1,2\n1,2,3x\n")
-    assert run("bad.csv", "bad.obj", "--quiet", "--log", "log.txt") == 1
-    assert "Row 3, column 3: '3x' is not a number" in Path("log.txt").read_text()
-
-
-def test_the_log_has_a_line_for_each_file(capfd):
-    Path("empty.obj").write_text("")
-    add("Cube", *CUBE)
-    bpy.ops.wm.obj_export(filepath="cube.obj")
-    for _ in range(2):
-        assert (
-            run("cube.obj", "empty.obj", "out/", "--levels", 1, "--quiet", "--log", "log.txt") == 1
-        )
-    lines = [line.split("\t") for line in Path("log.txt").read_text().splitlines()]
-    assert len(lines) == 4
-    assert [line[0] for line in lines] == ["done", "failed"] * 2
-    assert lines[1][2] == "empty.obj" and "empty.obj is empty" in lines[1][4]
-    assert run("cube.obj", "out.obj", "--log", "none/log.txt") == 1
-    assert "none/log.txt cannot be written" in capfd.readouterr().err
+    assert run("bad.csv", "bad.obj", "--quiet") == 1
+    assert "Row 3, column 3: '3x' is not a number" in capfd.readouterr().err

@@ -8,10 +8,9 @@ from pathlib import Path
 
 import pytest
 from cli_files import materials_of, write_obj
-from cli_runs import entries, run
+from cli_runs import process, run
 
 from addon.cli import files
-from addon.cli.files import why_incomplete
 from addon.cli.places import BadPlaces, places
 
 
@@ -19,36 +18,15 @@ def names():
     return sorted(path.name for path in Path().iterdir())
 
 
-def cut_short(share):
-    """An exporter whose disk is full after a part of the file."""
-    whole = files._export
-
-    def export(path):
-        def short(**_arguments):
-            content = path.read_bytes()
-            path.write_bytes(content[: int(share * len(content))])
-
-        try:
-            whole(path)
-        finally:
-            short()
-        reason = why_incomplete(path, 6 * 4, 6 * 4 * 4)
-        if reason:
-            raise files._NotWritten(reason)
-
-    return export
-
-
 @pytest.mark.parametrize("kind", ["obj", "ply", "stl"])
-@pytest.mark.parametrize("share", [0.0, 0.3, 0.95])
-def test_a_full_disk_leaves_the_old_file(kind, share, monkeypatch):
+@pytest.mark.parametrize("room", [0, 100, 1000])
+def test_a_full_disk_leaves_the_old_file(kind, room):
     write_obj("in.obj")
     Path(f"out.{kind}").write_text("old")
-    monkeypatch.setattr(files, "_export", cut_short(share))
-    code, (entry,) = entries("in.obj", f"out.{kind}", "--levels", 1)
-    assert (code, entry["error"]["code"]) == (1, "UNWRITABLE")
-    assert Path(f"out.{kind}").read_text() == "old"
-    assert names() == sorted(["in.obj", f"out.{kind}", "report.json"])
+    code, _, said = process("in.obj", f"out.{kind}", "--levels", 1, largest_file=room)
+    assert code == 1, said
+    assert f"out.{kind} cannot be written: " in said
+    assert Path(f"out.{kind}").read_text() == "old" and names() == ["in.obj", f"out.{kind}"]
 
 
 @pytest.mark.parametrize(
@@ -78,20 +56,6 @@ def test_the_materials_of_an_obj_keep_its_name(named):
     assert "newmtl red" in Path("out.mtl").read_text()
     assert Path("out.obj").read_text().count("\nf ") == 24
     assert names() == ["in.obj", "out.mtl", "out.obj"]
-
-
-@pytest.mark.parametrize("more", [[], ["--no-overwrite"]], ids=str)
-def test_materials_of_others_are_kept(more):
-    """They do not belong to the output, which is absent or names other materials."""
-    write_obj("in.obj", materials=("red", "blue"))
-    Path("out.mtl").write_text("foreign")
-    Path("out-1.mtl").symlink_to("nowhere.mtl")
-    for _ in range(1 if more else 2):
-        assert run("in.obj", "out.obj", "--levels", 1, *more) == 0
-        assert materials_of(Path("out.obj")) == Path("out-2.mtl")
-        assert "newmtl red" in Path("out-2.mtl").read_text()
-        assert Path("out.mtl").read_text() == "foreign" and not Path("nowhere.mtl").exists()
-        assert names() == ["in.obj", "out-1.mtl", "out-2.mtl", "out.mtl", "out.obj"]
 
 
 def reports_that_destroy():
