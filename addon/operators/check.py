@@ -104,9 +104,7 @@ class OBJECT_OT_fairing_repair(_AtDefect, bpy.types.Operator):
         if defect is None or repair.label(defect["code"]) is None:
             self.report({"INFO"}, "There is nothing to repair here")
             return {"CANCELLED"}
-        select_defects(context, target, defect["kind"], defect["elements"])
-        with errors.explained(target.name):
-            repair.repair(target, defect)
+        repair.repair(context, target, defect["code"])
         left = check_object(context, target)
         select_in_all(context, [(target, _groups(left))])
         store_defects(context, target, left)

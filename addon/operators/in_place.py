@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fair Selected Faces in Place, and Fair Scan in Place: they change meshes themselves, with undo."""
+"""Fair in Place: it changes meshes themselves, with undo."""
 
 from collections.abc import Iterator, Sequence
 
@@ -11,7 +11,7 @@ from ..blender import Context, Object
 from ..choices import DEFAULT_ENERGY, ENERGIES, ENERGY_MEANING, JOINTS
 from ..errors import JobError
 from ..mesh.read import source_objects
-from ..poll import in_mode, of_meshes
+from ..poll import IN_EITHER_MODE, of_meshes
 from ..settings import Settings, values_of
 from .fair import InMeshes, can_fair
 from .mixins import Shown
@@ -40,8 +40,11 @@ VERTICES = (
 )
 
 
-class InPlace(Shown, InMeshes):
-    """The settings for fairing faces of the meshes themselves."""
+class OBJECT_OT_fairing_in_place(Shown, InMeshes, bpy.types.Operator):
+    """Fair the selected faces of this mesh itself, the rest is unchanged; in Object Mode remove the noise of whole meshes"""
+
+    bl_idname = "object.fairing_in_place"
+    bl_label = "Fair in Place"
 
     levels: IntProperty(
         name="Levels",
@@ -99,9 +102,17 @@ class InPlace(Shown, InMeshes):
         subtype="FACTOR",
     )
 
-    def shown(self, _context: Context) -> Iterator[str]:
-        measured = self.vertices == "MEASURED"
-        yield from ("levels", "joint", "vertices")
+    reasons = (can_fair, IN_EITHER_MODE, of_meshes(source_objects))
+
+    def _are_measured(self, context: Context) -> bool:
+        """Nothing holds whole meshes but their own vertices."""
+        return self.vertices == "MEASURED" or context.mode == "OBJECT"
+
+    def shown(self, context: Context) -> Iterator[str]:
+        measured = self._are_measured(context)
+        yield "levels"
+        if context.mode == "EDIT_MESH":
+            yield from ("joint", "vertices")
         if measured:
             yield "noise"
         elif self.levels:
@@ -115,16 +126,11 @@ class InPlace(Shown, InMeshes):
             yield "tension"
 
     def make_jobs(self, context: Context) -> list[in_place.InPlaceJob]:
-        options = values_of(in_place.InPlaceOptions, self, measured=self.vertices == "MEASURED")
+        options = values_of(in_place.InPlaceOptions, self, measured=self._are_measured(context))
         settings = Settings.of(context.scene.discrete_fairing)
         return [
-            in_place.InPlaceJob(context, target, settings, options)
-            for target in self.targets(context)
+            in_place.InPlaceJob(context, target, settings, options) for target in _targets(context)
         ]
-
-    def targets(self, context: Context) -> list[Object]:
-        """The objects whose faces are faired; raises JobError."""
-        raise NotImplementedError
 
     def write(self, _context: Context, jobs: Sequence[in_place.InPlaceJob]) -> None:
         for job in jobs:
@@ -135,55 +141,21 @@ class InPlace(Shown, InMeshes):
                 self.report({"WARNING"}, sentence)
 
 
-class OBJECT_OT_fairing_in_place(InPlace, bpy.types.Operator):
-    """Fair the selected faces of this mesh itself: move their vertices, or refine them too; the rest is unchanged"""
-
-    bl_idname = "object.fairing_in_place"
-    bl_label = "Fair Selected Faces in Place"
-
-    reasons = (
-        can_fair,
-        in_mode(
-            "Press Tab first, and select faces: those of the mesh in Edit Mode are faired",
-            "EDIT_MESH",
-        ),
-    )
-
-    def targets(self, context: Context) -> list[Object]:
+def _targets(context: Context) -> list[Object]:
+    """The objects whose faces are faired; raises JobError."""
+    if context.mode == "EDIT_MESH":
         objects = [o for o in context.objects_in_mode_unique_data if _has_selection(o)]
         if not objects:
             raise JobError("Select the faces to fair: no face is selected.")
         return objects
-
-
-class OBJECT_OT_fairing_scan(InPlace, bpy.types.Operator):
-    """Remove the noise of the selected meshes, except at edges marked sharp"""
-
-    bl_idname = "object.fairing_scan"
-    bl_label = "Fair Scan in Place"
-
-    vertices: EnumProperty(
-        name="Vertices",
-        description="How the vertices of the scan are treated",
-        items=VERTICES,
-        default="MEASURED",
-    )
-
-    reasons = (
-        can_fair,
-        in_mode("Press Tab first: whole meshes are faired in Object Mode", "OBJECT"),
-        of_meshes(source_objects),
-    )
-
-    def targets(self, context: Context) -> list[Object]:
-        objects = list({o.data: o for o in source_objects(context)}.values())
-        for target in objects:
-            if target.data.shape_keys:
-                raise JobError(
-                    f"{target.name}: Press Tab, select all, and use Fair Selected Faces in Place. In Object "
-                    "Mode, meshes with shape keys are not changed."
-                )
-        return objects
+    objects = list({o.data: o for o in source_objects(context)}.values())
+    for target in objects:
+        if target.data.shape_keys:
+            raise JobError(
+                f"{target.name}: Press Tab, select all, and fair in Edit Mode. In Object Mode, meshes with shape "
+                "keys are not changed."
+            )
+    return objects
 
 
 def _has_selection(target: Object) -> bool:

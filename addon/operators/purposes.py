@@ -102,8 +102,6 @@ class OBJECT_OT_fairing_for(ExplainedPoll, bpy.types.Operator):
             return getattr(operators, OPERATORS[self.purpose])(how, _UNDO)
         path = preset_file(self.purpose)
         if path is None:
-            if context.mode == "OBJECT":
-                return operators.fairing_scan(how, _UNDO)
             return operators.fairing_in_place(how, _UNDO, vertices="MEASURED", levels=0)
         sources = control_meshes(context)
         said = set_job(context, self.purpose, sources)

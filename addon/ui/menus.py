@@ -36,7 +36,6 @@ class VIEW3D_MT_fairing(bpy.types.Menu):
         layout.operator("object.fairing_surface", icon="SURFACE_DATA")
         layout.menu(VIEW3D_MT_fairing_for.__name__)
         layout.operator("object.fairing_in_place", icon="MOD_SMOOTH")
-        layout.operator("object.fairing_scan")
         layout.operator("object.fairing_clean")
         layout.operator("object.fairing_fit")
         layout.operator("object.fairing_fill")

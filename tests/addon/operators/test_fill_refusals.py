@@ -9,7 +9,6 @@ from fake_layout import draw
 from hole_scenes import ball, borders, is_closed, without
 from scenes import add, bmesh_of, edit, refused, to_object_mode
 
-from addon.check import repair
 from addon.check.defects import recall_defects
 from addon.ui.check import VIEW3D_PT_fairing_check
 
@@ -88,7 +87,7 @@ def test_edges_are_cut_at_the_vertices_on_them(triangles, sizes, edit_mode, capf
     assert keeps_its_map(target.data)
 
 
-def test_a_vertex_on_an_edge_is_listed_and_a_button_cuts_that_edge(capfd):
+def test_a_vertex_on_an_edge_is_listed(capfd):
     """A rim that runs to and fro along a line more than once is no hole, and no cut closes it."""
     points = [(x, 0, 0) for x in (0, 3, 1, 2)] + [(1.5, y, z) for y in (-1, 1) for z in (-1, 1)]
     faces = [(b, a, 4 + k) for k, (a, b) in enumerate([(0, 1), (1, 2), (2, 3), (3, 0)])]
@@ -98,13 +97,8 @@ def test_a_vertex_on_an_edge_is_listed_and_a_button_cuts_that_edge(capfd):
     defects, stale = recall_defects(target)
     assert not stale and defects[-1]["code"] == "VERTEX_ON_EDGE"
     panel = draw(VIEW3D_PT_fairing_check)
-    assert "object.fairing_repair" in panel and "object.fairing_select_defect" in panel
+    assert "object.fairing_select_defect" in panel
     assert "1 vertex lies on a border edge" in " ".join(map(str, panel))
-    assert repair.label("VERTEX_ON_EDGE") == "Cut Edges"
-    before = len(target.data.polygons)
-    assert bpy.ops.object.fairing_repair(index=len(defects) - 1) == {"FINISHED"}
-    to_object_mode()
-    assert len(target.data.polygons) == before + 1 and len(target.data.vertices) == 8
 
 
 def test_a_slit_is_left_and_listed_with_buttons_to_select_and_mend_it(capfd):

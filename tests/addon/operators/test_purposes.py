@@ -211,7 +211,7 @@ def test_a_scan_with_shape_keys_is_refused_in_object_mode():
     scan = noisy_sphere(subdivisions=3)
     scan.shape_key_add(name="Basis")
     before = positions(scan.data)
-    refused("Press Tab, select all", bpy.ops.object.fairing_scan)
+    refused("Press Tab, select all", bpy.ops.object.fairing_in_place)
     np.testing.assert_array_equal(positions(scan.data), before)
 
 
