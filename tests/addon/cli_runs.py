@@ -61,7 +61,12 @@ def process(*words, largest_file=resource.RLIM_INFINITY, **extra):
     """
     done = subprocess.run(
         [sys.executable, "-c", PROCESS, *map(str, words)],
-        env={"PYTHONPATH": os.pathsep.join((str(ROOT), str(CORE))), "PATH": "", **extra},
+        env={
+            "PYTHONPATH": os.pathsep.join((str(ROOT), str(CORE))),
+            "PYTHONDONTWRITEBYTECODE": "1",  # half of it would be written under a limit
+            "PATH": "",
+            **extra,
+        },
         capture_output=True,
         timeout=120,
         preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (largest_file,) * 2),
