@@ -142,6 +142,31 @@ class CleanJob(TimedRun):
         return found
 
 
+# by code of a defect: the text of a button, and the step that mends it
+_REPAIRS = {
+    "INCONSISTENT_ORIENTATION": ("Flip Faces", "normals"),
+    "COINCIDENT_VERTICES": ("Join Borders", "join"),
+    "REPEATED_VERTEX": ("Mend Faces", "mend"),
+    "DEGENERATE_FACE": ("Mend Faces", "mend"),
+    "ISOLATED_VERTICES": ("Delete Loose", "mend"),
+    "DUPLICATE_FACE": ("Delete Extra Faces", "mend"),
+    "NONMANIFOLD_EDGE": ("Delete Extra Faces", "fins"),
+}
+
+
+def repair_label(code: str) -> str:
+    """The text of the button that mends such a defect; empty if no step does."""
+    return _REPAIRS.get(code, ("", ""))[0]
+
+
+def repair(context: Context, target: Object, code: str) -> None:
+    """Mends the defects of this kind by one step; raises JobError."""
+    steps = dict.fromkeys((name for name, *_ in STEPS), False) | {_REPAIRS[code][1]: True}
+    job = CleanJob(context, target, CleanOptions(steps, islands=0.0, largest=0.0))
+    job.compute()
+    job.apply(context)
+
+
 def _corners(made: Cleaned, face: int) -> list[int]:
     return cast(list[int], made.corners[made.offsets[face] : made.offsets[face + 1]].tolist())
 

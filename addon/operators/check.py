@@ -10,7 +10,6 @@ from bpy.props import IntProperty, IntVectorProperty
 
 from .. import core, errors
 from ..blender import Answer, Context, Object
-from ..check import repair
 from ..check.defects import (
     bring_into_view,
     check_object,
@@ -22,6 +21,7 @@ from ..check.defects import (
 )
 from ..check.faults import faulty_vertices
 from ..check.holes import edges_of
+from ..cleaning import repair, repair_label
 from ..mesh.read import active_mesh, source_objects
 from ..mesh.write import FAULTS, NO_POINTS, faces_without_points
 from ..poll import IN_EITHER_MODE, needs, of_meshes
@@ -101,10 +101,10 @@ class OBJECT_OT_fairing_repair(_AtDefect, bpy.types.Operator):
     @refusing
     def execute(self, context: Context) -> Answer:
         target, defect, _ = self._defect(context)
-        if defect is None or repair.label(defect["code"]) is None:
+        if defect is None or not repair_label(defect["code"]):
             self.report({"INFO"}, "There is nothing to repair here")
             return {"CANCELLED"}
-        repair.repair(context, target, defect["code"])
+        repair(context, target, defect["code"])
         left = check_object(context, target)
         select_in_all(context, [(target, _groups(left))])
         store_defects(context, target, left)

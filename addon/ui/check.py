@@ -8,9 +8,10 @@ import bpy
 
 from .. import errors
 from ..blender import Context
-from ..check import joints, repair
+from ..check import joints
 from ..check.defects import recall_cleaned, recall_defects, recall_holes
 from ..check.holes import MOST
+from ..cleaning import repair_label
 from ..units import Text, Units
 from .layout import Folded, draw_notice
 
@@ -70,7 +71,7 @@ def _draw_defect(
     row = column.row(align=True)
     if defect["elements"]:
         row.operator("object.fairing_select_defect", icon="RESTRICT_SELECT_OFF").index = index
-    label = repair.label(defect["code"])
+    label = repair_label(defect["code"])
     if label:
         row.operator("object.fairing_repair", text=label, icon="TOOL_SETTINGS").index = index
 

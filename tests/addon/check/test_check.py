@@ -6,8 +6,8 @@ import bpy
 import pytest
 from scenes import CUBE, add, to_object_mode
 
-from addon.check import repair
 from addon.check.defects import recall_defects
+from addon.cleaning import repair_label
 from addon.mesh import mesh_changes
 
 FAN = ([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1)], [(0, 1, 2), (1, 0, 3), (0, 1, 4)])
@@ -81,7 +81,7 @@ def test_repairs_mend_what_they_promise(mesh, code, mode):
     bpy.ops.object.mode_set(mode=mode)
     defects = check()
     assert code in codes(defects)
-    assert repair.label(code)
+    assert repair_label(code)
     bpy.ops.object.fairing_repair(index=codes(defects).index(code))
     assert code not in codes(recall_defects(target)[0])
     to_object_mode()
