@@ -13,12 +13,18 @@
 //       = 6N [(c_{j+1} − c_j)/H₊ − (c_j − c_{j−1})/H₋].
 //
 // At the ends of an open chain M is zero or that of the next vertex. N → ∞ gives the cubic spline.
+// A line that is tangent to its neighbours stays straight. The curve between two lines is an open
+// chain with the lines' tangents: 2 M_0 + M_1 = 6 / H [(c_1 − c_0)/H − f'_0]. Its speed f' there is
+// that of the circle through its first three vertices.
 #include "curves/curve.h"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
+#include "base/angle.h"
+#include "curves/lines.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
@@ -113,61 +119,141 @@ std::vector<Order> canonical_orders(std::span<const Vec3> vertices, bool closed)
   return orders;
 }
 
+// Derivatives at the ends of an open chain, where a line goes on.
+struct Slopes {
+  std::optional<Vec3> first, last;
+};
+
 // The second divided differences M at the control vertices; lengths[s] is the length of the segment
 // from vertex s to s + 1.
 std::vector<Vec3> joint_moments(const std::vector<Vec3>& c, const std::vector<double>& lengths,
-                                bool closed, const CurveScheme& scheme) {
+                                bool closed, const CurveScheme& scheme, const Slopes& slopes = {}) {
   const double n = scheme.subdivisions;
   const bool parabolic = !closed && scheme.ends == ChainEnds::parabolic;
   const std::size_t count = c.size(), segments = lengths.size();
-  const std::size_t first = closed ? 0 : 1, joints = closed ? count : count - 2;
+  const std::size_t first = closed || slopes.first ? 0 : 1,
+                    end = closed || slopes.last ? count : count - 1;
   std::vector<Vec3> moments(count, Vec3::Zero());
-  if (joints == 0) return moments;
+  if (end <= first) return moments;
 
+  const std::size_t joints = end - first;
   std::vector<double> diagonal(joints), right(joints);
   std::vector<Vec3> value(joints);
   for (std::size_t k = 0; k < joints; ++k) {
     const std::size_t j = first + k, before = (j + segments - 1) % segments, after = j % segments;
-    const Vec3& previous = c[(j + count - 1) % count];
-    const Vec3& next = c[(j + 1) % count];
-    diagonal[k] = (2 * n * n + 1) * (lengths[before] + lengths[after]) / n;
+    const Vec3 in = (c[j] - c[(j + count - 1) % count]) / lengths[before],
+               out = (c[(j + 1) % count] - c[j]) / lengths[after];
     right[k] = (n * n - 1) * lengths[after] / n;
-    value[k] = 6 * n * ((next - c[j]) / lengths[after] - (c[j] - previous) / lengths[before]);
+    if (!closed && (j == 0 || j == count - 1)) {
+      const double length = lengths[j == 0 ? after : before];
+      diagonal[k] = 2 * (n * n - 1) * length / n;
+      value[k] = 6 * (n * n - 1) / n * (j == 0 ? out - *slopes.first : *slopes.last - in);
+    } else {
+      diagonal[k] = (2 * n * n + 1) * (lengths[before] + lengths[after]) / n;
+      value[k] = 6 * n * (out - in);
+    }
   }
-  if (parabolic) {
-    diagonal.front() += (n * n - 1) * lengths.front() / n;
-    diagonal.back() += (n * n - 1) * lengths.back() / n;
-  }
+  if (parabolic && !slopes.first) diagonal.front() += (n * n - 1) * lengths.front() / n;
+  if (parabolic && !slopes.last) diagonal.back() += (n * n - 1) * lengths.back() / n;
   const std::vector<Vec3> solution = solve_tridiagonal(diagonal, right, std::move(value), closed);
-  std::copy(solution.begin(), solution.end(), moments.begin() + first);
-  if (parabolic) {
-    moments.front() = moments[1];
-    moments.back() = moments[count - 2];
-  }
+  std::copy(solution.begin(), solution.end(), moments.begin() + std::ptrdiff_t(first));
+  if (parabolic && !slopes.first) moments.front() = moments[1];
+  if (parabolic && !slopes.last) moments.back() = moments[count - 2];
   return moments;
 }
 
-// Interior points in canonical order, segment by segment.
-std::vector<Vec3> refine_canonical(const std::vector<Vec3>& parameters, const std::vector<Vec3>& c,
-                                   bool closed, const CurveScheme& scheme) {
-  const std::size_t segments = closed ? c.size() : c.size() - 1;
-  std::vector<double> lengths(segments);
-  for (std::size_t s = 0; s < segments; ++s)
-    lengths[s] = std::pow((parameters[(s + 1) % c.size()] - parameters[s]).norm(), scheme.exponent);
-
-  const double n = scheme.subdivisions;
-  const std::vector<Vec3> moments = joint_moments(c, lengths, closed, scheme);
-  const auto phi = [n](double i) { return (i * i * i - n * n * i) / (6 * n); };
-  std::vector<Vec3> points;
-  for (const std::size_t s : Cancellable(segments)) {
-    const Vec3 &a = c[s], &b = c[(s + 1) % c.size()];
-    const Vec3 &bend_a = moments[s], &bend_b = moments[(s + 1) % c.size()];
-    const double h = lengths[s] / n;
-    for (int i = 1; i < scheme.subdivisions; ++i)
-      points.push_back(a + (i / n) * (b - a) + h * h * (phi(n - i) * bend_a + phi(i) * bend_b));
+// A chain in canonical order, and the second divided differences at both ends of each segment. They
+// are zero on lines, so a joint between line and curve has two.
+class CanonicalChain {
+ public:
+  CanonicalChain(const std::vector<Vec3>& parameters, const std::vector<Vec3>& vertices,
+                 bool closed, const CurveScheme& scheme)
+      : p_(parameters),
+        c_(vertices),
+        closed_(closed),
+        scheme_(scheme),
+        straight_(tangent_lines(parameters, closed)),
+        bends_(straight_.size(), {Vec3::Zero(), Vec3::Zero()}) {
+    for (std::size_t s = 0; s < segments(); ++s)
+      lengths_.push_back(std::pow((p_[next(s)] - p_[s]).norm(), scheme.exponent));
+    bend();
   }
-  return points;
-}
+
+  // Interior points, segment by segment.
+  std::vector<Vec3> points() const {
+    const double n = scheme_.subdivisions;
+    const auto phi = [n](double i) { return (i * i * i - n * n * i) / (6 * n); };
+    std::vector<Vec3> points;
+    for (const std::size_t s : Cancellable(segments())) {
+      const Vec3 &a = c_[s], &b = c_[next(s)];
+      const double h = lengths_[s] / n;
+      for (int i = 1; i < scheme_.subdivisions; ++i)
+        points.push_back(a + (i / n) * (b - a) +
+                         h * h * (phi(n - i) * bends_[s].first + phi(i) * bends_[s].last));
+    }
+    return points;
+  }
+
+ private:
+  struct Bend {
+    Vec3 first, last;
+  };
+
+  std::size_t segments() const { return straight_.size(); }
+  std::size_t next(std::size_t vertex) const { return (vertex + 1) % p_.size(); }
+
+  void bend() {
+    const auto line = std::find(straight_.begin(), straight_.end(), 1);
+    if (line == straight_.end()) {
+      const std::vector<Vec3> moments = joint_moments(c_, lengths_, closed_, scheme_);
+      for (std::size_t s = 0; s < segments(); ++s) bends_[s] = {moments[s], moments[next(s)]};
+      return;
+    }
+    const std::size_t start = closed_ ? std::size_t(line - straight_.begin()) : 0;
+    for (std::size_t begin = 0; begin < segments();) {
+      std::size_t end = begin;
+      while (end < segments() && !straight_[(start + end) % segments()]) ++end;
+      if (end > begin) bend_curve(start + begin, end - begin);
+      begin = end + 1;
+    }
+  }
+
+  // The open chain of `count` segments that begins at vertex `first`, between two lines or a line and
+  // an end.
+  void bend_curve(std::size_t first, std::size_t count) {
+    std::vector<Vec3> vertices = {c_[first % c_.size()]};
+    std::vector<double> lengths;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t s = (first + i) % segments();
+      vertices.push_back(c_[next(s)]);
+      lengths.push_back(lengths_[s]);
+    }
+    const std::size_t last = first + count;
+    Slopes slopes;
+    if (closed_ || first > 0)
+      slopes.first = slope((first + segments() - 1) % segments(), first % segments());
+    if (closed_ || last < segments())
+      slopes.last = slope(last % segments(), (last - 1) % segments());
+    const std::vector<Vec3> moments = joint_moments(vertices, lengths, false, scheme_, slopes);
+    for (std::size_t i = 0; i < count; ++i)
+      bends_[(first + i) % segments()] = {moments[i], moments[i + 1]};
+  }
+
+  // The derivative where a line meets the arc that it is tangent to: the arc is longer than its chord.
+  Vec3 slope(std::size_t line, std::size_t arc) const {
+    const Vec3 along = p_[next(line)] - p_[line], chord = p_[next(arc)] - p_[arc];
+    const double angle = angle_between(along, chord);
+    const double stretch = angle > 0 ? angle / std::sin(angle) : 1;
+    return stretch * chord.norm() / lengths_[arc] / along.norm() * (c_[next(line)] - c_[line]);
+  }
+
+  const std::vector<Vec3>&p_, &c_;
+  bool closed_;
+  const CurveScheme& scheme_;
+  std::vector<std::uint8_t> straight_;  // by segment
+  std::vector<double> lengths_;
+  std::vector<Bend> bends_;
+};
 
 }  // namespace
 
@@ -187,7 +273,7 @@ std::vector<Vec3> refine_chain(std::span<const Vec3> parameters, std::span<const
     canonical.push_back(vertices[from] + Vec3::Zero());
   }
   const std::vector<Vec3> refined =
-      refine_canonical(canonical_parameters, canonical, closed, scheme);
+      CanonicalChain(canonical_parameters, canonical, closed, scheme).points();
 
   // If there are several orders, segments at the same place take the points of the first of them.
   std::vector<Vec3> points(segments * inner);

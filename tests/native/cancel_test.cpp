@@ -44,7 +44,7 @@ TEST(Workers, stop_between_parts) {
       std::atomic<int> begun{0};
       EXPECT_EQ(thrown([&] {
                   workers.for_parts(size, 1, [&](std::size_t, std::size_t) {
-                    if (++begun == last) monitor.cancel();
+                    if (++begun >= last) monitor.cancel();
                   });
                 }).code,
                 ErrorCode::cancelled);
