@@ -168,17 +168,18 @@ def phase_text(phase: str) -> str:
 
 
 class ConsoleProgress:
-    """The core's `progress`: prints a line after every tenth of a job."""
+    """The core's `progress`: prints a line after every tenth of so many `runs`, which `end_run` counts."""
 
-    def __init__(self, name: str, stream: TextIO | None = None) -> None:
-        self._name = name
-        self._stream = stream or sys.stdout
-        self._tenths = -1
+    def __init__(self, name: str, runs: int = 1, stream: TextIO | None = None) -> None:
+        self._name, self._runs, self._stream = name, runs, stream or sys.stdout
+        self._done, self._tenths = 0, -1
 
     def __call__(self, fraction: float, phase: str) -> None:
-        tenths = int(10 * fraction)
+        tenths = int(10 * (self._done + fraction) / self._runs)
         if tenths > self._tenths:
             self._tenths = tenths
-            print(
-                f"{self._name}: {phase_text(phase)}, {10 * tenths} %", file=self._stream, flush=True
-            )
+            text = f"{self._name}: {phase_text(phase)}, {10 * tenths} %"
+            print(text, file=self._stream, flush=True)
+
+    def end_run(self) -> None:
+        self._done += 1

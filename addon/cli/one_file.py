@@ -16,13 +16,13 @@ from ..cad.fit import PatchJob
 from ..cad.step import summary, write_jobs
 from ..errors import JobError, repairs_text
 from ..job import Job
+from ..queue import ConsoleProgress
 from ..scan_fit import Fit, FitJob
 from ..settings import PatchOptions, Settings
 from ..strain import table
 from . import ease, fit, report, step
 from .files import FileError, read_file, write_file, write_text, write_whole
 from .places import Place, is_cad, is_there
-from .report import Progress
 
 
 def run_one(
@@ -61,7 +61,8 @@ def _fair_file(
         sources, near = fit.read(file, arguments.drawn, arguments.merge)
     prepared = arguments.prepared
     ease.require_one(sources, prepared)
-    progress = Progress(sys.stderr, str(file.source), len(sources) * (1 + prepared.runs))
+    runs = len(sources) * (1 + prepared.runs)
+    progress = ConsoleProgress(str(file.source), runs, sys.stderr)
     watchers: dict[str, Any] = {} if arguments.quiet else {"progress": progress}
     patches = arguments.patches if is_cad(file.target) else None
     asked = {
@@ -69,23 +70,18 @@ def _fair_file(
         for name in ("weld", "threads")
         if (value := getattr(arguments, name)) is not None
     }
-    try:
-        entries, tables = [], []
-        for source in sources:
-            entry, found = ease.prepare(
-                source, prepared, settings, asked, progress.next_run, **watchers
-            )
-            entries.append(entry)
-            tables += found
-        jobs = [_job(source, settings, patches, near) for source in sources]
-        for job in jobs:
-            # the report contains energies
-            job.arguments |= asked | {"measure": arguments.json is not None and patches is None}
-            job.pieces, job.spread = arguments.pieces, arguments.spread
-            job.compute(**watchers)
-            progress.next_run()
-    finally:
-        progress.clear()
+    entries, tables = [], []
+    for source in sources:
+        entry, found = ease.prepare(source, prepared, settings, asked, progress.end_run, **watchers)
+        entries.append(entry)
+        tables += found
+    jobs = [_job(source, settings, patches, near) for source in sources]
+    for job in jobs:
+        # the report contains energies
+        job.arguments |= asked | {"measure": arguments.json is not None and patches is None}
+        job.pieces, job.spread = arguments.pieces, arguments.spread
+        job.compute(**watchers)
+        progress.end_run()
     if patches is not None:
         step.require_patches(jobs)
     for job, source, entry in zip(jobs, sources, entries):
@@ -112,20 +108,17 @@ def _fair_file(
 
 def _mend_file(file: Place, record: dict[str, Any], arguments: argparse.Namespace) -> None:
     sources = read_file(file.source, arguments.merge)
-    progress = Progress(sys.stderr, str(file.source), len(sources))
+    progress = ConsoleProgress(str(file.source), len(sources), sys.stderr)
     watchers: dict[str, Any] = {} if arguments.quiet else {"progress": progress}
     if arguments.threads is not None:
         watchers["threads"] = arguments.threads
-    try:
-        for source in sources:
-            entry, warnings = arguments.mending.module.run(
-                source, arguments.mending.options, **watchers
-            )
-            record["objects"].append(entry)
-            record["warnings"] += warnings
-            progress.next_run()
-    finally:
-        progress.clear()
+    for source in sources:
+        entry, warnings = arguments.mending.module.run(
+            source, arguments.mending.options, **watchers
+        )
+        record["objects"].append(entry)
+        record["warnings"] += warnings
+        progress.end_run()
     write_file(file.target)
 
 

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reports of a call: a progress line, a line for each input, JSON for programs."""
+"""Reports of a call: a line for each input, JSON for programs."""
 
 import json
 from collections.abc import Iterable
 from math import isfinite
-from typing import Any, TextIO
+from typing import Any
 
 from .places import Place
 
@@ -14,37 +14,6 @@ DONE, FAILED, CANCELLED, NOT_RUN = "done", "failed", "cancelled", "not_run"
 
 def counts(mesh: Any) -> dict[str, int]:
     return {"vertices": len(mesh.vertices), "faces": len(mesh.polygons)}
-
-
-class Progress:
-    """Shows the runs of one file's objects as one progress."""
-
-    def __init__(self, stream: TextIO, file_name: str, runs: int) -> None:
-        self._stream = stream
-        self._name = file_name
-        self._runs = runs
-        self._done = 0
-        self._shown: tuple[int, str] | None = None
-        self._over = stream.isatty()
-
-    def __call__(self, fraction: float, phase: str) -> None:
-        """The `progress` of `discrete_fairing.fair`."""
-        percent = int(100 * (self._done + fraction) / self._runs)
-        state = (percent, phase) if self._over else (self._done, phase)
-        if state == self._shown:
-            return
-        self._shown = state
-        text = f"{self._name}: {percent:3d} % {phase}"
-        self._stream.write(f"\r{text:<79}" if self._over else text + "\n")
-        self._stream.flush()
-
-    def next_run(self) -> None:
-        self._done += 1
-
-    def clear(self) -> None:
-        if self._over and self._shown is not None:
-            self._stream.write("\r" + " " * 79 + "\r")
-            self._shown = None
 
 
 def new_record(place: Place, settings: dict[str, Any]) -> dict[str, Any]:

@@ -83,27 +83,6 @@ def tag(item: Any, mode: str, key: int) -> None:
         item[SCENE_TAG] = key
 
 
-def lay_out(tree: Any) -> None:
-    """Arranges nodes in columns by distance from the output, for users who open the tree."""
-    depth: dict[str, int] = {}
-
-    def visit(node: Any, at: int) -> None:
-        if depth.get(node.name, -1) < at:
-            depth[node.name] = at
-            for socket in node.inputs:
-                for link in socket.links:
-                    visit(link.from_node, at + 1)
-
-    for node in tree.nodes:
-        if not any(socket.is_linked for socket in node.outputs):
-            visit(node, 0)
-    filled: dict[int, int] = {}
-    for node in tree.nodes:
-        column = depth.get(node.name, 0)
-        node.location = (-220 * column, -220 * filled.get(column, 0))
-        filled[column] = filled.get(column, 0) + 1
-
-
 def stripes_material(mode: str, settings: Any) -> bpy.types.Material:
     """The material for one of STRIPES in the scene with these `settings`; created if missing."""
     key = scene_key(settings)
@@ -135,7 +114,6 @@ def _finish(graph: Graph, emission: bpy.types.Node) -> None:
         inputs={0: seen.outputs["Is Camera Ray"], 1: grey.outputs[0], 2: emission.outputs[0]},
     )
     graph.node("ShaderNodeOutputMaterial", inputs={"Surface": mix.outputs[0]})
-    lay_out(graph.tree)
 
 
 def _seen_direction(graph: Graph, mode: str) -> bpy.types.NodeSocket:

@@ -13,7 +13,7 @@ import bpy
 
 from ..blender import Object
 from ..mesh.modifiers import INSPECTION_TAG, inspection_modifier
-from .materials import Graph, lay_out, scene_key, tag, tagged
+from .materials import Graph, scene_key, tag, tagged
 
 NAME = "Fairing Inspection"
 
@@ -58,5 +58,4 @@ def _build(mode: str, key: int) -> bpy.types.NodeTree:
     smooth = graph.node("GeometryNodeSetShadeSmooth", "Smooth", {"Geometry": start.outputs[0]})
     material = graph.node("GeometryNodeSetMaterial", "Material", {"Geometry": smooth.outputs[0]})
     graph.node("NodeGroupOutput", inputs={0: material.outputs[0]})
-    lay_out(tree)
     return tree

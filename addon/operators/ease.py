@@ -8,7 +8,6 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
 from ..blender import Context
-from ..mesh.object import select_only
 from ..mesh.read import source_objects
 from ..poll import in_edit_mode, in_mode, of_meshes
 from ..settings import values_of
@@ -99,19 +98,6 @@ class OBJECT_OT_fairing_ease(Shown, _Easing, bpy.types.Operator):
         description="Starts from the shape key Eased, if there is one: first the worst vertices, then the scatter of all",
         default=False,
     )
-    result: EnumProperty(
-        name="Result",
-        description="Where the new positions go",
-        items=(
-            (
-                "SHAPE_KEY",
-                "Shape Key",
-                "The shape key Eased of the mesh, fully on; its slider mixes",
-            ),
-            ("COPY", "Copy", "A new object beside the source"),
-        ),
-    )
-
     fair_afterwards: BoolProperty(
         name="Fair Afterwards",
         description="Makes the surface, or makes it again, once the vertices are eased",
@@ -129,20 +115,17 @@ class OBJECT_OT_fairing_ease(Shown, _Easing, bpy.types.Operator):
 
     def shown(self, _context: Context) -> Iterable[str]:
         own = {"TOLERANCE": ["tolerance"], "STIFFNESS": ["stiffness"], "WORST": ["count"]}
-        return ("amount", *own.get(self.amount, ()), "use_selection", "go_on", "result")
+        return ("amount", *own.get(self.amount, ()), "use_selection", "go_on")
 
     def make_jobs(self, context: Context) -> list[Any]:
         options = values_of(EaseOptions, self)
         return [EaseJob(context, source, options) for source in active_sources(context)]
 
     def put(self, context: Context, jobs: list[Any]) -> None:
-        if self.result == "SHAPE_KEY":
-            for job in jobs:
-                job.write_key()
-            if self.fair_afterwards:
-                redo.invoke_soon(context, fairing_operator(context), {})
-        else:
-            select_only(context, [job.write_copy() for job in jobs])
+        for job in jobs:
+            job.write_key()
+        if self.fair_afterwards:
+            redo.invoke_soon(context, fairing_operator(context), {})
 
 
 class OBJECT_OT_fairing_ease_selected(_Easing, bpy.types.Operator):

@@ -7,7 +7,7 @@ from typing import Any, cast
 
 import bpy
 import numpy as np
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, StringProperty
+from bpy.props import EnumProperty, FloatProperty, StringProperty
 
 from ..blender import Context, Object
 from ..cad.settings import METRES
@@ -19,7 +19,7 @@ from ..mesh.offset_names import read_names, stations
 from ..mesh.scans import of_mesh, with_faces
 from ..mesh.world_shape import world_matrix
 from ..yard.dxf import text
-from ..yard.plan import Cut, Plane, in_space, opened, places, scaled, sheet
+from ..yard.plan import Cut, Plane, opened, places, scaled, sheet
 from .hull import ACTIVE_MESH
 from .mixins import Action, Shown
 from .written_files import WritesText, write_text_file
@@ -211,11 +211,6 @@ class EXPORT_SCENE_OT_fairing_lines(_Spaced, WritesText, bpy.types.Operator):
         description="Length of one unit of the drawing",
         items=[(key, key.lower(), f"One unit is one {key.lower()}") for key in METRES],
     )
-    in_space: BoolProperty(
-        name="Sections in Space",
-        description="Writes the sections where they are on the hull, in place of a flat sheet",
-    )
-
     reasons = ACTIVE_MESH
 
     def act(self, context: Context) -> str:
@@ -242,7 +237,7 @@ class EXPORT_SCENE_OT_fairing_lines(_Spaced, WritesText, bpy.types.Operator):
             raise JobError("Select the surface of a hull: no plane cuts this mesh")
         factor = context.scene.unit_settings.scale_length / METRES[self.unit] / self.scale
         title = f"{target.name}   1 : {self.scale:g}   {self.unit.lower()}"
-        drawing = in_space(found) if self.in_space else sheet(title, *found.values())
-        write_text_file(self.filepath, text(scaled(drawing, factor)))
+        drawing = scaled(sheet(title, *found.values()), factor)
+        write_text_file(self.filepath, text(drawing))
         count = ", ".join(f"{len(cuts)} {kind.lower()}" for kind, cuts in found.items())
         return f"{count} written to {bpy.path.abspath(self.filepath)}"

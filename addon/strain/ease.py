@@ -146,20 +146,6 @@ class EaseJob(_Moving):
         put_key(source, EASED, self.positions)
         look_again(source)
 
-    def write_copy(self) -> Object:
-        """Writes the mesh of a new object beside the source."""
-        source = cast(Object, self.reference.find())
-        target = source.copy()
-        target.data = source.data.copy()
-        target.name = target.data.name = f"{self.name} {EASED}"
-        for collection in source.users_collection:
-            collection.objects.link(target)
-        if target.data.shape_keys is not None:
-            target.shape_key_clear()
-        target.data.vertices.foreach_set("co", np.float32(self.positions).ravel())
-        target.data.update()
-        return target
-
 
 class EaseSelectedJob(_Moving):
     """Moves selected vertices, in Edit Mode, by `factor` to the surface through all others."""

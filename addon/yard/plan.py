@@ -108,16 +108,6 @@ def _grid(
     return [Polyline("GRID", np.array(line)) for line in (*upright, *level)]
 
 
-def in_space(found: dict[str, list[Cut]]) -> list[Polyline | Label]:
-    """The curves in space, a layer for each kind."""
-    return [
-        Polyline(kind, curve)
-        for kind, cuts in found.items()
-        for cut in cuts
-        for curve in cut.curves
-    ]
-
-
 def scaled(drawing: list[Polyline | Label], factor: float) -> list[Polyline | Label]:
     return [
         Polyline(item.layer, item.points * factor, item.closed)

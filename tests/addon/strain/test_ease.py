@@ -93,19 +93,6 @@ def test_other_shape_keys_stay(core):
     refused("absolute shape keys", bpy.ops.object.fairing_ease)
 
 
-def test_or_a_copy(core):
-    source = add_dune()
-    source.vertex_groups.new(name="Bow").add([WRONG], 1.0, "REPLACE")
-    source.shape_key_add(name="Basis")
-    eased(result="COPY")
-    copy = bpy.context.active_object
-    assert copy.name == "Dune Eased" and copy.data != source.data
-    assert copy.data.shape_keys is None and copy.vertex_groups.keys() == ["Bow"]
-    assert (positions(copy.data) - dune())[WRONG, 2] == pytest.approx(-OFF, abs=1e-5)
-    assert np.allclose(positions(source.data), dune(), atol=1e-6)
-    assert list(source.data.shape_keys.key_blocks.keys()) == ["Basis"]
-
-
 def test_what_the_core_is_asked_for(core):
     source = add_dune()
     scene = bpy.context.scene.discrete_fairing
