@@ -36,17 +36,6 @@ def test_fair_for_is_undone_alone():
         assert not source.hide_get(), "it is to be seen again"
 
 
-def test_a_run_that_ends_while_another_mesh_is_sculpted():
-    harness.add_suzanne()
-    begin_run("THIN_PLATE")
-    with bpy.context.temp_override(**harness.view()):
-        bpy.ops.mesh.primitive_uv_sphere_add()
-        bpy.ops.object.mode_set(mode="SCULPT")
-    yield from harness.until(surface)
-    yield 0.5
-    assert bpy.context.mode == "SCULPT" and bpy.context.active_object.name == "Sphere"
-
-
 def begin_run(energy):
     """One in the background, as on a slow machine."""
     harness.module("prediction").note(energy, 1000, 1.0, None)

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Which scripts run in which real Blender."""
 
-from time import sleep
-
 import blender_suite
 from debian_root import ROOTS
 from shell import DevError
@@ -16,23 +14,6 @@ def test_scripts_that_are_named_are_there():
 def test_every_long_script_runs_in_one_blender():
     taken = [set(blender_suite.LONG) - blender_suite.left_to_others(root) for root in ROOTS]
     assert sorted(script for scripts in taken for script in scripts) == sorted(blender_suite.LONG)
-
-
-def test_two_lanes_never_run_in_one_another(monkeypatch):
-    """Each lane has one script at a time, and the results are in the order of the scripts."""
-    busy, most = set(), []
-
-    def run_script(lane, script):
-        assert lane not in busy
-        busy.add(lane)
-        most.append(len(busy))
-        sleep(0.01)
-        busy.remove(lane)
-        return script
-
-    monkeypatch.setattr(blender_suite, "run_script", run_script)
-    done = blender_suite.run_in_lanes(["a", "b"], list(range(20)))
-    assert done == list(range(20)) and max(most) == 2
 
 
 def test_a_blender_that_cannot_be_had_is_one_failure(monkeypatch):

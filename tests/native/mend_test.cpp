@@ -17,21 +17,6 @@ std::vector<Polygon> faces_of(const MendedMesh& mended) {
   return faces;
 }
 
-// Vertex 4 inside the side 0-1 of the first face; the second has no area and fills the gap.
-OwnedPolygonMesh cap() {
-  return make_mesh({{0, 0, 0}, {4, 0, 0}, {2, 3, 1}, {2, -3, 1}, {1, 0, 0}},
-                   {{0, 1, 2}, {0, 4, 1}, {4, 0, 3}, {1, 4, 3}});
-}
-
-TEST(Mend, AllFacesAcrossASideGetItsVertex) {
-  OwnedPolygonMesh mesh = cap();  // a third sheet at the long side
-  mesh.coordinates.insert(mesh.coordinates.end(), {2, 0, 5});
-  mesh.corners.insert(mesh.corners.end(), {1, 0, 5});
-  mesh.offsets.push_back(15);
-  const auto faces = faces_of(mend(mesh.view()));
-  EXPECT_EQ(faces, (std::vector<Polygon>{{0, 4, 1, 2}, {4, 0, 3}, {1, 4, 3}, {1, 4, 0, 5}}));
-}
-
 // Flat faces in a fan on one line: the face beside them gets a vertex of each. Whatever goes through
 // corners asks at every 1024th.
 TEST(Mend, AFanOfFlatFacesTakesLinearTime) {

@@ -164,10 +164,6 @@ OwnedPolygonMesh single_quad() {
   return make_mesh({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2, 3}});
 }
 
-OwnedPolygonMesh two_triangles() {
-  return make_mesh({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}});
-}
-
 OwnedPolygonMesh fan(int triangles) {
   OwnedPolygonMesh mesh = open_cone(triangles);
   mesh.coordinates[2] = 0;

@@ -36,7 +36,6 @@ OwnedPolygonMesh waved(OwnedPolygonMesh mesh, double height);
 // With a boundary.
 OwnedPolygonMesh single_triangle();
 OwnedPolygonMesh single_quad();
-OwnedPolygonMesh two_triangles();     // a unit square, cut along 0-2
 OwnedPolygonMesh fan(int triangles);  // a closed flat fan: the hub is vertex 0, of that valence
 OwnedPolygonMesh half_fan(int triangles);      // the hub, vertex 0, on the boundary
 OwnedPolygonMesh grid(int columns, int rows);  // unit quads in z = 0

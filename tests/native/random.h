@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Random numbers that are the same with every C++ library: the standard fixes the engines, but not
-// the distributions, nor shuffle. These are those of GNU's library, to the bit.
+// the distributions. These are those of GNU's library, to the bit.
 #pragma once
 
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <random>
-#include <utility>
 
 namespace fairing::test {
 
@@ -32,22 +30,6 @@ class UniformReal {
 
  private:
   T from_, to_;
-};
-
-// From `from` to `to`, both included.
-class UniformInt {
- public:
-  UniformInt(int from, int to) : from_(from), range_(std::uint32_t(to - from) + 1) {}
-  int operator()(std::mt19937& random) const {
-    std::uint64_t product = std::uint64_t(random()) * range_;
-    const std::uint32_t least = (0u - range_) % range_;
-    while (std::uint32_t(product) < least) product = std::uint64_t(random()) * range_;
-    return from_ + int(product >> 32);
-  }
-
- private:
-  int from_;
-  std::uint32_t range_;
 };
 
 template <class T = double>
@@ -75,21 +57,5 @@ class Normal {
   T mean_, deviation_, saved_ = 0;
   bool has_saved_ = false;
 };
-
-// For up to 65535 things: two places are drawn at once.
-template <class Things>
-void shuffle_things(Things& things, std::mt19937& random) {
-  const int count = int(things.size());
-  int i = 1;
-  if (count > 0 && count % 2 == 0) {
-    std::swap(things[std::size_t(i)], things[std::size_t(UniformInt(0, 1)(random))]);
-    ++i;
-  }
-  for (; i < count; i += 2) {
-    const int both = UniformInt(0, (i + 1) * (i + 2) - 1)(random);
-    std::swap(things[std::size_t(i)], things[std::size_t(both / (i + 2))]);
-    std::swap(things[std::size_t(i + 1)], things[std::size_t(both % (i + 2))]);
-  }
-}
 
 }  // namespace fairing::test

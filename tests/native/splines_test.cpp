@@ -1,26 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Spline patches against surfaces that are known: a bicubic comes back, a sphere is met within the
-// tolerance, curves are refined and cut exactly.
-#include "splines/fit.h"
+#include "splines/spline.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "refined_surfaces.h"
-
 namespace fairing::test {
 namespace {
-
-Vec3 on_sphere(double u, double v) {
-  const double a = 0.6 * (u - 1), b = 0.6 * (v - 0.5);
-  return Vec3(std::tan(a), std::tan(b), 1).normalized();
-}
-
-SplineSurface fitted(const Refined& surface, const SplineOptions& options = {1e-4, 8e-4}) {
-  Monitor monitor;
-  return fit_splines(surface.view(), options, monitor);
-}
 
 TEST(Splines, CurvesAreRefinedAndCutExactly) {
   SplineCurve curve{2, {}};
@@ -40,15 +26,6 @@ TEST(Splines, CurvesAreRefinedAndCutExactly) {
     EXPECT_LT((third.at(t).at - curve.at((1 + t) / 3).at).norm(), 1e-14);
     EXPECT_LT((reversed(curve).at(1 - t).at - curve.at(t).at).norm(), 1e-14);
   }
-}
-
-TEST(Splines, RefusesWhatIsNoRefinedSurface) {
-  Refined surface = strip(1, 3, on_sphere);
-  surface.quads.pop_back();
-  EXPECT_THROW(fitted(surface), FairingError);
-  surface = strip(1, 3, on_sphere);
-  surface.quads[5] = 1000;
-  EXPECT_THROW(fitted(surface), FairingError);
 }
 
 }  // namespace

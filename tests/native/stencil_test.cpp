@@ -180,22 +180,6 @@ TEST(Charts, SharesAddUpToTheArea) {
   }
 }
 
-TEST(Charts, UniformChartIsRegular) {
-  const ControlMesh mesh = control(shaken(bipyramid(7)));
-  const Chart chart = ChartMaker(mesh, 0).vertex(0);
-  ASSERT_EQ(chart.ring.size(), 7u);
-  for (std::size_t j = 0; j < 7; ++j) {
-    EXPECT_NEAR(chart.ring[j].norm(), chart.ring[0].norm(), 1e-14);
-    EXPECT_NEAR(chart.ring[j].dot(chart.ring[(j + 1) % 7]) / chart.ring[j].squaredNorm(),
-                std::cos(2 * pi / 7), 1e-13);
-  }
-  const ControlMesh quads = control(shaken(torus(5, 4)));
-  const Chart cross = ChartMaker(quads, 0).vertex(3);
-  ASSERT_EQ(cross.ring.size(), 8u);
-  for (std::size_t j = 0; j < 8; ++j)
-    EXPECT_NEAR(cross.ring[j].norm(), j % 2 ? std::sqrt(2) : 1, 1e-13);
-}
-
 TEST(Charts, TangentPlaneSeesAFlatMeshAsItIs) {
   const ControlMesh mesh = control(mixed_grid(4, 4));
   const TangentCharts tangent(mesh);

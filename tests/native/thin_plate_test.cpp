@@ -2,13 +2,10 @@
 // The thin plate's K in all its forms against the one that is written down from charts and fits.
 #include <gtest/gtest.h>
 
-#include <cstring>
-
 #include "level_settings.h"
 #include "thin_plate/level.h"
 #include "thin_plate/matrix.h"
 #include "thin_plate/operator.h"
-#include "transfer/quadratic.h"
 
 namespace fairing::test {
 namespace {
@@ -196,45 +193,6 @@ TEST(Rows, RelaxAsApplicationsDo) {
       EXPECT_EQ((x[0] - x[1]).topRows(Eigen::Index(s.grid.size())).norm(), 0);
     }
   });
-}
-
-TEST(Passes, AnyNumberOfThreadsGivesTheSameBits) {
-  OwnedPolygonMesh mesh = shaken(mixed_grid(30, 24));
-  const ControlMesh big = control(mesh, {.crease_edges = {{40, 41}, {41, 42}}});
-  const Unknowns unknowns = some_points(big, 1);
-  const GridLevel coarse(big, 1), fine(big, 2);
-  std::vector<std::vector<char>> results;
-  for (const int threads : {1, 2, 4, 8}) {
-    Workers workers(threads);
-    const Stencils stencils = make_stencils(big, ChartMaker(big), workers);
-    const ThinPlateRows<double> rows(big, stencils);
-    const ThinPlateRows<float> narrow(big, stencils);
-    ElementSlots<double> slots;
-    ElementSlots<float> narrow_slots;
-    const Points x = random_points(coarse.size()), z = random_points(fine.size());
-    const Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> zf = z.cast<float>();
-    std::vector<char> bytes;
-    const auto keep = [&](const void* data, std::size_t size) {
-      const char* c = static_cast<const char*>(data);
-      bytes.insert(bytes.end(), c, c + size);
-    };
-    Points kz = z, px = z, rz = x;
-    auto kzf = zf;
-    apply_thin_plate(fine, rows, unknowns, {}, workers, slots, z.data(), kz.data());
-    keep(kz.data(), sizeof(double) * std::size_t(kz.size()));
-    apply_thin_plate(fine, narrow, unknowns, {}, workers, narrow_slots, zf.data(), kzf.data());
-    keep(kzf.data(), sizeof(float) * std::size_t(kzf.size()));
-    prolong(coarse, fine, stencils, &unknowns, workers, slots, x.data(), px.data());
-    keep(px.data(), sizeof(double) * std::size_t(px.size()));
-    restrict_to(coarse, fine, stencils, unknowns, workers, slots, z.data(), rz.data());
-    keep(rz.data(), sizeof(double) * std::size_t(rz.size()));
-    const double energy = thin_plate_energy(fine, stencils, workers, z.data());
-    keep(&energy, sizeof energy);
-    const Array<float> diagonal = thin_plate_diagonal(fine, stencils, unknowns, {}, workers, slots);
-    keep(diagonal.data(), sizeof(float) * diagonal.size());
-    results.push_back(bytes);
-  }
-  for (std::size_t k = 1; k < results.size(); ++k) EXPECT_TRUE(results[k] == results[0]) << k;
 }
 
 }  // namespace
