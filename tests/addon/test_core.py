@@ -9,9 +9,8 @@ from lattices import lattice_faces
 from polygons import polygons
 from scenes import CUBE, add, set_edge_attribute, settings
 
-from addon import core
-from addon.choices import ENERGIES, TOLERANCE_UNITS
-from addon.core import are_equal, fair_arguments
+from addon.choices import TOLERANCE_UNITS
+from addon.core import fair_arguments
 from addon.mesh.read import ControlArrays, read_mesh
 from addon.preferences import Defaults
 
@@ -50,17 +49,6 @@ def test_a_tolerance_is_a_share_of_the_mean_edge():
     nothing = np.empty(0, np.int32)
     bare = replace(arrays, corners=nothing, corner_edges=nothing, offsets=np.zeros(1, int))
     assert bare.mean_edge_length == 0.0
-
-
-@pytest.mark.parametrize("energy", [key for key, *_ in ENERGIES])
-@pytest.mark.parametrize("interpolation", ["EXACT", "APPROXIMATE"])
-def test_the_core_takes_every_combination(energy, interpolation):
-    given = arguments(
-        energy=energy, interpolation=interpolation, pad_size=0.75, tension=0.25, levels=1
-    )
-    assert given["pad_size"] == 0.75 and given["energy"].upper() == energy
-    assert given["tension"] == (0 if energy == "MINIMUM_VARIATION" else 0.25)
-    assert len(core.module().fair(**given).vertices) == 26
 
 
 PAIRS = {(0, 1), (3, 7)}
@@ -104,11 +92,6 @@ def triangle(**attributes):
     )
 
 
-def test_threshold_compares_in_the_precision_of_the_attribute():
-    weights = np.full(4, 0.1, np.float32)
-    assert len(triangle(edge_crease=weights).crease_edges(0.1)) == 3
-
-
 def test_creases_below_the_threshold_are_soft():
     weights = np.array([1.0, 0.5, 0.25, 0.5], np.float32)  # the last edge has no face
     edges, values = triangle(edge_crease=weights).soft_creases(1.0)
@@ -127,12 +110,6 @@ def test_flat_faces_reach_the_core():
 
 KINDS = [None, 1, True, 0.5, "x", np.arange(3), np.arange(4), np.zeros(3, int), {"a": 1}, {"b": 1}]
 KINDS += [(np.arange(3), np.arange(2)), (np.arange(3), 2), (1,), (1, 1)]
-
-
-def test_arguments_are_equal_to_themselves_alone():
-    for a, first in enumerate(KINDS):
-        for b, second in enumerate(KINDS):
-            assert are_equal({"k": first}, {"k": second}) == (a == b), (first, second)
 
 
 def sheet(columns=3, rows=2):

@@ -8,8 +8,7 @@ import bpy
 import discrete_fairing as df
 import numpy as np
 import pytest
-from discrete_fairing.errors import fairing_error
-from scenes import CUBE, add, fair
+from scenes import CUBE, add
 
 from addon import errors
 
@@ -45,14 +44,6 @@ def test_more_than_a_mesh_can_hold():
     expect_refusal("fewer levels", levels=10)
 
 
-def test_loose_vertices_are_kept_with_a_warning(capfd):
-    vertices, faces = CUBE
-    add("Box", [*vertices, (9, 9, 9)], faces)
-    result = fair(levels=1)
-    assert tuple(result.data.vertices[8].co) == (9, 9, 9)
-    assert "Box: " in capfd.readouterr().out
-
-
 # what no mesh from Blender brings about, or the core says what to do itself
 OF_SCRIPTS = {"BAD_SHAPE", "INDEX_OUT_OF_RANGE", "BAD_FEATURE_EDGE", "FORKED", "CANCELLED"}
 OWN_CURE = {"BAD_OPTION"}
@@ -64,24 +55,6 @@ def test_every_code_of_the_core_has_a_remedy():
     assert codes
     for remedies in (errors.REMEDIES, errors.WITHOUT_MENDING, errors.OF_HOLES):
         assert codes - OF_SCRIPTS - OWN_CURE - remedies.keys() == set()
-
-
-def test_every_code_has_a_remedy_or_speaks_for_itself():
-    assert errors.error_text("Wire", fairing_error("NO_FACES", "the mesh has no faces")) == (
-        "Wire: Fill the edges with faces (F in Edit Mode). The mesh has no faces."
-    )
-    turned = fairing_error("INCONSISTENT_ORIENTATION", "no")
-    mend = "or set Defects to Mend"
-    assert mend in errors.error_text("Wire", turned)
-    assert mend not in errors.error_text("Wire", turned, errors.WITHOUT_MENDING)
-    assert errors.error_text("Wire", fairing_error("SOMETHING_NEW", "no")) == "Wire: no."
-    # what to do comes before what is wrong, of the add-on or the core
-    loose = fairing_error("UNDERDETERMINED", "Nothing holds vertex 3.", cure="Give it a weight.")
-    text = errors.error_text("Box", loose)
-    assert text.startswith("Box: Set Vertices to Through") and "weight" not in text
-    away = fairing_error("BAD_OPTION", "1 vertex (3) is to look away.", cure="Free its normal.")
-    text = errors.error_text("Box", away)
-    assert text == "Box: Free its normal. 1 vertex (3) is to look away."
 
 
 def test_a_swollen_body_names_the_settings_as_the_panel_does():

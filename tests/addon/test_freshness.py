@@ -19,7 +19,6 @@ from scenes import (
     to_object_mode,
 )
 
-from addon import events, memory
 from addon.freshness import SETTINGS_CHANGED, SOURCE_CHANGED, stale_surfaces, why_stale
 from addon.mesh.boundary_marks import BOUNDARY
 from addon.mesh.fixed_normals import NORMAL
@@ -142,30 +141,3 @@ def test_a_live_surface_has_no_badge(source):
     assert not badges()
     target.discrete_fairing_live.on = False
     assert why_stale(target) == ""
-
-
-def test_a_setting_that_is_newer_than_the_surface_has_not_changed():
-    add("Box", *CUBE)
-    target = fair(levels=1)
-    made = dict(memory.recall(target, "made"))
-    made["settings"] = made["settings"] | {"of_an_older_version": 3}
-    del made["settings"]["pad_size"]
-    memory.keep(target, "made", made)
-    assert why_stale(target) == ""
-    target.discrete_fairing.pad_size = 0.5
-    assert why_stale(target) == SETTINGS_CHANGED
-
-
-def test_a_listener_that_fails_keeps_no_other_from_being_told(capfd):
-    told = []
-
-    def fails(*_):
-        raise ValueError("on purpose")
-
-    wanted = [{"load_post": fails}, {"load_post": lambda *_: told.append(1)}]
-    for one in wanted:
-        events.listen(one)
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    for one in wanted:
-        events.ignore(one)
-    assert told == [1] and "on purpose" in capfd.readouterr().err

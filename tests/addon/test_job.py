@@ -73,14 +73,6 @@ def test_inspection_is_no_part_of_the_source(source, mode):
     assert inspection_modifier(again(source, levels=1, copy_modifiers=True)) is None
 
 
-def test_inspected_surface_stays_inspected(source):
-    result = fair(levels=2)
-    bpy.ops.object.fairing_inspect(mode="GAUSS")
-    source.data.vertices[0].co *= 2.0
-    bpy.ops.object.fairing_recompute()
-    assert inspection_modifier(result) and "fair_gauss_curvature" in result.data.attributes
-
-
 def test_a_source_that_is_deleted_meanwhile_is_noticed(source):
     job = computed(Job(bpy.context, source, settings()))
     assert job.is_writable()

@@ -128,16 +128,6 @@ def test_a_surface_with_another_parent_goes_its_own_way(above):
     assert target.location.x == 2.0 and (target.parent, source.parent) == parents
 
 
-@pytest.mark.parametrize("text", ["", "[]", '{"seen": 3}', '{"seen": {"location": "x"}}', "nan"])
-def test_records_of_any_kind_do_no_harm(text):
-    source, target = pair()
-    target.discrete_fairing.stood = text
-    move(source)
-    recompute(target)
-    follow()
-    assert why_stale(target) == ""
-
-
 def test_an_animated_surface_is_left_to_its_animation():
     source, target = pair()
     target.location.x = 1.0

@@ -30,20 +30,6 @@ def test_the_last_runs_count_by_energy():
     assert prediction.seconds(ENERGY, 1000, "Box") == pytest.approx(3.0), "its own runs say more"
 
 
-def test_brief_runs_say_the_most_that_a_triangle_takes():
-    before = prediction.seconds(ENERGY, 1)
-    prediction.note(ENERGY, 2, 0.04, "Box")
-    assert prediction.seconds(ENERGY, 1, "Box") == before
-    prediction.note(ENERGY, 2000, 0.04, "Box")
-    assert prediction.seconds(ENERGY, 2000, "Box") == pytest.approx(0.04)
-
-
-@pytest.mark.parametrize("text", ["", "[", "[]", '{"THIN_PLATE": 3}', '{"Other": [1]}'])
-def test_what_cannot_be_read_is_nothing(text, monkeypatch):
-    monkeypatch.setattr(prediction.preferences(), "speeds", text)
-    assert prediction.seconds("THIN_PLATE", 10**6) > 1.0
-
-
 def test_a_run_is_noted_and_the_panel_says_seconds(source, monkeypatch):
     monkeypatch.setattr(prediction, "_BRIEF", 0.0)
     fair(levels=1)

@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The thread that computes: order, progress, cancel, failure; a real window's is tested there."""
 
-import os
-import sys
-from threading import Event, current_thread, get_native_id, main_thread
+from threading import Event, current_thread, main_thread
 
 import pytest
 
@@ -62,19 +60,6 @@ def test_jobs_run_in_order_on_a_thread_of_their_own():
     queue.join()
     assert queue.finished and queue.fraction == 1.0 and queue.error is None and not queue.cancelled
     assert first.on_thread is not main_thread()
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="threads share one priority")
-def test_the_window_goes_first():
-    seen = []
-    job = Job("A")
-    job.compute = lambda monitor: seen.append(os.getpriority(os.PRIO_PROCESS, get_native_id()))
-    queue = Queue([job], Monitor)
-    queue.start()
-    queue.join()
-    own = os.getpriority(os.PRIO_PROCESS, 0)
-    assert seen == [min(own + 5, 19)]
-    assert os.getpriority(os.PRIO_PROCESS, get_native_id()) == own
 
 
 def test_cancel_ends_the_job_and_those_that_wait():

@@ -5,7 +5,6 @@ import re
 from math import pi, sqrt
 
 import bpy
-import control_meshes
 import numpy as np
 import pytest
 import step_files
@@ -106,18 +105,6 @@ def test_several_objects_become_parts_with_names_and_colours(tmp_path):
     assert step_files.read(path).solids == 2
 
 
-def test_faces_of_two_materials_have_two_colours(tmp_path):
-    ball = sphere()
-    for colour in ((1, 0, 0, 1), (0, 1, 0, 1)):
-        material = bpy.data.materials.new("Paint")
-        material.diffuse_color = colour
-        ball.data.materials.append(material)
-    ball.data.polygons[2].material_index = 1
-    export(tmp_path / "ball.step")
-    text = (tmp_path / "ball.step").read_text()
-    assert text.count("STYLED_ITEM") == 6 and text.count("COLOUR_RGB") == 2
-
-
 def test_a_surface_that_folds_is_refused_and_its_faces_are_listed(tmp_path, capfd, monkeypatch):
     native = core.module()._native
     monkeypatch.setattr(native, "fit_splines", lambda *_: pytest.fail("fitted in vain"))
@@ -161,16 +148,6 @@ def test_faces_that_miss_are_listed_with_the_distance_and_the_cure(tmp_path, cap
     activate(cube)
     export(tmp_path / "cube.step", fit_levels=5, fit_tolerance=cure)
     assert "Warning" not in capfd.readouterr().out
-
-
-def test_an_open_sheet_keeps_its_corners_by_default(tmp_path, capfd):
-    points, faces = control_meshes.grid()
-    add("Sheet", points.tolist(), [tuple(map(int, face)) for face in faces])
-    assert export(tmp_path / "sheet.step") == {"FINISHED"}
-    assert "Warning" not in capfd.readouterr().out
-    found = step_files.read(tmp_path / "sheet.step")
-    assert (found.valid, found.solids, found.shells) == (True, 0, 1)
-    assert (found.faces, found.free_edges) == (1, 4)  # a surface, with a corner at each end
 
 
 def test_refusals(tmp_path):

@@ -172,16 +172,6 @@ def test_flat_faces_are_flat_and_through_remains_a_choice():
     np.testing.assert_array_equal(positions(through.data)[: len(given)], given)
 
 
-def test_live_and_edit_mode_take_the_same():
-    source = phone()
-    edit(source, "FACE", [4])
-    assert vertices_line() == [], "the edit is not read to draw"
-    assert Job(bpy.context, source, settings()).settings.interpolation == "LIMIT"
-    bpy.ops.object.fairing_live(state="ON")
-    surface = next(o for o in bpy.data.objects if o.discrete_fairing.source == source)
-    assert surface.discrete_fairing.interpolation == "LIMIT"
-
-
 def test_a_chamfered_cylinder_keeps_its_radius_and_nothing_is_wrong_with_it(capfd):
     """Through its vertices it bulges by 6 %: its wall is one face high."""
     radii = {}

@@ -89,26 +89,6 @@ def test_repairs_mend_what_they_promise(mesh, code, mode):
     assert len(target.data.polygons) >= 1
 
 
-def test_hidden_elements_are_shown():
-    fan = add("Fan", *FAN)
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="SELECT")
-    bpy.ops.mesh.hide()
-    check()
-    bm = bmesh.from_edit_mesh(fan.data)
-    assert [e.hide for e in bm.edges if e.select] == [False]
-
-
-def test_each_line_selects_its_own():
-    target = add("Both", [*FAN[0], (9, 9, 9)], FAN[1])
-    defects = check()
-    assert codes(defects) == ["NONMANIFOLD_EDGE", "ISOLATED_VERTICES"]
-    bpy.ops.object.fairing_select_defect(index=1)
-    assert selected(target, "verts") == [5]
-    assert bpy.context.tool_settings.mesh_select_mode[0]
-    assert not recall_defects(target)[1]
-
-
 def test_several_objects_only_the_bad_ones_are_opened():
     good, one, two = add("Good", *CUBE), add("One", *FAN), add("Two", *FLIPPED)
     for target in (good, one, two):

@@ -9,7 +9,6 @@ from fake_layout import draw
 from scenes import (
     CUBE,
     add,
-    add_suzanne,
     computed,
     fair,
     positions,
@@ -19,7 +18,6 @@ from scenes import (
 )
 from shapes import mug
 
-from addon.check import faults
 from addon.job import Job
 from addon.mesh.write import FAULTS
 from addon.ui import main
@@ -64,21 +62,6 @@ def job_of(source, **changes):
 def test_a_sound_surface_is_not_blamed(energy):
     job = job_of(add("Box", *CUBE), energy=energy)
     assert job.faults.counts == {} and not job.warnings()
-
-
-def test_suzanne_is_not_blamed_for_what_her_mesh_does():
-    """Her eyes stand inside her head, and her nostrils fold over."""
-    assert job_of(add_suzanne(), levels=3).faults.counts == {}
-
-
-@pytest.mark.parametrize("most", [500, 3000, 40_000])
-def test_fine_surfaces_are_looked_at_by_fewer_points(most, monkeypatch):
-    job = job_of(add("Mug", *mug(wall=0.07)), energy="TOTAL_CURVATURE", levels=2)
-    monkeypatch.setattr(faults, "MOST", most)
-    found = faults.find_faults(job.result, job.transfer, job.arrays)
-    assert job.transfer.triangle_count == 1536 and found.counts["crossing"] > 20
-    plain = job_of(add("Thin", *mug(wall=0.07)), energy="THIN_PLATE", levels=3)
-    assert faults.find_faults(plain.result, plain.transfer, plain.arrays).counts == {}
 
 
 def test_limit_cures_an_inner_wall_that_breaks_through(capfd):

@@ -4,7 +4,7 @@
 import numpy as np
 from live_scenes import live, pull, through
 from refined import corner_vertices, values
-from scenes import CUBE, add, again, fair, positions, recompute, snapshot
+from scenes import add, again, fair, positions, recompute, snapshot
 
 from addon.memory import recall
 
@@ -90,12 +90,3 @@ def test_a_live_surface_of_a_source_with_defects():
     assert through(result, source)
     uv = values(result.data, "Map", "vector", 2)
     assert np.isfinite(uv).all() and uv.any()
-
-
-def test_symmetry_is_kept_where_a_vertex_was_merged():
-    points = [*CUBE[0], CUBE[0][0]]
-    faces = [[8 if v == 0 else v for v in CUBE[1][0]], *CUBE[1][1:], (0, 8, 1), (8, 0, 2)]
-    add("Box", points, faces)
-    found = positions(fair(levels=2, keep_symmetry=True).data)
-    image = found * np.array([-1, 1, 1], np.float32)
-    assert set(map(tuple, found + 0.0)) == set(map(tuple, image + 0.0))

@@ -55,19 +55,6 @@ def test_control_vertices_are_eased_and_the_surface_passes_through_them():
     assert not contains(surface, points, 0.1 * OFF)
 
 
-def test_no_vertex_moves_farther_than_a_tolerance():
-    points = scattered()
-    write_dunes("in.obj", points)
-    code, (entry,) = entries("in.obj", "out.ply", "--ease-tolerance", 0.01, "--strain", "out.csv")
-    assert (code, entry["settings"]["ease_tolerance"]) == (0, 0.01)
-    assert 0.009 < entry["objects"][0]["eased"]["largest"] <= 0.01
-    head, rows = read_table("out.csv")
-    assert head == ["vertex", *"xyz", "x_eased", "y_eased", "z_eased", "move", "strain"]
-    assert np.nanmax(rows[:, 7]) <= 0.01 + 1e-6
-    assert contains(imported("out.ply")[0], rows[:, 4:7], 1e-4)
-    assert np.allclose(rows[:, 1:4], points, atol=1e-6), "as they were, too"
-
-
 def test_the_table_is_that_of_the_panel():
     write_dunes("in.obj", scattered())
     code, (entry,) = entries("in.obj", "out.obj", "--strain", "strain.csv")
@@ -94,13 +81,6 @@ def test_symmetry_and_borders_are_heard():
     assert (np.isnan(found[2]) & ~np.isnan(found[0])).any() and np.abs(plain - straight).max() > 0
 
 
-def test_several_inputs_have_tables_of_their_own():
-    for name in ("a.obj", "b.obj"):
-        write_dunes(name, scattered())
-    assert run("a.obj", "b.obj", "out/", "--strain", "{name}_strain.csv", "--levels", 1) == 0
-    assert Path("a_strain.csv").read_bytes() == Path("b_strain.csv").read_bytes()
-
-
 def test_a_table_is_of_one_mesh():
     write_dunes("in.obj", dune(), dune() + (0, 9, 0))
     code, (entry,) = entries("in.obj", "out.obj", "--strain", "a.csv")
@@ -108,11 +88,3 @@ def test_a_table_is_of_one_mesh():
     assert not Path("out.obj").exists()
     code, (entry,) = entries("in.obj", "out.obj", "--ease")
     assert code == 0 and [item["eased"]["vertex"] for item in entry["objects"]] == [WRONG, WRONG]
-
-
-def test_a_table_is_kept_where_nothing_is_overwritten():
-    write_dunes("in.obj", dune())
-    Path("a.csv").write_text("mine")
-    code, (entry,) = entries("in.obj", "out.obj", "--strain", "a.csv", "--no-overwrite")
-    assert (code, entry["error"]["code"]) == (1, "EXISTS")
-    assert Path("a.csv").read_text() == "mine"

@@ -123,13 +123,6 @@ def test_files_and_pieces_on_a_cluster(online, cluster):
     assert Path("two.obj").read_text() == Path("one.obj").read_text()
 
 
-def test_no_scheduler_there(online, capfd):
-    write_obj("in.obj")
-    code, (record,) = entries("in.obj", "out.obj", "--scheduler", "tcp://127.0.0.1:9")
-    assert code == command.SOME_FAILED and record["status"] == "not_run"
-    assert "No Dask scheduler answers at tcp://127.0.0.1:9" in capfd.readouterr().err
-
-
 def test_an_interruption_ends_all_processes(capfd):
     names = three_files()
     sleeper = "import time; time.sleep(600)"

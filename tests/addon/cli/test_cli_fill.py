@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from cli_files import read_obj
-from cli_runs import entries, imported, run
+from cli_runs import entries, run
 
 from addon.cli.files import read_file
 
@@ -63,20 +63,6 @@ def test_larger_holes_stay_open_and_that_is_no_failure():
     code, (entry,) = entries("in.obj", "out.ply", "--fill", "--largest-hole", 0.5)
     assert (code, entry["objects"][0]["report"]) == (0, {"holes": []})
     assert open_edges("out.ply") == 24
-
-
-def test_joint_energy_and_density_are_heard():
-    write_ball("in.obj")
-    words = ("--fill", "--energy", "thin_plate", "--fill-joint", "tangent", "--fill-density")
-    counts = []
-    for density in (0, 2):
-        code, (entry,) = entries("in.obj", "out.stl", *words, density)
-        assert code == 0
-        counts.append(entry["objects"][0]["report"]["holes"][0]["faces"])
-        assert entry["settings"]["fill_joint"] == "TANGENT"
-    assert entry["objects"][0]["report"]["holes"][0]["energy"] == "thin_plate"
-    assert counts[0] == 22 and counts[1] > 300
-    assert len(imported("out.stl")[1])
 
 
 def test_what_passes_through_the_mesh_is_warned_of():

@@ -23,13 +23,6 @@ def test_a_name_goes_in_and_out(name):
     assert materials_of(made).is_file()
 
 
-def test_a_pattern_finds_any_name():
-    for name in ("Körper.obj", f"{NOT_UTF_8}.obj"):
-        write_obj(name)
-    code, found = entries("*.obj", "out/", "--levels", 1)
-    assert code == 0 and len(found) == 2
-
-
 def test_a_console_that_knows_ascii_only_gets_signs_in_their_place():
     write_obj("Körper.obj")
     code, _, error = process("Körper.obj", "out.obj", PYTHONIOENCODING="ascii")

@@ -5,16 +5,14 @@ import bpy
 import networks
 import numpy as np
 import pytest
-from curve_objects import bezier, poly, scene, surface
+from curve_objects import poly, scene, surface
 from mathutils import Matrix
-from scenes import TRIANGLE, activate, add, positions, recompute, refused, shown
+from scenes import activate, add, positions, recompute, refused, shown
 
 from addon import curve_cage, freshness
 from addon.curves.cubics import points_at
 from addon.live import registry, switch
-from addon.mesh.read_curves import chains, read_curves
-from addon.ui.curves import VIEW3D_PT_fairing_curves
-from addon.ui.main import VIEW3D_PT_fairing
+from addon.mesh.read_curves import read_curves
 
 
 def square():
@@ -66,28 +64,11 @@ def test_poly_curves_and_wire_edges_pass_their_points():
         assert read.name == source.name and not read.closed
 
 
-def test_chains_end_where_edges_branch_and_marks_change():
-    edges = np.array([(0, 1), (1, 2), (2, 3), (2, 4), (5, 6), (6, 7), (7, 5)])
-    marks = np.array([1, 0, 0, 0, 0, 0, 0], bool)
-    found = sorted((len(chain), sharp) for chain, sharp in chains(edges, marks))
-    assert found == [(2, False), (2, False), (2, False), (2, True), (4, False)]
-
-
 def test_a_refusal_leaves_nothing_behind():
     made = scene(lambda: networks.bonnet()[:4])
     before = set(bpy.data.objects), set(bpy.data.meshes)
     refused("No two of them come nearer", bpy.ops.object.fairing_curves)
     assert (set(bpy.data.objects), set(bpy.data.meshes)) == before and len(made) == 4
-
-
-def test_what_is_left_out_is_remembered_in_words():
-    scene(lambda: [*networks.three_by_four(), networks.along("Loose", 0.4, -1.0, 0.1)])
-    bezier(networks.along("Far", 40.0))
-    poly("Dot", [(0, 0, 0)])  # of one point, no curve
-    cage = surface(levels=1).discrete_fairing.source
-    remarks = sorted(curve_cage.remarks_of(cage))
-    assert len(remarks) == 2 and remarks[0].startswith("'Far' encloses nothing")
-    assert "'Loose' ends loose at (0.1 m, 0.4 m, " in remarks[1]
 
 
 def test_recompute_follows_the_curves():
@@ -161,12 +142,3 @@ def test_deleted_curves_are_told(no_pause):
         bpy.data.objects.remove(curve)
     activate(target)
     refused("The curves of .* were deleted", bpy.ops.object.fairing_recompute)
-
-
-def test_curves_have_their_own_panel_alone():
-    scene(networks.three_by_four)
-    assert not VIEW3D_PT_fairing.poll(bpy.context)
-    assert VIEW3D_PT_fairing_curves.poll(bpy.context)
-    add("Triangle", *TRIANGLE)
-    assert not bpy.ops.object.fairing_curves.poll()
-    assert VIEW3D_PT_fairing.poll(bpy.context) and not VIEW3D_PT_fairing_curves.poll(bpy.context)

@@ -1,20 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Zebra, curvature colours and the read-out on real objects: shown, saved, and put back exactly."""
 
-from math import radians
-from types import SimpleNamespace
-
 import bpy
 import numpy as np
 import pytest
-from fake_layout import draw
-from scenes import CUBE, activate, add, add_suzanne, reopen, snapshot
+from scenes import CUBE, activate, add, reopen, snapshot
 
 from addon.inspection import display, measures, readout
 from addon.inspection.materials import COLOUR, STRIPES_NAMES
 from addon.inspection.settings import MODES
 from addon.memory import keep, recall
-from addon.ui import inspect as panel
 
 SHOWN = [key for key, *_ in MODES if key != "NONE"]
 
@@ -64,15 +59,6 @@ def test_all_faces_show_it_and_off_leaves_no_trace(mode):
     assert display.legend(box.data) is None
 
 
-def test_every_selected_object_is_switched():
-    boxes = [add(name, *CUBE) for name in "AB"]
-    for box in boxes:
-        box.select_set(True)
-    bpy.ops.object.fairing_inspect(mode="ZEBRA")
-    assert [b.discrete_fairing_inspection.mode for b in boxes] == ["ZEBRA", "ZEBRA"]
-    assert len(bpy.data.materials) == 1
-
-
 def test_the_users_active_colours_stay():
     box = add("Box", *CUBE)
     box.data.color_attributes.new("Mine", "BYTE_COLOR", "CORNER")
@@ -106,33 +92,6 @@ def test_one_mesh_of_two_objects_keeps_its_colours_for_the_other():
     assert COLOUR in two.data.attributes and shown_materials(one) == set()
     show(two, "NONE")
     assert COLOUR not in two.data.attributes
-
-
-def test_settings_reach_the_zebra_at_once():
-    show(add("Box", *CUBE), "ZEBRA")
-    settings = bpy.context.scene.discrete_fairing_inspection
-    nodes = bpy.data.materials["Fairing Zebra"].node_tree.nodes
-    settings.stripes = 7
-    assert nodes["Stripes"].inputs[1].default_value == 14
-    settings.direction = radians(90)
-    assert tuple(nodes["Direction"].inputs[1].default_value) == pytest.approx((1, 0, 0), abs=1e-6)
-    settings.fixed_to = "OBJECT"
-    assert nodes["Room"].convert_to == "OBJECT"
-    settings.sharpness = 0.0
-    assert nodes["Edge"].inputs["From Max"].default_value == pytest.approx(1.0)
-
-
-def test_range_recolours_without_measuring(monkeypatch):
-    ball = add_suzanne()
-    show(ball, "TOTAL")
-    monkeypatch.setattr(display, "write_values", None)
-    before = display.legend(ball.data)
-    settings = bpy.context.scene.discrete_fairing_inspection
-    settings.range_high = 60.0
-    assert display.legend(ball.data)[1] < before[1]
-    settings.use_fixed_range = True
-    settings.fixed_range = 3.0
-    assert display.legend(ball.data) == (0.0, 3.0)
 
 
 def test_smooth_while_inspected_is_not_the_mesh():
@@ -175,27 +134,6 @@ def test_readout_has_before_and_after():
         before, after = rows[label]
         assert before == "" and float(after.split()[0]) > 0, "of a coarse mesh it says nothing"
     assert not [text for row in rows.values() for text in row if "nan" in text]
-
-
-def drawn(shading="SOLID"):
-    space = SimpleNamespace(shading=SimpleNamespace(type=shading))
-    context = SimpleNamespace(
-        active_object=bpy.context.active_object, scene=bpy.context.scene, space_data=space
-    )
-    return draw(panel.VIEW3D_PT_fairing_inspect, context)
-
-
-def test_panel_shows_the_controls_of_what_is_shown():
-    box = add("Box", *CUBE)
-    assert "stripes" not in drawn()
-    show(box, "ZEBRA")
-    assert {"stripes", "Material Preview"} <= set(drawn())
-    assert "Material Preview" not in drawn("MATERIAL")
-    show(box, "MEAN")
-    assert {"range_low", "Material Preview"} <= set(drawn())
-    bpy.ops.object.fairing_measure()
-    assert recall(box, "readout")["before"] is None
-    assert {"Worst fold", "90.00°", "Total curvature"} <= set(drawn())
 
 
 def test_what_is_measured_is_that_of_the_world():

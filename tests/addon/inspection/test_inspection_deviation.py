@@ -59,15 +59,6 @@ def test_from_an_object_each_search_begins_at_the_last_place(order):
     assert np.allclose(found, expected, atol=1e-5)
 
 
-def test_nothing_is_measured_from_a_mesh_without_faces():
-    _, surface = near_surface()
-    bpy.ops.mesh.primitive_plane_add()
-    bare = bpy.context.object
-    bare.data.clear_geometry()
-    points = read_mesh(surface.data).positions
-    assert not deviation.from_object(bpy.context, surface, points, bare).any()
-
-
 @pytest.mark.parametrize("quick", [True, False])
 def test_a_drag_waits_for_no_measurement(monkeypatch, no_pause, quick):
     source, target = box()

@@ -56,23 +56,6 @@ def test_the_edits_of_edit_mode_are_drawn():
     assert np.abs(surface(box).points[:, 0]).max() == pytest.approx(3)
 
 
-@pytest.mark.parametrize("perspective", [True, False])
-def test_lines_are_pulled_to_the_eye_in_depth_alone(perspective):
-    projection = np.diag([1.5, 1.5, -0.02, 1.0])
-    if perspective:
-        projection = np.diag([1.5, 1.5, -1.01, 0.0])
-        projection[2, 3], projection[3, 2] = -0.1, -1.0
-
-    def seen(matrix, point):
-        x = matrix @ [*point, 1.0]
-        return x[:3] / x[3]
-
-    for point in ((0.0, 0.0, -10.0), (3.0, 2.0, -14.0)):
-        there = seen(projection, point)
-        pulled = seen(overlay_arrays.pulled(projection, 10.0), point)
-        assert np.allclose(pulled[:2], there[:2]) and pulled[2] < there[2]
-
-
 def test_sections_of_a_sphere_are_circles_of_the_right_size_and_bend():
     target = surface(ball(radius=2.0))
     for axis in range(3):
@@ -108,30 +91,6 @@ def test_sections_end_at_borders_and_break_at_sharp_edges():
     found = sections.sections(surface(add("Box", *CUBE)), 2, 1)
     assert len(found) == 4 and not any(section.closed for section in found)
     assert max(np.abs(section.curvature).max() for section in found) < 1e-6
-
-
-def pointed(length=6.0, rows=60, around=48):
-    """A body like a hull, mirrored at the water: round amidships, its ends drawn out to a stem."""
-    x = length * np.sin(np.linspace(-1.57, 1.57, rows + 1))[:, None]
-    angle = np.linspace(0.0, 2.0 * np.pi, around, endpoint=False)
-    breadth = (1.0 - (x / length) ** 2) ** 2 * np.cos(angle)
-    points = np.stack(np.broadcast_arrays(x, breadth, np.sin(angle)), axis=-1).reshape(-1, 3)
-    faces = lattice_faces(rows + 1, around, (False, True))[:, [0, 3, 2, 1]]
-    target = add("Hull", points.tolist(), faces.tolist())
-    bpy.ops.object.shade_smooth()
-    return target
-
-
-def tooth_lengths(found):
-    """(k,) of each section."""
-    ends = sections.combs(found, 12.0)
-    return [np.linalg.norm(e - s.points, axis=1) for s, e in zip(found, ends, strict=True)]
-
-
-def test_a_bow_does_not_flatten_the_combs_amidships():
-    found = sections.sections(surface(pointed()), 0, 9)
-    amidships = np.concatenate(tooth_lengths(found)[3:-3])
-    assert np.percentile(amidships, 90.0) > 0.05 * 12.0
 
 
 def asked(axes, count):

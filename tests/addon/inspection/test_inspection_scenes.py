@@ -42,18 +42,6 @@ def test_scenes_do_not_fight_over_zebra(kind):
         assert smooth_of(one) and not smooth_of(other)
 
 
-def test_off_leaves_nothing_of_any_scene():
-    one = add("One", *CUBE)
-    bpy.ops.object.fairing_inspect(mode="ZEBRA")
-    bpy.ops.scene.new(type="NEW")
-    add("Other", *CUBE)
-    bpy.ops.object.fairing_inspect(mode="ZEBRA")
-    bpy.ops.object.fairing_inspect(mode="NONE")
-    assert len(bpy.data.materials) == len(bpy.data.node_groups) == 1
-    one.discrete_fairing_inspection.mode = "NONE"
-    assert not bpy.data.materials and not bpy.data.node_groups
-
-
 def viewports():
     areas = [area for screen in bpy.data.screens for area in screen.areas]
     return [area.spaces.active for area in areas if area.type == "VIEW_3D"]
@@ -82,29 +70,6 @@ def test_a_click_is_seen_and_off_leads_back(before):
     space.shading.type = "SOLID"
     viewport_shading.show(space, "NONE")
     assert now(space)[0] == "SOLID", "once only"
-
-
-def test_the_way_back_goes_with_the_viewport_and_its_file(tmp_path):
-    """Nothing depends on the address of a viewport, since one of the next file may have the same."""
-    viewport_shading.show(viewport("WIREFRAME"), "ZEBRA")
-    path = str(tmp_path / "shown.blend")
-    bpy.ops.wm.save_as_mainfile(filepath=path)
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    space = viewport("RENDERED")
-    viewport_shading.show(space, "NONE")
-    assert now(space)[0] == "RENDERED"
-    bpy.ops.wm.open_mainfile(filepath=path)
-    shown = viewports()
-    for space in shown:
-        viewport_shading.show(space, "NONE")
-    assert "WIREFRAME" in [space.shading.type for space in shown]
-
-
-def test_a_viewport_that_shows_it_is_left_alone():
-    space = viewport("RENDERED")
-    viewport_shading.show(space, "ZEBRA")
-    viewport_shading.show(space, "NONE")
-    assert now(space) == ("RENDERED", "MATERIAL")
 
 
 def test_zebra_in_edit_mode():

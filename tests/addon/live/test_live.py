@@ -5,8 +5,8 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from live_scenes import follow, live, move, pull, session, surface_of, through
-from scenes import CUBE, activate, add, add_suzanne, fair, positions, set_edge_attribute, snapshot
+from live_scenes import follow, live, move, pull, session, through
+from scenes import CUBE, add, add_suzanne, fair, positions, set_edge_attribute
 
 from addon.live import handlers, pace
 
@@ -99,18 +99,6 @@ def test_live_levels(source):
     assert len(target.data.polygons) == 6 * 4**3, "no finer than the surface itself"
 
 
-def test_the_source_is_only_read():
-    source = add_suzanne()
-    before = snapshot(source)
-    bpy.context.scene.discrete_fairing.levels = 1
-    target = live(source)
-    pull(source)
-    pull(source, by=-0.5)
-    assert snapshot(source) == before
-    bpy.ops.object.fairing_live(state="OFF")
-    assert snapshot(source) == before and not target.discrete_fairing_live.on
-
-
 def test_what_the_mesh_carries(source):
     """The live level has UV maps, weights and material indices; the object keeps materials and modifiers."""
     source.data.materials.append(bpy.data.materials.new("Paint"))
@@ -196,26 +184,6 @@ def test_what_cannot_be_faired_anew_is_said_with_the_full_level(source):
     assert "another vertex of the same face" in target.discrete_fairing_live.status
     pull(source, by=-1.0)
     assert not session(target).trouble and session(target).is_waiting
-
-
-def test_an_empty_mesh_is_said():
-    source = add("Nothing", [], [])
-    bpy.ops.object.fairing_live()
-    target = surface_of(source)
-    assert "no vertices" in target.discrete_fairing_live.status
-
-
-def test_several_at_once():
-    sources = [add("Box", *CUBE), add("Crate", *CUBE)]
-    targets = [live(source) for source in sources]
-    for source in sources:
-        move(source)
-    follow()
-    for source, target in zip(sources, targets):
-        assert through(target, source)
-    activate(sources[0])
-    bpy.ops.object.fairing_live()
-    assert [target.discrete_fairing_live.on for target in targets] == [False, True]
 
 
 def test_the_level_is_lowered_where_updates_are_slow(source, monkeypatch):

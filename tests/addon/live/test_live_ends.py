@@ -11,7 +11,6 @@ from live_scenes import box, live, move, pull, session, through, tick_until, who
 from scenes import CUBE, activate, add, fair, positions, recompute, reopen
 
 import addon
-from addon.blender import scene_of
 from addon.freshness import UNFINISHED, why_stale
 from addon.live import handlers, kept, registry, switch
 from addon.live import session as session_module
@@ -137,18 +136,6 @@ def test_deleted(which, reason, way):
         assert "source was deleted" in target.discrete_fairing_live.status
 
 
-def test_nothing_is_written_while_rendering(no_pause):
-    source, target = box()
-    before = positions(target.data)
-    registered()["render_init"][0](None)
-    pull(source)
-    handlers.on_timer()
-    assert np.array_equal(positions(target.data), before)
-    registered()["render_complete"][0](None)
-    whole(target)
-    assert through(target, source)
-
-
 def test_disabling_leaves_nothing():
     source, target = box()
     everything = registered()
@@ -236,22 +223,3 @@ def test_renders_write_only_while_no_window_draws(monkeypatch, locked):
     pull(source)
     assert np.array_equal(positions(target.data), before) != locked
     handlers._render_ends()
-
-
-def test_each_surface_is_shown_as_its_own_scene_says():
-    """Two windows show two scenes, and handlers are called with either scene."""
-    source, target = box()
-    first = bpy.context.scene
-    target.discrete_fairing_inspection.mode = "MEAN"
-    first.discrete_fairing_inspection.use_fixed_range = True
-    first.discrete_fairing_inspection.fixed_range = 5.0
-    other = bpy.data.scenes.new("Other")
-    bpy.context.window.scene = other
-    assert bpy.context.scene == other and scene_of(target) == first
-    move(source)
-    first.view_layers[0].update()
-    handlers.on_timer()
-    assert tuple(target.data.discrete_fairing.curvature_range) == (-5.0, 5.0)
-    target.discrete_fairing_live.on = False
-    assert tuple(target.data.discrete_fairing.curvature_range) == (-5.0, 5.0)
-    assert len(target.data.polygons) == 6 * 4**2

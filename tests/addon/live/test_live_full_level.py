@@ -70,15 +70,6 @@ def test_the_full_level_in_edit_mode(source, no_pause):
     assert not session(target).trouble and target.vertex_groups["Group"].weight(0) == 0.5
 
 
-def test_the_same_level_only_moves_the_mesh_of_the_full_one(no_pause):
-    source, target = box(levels=2, live_levels=2)
-    whole(target)
-    target.data["mine"] = 1
-    pull(source)
-    assert target.data["mine"] == 1 and len(target.data.polygons) == 6 * 4**2
-    assert through(target, source)
-
-
 def test_an_edit_of_the_surface_itself_waits(no_pause):
     source, target = box()
     activate(target)

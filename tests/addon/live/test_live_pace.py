@@ -9,25 +9,9 @@ from addon.live.pace import Pace
 pytestmark = pytest.mark.plain
 
 
-def test_a_large_result_is_lowered_from_the_start():
-    assert Pace().level(3, 1000) == 3
-    assert Pace().level(5, pace.MAX_TRIANGLES // 4**3) == 3
-    assert Pace().level(5, pace.MAX_TRIANGLES) == 1
-
-
 def slow(it, level, energy):
     for _ in range(pace.IN_A_ROW):
         it.note(level, energy, 1.1 * pace.SLOW)
-
-
-def test_slow_updates_lower_the_level_for_good():
-    it = Pace()
-    slow(it, 3, "thin_plate")
-    assert it.level(3, 10) == 2
-    it.note(2, "thin_plate", 0.0)
-    slow(it, 2, "thin_plate")
-    slow(it, 1, "thin_plate")
-    assert it.level(3, 10) == 1 and it.energy("thin_plate") == "thin_plate"
 
 
 def test_a_slow_one_now_and_then_does_not():
@@ -53,11 +37,3 @@ def test_a_solve_beyond_the_limit():
     assert it.slow_down(3, "thin_plate", hopeless=True) and it.level(3, 10) == 2
     assert it.slow_down(2, "thin_plate", hopeless=True)
     assert not it.slow_down(1, "thin_plate", hopeless=True), "nothing is less"
-
-
-def test_the_deadline(monkeypatch):
-    deadline = pace.Deadline()
-    assert deadline(0.5, "solve") and not deadline.is_over
-    monkeypatch.setattr(pace, "LIMIT", -1.0)
-    deadline = pace.Deadline()
-    assert not deadline(0.5, "solve") and deadline.is_over

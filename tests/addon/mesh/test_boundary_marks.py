@@ -4,15 +4,13 @@
 import bpy
 import numpy as np
 import pytest
-from fake_layout import draw
 from lattices import lattice_faces
 from live_scenes import live, session
-from scenes import add, add_attribute, edit, faces_at_edges, fair, positions, to_object_mode
+from scenes import add, edit, faces_at_edges, fair, positions, to_object_mode
 
-from addon.mesh.boundary_marks import BOUNDARY, summary
+from addon.mesh.boundary_marks import BOUNDARY
 from addon.mesh.read import control_mesh, read_mesh
 from addon.transfer.cut_out import cut_out
-from addon.ui import main
 
 SIDE = 3  # faces; vertex (i, j) is number 4 i + j
 BOTTOM = [(0, 1), (1, 2), (2, 3)]
@@ -98,16 +96,6 @@ def test_the_surface_has_straight_edges_where_they_are_marked():
     assert straight(fair(levels=3, boundary="CURVE"), plain, *BOTTOM[0]) == 0
 
 
-def test_marks_of_another_kind_or_number_count_for_nothing():
-    source = sheet()
-    add_attribute(source, np.ones(len(source.data.vertices)), BOUNDARY)
-    assert read_mesh(source.data).boundary_edge is None
-    source.data.attributes.remove(source.data.attributes[BOUNDARY])
-    layer = source.data.attributes.new(BOUNDARY, "INT", "EDGE")
-    layer.data.foreach_set("value", np.full(len(source.data.edges), 7, np.int32))
-    assert read_mesh(source.data).boundary_edges() == {} and summary([source]) == ""
-
-
 def test_live_follows_marks():
     source = sheet()
     surface = fair(levels=2)
@@ -119,16 +107,6 @@ def test_live_follows_marks():
     assert session(surface) is not None
     assert np.abs(positions(surface.data) - before).max() > 1e-3
     assert straight(surface, source, *BOTTOM[1]) == 3
-
-
-def test_the_panel_counts_them():
-    source = sheet()
-    assert not [line for line in draw(main.VIEW3D_PT_fairing) if str(line).startswith("Edges:")]
-    mark(source, "LINEAR", *BOTTOM[:2])
-    mark(source, "FREE", (12, 13))
-    assert "Edges: 2 Straight, 1 Free" in draw(main.VIEW3D_PT_fairing)
-    edit(source, "EDGE", edges(source, *BOTTOM))
-    assert "Edges: 2 Straight, 1 Free" in draw(main.VIEW3D_PT_fairing), "in Edit Mode too"
 
 
 def test_a_cut_lays_no_mark_bare():

@@ -9,11 +9,9 @@ from scenes import computed, edit, fair, positions, settings, to_object_mode
 from test_boundary_marks import sheet
 
 from addon.job import Job
-from addon.mesh import fixed_normals
 from addon.mesh.fixed_normals import NORMAL, read_normals
-from addon.mesh.read import control_mesh, read_mesh
+from addon.mesh.read import read_mesh
 from addon.mesh.world_shape import world_shape
-from addon.transfer.cut_out import cut_out
 
 INSIDE = 5  # vertex (1, 1) of the sheet
 TILTED = (0.6, 0.0, 0.8)
@@ -141,15 +139,6 @@ def test_the_other_energies_leave_them_out_and_say_so():
     assert any("not fixed" in warning and "(0)" in warning for warning in job.warnings())
 
 
-def test_what_is_shorter_or_of_another_kind_fixes_nothing():
-    source = sheet()
-    set_normals(source, {INSIDE: (0.3, 0, 0.4), 6: TILTED})
-    assert set(marks(source)) == {6}
-    source.data.attributes.remove(source.data.attributes[NORMAL])
-    source.data.attributes.new(NORMAL, "FLOAT_VECTOR", "CORNER")
-    assert read_normals(source.data) is None and fixed_normals.count([source]) == 0
-
-
 def test_a_new_vertex_between_fixed_and_free_is_free():
     source = sheet()
     fix(source, INSIDE)
@@ -157,12 +146,3 @@ def test_a_new_vertex_between_fixed_and_free_is_free():
     bpy.ops.mesh.subdivide()
     to_object_mode()
     assert set(marks(source)) == {INSIDE}
-
-
-def test_a_cut_takes_them_along():
-    source = sheet()
-    set_normals(source, {INSIDE: TILTED})
-    with control_mesh(bpy.context, source) as mesh:
-        arrays = read_mesh(mesh)
-    part = cut_out(arrays, np.arange(9) < 5)
-    assert np.array_equal(part.arrays.normals, arrays.normals[part.vertices])

@@ -3,7 +3,7 @@
 
 import numpy as np
 from refined import refine
-from scenes import CUBE, add, add_attribute, weights
+from scenes import CUBE, add, weights
 
 
 def test_weights_are_linear_and_control_vertices_keep_theirs():
@@ -37,12 +37,3 @@ def test_groups_stay_sparse_and_keep_their_order():
     # vertex 0, and the middles of its 3 edges and 3 faces
     assert np.isfinite(weights(target, "Part")).sum() == 7
     assert target.data.validate() is False
-
-
-def test_a_name_that_an_attribute_has():
-    source = add("Cube", *CUBE)
-    add_attribute(source, np.full(8, 3.0), "Same")
-    source.vertex_groups.new(name="Other").add([1], 1.0, "REPLACE")
-    target = refine(source, 1).target
-    assert "Same" in target.data.attributes and "Other" in target.vertex_groups
-    assert {a.name for a in target.data.attributes if "weight" in a.name} == set()

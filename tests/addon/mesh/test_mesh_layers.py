@@ -4,7 +4,6 @@
 import bpy
 import numpy as np
 import pytest
-from lattices import lattice_faces
 from refined import corner_vertices, edge_vertices, refine, values
 from scenes import CUBE, add, add_attribute, set_edge_attribute
 
@@ -78,31 +77,6 @@ def on_control_edges(made):
     return ((np.abs(a) == 1) & (a == b)).sum(axis=1) >= 2
 
 
-@pytest.mark.parametrize("domain", ["POINT", "CORNER", "FACE", "EDGE"])
-def test_all_256_byte_colors_come_through(domain):
-    points = [(x, y, 0) for x in range(65) for y in range(2)]
-    source = add("Row", points, lattice_faces(65, 2).tolist())
-    given = source.data.attributes.new("given", "BYTE_COLOR", domain)
-    bytes_ = np.arange(4 * len(given.data)) % 256
-    given.data.foreach_set("color_srgb", (bytes_ / 255).astype(np.float32))
-    made = refine(source, 0)
-    found = np.round(values(made.mesh, "given", "color_srgb", 4) * 255).astype(int)
-    before = bytes_.reshape(-1, 4)
-    if domain == "EDGE":
-        key = {tuple(sorted(e)): i for i, e in enumerate(edge_vertices(source.data).tolist())}
-        before = before[[key[tuple(sorted(e))] for e in edge_vertices(made.mesh).tolist()]]
-    assert np.array_equal(found, before)
-
-
-def test_byte_colors_mix_as_light():
-    source = add("Square", [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [(0, 1, 2, 3)])
-    given = source.data.attributes.new("given", "BYTE_COLOR", "POINT")
-    given.data.foreach_set("color", np.repeat([0, 1, 1, 0], 4).astype(np.float32))
-    made = refine(source, 1)
-    middle = values(made.mesh, "given", "color", 4)[4:].mean(axis=1)
-    assert np.isclose(middle, 0.5, atol=0.01).sum() == 3
-
-
 def test_seams_stay_apart():
     """Where two faces of the control cube have different UVs at an edge, the refined faces have too."""
     source = cube()
@@ -149,14 +123,6 @@ def test_active_maps_and_colors():
 
 
 RIM = [(0, 1), (1, 3), (3, 2), (2, 0)]
-
-
-def test_sharp_edges_add_up():
-    source = add("Cube", *CUBE)
-    set_edge_attribute(source.data, "sharp_edge", "BOOLEAN", RIM, True)
-    made = refine(source, 0, sharp_pairs=np.array([(4, 5)]))
-    found = edge_vertices(made.mesh)[values(made.mesh, "sharp_edge", dtype=bool)]
-    assert {tuple(sorted(e)) for e in found.tolist()} == {tuple(sorted(p)) for p in RIM} | {(4, 5)}
 
 
 def test_seams_weights_and_freestyle_marks():

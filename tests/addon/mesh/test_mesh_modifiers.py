@@ -1,11 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Modifiers of the source, copied to another object."""
 
-import bmesh
 import bpy
-import numpy as np
 import pytest
-from scenes import CUBE, TRIANGLE, add, add_suzanne, fair, settings, shown
+from scenes import CUBE, TRIANGLE, add, add_suzanne, settings
 
 from addon.job import Job
 from addon.mesh.modifiers import copy_modifiers
@@ -48,18 +46,6 @@ def test_geometry_nodes_and_their_inputs():
     assert notes == []
     assert target.modifiers["Nodes"].node_group == tree
     assert target.modifiers["Nodes"][socket.identifier] == 3.5
-
-
-def test_drivers():
-    source = add("Cube", *CUBE)
-    source.modifiers.new("Push", "DISPLACE")
-    source.driver_add('modifiers["Push"].strength').driver.expression = "0.25"
-    source.driver_add("location", 0).driver.expression = "9"
-    target, _ = copied(source)
-    assert [d.data_path for d in target.animation_data.drivers] == ['modifiers["Push"].strength']
-    assert target.animation_data.drivers[0].driver.expression == "0.25"
-    copy_modifiers(bpy.context, source, target)
-    assert len(target.animation_data.drivers) == 1
 
 
 @pytest.mark.parametrize(
@@ -113,17 +99,3 @@ def test_what_the_surface_lacks_is_said_with_the_cure(kinds, said):
     source.modifiers[0].show_viewport = False
     hidden = Job(bpy.context, source, settings(copy_modifiers=False)).notes
     assert not [n for n in hidden if kinds[0].title() in n]
-
-
-def test_a_mirrored_half_is_whole_and_smooth_by_the_cure_that_is_said():
-    source = add_suzanne()
-    mesh = bmesh.new()
-    mesh.from_mesh(source.data)
-    left = [face for face in mesh.faces if face.calc_center_median().x < 0.0]
-    bmesh.ops.delete(mesh, geom=left, context="FACES")
-    mesh.to_mesh(source.data)
-    mesh.free()
-    source.modifiers.new("Mirror", "MIRROR").use_clip = True
-    source.modifiers.new("Subdivision", "SUBSURF")
-    result = fair(copy_modifiers=True, symmetry_plane="X")
-    assert np.ptp(shown(result)[:, 0]) > 2.5 and [m.type for m in result.modifiers] == ["MIRROR"]

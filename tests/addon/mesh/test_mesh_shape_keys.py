@@ -7,7 +7,6 @@ import pytest
 from refined import refine
 from scenes import CUBE, add, shown
 
-from addon.mesh.layers import read_data
 from addon.mesh.shape_keys import mixed, read_shape_keys, write_shape_keys
 
 
@@ -54,23 +53,6 @@ def test_positions(source):
         place = np.empty(3 * len(key.data), np.float32)
         key.data.foreach_get("co", place)
         assert np.array_equal(place.reshape(-1, 3), np.float32(expected))
-
-
-def test_drivers(source):
-    driver = source.data.shape_keys.driver_add('key_blocks["Wide"].value').driver
-    driver.expression = "0.75"
-    found = shaped(source).mesh.shape_keys
-    assert [d.data_path for d in found.animation_data.drivers] == ['key_blocks["Wide"].value']
-    assert found.animation_data.drivers[0].driver.expression == "0.75"
-
-
-def test_animation_is_noted(source):
-    key = source.data.shape_keys.key_blocks["Wide"]
-    assert read_data(source, source.data).notes == []
-    key.keyframe_insert("value")
-    assert any("animation" in note for note in read_data(source, source.data).notes)
-    # and evaluated meshes have no keys
-    assert read_data(source, source.data, evaluated=True).shape_keys is None
 
 
 @pytest.mark.parametrize("kinds", ["LLLL", "CCCC", "RRRR", "BBBB", "LCRB", "BLBL", "RLCB"])

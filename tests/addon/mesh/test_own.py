@@ -114,16 +114,6 @@ def test_shape_keys_of_its_own_and_their_animation(source):
     assert len(bpy.data.meshes) == meshes
 
 
-def test_marks_of_the_creases_are_no_data_of_its_own(source):
-    crease = source.data.attributes.new("crease_edge", "FLOAT", "EDGE")
-    crease.data.foreach_set("value", [1.0] * 12)
-    target = fair(levels=1)
-    source.data.attributes.remove(source.data.attributes["crease_edge"])
-    recompute()
-    assert not any(edge.use_edge_sharp for edge in target.data.edges)
-    assert "crease_edge" not in target.data.attributes
-
-
 def test_live_and_its_full_level_keep_it(source):
     mesh = adorn(target := fair(levels=3))
     heights = values(mesh, "height")

@@ -4,10 +4,9 @@
 import bmesh
 import bpy
 import numpy as np
-import pytest
 from fake_layout import draw
 from hole_scenes import ball, is_closed, radii, without
-from scenes import add, bmesh_of, positions, to_object_mode
+from scenes import bmesh_of, positions, to_object_mode
 
 from addon.check.defects import recall_cleaned, recall_defects
 from addon.ui.check import VIEW3D_PT_fairing_check
@@ -90,20 +89,6 @@ def test_what_lies_on_the_mesh_stays():
     assert seams_at(mesh) == creased and len(creased) > 50
 
 
-@pytest.mark.parametrize("step", ["fill", "spikes", "fins", "normals"])
-def test_each_step_can_be_turned_off(step):
-    target = spoiled()
-    assert bpy.ops.object.fairing_clean(**{step: False}) == {"FINISHED"}
-    words = {"fill": "filled", "spikes": "spike", "fins": "fin ", "normals": "turned"}
-    said = recall_cleaned(target)[:-1]
-    assert not any(words[step] in s for s in said)
-    if step == "fill":
-        defects, _ = recall_defects(target)
-        assert [d["code"] for d in defects] == ["OPEN_HOLE"]
-        assert bpy.ops.object.fairing_select_defect(index=0) == {"FINISHED"}
-        assert target.data.total_edge_sel == len(defects[0]["elements"]) > 0
-
-
 def test_faces_that_cross_are_listed_with_a_button_that_selects_them():
     """Two balls, one through the other: both are closed, and stay."""
     target = ball()
@@ -120,20 +105,6 @@ def test_faces_that_cross_are_listed_with_a_button_that_selects_them():
     # the circle in which two unit balls meet, 1.5 apart
     assert all(abs(f.calc_center_median().x - 0.75) < 0.2 for f in chosen)
     to_object_mode()
-
-
-def test_parts_that_share_an_edge_are_separated_with_their_marks():
-    """Two cubes share an edge that is a seam: both keep the seam."""
-    mesh = add("Two", [], []).data
-    with bmesh_of(mesh) as bm:
-        bmesh.ops.create_cube(bm, size=1.0)
-        for vertex in bmesh.ops.create_cube(bm, size=1.0)["verts"]:
-            vertex.co += type(vertex.co)((1.0, 1.0, 0.0))
-        bmesh.ops.remove_doubles(bm, verts=bm.verts, dist=1e-6)
-        next(e for e in bm.edges if len(e.link_faces) == 4).seam = True
-    assert bpy.ops.object.fairing_clean() == {"FINISHED"}
-    assert is_closed(mesh)
-    assert len(mesh.vertices) == 16 and sum(e.use_seam for e in mesh.edges) == 2
 
 
 def test_in_edit_mode():

@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 import pytest
 from fake_layout import draw
-from scenes import CUBE, activate, add, again, fair, positions
+from scenes import CUBE, activate, add, again, positions
 
 from addon.operators import compare as operator
 from addon.ui import compare
@@ -44,15 +44,6 @@ def test_the_panel_has_their_figures(active):
     assert [row[0] for row in rows] == ["Bending", "Curvature", "Flow Lines"]
     curvature = [float(row[1]) for row in rows]
     assert curvature[1] == min(curvature), "the one that has the least of it"
-
-
-def test_from_a_surface_with_its_settings():
-    add("Box", *CUBE)
-    target = fair(levels=1, use_crease_angle=True)
-    assert bpy.ops.object.fairing_compare() == {"FINISHED"}
-    made = [bpy.data.objects[name] for name in NAMES]
-    assert all(o.discrete_fairing.use_crease_angle for o in made)
-    assert all(o.discrete_fairing.source == target.discrete_fairing.source for o in made)
 
 
 def test_large_surfaces_wait_for_measure(monkeypatch):

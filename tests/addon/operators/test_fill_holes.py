@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from hole_scenes import ball, borders, is_closed, radii, without
 from lattices import lattice_faces
-from mathutils import Vector
 from scenes import CUBE, activate, add, edit, positions, refused, to_object_mode
 
 
@@ -68,19 +67,6 @@ def test_selected_faces_are_replaced():
     assert sum(f.select for f in target.data.polygons) > 0
 
 
-def test_what_the_new_faces_take_over():
-    target = without(ball(), lambda c: c[2] > 0.7)
-    target.data.materials.append(bpy.data.materials.new("Skin"))
-    target.data.materials.append(bpy.data.materials.new("Rim"))
-    for face in target.data.polygons:
-        face.material_index, face.use_smooth = 1, True
-    group = target.vertex_groups.new(name="All")
-    group.add(range(len(target.data.vertices)), 0.5, "REPLACE")
-    assert bpy.ops.object.fairing_fill() == {"FINISHED"}
-    assert all(f.material_index == 1 and f.use_smooth for f in target.data.polygons)
-    assert {round(v.groups[0].weight, 6) for v in target.data.vertices} == {0.5}
-
-
 def place_of_corners(target, layer):
     """For each corner the place of its vertex, and its UV."""
     mesh = target.data
@@ -120,15 +106,3 @@ def test_why_one_of_several_cannot_be_filled_is_said(capfd):
     assert bpy.ops.object.fairing_fill() == {"FINISHED"}
     assert is_closed(target.data)
     assert "Whole: Delete faces first: there is no hole" in capfd.readouterr().out
-
-
-@pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
-def test_an_island_in_a_hole_is_part_of_its_filling(mode):
-    target = without(ball(), lambda c: 0.2 < (c - Vector((0, 0, 1))).length < 0.75)
-    count = len(target.data.vertices)
-    if mode == "EDIT":
-        edit(target, "EDGE", borders(target)[:1])
-    assert bpy.ops.object.fairing_fill() == {"FINISHED"}
-    to_object_mode()
-    assert is_closed(target.data)
-    assert np.abs(radii(target)[count:] - 1.0).max() < 0.005

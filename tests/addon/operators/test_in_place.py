@@ -169,19 +169,6 @@ def test_refusals_say_what_to_do_and_change_nothing():
     to_object_mode()
 
 
-def test_faces_of_many_corners_are_refined_as_the_core_splits_them():
-    bpy.ops.mesh.primitive_cylinder_add(vertices=8)
-    can = bpy.context.object
-    before, faces = positions(can.data), [tuple(p.vertices) for p in can.data.polygons]
-    (lid,) = [i for i, face in enumerate(faces) if len(face) == 8 and before[face[0], 2] > 0]
-    select(can, lambda ids: tuple(ids) == faces[lid])
-    whole = df.fair(before, faces, levels=2, region=[lid])
-    after = fair(can, levels=2)
-    inner = np.unique(whole.faces[0][whole.triangle_polygon == lid])
-    apart = np.abs(after[:, None] - whole.vertices[None, inner]).max(axis=2)
-    assert apart.min(axis=0).max() < 1e-5
-
-
 def begun(target, **options):
     """A job as the button begins it, before it is computed."""
     plain = {"levels": 0, "joint": "TANGENT", "energy": "THIN_PLATE", "tension": 0.0}
@@ -285,15 +272,3 @@ def test_shape_keys_follow_what_is_faired(levels, release):
     assert len(found["Basis"]) == len(target.data.vertices)
     for name, shift in (("Shift", 1.0), ("Twice", 2.0)):
         assert np.abs(found[name] - found["Basis"] - [shift, 0, 0]).max() < 1e-5, name
-
-
-def test_fairing_one_shape_key_leaves_its_basis():
-    target, middle = cap_with_keys("Other")
-    target.active_shape_key_index = 1
-    select(target, lambda ids: middle[ids].any())
-    before = positions(target.data)
-    fair(target, levels=1, release=True)
-    found = keys_of(target)
-    assert np.abs(found["Basis"][: len(before)] - before).max() < 1e-6
-    moved = np.abs(found["Other"][: len(before)] - before).max(axis=1) > 1e-3
-    assert moved[middle].any() and not moved[~middle].any()

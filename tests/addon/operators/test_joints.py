@@ -125,30 +125,6 @@ def test_a_neighbour_that_moves_or_changes_leaves_the_surface_out_of_date(panels
     assert why_stale(fender) == NEIGHBOUR_CHANGED
 
 
-def follow_until_all_rest():
-    """Live surfaces follow what changed; three rounds suffice."""
-    for _ in range(3):
-        for session in registry.sessions():
-            if session.needs_look():
-                session.follow()
-        bpy.context.view_layer.update()
-    assert not any(session.needs_look() for session in registry.sessions())
-
-
-def test_two_that_meet_each_other_do_not_leave_one_another_out_of_date(panels):
-    bonnet, fender = panels
-    bonnet.discrete_fairing.neighbour, fender.discrete_fairing.neighbour = fender, bonnet
-    for panel in panels:
-        activate(panel)
-        assert bpy.ops.object.fairing_live() == {"FINISHED"}
-    follow_until_all_rest()
-    for panel in panels:
-        activate(panel)
-        bpy.ops.object.fairing_live()
-        recompute(panel)
-    assert (why_stale(bonnet), why_stale(fender)) == ("", "")
-
-
 def both(*panels, **options):
     select(*panels)
     assert bpy.ops.object.fairing_match_border(both=True, **options) == {"FINISHED"}
@@ -191,20 +167,6 @@ def test_one_of_both_that_changes_leaves_both_out_of_date(panels):
     assert (why_stale(bonnet), why_stale(fender)) == ("", "")
 
 
-def test_live_follows_the_source_of_the_other_of_both(panels):
-    bonnet, fender = panels
-    both(*panels)
-    for panel in panels:
-        activate(panel)
-        assert bpy.ops.object.fairing_live() == {"FINISHED"}
-    source = bonnet.discrete_fairing.source
-    source.data.vertices[5].co.z += 0.05
-    source.data.update()
-    bpy.context.view_layer.update()
-    follow_until_all_rest()
-    assert np.degrees(check(*panels).kink) < 0.05
-
-
 def test_only_faired_surfaces_both_change_and_one_that_takes_all_ends_it(panels):
     bonnet, fender = panels
     plain = strip("Plain", 1.2, 2, lambda y: 0.012 - 0.9 * (y - 1.2))
@@ -234,13 +196,6 @@ def test_a_border_matched_with_fewer_levels_knows_its_neighbour(panels, monkeypa
     monkeypatch.undo()
     recompute(fender)
     assert np.degrees(check(*panels).kink) < 0.05
-
-
-def test_the_panel_offers_a_neighbour_once_one_is_selected(panels):
-    select(panels[1])
-    assert "object.fairing_match_border" not in draw(VIEW3D_PT_fairing)
-    select(*panels)
-    assert "object.fairing_match_border" in draw(VIEW3D_PT_fairing)
 
 
 def test_of_a_surface_and_a_mesh_the_surface_changes_whichever_is_active(panels):

@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A measured patch in place: its vertices are data, noise is removed, and the rest stays."""
 
-import bmesh
 import bpy
 import numpy as np
 import pytest
-from scenes import bmesh_of, edit, positions, to_object_mode
+from scenes import edit, positions, to_object_mode
 
 NOISE = 0.004  # rms
 
@@ -109,21 +108,3 @@ def test_an_edge_marked_sharp_stays_one():
         heights[sharp] = np.abs(after - true)[near, 2].max()
         bpy.data.objects.remove(scan)
     assert heights[True] < 0.006 < heights[False]
-
-
-def test_polygons_that_are_split_on_the_way():
-    bpy.ops.mesh.primitive_grid_add(x_subdivisions=30, y_subdivisions=30)
-    scan = bpy.context.object
-    points = positions(scan.data).astype(float)
-    points[:, 2] += 0.02 * np.random.default_rng(5).standard_normal(len(points))
-    move(scan, points)
-    with bmesh_of(scan.data) as bm:
-        bm.verts.ensure_lookup_table()
-        bmesh.ops.dissolve_verts(bm, verts=[bm.verts[465]])  # one face of eight corners
-    count = len(scan.data.polygons)
-    points = positions(scan.data)
-    edit(scan, "FACE", range(count))
-    before, after = fair_measured(scan)
-    inside = (np.abs(before[:, :2]) < 0.99).all(axis=1)
-    assert np.sqrt((after[inside, 2] ** 2).mean()) < 0.5 * np.sqrt((before[inside, 2] ** 2).mean())
-    assert len(scan.data.polygons) == count

@@ -9,7 +9,6 @@ from scenes import CUBE, add, fair
 
 import addon
 from addon.operators.presets import NOT_KEPT
-from addon.properties import FairingSettings
 from addon.purposes import PRESET_FOLDER, preset_values
 from addon.settings import NAMES
 
@@ -41,29 +40,6 @@ def test_menu_applies_them(name):
     bpy.ops.object.fairing_preset_apply(filepath=str(FOLDER / "Character.py"))
     assert target.discrete_fairing.interpolation == "LIMIT", "of the surface that is active"
     assert settings.levels == 5
-
-
-OLD = """import bpy
-op = bpy.context.active_operator
-
-op.interpolation = "APPROXIMATE"
-op.tolerance = 0.25
-op.tolerance_unit = "RELATIVE"
-op.vertex_release = 0.125
-op.repair_orientation = True
-op.shade_smooth = True
-"""
-
-
-def test_a_preset_from_before_still_opens(tmp_path):
-    (tmp_path / "Old.py").write_text(OLD)
-    settings = bpy.context.scene.discrete_fairing
-    bpy.ops.object.fairing_preset_apply(filepath=str(tmp_path / "Old.py"))
-    assert settings.shade_smooth, "to its last line"
-    assert (settings.tolerance, settings.tolerance_unit) == (0.25, "RELATIVE")
-    for gone in ("vertex_release", "repair_orientation"):
-        assert gone not in FairingSettings.__dict__ and settings.get(gone) is None
-    assert settings.repair == "MEND"
 
 
 def test_own_preset(tmp_path, monkeypatch):

@@ -4,7 +4,7 @@
 import bpy
 import numpy as np
 from fake_layout import draw
-from live_scenes import live, move, pull, session
+from live_scenes import live, move
 from scenes import CUBE, activate, add, again, fair, positions, recompute, refused, reopen
 
 from addon.live import handlers
@@ -78,37 +78,6 @@ def test_survives_saving(tmp_path):
     move(bpy.data.objects["Box"])
     recompute(result)
     assert np.array_equal(positions(result.data)[:8], positions(bpy.data.objects["Box"].data))
-
-
-def add_camera():
-    camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
-    bpy.context.collection.objects.link(camera)
-    return camera
-
-
-def test_a_camera_is_refused_in_words():
-    add("Box", *CUBE)
-    target = fair(levels=1)
-    assert not why_unfit(target, target.discrete_fairing.source)
-    target.discrete_fairing.source = camera = add_camera()
-    assert "is not a mesh" in why_unfit(target, camera)
-    log = draw(main.VIEW3D_PT_fairing)
-    assert any("not a mesh" in line for line in log)
-    for operator in (bpy.ops.object.fairing_recompute, bpy.ops.object.fairing_show_source):
-        assert not operator.poll()
-    refused("is not a mesh", bpy.ops.object.fairing_recompute)
-
-
-def test_no_surface_is_its_own_source(source):
-    target = live(source)
-    target.discrete_fairing.source = target
-    activate(target)
-    faces = len(target.data.polygons)
-    for _ in range(3):
-        pull(target)
-    assert len(target.data.polygons) == faces, "Live refines no output of its own"
-    assert session(target) is None and "itself" in target.discrete_fairing_live.status
-    assert not bpy.ops.object.fairing_recompute.poll()
 
 
 def test_no_ring_of_sources(source):

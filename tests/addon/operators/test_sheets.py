@@ -1,12 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Sheets that meet become one mesh, which gets the data of the control mesh."""
 
-import numpy as np
 from live_scenes import through
-from refined import control_arrays, core_run
-from scenes import add, faces_at_edges, fair, positions, weights
-
-from addon.transfer.mirror import find_mirrors
+from scenes import add, faces_at_edges, fair
 
 # Three pages, two faces each, at the spine 0 1 2; the first two are each other's mirror image
 # across x = 0.
@@ -33,40 +29,3 @@ def test_one_mesh_whose_pages_share_the_spine():
     assert through(target, source)
     spine = [e for e in target.data.edges if e.use_edge_sharp]
     assert len(spine) == 2 * 4, "a curve, and sharp like all"
-
-
-def test_uv_maps_groups_and_shape_keys_come_along():
-    source = book()
-    uv = source.data.uv_layers.new(name="Pages").uv
-    for k, loop in enumerate(source.data.loops):  # each page has a column of its own
-        page, along = k // 8, source.data.vertices[loop.vertex_index].co.z
-        uv[k].vector = (page + 0.5 * (loop.vertex_index < 3), along)
-    source.vertex_groups.new(name="Spine").add([0, 1, 2], 1.0, "REPLACE")
-    source.shape_key_add(name="Basis")
-    source.shape_key_add(name="Bent").data[4].co.x += 0.5
-    target = fair(levels=2)
-    bent, own = (o.data.shape_keys.key_blocks["Bent"].data for o in (target, source))
-    assert len(bent) == len(target.data.vertices) and np.isclose(bent[4].co.x, own[4].co.x)
-    made = target.data.uv_layers["Pages"].uv
-    for polygon in target.data.polygons:
-        page = polygon.index // (2 * 16)
-        columns = [made[k].vector.x for k in polygon.loop_indices]
-        assert page <= min(columns) and max(columns) <= page + 0.5
-    spine = weights(target, "Spine")
-    assert {spine[v] for e in target.data.edges if e.use_edge_sharp for v in e.vertices} == {1.0}
-    assert np.isnan(spine[3:12]).any()
-
-
-def test_a_wall_in_the_plane_of_symmetry():
-    mirrors, notes = mirrors_of(FACES)  # the third page lies in x = 0
-    assert [mirror.axis for mirror in mirrors] == [0] and not notes
-    bent = [(*point[:2], point[2] + 0.2 * point[1]) for point in POINTS]
-    source = add("Book", bent, FACES)
-    x = positions(fair(levels=3).data)[:, 0]
-    assert np.array_equal(np.sort(x), np.sort(-x)) and (x == 0).sum() == 9 * 17
-    assert source.data.polygons[4].normal.x != 0
-
-
-def mirrors_of(faces):
-    arrays = control_arrays(POINTS, faces)
-    return find_mirrors(core_run(arrays, 2)[1], arrays)

@@ -87,15 +87,6 @@ def test_stem_and_keel_of_half_a_hull_are_sharp():
     half.discrete_fairing_live.on = False
 
 
-def test_a_creased_seam_that_was_faired_across_is_sharp():
-    source = half_boat()
-    crease = source.data.attributes.new("crease_edge", "FLOAT", "EDGE")
-    for edge in source.data.edges:
-        if all(abs(source.data.vertices[v].co.y) < 1e-6 for v in edge.vertices):
-            crease.data[edge.index].value = 1.0
-    assert seam(again(source, levels=3, symmetry_plane="Y"), 1) == (72, 72)
-
-
 def test_a_seam_that_was_faired_across_is_not_sharp_and_none_that_is_tangent():
     assert seam(again(half_bowl(), levels=3, symmetry_plane="X"), 0) == (0, 48)
     x, y = np.meshgrid(np.linspace(0, 1, 5), np.linspace(-1, 1, 5), indexing="ij")

@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Near: tolerances, their groups and pulls."""
 
-from types import SimpleNamespace
-
 import bpy
 import numpy as np
 import pytest
@@ -12,9 +10,6 @@ from scenes import CUBE, add, add_attribute, add_group, again, fair, moved, posi
 from addon import vertex_values
 from addon.errors import JobError
 from addon.job import Job
-from addon.live import session as live_session
-from addon.mesh.read import control_mesh, tolerance_factors
-from addon.properties import FairingSettings, _vertex_values
 
 
 def test_a_drag_does_not_change_what_the_tolerance_is_a_share_of(source, no_pause):
@@ -57,15 +52,6 @@ def test_a_group_says_where_the_surface_may_miss(source, make, settings):
     assert np.array_equal(positions(result.data)[2:8], positions(source.data)[2:])
 
 
-@pytest.mark.parametrize("make", [loose_by_group, loose_by_attribute])
-def test_a_group_is_read_in_edit_mode(source, make):
-    make(source)
-    bpy.ops.object.mode_set(mode="EDIT")
-    settings = SimpleNamespace(interpolation="APPROXIMATE", tolerance_group="Loose")
-    with control_mesh(bpy.context, source) as mesh:
-        assert tolerance_factors(source, mesh, settings).tolist() == [1.0, 0.5, *[0.0] * 6]
-
-
 def test_live_waits_for_a_group_that_is_gone(source):
     target = fair(levels=1, interpolation="APPROXIMATE")
     live(target)
@@ -96,31 +82,6 @@ def test_values_are_from_nothing_to_all(source):
     assert found.tolist() == [0, 0, 0, 0.75, 0, 0, 0, 0], "the group, of two with one name"
 
 
-@pytest.mark.parametrize(
-    "data_type, domain", [("INT", "POINT"), ("FLOAT", "FACE"), ("FLOAT_VECTOR", "POINT")]
-)
-def test_other_attributes_are_none(source, data_type, domain):
-    source.data.attributes.new("Loose", data_type, domain)
-    with pytest.raises(JobError, match="Loose"):
-        vertex_values.factors(source, source.data, "Loose")
-    assert "Loose" not in dict(vertex_values.names(source))
-
-
-def test_the_field_offers_groups_and_attributes(source):
-    add_group(source, {}, "Ears")
-    add_attribute(source, [0.0] * 8, "Age")
-    add_attribute(source, [0.0] * 8, ".hidden")
-    scene = bpy.context.scene.discrete_fairing
-    offered = [("Age", "Attribute"), ("Ears", "Vertex Group")]
-    assert _vertex_values(scene, bpy.context, "") == offered
-    result = fair(levels=1)
-    assert _vertex_values(result.discrete_fairing, bpy.context, "") == offered
-    redo = SimpleNamespace(**dict.fromkeys(FairingSettings.__annotations__))
-    assert _vertex_values(redo, bpy.context, "") == offered, "of the source, not of the result"
-    bpy.data.objects.remove(bpy.context.object)
-    assert _vertex_values(scene, bpy.context, "") == [], "without a mesh"
-
-
 @pytest.mark.parametrize("how", ["EXEC_DEFAULT", "INVOKE_DEFAULT"])
 @pytest.mark.parametrize(
     "given, vertices",
@@ -145,25 +106,6 @@ def test_a_tolerance_that_is_given_means_near(how, given, vertices):
         bpy.ops.object.fairing_surface(how, levels=1)
         again = bpy.context.active_object.discrete_fairing
         assert again.interpolation == "EXACT", "the last tolerance is not given again"
-
-
-def test_live_reads_no_group_while_a_mouse_drags(source, monkeypatch):
-    add_group(source, dict.fromkeys(range(8), 0.5))
-    target = fair(tolerance=0.1, **LOOSE)
-    live(target)
-    read, asked = vertex_values.factors, []
-    monkeypatch.setattr(vertex_values, "factors", lambda *of: asked.append(of) or read(*of))
-    monkeypatch.setattr(live_session, "is_dragging", lambda _: True)
-    for _ in range(3):
-        pull(source, by=0.1)
-    assert session(target).updates > 3 and asked == []
-    dragged = positions(target.data)
-    monkeypatch.setattr(live_session, "is_dragging", lambda _: False)
-    source.vertex_groups["Loose"].add([0], 0.0, "REPLACE")
-    pull(source, by=0.1)
-    assert len(asked) == 1
-    assert positions(target.data)[0].tolist() == list(source.data.vertices[0].co)
-    assert not np.array_equal(dragged, positions(target.data))
 
 
 def test_an_attribute_is_taken_as_it_is(source):

@@ -106,24 +106,6 @@ def test_nothing_is_computed_twice(monkeypatch):
     assert known.job_for(bpy.context, source).result is None
 
 
-def test_a_long_measurement_waits_until_nobody_drags(monkeypatch):
-    source, dragging = add_dune(), [True]
-    monkeypatch.setattr(known, "is_dragging", lambda _: dragging[0])
-    monkeypatch.setattr(known, "BRIEF", 0.0)  # every measurement is long
-    job = known.job_for(bpy.context, source)
-    job.compute()
-    known.keep(job)
-    watch = known._watch(source)
-    watch.advance(bpy.context)  # notes the settings
-    watch.cancel()
-    source.data.vertices[10].co.z += 0.1
-    for dragging[0] in (True, False):
-        watch.stale = True
-        watch.advance(bpy.context)
-        assert watch.is_measured is not dragging[0]
-    watch.cancel()
-
-
 def test_selects_the_wrong_one_the_worst_or_those_above_a_length():
     source = add_dune()
     before = snapshot(source)

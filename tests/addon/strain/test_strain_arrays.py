@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from addon.strain import drawn
-from addon.strain.strained import Strained, above
+from addon.strain.strained import Strained
 
 pytestmark = pytest.mark.plain
 
@@ -18,15 +18,6 @@ def strained(lengths=(0.01, -0.04, NAN, 0.02), edge=1.0):
     ways = np.zeros_like(positions)
     ways[:, 2] = np.nan_to_num(lengths)
     return Strained(positions, ways, lengths, 0.025, edge)
-
-
-def test_the_worst_come_first_and_vertices_on_curves_never():
-    it = strained()
-    assert it.worst(10).tolist() == [1, 3, 0] and it.worst(2).tolist() == [1, 3]
-    assert above(it.lengths, 0.015).tolist() == [1, 3] and above(it.lengths, 0.04).tolist() == []
-    assert it.largest == 0.04 and it.wrong.tolist() == [1], "above the floor"
-    none = strained((NAN, NAN))
-    assert none.worst(3).tolist() == [] and none.largest == 0.0
 
 
 @pytest.mark.parametrize(

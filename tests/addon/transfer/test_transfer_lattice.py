@@ -7,7 +7,7 @@ import pytest
 from lattices import lattice_faces
 
 from addon.mesh.write import write_mesh
-from addon.transfer.lattice import edge_table, fine_edges
+from addon.transfer.lattice import edge_table
 
 # two levels of a triangle: rows of 4, 3, 2, 1 upward cells, vertices numbered row by row
 TRIANGLE_ROWS = ((0, 1, 2, 3, 4), (5, 6, 7, 8), (9, 10, 11), (12, 13), (14,))
@@ -25,28 +25,6 @@ def triangle_cells():
 
 def quad_cells():
     return lattice_faces(5, 5)[:, [0, 3, 2, 1]].astype(np.int32)
-
-
-NO_TRIANGLES, NO_QUADS = np.empty((0, 3), np.int32), np.empty((0, 4), np.int32)
-
-
-@pytest.mark.parametrize(
-    "faces, run",
-    [
-        ((triangle_cells(), NO_QUADS), [0, 1, 2, 3, 4]),
-        ((triangle_cells(), NO_QUADS), [4, 8, 11, 13, 14]),
-        ((triangle_cells(), NO_QUADS), [14, 12, 9, 5, 0]),
-        ((NO_TRIANGLES, quad_cells()), [0, 1, 2, 3, 4]),
-        ((NO_TRIANGLES, quad_cells()), [4, 9, 14, 19, 24]),
-        ((NO_TRIANGLES, quad_cells()), [24, 23, 22, 21, 20]),
-        ((NO_TRIANGLES, quad_cells()), [20, 15, 10, 5, 0]),
-    ],
-)
-def test_sides(faces, run):
-    expected = list(zip(run, run[1:], strict=False))
-    for given in ((run[0], run[-1]), (run[-1], run[0])):
-        assert [tuple(e) for e in fine_edges(faces, [given], 2)] == expected
-    assert fine_edges(faces, np.empty((0, 2), np.int32), 2).shape == (0, 2)
 
 
 @pytest.mark.parametrize("levels", [0, 2])

@@ -9,7 +9,6 @@ import pytest
 from fake_layout import Layout, draw
 from scenes import CUBE, add, add_suzanne, face_values, fair
 
-import addon
 from addon import core, size
 from addon.operators.fair import FairSurface
 from addon.properties import fill_in
@@ -75,14 +74,6 @@ def test_the_tolerance_says_its_length():
     assert any("large" in text for text in near(levels=10))
 
 
-def test_a_group_that_is_not_there_is_said():
-    box = add("Box", *CUBE)
-    assert "Not in Box" in near(tolerance_group="Loose")
-    box.vertex_groups.new(name="Loose")
-    assert "Not in Box" not in near()
-    assert "Not in Box" not in near(tolerance_group="Made by a modifier", mesh_source="EVALUATED")
-
-
 @pytest.mark.parametrize("own", [False, True], ids=["none of one's own", "one of one's own"])
 def test_a_preset_can_be_saved(own, tmp_path):
     """Also the first one, before Blender has a folder for presets."""
@@ -137,14 +128,6 @@ def test_only_what_changes_data_is_a_step_of_undo():
         *("cancel", "for", "hydrostatics_table", "joints", "preset_add", "preset_apply"),
         *("strain_table", "viewport"),
     }
-
-
-@pytest.mark.parametrize("name", menus._ENTRIES)
-def test_blender_draws_the_menus(name):
-    assert menus._ENTRIES[name] in getattr(bpy.types, name)._dyn_ui_initialize()
-    addon.unregister()
-    assert menus._ENTRIES[name] not in getattr(bpy.types, name)._dyn_ui_initialize()
-    addon.register()
 
 
 def test_missing_core_is_said_in_the_panel(monkeypatch):

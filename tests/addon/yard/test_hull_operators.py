@@ -47,24 +47,6 @@ def test_one_click_closes_a_half_hull(file):
     assert all(weights[e.index].value == 1.0 for e in along)
 
 
-def test_a_linked_hull_is_measured_cut_and_closed(tmp_path):
-    imported("offsets_yacht.tsv")
-    path = str(tmp_path / "library.blend")
-    bpy.ops.wm.save_as_mainfile(filepath=path)
-    bpy.ops.wm.read_homefile(use_empty=True)
-    with bpy.data.libraries.load(path, link=True) as (there, here):
-        here.objects = there.objects
-    (linked,) = here.objects
-    bpy.context.collection.objects.link(linked)
-    activate(linked)
-    assert bpy.ops.object.fairing_section_curves() == {"FINISHED"}
-    activate(linked)
-    assert bpy.ops.object.fairing_close() == {"FINISHED"}
-    assert not bpy.context.active_object.library
-    activate(linked)
-    assert bpy.ops.object.fairing_hydrostatics(draught=0.2) == {"FINISHED"}
-
-
 def test_of_a_surface_the_closed_one_is_faired_alike():
     imported("offsets_chine.csv")
     surface = fair(levels=2, symmetry_plane="Y")
@@ -199,14 +181,6 @@ def test_sections_are_where_they_are_asked_for(options, count):
     assert all(o.data.splines[0].use_cyclic_u for o in made)
 
 
-def test_a_list_that_is_none_is_refused():
-    imported("offsets_yacht.tsv")
-    refused("Write Places as numbers", bpy.ops.object.fairing_section_curves, places="one, two")
-    with pytest.raises(RuntimeError, match="none cuts the mesh"):
-        bpy.ops.object.fairing_section_curves(kind="WATERLINES", places="99")
-    refused("Select the object whose Z", bpy.ops.object.fairing_section_curves, kind="OBJECT")
-
-
 def test_a_plane_object_cuts_across_its_z():
     target = add("Box", *CUBE)
     empty = bpy.data.objects.new("Cut", None)
@@ -249,11 +223,3 @@ def test_the_lines_plan_has_a_body_plan_with_both_halves(tmp_path):
     centre = 0.5 * (x.min() + x.max())
     # of 1.7 m to each side, ten times smaller, in millimetres
     assert x.max() - centre == pytest.approx(centre - x.min(), rel=0.2) and 200 < np.ptp(x) < 350
-
-
-def test_the_profile_of_a_half_hull_is_one_of_its_buttocks():
-    half = imported("offsets_yacht.tsv")
-    assert bpy.ops.object.fairing_section_curves(kind="BUTTOCKS") == {"FINISHED"}
-    (profile,) = (o for o in bpy.context.selected_objects if o.name.endswith("profile"))
-    lowest = min(point.co[2] for spline in profile.data.splines for point in spline.points)
-    assert lowest == pytest.approx(positions(half.data)[:, 2].min(), abs=1e-3)

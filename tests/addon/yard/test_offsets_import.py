@@ -71,14 +71,6 @@ def test_a_dropped_file_is_imported_and_the_menu_asks():
     assert known["filepath"].is_skip_save, "else the menu would read it again"
 
 
-def test_the_scene_has_its_own_unit():
-    bpy.context.scene.unit_settings.scale_length = 0.001
-    hull = imported(EXAMPLES / "offsets_yacht.tsv")
-    assert positions(hull.data)[:, 0].max() == pytest.approx(10_000.0)
-    hull = imported(EXAMPLES / "offsets_yacht.tsv", unit="m")
-    assert positions(hull.data)[:, 0].max() == pytest.approx(1e7)
-
-
 def test_stations_without_places_are_told(tmp_path, capfd):
     file = tmp_path / "numbered.csv"
     table = "station (cm),Keel,WL 50,WL 100\n0,0,90,140\n1,0,95,150\n2,5,60,120\n"
