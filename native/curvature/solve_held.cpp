@@ -102,6 +102,12 @@ LevelSolve GaussNewtonSystem::solve_held(int level, const LinearizedSurface& abo
     for_each_index(workers(), h.size(), [&](std::size_t i) { r[i] = force[i] - r[i]; });
   };
   const std::size_t index = std::size_t(level - base_);
+  using Restriction = decltype(HeldSystem<1>::restrict_to_vertices);
+  const Restriction restriction = [&](std::span<const double> r, std::span<Vector> sums) {
+    restrict_to_vertices<1>(
+        transfers_, level, rows, workers(), r,
+        [this](int l) { return hierarchy_->room(std::size_t(l - base_)); }, sums);
+  };
   const HeldSystem<1> system{
       .workers = workers(),
       .size = h.size(),
@@ -115,12 +121,7 @@ LevelSolve GaussNewtonSystem::solve_held(int level, const LinearizedSurface& abo
       .leaves_residual = op(level).single_precision_suffices(),
       .solve = [&](const PcgLimits& now,
                    const LinearSystem& linear) { return hierarchy_->solve(index, now, linear); },
-      .restrict_to_vertices =
-          [&](std::span<const double> r, std::span<Vector> sums) {
-            restrict_to_vertices<1>(
-                transfers_, level, rows, workers(), r,
-                [this](int l) { return hierarchy_->room(std::size_t(l - base_)); }, sums);
-          },
+      .restrict_to_vertices = op(level).penalty() ? Restriction{} : restriction,
       .set_weights = [&](const VertexWeights&) { set_weights(level); },
       .energy = [&](const double*) { return about.energy; }};
   Array<double> r(h.size());
