@@ -39,6 +39,12 @@ class ControlArrays:
         return np.bincount(self.corner_edges, minlength=len(self.edges))
 
     @property
+    def face_centres(self) -> np.ndarray:
+        """(m, 3): means of the faces' corners."""
+        sums = np.add.reduceat(self.positions[self.corners], self.offsets[:-1], axis=0)
+        return sums / self.face_sizes[:, None]
+
+    @property
     def mean_edge_length(self) -> float:
         """Mean length of the edges with faces; 0 if there are none."""
         ends = self.positions[self.edges[self.edge_uses > 0]]

@@ -204,7 +204,7 @@ def blocks(
         if own.sum() <= most:
             yield part, own
             continue
-        centres = _centres(part.arrays)
+        centres = part.arrays.face_centres
         rows = np.flatnonzero(own)
         axis = int(np.argmax(np.ptp(centres[rows], axis=0)))
         order = rows[np.argsort(centres[rows, axis], kind="stable")]
@@ -221,9 +221,3 @@ def _cut(
     own = marked(rows, len(near))
     whole = CutOut(found.arrays, part.vertices[found.vertices], part.faces[found.faces])
     return whole, own[found.faces]
-
-
-def _centres(arrays: core.ControlArrays) -> np.ndarray:
-    """(m, 3): means of the faces' corners."""
-    sums = np.add.reduceat(arrays.positions[arrays.corners], arrays.offsets[:-1], axis=0)
-    return sums / arrays.face_sizes[:, None]

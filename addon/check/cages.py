@@ -5,7 +5,7 @@ import numpy as np
 
 from .. import core
 from ..blender import Mesh, Object
-from ..inspection.curvature import faces_of_edges
+from ..inspection.curvature import face_areas, face_normals, faces_of_edges
 from ..inspection.measures import fold_angles
 from ..mesh.mesh_changes import shown
 from ..mesh.read import read_mesh
@@ -13,9 +13,9 @@ from ..mesh.world_shape import world_shape
 from ..properties import FairingSettings
 from ..settings import Settings, is_evaluated, subdivision
 from ..triangles import marked
-from .flats import ANGLE, find_flats
+from .flats import ANGLE, find_flats, plane_parts
 
-REASON = "flat faces between tight rims"
+REASON = "flat faces at tight rims or in hollows"
 
 
 def _is_auto(settings: Settings) -> bool:
@@ -27,10 +27,11 @@ def _is_auto(settings: Settings) -> bool:
 
 def wants_limit(settings: Settings, cage: core.ControlArrays) -> bool:
     """Whether AUTO is LIMIT for the shape of `cage` in the world: closed, with flats between tight rims of
-    quads, none of them kept flat.
+    quads or a flat floor in a hollow, none of them kept flat.
 
-    Through its vertices such a cage is quilted, and with stiff flats its rims bulge. Open meshes are measured
-    sheets, hulls and terrain as often as they are cages.
+    Through its vertices such a cage is quilted, and with stiff flats its rims bulge; the floor and the walls
+    of a hollow swing into what is behind them. Open meshes are measured sheets, hulls and terrain as often as
+    they are cages.
     """
     uses = cage.edge_uses
     marked = cage.flat_face is not None and cage.flat_face.any()
@@ -41,7 +42,24 @@ def wants_limit(settings: Settings, cage: core.ControlArrays) -> bool:
         sharp |= cage.edge_crease > 0
     if settings.use_sharp_edges and cage.sharp_edge is not None:
         sharp |= cage.sharp_edge
-    return _has_rims(cage, find_flats(cage, ANGLE, sharp, tight=True))
+    return _has_floor(cage, sharp) or _has_rims(cage, find_flats(cage, ANGLE, sharp, tight=True))
+
+
+def _has_floor(cage: core.ControlArrays, sharp: np.ndarray) -> bool:
+    """Whether the mesh turns inwards along the whole border of a plane part, by no `sharp` edge."""
+    folds, inside = fold_angles(cage)
+    bent = inside & ~sharp & (folds > ANGLE)
+    part, plane = plane_parts(cage, inside & ~sharp & (folds <= ANGLE))
+    pair = faces_of_edges(cage)
+    normals = face_normals(cage.positions, cage.corners, cage.offsets)
+    middles = cage.face_centres
+    areas = face_areas(cage.positions, cage.corners, cage.offsets)
+    outwards = np.sign((areas * (normals * (middles - middles.mean(axis=0))).sum(axis=1)).sum())
+    for here, there in (pair.T, pair.T[::-1]):
+        rise = (normals[here] * (middles[there] - middles[here])).sum(axis=1)
+        border = part[here] != part[there]
+        plane[part[here[border & ~(bent & (outwards * rise > 0.0))]]] = False
+    return bool(plane.any())
 
 
 def _has_rims(cage: core.ControlArrays, flats: np.ndarray) -> bool:

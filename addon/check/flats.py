@@ -33,7 +33,7 @@ def find_flats(
     folds, inside = fold_angles(arrays)
     if sharp is not None:
         inside &= ~sharp
-    part, plane = _parts(arrays, inside & (folds <= angle))
+    part, plane = plane_parts(arrays, inside & (folds <= angle))
     edge = arrays.corner_edges
     face = np.repeat(np.arange(len(arrays.face_sizes)), arrays.face_sizes)
     owner = part[face]
@@ -61,7 +61,7 @@ def find_flats(
     return (some & plane)[part]
 
 
-def _parts(arrays: core.ControlArrays, joined: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def plane_parts(arrays: core.ControlArrays, joined: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """(m,) the part of each face, (parts,) bool: planar; `joined` (e,) bool: edges inside."""
     count = len(arrays.face_sizes)
     connected = core.module().patches.connected_parts

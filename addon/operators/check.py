@@ -49,7 +49,9 @@ class OBJECT_OT_fairing_check(_Checking, bpy.types.Operator):
             listed = "" if not count else f"; {counted(count, 'hole')} listed in the panel Check"
             return f"Nothing is wrong{listed}"
         try:
-            select_in_all(context, [(t, _groups(defects)) for t, defects in bad])
+            located = [(t, _groups(d)) for t, d in bad if any(one["elements"] for one in d)]
+            if located:  # an empty mesh has nothing to select
+                select_in_all(context, located)
         except RuntimeError as error:  # a hidden collection, or an object that cannot be edited
             self.report({"WARNING"}, f"The elements cannot be shown: {error}")
         for target, defects in found:

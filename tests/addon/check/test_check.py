@@ -45,6 +45,11 @@ def test_an_edge_with_three_faces_is_selected_in_edge_mode():
     assert selected(fan, "faces") == []
 
 
+def test_an_empty_mesh_leaves_edit_mode_off():
+    empty = add("Empty", [], [])
+    assert check() and empty.mode == "OBJECT"
+
+
 def test_a_flipped_face_is_selected_and_turned_over_with_its_uvs():
     box = add("Box", *FLIPPED)
     box.data.uv_layers.new(name="UV")
