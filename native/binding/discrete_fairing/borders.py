@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -23,6 +23,10 @@ RINGS, DEGREE = 5, 5
 # The cosine of the turn at a corner of a border, and iterations for the nearest point on its curve.
 STRAIGHT = float(np.cos(np.radians(30)))
 NEWTON = 6
+# A fit's frame is settled when the polynomial rises by less: its normal is then exact to the square.
+LEVEL = 1e-4
+# A factor R whose diagonal spans more has no full rank.
+FULL_RANK = 1e-10
 
 
 @dataclass(frozen=True)
@@ -203,31 +207,52 @@ def border_curve(
 
 
 def border_of(
-    points: np.ndarray,
-    corners: np.ndarray,
-    offsets: np.ndarray,
-    only: np.ndarray | None = None,
+    points: np.ndarray, corners: np.ndarray, offsets: np.ndarray, only: np.ndarray | None = None
 ) -> Border:
     """The border of a mesh, or `only` some of its vertices, as in border_curve(). A vertex where two
     borders meet, and a corner, have the values of one of them.
     """
-    curve = border_curve(points, corners, offsets, only)
-    vertex, along = curve.vertex, curve.along
-    around = _Around(corners, offsets)
-    up, near = around.normals(points, vertex), around.rings(vertex, RINGS)
-    ids = [found[found != v] for found, v in zip(near, vertex)]
-    count = np.array([len(found) for found in ids])
-    normal, inward = np.empty((len(vertex), 3)), np.empty((len(vertex), 3))
-    bend, fits = np.empty((len(vertex), 3, 3)), [(found, np.empty((2, 0))) for found in ids]
-    for number in np.unique(count):  # fits of as many points at once
-        at = np.flatnonzero(count == number)
-        away = points[np.stack([ids[k] for k in at])] - points[vertex[at], None]
-        normal[at], inward[at], bend[at], rows = _fitted(away, along[at], up[at])
-        for k, row in zip(at, rows):
-            fits[k] = ids[k], row
-    return Border(
-        curve.edge, curve.face, vertex, curve.point, curve.slot, normal, inward, bend, fits
-    )
+    return BorderFits(corners, offsets, only).of(points)
+
+
+class BorderFits:
+    """The border of a mesh, for points that move."""
+
+    def __init__(self, corners: np.ndarray, offsets: np.ndarray, only: np.ndarray | None = None):
+        count = int(corners.max(initial=-1)) + 1
+        self.curve = border_curve(np.zeros((count, 3)), corners, offsets, only)
+        self.around = _Around(corners, offsets)
+        vertex = self.curve.vertex
+        rings = self.around.rings(vertex, RINGS)
+        self.ids = [found[found != v] for found, v in zip(rings, vertex)]
+        sizes = np.array([len(found) for found in self.ids])
+        # fits of as many points at once
+        self.groups = [np.flatnonzero(sizes == size) for size in np.unique(sizes)]
+        self.up: np.ndarray | None = None
+
+    def of(self, points: np.ndarray) -> Border:
+        """The border with these points (N, 3), or more; its fits begin with the last normals."""
+        vertex = self.curve.vertex
+        curve = replace(self.curve, point=points[vertex])
+        place = (curve.edge, curve.face, vertex, curve.point, curve.slot)
+        along = curve.along
+        if self.up is None:
+            up = self.around.normals(points, vertex)
+        else:  # in its plane lies the surface's tangent, which differs a little from the curve's
+            up = self.up
+            along = unit_vectors(along - dot(along, up)[:, None] * up)
+        normal, inward = np.empty((len(vertex), 3)), np.empty((len(vertex), 3))
+        bend, fits = (
+            np.empty((len(vertex), 3, 3)),
+            [(found, np.empty((2, 0))) for found in self.ids],
+        )
+        for at in self.groups:
+            away = points[np.stack([self.ids[k] for k in at])] - points[vertex[at], None]
+            normal[at], inward[at], bend[at], rows = _fitted(away, along[at], up[at])
+            for k, row in zip(at, rows):
+                fits[k] = self.ids[k], row
+        self.up = normal
+        return Border(*place, normal, inward, bend, fits)
 
 
 class _Around:
@@ -288,18 +313,46 @@ def _fitted(near: np.ndarray, along: np.ndarray, up: np.ndarray) -> tuple[np.nda
         x, y, z = (
             np.einsum("gni,gi->gn", near, axis) / size[:, None] for axis in (along, inward, up)
         )
-        terms = [x, y, x * x / 2, x * y, y * y / 2]
-        terms += [x ** (d - k) * y**k for d in range(3, degree + 1) for k in range(d + 1)]
         weight = 1 / (0.1 + x * x + y * y)
-        inverse = np.linalg.pinv(weight[..., None] * np.stack(terms, 2)) * weight[:, None]
+        inverse = _inverse(weight[..., None] * _monomials(x, y, degree)) * weight[:, None]
         solved = np.einsum("gtn,gn->gt", inverse, z)
-        along = unit_vectors(along + solved[:, :1] * up)
-        up = up - solved[:, :1] * along - solved[:, 1:2] * inward
+        slopes = solved[:, :2]
+        along = unit_vectors(along + slopes[:, :1] * up)
+        up = up - slopes[:, :1] * along - slopes[:, 1:] * inward
+        if np.abs(slopes).max() < LEVEL:
+            break
     up = unit_vectors(up - dot(up, along)[:, None] * along)
     axes = np.stack([along, np.cross(up, along)], 1)
     bend = solved[:, [[2, 3], [3, 4]]] / size[:, None, None]
     rows = inverse[:, [1, 4]] / np.stack([size, size * size], 1)[..., None]
     return up, axes[:, 1], np.einsum("gai,gab,gbj->gij", axes, bend, axes), rows
+
+
+def _monomials(x: np.ndarray, y: np.ndarray, degree: int) -> np.ndarray:
+    """(g, n, t): x, y, x²/2, x y, y²/2, then those of third and higher degree."""
+    one = np.ones_like(x)
+    powers = [[one, x], [one, y]]
+    for of in powers:
+        for _ in range(degree - 1):
+            of.append(of[-1] * of[1])
+    terms = [x, y, powers[0][2] / 2, x * y, powers[1][2] / 2]
+    terms += [powers[0][d - k] * powers[1][k] for d in range(3, degree + 1) for k in range(d + 1)]
+    return np.stack(terms, 2)
+
+
+def _inverse(matrix: np.ndarray) -> np.ndarray:
+    """(g, 5, n): the first rows of the pseudoinverses of (g, n, t). Borders of two or three faces have no
+    full rank.
+    """
+    q, r = np.linalg.qr(matrix)
+    least, largest = (f(np.abs(np.diagonal(r, 0, 1, 2)), axis=1) for f in (np.min, np.max))
+    full = least > FULL_RANK * largest
+    out = np.empty((len(matrix), 5, matrix.shape[1]))
+    first = np.broadcast_to(np.eye(matrix.shape[2], 5), (int(full.sum()), matrix.shape[2], 5))
+    rows = np.linalg.solve(r[full].transpose(0, 2, 1), first)
+    out[full] = (q[full] @ rows).transpose(0, 2, 1)
+    out[~full] = np.linalg.pinv(matrix[~full])[:, :5]
+    return out
 
 
 def across(surface: Border | Foot, along: np.ndarray) -> np.ndarray:

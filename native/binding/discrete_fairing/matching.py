@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .borders import Border, Foot, border_edges, border_of, mesh_arrays, unit_vectors
+from .borders import Border, BorderFits, Foot, border_edges, border_of, mesh_arrays, unit_vectors
 from .converters import vertex_pairs
 from .errors import fairing_error
 from .halfway import Halfway
@@ -64,10 +64,7 @@ def match_border(
     joint = control.settings.get("joint", "tangent")
     strip = _Strip(_closed_faces(found, 1 << control.options.levels), edge)
     _, corners, offsets = mesh_arrays((points, (found["triangles"], found["quads"])))
-
-    def own(at: np.ndarray) -> Border:
-        return border_of(at, corners, offsets, only=strip.on)
-
+    own = BorderFits(corners, offsets, strip.on).of
     goal = Halfway(own(points), other) if halfway else other
 
     def settled(at: np.ndarray, name: str) -> np.ndarray:
