@@ -24,9 +24,3 @@ def icosphere(subdivisions):
         points, faces = meshes.refine_triangles(points, faces)
         points = points / np.linalg.norm(points, axis=1)[:, None]
     return points, faces
-
-
-def slid(points, size, seed):
-    """The same sphere with its vertices elsewhere on it."""
-    p = moved(points, size, seed)
-    return p / np.linalg.norm(p, axis=1)[:, None]

@@ -105,13 +105,6 @@ def test_polygons_of_any_size_in_any_container():
         assert_same(df.fair(points, other, 2), expected)
 
 
-def test_two_triangles_in_a_tuple_are_two_triangles():
-    """They are no pair of flat arrays."""
-    points = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0.2]])
-    for faces in (((0, 1, 2), (2, 1, 3)), ((0, 3, 1), (0, 2, 3))):
-        assert_same(df.fair(points, faces, 2), df.fair(points, np.array(faces), 2))
-
-
 def test_results_are_the_callers_own():
     """Writable, and alive after the result is gone."""
     result = df.fair(POINTS, FACES, 1)

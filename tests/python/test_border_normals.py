@@ -93,17 +93,6 @@ def test_corners_and_ends_are_left_to_their_curves(plate):
         assert result.report["normals"]["fixed"] == 3 - len(left)
 
 
-def test_straight_borders_hold_normals_where_they_do_not_turn(plate):
-    points, faces = plate
-    bent = points.copy()
-    bent[EDGE, 1] -= 0.2
-    for at, held in ((points, 1), (bent, 0)):
-        normals = tilted(points, EDGE, [0, 0.5, 1])
-        result = df.fair(at, faces, 3, normals=normals, boundary="linear")
-        assert result.report["normals"]["fixed"] == held
-        assert len(result.report["warnings"]) == 1 - held
-
-
 def test_a_rim_without_ends_opens_like_a_trumpet():
     turn, height = np.meshgrid(np.arange(8) * np.pi / 4, np.arange(4.0), indexing="ij")
     points = np.stack([np.cos(turn), np.sin(turn), height], axis=-1).reshape(-1, 3)
@@ -118,21 +107,3 @@ def test_a_rim_without_ends_opens_like_a_trumpet():
     assert result.report["normals"]["largest_angle"] <= LARGEST and not result.report["warnings"]
     for vertex in rim:
         assert angle(normal_at(result, vertex), normals[vertex]) < 2
-
-
-def test_a_solver_follows_a_border_that_moves(plate):
-    points, faces = plate
-    normals = tilted(points, EDGE, [0, 0.5, 1])
-    solver = df.Solver(points, faces, 3, normals=normals)
-    assert np.array_equal(
-        solver.solve().vertices, df.fair(points, faces, 3, normals=normals).vertices
-    )
-    moved = points.copy()
-    moved[EDGE] += [0.05, -0.1, 0.1]
-    result = solver.solve(moved)
-    alone = df.fair(points, faces, 3, normals=normals, shapes=[moved]).shapes[0]
-    assert result.report["converged"] and np.abs(result.vertices - alone).max() < 1e-3
-    solver.rebase(moved)
-    assert np.array_equal(
-        solver.solve().vertices, df.fair(moved, faces, 3, normals=normals).vertices
-    )

@@ -7,13 +7,12 @@ import numpy as np
 import pytest
 import tight
 from sheet_meshes import book
-from surfaces import as_lists, boundary_vertices, output_faces, size_of
+from surfaces import as_lists, boundary_vertices, output_faces
 
 MODES = ("curve", "linear", "free")
 ENERGIES = ("thin_plate", "total_curvature", "minimum_variation")
 POINTS, FACES = meshes.wavy_patch()
 BOTTOM = [(0, 1), (1, 2), (2, 3), (3, 4)]  # vertices 0 … 4 at y = 0
-TOP = [(20, 21), (22, 21), (22, 23), (23, 24)]
 
 
 def border(faces):
@@ -89,12 +88,6 @@ def test_free_edges_go_with_the_surface_and_the_others_do_not(energy):
     assert np.array_equal(still.vertices[: len(POINTS)], POINTS)
 
 
-def test_the_last_of_several_kinds_counts():
-    both = df.fair(POINTS, FACES, 2, boundary_edges={"free": BOTTOM, "linear": BOTTOM + TOP})
-    told = df.fair(POINTS, FACES, 2, boundary_edges={"free": BOTTOM, "linear": TOP})
-    assert both.vertices.tobytes() == told.vertices.tobytes()
-
-
 @pytest.mark.parametrize("kind", ["linear", "free"])
 def test_edges_that_are_no_boundary_are_left_alone(kind):
     inside = df.fair(POINTS, FACES, 2, boundary_edges={kind: [(11, 12)]})
@@ -103,30 +96,6 @@ def test_edges_that_are_no_boundary_are_left_alone(kind):
     spine = [(0, 1), (1, 2)]
     met = df.fair(vertices, faces, 2, boundary_edges={kind: spine})
     assert met.vertices.tobytes() == df.fair(vertices, faces, 2).vertices.tobytes()
-
-
-def test_the_pages_of_a_book_keep_their_curve_beside_free_edges():
-    vertices, faces, of_page = book()
-    outer = [e for e in border(faces[:of_page]) if min(e) > 4]
-    free = df.fair(vertices, faces, 2, boundary_edges={"free": outer})
-    curved = df.fair(vertices, faces, 2)
-    first, other = (free.quad_polygon < of_page, free.quad_polygon >= of_page)
-    same = np.unique(free.faces[1][other])
-    assert np.abs(free.vertices[same] - curved.vertices[same]).max() < 1e-4 * size_of(vertices)
-    page = np.unique(free.faces[1][first])
-    assert np.abs(free.vertices[page] - curved.vertices[page]).max() > 1e-3
-
-
-def test_a_one_sided_strip():
-    vertices, faces = meshes.moebius()
-    edges = border(faces)
-    result = df.fair(vertices, faces, 3, boundary_edges={"linear": edges[:2], "free": edges[4:6]})
-    whole = df.fair(vertices, faces, 3)
-    assert result.report["converged"]
-    middles = [(vertices[a] + vertices[b]) / 2 for a, b in edges[:2]]
-    for middle in middles:
-        assert np.linalg.norm(result.vertices - middle, axis=1).min() < 1e-12
-        assert np.linalg.norm(whole.vertices - middle, axis=1).min() > 1e-4
 
 
 def test_half_a_mesh():
@@ -142,11 +111,3 @@ def test_half_a_mesh():
     assert np.abs(half.vertices - plain.vertices).max() > 1e-3
     solver = df.Solver(points, quads, 2, boundary_edges=edges, symmetry_plane="x")
     assert solver.solve().vertices.tobytes() == half.vertices.tobytes()
-
-
-def test_mended_meshes():
-    doubled = np.concatenate([FACES[:1], FACES])
-    edges = {"linear": BOTTOM, "free": TOP}
-    found = df.fair(POINTS, doubled, 2, repair="mend", boundary_edges=edges)
-    clean = df.fair(POINTS, FACES, 2, boundary_edges=edges)
-    assert found.vertices.tobytes() == clean.vertices.tobytes()

@@ -1,12 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Files for CAD are whole or not there: after any failure the old one stays, and nothing is left beside it."""
 
-import errno
 import os
 import stat
 from contextlib import contextmanager
 from pathlib import Path
-from threading import Thread
 
 import control_meshes
 import discrete_fairing as df
@@ -83,38 +81,6 @@ def test_a_folder_without_permission(cube, old):
             old.parent.chmod(0o755)
 
 
-def test_a_folder_that_is_missing_or_in_the_place_of_the_file(cube, tmp_path):
-    (tmp_path / "a.file").mkdir()
-    for path, error in (("none/a.file", FileNotFoundError), ("a.file", OSError)):
-        with failing(error, tmp_path / path):
-            df.write_step(tmp_path / path, cube)
-    assert (tmp_path / "a.file").is_dir()
-
-
-def test_an_interruption_midway(cube, old, monkeypatch):
-    def stop(_self):
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr("discrete_fairing.step._Writer.end", stop)
-    with failing(KeyboardInterrupt, old):
-        df.write_step(old, cube)
-
-
-def test_links_in_a_circle_and_a_full_device_behind_a_name_are_told(cube, tmp_path):
-    path = tmp_path / "a.file"
-    path.symlink_to("a.file")
-    with failing(OSError, path) as caught:
-        df.write_step(path, cube)
-    assert caught.value.errno == errno.ELOOP and path.is_symlink()
-    if not Path("/dev/full").exists():
-        pytest.skip("no /dev/full")
-    path.unlink()
-    path.symlink_to("/dev/full")
-    with failing(OSError, path) as caught:
-        df.write_step(path, cube)
-    assert caught.value.errno == errno.ENOSPC
-
-
 def test_a_link_stays_one(cube, old):
     old.chmod(0o640)
     link = old.with_name("link")
@@ -122,16 +88,6 @@ def test_a_link_stays_one(cube, old):
     df.write_step(link, cube)
     assert link.is_symlink() and old.stat().st_size > 1000
     assert stat.S_IMODE(old.stat().st_mode) == 0o640
-
-
-def test_a_pipe_is_written_to_itself(cube, tmp_path):
-    pipe, found = tmp_path / "pipe", []
-    os.mkfifo(pipe)
-    reader = Thread(target=lambda: found.append(pipe.read_text()))
-    reader.start()
-    df.write_step(pipe, cube)
-    reader.join()
-    assert found[0].endswith("END-ISO-10303-21;\n") and only(pipe)
 
 
 BAD = {

@@ -5,7 +5,7 @@ import discrete_fairing as df
 import numpy as np
 import pytest
 from control_meshes import cube, refine_quads
-from ragged_holes import lattice, mapped, sheet_with_hanging_vertices, sphere
+from ragged_holes import mapped, sheet_with_hanging_vertices, sphere
 from refusing import refusal
 from surfaces import assert_oriented_manifold
 
@@ -224,10 +224,6 @@ def test_parts_that_pass_through_each_other_stay(shift):
     assert np.array_equal(found.vertices, both) and crossing_faces(found) > 10
 
 
-def test_a_corner_of_a_box_is_no_spike():
-    assert df.clean(*two_boxes([3.0, 0.0, 0.0])).done == []
-
-
 def a_cone(sides, height, joined):
     """Around the z axis; its base is one face, or a fan of triangles."""
     turn = np.arange(sides) * 2.0 * np.pi / sides
@@ -271,12 +267,6 @@ def test_a_surface_that_cannot_be_closed_keeps_its_faces(rows):
     found = df.clean(points.reshape(-1, 3), faces)
     assert len(found.face_origin) == len(faces)
     assert {d.code for d in found.left} == {"NON_ORIENTABLE", "OPEN_HOLE"}
-
-
-def test_three_faces_at_an_edge_become_a_sheet():
-    points = np.array([[0.0, 0, 0], [0, 0, 1], [1, 0, 0], [-1, 1, 0], [-1, -1, 0]])
-    found = df.clean(points, [[0, 1, 2], [0, 1, 3], [0, 1, 4]])
-    assert len(found.faces) == 2 and [d.code for d in found.left] == ["OPEN_HOLE"]
 
 
 def test_a_hole_is_filled_and_the_border_of_a_sheet_is_not():
@@ -407,18 +397,6 @@ def test_each_step_can_be_turned_off():
     for step in ("fins", "normals", "inner", "pinched", "spikes", "folds", "fill", "join"):
         assert not told(df.clean(points, faces, **{step: False}), step)
     assert not told(df.clean(points, faces, islands=0.0), "islands")
-
-
-def test_a_sheet_of_quads_stays_one():
-    points, triangles = mapped(lambda a, b: (a, b, 0.1 * a * b), 9, 7)
-    count = len(triangles) // 2
-    quads = np.stack(
-        [triangles[:count, 0], triangles[:count, 1], triangles[:count, 2], triangles[count:, 2]], 1
-    )
-    assert len(lattice(9, 7)) == 2 * count
-    found = df.clean(points, quads)
-    assert found.done == [] and not found.watertight
-    assert np.array_equal(found.faces[0].reshape(-1, 4), quads)
 
 
 def test_noise_is_taken_off():

@@ -193,22 +193,6 @@ def test_vertices_outside_a_region_stay():
     assert eased.moves.any() and not eased.moves[outside].any()
 
 
-def test_merged_vertices_move_as_one():
-    truth, faces, inner = sheet()
-    measured = scattered(truth, inner, 7)
-    split = faces.copy()
-    split[:18] = np.where(faces[:18] == inner[12], len(truth), faces[:18])
-    twice = np.concatenate([measured, measured[inner[12:13]]])
-    mended = df.ease(twice, split, repair="mend", weld=0.0)
-    whole = df.ease(measured, faces)
-    np.testing.assert_array_equal(mended.vertices[-1], mended.vertices[inner[12]])
-    np.testing.assert_allclose(mended.vertices[:-1], whole.vertices, atol=1e-9)
-    assert mended.strain_before[-1] == mended.strain_before[inner[12]]
-    bounds = np.full(len(twice), 1.0)
-    bounds[-1] = 1e-5
-    assert df.ease(twice, split, repair="mend", weld=0.0, tolerance=bounds).moves[inner[12]] <= 1e-5
-
-
 def test_half_a_mesh_is_eased_as_the_whole():
     points, faces = control_meshes.torus(12, 8)
     points = np.where(np.abs(points) < 1e-9, 0, points)

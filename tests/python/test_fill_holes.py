@@ -472,17 +472,6 @@ def test_what_is_wrong_beside_a_hole_stops_nothing(defect):
     assert all(set(faces[f]) & set(bad.tolist()) for f in hole.ignored)
 
 
-def test_a_face_through_a_hole_beside_a_face_that_is_there_twice():
-    """The filling has no vertex of its own, so another way is tried, which fair() refuses."""
-    vertices, quads, kept = open_grid(8, [(3, 3)])
-    spike = [(3.3, 3.4, -1), (3.7, 3.6, -1), (3.5, 3.5, 4)]
-    vertices = np.concatenate([vertices, spike])
-    faces = [*quads[kept].tolist(), [64, 65, 66], quads[5, 3].tolist()]
-    (loop,) = [h for h in df.find_holes(vertices, faces) if len(h) == 4]
-    (hole,) = df.fill_holes(vertices, faces, holes=[loop], density=0.0).holes
-    assert hole.crossings > 0
-
-
 def test_nothing_to_fill():
     vertices, faces = sphere(1)
     filled = df.fill_holes(vertices, faces)

@@ -80,14 +80,6 @@ def test_without_noise_the_surface_converges_by_four_a_level(cage):
     assert distance[0] > 3.5 * distance[1] > 3.5**2 * distance[2]
 
 
-def test_points_pull_no_more_than_for_waves_as_long_as_they_are_apart(cage):
-    points = blob_scan(4_000, 0.0)
-    fitted = df.fit(*cage, points, levels=4)
-    edges_a_gap = np.sqrt(len(points) / len(cage[1]))
-    assert fitted.weight < 1.5 * edges_a_gap**4
-    assert rms(fitted.distances) < NOISE / 500
-
-
 def test_holes_are_bridged_and_strays_ignored(cage, scan):
     random = np.random.default_rng(5)
     points = scan.copy()
@@ -226,44 +218,6 @@ def test_curves_follow_no_noise_where_edges_are_short(corners):
         assert (np.diff(fitted.vertices[curve, 0]) > 0.8 * np.diff(along)).all()
 
 
-def test_weight_is_chosen_beside_curves_that_follow_no_noise():
-    even = np.linspace(-1, 1, 17)
-    vertices, faces = sheet(even, even, roof)
-    points, triangles = sheet_scan(roof, 4 * NOISE, 1)
-    ridge = np.flatnonzero(np.abs(vertices[:, 1]) < 1e-9)
-    creases = np.stack([ridge[:-1], ridge[1:]], 1)
-
-    def off(weight: float | None) -> float:
-        fitted = df.fit(
-            vertices,
-            faces,
-            points,
-            triangles=triangles,
-            weight=weight,
-            levels=3,
-            crease_edges=creases,
-            corner_vertices=[0, 16, 272, 288],
-        )
-        x, y, z = fitted.vertices.T
-        return rms(z - roof(x, y))
-
-    assert off(None) < 1.4 * off(0.0014)
-
-
-def test_noise_of_neighbours_that_is_alike_is_no_shape():
-    """Means over five points each way: held-out cells are narrower."""
-    points, triangles = sheet_scan(dome, 0.0, 1)
-    side = round(len(points) ** 0.5)
-    white = np.random.default_rng(1).standard_normal((side + 4, side + 4))
-    alike = sum(white[i : i + side, j : j + side] for i in range(5) for j in range(5)) / 5
-    points[:, 2] += 0.01 * alike.ravel()
-    even = np.linspace(-1, 1, 9)
-    cage = sheet(even, even, dome)
-    fitted = df.fit(*cage, points, triangles=triangles, corner_vertices=[0, 8, 72, 80])
-    x, y, z = fitted.vertices.T
-    assert rms(z - dome(x, y)) < 0.0045
-
-
 def dense_scan(pieces: int, noise: float, alike: int = 1) -> tuple[np.ndarray, np.ndarray]:
     """Points and triangles of the blob with noise that is the mean over so many neighbours."""
     sphere, quads = cube_sphere(pieces)
@@ -396,12 +350,6 @@ def test_patches_near_a_scan_may_be_off_by_half_of_what_it_is(
     corners = np.asarray(cage[0])[np.asarray(cage[1])]
     edge = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).mean() / patches.size
     assert patches.normal_tolerance == pytest.approx(max(8e-4, patches.tolerance / edge), rel=0.1)
-
-
-def test_a_given_angle_of_patches_near_a_scan_stays(cage):
-    given = {"points": blob_scan(12_000, NOISE)}
-    patches = df.fit_patches(*cage, scan=given, levels=3, normal_tolerance=1e-3)
-    assert patches.normal_tolerance == 1e-3
 
 
 def test_what_turns_within_a_tenth_of_a_control_edge_is_rounded_off():

@@ -173,39 +173,6 @@ def test_warnings_and_repairs_name_the_half_too():
         assert report[name] == expected[name], name
 
 
-def test_faces_that_name_absent_vertices_are_mended_in_both_halves():
-    """An id of the image is absent from the half; a face dropped at the plane leaves a border there."""
-    points, faces = hull()
-    absent = [[0, 4, len(points)], [8, -1, 9], [5, 6, 2 * len(points)]]
-    mended = df.fair(points, [*faces.tolist(), *absent], 2, **MEND, **HALF)
-    sound = df.fair(points, faces, 2, **HALF)
-    assert np.allclose(mended.vertices, sound.vertices, atol=1e-6)
-    (act,) = mended.report["repairs"]
-    ids = list(range(len(faces), len(faces) + 3))
-    assert (act["code"], act["elements"]) == ("INDEX_OUT_OF_RANGE", ids)
-
-
-@pytest.mark.parametrize("vertex", [0, 9], ids=["in the plane", "elsewhere"])
-@pytest.mark.parametrize("value", [np.nan, np.inf, 1e120], ids=str)
-def test_positions_that_are_none(vertex, value):
-    """A position that is NaN is no border that has left the plane."""
-    points, faces = hull()
-    solver = df.Solver(points, faces, 1, **HALF)
-    points[vertex] = value
-    expected = told(refusal(df.fair, points, faces, 1))
-    assert expected[:3] == ("NON_FINITE", "vertex", [vertex])
-    for call in (df.fair, df.Solver):
-        assert told(refusal(call, points, faces, 1, **HALF)) == expected
-        assert refusal(call, points, faces, 1, **HALF, **MEND).elements == [vertex]
-    for call, arguments in (
-        (solver.solve, (points,)),
-        (solver.rebase, (points,)),
-        (lambda: df.fair(*hull(), 1, shapes=[hull()[0], points], **HALF), ()),
-    ):
-        error = refusal(call, *arguments)
-        assert (error.code, error.elements) == ("NON_FINITE", [vertex])
-
-
 @pytest.mark.parametrize("off", [KEEL, KEEL[2:3]], ids=["all", "one"])
 def test_a_border_that_leaves_the_plane_is_refused(off):
     points, faces = hull()

@@ -110,16 +110,3 @@ def test_creases_and_corners_are_relabelled_along():
     swapped = place[creases][::-1, ::-1]
     other = tight.fair(moved, turned, 2, crease_edges=swapped, corner_vertices=place[[20, 9]])
     assert_same_points(other.vertices, plain.vertices, TOLERANCE * size_of(vertices))
-
-
-def test_weights_and_tolerance_commute_with_scaling():
-    vertices, faces = meshes.creature()
-    weights = np.random.default_rng(0).uniform(0.1, 20, len(vertices))
-    options = [lambda scale: {"weights": weights}, lambda scale: {"tolerance": 0.05 * scale}]
-    for option in options:
-        plain, scaled = (
-            tight.fair(s * vertices, faces, 2, interpolation="approximate", **option(s)).vertices
-            / s
-            for s in (1, 1e4)
-        )
-        assert np.abs(scaled - plain).max() <= TOLERANCE * size_of(vertices)

@@ -209,21 +209,6 @@ def test_a_release_goes_down_the_energy_that_is_solved():
     np.testing.assert_allclose(moved / epsilon, steepest, atol=1e-3)
 
 
-def test_a_rebase_to_limits_without_shape_is_refused():
-    vertices, faces = grid(2, 2)
-    vertices = np.asarray(vertices) - np.mean(vertices, axis=0)
-    solver = df.Solver(vertices, faces, 1, interpolation="limit")
-    before = solver.solve(vertices).vertices.copy()
-    middle = int(np.linalg.norm(vertices, axis=1).argmin())
-    side = int(np.linalg.norm(vertices - (1, 0, 0), axis=1).argmin())
-    # its limit is (16 v + 4 (its neighbours) + (those across)) / 36, so here that of `side`
-    moved = vertices.copy()
-    moved[middle] = 36 / 16 * vertices[side]
-    with pytest.raises(df.FairingError, match="At the limit positions"):
-        solver.rebase(moved)
-    np.testing.assert_allclose(solver.solve(vertices).vertices, before, atol=1e-12)
-
-
 def test_outside_a_region_and_on_its_rim_nothing_moves():
     vertices, faces = grid(7, 7)
     vertices = vertices + 0.1 * RANDOM.standard_normal(vertices.shape)

@@ -271,15 +271,3 @@ def test_faces_that_name_absent_vertices_are_dropped(absent):
     kept = np.delete(FACES, [3, 7], axis=0)
     assert np.array_equal(result.vertices, tight.fair(POINTS, kept, 1).vertices)
     assert set(result.triangle_polygon) == set(range(len(FACES))) - {3, 7}
-
-
-def test_a_mesh_of_nothing_but_absent_vertices_is_refused():
-    with pytest.raises(df.FairingError, match="names? a vertex that does not exist") as caught:
-        df.fair(POINTS, FACES + 12, 1, repair="mend")
-    assert caught.value.elements == list(range(len(FACES)))
-    assert not df.check(POINTS, FACES + 12)[0].repairable
-
-
-def test_ids_that_count_from_one_are_told_as_such():
-    with pytest.raises(df.FairingError, match="count from 1: subtract 1 from all"):
-        df.fair(POINTS, FACES + 1, 1)

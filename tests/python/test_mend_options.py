@@ -89,17 +89,6 @@ def test_shapes_follow():
     assert np.array_equal(result.shapes[1], result.vertices)
 
 
-def test_creases_of_merged_vertices():
-    points, faces = split_vertex()
-    near = set(next(face for face in faces if N in face))
-    rim = [(N, max(e)) if min(e) == 3 and max(e) in near else e for e in map(tuple, RIM.tolist())]
-    assert N in np.array(rim) and 3 in np.array(rim)
-    result = mend(points, faces, crease_edges=[*rim, (3, N)])
-    assert np.allclose(
-        result.vertices[N + 1 :], sound(range(24), crease_edges=RIM).vertices[N:], rtol=0, atol=1e-9
-    )
-
-
 CAP = np.array([[0.0, 0, 0], [4, 0, 0], [2, 3, 1], [2, -3, 1], [1, 0, 0]])
 CAP_FACES = [[0, 1, 2], [0, 4, 1], [4, 0, 3], [1, 4, 3]]
 

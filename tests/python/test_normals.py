@@ -128,19 +128,6 @@ def test_half_a_mesh_has_the_normals_of_the_whole():
     assert found.max() < 1e-6 and half.report["normals"]["fixed"] == 2
 
 
-def test_a_normal_at_the_plane_of_a_half_stays_in_the_plane():
-    points, faces = hull()
-    keel = 12  # in the plane y = 0
-    assert points[keel, 1] == 0
-    result = df.fair(
-        points, faces, 2, normals=tilted(points, keel, [0.2, 0.3, -1]), symmetry_plane="y"
-    )
-    straight = df.fair(
-        points, faces, 2, normals=tilted(points, keel, [0.2, 0, -1]), symmetry_plane="y"
-    )
-    assert np.array_equal(result.vertices, straight.vertices)
-
-
 @pytest.mark.parametrize(
     "options",
     [
@@ -221,18 +208,3 @@ def test_a_solver_follows_moved_vertices():
         assert np.abs(result.vertices - alone).max() < 1e-4 * size_of(points)
     solver.rebase(points)
     assert np.array_equal(solver.solve().vertices, first.vertices)
-
-
-def test_vertices_that_are_merged_share_their_normals(plate):
-    points, faces = plate
-    twin = np.concatenate([points, points[MIDDLE : MIDDLE + 1]])
-    torn = faces.copy()
-    face = np.flatnonzero((faces == MIDDLE).any(1))[0]
-    torn[face][torn[face] == MIDDLE] = len(points)
-    normals = none(twin)
-    normals[-1] = [0.3, 0, 1]
-    result = df.fair(twin, torn, 2, normals=normals, repair="mend", weld=0)
-    assert result.report["normals"]["fixed"] == 1
-    assert result.report["normals"]["largest_angle"] <= LARGEST
-    welded = df.fair(points, faces, 2, normals=tilted(points, MIDDLE, [0.3, 0, 1]))
-    assert np.ptp(result.vertices[:, 2]) == pytest.approx(np.ptp(welded.vertices[:, 2]), rel=1e-3)

@@ -5,7 +5,6 @@ import control_meshes as meshes
 import discrete_fairing as df
 import numpy as np
 import pytest
-import tight
 from surfaces import (
     as_lists,
     assert_oriented_manifold,
@@ -62,17 +61,6 @@ def test_vertices_are_kept_wherever_the_mesh_lies(offset, scale, boundary):
     vertices = vertices * scale + [offset, 2 * offset, -offset]
     result = df.fair(vertices, faces, 2, boundary=boundary, crease_edges=ridge)
     assert result.vertices[: len(vertices)].tobytes() == vertices.tobytes()
-
-
-def test_components_do_not_see_each_other():
-    """Two meshes in one call give the surfaces that they give alone."""
-    one, two = meshes.icosahedron(), meshes.random_hull(15)
-    vertices = np.concatenate([one[0], two[0] + 10])
-    result = tight.fair(vertices, np.concatenate([one[1], two[1] + 12]), 2, relative_residual=1e-12)
-    alone = tight.fair(*one, 2, relative_residual=1e-12)
-    own = result.vertices[np.unique(result.triangles[result.triangle_polygon < len(one[1])])]
-    assert euler_characteristic(result.triangles.tolist()) == 4
-    assert np.abs(np.sort(own, axis=0) - np.sort(alone.vertices, axis=0)).max() < 1e-9
 
 
 def test_isolated_vertices_are_kept_with_a_warning():

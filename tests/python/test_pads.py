@@ -62,14 +62,6 @@ def test_inscribed_meshes_are_nearer_to_the_sphere(name, most):
     assert found[-1] < most
 
 
-def ball_and_its_images():
-    """A round ball, and for each vertex its image across x = 0."""
-    vertices, faces = meshes.rough_ball(roughness=0)
-    distance = np.linalg.norm(vertices[:, None] * [-1, 1, 1] - vertices[None], axis=2)
-    assert distance.min(1).max() < 1e-12
-    return vertices, faces, distance.argmin(1)
-
-
 def shortest_and_longest_edges(vertices, faces):
     """Of each vertex."""
     shortest, longest = np.full(len(vertices), np.inf), np.zeros(len(vertices))
@@ -113,35 +105,6 @@ def test_inscribed_meshes_have_whole_pads(name):
     shortest, _ = shortest_and_longest_edges(*mesh)
     widths = np.array(df.fair(*mesh, levels=2).report["pads"]["widths"])
     assert np.allclose(widths, shortest, rtol=1e-6)
-
-
-def test_pads_are_narrow_between_a_corner_and_a_flat_place():
-    """A cube whose faces are divided at their centres."""
-    corners, quads = meshes.cube()
-    centres = [corners[q].mean(0) for q in quads]
-    vertices = np.vstack([corners, centres])
-    faces = [
-        [q[i], q[(i + 1) % 4], len(corners) + f] for f, q in enumerate(quads) for i in range(4)
-    ]
-    shortest, _ = shortest_and_longest_edges(vertices, faces)
-    needles, pads = (tight.fair(vertices, faces, levels=3, pad_size=s) for s in (0, 1))
-    widths = np.array(pads.report["pads"]["widths"])
-    assert (widths[len(corners) :] < 0.5 * shortest[len(corners) :]).all()
-    assert energy(pads) < 1.15 * energy(needles)
-
-
-def test_widths_depend_neither_on_threads_nor_on_the_side():
-    vertices, faces, image = ball_and_its_images()
-    rough, _ = meshes.rough_ball(roughness=1)
-    right = vertices[:, 0] > 1e-12
-    vertices[right] = rough[right]
-    vertices[image[right]] = rough[right] * [-1, 1, 1]
-    one, two = (tight.fair(vertices, faces, levels=3, pad_size=0.5, threads=t) for t in (1, 2))
-    assert one.report["pads"] == two.report["pads"]
-    assert np.array_equal(one.vertices, two.vertices)
-    widths = np.array(one.report["pads"]["widths"])
-    assert len(set(widths)) > 1
-    assert np.allclose(widths, widths[image], rtol=1e-12)
 
 
 def test_widths_stay_while_vertices_move():

@@ -7,7 +7,7 @@ from functools import cache
 import discrete_fairing as df
 import numpy as np
 import pytest
-from piece_meshes import MESHES, ring, sheet, torus
+from piece_meshes import MESHES, ring, torus
 from refusing import refusal
 
 TIGHT = {"relative_residual": 1e-11}  # loads on pads then end far below the differences here
@@ -111,21 +111,6 @@ def test_every_point_has_one_owner():
     assert len(np.unique(faces_of_parts, axis=0)) == len(joined.faces[0])
 
 
-def test_parts_fill_an_array_on_disk(tmp_path):
-    mesh = torus()
-    paths = []
-    for piece in cut(*mesh, count=4):
-        paths.append(tmp_path / f"part-{piece.index}.npz")
-        piece.fair().save(paths[-1])
-    size = df.Part.load(paths[0]).numbering.size
-    file = np.lib.format.open_memmap(tmp_path / "all.npy", "w+", np.float64, (size, 3))
-    for path in paths:
-        df.Part.load(path).write_into(file)
-    joined = df.join(paths)
-    assert np.array_equal(file, joined.vertices)
-    assert df.largest_jump(paths) == joined.report["pieces"]["jump"]
-
-
 def test_a_piece_gives_the_same_bits_wherever_it_is_faired(tmp_path):
     piece = cut(*MESHES["noisy triangles"][:2])[1]
     piece.save(tmp_path / "piece.npz")
@@ -178,26 +163,6 @@ def test_settings_are_cut_out_with_pieces(settings, rings, most):
     )
 
 
-def test_weights_along_normals_have_the_unit_of_the_whole():
-    """Pieces once measured the unit of their own edges: 2.1e-4 off in place of 5e-6."""
-    points, faces = sheet(stretched=True)
-    settings = {**NEAR, "weights": np.full(len(points), 10.0), "energy": "total_curvature"}
-    settings["relative_residual"] = 1e-7
-    whole = df.fair(points, faces, 2, **settings)
-    joined = in_pieces(points, faces, count=4, rings=6, **settings)
-    assert difference(joined, whole, points) < 5e-5
-
-
-def test_normals_are_cut_out_with_pieces():
-    points, faces = sheet()
-    normals = np.full((len(points), 3), np.nan)
-    normals[17:-17:13] = [0.1, 0.0, 1.0]
-    whole = df.fair(points, faces, 2, **TIGHT, normals=normals)
-    joined = in_pieces(points, faces, rings=6, normals=normals)
-    assert difference(joined, whole, points) < 2 * bound(6)
-    assert not np.allclose(whole.vertices, df.fair(points, faces, 2).vertices, atol=1e-3)
-
-
 def test_whatever_fair_refuses_is_refused_before_any_piece():
     points, faces = torus()
     error = refusal(cut, points, np.concatenate([faces, faces[5:6]]))
@@ -223,17 +188,6 @@ def test_parts_that_do_not_belong_together_are_refused(tmp_path):
     parts[0].save(tmp_path / "part.npz")
     with pytest.raises(df.FairingError, match="does not hold a Piece"):
         df.Piece.load(tmp_path / "part.npz")
-
-
-def test_level_zero_and_quads_beside_triangles():
-    points, faces = torus()
-    mixed = [list(map(int, face)) for face in faces[60:]]
-    mixed += [list(map(int, face)) for face in df.fair(points, faces[:60], 0).triangles]
-    for levels in (0, 1, 3):
-        whole = df.fair(points, mixed, levels, **TIGHT)
-        joined = in_pieces(points, mixed, levels=levels, rings=6)
-        assert_same_topology(joined, whole)
-        assert difference(joined, whole, points) < bound(6)
 
 
 # --- memory ---

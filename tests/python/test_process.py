@@ -146,24 +146,3 @@ def test_threads_that_cannot_be_started_are_done_without():
         little_room,
     )
     assert out == ["True", "True"]
-
-
-@limits
-def test_not_even_one_thread():
-    """fair() runs on the caller's thread; a solver needs its own, and says so."""
-    out = run(
-        """
-        import resource
-
-        expected = df.fair(points, faces, 2).vertices
-        calls, monitor = [], df.Monitor()
-        used = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
-        resource.setrlimit(resource.RLIMIT_AS, (used + (1 << 28), resource.RLIM_INFINITY))
-        watchers = {"progress": lambda *call: calls.append(call), "monitor": monitor}
-        result = df.fair(points, faces, 2, **watchers)
-        print(np.array_equal(result.vertices, expected), result.report["threads"], calls[-1][1])
-        print(code_of(df.Solver, points, faces, 2), code_of(df.fair, points[:3], faces, 2))
-        """,
-        little_room,
-    )
-    assert out == ["True", "1", "done", "NO_THREAD", "INDEX_OUT_OF_RANGE"]

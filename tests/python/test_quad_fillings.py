@@ -98,18 +98,6 @@ def test_an_odd_rim_and_triangles_around():
     assert told == "not all faces around are quads"
 
 
-def test_islands():
-    points, quads = tube()
-    angle, height = np.arctan2(*points[quads].mean(1)[:, 1::-1].T), points[quads].mean(1)[:, 2]
-    gone = (abs(angle) < 0.6) & (abs(height) < 0.6) & ((abs(angle) > 0.2) | (abs(height) > 0.2))
-    points, kept = cut(points, quads, gone)
-    loops = [h for h in df.find_holes(points, kept) if abs(points[h][:, 2]).max() < 1.9]
-    rim, island = sorted(loops, key=len, reverse=True)
-    filled = df.fill_holes(points, kept, holes=[[rim, island]], quads=True)
-    assert "islands" in filled.holes[0].why_triangles
-    assert not df.check(filled.vertices, filled.faces)
-
-
 def assert_sound(vertices, faces, least_angle=0.0):
     """Closed, and folded only where the rim alone makes it so. Returns the holes."""
     filled = df.fill_holes(vertices, faces)
@@ -163,18 +151,6 @@ def test_holes_in_rounds_of_their_own_share_no_edge():
     filled = df.fill_holes(vertices, kept)
     assert len(filled.holes) == 3 and (uses(filled.faces) == 2).all()
     assert not [d for d in df.check(filled.vertices, filled.faces) if d.severity == "error"]
-
-
-def test_noise_at_a_rim_leaves_no_more_folds_than_any_triangles():
-    """Noise is a third of an edge. Where a filling folds and bare triangles do not, bare triangles take its place."""
-    rng = random.Random(0)
-    points, faces = torus(120, 60)
-    gone = np.any([ragged(faces, rng.choice([60, 150]), rng, 0.9) for _ in range(4)], axis=0)
-    vertices, kept = cut(points, faces, gone)
-    noise = 0.03 * np.random.default_rng(0).normal(size=vertices.shape)
-    filled = df.fill_holes(vertices + noise, kept)
-    assert len(filled.holes) == 4 and (uses(filled.faces) == 2).all()
-    assert sum(hole.folds > 0 for hole in filled.holes) == 3
 
 
 def half_ball(centre, n=24, rings=10):
@@ -257,15 +233,3 @@ def pierced(start, end, triangle):
     apart = volume(a, b, c, start) * volume(a, b, c, end) < 0
     turns = np.stack([volume(start, end, *pair) > 0 for pair in ((a, b), (b, c), (c, a))])
     return apart & (turns.all(axis=0) | ~turns.any(axis=0))
-
-
-@pytest.mark.parametrize("size", [4, 5])
-def test_polygons_around_count_as_their_fans(size):
-    points, faces, hole = with_square(0.5)
-    count = len(points) - 4
-    polygon = list(range(count, count + 4)) + ([len(points)] if size == 5 else [])
-    points = np.concatenate([points, [[-3.5, 0, 0.5]]])[: len(points) + (size == 5)]
-    mixed = [*faces[:-2].tolist(), polygon]
-    filled = df.fill_holes(points, mixed, holes=[hole])
-    assert filled.holes[0].crossings == 0
-    assert filled.vertices[len(points) :, 2].max() < 0.5

@@ -152,26 +152,6 @@ def test_other_energies(energy, pad_size):
     assert np.abs(np.linalg.norm(upper - [0, 0, 1], axis=1) - 1).max() <= 2e-3
 
 
-@pytest.mark.parametrize(
-    "options",
-    [
-        {"interpolation": "approximate", "tolerance": 0.2},
-        {"interpolation": "approximate", "weights": 1.0},
-        {"epsilon": 0.2},
-        {"energy": "total_curvature", "interpolation": "approximate", "tolerance": 0.2},
-    ],
-)
-def test_shared_vertices_stay(options):
-    if "weights" in options:
-        options = {**options, "weights": np.full(11, 1.0)}
-    vertices, faces = hourglass()
-    vertices = vertices * [1, 1.5, 1.8]  # inscribed in no sphere, which would hold still
-    result = df.fair(vertices, faces, 2, **options)
-    moved = np.linalg.norm(result.vertices[:11] - vertices, axis=1)
-    assert moved[0] == 0 and moved[1:].max() > 1e-3
-    assert len(np.unique(result.vertices, axis=0)) == len(result.vertices)
-
-
 @pytest.mark.parametrize("pages", [[0], [0, 1], [0, 1, 2]])
 @pytest.mark.parametrize("joint", ["position", "tangent", "curvature"])
 def test_regions(pages, joint):

@@ -141,19 +141,3 @@ def test_far_moves_start_level_by_level(energy):
     assert not result.report["warm"]
     assert np.array_equal(result.vertices[: len(vertices)], far)
     assert np.abs(result.vertices - expected).max() < 1e-3
-
-
-@pytest.mark.parametrize("energy", CURVED)
-def test_symmetry_is_kept_on_the_way(energy):
-    vertices, faces = icosphere(1)
-    solver = tight.Solver(vertices, faces, 2, energy)
-    solver.solve()
-    image = [int(np.argmin(np.linalg.norm(vertices - p * [-1, 1, 1], axis=1))) for p in vertices]
-    for k in range(1, 4):
-        shift = np.random.default_rng(k).normal(scale=0.01, size=vertices.shape)
-        positions = vertices + shift + shift[image] * [-1, 1, 1]
-        positions = (positions + positions[image] * [-1, 1, 1]) / 2
-        points = solver.solve(positions).vertices
-        mirrored = points * [-1, 1, 1]
-        nearest = np.linalg.norm(points[:, None] - mirrored[None], axis=2).min(axis=1)
-        assert nearest.max() < 1e-13

@@ -50,14 +50,6 @@ def test_a_size_is_not_predicted_from_what_is_no_number(arguments):
     assert code_of(df.predicted_size, *arguments) == "BAD_OPTION"
 
 
-def test_sizes_beyond_any_machine_are_large_and_no_less():
-    most = df.predicted_size(2**31 - 1, FACES, 15, 2**31 - 1, "minimum_variation")
-    assert most["bytes"] == 2**63 - 1
-    assert 2**31 < most["triangles"] == 2 * len(FACES) * 4**15
-    sizes = [df.predicted_size(len(POINTS), FACES, 15, k)["bytes"] for k in (0, 1, 1000, 10**9)]
-    assert sizes == sorted(sizes) and sizes[0] > 2**31
-
-
 @pytest.mark.parametrize("watcher", [{"progress": 5}, {"progress": "print"}, {"monitor": 0}])
 def test_watchers_are_looked_at_before_the_run(watcher):
     """The mesh has nothing to fair, and is not even read."""
@@ -66,24 +58,6 @@ def test_watchers_are_looked_at_before_the_run(watcher):
     solver = df.Solver(POINTS, FACES, 1)
     assert code_of(solver.solve, **watcher) == "BAD_OPTION"
     assert not solver.solve().report["warm"]
-
-
-def test_masked_entries_are_not_shown_again():
-    points = np.ma.masked_array(POINTS, mask=np.zeros(POINTS.shape, bool))
-    expected = df.fair(POINTS, FACES, 1).vertices
-    assert np.array_equal(df.fair(points, FACES, 1).vertices, expected)
-    points[3, 1] = np.ma.masked
-    faces = np.ma.masked_array(FACES, mask=np.arange(FACES.size).reshape(FACES.shape) == 5)
-    assert code_of(df.fair, points, FACES, 1) == "BAD_SHAPE"
-    assert code_of(df.fair, POINTS, faces, 1) == "BAD_SHAPE"
-    assert code_of(df.fair, POINTS, list(faces), 1) == "BAD_SHAPE"
-    assert code_of(df.check, points, FACES) == "BAD_SHAPE"
-    assert code_of(df.fair, POINTS, FACES, 1, shapes=[POINTS, points]) == "BAD_SHAPE"
-    weights = np.ma.masked_less(np.arange(float(len(POINTS))), 3)
-    options = {"interpolation": "approximate", "weights": weights}
-    assert code_of(df.fair, POINTS, FACES, 1, **options) == "BAD_SHAPE"
-    with pytest.raises(df.FairingError):
-        df.Solver(POINTS, FACES, 1).solve(points)
 
 
 class Scribbler(threading.Thread):
@@ -140,23 +114,3 @@ def test_true_is_no_number(name, value):
     options = {"levels": 1, "repair": "mend", "interpolation": "approximate", name: value}
     for call in (df.fair, df.Solver):
         assert code_of(call, POINTS, FACES, **options) in ("BAD_OPTION", "BAD_SHAPE")
-
-
-def test_true_is_no_number_in_a_list_either():
-    count = len(POINTS)
-    for option in (
-        {"tolerance": [True] + [0.1] * (count - 1)},
-        {"weights": [1.0] * (count - 1) + [True]},
-        {"normals": [[0, 0, True]] * count},
-        {"corner_vertices": [0, True]},
-        {"crease_edges": [(0, True)]},
-        {"region": [0, True]},
-        {"shapes": [[[0, 0, True]] * count]},
-    ):
-        assert code_of(df.fair, POINTS, FACES, 1, **option) == "BAD_SHAPE"
-    assert code_of(df.fair, POINTS, [[0, True, 2], *FACES[1:].tolist()], 1) == "BAD_SHAPE"
-    for number in ({"vertex_count": True}, {"levels": True}, {"shapes": True}):
-        arguments = {"vertex_count": count, "faces": FACES, "levels": 1} | number
-        assert code_of(df.predicted_size, **arguments) == "BAD_OPTION"
-    for tolerance in ({"tolerance": True}, {"normal_tolerance": True}, {"threads": True}):
-        assert code_of(df.fit_patches, POINTS, FACES, **tolerance) == "BAD_OPTION"

@@ -49,32 +49,6 @@ def test_area_falls_and_the_surface_passes_through_every_vertex(name, energy):
         assert not told or (tension == 1 and energy == "total_curvature")
 
 
-@pytest.mark.parametrize("energy", ENERGIES)
-@pytest.mark.parametrize("joint", ("position", "tangent", "curvature"))
-def test_a_region_knows_nothing_of_the_rest(joint, energy):
-    vertices, faces = meshes.wavy_patch(9, 9)
-    away = np.abs(vertices[faces].mean(1)[:, :2] - vertices.mean(0)[:2]).max(1)
-    region = np.flatnonzero(away < 0.25 * np.ptp(vertices[:, 0]))
-    outside = np.setdiff1d(np.arange(len(faces)), region)
-    around = np.setdiff1d(faces[outside], faces[region])
-    middle = vertices.mean(0)
-    moved = vertices.copy()  # other edge lengths outside, and another area
-    moved[around] = middle + [1.5, 1.5, 1] * (vertices[around] - middle)
-    options = {"levels": 2, "region": region, "joint": "position", "energy": energy}
-    points = {}
-    for key, positions in (("one", vertices), ("other", moved)):
-        result = tight.fair(positions, faces, tension=0.8, **options)
-        inside = np.unique(result.triangles[np.isin(result.triangle_polygon, region)])
-        points[key] = result.vertices[inside]
-        slack = tight.fair(positions, faces, **options).vertices
-        kept = np.setdiff1d(np.arange(len(slack)), inside)
-        assert np.array_equal(slack[kept], result.vertices[kept])
-        assert np.abs(slack - result.vertices).max() > 1e-4
-    assert np.abs(points["one"] - points["other"]).max() < 1e-5
-    result = tight.fair(vertices, faces, tension=0.8, **{**options, "joint": joint})
-    assert result.report["converged"]
-
-
 @pytest.mark.parametrize("name", ("icosahedron", "octahedron", "cube", "random_hull"))
 def test_spheres_flatten_towards_their_hulls(name):
     vertices, faces = mesh_of(name)

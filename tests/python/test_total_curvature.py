@@ -115,34 +115,6 @@ def test_a_free_boundary_is_lower(name):
     assert not np.array_equal(free.vertices, plate.vertices)
 
 
-def test_creases_are_the_thin_plates():
-    """The rim of a can, and a ridge whose slopes move; to the last bit."""
-    (vertices, faces), loop, *_ = meshes.drum()
-    slopes, ridge = meshes.roof()
-    for mesh, edges in (((vertices, faces), loop), (slopes, ridge)):
-        curved = fair(mesh, 3, crease_edges=edges)
-        plate = tight.fair(*mesh, 3, crease_edges=edges)
-        same = (curved.vertices == plate.vertices).all(1)
-        assert (
-            curved.report["curvature"][-1]["energy"]
-            < curved.report["curvature"][-1]["plate_energy"]
-        )
-        assert same[: len(mesh[0])].all()
-        assert 8 * len(edges) <= same.sum() < len(same) / 2
-    ring = np.arange(len(loop))
-    curve = {p.tobytes() for p in tight.fair(*caps(vertices[ring]), 3).vertices}
-    found = {p.tobytes() for p in fair((vertices, faces), 3, crease_edges=loop).vertices}
-    assert len(curve & found) >= 8 * len(loop)
-
-
-def caps(rim: np.ndarray):
-    """A cone over a closed polyline: its boundary curve is that of the same crease."""
-    k = np.arange(len(rim))
-    return np.concatenate([rim, [[0, 0, 1.0]]]), np.stack(
-        [k, (k + 1) % len(rim), 0 * k + len(rim)], -1
-    )
-
-
 def test_a_shape_of_the_same_positions_is_the_same_surface():
     vertices, faces = meshes.creature()
     result = fair((vertices, faces), 2, shapes=[vertices, vertices * [1, 1, 1.2]])

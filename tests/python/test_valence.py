@@ -41,12 +41,3 @@ def test_level_beyond_the_direct_limit_is_solved():
     """Narrow levels have small factors; without one this takes minutes."""
     report = df.fair(*disc(2000), 3).report
     assert report["levels"][-1]["direct"] and report["converged"]
-
-
-def test_steps_end_where_rounding_begins():
-    """Faces of 1 by 1/1500 leave their factor few digits; iterations on the rest were in vain."""
-    report = df.fair(*disc(4000), 2, energy="total_curvature", measure=False).report
-    coarse, fine = report["curvature"]
-    assert coarse["converged"] and fine["energy"] < 0.01 * fine["plate_energy"]
-    told = any(warning["code"].startswith("NOT_CONVERGED") for warning in report["warnings"])
-    assert fine["converged"] or told
