@@ -20,7 +20,7 @@ void bind_fill(pybind11::module_& m);
 // Adds mended(), to_flip() and joined(), which the package's clean() uses.
 void bind_clean(pybind11::module_& m);
 
-// Adds require_strain(), strain() and ease(), which the package wraps.
+// Adds strain() and ease(), which the package wraps.
 void bind_strain(pybind11::module_& m);
 
 // Adds fit(), which the package wraps.

@@ -73,7 +73,6 @@ py::dict ease_arrays(const Contiguous<double>& vertices, const Contiguous<std::i
 }  // namespace
 
 void bind_strain(py::module_& m) {
-  m.def("require_strain", [](const FairOptions& options) { options_of_strain(options); });
   m.def("strain", &strain_of_arrays, py::arg("vertices").noconvert(),
         py::arg("corners").noconvert(), py::arg("offsets").noconvert(), py::arg("options"),
         py::arg("monitor"), py::arg("progress"), "discrete_fairing.strain on plain arrays.");

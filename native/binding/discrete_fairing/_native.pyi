@@ -140,7 +140,6 @@ def fit(
     monitor: Monitor,
     progress: _Progress,
 ) -> dict[str, Any]: ...
-def require_strain(options: Options, /) -> None: ...
 def ease(
     vertices: np.ndarray,
     corners: np.ndarray,

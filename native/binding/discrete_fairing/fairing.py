@@ -16,7 +16,6 @@ from .halves import Control
 from .matching import match_border, require_matchable
 from .options import Settings
 from .result import Result
-from .strain import require_strain, strain_of
 from .watching import Progress, check_watchers
 
 
@@ -31,7 +30,6 @@ def fair(
     border: ArrayLike | None = None,
     halfway: bool = False,
     shapes: ArrayLike | Sequence[ArrayLike] | None = None,
-    strain: bool = False,
     progress: Progress | None = None,
     monitor: _native.Monitor | None = None,
     **settings: Unpack[Settings],
@@ -71,10 +69,6 @@ def fair(
         Further positions of the same control vertices, such as shape keys. Their surfaces
         (result.shapes) use the charts and stencils of `vertices`, so the surface is linear in the
         positions.
-    strain : bool
-        Measure strain (result.strain, report["strain"]) as strain() does; with total curvature that of
-        the thin plate through the same vertices. Not with minimum variation, which has no pads, and
-        not if vertices may move.
     progress : callable(fraction, phase)
         Called from this thread some 40 times a second; returning False cancels.
     monitor : Monitor
@@ -107,15 +101,8 @@ def fair(
         if half:
             beside = half.beside(*beside)
             border = None if border is None else half.with_images("border", "vertex", border)
-    if strain:
-        require_strain(control.settings)
     with control.named():
         found = _native.fair(*control.arrays, others, control.options, watch, progress)
         if beside is not None:
             match_border(found, control, beside, border, halfway)
-    result = Result(written_report(control.cut(found)))
-    if strain:
-        strained = strain_of(control, watch)
-        result.strain = strained.lengths
-        result.report["strain"] = strained.report()
-    return result
+    return Result(written_report(control.cut(found)))

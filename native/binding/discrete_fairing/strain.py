@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from . import _native
 from .halves import Control
-from .options import AllSettings, native_options
+from .options import AllSettings
 from .watching import Progress, check_watchers
 
 # Root mean square strain, away from curves, caused by unit scatter: 1.31 to 1.40 on grids of quads and of
@@ -60,19 +60,6 @@ class Strain:
         worst = self.worst(len(self.excess))
         return worst[self._is_wrong[worst]]
 
-    def report(self) -> dict[str, Any]:
-        """Largest excess with its sign, its vertex (-1: none), floor, wrong vertices, noise."""
-        worst = self.worst(1)
-        vertex = int(worst[0]) if len(worst) else -1
-        largest = float(self.excess[vertex]) if len(worst) else 0.0
-        return {
-            "largest": largest,
-            "vertex": vertex,
-            "floor": self.floor,
-            "wrong": self.wrong.tolist(),
-            "noise": self.noise,
-        }
-
     def __repr__(self) -> str:
         worst = self.worst(1)
         largest = f", {self.excess[worst[0]]:.3g} at vertex {worst[0]}" if len(worst) else ""
@@ -108,31 +95,7 @@ def strain(
     """
     check_watchers(progress, monitor)
     control = Control(vertices, faces, dict(settings), symmetry_plane)
-    return _measured(control, control.options, monitor, progress)
-
-
-def strain_of(control: Control, monitor: _native.Monitor) -> Strain:
-    """strain() for fair(); under total curvature the strain of the thin plate it starts from."""
-    return _measured(control, native_options(_of_plate(control.settings)), monitor, None)
-
-
-def require_strain(settings: dict[str, Any]) -> None:
-    """Raises the errors that strain_of() raises for these settings."""
-    _native.require_strain(native_options(_of_plate(settings)))
-
-
-def _of_plate(settings: dict[str, Any]) -> dict[str, Any]:
-    if settings.get("energy") != "total_curvature":
-        return settings
-    return settings | {"energy": "thin_plate"}
-
-
-def _measured(
-    control: Control,
-    options: _native.Options,
-    monitor: _native.Monitor | None,
-    progress: Progress | None,
-) -> Strain:
+    watch = monitor or _native.Monitor()
     with control.named():
-        found = _native.strain(*control.arrays, options, monitor or _native.Monitor(), progress)
+        found = _native.strain(*control.arrays, control.options, watch, progress)
     return Strain(found, control.count)
