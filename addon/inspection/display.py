@@ -81,9 +81,7 @@ def write_colours(mesh: Mesh, mode: str, settings: Any) -> None:
         limit = settings.fixed_deviation if mode == "DEVIATION" else settings.fixed_range
         limits = (-limit if signed else 0.0, limit)
     else:
-        limits = measures.value_range(
-            values, inner, signed, settings.range_low, settings.range_high
-        )
+        limits = measures.value_range(values, inner, signed)
     rgba = measures.colours_of(values, limits, signed)
     if bare is not None:
         rgba = rgba[corners]

@@ -108,11 +108,9 @@ def _same_way(arrays: ControlArrays) -> np.ndarray:
     return total != 1
 
 
-def value_range(
-    values: np.ndarray, inner: np.ndarray, signed: bool, low: float, high: float
-) -> tuple[float, float]:
-    """(lowest, highest): percentiles of the `inner` `values`; `signed`: symmetric about zero."""
-    below, above = percentiles(values[inner], low, high)
+def value_range(values: np.ndarray, inner: np.ndarray, signed: bool) -> tuple[float, float]:
+    """(lowest, highest) of the `inner` `values` without a few extremes; `signed`: symmetric about zero."""
+    below, above = percentiles(values[inner], 2.0, 98.0)
     if signed:
         above = max(abs(below), abs(above))
         below = -above

@@ -169,27 +169,6 @@ class FAIRING_PG_inspection(bpy.types.PropertyGroup):
         default=True,
         update=_drawing_changed,
     )
-    range_low: FloatProperty(
-        name="Range from",
-        description="This share of the vertices may lie below the lowest colour, so that a few extremes "
-        "do not use up all the colours",
-        default=2.0,
-        min=0.0,
-        max=49.0,
-        precision=1,
-        subtype="PERCENTAGE",
-        update=_range_changed,
-    )
-    range_high: FloatProperty(
-        name="to",
-        description="This share of the vertices lies below the highest colour; the rest have the highest colour",
-        default=98.0,
-        min=51.0,
-        max=100.0,
-        precision=1,
-        subtype="PERCENTAGE",
-        update=_range_changed,
-    )
     use_fixed_range: BoolProperty(
         name="Fixed Range",
         description="The same colours for the same curvature on every object, so that they can be compared",

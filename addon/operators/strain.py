@@ -6,7 +6,7 @@ from typing import Any, cast
 
 import bpy
 import numpy as np
-from bpy.props import EnumProperty, FloatProperty, IntProperty, StringProperty
+from bpy.props import EnumProperty, IntProperty, StringProperty
 from mathutils import Vector
 
 from ..blender import Context, Object
@@ -20,7 +20,7 @@ from ..mesh.world_shape import transformed, world_matrix
 from ..poll import Reason, of_meshes
 from ..strain import known, table, words
 from ..strain.measure import StrainJob
-from ..strain.strained import Strained, above
+from ..strain.strained import Strained
 from ..units import Units
 from .fair import WholeFairing, can_fair
 from .mixins import Action, Shown
@@ -92,24 +92,14 @@ class OBJECT_OT_fairing_select_strained(Shown, _Straining, bpy.types.Operator):
                 "Vertices whose strain exceeds the scatter and that of their neighbours",
             ),
             ("COUNT", "The Worst", "So many"),
-            ("THRESHOLD", "By More than", "Vertices whose strain exceeds a length"),
         ),
     )
     count: IntProperty(
         name="Number", description="How many vertices", default=3, min=1, soft_max=30
     )
-    threshold: FloatProperty(
-        name="Strain",
-        description="Selects vertices whose strain exceeds this",
-        default=0.01,
-        min=0.0,
-        soft_max=1.0,
-        precision=4,
-        subtype="DISTANCE",
-    )
 
     def shown(self, _context: Context) -> Iterable[str]:
-        return ("by",) if self.by == "FLOOR" else ("by", self.by.lower())
+        return ("by",) if self.by == "FLOOR" else ("by", "count")
 
     def use(self, context: Context, jobs: list[StrainJob]) -> None:
         wanted: list[Any] = []
@@ -121,16 +111,13 @@ class OBJECT_OT_fairing_select_strained(Shown, _Straining, bpy.types.Operator):
             if len(chosen):
                 said = words.found(chosen, strained.lengths, text, strained.names)
             else:
-                threshold = self.threshold if self.by == "THRESHOLD" else strained.floor
-                said = words.none_above(threshold, strained.largest, text)
+                said = words.none_above(strained.floor, strained.largest, text)
             self.report({"INFO"}, f"{job.name}: {said}")
             wanted.append((job.reference.find(), [("vertex", chosen.tolist())]))
         select_in_all(context, wanted)
 
     def _chosen(self, strained: Strained) -> np.ndarray:
-        if self.by == "COUNT":
-            return strained.worst(self.count)
-        return strained.wrong if self.by == "FLOOR" else above(strained.lengths, self.threshold)
+        return strained.wrong if self.by == "FLOOR" else strained.worst(self.count)
 
 
 class OBJECT_OT_fairing_crease_knuckle(_Straining, bpy.types.Operator):

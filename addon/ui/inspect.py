@@ -40,6 +40,7 @@ class VIEW3D_PT_fairing_inspect(Sidebar, bpy.types.Panel):
         if target is not None:
             draw_sections(layout, target, context.scene.discrete_fairing_inspection)
         layout.operator("object.fairing_measure", icon="DRIVER_DISTANCE")
+        layout.operator("object.fairing_compare", icon="MOD_ARRAY")
         record = recall(target, "readout") if target is not None else None
         if target is not None and record is not None:
             _draw_readout(layout, context, target, record)
@@ -56,10 +57,6 @@ def draw_range(layout: bpy.types.UILayout, settings: Any, mode: str) -> None:
     layout.prop(settings, "use_fixed_range")
     if settings.use_fixed_range:
         layout.prop(settings, "fixed_deviation" if mode == "DEVIATION" else "fixed_range")
-    else:
-        column = layout.column(align=True)
-        column.prop(settings, "range_low")
-        column.prop(settings, "range_high")
 
 
 def draw_sections(layout: bpy.types.UILayout, target: Object, settings: Any) -> None:

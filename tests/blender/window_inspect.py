@@ -51,7 +51,7 @@ def test_zebra_and_curvature_are_seen():
 def test_one_click_puts_the_energies_side_by_side():
     harness.add_suzanne()
     bpy.context.scene.discrete_fairing.levels = 2
-    yield from harness.unfold_panels("VIEW3D_PT_fairing_inspect", "VIEW3D_PT_fairing_compare")
+    yield from harness.unfold_panels("VIEW3D_PT_fairing_inspect")
     assert harness.call(bpy.ops.object.fairing_compare, "INVOKE_DEFAULT") == {"RUNNING_MODAL"}
     yield from harness.until_it_ends()
     names = ["Suzanne Bending", "Suzanne Curvature", "Suzanne Flow Lines"]
