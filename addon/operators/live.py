@@ -21,20 +21,10 @@ _MODES = {"OBJECT", "EDIT_MESH", "SCULPT"}
 
 
 class OBJECT_OT_fairing_live(Action, bpy.types.Operator):
-    """Update the surface while you edit the control mesh; makes one if there is none"""
+    """Update the surface while you edit the control mesh, or no longer; makes one if there is none"""
 
     bl_idname = "object.fairing_live"
     bl_label = "Live"
-
-    state: bpy.props.EnumProperty(
-        name="State",
-        description="What to do with Live",
-        items=(
-            ("TOGGLE", "Toggle", "On if it is off, off if it is on"),
-            ("ON", "On", "The surface follows its source"),
-            ("OFF", "Off", "The surface stays as it is, at its full level"),
-        ),
-    )
 
     @staticmethod
     def _active_reason(context: Context) -> str:
@@ -51,8 +41,7 @@ class OBJECT_OT_fairing_live(Action, bpy.types.Operator):
 
     def act(self, context: Context) -> None:
         targets = switch.active_surfaces(context)
-        on = self.state == "ON" or (self.state == "TOGGLE" and not any(map(switch.is_on, targets)))
-        if not on:
+        if any(map(switch.is_on, targets)):
             for target in targets:
                 switch.switch_off(target, context)
             return

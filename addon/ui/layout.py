@@ -195,13 +195,11 @@ FOLDED = (
 )
 
 
-def draw_settings(
-    layout: bpy.types.UILayout, settings: FairingSettings, identifier: str, triangle_text: str = ""
-) -> None:
+def draw_settings(layout: bpy.types.UILayout, settings: FairingSettings, identifier: str) -> None:
     """All settings, the rare ones folded; Blender stores under `identifier` which are open."""
     layout.use_property_split = True
     layout.use_property_decorate = False
-    draw_job(layout, settings, Known(triangle_text))
+    draw_job(layout, settings)
     draw_shape(layout, settings)
     draw_folded(layout, settings, identifier)
 

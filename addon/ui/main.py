@@ -85,23 +85,11 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
         settings = active_settings(context)
         if memory is None and followed is None:
             _draw_purposes(layout)
-        sources = _sources(context, memory)
-        triangles = sum(coarse_triangles(o.data) for o in sources) * 4**settings.levels
-        found = [shown_settings(settings, source) for source in sources]
-        limit = any(own is not None and is_limit(own) for own in found)
-        known = Known(
-            _size_text(settings, sources, triangles),
-            tolerance_text(context, settings, sources),
-            "" if memory is None else _held_text(memory),
-            missing_groups(settings, sources),
-            boundary_marks.summary(o for o in sources if len(o.data.edges) <= _MEASURED),
-            normals_text(settings, sources),
-            flats_text(settings, sources, limit),
-            vertices_text(found, settings, sources),
-            limit,
-        )
         near = _near_scans(context) if memory is not None else None
         job = "SCAN_SURFACE" if near is not None else job_of(settings)
+        sources = _sources(context, memory)
+        triangles = sum(coarse_triangles(o.data) for o in sources) * 4**settings.levels
+        known = _known(context, settings, sources, triangles, memory)
         draw_job(layout, settings, known, job)
         if near is not None:
             for name in amount_names(near):
@@ -121,13 +109,7 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
             _draw_button(layout, "object.fairing_recompute", "FILE_REFRESH", "Recompute")
             _draw_places(layout, memory)
         elif followed is None:
-            text = "Fair Selected Faces" if settings.use_selection else "Fair Surface"
-            _draw_button(layout, "object.fairing_surface", "SURFACE_DATA", text)
-            if not sources:
-                layout.label(text="Select a mesh object first", icon="INFO")
-            if context.mode == "EDIT_MESH" and settings.use_selection:
-                layout.operator("object.fairing_in_place", icon="MOD_SMOOTH")
-            draw_stale_surfaces(layout, context.active_object)
+            _draw_surface(layout, context, settings, bool(sources))
         draw_live(layout, context)
         if memory is not None:
             _draw_neighbour(layout, memory)
@@ -143,6 +125,41 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
             draw_shape(more, settings, known)
             _draw_flats(more, bool(known.flats))
             draw_folded(more, settings, "fairing")
+
+
+def _known(
+    context: Context,
+    settings: FairingSettings,
+    sources: list[Object],
+    triangles: int,
+    memory: FAIRING_PG_surface | None,
+) -> Known:
+    found = [shown_settings(settings, source) for source in sources]
+    limit = any(own is not None and is_limit(own) for own in found)
+    return Known(
+        _size_text(settings, sources, triangles),
+        tolerance_text(context, settings, sources),
+        "" if memory is None else _held_text(memory),
+        missing_groups(settings, sources),
+        boundary_marks.summary(o for o in sources if len(o.data.edges) <= _MEASURED),
+        normals_text(settings, sources),
+        flats_text(settings, sources, limit),
+        vertices_text(found, settings, sources),
+        limit,
+    )
+
+
+def _draw_surface(
+    layout: bpy.types.UILayout, context: Context, settings: FairingSettings, has_source: bool
+) -> None:
+    """The button that makes a surface."""
+    text = "Fair Selected Faces" if settings.use_selection else "Fair Surface"
+    _draw_button(layout, "object.fairing_surface", "SURFACE_DATA", text)
+    if not has_source:
+        layout.label(text="Select a mesh object first", icon="INFO")
+    if context.mode == "EDIT_MESH" and settings.use_selection:
+        layout.operator("object.fairing_in_place", icon="MOD_SMOOTH")
+    draw_stale_surfaces(layout, context.active_object)
 
 
 def remembered(context: Context) -> FAIRING_PG_surface | None:

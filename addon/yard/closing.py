@@ -27,29 +27,27 @@ class Whole:
     rim: np.ndarray  # (k, 2) edges between hull and caps, and between deck and transom
 
 
-def whole(positions: np.ndarray, corners: np.ndarray, offsets: np.ndarray, axis: int = 1) -> Whole:
-    """The closed hull of a half that ends in the plane across `axis`; raises NotHalf."""
+def whole(positions: np.ndarray, corners: np.ndarray, offsets: np.ndarray) -> Whole:
+    """The closed hull of a half that ends in the plane y = 0; raises NotHalf."""
     if not len(corners):
         raise NotHalf("it has no faces")
     sizes = np.diff(offsets)
     half = positions.astype(float)
-    middle = np.abs(half[:, axis]) <= _NEAR * np.ptp(half, axis=0).max(initial=0.0)
-    half[middle, axis] = 0.0
-    if (half[:, axis] < 0.0).any() and (half[:, axis] > 0.0).any():
-        raise NotHalf(f"it crosses the plane {'XYZ'[axis]} = 0: only one half may be there")
+    middle = np.abs(half[:, 1]) <= _NEAR * np.ptp(half, axis=0).max(initial=0.0)
+    half[middle, 1] = 0.0
+    if (half[:, 1] < 0.0).any() and (half[:, 1] > 0.0).any():
+        raise NotHalf("it crosses the plane Y = 0: only one half may be there")
     open_sides = module().borders.border_edges(corners, offsets)[0]
     in_middle = middle[open_sides].all(axis=1)
     if not in_middle.any():
-        raise NotHalf(
-            f"no edge lies in the plane {'XYZ'[axis]} = 0: move the middle of the hull there"
-        )
+        raise NotHalf("no edge lies in the plane Y = 0: move the middle of the hull there")
     rim = open_sides[~in_middle]
     _require_ends(rim, middle)
     image = np.arange(len(half))
     sides = np.flatnonzero(~middle)
     image[sides] = len(half) + np.arange(len(sides))
     turned = _turned(corners, offsets)
-    mirrored = half[sides] * np.where(np.arange(3) == axis, -1.0, 1.0)
+    mirrored = half[sides] * [1.0, -1.0, 1.0]
     caps = [list(dict.fromkeys((w, v, image[v], image[w]))) for v, w in rim.tolist()]
     all_corners = [corners, image[turned], *(np.array(cap) for cap in caps)]
     all_sizes = np.concatenate([sizes, sizes, np.array([len(cap) for cap in caps], int)])

@@ -24,7 +24,7 @@ def surface_of(source):
 def live(active):
     """Switches Live on for `active`, a source or a surface, and returns the surface."""
     activate(active)
-    assert bpy.ops.object.fairing_live(state="ON") == {"FINISHED"}
+    assert bpy.ops.object.fairing_live() == {"FINISHED"}
     follow()
     return active if active.discrete_fairing.source else surface_of(active)
 

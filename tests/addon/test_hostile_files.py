@@ -13,9 +13,9 @@ from addon.inspection import display
 from addon.live import handlers
 from addon.memory import keep, recall, unset_unsound_settings
 from addon.registration import classes_of
-from addon.ui import check, compare, inspect, main
+from addon.ui import check, inspect, main
 
-PANELS = [panel for module in (main, check, inspect, compare) for panel in classes_of(module)]
+PANELS = [panel for module in (main, check, inspect) for panel in classes_of(module)]
 DEEP = "[" * 100_000 + "]" * 100_000
 VALUES = (None, -1, 10**400, float("nan"), "x", [{}], {"x": "x"})
 RECORDS = ("report", "readout", "carried", "made", "defects")

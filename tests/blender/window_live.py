@@ -54,7 +54,7 @@ def open_scene(levels, live_levels, energy="THIN_PLATE", add=harness.add_suzanne
     settings = bpy.context.scene.discrete_fairing
     settings.levels, settings.energy = levels, energy
     yield from harness.open_sidebar("Fairing")
-    assert harness.call(bpy.ops.object.fairing_live, state="ON") == {"FINISHED"}
+    assert harness.call(bpy.ops.object.fairing_live) == {"FINISHED"}
     target = bpy.data.objects[f"{source.name} Fair"]
     target.discrete_fairing_live.levels = live_levels
     yield from wait_for_the_full_level(target, levels)

@@ -133,7 +133,7 @@ def test_with_modifiers_of_a_source_that_may_be_hidden(source, hidden):
     assert session(target).updates == updates, "what stands in for the source is no edit"
     modifier.count = 2
     follow()
-    bpy.ops.object.fairing_live(state="OFF")
+    bpy.ops.object.fairing_live()
     assert len(target.data.polygons) == 12 * 4**3, "the last edit too, without a timer"
 
 
@@ -148,7 +148,7 @@ def test_a_region_is_that_of_the_beginning(source):
         face.select = False
     pull(source)
     assert not np.array_equal(positions(target.data), before)
-    bpy.ops.object.fairing_live(state="OFF")
+    bpy.ops.object.fairing_live()
     assert len(target.data.polygons) == 6 * 4**3
 
 

@@ -116,7 +116,7 @@ def test_another_file_ends_it(tmp_path):
     target = bpy.data.objects["Box Fair"]
     assert not target.discrete_fairing_live.on and target.discrete_fairing_live.levels == 1
     pull(bpy.data.objects["Box"])
-    assert bpy.ops.object.fairing_live(state="ON") == {"FINISHED"}
+    assert bpy.ops.object.fairing_live() == {"FINISHED"}
 
 
 @pytest.mark.parametrize("which, reason", [("source", "source"), ("target", "surface")])

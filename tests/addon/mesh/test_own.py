@@ -122,7 +122,7 @@ def test_live_and_its_full_level_keep_it(source):
     pull(source)
     assert len(target.data.polygons) == 6 * 4 and "Mine" in target.vertex_groups
     assert target.data["note"] == "by hand"
-    bpy.ops.object.fairing_live(state="OFF")
+    bpy.ops.object.fairing_live()
     assert len(target.data.polygons) == 6 * 4**3
     assert np.array_equal(values(target.data, "height"), heights), "not by way of the live level"
 
@@ -168,7 +168,7 @@ def test_a_file_saved_in_mid_edit_has_the_keys(tmp_path):
     assert names_of_keys(target) == ["Basis", "Bump"]
     pull(source)
     assert not names_of_keys(target)
-    bpy.ops.object.fairing_live(state="OFF")
+    bpy.ops.object.fairing_live()
     key = target.data.shape_keys.key_blocks["Bump"]
     moved = np.linalg.norm([k.co - v.co for k, v in zip(key.data, target.data.vertices)], axis=1)
     # as on the full level

@@ -101,6 +101,6 @@ def test_the_panel_of_a_source_has_the_settings_of_what_follows_it(source):
     settings.energy = "TOTAL_CURVATURE"
     handlers.on_timer()
     assert not np.array_equal(positions(target.data), before)
-    bpy.ops.object.fairing_live(state="OFF")
+    bpy.ops.object.fairing_live()
     assert "object.fairing_surface" in draw(main.VIEW3D_PT_fairing)
     assert main.active_settings(bpy.context) == scene
