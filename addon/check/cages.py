@@ -35,7 +35,8 @@ def wants_limit(settings: Settings, cage: core.ControlArrays) -> bool:
     """
     uses = cage.edge_uses
     marked = cage.flat_face is not None and cage.flat_face.any()
-    if not _is_auto(settings) or marked or not np.isin(uses, (0, 2)).all():
+    is_closed = uses.any() and np.isin(uses, (0, 2)).all()
+    if not _is_auto(settings) or marked or not is_closed:
         return False
     sharp = np.zeros(len(uses), bool)
     if settings.use_crease_attribute and cage.edge_crease is not None:
