@@ -300,7 +300,8 @@ void FairingSystems::write(const ControlPositions& control, bool measured, Stopw
   }
   const RepairedPlate repaired = without_folds(control, report, x);
   x = repaired.x;
-  warn_of_thickness(finest(), *problem_.workers, x, problem_.options, report);
+  warn_of_thickness(finest(), *problem_.workers, x,
+                    reference_.empty() ? nullptr : reference_.data(), problem_.options, report);
   if (measured) {
     watch.enter(Phase::measure, 0.75);
     report.result = energies(x);

@@ -154,7 +154,7 @@ void warn_straightened(const ControlMesh& mesh, const std::vector<Index>& edges,
 }
 
 void warn_of_thickness(const GridLevel& grid, Workers& workers, const double* x,
-                       const FairOptions& options, Report& report) {
+                       const double* subdivided, const FairOptions& options, Report& report) {
   if (grid.n() == 1) return;  // that of the control mesh
   const ControlMesh& mesh = grid.mesh();
   std::vector<Vec3> control;
@@ -162,7 +162,8 @@ void warn_of_thickness(const GridLevel& grid, Workers& workers, const double* x,
   // What an energy makes of flats is seen early on closed bodies.
   const bool of_flats = std::none_of(mesh.edges.begin(), mesh.edges.end(),
                                      [](const Edge& edge) { return edge.boundary(); });
-  const ThicknessChange change = Thickness(mesh, control, workers).of(grid, workers, x, of_flats);
+  const ThicknessChange change =
+      Thickness(mesh, control, workers).of(grid, workers, x, of_flats, subdivided);
   const auto add = [&](std::string_view code, const char* cause, const std::vector<Index>& faces,
                        bool is_thicker) {
     std::vector<std::int64_t> polygons;
@@ -178,8 +179,8 @@ void warn_of_thickness(const GridLevel& grid, Workers& workers, const double* x,
   char cause[120] = "{face} {has|have} a surface that has passed through the opposite side.";
   if (change.worst > -1)
     std::snprintf(cause, sizeof cause,
-                  "{face} {has|have} a surface that is up to %.3g times as thick as the mesh.",
-                  1 + change.worst);
+                  "{face} {has|have} a surface that is up to %.3g times as thick as the %s.",
+                  1 + change.worst, subdivided ? "subdivided mesh" : "mesh");
   add(thickness_changed, cause, change.faces, change.worst > 0);
   add(bulges, "{face} {has|have} a surface that bulges farther than they are wide.", change.bulging,
       true);

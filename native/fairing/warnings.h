@@ -29,8 +29,9 @@ void warn_straightened(const ControlMesh& mesh, const std::vector<Index>& edges,
 void warn_unconverged(const FairOptions& options, Report& report);
 
 // Adds a warning if the surface x on the finest level, in working coordinates, is thicker or
-// thinner than the control mesh (grid/thickness.h), with the faces, the amount and advice.
+// thinner than the control mesh (grid/thickness.h), with the faces, the amount and advice; or, if
+// the distance from it is penalized, than the subdivision surface, `subdivided`; else null.
 void warn_of_thickness(const GridLevel& grid, Workers& workers, const double* x,
-                       const FairOptions& options, Report& report);
+                       const double* subdivided, const FairOptions& options, Report& report);
 
 }  // namespace fairing

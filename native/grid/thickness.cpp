@@ -165,39 +165,53 @@ Thickness::Thickness(const ControlMesh& mesh, std::span<const Vec3> control, Wor
   opposite_ = opposite_faces(mesh, control, planes_, workers);
 }
 
-ThicknessChange Thickness::of(const GridLevel& grid, Workers& workers, const double* x,
-                              bool of_flats) const {
-  ThicknessChange out;
-  if (grid.n() == 1) return out;
-  // For each face the move of its centre from its plane, and of the point behind it from the other.
-  std::vector<double> away(planes_.size()), away_behind(planes_.size());
-  workers.for_each(away.size(), 64, [&](std::size_t f) {
+Thickness::Departures Thickness::departures(const GridLevel& grid, Workers& workers,
+                                            const double* x) const {
+  Departures out{std::vector<double>(planes_.size()), std::vector<double>(planes_.size())};
+  workers.for_each(planes_.size(), 64, [&](std::size_t f) {
     const auto departure = [&](std::size_t side, const Vec3& point) {
       return planes_[side].normal.dot(point - planes_[side].middle);
     };
-    away[f] = departure(f, middle(grid, Index(f), x));
+    out.here[f] = departure(f, middle(grid, Index(f), x));
     const Index o = opposite_[f].face;
-    if (o >= 0) away_behind[f] = departure(std::size_t(o), behind(grid, o, planes_[f], x));
+    if (o >= 0) out.behind[f] = departure(std::size_t(o), behind(grid, o, planes_[f], x));
   });
+  return out;
+}
+
+ThicknessChange Thickness::of(const GridLevel& grid, Workers& workers, const double* x,
+                              bool of_flats, const double* wanted) const {
+  ThicknessChange out;
+  if (grid.n() == 1) return out;
+  const Departures own = departures(grid, workers, x);
+  const Departures base = wanted ? departures(grid, workers, wanted) : Departures{};
+  const auto departed = [&](std::size_t f) {
+    return wanted ? own.here[f] - base.here[f] : own.here[f];
+  };
   std::vector<std::pair<Index, double>> seen;
   double swollen = 0;
   for (std::size_t f = 0; f < planes_.size(); ++f) {
     const Opposite& opposite = opposite_[f];
     if (mesh_.face_part(Index(f)) != RegionPart::inside) continue;
     if (opposite.face < 0) {
-      if (std::abs(away[f]) > highest_rise(mesh_.faces[f], planes_[f], turn_[f], x))
+      if (std::abs(departed(f)) > highest_rise(mesh_.faces[f], planes_[f], turn_[f], x))
         out.bulging.push_back(Index(f));
       continue;
     }
     const auto o = std::size_t(opposite.face);
     const double facing = std::abs(planes_[f].normal.dot(planes_[o].normal));
-    const double change = (away[f] + facing * away_behind[f]) / opposite.distance;
-    const double lifted = rounding_off(mesh_, f, planes_, x) / opposite.distance;
-    const double lifted_behind = facing * rounding_off(mesh_, o, planes_, x) / opposite.distance;
+    const double distance =
+        opposite.distance + (wanted ? base.here[f] + facing * base.behind[f] : 0.0);
+    if (!(distance > 0)) continue;  // what is wanted has passed through its opposite side
+    const double behind = wanted ? own.behind[f] - base.behind[f] : own.behind[f];
+    const double change = (departed(f) + facing * behind) / distance;
+    const double lifted = wanted ? 0.0 : rounding_off(mesh_, f, planes_, x) / distance;
+    const double lifted_behind =
+        wanted ? 0.0 : facing * rounding_off(mesh_, o, planes_, x) / distance;
     const double rounded = lifted + lifted_behind;
     const double otherwise =
         change - std::clamp(change, std::min(0.0, rounded), std::max(0.0, rounded));
-    const double square = opposite.distance * opposite.distance;
+    const double square = distance * distance;
     const bool is_thin = side_area_[f] > (1 + seen_share) * square;
     const bool is_flat = of_flats && otherwise > 0 &&
                          std::max(std::abs(lifted), std::abs(lifted_behind)) < unlifted_share;

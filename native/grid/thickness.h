@@ -11,7 +11,7 @@
 
 namespace fairing {
 
-// The change of thickness from the control mesh to a surface.
+// The change of thickness from the control mesh, or another surface over it, to a surface.
 struct ThicknessChange {
   // Control faces behind which the thickness differs from that of the mesh with its edges rounded
   // off: by over a fifth where the mesh is thin, elsewhere by more than the whole thickness. Thicker
@@ -38,11 +38,18 @@ class Thickness {
   Thickness(const ControlMesh& mesh, std::span<const Vec3> control, Workers& workers);
 
   // The change for the surface x on a level, 3 numbers a point. `of_flats`: flat faces are judged by
-  // a finer measure.
+  // a finer measure. `wanted`: the surface whose thickness x should have; null: the mesh with its
+  // edges rounded off.
   ThicknessChange of(const GridLevel& grid, Workers& workers, const double* x,
-                     bool of_flats = false) const;
+                     bool of_flats = false, const double* wanted = nullptr) const;
 
  private:
+  // For each face the move of its centre from its plane, and of the point behind it from the other.
+  struct Departures {
+    std::vector<double> here, behind;
+  };
+  Departures departures(const GridLevel& grid, Workers& workers, const double* x) const;
+
   const ControlMesh& mesh_;
   std::vector<FacePlane> planes_;
   std::vector<double> side_area_, turn_;

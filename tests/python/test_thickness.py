@@ -182,3 +182,36 @@ def test_a_solver_and_shapes_say_the_same():
     (of_shape,) = told(df.fair(cube, faces, 2, shapes=points[None], threads=1))
     assert of_shape["message"].startswith("Shape 0: 2 faces")
     assert of_shape["elements"] == one[0]["elements"]
+
+
+def rounded_case():
+    """A phone case without loops: walls 1.5 thick on rings of twelve vertices, one face for the floor."""
+
+    def ring(inset, z):
+        x, y, corner = 37.5 - inset, 75.0 - inset, 9.0 - inset
+        quarter = [(x, y - corner), (x - 0.3 * corner, y - 0.3 * corner), (x - corner, y)]
+        turns = [(1, 1, 1), (-1, 1, -1), (-1, -1, 1), (1, -1, -1)]
+        return [(sx * a, sy * b, z) for sx, sy, way in turns for a, b in quarter[::way]]
+
+    rings = [ring(0, 0), ring(0, 9), ring(1.5, 9), ring(1.5, 1.5)]
+    sides = [
+        [12 * k + i, 12 * k + (i + 1) % 12, 12 * k + 12 + (i + 1) % 12, 12 * k + 12 + i]
+        for k in range(3)
+        for i in range(12)
+    ]
+    return np.array(sum(rings, [])), [*sides, list(range(12))[::-1], list(range(36, 48))]
+
+
+@pytest.mark.parametrize("level", [2, 3])
+def test_at_limits_the_thickness_is_that_of_the_subdivided_mesh(level):
+    """Beside that of a polyhedron through the limits it seemed to be halved."""
+    report = df.fair(*rounded_case(), level, interpolation="limit").report
+    assert "THICKNESS_CHANGED" not in [warning["code"] for warning in report["warnings"]]
+
+
+def test_at_limits_swelling_is_told():
+    report = df.fair(
+        *rounded_case(), 2, "total_curvature", interpolation="limit", limit=1e-6
+    ).report
+    told = [w for w in report["warnings"] if w["code"] == "THICKNESS_CHANGED"]
+    assert "passed through the opposite side" in told[0]["cause"]
