@@ -167,12 +167,12 @@ std::vector<Vec3> joint_moments(const std::vector<Vec3>& c, const std::vector<do
 class CanonicalChain {
  public:
   CanonicalChain(const std::vector<Vec3>& parameters, const std::vector<Vec3>& vertices,
-                 bool closed, const CurveScheme& scheme)
+                 bool closed, const CurveScheme& scheme, const Beyond& beyond)
       : p_(parameters),
         c_(vertices),
         closed_(closed),
         scheme_(scheme),
-        straight_(tangent_lines(parameters, closed)),
+        straight_(tangent_lines(parameters, closed, beyond)),
         bends_(straight_.size(), {Vec3::Zero(), Vec3::Zero()}) {
     for (std::size_t s = 0; s < segments(); ++s)
       lengths_.push_back(std::pow((p_[next(s)] - p_[s]).norm(), scheme.exponent));
@@ -258,7 +258,7 @@ class CanonicalChain {
 }  // namespace
 
 std::vector<Vec3> refine_chain(std::span<const Vec3> parameters, std::span<const Vec3> vertices,
-                               bool closed, const CurveScheme& scheme) {
+                               bool closed, const CurveScheme& scheme, Beyond beyond) {
   if (vertices.size() < 2 || scheme.subdivisions < 2) return {};
   const std::size_t count = vertices.size(), segments = closed ? count : count - 1;
   const auto inner = std::size_t(scheme.subdivisions - 1);
@@ -272,8 +272,9 @@ std::vector<Vec3> refine_chain(std::span<const Vec3> parameters, std::span<const
     canonical_parameters.push_back(parameters[from] + Vec3::Zero());  // −0 becomes 0
     canonical.push_back(vertices[from] + Vec3::Zero());
   }
+  if (orders[0].backwards) std::swap(beyond.first, beyond.last);
   const std::vector<Vec3> refined =
-      CanonicalChain(canonical_parameters, canonical, closed, scheme).points();
+      CanonicalChain(canonical_parameters, canonical, closed, scheme, beyond).points();
 
   // If there are several orders, segments at the same place take the points of the first of them.
   std::vector<Vec3> points(segments * inner);

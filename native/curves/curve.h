@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/types.h"
+#include "curves/lines.h"
 
 namespace fairing {
 
@@ -31,8 +32,8 @@ struct CurveScheme {
 // first vertex: equal polylines give bit-identical points.
 //
 // The chord lengths and the order are those of `parameters`, which may be `vertices` themselves; with
-// others, the result is linear in `vertices`.
+// others, the result is linear in `vertices`. `beyond`, among the parameters, decides on lines alone.
 std::vector<Vec3> refine_chain(std::span<const Vec3> parameters, std::span<const Vec3> vertices,
-                               bool closed, const CurveScheme& scheme);
+                               bool closed, const CurveScheme& scheme, Beyond beyond = {});
 
 }  // namespace fairing

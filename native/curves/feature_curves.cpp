@@ -2,6 +2,8 @@
 #include "curves/feature_curves.h"
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 #include "parallel/cancel.h"
 
@@ -121,6 +123,30 @@ std::vector<Vec3> straight_points(std::span<const Vec3> vertices, bool closed, i
   return points;
 }
 
+// By chain: what lies beyond its ends, if it is a crease. Boundaries have nothing there: a mesh that
+// shares one may go on in another way.
+std::vector<Beyond> beyond_chains(const ControlMesh& mesh, std::span<const Vec3> positions) {
+  std::multimap<Index, std::pair<const Chain*, Index>>
+      ends;  // by vertex: its chains, their next one
+  for (const Chain& chain : mesh.chains) {
+    if (chain.closed) continue;
+    ends.emplace(chain.vertices.front(), std::pair(&chain, chain.vertices[1]));
+    ends.emplace(chain.vertices.back(), std::pair(&chain, *(chain.vertices.end() - 2)));
+  }
+  std::vector<Beyond> out(mesh.chains.size());
+  for (std::size_t c = 0; c < out.size(); ++c) {
+    const Chain& chain = mesh.chains[c];
+    if (chain.closed || mesh.edges[chain.edges[0]].boundary()) continue;
+    const auto collect = [&](Index end, std::vector<Vec3>& beyond) {
+      for (auto [at, last] = ends.equal_range(end); at != last; ++at)
+        if (at->second.first != &chain) beyond.push_back(positions[at->second.second]);
+    };
+    collect(chain.vertices.front(), out[c].first);
+    collect(chain.vertices.back(), out[c].last);
+  }
+  return out;
+}
+
 FeatureCurves refine_chains(const ControlMesh& mesh, std::span<const Vec3> parameters,
                             std::span<const Vec3> positions, const CurveScheme& scheme) {
   const bool own = positions.data() == parameters.data();
@@ -129,17 +155,19 @@ FeatureCurves refine_chains(const ControlMesh& mesh, std::span<const Vec3> param
   curves.run.assign(mesh.edges.size(), -1);
   const auto inner = std::size_t(curves.points_per_edge);
   Index runs = 0;
-  for (const Chain& chain : mesh.chains) {
+  std::vector<Beyond> beyond = beyond_chains(mesh, parameters);
+  for (std::size_t c = 0; c < mesh.chains.size(); ++c) {
+    const Chain& chain = mesh.chains[c];
     stop_if_cancelled();
     std::vector<Vec3> vertices, parameter_vertices;
     for (Index v : chain.vertices) {
       vertices.push_back(positions[v]);
       parameter_vertices.push_back(parameters[v]);
     }
-    std::vector<Vec3> points =
-        chain.straight
-            ? straight_points(vertices, chain.closed, scheme.subdivisions)
-            : refine_chain(own ? vertices : parameter_vertices, vertices, chain.closed, scheme);
+    std::vector<Vec3> points = chain.straight
+                                   ? straight_points(vertices, chain.closed, scheme.subdivisions)
+                                   : refine_chain(own ? vertices : parameter_vertices, vertices,
+                                                  chain.closed, scheme, std::move(beyond[c]));
     for (std::size_t k = 0; k < chain.edges.size(); ++k) {
       const auto edge = std::size_t(chain.edges[k]);
       curves.run[edge] = runs++;

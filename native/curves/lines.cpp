@@ -14,8 +14,9 @@ double sine(const Vec3& a, const Vec3& b) { return a.normalized().cross(b.normal
 
 class Lines {
  public:
-  Lines(std::span<const Vec3> vertices, bool closed)
+  Lines(std::span<const Vec3> vertices, bool closed, const Beyond& beyond)
       : vertices_(vertices),
+        beyond_(beyond),
         closed_(closed),
         count_(int(vertices.size())),
         segments_(closed ? count_ : count_ - 1) {}
@@ -71,14 +72,20 @@ class Lines {
   // direction `step`, but for rounding: smooth curves meet any tolerance by chance. A line is longer than the arc's first chord: else the arc, if it has one chord
   // only, may be a line that is tangent to a large circle through the line's ends.
   bool meets_arc(int from, int to, int step) const {
-    if (!has(to + 2 * step)) return false;
-    const Vec3 &end = at(to), &middle = at(to + step), &first = at(to + 2 * step);
-    const Vec3 line = at(from) - end, arc = tangent_of_circle(first, middle, end);
-    return line.norm() > (middle - end).norm() && line.dot(arc) > 0 &&
-           sine(line, arc) <= rounding(first, middle) + rounding(middle, end);
+    const Vec3 line = at(from) - at(to);
+    const auto is_arc = [&](const Vec3& first) {
+      const Vec3 &end = at(to), &middle = at(to + step);
+      const Vec3 arc = tangent_of_circle(first, middle, end);
+      return line.norm() > (middle - end).norm() && line.dot(arc) > 0 &&
+             sine(line, arc) <= rounding(first, middle) + rounding(middle, end);
+    };
+    if (has(to + 2 * step)) return is_arc(at(to + 2 * step));
+    const std::vector<Vec3>& beyond = step > 0 ? beyond_.last : beyond_.first;
+    return std::any_of(beyond.begin(), beyond.end(), is_arc);
   }
 
   std::span<const Vec3> vertices_;
+  const Beyond& beyond_;
   bool closed_;
   int count_, segments_;
 };
@@ -91,8 +98,9 @@ Vec3 tangent_of_circle(const Vec3& first, const Vec3& middle, const Vec3& end) {
   return a / a.squaredNorm() - b / b.squaredNorm();
 }
 
-std::vector<std::uint8_t> tangent_lines(std::span<const Vec3> vertices, bool closed) {
-  return Lines(vertices, closed).tangent();
+std::vector<std::uint8_t> tangent_lines(std::span<const Vec3> vertices, bool closed,
+                                        const Beyond& beyond) {
+  return Lines(vertices, closed, beyond).tangent();
 }
 
 }  // namespace fairing

@@ -14,9 +14,15 @@ namespace fairing {
 // one. It goes from `first` to `end`.
 Vec3 tangent_of_circle(const Vec3& first, const Vec3& middle, const Vec3& end);
 
+// Vertices to which other curves go from the two ends of an open chain.
+struct Beyond {
+  std::vector<Vec3> first, last;
+};
+
 // By segment of a chain: 1 if it belongs to a line that is tangent to the curve on its two sides, or
 // on the only one. A line has one segment, or several in one direction; its neighbour has the tangent
-// of the circle through its last three vertices.
-std::vector<std::uint8_t> tangent_lines(std::span<const Vec3> vertices, bool closed);
+// of the circle through its last three vertices, of which one may lie beyond the chain's end.
+std::vector<std::uint8_t> tangent_lines(std::span<const Vec3> vertices, bool closed,
+                                        const Beyond& beyond = {});
 
 }  // namespace fairing

@@ -213,6 +213,32 @@ def test_crease_angle_finds_the_same_creases():
     )
 
 
+def rounded_box(chords: int):
+    """A box of 75 by 150 by 9 with round upright edges, in the precision of files."""
+    angle = np.arange(4)[:, None] * np.pi / 2 + np.linspace(0, np.pi / 2, chords + 1)
+    arc = 9 * np.stack([np.cos(angle), np.sin(angle)], -1)
+    centre = [[28.5, 66], [-28.5, 66], [-28.5, -66], [28.5, -66]]
+    rim = (arc + np.array(centre)[:, None]).reshape(-1, 2).astype(np.float32).astype(float)
+    n, k = len(rim), np.arange(len(rim))
+    after = (k + 1) % n
+    vertices = np.concatenate([np.c_[rim, 0 * k], np.c_[rim, 0 * k + 9]])
+    sides = np.stack([k, after, n + after, n + k], -1).tolist()
+    return vertices, [k[::-1].tolist(), (n + k).tolist(), *sides]
+
+
+@pytest.mark.parametrize("chords", [2, 3, 5])
+def test_sides_of_a_rounded_box_stay_flat_beside_its_round_edges(chords):
+    """Two chords fold by 45 degrees, so the rims end there; three fold by 30 exactly and do not."""
+    vertices, faces = rounded_box(chords)
+    result = tight.fair(vertices, faces, 3, crease_angle=np.radians(30))
+    rims = 2 * 4 * (chords + 1)
+    assert len(result.crease_edges) == rims + (4 if chords == 2 else 0)
+    out = np.abs(result.vertices[:, :2]) - [37.5, 75]
+    assert out.max() < 0.1  # 2.3, 1.4 and 0.4 by splines through sides and round edges
+    on_rim = np.abs(result.vertices[:, 2] - 4.5) > 4.5 - 1e-9
+    assert out[on_rim].max() < 1e-4
+
+
 def test_a_corner_inside_a_surface_is_the_tip_of_a_cone():
     """The surface may come to a point there, with less energy; elsewhere it does not."""
     vertices, faces = meshes.closed_pole(12)
