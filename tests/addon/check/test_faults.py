@@ -30,7 +30,7 @@ def marked(target, kind):
 
 def test_an_inner_wall_that_breaks_through_is_told_and_its_places_can_be_selected(capfd):
     add("Mug", *mug(wall=0.1, around=12))
-    target = fair(levels=2, energy="TOTAL_CURVATURE")
+    target = fair(levels=2, energy="TOTAL_CURVATURE", interpolation="EXACT")
     said = capfd.readouterr().out
     assert "The surface crosses itself and bulges" in said
     assert "aise Tension" in said and "Limit or Near" in said and "Bending" in said
