@@ -15,7 +15,7 @@
 // At the ends of an open chain M is zero or that of the next vertex. N → ∞ gives the cubic spline.
 // A line that is tangent to its neighbours stays straight. The curve between two lines is an open
 // chain with the lines' tangents: 2 M_0 + M_1 = 6 / H [(c_1 − c_0)/H − f'_0]. Its speed f' there is
-// that of the circle through its first three vertices.
+// that of the circle with this tangent through its first two vertices.
 #include "curves/curve.h"
 
 #include <algorithm>

@@ -69,15 +69,14 @@ class Lines {
   }
 
   // Whether the line from vertex `from` to vertex `to` is tangent to the arc that follows, in the
-  // direction `step`, but for rounding: smooth curves meet any tolerance by chance. A line is longer than the arc's first chord: else the arc, if it has one chord
-  // only, may be a line that is tangent to a large circle through the line's ends.
+  // direction `step`, but for rounding: smooth curves meet any tolerance by chance.
   bool meets_arc(int from, int to, int step) const {
     const Vec3 line = at(from) - at(to);
     const auto is_arc = [&](const Vec3& first) {
       const Vec3 &end = at(to), &middle = at(to + step);
-      const Vec3 arc = tangent_of_circle(first, middle, end);
-      return line.norm() > (middle - end).norm() && line.dot(arc) > 0 &&
-             sine(line, arc) <= rounding(first, middle) + rounding(middle, end);
+      const Vec3 arc = tangent_of_arc(first, middle, end);
+      return line.dot(arc) > 0 &&
+             sine(line, arc) <= rounding(first, middle) + 2 * rounding(middle, end);
     };
     if (has(to + 2 * step)) return is_arc(at(to + 2 * step));
     const std::vector<Vec3>& beyond = step > 0 ? beyond_.last : beyond_.first;
@@ -92,10 +91,11 @@ class Lines {
 
 }  // namespace
 
-// An inversion at `end` maps the circle to a line along its tangent there.
-Vec3 tangent_of_circle(const Vec3& first, const Vec3& middle, const Vec3& end) {
-  const Vec3 a = first - end, b = middle - end;
-  return a / a.squaredNorm() - b / b.squaredNorm();
+// The arc turns by half as much from its last chord to its tangent as from chord to chord.
+Vec3 tangent_of_arc(const Vec3& first, const Vec3& middle, const Vec3& end) {
+  const Vec3 chord = (end - middle).normalized();
+  const Vec3 before = (chord + (middle - first).normalized()).normalized();
+  return 2 * chord.dot(before) * chord - before;
 }
 
 std::vector<std::uint8_t> tangent_lines(std::span<const Vec3> vertices, bool closed,

@@ -10,9 +10,9 @@
 
 namespace fairing {
 
-// Direction at `end` of the circle through three points, not normalized; along their line if they have
-// one. It goes from `first` to `end`.
-Vec3 tangent_of_circle(const Vec3& first, const Vec3& middle, const Vec3& end);
+// Direction at `end` of an arc that turns evenly along a polyline's last two chords, of unit length; it
+// goes on from there. All parallels to the polyline have the same one, as insets of an outline do.
+Vec3 tangent_of_arc(const Vec3& first, const Vec3& middle, const Vec3& end);
 
 // Vertices to which other curves go from the two ends of an open chain.
 struct Beyond {
@@ -20,8 +20,8 @@ struct Beyond {
 };
 
 // By segment of a chain: 1 if it belongs to a line that is tangent to the curve on its two sides, or
-// on the only one. A line has one segment, or several in one direction; its neighbour has the tangent
-// of the circle through its last three vertices, of which one may lie beyond the chain's end.
+// on the only one. A line has one segment, or several in one direction; its neighbour is the arc of the
+// next three vertices, of which one may lie beyond the chain's end.
 std::vector<std::uint8_t> tangent_lines(std::span<const Vec3> vertices, bool closed,
                                         const Beyond& beyond = {});
 
