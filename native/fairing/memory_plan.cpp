@@ -74,8 +74,8 @@ double factored_unknowns(const Counts& c, const FairOptions& options) {
 double bytes_of(const Counts& c, std::size_t shapes, const FairOptions& options) {
   const Costs& costs = costs_of(options.energy);
   const bool is_plate = options.energy == Energy::thin_plate;
-  const bool beside =
-      options.interpolation == Interpolation::limit || options.paper.method == Method::back_leg;
+  const bool on_surface = options.interpolation == Interpolation::limit;
+  const bool beside = on_surface || options.paper.method == Method::back_leg;
   const bool twice = beside || (is_plate && options.interpolation == Interpolation::approximate);
   double bytes = control_side * c.solved.sides() +
                  double(shapes * sizeof(Vec3)) * c.solved.points(options.levels) +
@@ -83,7 +83,7 @@ double bytes_of(const Counts& c, std::size_t shapes, const FairOptions& options)
   for (int l = 0; l <= options.levels; ++l) {
     const double points = c.solved.points(l);
     bytes += (costs.point + (beside ? surface_beside : 0)) * points;
-    if (has_rows(1 << l, std::size_t(points)))
+    if (has_rows(1 << l, std::size_t(points), on_surface))
       bytes += costs.row * c.unknown.points(l) + pair_of_neighbours * c.in_large_rings;
   }
   return bytes;

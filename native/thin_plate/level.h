@@ -128,9 +128,9 @@ class ThinPlateLevel final : public LevelOperator {
   void write_lines(LineBand& band, Workers& workers) override {
     if (matrix_)
       matrix_->write_lines(inverse_diagonal_, band, workers);
-    else if (!surface_)
-      write_plate_lines(grid_, shared_.stencils, shared_.unknowns, inverse_diagonal_, workers,
-                        band);
+    else
+      write_plate_lines(grid_, shared_.stencils, shared_.unknowns, inverse_diagonal_, workers, band,
+                        surface_.get());
   }
 
  private:

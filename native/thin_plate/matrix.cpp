@@ -161,7 +161,8 @@ bool suits(const GridLevel& grid, const Stencils& stencils) {
 std::unique_ptr<PlateMatrix> PlateMatrix::make(const GridLevel& grid, const Stencils& stencils,
                                                const Unknowns& unknowns, Workers& workers,
                                                const SurfaceRows* surface) {
-  if (!has_rows(grid.n(), grid.size()) || !suits(grid, stencils)) return nullptr;
+  if (!has_rows(grid.n(), grid.size(), surface != nullptr) || !suits(grid, stencils))
+    return nullptr;
   const PlateDifferences plate(grid, stencils, unknowns, workers, surface);
   const auto writer = [&] {
     return [rows = PlateRows(plate)](Index p, RowBuilder& row) mutable { rows.write(p, row); };

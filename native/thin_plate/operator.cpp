@@ -265,8 +265,10 @@ Array<float> thin_plate_diagonal(const GridLevel& grid, const Stencils& stencils
 }
 
 void write_plate_lines(const GridLevel& grid, const Stencils& stencils, const Unknowns& unknowns,
-                       const Array<float>& inverse_diagonal, Workers& workers, LineBand& band) {
-  write_ring_lines(grid, unknowns, inverse_diagonal, workers, PlateRingRows{grid, stencils}, band);
+                       const Array<float>& inverse_diagonal, Workers& workers, LineBand& band,
+                       const SurfaceRows* surface) {
+  write_ring_lines(grid, unknowns, inverse_diagonal, workers,
+                   PlateRingRows{grid, stencils, surface}, band);
 }
 
 double thin_plate_energy(const GridLevel& grid, const Stencils& stencils, Workers& workers,

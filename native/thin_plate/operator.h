@@ -43,7 +43,8 @@ Array<float> thin_plate_diagonal(const GridLevel& grid, const Stencils& stencils
 
 // As LevelOperator::write_lines(), without the membrane.
 void write_plate_lines(const GridLevel& grid, const Stencils& stencils, const Unknowns& unknowns,
-                       const Array<float>& inverse_diagonal, Workers& workers, LineBand& band);
+                       const Array<float>& inverse_diagonal, Workers& workers, LineBand& band,
+                       const SurfaceRows* surface = nullptr);
 
 // E(x) over all points, without the control vertices' weights and the membrane.
 double thin_plate_energy(const GridLevel& grid, const Stencils& stencils, Workers& workers,
