@@ -98,7 +98,8 @@ class Race {
     mesh_ = make_control_mesh(input.view(), options_.features, {});
     const Frame frame = working_frame(mesh_, mesh_.positions);
     for (Vec3& p : mesh_.positions) p = frame.to_working(p);
-    curves_ = refine_feature_edges(mesh_, 1 << levels, centripetal);
+    curves_ =
+        refine_feature_edges(mesh_, mesh_.positions, mesh_.positions, options_.curve_scheme());
     stencils_ = make_stencils(mesh_, ChartMaker(mesh_), workers_);
     unknowns_.vertex.assign(std::size_t(mesh_.vertex_count()), 0);
     for (const auto feature : mesh_.feature_edge) unknowns_.edge.push_back(!feature);
@@ -131,7 +132,7 @@ class Race {
   Three right_hand_side(const AssembledSystem& system, Array<double>& x) {
     x.resize(3 * grid_->size());
     Array<double> image(x.size());
-    refine_linearly(*grid_, mesh_.positions, x.data());
+    refine_linearly(*grid_, mesh_.positions, workers_, x.data());
     const ThinPlateRows<double> rows(mesh_, stencils_);
     ElementSlots<double> slots;
     apply_thin_plate(*grid_, rows, unknowns_, {}, workers_, slots, x.data(), image.data());
