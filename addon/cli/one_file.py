@@ -28,6 +28,7 @@ from .places import Place, is_cad, is_there
 def run_one(
     file: Place, record: dict[str, Any], arguments: argparse.Namespace, settings: Settings
 ) -> None:
+    """Fairs one file, and notes the outcome in its record."""
     start = time.perf_counter()
     try:
         for path in (file.target, arguments.tables.get(file)):

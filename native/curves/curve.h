@@ -25,7 +25,8 @@ struct CurveScheme {
 
 // Points of a refined chain: the minimizer of the squared second divided differences with respect to
 // (chord length)^exponent, through the chain's vertices [Kobbelt 1996, §3], periodic on a loop; with
-// parabolic ends the second difference is constant in the first and in the last segment.
+// parabolic ends the second difference is constant in the first and in the last segment. Lines that are
+// tangent to arcs stay straight, and the arcs have their directions (curves/lines.h).
 //
 // Returns, edge by edge along the chain, the subdivisions - 1 interior points of each edge, in the
 // chain's direction. The result depends on the coordinates alone, not on numbering, direction or

@@ -5,12 +5,21 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/roundoff.h"
+#include "base/angle.h"
 
 namespace fairing {
 namespace {
 
 double sine(const Vec3& a, const Vec3& b) { return a.normalized().cross(b.normalized()).norm(); }
+
+// Direction at `end` of an arc that turns evenly along a polyline's last two chords, of unit length; it
+// goes on from there. All parallels to the polyline have the same one, as insets of an outline do. The
+// arc turns by half as much from its last chord to its tangent as from chord to chord.
+Vec3 tangent_of_arc(const Vec3& first, const Vec3& middle, const Vec3& end) {
+  const Vec3 chord = (end - middle).normalized();
+  const Vec3 before = (chord + (middle - first).normalized()).normalized();
+  return 2 * chord.dot(before) * chord - before;
+}
 
 class Lines {
  public:
@@ -40,16 +49,11 @@ class Lines {
   const Vec3& at(int vertex) const { return vertices_[std::size_t((vertex + count_) % count_)]; }
   bool has(int vertex) const { return closed_ || (vertex >= 0 && vertex < count_); }
 
-  // Angles that rounding of the coordinates makes at chords of this length.
-  double rounding(const Vec3& a, const Vec3& b) const {
-    return single_roundoff * std::max(a.norm(), b.norm()) / (b - a).norm();
-  }
-
   bool is_collinear(int j) const {
     if (!has(j - 1) || !has(j + 1)) return false;
     const Vec3 before = at(j) - at(j - 1), after = at(j + 1) - at(j);
-    return before.dot(after) > 0 &&
-           sine(before, after) <= rounding(at(j - 1), at(j)) + rounding(at(j), at(j + 1));
+    return before.dot(after) > 0 && sine(before, after) <= turn_of_rounding(at(j - 1), at(j)) +
+                                                               turn_of_rounding(at(j), at(j + 1));
   }
 
   std::vector<int> joints_of_lines() const {
@@ -76,7 +80,7 @@ class Lines {
       const Vec3 &end = at(to), &middle = at(to + step);
       const Vec3 arc = tangent_of_arc(first, middle, end);
       return line.dot(arc) > 0 &&
-             sine(line, arc) <= rounding(first, middle) + 2 * rounding(middle, end);
+             sine(line, arc) <= turn_of_rounding(first, middle) + 2 * turn_of_rounding(middle, end);
     };
     if (has(to + 2 * step)) return is_arc(at(to + 2 * step));
     const std::vector<Vec3>& beyond = step > 0 ? beyond_.last : beyond_.first;
@@ -90,13 +94,6 @@ class Lines {
 };
 
 }  // namespace
-
-// The arc turns by half as much from its last chord to its tangent as from chord to chord.
-Vec3 tangent_of_arc(const Vec3& first, const Vec3& middle, const Vec3& end) {
-  const Vec3 chord = (end - middle).normalized();
-  const Vec3 before = (chord + (middle - first).normalized()).normalized();
-  return 2 * chord.dot(before) * chord - before;
-}
 
 std::vector<std::uint8_t> tangent_lines(std::span<const Vec3> vertices, bool closed,
                                         const Beyond& beyond) {

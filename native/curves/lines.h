@@ -10,10 +10,6 @@
 
 namespace fairing {
 
-// Direction at `end` of an arc that turns evenly along a polyline's last two chords, of unit length; it
-// goes on from there. All parallels to the polyline have the same one, as insets of an outline do.
-Vec3 tangent_of_arc(const Vec3& first, const Vec3& middle, const Vec3& end);
-
 // Vertices to which other curves go from the two ends of an open chain.
 struct Beyond {
   std::vector<Vec3> first, last;

@@ -184,27 +184,25 @@ ThicknessChange Thickness::of(const GridLevel& grid, Workers& workers, const dou
   ThicknessChange out;
   if (grid.n() == 1) return out;
   const Departures own = departures(grid, workers, x);
-  const Departures base = wanted ? departures(grid, workers, wanted) : Departures{};
-  const auto departed = [&](std::size_t f) {
-    return wanted ? own.here[f] - base.here[f] : own.here[f];
-  };
+  const std::vector<double> none(planes_.size());
+  const Departures base = wanted ? departures(grid, workers, wanted) : Departures{none, none};
   std::vector<std::pair<Index, double>> seen;
   double swollen = 0;
   for (std::size_t f = 0; f < planes_.size(); ++f) {
     const Opposite& opposite = opposite_[f];
     if (mesh_.face_part(Index(f)) != RegionPart::inside) continue;
     if (opposite.face < 0) {
-      if (std::abs(departed(f)) > highest_rise(mesh_.faces[f], planes_[f], turn_[f], x))
+      if (std::abs(own.here[f] - base.here[f]) >
+          highest_rise(mesh_.faces[f], planes_[f], turn_[f], x))
         out.bulging.push_back(Index(f));
       continue;
     }
     const auto o = std::size_t(opposite.face);
     const double facing = std::abs(planes_[f].normal.dot(planes_[o].normal));
-    const double distance =
-        opposite.distance + (wanted ? base.here[f] + facing * base.behind[f] : 0.0);
+    const double distance = opposite.distance + base.here[f] + facing * base.behind[f];
     if (!(distance > 0)) continue;  // what is wanted has passed through its opposite side
-    const double behind = wanted ? own.behind[f] - base.behind[f] : own.behind[f];
-    const double change = (departed(f) + facing * behind) / distance;
+    const double change =
+        (own.here[f] - base.here[f] + facing * (own.behind[f] - base.behind[f])) / distance;
     const double lifted = wanted ? 0.0 : rounding_off(mesh_, f, planes_, x) / distance;
     const double lifted_behind =
         wanted ? 0.0 : facing * rounding_off(mesh_, o, planes_, x) / distance;

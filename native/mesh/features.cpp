@@ -7,7 +7,6 @@
 
 #include "base/angle.h"
 #include "base/error.h"
-#include "base/roundoff.h"
 #include "mesh/polygon_shape.h"
 #include "mesh/sheets.h"
 #include "parallel/cancel.h"
@@ -192,8 +191,7 @@ class FeatureFinder {
       if (edge.boundary() || control_.inside_polygon(Index(e))) continue;
       const Vec3 left = normal(normals, edge.side[0]), right = normal(normals, edge.side[1]);
       // Arcs of three chords fold by 30 degrees exactly: rounding must not crease some of the edges.
-      const Vec3 a = position(edge.vertex[0]), b = position(edge.vertex[1]);
-      const double rounding = single_roundoff * std::max(a.norm(), b.norm()) / (b - a).norm();
+      const double rounding = turn_of_rounding(position(edge.vertex[0]), position(edge.vertex[1]));
       if (angle_between(left, right) > options_.crease_angle + rounding)
         control_.feature_edge[e] = 1;
     }

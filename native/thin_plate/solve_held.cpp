@@ -14,9 +14,6 @@ double force_tolerance(double relative_residual) {
   return std::min(10 * std::sqrt(relative_residual), largest_force_left);
 }
 
-// Rows at a free border may be arbitrarily stiff, and H with them; under a penalty H fades within few
-// points. Then the prolongation does not approximate H (docs/developers/notes/performance.md), and the
-// vertices' own rows are used.
 bool has_free_border(const ControlMesh& mesh, const Unknowns& unknowns) {
   for (std::size_t e = 0; e < mesh.edges.size(); ++e)
     if (mesh.edges[e].boundary() && unknowns.edge[e]) return true;
@@ -65,6 +62,11 @@ ThinPlateSolver::Run::Solved ThinPlateSolver::Run::solve(int level, const PcgLim
   const Restriction restrict_to_vertices = [&](std::span<const double> y, std::span<Vec3> sums) {
     levels().restrict_to_vertices(level, y.data(), sums);
   };
+  // Rows at a free border may be arbitrarily stiff, and H with them; under a penalty H fades within few
+  // points. Then the prolongation does not approximate H (docs/developers/notes/performance.md), and the
+  // vertices' own rows are used.
+  const bool reads_own_rows =
+      !reference.empty() || has_free_border(levels().shared().mesh, unknowns);
   const HeldSystem<3> system{
       .workers = workers,
       .size = size(level),
@@ -80,10 +82,7 @@ ThinPlateSolver::Run::Solved ThinPlateSolver::Run::solve(int level, const PcgLim
       .residual = residual,
       .leaves_residual = levels().op(level).single_precision_suffices(),
       .solve = solve_level,
-      .restrict_to_vertices =
-          !reference.empty() || has_free_border(levels().shared().mesh, unknowns)
-              ? Restriction{}
-              : restrict_to_vertices,
+      .restrict_to_vertices = reads_own_rows ? Restriction{} : restrict_to_vertices,
       .set_weights = [&](const VertexWeights& weights) { levels().set_weights(weights, level); },
       .energy = [&](const double* y) { return levels().energy(level, y); },
       .compliance_of_couples = [&]() -> const Compliance& {

@@ -242,10 +242,8 @@ class BorderFits:
             up = self.up
             along = unit_vectors(along - dot(along, up)[:, None] * up)
         normal, inward = np.empty((len(vertex), 3)), np.empty((len(vertex), 3))
-        bend, fits = (
-            np.empty((len(vertex), 3, 3)),
-            [(found, np.empty((2, 0))) for found in self.ids],
-        )
+        bend = np.empty((len(vertex), 3, 3))
+        fits = [(found, np.empty((2, 0))) for found in self.ids]
         for at in self.groups:
             away = points[np.stack([self.ids[k] for k in at])] - points[vertex[at], None]
             normal[at], inward[at], bend[at], rows = _fitted(away, along[at], up[at])
@@ -351,7 +349,8 @@ def _inverse(matrix: np.ndarray) -> np.ndarray:
     first = np.broadcast_to(np.eye(matrix.shape[2], 5), (int(full.sum()), matrix.shape[2], 5))
     rows = np.linalg.solve(r[full].transpose(0, 2, 1), first)
     out[full] = (q[full] @ rows).transpose(0, 2, 1)
-    out[~full] = np.linalg.pinv(matrix[~full])[:, :5]
+    if not full.all():
+        out[~full] = np.linalg.pinv(matrix[~full])[:, :5]
     return out
 
 

@@ -114,11 +114,11 @@ def clean(
         CANCELLED after a cancel.
     """
     check_watchers(progress, monitor)
-    for name, value in zip(
-        SWITCHES,
-        (mend, join, fins, normals, inner, pinched, spikes, folds, fill, noise),
-        strict=True,
-    ):
+    switches = {
+        **{"mend": mend, "join": join, "fins": fins, "normals": normals, "inner": inner},
+        **{"pinched": pinched, "spikes": spikes, "folds": folds, "fill": fill, "noise": noise},
+    }
+    for name, value in switches.items():
         switch(name, value)
     _require_number("islands", islands, 1.0)
     _require_number("largest", largest, np.inf)
@@ -171,10 +171,6 @@ def clean(
     return found
 
 
-SWITCHES = (
-    *("mend", "join", "fins", "normals", "inner", "pinched", "spikes", "folds", "fill"),
-    "noise",
-)
 CUT = "{edge cut at a vertex on it|edges cut at vertices on them}"
 TURNED = "{face|faces} flipped"
 SPLIT = "{vertex|vertices} split where parts touched"
