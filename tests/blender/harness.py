@@ -202,36 +202,12 @@ def add_suzanne():
     return bpy.data.objects["Suzanne"]
 
 
-def unfold_panels(*panels):
-    """Opens folded panels of the sidebar: Blender does so for those that are registered as open. A generator."""
-    opened = [getattr(bpy.types, name) for name in panels]
-    known = (getattr(bpy.types, name) for name in dir(bpy.types))
-    children = [
-        cls for cls in known if getattr(cls, "bl_parent_id", "") in panels and cls not in opened
-    ]
-    for cls in opened:
-        cls.bl_options = set()
-    for cls in (*opened, *children):  # which would lose their parent
-        bpy.utils.unregister_class(cls)
-        bpy.utils.register_class(cls)
-    yield from open_sidebar("Fairing")
-    yield 0.5
-
-
 def open_sidebar(category):
     """Opens the viewport's sidebar at a tab; a generator, as the sidebar has to be drawn once before."""
     view()["area"].spaces.active.show_region_ui = True
     yield 0.5
     sidebar().active_panel_category = category
     sidebar().tag_redraw()
-    yield 0.5
-
-
-def show_the_end_of_the_sidebar():
-    """Scrolls to the last panels; a generator."""
-    with bpy.context.temp_override(**{**view(), "region": sidebar()}):
-        for _ in range(4):
-            bpy.ops.view2d.scroll_down(page=True)
     yield 0.5
 
 

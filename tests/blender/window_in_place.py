@@ -61,15 +61,4 @@ def test_a_long_run_leaves_the_window_alive_and_is_undone_in_one_step():
     assert np.array_equal(positions(bpy.context.object), before)
 
 
-def test_escape_and_the_button_cancel_change_nothing():
-    target = yield from noisy_grid()
-    before = positions(target)
-    for end in (lambda: harness.xdotool("key", "Escape"), bpy.ops.object.fairing_cancel):
-        assert start(energy="TOTAL_CURVATURE") == {"RUNNING_MODAL"}
-        yield 0.5
-        end()
-        yield from harness.until_it_ends()
-        assert target.mode == "EDIT" and np.array_equal(positions(target), before)
-
-
 harness.run_in_window(globals())

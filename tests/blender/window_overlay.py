@@ -42,10 +42,6 @@ def inspect(target, mode):
     harness.call(bpy.ops.object.fairing_inspect, "INVOKE_DEFAULT", target=target, mode=mode)
 
 
-def change_mode(mode):
-    harness.call(bpy.ops.object.mode_set, mode=mode)
-
-
 def ball():
     target = harness.add_suzanne()
     bpy.data.objects.remove(target)
@@ -87,24 +83,6 @@ def striped(name, least, last=0):
 
     yield from harness.photograph_until(name, there, COMPILED)
     return pixels(name)
-
-
-def test_stripes_in_edit_mode_follow_the_edit():
-    target = harness.add_suzanne()
-    inspect(target, "ZEBRA")
-    change_mode("EDIT")
-    with bpy.context.temp_override(**harness.view()):
-        bpy.ops.mesh.select_all(action="DESELECT")  # what is selected is tinted
-    before = yield from striped("overlay_edit_mode", 3)
-    with bpy.context.temp_override(**harness.view()):
-        bpy.ops.mesh.select_all(action="SELECT")
-        bpy.ops.mesh.vertices_smooth(factor=0.5, repeat=5)
-        bpy.ops.mesh.select_all(action="DESELECT")
-    yield 1.5
-    after = pixels("overlay_edited")
-    assert changes(after) >= 3
-    assert np.count_nonzero(np.abs(after.astype(int) - before).max(axis=2) > 60) > 500
-    change_mode("OBJECT")
 
 
 def test_sections_and_combs():

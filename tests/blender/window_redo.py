@@ -34,12 +34,6 @@ def first_surface(levels):
     yield 2.0
 
 
-def test_search_takes_the_settings_of_the_panel():
-    yield from first_surface(1)
-    assert surface().discrete_fairing.levels == 1
-    assert len(surface().data.polygons) < SUZANNE * 4**2
-
-
 def test_redo_shows_a_small_surface_and_recompute_the_whole_one():
     yield from first_surface(2)
     prediction = harness.module("prediction")

@@ -10,7 +10,6 @@ sys.path.insert(0, str(Path(__file__).parent))
 import bpy
 import harness
 
-LONG = 7  # levels that take long enough to be cancelled
 FOLDER = tempfile.mkdtemp()
 
 
@@ -71,24 +70,6 @@ def test_several_objects_by_the_file_browser():
     assert fractions == sorted(fractions) and len(set(fractions)) > 2
     assert parts(path) == ["Ball 1", "Ball 2"] and not left_over(path)
     harness.photograph("step_written")
-
-
-def test_escape_leaves_the_old_file():
-    path = Path(FOLDER) / "old.step"
-    path.write_text("old")
-    sources = add_balls(0, 4, 8)
-    yield from harness.open_sidebar("Fairing")
-    yield from browse(path, fit_levels=LONG)
-    assert harness.running()
-    while not harness.running().fraction:
-        yield 0.1
-    yield 1.0
-    assert harness.running(), "too short to be photographed"
-    harness.photograph("step_progress")
-    harness.xdotool("key", "Escape")
-    yield from harness.until_it_ends()
-    assert path.read_text() == "old" and not left_over(path)
-    assert list(bpy.data.objects) == sources and all(o.select_get() for o in sources)
 
 
 def test_the_button_and_the_patches_of_a_surface():

@@ -20,22 +20,6 @@ def press(operator, **properties):
     return harness.call(operator, "INVOKE_DEFAULT", True, **properties)
 
 
-def test_fair_for_is_undone_alone():
-    for purpose in ("PANEL", "POINTS"):
-        source = harness.add_suzanne()
-        source.location.x = 3.0
-        bpy.ops.ed.undo_push(message="moved")
-        bpy.context.scene.discrete_fairing.levels = 1
-        press(bpy.ops.object.fairing_for, purpose=purpose)
-        yield from harness.until(surface)
-        yield 1.0
-        harness.undo()
-        yield 0.5
-        source = bpy.data.objects["Suzanne"]
-        assert surface() is None and source.location.x == 3.0, purpose
-        assert not source.hide_get(), "it is to be seen again"
-
-
 def begin_run(energy):
     """One in the background, as on a slow machine."""
     harness.module("prediction").note(energy, 1000, 1.0, None)
