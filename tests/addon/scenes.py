@@ -46,11 +46,13 @@ def add_rounded_box(size, rim, segments):
     return made
 
 
-def activate(target):
+def activate(*targets):
+    """Selects these objects alone; the last one is active."""
     for other in bpy.context.selected_objects:
         other.select_set(False)
-    target.select_set(True)
-    bpy.context.view_layer.objects.active = target
+    for target in targets:
+        target.select_set(True)
+    bpy.context.view_layer.objects.active = targets[-1]
 
 
 def fair(**settings):

@@ -108,10 +108,6 @@ def test_flat_faces_reach_the_core():
     assert "flat_faces" not in arguments(mesh, energy="TOTAL_CURVATURE")
 
 
-KINDS = [None, 1, True, 0.5, "x", np.arange(3), np.arange(4), np.zeros(3, int), {"a": 1}, {"b": 1}]
-KINDS += [(np.arange(3), np.arange(2)), (np.arange(3), 2), (1,), (1, 1)]
-
-
 def sheet(columns=3, rows=2):
     """Points and quads, row by row."""
     points = [(x, y, 0) for x in range(columns + 1) for y in range(rows + 1)]

@@ -102,11 +102,3 @@ def test_a_slow_energy_is_stood_in_for(source, redo, monkeypatch):
     monkeypatch.undo()
     by_its_button(bpy.ops.object.fairing_recompute_stale)
     assert np.abs(positions(target.data) - bent).max() > 1e-3
-
-
-@pytest.mark.parametrize("energy, levels", [("THIN_PLATE", 6), (ENERGY, 4)])
-def test_a_quick_redo_is_whole_at_once(redo, energy, levels):
-    """The machine has no runs of its own: 49,152 and 3,072 triangles are predicted to take 1.0 and 1.8 s."""
-    add("Box", *CUBE)
-    target = fair(levels=levels, energy=energy)
-    assert len(target.data.polygons) == 6 * 4**levels and why_stale(target) == ""

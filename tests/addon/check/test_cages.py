@@ -227,16 +227,3 @@ def test_a_chamfered_cylinder_keeps_its_radius_and_nothing_is_wrong_with_it(capf
         radii[how] = np.hypot(*positions(target.data)[:, :2].T).max()
     assert 0.98 < radii["AUTO"] <= 1.0 and radii["EXACT"] > 1.04
     assert "bulges" not in capfd.readouterr().out
-
-
-def test_a_vase_stands_on_its_base():
-    """Through its vertices the base bulges by 0.87 below them, of 11."""
-    vase()
-    assert positions(fair(levels=3).data)[:, 2].min() >= 0.0
-
-
-def test_a_bowl_on_a_narrow_base_stands_on_it_and_keeps_its_walls(capfd):
-    """Through its vertices the base bulges by .03 of the size, and walls are up to 1.48 times as thick."""
-    bowl()
-    assert positions(fair(levels=3).data)[:, 2].min() >= 0.0
-    assert "thick" not in capfd.readouterr().out

@@ -8,7 +8,7 @@ import bpy
 import discrete_fairing
 import numpy as np
 import pytest
-from cli_runs import contains, entries, imported, run
+from cli_runs import contains, entries, imported
 from dunes import COLUMNS, FACES, OFF, ROWS, WRONG, dune
 from scenes import add
 
@@ -67,18 +67,6 @@ def test_the_table_is_that_of_the_panel():
     said = entry["objects"][0]["strain"]
     assert said["vertex"] == int(np.nanargmax(np.abs(rows[:, 4]))) == WRONG
     assert said["wrong"] == [WRONG] and said["floor"] == pytest.approx(job.result.floor, rel=1e-2)
-
-
-def test_symmetry_and_borders_are_heard():
-    """Options of the surface also apply to its easing."""
-    write_dunes("in.obj", scattered() * (1, 0.5, 1))
-    found = []
-    for words in ((), ("--symmetry-plane", "y"), ("--boundary", "linear")):
-        assert run("in.obj", "out.obj", "--quiet", "--strain", "a.csv", *words) == 0
-        found.append(read_table("a.csv")[1][:, -1])
-    plain, mirrored, straight = (np.nan_to_num(lengths) for lengths in found)
-    assert np.abs(plain - mirrored).max() > 1e-3
-    assert (np.isnan(found[2]) & ~np.isnan(found[0])).any() and np.abs(plain - straight).max() > 0
 
 
 def test_a_table_is_of_one_mesh():

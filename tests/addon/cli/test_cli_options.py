@@ -84,12 +84,14 @@ def test_places(tmp_path):
     assert targets(["x/a.obj"], str(tmp_path)) == [str(tmp_path / "a.obj")]
     assert targets(["a.b.obj", "c.stl"], "out/", "ply") == ["out/a.b.ply", "out/c.ply"]
     assert targets(["a.obj", "c.stl"], "o/{name}_fair.stl") == ["o/a_fair.stl", "o/c_fair.stl"]
+    assert targets(["in.obj"], "fair/", "step") == ["fair/in.step"]
 
 
 @pytest.mark.parametrize(
     ("inputs", "output", "chosen_format", "match"),
     [
         (["a.fbx"], "b.obj", None, "a.fbx.*OBJ, PLY, STL"),
+        (["in.step"], "out.obj", None, "no known type"),
         (["a.glb"], "out/", None, "Give --format: a.glb is of a type that is only read"),
         (["a.obj"], "b", None, "b is of no known type"),
         (["a.obj"], "{name}", None, "no known type"),

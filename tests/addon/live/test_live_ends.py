@@ -25,21 +25,6 @@ def registered():
     }
 
 
-def test_undo_and_redo():
-    bpy.context.preferences.edit.use_global_undo = True
-    source, target = box()
-    bpy.ops.ed.undo_push(message="before")
-    pull(source)
-    bpy.ops.ed.undo_push(message="after")
-    for step, height in ((bpy.ops.ed.undo, -1.0), (bpy.ops.ed.redo, -0.5)):
-        step()
-        handlers.on_timer()
-        source, target = bpy.data.objects["Box"], bpy.data.objects["Box Fair"]
-        assert source.data.vertices[0].co.z == height
-        assert target.discrete_fairing_live.on
-        assert through(target, source)
-
-
 def box_that_undo_switches():
     """A source hidden under its surface, and Live switched on with a click."""
     bpy.context.preferences.edit.use_global_undo = True

@@ -21,19 +21,6 @@ def animate(source):
         key.keyframe_insert("value", frame=frame)
 
 
-def hang(source):
-    """An armature whose bone is moved by an action."""
-    bpy.ops.object.armature_add()
-    armature = bpy.context.active_object
-    modifier = source.modifiers.new("Armature", "ARMATURE")
-    modifier.object = armature
-    source.vertex_groups.new(name=armature.data.bones[0].name).add(range(8), 1.0, "REPLACE")
-    bone = armature.pose.bones[0]
-    for frame, height in zip(FRAMES, (0.0, 1.0), strict=True):
-        bone.location.y = height
-        bone.keyframe_insert("location", frame=frame)
-
-
 def drive(source):
     """A driver moves a vertex: a modifier whose strength follows the frame."""
     modifier = source.modifiers.new("Displace", "DISPLACE")
@@ -52,7 +39,7 @@ def animated(way):
 
 
 @pytest.mark.parametrize("hidden", [False, True])
-@pytest.mark.parametrize("way", [animate, hang, drive])
+@pytest.mark.parametrize("way", [animate, drive])
 def test_frames_are_followed(way, hidden):
     """Without a window no timer comes back to a source that Blender does not evaluate."""
     target = animated(way)

@@ -5,7 +5,6 @@ import bpy
 import numpy as np
 import pytest
 from lattices import lattice_faces
-from live_scenes import live, session
 from scenes import add, edit, faces_at_edges, fair, positions, to_object_mode
 
 from addon.mesh.boundary_marks import BOUNDARY
@@ -94,19 +93,6 @@ def test_the_surface_has_straight_edges_where_they_are_marked():
     assert BOUNDARY not in surface.data.attributes
     plain = sheet("Plain")
     assert straight(fair(levels=3, boundary="CURVE"), plain, *BOTTOM[0]) == 0
-
-
-def test_live_follows_marks():
-    source = sheet()
-    surface = fair(levels=2)
-    source.hide_set(False)
-    live(surface)
-    before = positions(surface.data)
-    mark(source, "LINEAR", *BOTTOM)
-    bpy.context.view_layer.update()
-    assert session(surface) is not None
-    assert np.abs(positions(surface.data) - before).max() > 1e-3
-    assert straight(surface, source, *BOTTOM[1]) == 3
 
 
 def test_a_cut_lays_no_mark_bare():

@@ -14,40 +14,6 @@ def copied(source):
     return target, copy_modifiers(bpy.context, source, target)
 
 
-def test_settings_and_order():
-    source = add("Cube", *CUBE)
-    mirror = source.modifiers.new("Mirror", "MIRROR")
-    mirror.use_axis, mirror.mirror_object = (False, True, True), add("Plane", *TRIANGLE)
-    source.vertex_groups.new(name="Group")
-    rig = source.modifiers.new("Rig", "ARMATURE")
-    rig.object = bpy.data.objects.new("Rig", bpy.data.armatures.new("Rig"))
-    rig.vertex_group, rig.show_viewport = "Group", False
-    target, notes = copied(source)
-    assert notes == []
-    assert [m.name for m in target.modifiers] == ["Mirror", "Rig"]
-    found = target.modifiers["Mirror"]
-    assert tuple(found.use_axis) == (False, True, True)
-    assert found.mirror_object == mirror.mirror_object
-    found = target.modifiers["Rig"]
-    assert (found.object, found.vertex_group, found.show_viewport) == (rig.object, "Group", False)
-    assert [m.name for m in source.modifiers] == ["Mirror", "Rig"]
-
-
-def test_geometry_nodes_and_their_inputs():
-    tree = bpy.data.node_groups.new("Tree", "GeometryNodeTree")
-    for direction in ("INPUT", "OUTPUT"):
-        tree.interface.new_socket("Geometry", in_out=direction, socket_type="NodeSocketGeometry")
-    socket = tree.interface.new_socket("Value", in_out="INPUT", socket_type="NodeSocketFloat")
-    source = add("Cube", *CUBE)
-    nodes = source.modifiers.new("Nodes", "NODES")
-    nodes.node_group = tree
-    nodes[socket.identifier] = 3.5
-    target, notes = copied(source)
-    assert notes == []
-    assert target.modifiers["Nodes"].node_group == tree
-    assert target.modifiers["Nodes"][socket.identifier] == 3.5
-
-
 @pytest.mark.parametrize(
     "kind, said",
     [

@@ -46,15 +46,6 @@ def test_settings(source):
     assert made.mesh.validate() is False
 
 
-def test_positions(source):
-    made = shaped(source)
-    found = made.mesh.shape_keys.key_blocks
-    for key, expected in zip(found, [made.result.vertices, *made.shapes]):
-        place = np.empty(3 * len(key.data), np.float32)
-        key.data.foreach_get("co", place)
-        assert np.array_equal(place.reshape(-1, 3), np.float32(expected))
-
-
 @pytest.mark.parametrize("kinds", ["LLLL", "CCCC", "RRRR", "BBBB", "LCRB", "BLBL", "RLCB"])
 def test_absolute_keys_are_mixed_as_blender_does(kinds):
     """The mix is the mesh that Blender shows, for each kind of curve between keys, also between two kinds."""

@@ -4,16 +4,11 @@
 import bpy
 import numpy as np
 import pytest
-from live_scenes import live, pull, session
+from live_scenes import live, move, pull, session
 from refined import values
 from scenes import CUBE, add, fair, positions, recompute
 
 from addon.live import handlers
-
-
-def raise_vertex(source, by=0.5):
-    source.data.vertices[0].co.z += by
-    source.data.update()
 
 
 def adorn(target):
@@ -32,6 +27,7 @@ def adorn(target):
     upper.data.foreach_set("value", [face.center.z > 0 for face in mesh.polygons])
     mesh.edges[3].use_seam = True
     mesh["note"] = "by hand"
+    mesh.materials.append(bpy.data.materials.new("Paint"))
     return mesh
 
 
@@ -40,7 +36,7 @@ def test_it_stays_to_the_bit_on_the_same_faces(source, again):
     mesh = adorn(target := fair(levels=2))
     heights, uv = values(mesh, "height"), values(mesh, "Unwrapped", "vector", 2)
     for _ in range(again):
-        raise_vertex(source)
+        move(source)
         recompute()
     mesh = target.data
     assert positions(mesh)[0][2] == np.float32(-1.0 + 0.5 * again)
@@ -51,6 +47,7 @@ def test_it_stays_to_the_bit_on_the_same_faces(source, again):
     assert mesh.color_attributes["Paint"].data[7].color[:] == (1.0, 1.0, 1.0, 1.0)
     assert sum(item.value for item in mesh.attributes["upper"].data) > 0
     assert mesh.edges[3].use_seam and mesh["note"] == "by hand"
+    assert [material.name for material in mesh.materials] == ["Paint"]
 
 
 @pytest.mark.parametrize("levels", [1, 3])
@@ -102,7 +99,7 @@ def test_shape_keys_of_its_own_and_their_animation(source):
     driver.expression = "0.5"
     action = keys.animation_data.action
     meshes = len(bpy.data.meshes)
-    raise_vertex(source)
+    move(source)
     recompute()
     keys, basis = target.data.shape_keys, positions(target.data)
     assert [block.name for block in keys.key_blocks] == ["Basis", "Up", "Bump"]

@@ -4,8 +4,8 @@
 import bpy
 import numpy as np
 import pytest
-from live_scenes import follow, live, session, through
-from scenes import CUBE, activate, add, fair, positions
+from live_scenes import through
+from scenes import CUBE, add, fair, positions
 
 from addon.mesh.world_shape import world_shape
 
@@ -63,19 +63,3 @@ def test_parents_count():
     there = np.linalg.norm(points @ linear.T, axis=1)
     assert np.allclose(np.linalg.norm(shape.of(points), axis=1), there, rtol=1e-5)
     assert fair(levels=1) is not None
-
-
-def test_live_follows_the_scale(source):
-    source.scale = UNEVEN
-    target = live(source)
-    before = positions(target.data)
-    expected = of_applied_scale(source, levels=3)
-    assert np.abs(world_shape(source).of(before.astype(float)) - expected).max() < 0.02
-    activate(source)
-    source.scale = (1.0, 1.0, 1.0)
-    follow()
-    assert session(target).updates == 2
-    assert np.abs(positions(target.data) - before).max() > 0.01
-    source.rotation_euler = (1.0, 2.0, 3.0)
-    follow()
-    assert session(target).updates == 2, "a rotation changes no shape"

@@ -6,7 +6,7 @@ from collections import Counter
 import bpy
 import numpy as np
 import pytest
-from scenes import add, positions, to_object_mode
+from scenes import add, add_group, positions, to_object_mode
 
 from addon.core import module
 from addon.mesh.read import control_mesh, read_mesh
@@ -27,6 +27,7 @@ def strip():
         polygon.material_index = polygon.index
     for edge in mesh.edges:
         edge.use_seam = True
+    add_group(target, dict.fromkeys(range(5), 0.5))
     target.shape_key_add(name="Basis")
     for point in target.shape_key_add(name="Up").data:
         point.co.z += 1.0
@@ -136,6 +137,8 @@ def test_the_mesh_is_the_cleaned_one_and_has_its_data(name, mode):
             place = places[mesh.loops[loop].vertex_index]
             if 0.0 <= place[1] <= 1.0:
                 assert np.allclose(uv[loop].uv, place[:2], atol=1e-6)
+    own = [vertex for vertex in mesh.vertices if tuple(vertex.co) in POINTS]
+    assert all(bool(vertex.groups) == (vertex.co.y == 0) for vertex in own)
     up = np.empty(3 * len(places))
     mesh.shape_keys.key_blocks["Up"].data.foreach_get("co", up)
     known = (places[:, 1] >= 0.0) & (places[:, 1] <= 1.0)

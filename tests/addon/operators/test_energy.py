@@ -6,12 +6,10 @@ import numpy as np
 import pytest
 from scenes import CUBE, add, again, computed, fair, positions, settings
 
-from addon import prediction
 from addon.choices import DEFAULT_ENERGY, ENERGIES
 from addon.inspection import measures
 from addon.job import Job
 from addon.mesh.read import read_mesh
-from addon.operators import fair as fair_operators
 
 KEYS = [key for key, *_ in ENERGIES]
 STEP = {"decrement": 0.25}
@@ -56,15 +54,3 @@ def test_the_thinnest_face_is_named():
     assert face == 1 and ratio == pytest.approx(17 / 4), "the last has no area"
     empty = measures.thinnest_face(read_mesh(add("Nothing", [], []).data))
     assert empty == (-1, 0.0)
-
-
-@pytest.mark.parametrize("energy", KEYS)
-def test_slower_energies_get_their_bar_earlier(energy, monkeypatch):
-    add("Box", *CUBE)
-    started = []
-    ways = {"make_jobs": lambda self, context: [job], "_block": lambda *_: "blocked"}
-    fake = type("Fake", (fair_operators.Fairing,), ways)
-    fake.start = lambda self, context, jobs: started.append(jobs) or "started"
-    job = type("J", (), {"predicted_seconds": prediction._AT_FIRST[energy] * 768, "result": None})
-    answer = fake().invoke(bpy.context, None)
-    assert answer == ("started" if energy == "MINIMUM_VARIATION" else "blocked")

@@ -11,9 +11,6 @@ from scenes import CUBE, add, edit, faces_at_edges, positions, refused, settings
 
 from addon import prediction
 from addon.in_place import InPlaceJob, InPlaceOptions
-from addon.inspection.curvature import faces_of_edges
-from addon.inspection.measures import fold_angles
-from addon.mesh.read import read_mesh
 from addon.operators import redo
 from addon.operators.fair import Fairing
 from addon.queue import Queue
@@ -139,18 +136,8 @@ def funnel(rows=3, count=4):
     return target
 
 
-def folds_at_the_rim(target):
-    """The largest angle in degrees between a selected face and one that is not."""
-    arrays = read_mesh(target.data)
-    angles, inside = fold_angles(arrays)
-    chosen = np.array([p.select for p in target.data.polygons])
-    return angles[inside & (chosen[faces_of_edges(arrays)].sum(axis=1) == 1)].max()
-
-
 def test_a_filled_hole_that_ends_in_a_fold_is_told(capfd):
-    target = funnel()
-    fair(target, levels=2, joint="TANGENT")
-    assert 95.0 < folds_at_the_rim(target) < 98.0
+    fair(funnel(), levels=2, joint="TANGENT")
     said = capfd.readouterr().out
     assert "What was faired is folded (" in said and "Raise Tension" in said
     fair(funnel(), levels=2, joint="POSITION")

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from fake_layout import draw
 from lattices import lattice_faces
+from live_scenes import follow, pull
 from mathutils import Vector
 from scenes import activate, add, fair, positions, recompute, refused, to_object_mode
 
@@ -13,7 +14,6 @@ from addon import core, neighbours
 from addon.check import joints
 from addon.freshness import NEIGHBOUR_CHANGED, NEIGHBOUR_MOVED, UNFINISHED, why_stale
 from addon.live import registry
-from addon.mesh.object import select_only
 from addon.operators import redo
 from addon.operators.fair import Fairing
 from addon.ui import check as check_panel
@@ -37,24 +37,23 @@ def panels():
     return bonnet, fair(levels=3)
 
 
-def select(*objects):
-    select_only(bpy.context, objects)
-    bpy.context.view_layer.update()
-
-
 def check(*objects):
-    select(*objects)
+    activate(*objects)
     assert bpy.ops.object.fairing_joints() == {"FINISHED"}
     (row,) = joints.rows()
     return row
+
+
+def match(*panels, **options):
+    activate(*panels)
+    assert bpy.ops.object.fairing_match_border(**options) == {"FINISHED"}
 
 
 def test_two_panels_meet_without_a_kink(panels):
     bonnet, fender = panels
     fender.location = bonnet.location = (3, 2, 1)
     assert np.degrees(check(*panels).kink) > 3
-    select(*panels)
-    assert bpy.ops.object.fairing_match_border() == {"FINISHED"}
+    match(*panels)
     row = check(*panels)
     assert np.degrees(row.kink) < 0.05 and row.gap < 1e-6
     assert fender.discrete_fairing.neighbour == bonnet
@@ -63,8 +62,7 @@ def test_two_panels_meet_without_a_kink(panels):
 
 def test_curvature_too_and_again_by_recompute(panels):
     bonnet, fender = panels
-    select(*panels)
-    assert bpy.ops.object.fairing_match_border(joint="CURVATURE") == {"FINISHED"}
+    match(*panels, joint="CURVATURE")
     assert np.degrees(check(*panels).kink) < 0.05
     meshes = [neighbours.shown(bpy.context, panel) for panel in (fender, bonnet)]
     assert core.module().joint(*meshes).jump.max() < 0.03
@@ -79,8 +77,7 @@ def test_curvature_too_and_again_by_recompute(panels):
 
 def matched_live(bonnet, fender):
     """The live session of the fender, whose border meets the bonnet's."""
-    select(bonnet, fender)
-    bpy.ops.object.fairing_match_border()
+    match(bonnet, fender)
     activate(fender)
     assert bpy.ops.object.fairing_live() == {"FINISHED"}
     (session,) = registry.sessions()
@@ -111,29 +108,21 @@ def rotated(bonnet, angle):
 
 def test_a_neighbour_that_moves_or_changes_leaves_the_surface_out_of_date(panels):
     bonnet, fender = panels
-    select(*panels)
-    bpy.ops.object.fairing_match_border()
+    match(*panels)
     assert why_stale(fender) == ""
     bonnet.location.z += 0.01
-    bpy.context.view_layer.update()
+    follow()
     assert why_stale(fender) == NEIGHBOUR_MOVED
     recompute(fender)
     assert why_stale(fender) == ""
-    bonnet.data.vertices[0].co.z += 0.1
-    bonnet.data.update()
-    bpy.context.view_layer.update()
+    pull(bonnet, 0, 0.1)
     assert why_stale(fender) == NEIGHBOUR_CHANGED
-
-
-def both(*panels, **options):
-    select(*panels)
-    assert bpy.ops.object.fairing_match_border(both=True, **options) == {"FINISHED"}
 
 
 def test_both_change_and_are_recomputed(panels):
     """In either order, without end: each is given the other as it is alone."""
     before = [positions(panel.data) for panel in panels]
-    both(*panels)
+    match(*panels, both=True)
     made = [positions(panel.data) for panel in panels]
     assert all(np.abs(a - b).max() > 1e-3 for a, b in zip(before, made))
     assert np.degrees(check(*panels).kink) < 0.05
@@ -148,11 +137,8 @@ def test_both_change_and_are_recomputed(panels):
 
 def test_one_of_both_that_changes_leaves_both_out_of_date(panels):
     bonnet, fender = panels
-    both(*panels, joint="CURVATURE")
-    source = bonnet.discrete_fairing.source
-    source.data.vertices[5].co.z += 0.05
-    source.data.update()
-    bpy.context.view_layer.update()
+    match(*panels, both=True, joint="CURVATURE")
+    pull(bonnet.discrete_fairing.source, 5, 0.05)
     assert (why_stale(bonnet), why_stale(fender)) == ("Source changed", NEIGHBOUR_CHANGED)
     recompute(fender)
     assert why_stale(fender) == ""
@@ -170,13 +156,11 @@ def test_one_of_both_that_changes_leaves_both_out_of_date(panels):
 def test_only_faired_surfaces_both_change_and_one_that_takes_all_ends_it(panels):
     bonnet, fender = panels
     plain = strip("Plain", 1.2, 2, lambda y: 0.012 - 0.9 * (y - 1.2))
-    select(plain, fender)
+    activate(plain, fender)
     with pytest.raises(RuntimeError, match="only faired surfaces can both change"):
         bpy.ops.object.fairing_match_border(both=True)
-    both(*panels)
-    activate(fender)
-    select(*panels)
-    assert bpy.ops.object.fairing_match_border() == {"FINISHED"}
+    match(*panels, both=True)
+    match(*panels)
     taking = bpy.context.active_object
     giving = bonnet if taking == fender else fender
     assert taking.discrete_fairing.neighbour == giving
@@ -189,8 +173,7 @@ def test_a_border_matched_with_fewer_levels_knows_its_neighbour(panels, monkeypa
     monkeypatch.setattr(Fairing, "is_redone", lambda self: True)
     monkeypatch.setattr(Fairing, "_in_time", lambda self, context, jobs: None)
     monkeypatch.setattr(redo, "BUDGET", 1e-9)
-    select(*panels)
-    assert bpy.ops.object.fairing_match_border() == {"FINISHED"}
+    match(*panels)
     assert (fender.discrete_fairing.neighbour, fender.discrete_fairing.levels) == (bonnet, 3)
     assert why_stale(fender) == UNFINISHED and np.degrees(check(*panels).kink) < 1
     monkeypatch.undo()
@@ -201,14 +184,14 @@ def test_a_border_matched_with_fewer_levels_knows_its_neighbour(panels, monkeypa
 def test_of_a_surface_and_a_mesh_the_surface_changes_whichever_is_active(panels):
     _, fender = panels
     plain = strip("Plain", 0, 1.2, lambda y: 0.3 - 0.2 * y * y)
-    select(fender, plain)
+    activate(fender, plain)
     assert bpy.context.active_object == plain
     assert "object.fairing_match_border" in draw(VIEW3D_PT_fairing)
     before = positions(plain.data)
     assert bpy.ops.object.fairing_match_border() == {"FINISHED"}
     assert fender.discrete_fairing.neighbour == plain
     assert np.array_equal(positions(plain.data), before)
-    select(plain)
+    activate(plain)
     refused("Select a faired surface", bpy.ops.object.fairing_match_border)
 
 
@@ -242,8 +225,7 @@ def shading_apart(first, other):
 def test_reflections_run_across_a_joint(panels, options):
     """Blender's normals at a border are those of the faces on one side, 0.9° off together."""
     bonnet, fender = panels
-    select(*panels)
-    assert bpy.ops.object.fairing_match_border(**options) == {"FINISHED"}
+    match(*panels, **options)
     assert shading_apart(*panels) < 0.05
     for panel in panels:
         recompute(panel)
@@ -258,9 +240,7 @@ def test_reflections_run_across_a_joint(panels, options):
 def test_live_keeps_reflections_across_a_joint(panels):
     bonnet, fender = panels
     session = matched_live(*panels)
-    fender.discrete_fairing.source.data.vertices[10].co.z += 0.05
-    fender.discrete_fairing.source.data.update()
-    bpy.context.view_layer.update()
+    pull(fender.discrete_fairing.source, 10, 0.05)
     assert shading_apart(*panels) < 0.2
     session.complete(bpy.context)
     assert shading_apart(*panels) < 0.05
@@ -270,8 +250,7 @@ def test_normals_of_the_user_stay(panels):
     bonnet, fender = panels
     own = np.tile([0.0, 0.0, 1.0], (len(bonnet.data.loops), 1))
     bonnet.data.normals_split_custom_set(own)
-    select(*panels)
-    assert bpy.ops.object.fairing_match_border() == {"FINISHED"}
+    match(*panels)
     shown = [normal.vector.z for normal in bonnet.data.corner_normals]
     assert min(shown) > 0.999 and fender.data.discrete_fairing.joint_normals
 
@@ -288,8 +267,7 @@ def test_a_crease_that_crosses_a_joint_keeps_its_normals(panels):
         for vertex in crease.vertices:
             vertex.co.z -= 0.4 * abs(vertex.co.x - 0.7)
         recompute(panel)
-    select(*panels)
-    assert bpy.ops.object.fairing_match_border() == {"FINISHED"}
+    match(*panels)
     normals = [normal.vector for normal in bonnet.data.corner_normals]
     on = [
         normals[loop.index]

@@ -5,11 +5,10 @@ import bpy
 import numpy as np
 from fake_layout import draw
 from live_scenes import live, move
-from scenes import CUBE, activate, add, again, fair, positions, recompute, refused, reopen
+from scenes import CUBE, activate, add, again, fair, positions, recompute, refused
 
 from addon.live import handlers
 from addon.memory import why_unfit
-from addon.mesh.object import select_only
 from addon.ui import main
 
 
@@ -27,27 +26,13 @@ def test_recompute_follows_the_source(source):
 def test_surfaces_selected_beside_a_mesh_are_not_faired_a_second_time(source):
     surface = fair(levels=1)
     other = add("Other", *CUBE)
-    select_only(bpy.context, [surface, other])
+    activate(surface, other)
     assert "768 triangles" in draw(main.VIEW3D_PT_fairing)
     made = fair(levels=2)
     assert made.name == "Other Fair" and bpy.context.selected_objects == [made]
     assert {o.name for o in bpy.data.objects} == {"Box", "Box Fair", "Other", "Other Fair"}
     activate(surface)
     assert len(fair(levels=1).data.polygons) == 6 * 4 * 4, "alone, it is a mesh like any other"
-
-
-def test_what_was_put_on_it_stays():
-    add("Box", *CUBE)
-    result = fair(levels=1)
-    paint = bpy.data.materials.new("Paint")
-    result.data.materials.append(paint)
-    result.modifiers.new("Thick", "SOLIDIFY").thickness = 0.125
-    result.location = (1, 2, 3)
-    name, meshes = result.data.name, len(bpy.data.meshes)
-    recompute()
-    assert list(result.data.materials) == [paint]
-    assert result.modifiers["Thick"].thickness == 0.125 and tuple(result.location) == (1, 2, 3)
-    assert result.data.name == name and len(bpy.data.meshes) == meshes
 
 
 def test_a_failure_leaves_the_surface(source):
@@ -65,19 +50,6 @@ def test_without_its_source_it_is_a_mesh_like_any_other(source):
     assert not bpy.ops.object.fairing_recompute.poll()
     assert "object.fairing_surface" in draw(main.VIEW3D_PT_fairing)
     assert not bpy.ops.object.fairing_show_source.poll()
-
-
-def test_survives_saving(tmp_path):
-    add("Box", *CUBE)
-    fair(levels=1, metric_exponent=0.25, boundary="FREE")
-    reopen(tmp_path)
-    result = bpy.data.objects["Box Fair"]
-    memory = result.discrete_fairing
-    assert memory.source == bpy.data.objects["Box"]
-    assert (memory.levels, memory.boundary, memory.metric_exponent) == (1, "FREE", 0.25)
-    move(bpy.data.objects["Box"])
-    recompute(result)
-    assert np.array_equal(positions(result.data)[:8], positions(bpy.data.objects["Box"].data))
 
 
 def test_no_ring_of_sources(source):

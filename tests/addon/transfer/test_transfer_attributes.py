@@ -5,8 +5,8 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from lattices import lattice_faces
 from refined import control_arrays, core_run
-from test_transfer_lattice import TRIANGLE_ROWS, quad_cells, triangle_cells
 
 from addon.transfer.attributes import AttributeTransfer
 from addon.transfer.filling import spread
@@ -37,39 +37,23 @@ def refined_corners(result):
     return np.concatenate([faces.ravel() for faces in result.faces])
 
 
-def by_hand(cells):
-    """A transfer for one face whose 16 cells are written down; its control vertices have the ids of its corners."""
-    size = cells.shape[1]
-    own = [0, 4, 14] if size == 3 else [0, 4, 24, 20]
-    others = [i for i in range(cells.max() + 1) if i not in own]
-    order = {old: new for new, old in enumerate([*own, *others])}
-    cells = np.vectorize(order.get)(cells).astype(np.int32)
-    triangles, quads = np.empty((0, 3), np.int32), np.empty((0, 4), np.int32)
-    faces = (cells, quads) if size == 3 else (triangles, cells)
-    nothing, all_zero = np.empty(0, np.int32), np.zeros(16, np.int32)
+def by_hand():
+    """A transfer for one quad in 16 cells, whose control vertices have the ids of its corners, and those of others."""
+    others = [i for i in range(25) if i not in (0, 4, 20, 24)]
+    order = {old: new for new, old in enumerate([0, 4, 24, 20, *others])}
+    cells = np.vectorize(order.get)(lattice_faces(5, 5)[:, [0, 3, 2, 1]]).astype(np.int32)
     result = SimpleNamespace(
-        vertices=np.zeros((len(order), 3)),
-        faces=faces,
-        triangle_polygon=all_zero if size == 3 else nothing,
-        quad_polygon=nothing if size == 3 else all_zero,
+        vertices=np.zeros((25, 3)),
+        faces=(np.empty((0, 3), np.int32), cells),
+        triangle_polygon=np.empty(0, np.int32),
+        quad_polygon=np.zeros(16, np.int32),
         mended=None,
     )
-    arrays = control_arrays(np.eye(size, 3), [list(range(size))])
-    return AttributeTransfer(result, arrays, 2), order
-
-
-def test_triangle_is_linear():
-    transfer, order = by_hand(triangle_cells())
-    at = {
-        order[v]: (i / 4, j / 4) for j, row in enumerate(TRIANGLE_ROWS) for i, v in enumerate(row)
-    }
-    found = transfer.point(np.array([(0, 0), (1, 0), (0, 1)], np.float32))
-    assert np.array_equal(found, [at[v] for v in range(len(at))])
-    assert transfer.corner(np.zeros(3)).shape == (48, 1), "without quads, too"
+    return AttributeTransfer(result, control_arrays(np.eye(4, 3), [[0, 1, 2, 3]]), 2), order
 
 
 def test_quad_is_bilinear():
-    transfer, order = by_hand(quad_cells())
+    transfer, order = by_hand()
     at = {order[5 * j + i]: (i / 4, j / 4, i * j / 16) for j in range(5) for i in range(5)}
     found = transfer.point(np.array([(0, 0, 0), (1, 0, 0), (1, 1, 1), (0, 1, 0)], np.float32))
     assert np.array_equal(found, [at[v] for v in range(25)])
@@ -93,7 +77,7 @@ def test_polygon_centre_is_its_centroid():
 
 
 def test_picked_points_are_the_nearest():
-    transfer, order = by_hand(quad_cells())
+    transfer, order = by_hand()
     found = transfer.pick_point(np.array([10, 20, 30, 40]))
     at = {5 * j + i: found[order[5 * j + i]] for j in range(5) for i in range(5)}
     # ties go to the lowest id: 0 | 1 along the first side, 0 in the middle

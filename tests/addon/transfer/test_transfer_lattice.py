@@ -4,27 +4,9 @@
 import discrete_fairing as df
 import numpy as np
 import pytest
-from lattices import lattice_faces
 
 from addon.mesh.write import write_mesh
 from addon.transfer.lattice import edge_table
-
-# two levels of a triangle: rows of 4, 3, 2, 1 upward cells, vertices numbered row by row
-TRIANGLE_ROWS = ((0, 1, 2, 3, 4), (5, 6, 7, 8), (9, 10, 11), (12, 13), (14,))
-
-
-def triangle_cells():
-    cells = []
-    for low, high in zip(TRIANGLE_ROWS, TRIANGLE_ROWS[1:], strict=False):
-        for i in range(len(high)):
-            cells.append((low[i], low[i + 1], high[i]))
-            if i + 1 < len(high):
-                cells.append((low[i + 1], high[i + 1], high[i]))
-    return np.array(cells, np.int32)
-
-
-def quad_cells():
-    return lattice_faces(5, 5)[:, [0, 3, 2, 1]].astype(np.int32)
 
 
 @pytest.mark.parametrize("levels", [0, 2])

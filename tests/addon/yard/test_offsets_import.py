@@ -110,34 +110,6 @@ def test_wrong_offsets_are_found_by_name(make):
     assert listed == named or "bulb" in table.file
 
 
-def knuckled(x, t):
-    """A hull of 12 m, in metres: x along, t from 0 at the keel over 4/7 at the knuckle to 1 at the sheer."""
-    s, below, above = x / 12, np.minimum(t * 7 / 4, 1.0), np.maximum(t * 7 - 4, 0.0) / 3
-    beam = 1.9 * (1 - (1 - s) ** 2.5) * (1 - 0.1 * s**2)
-    keel, sheer = -0.6 + 0.9 * (1 - s) ** 4, 1.5 + 0.7 * (1 - s) ** 2
-    rounded = below * (1 - below), above * (1 - above)
-    y = beam * (0.85 * below + 0.15 * above + 0.12 * rounded[0] + 0.1 * rounded[1])
-    z = keel + (sheer - keel) * (0.35 * below + 0.65 * above) - 0.15 * rounded[0] * (1 - s)
-    return np.stack(np.broadcast_arrays(x, y, z), axis=-1)
-
-
-def test_between_offsets_of_a_knuckled_hull_the_surface_is_within_a_millimetre(tmp_path):
-    stations, lines = np.arange(13.0)[:, None], np.arange(8)[None] / 7
-    names = ["Keel", "A", "B", "C", "Chine", "D", "E", "Sheer"]
-    rows = ["station\tline\tx (m)\ty\tz"]
-    for k, station in enumerate(knuckled(stations, lines).tolist()):
-        rows += ["\t".join([f"{k}", name, *map(str, place)]) for name, place in zip(names, station)]
-    file = tmp_path / "offsets.tsv"
-    file.write_text("\n".join(rows))
-    half = imported(file)
-    surface = fair(**asdict(settings()))
-    assert read_names(surface.data) == []
-    truth = knuckled(np.arange(2.0, 10.0, 0.125)[:, None], np.arange(57)[None] / 56).reshape(-1, 3)
-    nearest = np.array([surface.closest_point_on_mesh(place)[1] for place in truth.tolist()])
-    off = np.linalg.norm(nearest - truth, axis=1)
-    assert len(half.data.polygons) == 84 and off.max() < 1e-3
-
-
 def folds(surface):
     """The angles in degrees between the two halves, at each edge of the keel and of the bulb's underside."""
     middle = positions(surface.data)[:, 1] == 0.0
