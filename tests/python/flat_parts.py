@@ -77,20 +77,9 @@ def can(radius, height, size=2.0):
     return turned([(0, 0.0, "flat"), *ring, (0, height, "")])
 
 
-def mug(radius, height, wall=3.0, size=2.0):
-    """A can with a wall of its own, open at the top: flat inside and below, both sides on cylinders, a round lip."""
-    outside = rim(radius - size, size, size, -np.pi / 2)
-    lip = rim(radius - wall / 2, height - wall / 2, wall / 2, 0.0, np.pi)
-    floor = rim(radius - wall - size, wall + size, size, 0.0, -np.pi / 2)
-    kinds = ["", "", "side", "", "", "side", "", "", "flat"]
-    ring = [(*p, kind) for p, kind in zip(outside + lip + floor, kinds)]
-    return turned([(0, 0.0, "flat"), *ring, (0, wall, "")])
-
-
 PARTS = {
     "phone shell": (rounded_box, [(140, 70, 9, 3), (120, 70, 7, 2), (160, 75, 12, 4)]),
     "remote control": (rounded_box, [(160, 40, 18, 4), (200, 45, 15, 3), (120, 40, 22, 5)]),
     "soap box": (rounded_box, [(90, 60, 30, 4), (100, 50, 20, 3), (80, 70, 40, 6)]),
     "can": (can, [(33, 120), (40, 50), (50, 20)]),
-    "mug": (mug, [(40, 95), (45, 60), (35, 120)]),
 }

@@ -68,20 +68,6 @@ def rounded_box(around: int = 16, apart: float = 4.0):
     return np.concatenate(points), np.concatenate([walls.reshape(-1, 3), cap, bottom])
 
 
-def chamfered_drum(around: int = 32, height: float = 4.0, bevel: float = 0.12):
-    """A cylinder of radius 1 with chamfers of 45°, single faces for its walls, caps fanned from a rim."""
-    angle = 2 * np.pi * np.arange(around) / around
-    points = [
-        np.c_[radius * np.cos(angle), radius * np.sin(angle), np.full(around, z)]
-        for radius, z in ((1 - bevel, 0), (1, bevel), (1, height - bevel), (1 - bevel, height))
-    ]
-    walls = lattice_faces(4, around, (False, True))[:, [0, 3, 2, 0, 2, 1]]
-    fan = np.array([[0, k, k + 1] for k in range(1, around - 1)])
-    return np.concatenate(points), np.concatenate(
-        [walls.reshape(-1, 3), fan[:, ::-1], fan + 3 * around]
-    )
-
-
 def octahedron_with_a_hanging_vertex():
     """One side has a vertex that the face beside it does not have: a border loop of three vertices in a line."""
     points = np.concatenate([np.eye(3), -np.eye(3), [[0.5, 0.5, 0.0]]])

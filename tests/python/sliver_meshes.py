@@ -52,38 +52,6 @@ def stretched_sheet(count: int = 400, stretch: float = 100.0, seed: int = 1, she
     return np.stack([plane[:, 0] * (1 if sheared else stretch), plane[:, 1], wave], -1), faces
 
 
-def uneven_drum(counts=(8, 11), seed=17, rings=3, rim=0.3, height=2.0):
-    """Two rims at unrelated angles, joined by long triangles; rounded into flat caps."""
-    rng = np.random.default_rng(seed)
-    points, faces, rims = [], [], []
-    angles = [np.sort(rng.uniform(0, 2 * np.pi, n)) for n in counts]
-    for side, (around, z) in enumerate(zip(angles, (0.0, height), strict=True)):
-        loops = []
-        for t in np.linspace(0, np.pi / 2, rings):
-            loops.append(len(points) + np.arange(len(around)))
-            r, out = 1 - rim + rim * np.cos(t), (2 * side - 1) * rim * np.sin(t)
-            points += [(r * np.cos(a), r * np.sin(a), z + out) for a in around]
-        way = slice(None, None, 2 * side - 1)
-        for low, high in zip(loops, loops[1:]):
-            for a, b, c, d in zip(low, np.roll(low, -1), np.roll(high, -1), high, strict=True):
-                quad = [a, b, c, d][way]
-                faces += [[quad[0], quad[1], quad[2]], [quad[0], quad[2], quad[3]]]
-        top = loops[-1]
-        faces += [[top[0], top[i], top[i + 1]][way] for i in range(1, len(top) - 1)]
-        rims.append(loops[0])
-    i, j, (n, m) = 0, 0, counts
-    low, high = ([*a, a[0] + 2 * np.pi, 1e9] for a in angles)
-    while i < n or j < m:
-        a, b, c, d = rims[0][i % n], rims[0][(i + 1) % n], rims[1][j % m], rims[1][(j + 1) % m]
-        if low[i + 1] <= high[j + 1]:
-            faces.append([a, b, c])
-            i += 1
-        else:
-            faces.append([a, d, c])
-            j += 1
-    return np.array(points), np.array(faces)
-
-
 def height_of_dome(flat):
     return 0.6 * np.exp(-3 * (flat**2).sum(axis=1))
 

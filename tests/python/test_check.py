@@ -110,16 +110,3 @@ def test_the_first_error_is_the_one_that_stops_a_run(seed):
     flat = np.array(errors[0].elements).reshape(-1).tolist()
     assert (error.code, error.elements, error.kind) == (errors[0].code, flat, errors[0].kind)
     assert str(error) == errors[0].message
-
-
-def test_errors_and_warnings_say_what_their_elements_are():
-    for options, kind in [
-        ({"crease_edges": [(0, 99)]}, "vertex"),
-        ({"corner_vertices": [99]}, "vertex"),
-        (
-            {"crease_edges": [(0, int(np.setdiff1d(range(1, 12), FACES[(FACES == 0).any(1)])[0]))]},
-            "edge",
-        ),
-        ({"levels": 99}, "mesh"),
-    ]:
-        assert refusal(df.fair, POINTS, FACES, **options).kind == kind

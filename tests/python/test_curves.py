@@ -8,8 +8,6 @@ import tight
 from surface_measures import turns
 from surfaces import boundary_vertices, output_faces, random_rotation, size_of
 
-MODES = ("curve", "linear", "free")
-
 
 def rows(points: np.ndarray) -> set:
     """Points to the last bit."""
@@ -103,24 +101,6 @@ def test_curve_boundary_is_smooth_and_linear_is_not():
     assert all(0.4 < b / a < 0.6 for a, b in zip(smooth, smooth[1:]))
     straight = [turn(levels, "linear") for levels in (1, 4)]
     assert straight[0] == pytest.approx(straight[1], abs=1e-12)
-
-
-def test_free_boundary_is_the_surfaces_own():
-    vertices, faces = meshes.wavy_patch()
-    curve, linear, free = (tight.fair(vertices, faces, 3, boundary=mode) for mode in MODES)
-    for other in (curve, linear):
-        assert np.abs(free.vertices - other.vertices).max() > 1e-3 * size_of(vertices)
-        assert (
-            free.report["energy"]["result"]["thin_plate"]
-            < other.report["energy"]["result"]["thin_plate"]
-        )
-    assert np.array_equal(free.vertices[: len(vertices)], vertices)
-    moved = vertices.copy()
-    moved[12] += [0, 0, 0.5]
-    assert rows(boundary_points(tight.fair(moved, faces, 3, boundary="free"))) != rows(
-        boundary_points(free)
-    )
-    assert rows(boundary_points(tight.fair(moved, faces, 3))) != rows(boundary_points(free))
 
 
 @pytest.mark.parametrize("ends", ["corner_angle", "corner_vertices"])

@@ -310,20 +310,6 @@ def test_sides_of_faces_are_cut_at_vertices_on_them(rows, way):
     assert all(len(common) >= 2 for common in first)
 
 
-def test_a_hole_that_winds_by_more_than_half_a_turn():
-    whole, all_faces = mapped(cylinder, 72, 24, (True, False))
-    c = whole[all_faces].mean(1)
-    angle = np.arctan2(c[:, 1], c[:, 0])
-    gone = (abs(angle) < np.radians(110)) & (abs(c[:, 2] - 2) < 0.5)
-    vertices, faces = cut(whole, all_faces, gone)
-    hole = max(df.find_holes(vertices, faces), key=lambda h: np.ptp(vertices[h][:, 2]))
-    filled = df.fill_holes(vertices, faces, holes=[hole])
-    assert not df.check(filled.vertices, filled.faces)
-    assert filled.holes[0].folds == 0
-    radii = np.hypot(*filled.vertices[len(vertices) :, :2].T)
-    assert abs(radii - 1).max() < 0.05
-
-
 def test_faces_of_any_size_and_loops_in_either_direction():
     vertices, quads = quads_with_a_hole()
     hole = min(df.find_holes(vertices, quads), key=len)

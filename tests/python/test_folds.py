@@ -97,8 +97,6 @@ THIN_PLATES = {
         {"metric_exponent": 0.25},
     ),
     "hanging vertex": (folding.octahedron_with_a_hanging_vertex(), 3, {}),
-    "chamfered drum of 32": (folding.chamfered_drum(32), 3, {}),
-    "chamfered drum of 64": (folding.chamfered_drum(64), 2, {}),
 }
 
 

@@ -126,42 +126,6 @@ def test_a_cap_goes_and_its_vertex_comes_into_the_neighbour():
     assert set(result.triangle_polygon.tolist()) == {0, 2, 3}
 
 
-def stack(shares, corners):
-    """Flat faces on the edge 0-1 and sound ones beyond: (points, faces, how many are flat)."""
-    points, flat, sound = [[0.0, 0, 0], [3, 2, 1], [0, 5, 0]], [], [[0, 1, 2]]
-    for k in range(0, len(shares), corners):
-        path = list(range(len(points), len(points) + corners))
-        points += [[3 * s, 2 * s, s] for s in sorted(shares[k : k + corners])]
-        tip = len(points)
-        points.append([np.cos(k), np.sin(k), -4])
-        chain = [0, *path, 1]
-        flat.append(chain[::-1] if k % 2 else chain)
-        sound += [[a, b, tip] for a, b in zip(chain, chain[1:])]
-    return np.array(points), flat + sound, len(flat)
-
-
-@pytest.mark.parametrize("corners", [1, 2, 3])
-@pytest.mark.parametrize("turned", [False, True])
-def test_a_stack_of_flat_faces_on_one_edge(corners, turned):
-    """Each sound face gets every point that lies inside its sides, in order."""
-    shares = np.random.default_rng(corners).permutation(np.arange(1, 25) / 25)
-    points, faces, flat = stack(shares, corners)
-    if turned:
-        faces = [faces[f][1:] + faces[f][:1] for f in range(len(faces) - 1, -1, -1)]
-    _, acts = result = mend(points, faces, 0)
-    assert [(code, len(ids)) for code, ids in acts] == [("DEGENERATE_FACE", flat)]
-    off = np.linalg.norm(np.cross(points, points[1]), axis=1)
-    on_edge = [v for v in np.argsort(points[:, 0], kind="stable") if off[v] < 1e-12]
-    at = {v: i for i, v in enumerate(on_edge)}
-    for face, f in zip(mended_faces(result[0]), result[0].mended.face_origin):
-        a, b, tip = sorted(faces[f], key=lambda v: at.get(v, len(at)))
-        want = [*on_edge[at[a] : at[b] + 1], tip]
-        assert sorted(face) == sorted(want)
-        start = face.index(tip)
-        turn = face[start + 1 :] + face[:start]
-        assert want[:-1] in (turn, turn[::-1])
-
-
 def test_a_needle_loses_its_short_side_and_a_cap_on_a_boundary_goes():
     points, faces = cap_mesh()
     result, acts = mend(points, faces[1:], 0)

@@ -87,25 +87,6 @@ def test_a_crease_that_goes_around_once():
     assert not np.array_equal(result.vertices, smooth.vertices)
 
 
-@pytest.mark.parametrize("joint", ["position", "tangent", "curvature"])
-def test_regions(joint):
-    (vertices, faces), cover = cases()
-    chosen = np.arange(4, 12)
-    result = fair(vertices, faces, 2, region=chosen, joint=joint)
-    twice = fair(*cover, 2, region=np.concatenate([chosen, chosen + len(faces)]), joint=joint)
-    assert_half_of(result, twice, len(faces), 1e-6)
-
-
-def test_faces_may_look_either_way():
-    vertices, faces = strip(AROUND, ACROSS)
-    turned = faces.copy()
-    turned[::3] = turned[::3, ::-1]
-    here, there = fair(vertices, faces, 2), fair(vertices, turned, 2, repair="mend")
-    for f in (1, 2, 4, 17):  # these are as they were
-        assert np.abs(corners_of(here, [f]) - corners_of(there, [f])).max() <= 1e-7
-    assert there.report["flipped_faces"] == there.report["repairs"] == []
-
-
 def test_a_closed_one_with_polygons():
     vertices, quads = klein_bottle()
     result = fair(vertices, quads, 2)
