@@ -15,26 +15,6 @@ namespace {
 
 const MembraneOptions taut{0.1};
 
-// A control mesh with a membrane, at one level.
-struct Stretched {
-  const ControlMesh& mesh;
-  GridLevel grid;
-  Stencils plain, tense;
-};
-
-void on_all_stretched(int most_levels, double exponent, const PaperOptions& options,
-                      const std::function<void(const Stretched&, Workers&)>& body) {
-  Workers workers(1);
-  for (const auto& [name, mesh] : all_meshes())
-    for (int level = 0; level <= most_levels; ++level) {
-      SCOPED_TRACE(name + ", level " + std::to_string(level));
-      const std::unique_ptr<ChartMaker> charts = make_charts(mesh, exponent, options);
-      body({mesh, GridLevel(mesh, level), make_stencils(mesh, *charts, options, workers, {}),
-            make_stencils(mesh, *charts, options, workers, taut)},
-           workers);
-    }
-}
-
 double metric_edge(const ControlMesh& mesh, const std::vector<FlatFace>& flat) {
   double sum = 0;
   for (std::size_t e = 0; e < mesh.edges.size(); ++e) sum += edge_length(mesh, flat, Index(e));
@@ -94,32 +74,36 @@ Dense reference(const GridLevel& grid, double exponent) {
   return l;
 }
 
-Dense assembled(const Stretched& s, const Stencils& stencils, const Unknowns& unknowns) {
+Dense assembled(const Setting& s, const Stencils& stencils) {
   Workers workers(1);
-  return Dense(assemble_thin_plate(s.grid, stencils, unknowns, {}, workers).matrix);
+  return Dense(assemble_thin_plate(s.grid, stencils, all_points(s.mesh), {}, workers).matrix);
 }
 
 TEST(Membrane, IsThatOfLinearElements) {
   for (const double exponent : {0.0, 0.5, 1.0})
-    on_all_stretched(2, exponent, {}, [&](const Stretched& s, Workers&) {
-      const Unknowns all = all_points(s.mesh);
-      const Dense with = assembled(s, s.tense, all), l = with - assembled(s, s.plain, all),
-                  expected = reference(s.grid, exponent);
-      EXPECT_LT((l - expected).norm(), 1e-11 * with.norm());
-      EXPECT_LT((l * Dense::Ones(l.cols(), 1)).norm(), 1e-12 * with.norm());
-    });
+    on_all(
+        2,
+        [&](const Setting& s, Workers& workers) {
+          const Stencils plain = make_stencils(s.mesh, s.charts, workers);
+          const Dense with = assembled(s, s.stencils), l = with - assembled(s, plain);
+          EXPECT_LT((l - reference(s.grid, exponent)).norm(), 1e-11 * with.norm());
+          EXPECT_LT((l * Dense::Ones(l.cols(), 1)).norm(), 1e-12 * with.norm());
+        },
+        charts_of(exponent), taut.tension);
 }
 
 TEST(Membrane, HasItsOwnEnergy) {
-  on_all_stretched(3, centripetal, {}, [](const Stretched& s, Workers& workers) {
+  const auto body = [](const Setting& s, Workers& workers) {
+    const Stencils plain = make_stencils(s.mesh, s.charts, workers);
     const Points free = random_points(s.grid.size(), 5);
-    const double energy = membrane_energy(s.grid, s.tense, workers, free.data()),
+    const double energy = membrane_energy(s.grid, s.stencils, workers, free.data()),
                  form = (free.transpose() * reference(s.grid, 0.5) * free).trace();
     EXPECT_NEAR(energy, form, 1e-12 * form);
-    EXPECT_EQ(membrane_energy(s.grid, s.plain, workers, free.data()), 0);
-    EXPECT_EQ(thin_plate_energy(s.grid, s.tense, workers, free.data()),
-              thin_plate_energy(s.grid, s.plain, workers, free.data()));
-  });
+    EXPECT_EQ(membrane_energy(s.grid, plain, workers, free.data()), 0);
+    EXPECT_EQ(thin_plate_energy(s.grid, s.stencils, workers, free.data()),
+              thin_plate_energy(s.grid, plain, workers, free.data()));
+  };
+  on_all(3, body, charts_of(), taut.tension);
 }
 
 // Only the faces that are faired stretch a membrane, and their edges give its unit.

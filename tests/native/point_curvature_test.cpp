@@ -89,34 +89,6 @@ TEST(PointCurvature, KnowsTheDirectionsOfACylinder) {
   }
 }
 
-TEST(PointCurvature, ChartIsTheExponentialMap) {
-  std::mt19937 random(3);
-  UniformReal<> vary(-0.2, 0.2);
-  SurfaceChart chart;
-  for (int valence = 3; valence <= 12; ++valence) {
-    std::vector<Vec3> offset;
-    for (int j = 0; j < valence; ++j) {
-      const double angle = 2 * pi * (j + vary(random)) / valence;
-      const double size = 1 + vary(random), lift = 0.8 + vary(random);
-      offset.push_back(size * Vec3(std::cos(angle), std::sin(angle), lift));
-    }
-    const std::vector<std::uint8_t> far(offset.size(), 0);
-    point_curvature({offset, far}, chart);
-    std::vector<double> before{0};
-    for (std::size_t j = 0; j < offset.size(); ++j) {
-      const Vec3 &a = offset[j], &b = offset[(j + 1) % offset.size()];
-      before.push_back(before.back() + std::acos(a.dot(b) / (a.norm() * b.norm())));
-    }
-    ASSERT_EQ(chart.ring.size(), offset.size());
-    for (std::size_t j = 0; j < offset.size(); ++j) {
-      const double angle = before[j] * 2 * pi / before.back();
-      EXPECT_LT((chart.ring[j] - offset[j].norm() * Vec2(std::cos(angle), std::sin(angle))).norm(),
-                1e-13)
-          << valence;
-    }
-  }
-}
-
 TEST(Hessian, IsThatOfLeastSquares) {
   std::mt19937 random(4);
   UniformReal<> vary(-0.3, 0.3);

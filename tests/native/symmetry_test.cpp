@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Mirror symmetries of control meshes, and where they take the points of a lattice.
+// Mirror symmetries of control meshes.
 #include "mesh/symmetry.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 
-#include "grid/symmetrize.h"
 #include "meshes.h"
-#include "polyhedron.h"
 
 namespace fairing::test {
 namespace {
@@ -101,40 +99,6 @@ TEST(Mirror, VerticesAtOnePlaceAreToldApart) {
   ASSERT_FALSE(found.empty());
   EXPECT_EQ(found[0].plane.normal, Vec3::UnitX());
   EXPECT_EQ(found[0].vertex, (std::vector<Index>{5, 4, 7, 6, 1, 0, 3, 2}));
-}
-
-// Everything but control vertices and curves.
-Unknowns unknowns(const ControlMesh& mesh, bool vertices) {
-  Unknowns u;
-  u.vertex.assign(std::size_t(mesh.vertex_count()), vertices);
-  u.any_vertex = vertices;
-  for (const std::uint8_t feature : mesh.feature_edge) u.edge.push_back(!feature);
-  return u;
-}
-
-std::vector<ControlMesh> samples() {
-  std::vector<ControlMesh> out;
-  for (const OwnedPolygonMesh& mesh : {cube(), octahedron(), icosahedron(), square_pyramid(),
-                                       torus(8, 6), triangulated(grid(4, 4))}) {
-    out.push_back(working(control(mesh)));
-    out.push_back(turned(control(mesh)));
-  }
-  return out;
-}
-
-// On the linearly refined mesh, which is symmetric, nothing moves if every point's image is the
-// right one.
-TEST(LatticeMirror, TakesPointsWhereTheyBelong) {
-  Workers workers(2);
-  for (const ControlMesh& mesh : samples())
-    for (int level = 0; level <= 3; ++level) {
-      const GridLevel lattice(mesh, level);
-      Array<double> x(3 * lattice.size());
-      refine_linearly(lattice, mesh.positions, x.data());
-      Array<double> mean = x;
-      symmetrize(lattice, symmetry(mesh), unknowns(mesh, true), workers, mean.data());
-      for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(mean[i], x[i], 1e-13);
-    }
 }
 
 }  // namespace
