@@ -55,6 +55,7 @@ def check_surface(result: df.Result, case: Case) -> None:
         assert fine.size == 0 or (fine.min() >= 0 and fine.max() < len(result.vertices))
         used = np.sort(fine, axis=1)
         assert (used[:, 1:] != used[:, :-1]).all(), "a face has a vertex twice"
+        assert len(np.unique(used, axis=0)) == len(used), "a face comes twice"
     control = result.vertices[:count]
     moves = case.options.get("interpolation") == "approximate" or case.options.get("epsilon")
     if not moves and case.options.get("repair") != "mend":

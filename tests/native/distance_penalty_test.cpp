@@ -80,27 +80,6 @@ TEST(DistancePenalty, IsAddedToTheLinearizationThatItsWeightsAreFrom) {
   EXPECT_EQ(at.at_first.force, at.with.force);
 }
 
-TEST(DistancePenalty, IsPartOfTheProductAndTheMatrix) {
-  for (const CurvatureEnergy energy : energies) {
-    Penalized at(all_meshes().at("mixed grid"), 3, energy);
-    const AssembledSystem assembled = at.system.assemble();
-    const std::vector<Index> number = number_unknowns(at.grid, at.shared.unknowns);
-    Array<double> in(at.grid.size()), out(at.grid.size());
-    Eigen::VectorXd small(assembled.matrix.cols());
-    const Points h = masked(at.grid, at.shared.unknowns, random_points(at.grid.size()));
-    for (std::size_t p = 0; p < in.size(); ++p) {
-      in[p] = h(Eigen::Index(p), 0);
-      if (number[p] >= 0) small(number[p]) = in[p];
-    }
-    at.system.apply(in.data(), out.data());
-    small = assembled.matrix * small;
-    for (std::size_t p = 0; p < in.size(); ++p)
-      EXPECT_NEAR(out[p], number[p] < 0 ? 0 : small(number[p]),
-                  1e-6 * small.lpNorm<Eigen::Infinity>())
-          << p;
-  }
-}
-
 // Waves that the penalty outweighs: (A + Q) (S + D)^-1 (A + Q) is about Q^2 / D there.
 TEST(DistancePenalty, IsInBothMatricesOfTheCyclesOfVariation) {
   Penalized at(all_meshes().at("mixed grid"), 2, CurvatureEnergy::minimum_variation);

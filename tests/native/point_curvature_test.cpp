@@ -5,13 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 #include <cmath>
 #include <numbers>
 
-#include "random.h"
 #include "stencil/angle.h"
-#include "stencil/fit.h"
 
 namespace fairing::test {
 namespace {
@@ -87,37 +84,6 @@ TEST(PointCurvature, KnowsTheDirectionsOfACylinder) {
     EXPECT_NEAR(c.density(), 1 / (radius * radius), 1e-5);
     EXPECT_NEAR(chart.ring[0].y(), 0, 1e-15);
   }
-}
-
-TEST(Hessian, IsThatOfLeastSquares) {
-  std::mt19937 random(4);
-  UniformReal<> vary(-0.3, 0.3);
-  for (const double skew : {1.0, 0.1, 20.0})
-    for (int valence = 6; valence <= 40; ++valence)
-      for (int trial = 0; trial < 10; ++trial) {
-        std::vector<Vec2> ring;
-        std::vector<double> weight;
-        Eigen::MatrixXd a(valence, 5);
-        Eigen::VectorXd f(valence);
-        for (int j = 0; j < valence; ++j) {
-          const double angle = 2 * pi * (j + vary(random)) / valence, radius = 1 + vary(random);
-          ring.push_back(Vec2(skew * radius * std::cos(angle), radius * std::sin(angle)));
-          weight.push_back(1 + vary(random));
-          a.row(j) = std::sqrt(weight.back()) * basis(ring.back()).transpose();
-          f[j] = vary(random);
-        }
-        std::vector<Vec3> rows;
-        hessian_rows(ring, weight, rows);
-        Vec3 found = Vec3::Zero();
-        double size = 0;
-        for (std::size_t j = 0; j < rows.size(); ++j) {
-          found += f[Eigen::Index(j)] * rows[j];
-          size += rows[j].norm();
-          f[Eigen::Index(j)] *= std::sqrt(weight[j]);
-        }
-        const Vec3 expected = a.colPivHouseholderQr().solve(f).tail<3>();
-        EXPECT_LT((found - expected).norm(), 1e-9 * size) << valence << " " << skew;
-      }
 }
 
 TEST(Angle, AgreesWithTheLibrary) {

@@ -7,13 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <set>
 
 #include "mesh/control_mesh.h"
 #include "mesh/validate/check.h"
 #include "meshes.h"
-#include "random.h"
 
 namespace fairing::test {
 namespace {
@@ -119,76 +117,6 @@ TEST(Split, OpensVerticesOfValenceTwo) {
   const auto wrapped = make_mesh({{0, 0, 0}, {1, 0, 0.1}, {1, 1, 0.1}, {0, 1, 0}, {2, 0.5, 0}},
                                  {{0, 1, 2, 3}, {3, 2, 1, 0, 4}});
   make_control_mesh(wrapped.view(), {});
-}
-
-// Any simple polygon: a random radius at each angle, then sheared out of its star shape.
-OwnedPolygonMesh random_polygon(std::mt19937& random, int corners) {
-  UniformReal<> radius(0.2, 1.0);
-  std::vector<Point> points;
-  Polygon polygon;
-  for (int i = 0; i < corners; ++i) {
-    const double angle = 2 * 3.14159265358979 * i / corners, r = radius(random);
-    const double x = r * std::cos(angle), y = r * std::sin(angle);
-    points.push_back({x + 2 * y * y, y, 0.1 * x * y});
-    polygon.push_back(i);
-  }
-  return make_mesh(points, {polygon});
-}
-
-// Each face by the places of its vertices, to the bit, from its least one on.
-std::multiset<std::vector<std::array<double, 3>>> faces_in_space(const OwnedPolygonMesh& input,
-                                                                 const SplitMesh& mesh,
-                                                                 double sign = 1) {
-  const auto vertices = Index(input.coordinates.size() / 3);
-  std::multiset<std::vector<std::array<double, 3>>> faces;
-  for (const SplitFace& face : mesh.faces) {
-    std::vector<std::array<double, 3>> corners;
-    for (const Index v : face.vertex) {
-      if (v < 0) continue;
-      const double* p = v < vertices ? &input.coordinates[3 * std::size_t(v)]
-                                     : mesh.centres[std::size_t(v - vertices)].data();
-      corners.push_back({sign * p[0], sign * p[1], sign * p[2]});
-    }
-    if (sign < 0) std::reverse(corners.begin(), corners.end());
-    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-    faces.insert(corners);
-  }
-  return faces;
-}
-
-TEST(Split, HasTheSameBitsHoweverItIsNumbered) {
-  std::mt19937 random(2);
-  for (int trial = 0; trial < 300; ++trial) {
-    const int n = 4 + trial % 9;
-    OwnedPolygonMesh mesh = random_polygon(random, n);
-    if (trial % 3 == 0)  // a regular one, turned: ties all around
-      for (int i = 0; i < n; ++i) {
-        const double angle = 2 * 3.14159265358979 * i / n + trial;
-        mesh.coordinates[3 * std::size_t(i)] = std::cos(angle) + 7;
-        mesh.coordinates[3 * std::size_t(i) + 1] = std::sin(angle) - 0.3;
-        mesh.coordinates[3 * std::size_t(i) + 2] = 0.1 * trial;
-      }
-    const auto expected = faces_in_space(mesh, split_polygons(mesh.view()));
-    for (int first = 1; first < n; ++first) {
-      // Another first corner, and other numbers of the vertices.
-      std::vector<std::int64_t> place(static_cast<std::size_t>(n));
-      std::iota(place.begin(), place.end(), 0);
-      std::shuffle(place.begin(), place.end(), random);
-      OwnedPolygonMesh other = mesh;
-      for (std::size_t i = 0; i < place.size(); ++i) {
-        other.corners[i] =
-            place[std::size_t(mesh.corners[(i + std::size_t(first)) % place.size()])];
-        std::copy_n(mesh.coordinates.begin() + std::ptrdiff_t(3 * i), 3,
-                    other.coordinates.begin() + 3 * place[i]);
-      }
-      EXPECT_EQ(faces_in_space(other, split_polygons(other.view())), expected) << trial;
-    }
-    // Turned inside out through the origin.
-    OwnedPolygonMesh mirrored = mesh;
-    std::reverse(mirrored.corners.begin(), mirrored.corners.end());
-    for (double& x : mirrored.coordinates) x = -x;
-    EXPECT_EQ(faces_in_space(mirrored, split_polygons(mirrored.view()), -1), expected) << trial;
-  }
 }
 
 }  // namespace

@@ -24,6 +24,18 @@ Chart random_ring(int valence, std::mt19937& random, double skew = 1) {
   return chart;
 }
 
+// The second derivatives of a quadratic by any weights, as an error.
+double hessian_error(const Chart& chart, const Coefficients& c, std::mt19937& random) {
+  UniformReal<> weight(0.5, 2);
+  std::vector<double> weights;
+  for (std::size_t j = 0; j < chart.ring.size(); ++j) weights.push_back(weight(random));
+  std::vector<Vec3> rows;
+  hessian_rows(chart.ring, weights, rows);
+  Vec3 found = Vec3::Zero();
+  for (std::size_t j = 0; j < rows.size(); ++j) found += basis(chart.ring[j]).dot(c) * rows[j];
+  return (found - c.tail<3>()).norm();
+}
+
 // The fit of a quadratic with these coefficients, as an error relative to them.
 double fit_error(const Chart& chart, const Coefficients& c) {
   const FitRows rows = fit(chart);
@@ -36,8 +48,12 @@ double fit_error(const Chart& chart, const Coefficients& c) {
 TEST(Fit, IsExactOnQuadratics) {
   std::mt19937 random(3);
   for (int valence = 5; valence <= 40; ++valence)
-    for (int trial = 0; trial < 20; ++trial)
-      EXPECT_LT(fit_error(random_ring(valence, random), Coefficients::Random()), 1e-9) << valence;
+    for (int trial = 0; trial < 20; ++trial) {
+      const Chart chart = random_ring(valence, random);
+      const Coefficients c = Coefficients::Random();
+      EXPECT_LT(fit_error(chart, c), 1e-9) << valence;
+      EXPECT_LT(hessian_error(chart, c, random), 1e-8) << valence;
+    }
 }
 
 TEST(Fit, FewNeighboursMeasureTheLaplacian) {

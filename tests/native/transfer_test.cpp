@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <map>
-#include <new>
 #include <span>
 #include <utility>
 #include <vector>
@@ -143,33 +142,6 @@ TEST(Rows, RefuseTooManyColumnsInOnePlace) {
     };
     EXPECT_EQ(AssembledMatrix::make(2, std::size_t(columns), workers, writer) != nullptr,
               columns == 65000);
-  }
-}
-
-// A writer that leaves by an exception, in the middle of a row, leaves nothing to the next builder.
-TEST(Rows, KeepNoMarksOfARowThatWasInterrupted) {
-  Workers workers(1);
-  constexpr Index size = 40;
-  const auto writer = [&](Index last) {
-    return [last] {
-      return [last](Index row, RowBuilder& builder) {
-        for (Index c = 0; c < size; ++c) {
-          if (row == last && c > size / 2) throw std::bad_alloc();
-          builder.add(c, double(row + c));
-        }
-      };
-    };
-  };
-  for (const Index last : {0, 1, 7}) {
-    EXPECT_THROW(AssembledMatrix::make(size, size, workers, writer(last)), std::bad_alloc);
-    const auto whole = AssembledMatrix::make(size, size, workers, writer(size));
-    ASSERT_NE(whole, nullptr);
-    const Eigen::VectorXf x = Eigen::VectorXf::Ones(3 * size + 16);
-    whole->visit_products(x.data(), workers, [&](std::size_t, std::size_t count, const float* y) {
-      ASSERT_EQ(count, std::size_t(size));
-      for (Index i = 0; i < 3 * size; ++i)
-        EXPECT_EQ(y[i], float(size * (i / 3) + size * (size - 1) / 2));
-    });
   }
 }
 

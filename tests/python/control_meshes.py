@@ -111,25 +111,6 @@ def single_triangle():
     return np.array([[0.0, 0, 0], [1, 0, 0.1], [0.2, 0.9, 0]]), np.array([[0, 1, 2]])
 
 
-def moebius(count: int = 7):
-    """A strip of quads with one side only."""
-    angle = 2 * np.pi * np.arange(count) / count
-    centre = np.stack([2 * np.cos(angle), 2 * np.sin(angle), 0 * angle], -1)
-    out = np.stack(
-        [np.cos(angle / 2) * np.cos(angle), np.cos(angle / 2) * np.sin(angle), np.sin(angle / 2)],
-        -1,
-    )
-    k = np.arange(count)
-    after = (k + 1) % count
-    low, high = (
-        np.where(after == 0, count + after, after),
-        np.where(after == 0, after, count + after),
-    )
-    return np.concatenate([centre - 0.5 * out, centre + 0.5 * out]), np.stack(
-        [k, low, high, k + count], -1
-    )
-
-
 def dodecahedron():
     """Twelve pentagons, as a list."""
     points, triangles = icosahedron()

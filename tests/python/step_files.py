@@ -50,6 +50,13 @@ class ReadFile:
         return self._faces_of_edges.count(2)
 
     @property
+    def tolerance(self) -> float:
+        """The farthest that an edge is from its faces and its ends, 1e-7 or more."""
+        from OCP.ShapeAnalysis import ShapeAnalysis_ShapeTolerance
+
+        return ShapeAnalysis_ShapeTolerance().Tolerance(self.shape, 1)
+
+    @property
     def volume(self) -> float:
         return self._mass("VolumeProperties_s").Mass()
 

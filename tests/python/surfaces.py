@@ -40,30 +40,6 @@ def boundary_loops(faces) -> int:
     return loops
 
 
-def assert_oriented_manifold(faces, vertex_count: int) -> None:
-    """No directed edge comes twice; every vertex has a single fan."""
-    directed = half_edges(faces)
-    assert max(directed.values()) == 1
-    corners = Counter(v for face in faces for v in face)
-    onward = {}
-    for face in faces:
-        for k, v in enumerate(face):
-            onward[v, face[k - 1]] = face[(k + 1) % len(face)]
-    starts = {}
-    for v, incoming in onward:
-        starts.setdefault(v, []).append(incoming)
-    assert set(corners) <= set(range(vertex_count))
-    for v, spokes in starts.items():
-        first = [w for w in spokes if (v, w) not in {(v, onward[v, s]) for s in spokes}]
-        w, length = (first or spokes)[0], 0
-        begin = w
-        while (v, w) in onward:
-            w, length = onward[v, w], length + 1
-            if w == begin:
-                break
-        assert length == corners[v], f"vertex {v} has more than one fan"
-
-
 def euler_characteristic(faces) -> int:
     edges = {tuple(sorted(e)) for e in half_edges(faces)}
     return len({v for face in faces for v in face}) - len(edges) + len(faces)

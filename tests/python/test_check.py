@@ -4,6 +4,7 @@
 import control_meshes as meshes
 import discrete_fairing as df
 import numpy as np
+import one_sided_meshes
 import pytest
 from refusing import refusal
 from surfaces import as_lists, half_edges
@@ -83,7 +84,7 @@ def test_coincidence_and_area_together():
 
 
 def test_orientation_and_one_sidedness_of_different_parts():
-    strip, quads = meshes.moebius()
+    strip, quads = one_sided_meshes.strip(7, 1)
     flipped = FACES.copy()
     flipped[3] = flipped[3, ::-1]
     vertices = np.concatenate([POINTS, strip + [9, 0, 0]])

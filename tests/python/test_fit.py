@@ -11,7 +11,6 @@ from scans import (
     angles_to_blob,
     blob_cage,
     blob_scan,
-    cube_sphere,
     distance_to_blob,
     normals_of_blob,
     on_blob,
@@ -19,7 +18,6 @@ from scans import (
     sheet,
     vertex_normals,
 )
-from scipy.spatial import cKDTree
 from surface_measures import turns
 
 NOISE = 0.004  # a thousandth of the blob's size
@@ -216,29 +214,6 @@ def test_curves_follow_no_noise_where_edges_are_short(corners):
     assert np.abs([y, z - roof(x, 0 * x)]).max() < 3 * NOISE
     for curve in (ridge, border):
         assert (np.diff(fitted.vertices[curve, 0]) > 0.8 * np.diff(along)).all()
-
-
-def dense_scan(pieces: int, noise: float, alike: int = 1) -> tuple[np.ndarray, np.ndarray]:
-    """Points and triangles of the blob with noise that is the mean over so many neighbours."""
-    sphere, quads = cube_sphere(pieces)
-    points = on_blob(sphere * [1.9, 1.2, 1.1])
-    off = np.random.default_rng(1).standard_normal(len(points))
-    off = off[cKDTree(points).query(points, [*range(1, alike + 1)])[1]].mean(1)
-    return cut_quads((points + noise / rms(off) * off[:, None] * normals_of_blob(points), quads))
-
-
-@pytest.mark.parametrize(
-    "scan, weight",
-    [(dense_scan(58, 2 * NOISE, 20), 0.125), (dense_scan(130, 5 * NOISE), 0.4)],
-    ids=["correlated over five points", "larger than points are apart"],
-)
-def test_weight_is_near_the_best_under_noise(cage, scan, weight):
-    points, triangles = scan
-
-    def off(weight: float | None) -> float:
-        return errors(df.fit(*cage, points, triangles=triangles, weight=weight))[0]
-
-    assert off(None) < 1.1 * off(weight)
 
 
 def test_crease_curves_come_to_where_both_sides_meet():

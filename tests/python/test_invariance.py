@@ -103,6 +103,31 @@ def test_rounding_decides_nothing_on_flat_meshes(name):
         assert_same_points(other.vertices @ turn, plain.vertices, TOLERANCE * size_of(vertices))
 
 
+def polygon_of(random, count, regular):
+    """With any radius at each angle, sheared out of its star shape."""
+    turn = 2 * np.pi * np.arange(count) / count
+    x, y = np.stack([np.cos(turn), np.sin(turn)]) * (regular or random.uniform(0.2, 1, count))
+    return np.stack([x if regular else x + 2 * y**2, y, 0.1 * x * y], -1)
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_a_polygon_is_split_alike_whatever_its_numbers(seed):
+    random, count = np.random.default_rng(seed), 4 + seed % 9
+    points = polygon_of(random, count, seed % 3 == 0)
+
+    def pieces(points, face):
+        places = {v: points[v].tobytes() for v in range(count)}
+        cut = df.fair(points, [face], 0).faces
+        return sorted(sorted(places.get(v, b"") for v in f) for part in cut for f in part.tolist())
+
+    expected = pieces(points, list(range(count)))
+    for first in range(1, count):
+        place = random.permutation(count)
+        moved = np.empty_like(points)
+        moved[place] = points
+        assert pieces(moved, np.roll(place, first).tolist()) == expected
+
+
 def test_creases_and_corners_are_relabelled_along():
     (vertices, faces), creases = meshes.box_with_creases()
     plain = tight.fair(vertices, faces, 2, crease_edges=creases, corner_vertices=[9, 20])

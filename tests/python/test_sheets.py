@@ -111,21 +111,6 @@ def test_a_box_with_a_wall():
     assert radii.min() > 0.97 * 0.5**0.5 and radii.max() < 1.0001 * 0.5**0.5
 
 
-def test_no_triangle_is_cut_from_two_polygons():
-    """A pentagon and a quad share two edges: cut between these, curves would leave no room."""
-    vertices = [
-        [-0.85, 1.22, -1.36],
-        [0.99, -0.02, -1.47],
-        [-0.4, 1.2, -0.59],
-        [-1.21, -0.29, -0.82],
-    ]
-    vertices += [[-1.25, 0.44, 0.8], [-0.55, 0.52, -0.39], [-0.1, 0.12, 1.49], [0.51, -1.0, 0.52]]
-    for level in (0, 1, 2):
-        result = df.fair(vertices, [[0, 1, 2, 3, 4], [0, 1, 2, 5], [0, 1, 6], [1, 2, 7]], level)
-        triangles = np.sort(result.faces[0], axis=1)
-        assert len(np.unique(triangles, axis=0)) == len(triangles) > 0
-
-
 @pytest.mark.parametrize("mesh", [hourglass, bow_ties])
 def test_sheets_that_touch_know_nothing_of_each_other(mesh):
     vertices, faces = mesh()

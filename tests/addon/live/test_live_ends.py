@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 import pytest
 from fake_layout import draw
-from live_scenes import box, live, move, pull, session, through, tick_until, whole
+from live_scenes import box, live, move, pull, session, through, tick_until
 from scenes import CUBE, activate, add, fair, positions, recompute, reopen
 
 import addon
@@ -77,20 +77,6 @@ def test_undo_wakes_no_copy_and_no_surface_of_another_file(tmp_path):
     bpy.ops.ed.undo()
     kept.resume()
     assert registry.sessions() == []
-
-
-def test_undo_while_the_full_level_is_computed(no_pause):
-    source, target = box(levels=6)
-    bpy.ops.ed.undo_push(message="before")
-    pull(source)
-    bpy.ops.ed.undo_push(message="after")
-    handlers.on_timer()
-    assert session(target).full_text
-    bpy.ops.ed.undo()
-    source, target = bpy.data.objects["Box"], bpy.data.objects["Box Fair"]
-    whole(target)
-    assert len(target.data.polygons) == 6 * 4**6
-    assert through(target, source)
 
 
 def test_another_file_ends_it(tmp_path):

@@ -4,7 +4,7 @@
 import bpy
 import numpy as np
 import pytest
-from refined import corner_vertices, edge_vertices, refine, values
+from refined import edge_vertices, refine, values
 from scenes import CUBE, add, add_attribute, set_edge_attribute
 
 from addon.mesh.layers import read_data
@@ -178,17 +178,3 @@ def test_what_is_dropped_is_noted():
     assert any("Custom normals" in note for note in made.data.notes)
     assert "UVMap" not in refine(source, leave_out=("UVMap",)).mesh.attributes
     assert not made.mesh.has_custom_normals
-
-
-def test_polygons_of_all_sizes():
-    """An attribute that is linear in the plane is so on fans too."""
-    flat = [(0, 0), (2, 0), (3, 1), (2.5, 2.5), (0.5, 2), (4, -1), (5, 1), (3, 4)]
-    points, slope = [(x, y, 0) for x, y in flat], (0.5, -0.25, 0)
-    source = add("Plane", points, [(0, 1, 2, 3, 4), (1, 5, 6, 2), (2, 6, 3), (4, 3, 7)])
-    given = source.data.attributes.new("given", "FLOAT", "CORNER")
-    linear = np.array(points) @ slope
-    given.data.foreach_set("value", linear[corner_vertices(source.data)].astype(np.float32))
-    made = refine(source, 2)
-    expected = made.transfer.point(made.arrays.positions)[corner_vertices(made.mesh)] @ slope
-    assert np.allclose(values(made.mesh, "given"), expected, atol=1e-6)
-    assert made.mesh.validate() is False

@@ -6,6 +6,7 @@ import bpy
 import numpy as np
 import pytest
 from fake_layout import draw
+from live_scenes import follow
 from mathutils import Matrix
 from scans import blob_cage, blob_scan
 from scenes import (
@@ -108,7 +109,7 @@ def part(name, keep, **place):
     made = ball(name, 5, noise=0.003)
     for key, value in place.items():
         setattr(made, key, value)
-    bpy.context.view_layer.update()
+    follow()
     with bmesh_of(made.data) as bm:
         lost = [vertex for vertex in bm.verts if not keep(vertex.co)]
         bmesh.ops.delete(bm, geom=lost, context="VERTS")
@@ -164,7 +165,7 @@ def test_what_cannot_be_fitted_is_said():
 def test_a_scan_that_is_inside_out_is_said(capsys):
     scan = ball("Scan", 4)
     scan.scale = (1, -1, 1)  # which turns nothing inside out
-    bpy.context.view_layer.update()
+    follow()
     fit(scan, levels=1, cage_faces=40)
     assert "inside out" not in capsys.readouterr().out
     scan.hide_set(False)
@@ -206,7 +207,7 @@ def test_recompute_fits_again_and_follows_the_cage():
     assert why_stale(made) == ""
     cage.data.vertices[0].co *= 1.3
     cage.data.update()
-    bpy.context.view_layer.update()
+    follow()
     assert why_stale(made) == SOURCE_CHANGED
     recompute()
     assert np.abs(world(made) - before).max() > 0 and off(made) < 0.007
@@ -236,18 +237,18 @@ def test_a_scan_that_moves_or_is_edited_leaves_the_surface_out_of_date():
     both = [scan, cage]
     for one in both:
         one.location.x += 0.5
-    bpy.context.view_layer.update()
+    follow()
     recompute(made)  # which follows its cage
     assert why_stale(made) == ""
     scan.location.z += 0.1
-    bpy.context.view_layer.update()
+    follow()
     assert why_stale(made) == SCAN_MOVED
     recompute(made)
     assert why_stale(made) == ""
     assert off(made, (0.5, 0, 0.1)) < 0.007
     scan.data.vertices[3].co *= 1.1
     scan.data.update()
-    bpy.context.view_layer.update()
+    follow()
     assert why_stale(made) == SCAN_CHANGED
 
 
@@ -257,13 +258,13 @@ def test_live_follows_the_scan():
     (session,) = registry.sessions()
     assert not session.needs_look()
     scan.location.z += 0.1
-    bpy.context.view_layer.update()
+    follow()
     assert session.needs_look() and session.follow()  # as the timer does
     assert off(made, (0, 0, 0.1)) < 0.02
     assert not session.needs_look()
     scan.data.transform(Matrix.Scale(1.2, 4))
     scan.data.update()
-    bpy.context.view_layer.update()
+    follow()
     assert session.needs_look() and session.follow()
     switch.switch_off(made, bpy.context)
     radii = np.linalg.norm(world(made) - (0, 0, 0.1), axis=1)
@@ -280,7 +281,7 @@ def test_deviation_is_from_the_scan():
     assert 0.001 < np.abs(deviation(made)).mean() < 0.01
     # a scan whose points are all off by as much
     scan.scale = (0.9, 0.9, 0.9)
-    bpy.context.view_layer.update()
+    follow()
     assert deviation(made).mean() == pytest.approx(0.1, abs=0.01)
     scan.data.clear_geometry()
     scan.data.from_pydata((1.2 * world(made)).tolist(), [], [])
@@ -342,7 +343,7 @@ def test_instances_and_point_clouds_count():
     empty.instance_type, empty.instance_collection = "COLLECTION", shared
     empty.location, empty.scale = (3, 0, 0), (2, 2, -2)
     bpy.context.collection.objects.link(empty)
-    bpy.context.view_layer.update()
+    follow()
     found = read_scans(bpy.context, [empty])
     assert np.linalg.norm(found.points - (3, 0, 0), axis=1) == pytest.approx(2, abs=1e-5)
     a, b, c = (found.points[found.triangles[:, k]] for k in range(3))

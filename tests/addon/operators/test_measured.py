@@ -25,8 +25,8 @@ def inner(faces, chosen, count):
     )
 
 
-def sphere(along):
-    """A unit sphere of 20,480 faces with noise inside a patch of 2,188; `along` normals or any way."""
+def sphere():
+    """A unit sphere of 20,480 faces with noise along the normals inside a patch of 2,188."""
     bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=6)
     scan = bpy.context.object
     points = positions(scan.data).astype(float)
@@ -36,12 +36,8 @@ def sphere(along):
     chosen = np.zeros(len(faces), bool)
     chosen[np.argsort(-middle[:, 2] + 0.01 * middle[:, 0])[:2188]] = True
     inside = inner(faces, chosen, len(points))
-    random = np.random.default_rng(2)
-    if along == "normals":
-        noise = points * random.standard_normal((len(points), 1)) * NOISE
-    else:
-        noise = random.standard_normal(points.shape) * NOISE / np.sqrt(3)
-    move(scan, points + noise * inside[:, None])
+    noise = np.random.default_rng(2).standard_normal((len(points), 1)) * NOISE
+    move(scan, points * (1 + noise * inside[:, None]))
     edit(scan, "FACE", np.flatnonzero(chosen))
     return scan, inside
 
@@ -57,22 +53,16 @@ def off(points):
     return np.sqrt(((np.linalg.norm(points, axis=1) - 1) ** 2).mean())
 
 
-@pytest.mark.parametrize("along, most", [("normals", 0.0005), ("space", 0.0004)])
 @pytest.mark.parametrize("joint", ["TANGENT", "CURVATURE"])
-def test_a_noisy_patch_of_a_sphere_comes_back(along, most, joint):
-    scan, inside = sphere(along)
+def test_a_noisy_patch_of_a_sphere_comes_back(joint):
+    scan, inside = sphere()
     before, after = fair_measured(scan, joint=joint)
-    assert off(after[inside]) < most < 0.2 * NOISE
-    # vertices move along the normals
-    way, out = (after - before)[inside], after[inside]
-    length = np.einsum("ij,ij->i", way, out / np.linalg.norm(out, axis=1)[:, None])
-    aside = np.linalg.norm(way, axis=1) ** 2 - length**2
-    assert along == "space" or np.maximum(aside, 0).mean() < 0.05**2 * (length**2).mean()
+    assert off(after[inside]) < 0.125 * NOISE
     np.testing.assert_allclose(after[~inside], before[~inside], atol=1e-7)
 
 
 def test_a_noise_that_is_given_is_what_comes_off():
-    scan, inside = sphere("normals")
+    scan, inside = sphere()
     before, after = fair_measured(scan, noise=0.001)
     taken = np.sqrt(((after - before)[inside] ** 2).sum(axis=1).mean())
     assert taken == pytest.approx(0.001, rel=0.2)
