@@ -69,7 +69,8 @@ class RowBlocks {
 
 bool NormalMatrix::suits(const RingRows& rows) {
   const GridLevel& grid = rows.grid();
-  return has_rows(grid.n(), grid.size()) && grid.size() >= block_size && are_small(grid, rows);
+  return has_rows(grid.n(), grid.size(), most_pieces) && grid.size() >= block_size &&
+         are_small(grid, rows);
 }
 
 NormalMatrix::NormalMatrix(const RingRows& rows, const Unknowns& unknowns, Workers& workers)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // R^T R, with tension's Laplacian, as one sparse matrix in single precision, for levels whose rows
-// are stored (sparse/matrix.h).
+// are stored.
 //
 // Most columns of a row are adjacent, as the points of a run are. So a row is stored in blocks of
 // four numbers, zero where there is no entry, with the first of their columns. With eight pieces an
@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "sparse/matrix.h"
 #include "sparse/ring_rows.h"
 #include "sparse/ring_table.h"
 
@@ -18,6 +17,9 @@ namespace fairing {
 
 class NormalMatrix {
  public:
+  // Pieces of an edge up to which it is faster than passes: twice as fast with few.
+  static constexpr int most_pieces = 16;
+
   // Whether it is faster for a level: rows are stored, there are as many points as a block has
   // columns, and the rings are small enough.
   static bool suits(const RingRows& rows);

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -111,7 +110,6 @@ struct ThreadScratch {
   // work buffer for the body.
   std::vector<T> closed, run, work;
   std::vector<T> gathered;  // the closed faces or edges that a body reads
-  std::vector<T> columns;   // for sparse products: the entries of x that a block of rows reads
 };
 
 template <class T>
@@ -141,8 +139,8 @@ struct ColumnMarks {
     last = 0;
   }
 };
-inline std::array<ColumnMarks, 2>& thread_column_marks() {
-  thread_local std::array<ColumnMarks, 2> own;
+inline ColumnMarks& thread_column_marks() {
+  thread_local ColumnMarks own;
   return own;
 }
 

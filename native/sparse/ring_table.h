@@ -12,6 +12,20 @@
 
 namespace fairing {
 
+// Whether rows are faster on a level of n subdivisions and so many points: where faces are small,
+// passes over faces and edges cost more than an index for each number; where they are large, rows
+// cost more memory and time to read it.
+constexpr bool has_rows(int n, std::size_t points, int most_pieces) {
+  return n > 1 && n <= most_pieces && points <= std::size_t(1) << 22;
+}
+
+// Whether rows summed from `products` terms, over all points, are worth their pattern: on average
+// the square of a point's ring, 49 or 81 for regular rings.
+constexpr bool worth_products(std::size_t products, std::size_t points) {
+  constexpr std::size_t most_products = 128;  // per point
+  return products < most_products * points;
+}
+
 class RingTable {
  public:
   // `grid` must outlive the table. Throws where the run has been cancelled.

@@ -1,111 +1,50 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "thin_plate/matrix.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <vector>
 
+#include "base/simd.h"
 #include "parallel/reductions.h"
-#include "thin_plate/differences.h"
 
 namespace fairing {
 namespace {
 
-// For a stretch of rows that are summed from the rings around a point's own ring, weighted by
-// numbers of each ring's element alone.
-class RepeatedRows {
+// A row while it is summed, in double precision.
+class RowSum {
  public:
-  // `rings` must outlive it.
-  explicit RepeatedRows(const RingTable& rings) : rings_(rings) {}
+  explicit RowSum(std::size_t columns) : marks_(thread_column_marks()) { marks_.fit(columns); }
+  // Clears the marks that an exception has left, for the thread's next one.
+  ~RowSum() { clear(); }
+  RowSum(const RowSum&) = delete;
+  RowSum& operator=(const RowSum&) = delete;
 
-  // Whether the row of the unknown p equals one of the latest; if so, writes it.
-  bool write(Index p, RowBuilder& row);
+  void add(Index column, double number) {
+    std::uint32_t& mark = marks_.mark[column];
+    if (mark <= marks_.last) {
+      column_.push_back(column);
+      number_.push_back(0);
+      mark = marks_.last + std::uint32_t(number_.size());
+    }
+    number_[mark - marks_.last - 1] += number;
+  }
+  void clear() {
+    marks_.last += std::uint32_t(column_.size());
+    column_.clear();
+    number_.clear();
+  }
 
-  // Keeps the row of p, which has just been summed, if others may be equal.
-  void keep(Index p, const RowBuilder& row);
+  // In the order in which columns were first named.
+  const std::vector<Index>& columns() const { return column_; }
+  const std::vector<double>& numbers() const { return number_; }
 
  private:
-  struct Known {
-    std::vector<Index> element;       // whose stencils the rings have; empty: no row yet
-    std::vector<std::uint8_t> slot;   // of the point in each of these rings
-    std::vector<std::uint8_t> place;  // column of each ring's members, or one of the marks
-    std::size_t columns = 0;
-    RowBuilder::Numbers numbers;
-  };
-  enum Mark : std::uint8_t { in_no_row = 254, fixed = 255 };
-
-  bool is_again(const Known& known, Index p);
-
-  const RingTable& rings_;
-  // A quad has five such rows in turns: deep inside, and along each side.
-  std::array<Known, 5> known_;
-  std::array<std::uint8_t, 5> latest_{0, 1, 2, 3, 4};  // into known_, most recently used first
+  ColumnMarks& marks_;
   std::vector<Index> column_;
+  std::vector<double> number_;
 };
 
-bool RepeatedRows::write(Index p, RowBuilder& row) {
-  const auto again = std::find_if(latest_.begin(), latest_.end(),
-                                  [&](std::uint8_t k) { return is_again(known_[k], p); });
-  if (again == latest_.end() || !row.repeat(known_[*again].numbers, column_)) return false;
-  std::rotate(latest_.begin(), again, again + 1);
-  return true;
-}
-
-// Leaves the row's columns in column_.
-bool RepeatedRows::is_again(const Known& known, Index p) {
-  const RingTable::Ring& own = rings_.about(p);
-  if (known.element.size() != own.size || known.element[0] != own.element) return false;
-  const RingTable::Member* const centres = rings_.members(own);
-  for (std::size_t k = 1; k < own.size; ++k)
-    if (rings_.about(RingTable::id_of(centres[k])).element != known.element[k]) return false;
-  column_.assign(known.columns, -1);
-  const std::uint8_t* place = known.place.data();
-  for (std::size_t k = 0; k < own.size; ++k) {
-    const RingTable::Ring& ring = rings_.about(RingTable::id_of(centres[k]));
-    const RingTable::Member* const members = rings_.members(ring);
-    if (members[known.slot[k]] != p) return false;
-    for (std::size_t m = 0; m < ring.size; ++m, ++place) {
-      if (*place == fixed ? members[m] >= 0 : members[m] < 0) return false;
-      if (*place >= in_no_row) continue;
-      Index& column = column_[*place];
-      if (column >= 0 && column != members[m]) return false;
-      column = members[m];
-    }
-  }
-  return true;
-}
-
-// A vertex has one ring, and its row and those next to it are not repeated.
-void RepeatedRows::keep(Index p, const RowBuilder& row) {
-  const RingTable::Ring& own = rings_.about(p);
-  const RingTable::Member* const centres = rings_.members(own);
-  for (std::size_t k = 0; k < own.size; ++k) {
-    const RingTable::Ring& ring = rings_.about(RingTable::id_of(centres[k]));
-    if (rings_.is_about_vertex(ring) || rings_.slot(ring, p) == ring.size) return;
-  }
-  std::rotate(latest_.begin(), latest_.end() - 1, latest_.end());
-  Known& known = known_[latest_[0]];
-  known.element.clear();
-  known.slot.clear();
-  known.place.clear();
-  for (std::size_t k = 0; k < own.size; ++k) {
-    const RingTable::Ring& ring = rings_.about(RingTable::id_of(centres[k]));
-    known.element.push_back(ring.element);
-    known.slot.push_back(std::uint8_t(rings_.slot(ring, p)));
-    for (std::size_t m = 0; m < ring.size; ++m) {
-      const RingTable::Member member = rings_.members(ring)[m];
-      std::uint8_t place = member < 0 ? fixed : in_no_row;
-      if (member >= 0 && row.names(member)) place = std::uint8_t(row.place(member));
-      known.place.push_back(place);
-    }
-  }
-  known.columns = row.columns();
-  row.copy_numbers(known.numbers);
-}
-
 // Row p of K, from the rings that contain the point: those of its own ring's members.
-void sum_row(const PlateDifferences& plate, Index p, RowBuilder& row) {
+void sum_row(const PlateDifferences& plate, Index p, RowSum& row) {
   const RingTable& rings = plate.rings();
   const RingTable::Ring& own = rings.about(p);
   for (std::size_t k = 0; k < own.size; ++k) {
@@ -129,25 +68,8 @@ void sum_row(const PlateDifferences& plate, Index p, RowBuilder& row) {
   if (extra != 0) row.add(p, extra);
 }
 
-// Rows of K one after another.
-class PlateRows {
- public:
-  explicit PlateRows(const PlateDifferences& plate) : plate_(plate), repeated_(plate.rings()) {}
-
-  void write(Index p, RowBuilder& row) {
-    if (!plate_.rings().is_unknown(p)) return;
-    if (plate_.is_weighted()) return sum_row(plate_, p, row);
-    if (repeated_.write(p, row)) return;
-    sum_row(plate_, p, row);
-    repeated_.keep(p, row);
-  }
-
- private:
-  const PlateDifferences& plate_;
-  RepeatedRows repeated_;
-};
-
-bool suits(const GridLevel& grid, const Stencils& stencils) {
+bool suits(const GridLevel& grid, const Stencils& stencils, bool on_surface) {
+  if (!has_rows(grid.n(), grid.size(), PlateMatrix::most_pieces(on_surface))) return false;
   std::size_t products = 81 * grid.size();
   for (Index v = 0; v < grid.mesh().vertex_count(); ++v) {
     const std::size_t size = stencils.columns(v).size();
@@ -156,20 +78,84 @@ bool suits(const GridLevel& grid, const Stencils& stencils) {
   return worth_products(products, grid.size());
 }
 
+using Four = Packs<float, 16>;
+
+template <class T, int Bytes>
+struct RowsLoop {
+  // Four sums a row, so that none waits for another. A pack has the three numbers of a point.
+  DF_INLINE static void run(std::size_t rows, const std::uint32_t* end, const Index* column,
+                            const float* number, const float* x, float* product) {
+    Four::Pack p;
+    std::size_t k = 0;
+    for (std::size_t r = 0; r < rows; ++r, product += 3) {
+      Four::Pack sum[4] = {};
+      const auto add = [&](std::size_t m) __attribute__((always_inline)) {
+        Four::load(x + 3 * std::size_t(column[k + m]), p);
+        sum[m] += number[k + m] * p;
+      };
+      for (; k + 4 <= end[r]; k += 4)
+#pragma GCC unroll 4
+        for (std::size_t m = 0; m < 4; ++m) add(m);
+      const std::size_t rest = end[r] - k;
+      for (std::size_t m = 0; m < rest; ++m) add(m);
+      k += rest;
+      Four::store((sum[0] + sum[1]) + (sum[2] + sum[3]), product);
+    }
+  }
+};
+
 }  // namespace
 
 std::unique_ptr<PlateMatrix> PlateMatrix::make(const GridLevel& grid, const Stencils& stencils,
                                                const Unknowns& unknowns, Workers& workers,
                                                const SurfaceRows* surface) {
-  if (!has_rows(grid.n(), grid.size(), surface != nullptr) || !suits(grid, stencils))
-    return nullptr;
+  if (!suits(grid, stencils, surface != nullptr)) return nullptr;
   const PlateDifferences plate(grid, stencils, unknowns, workers, surface);
-  const auto writer = [&] {
-    return [rows = PlateRows(plate)](Index p, RowBuilder& row) mutable { rows.write(p, row); };
-  };
-  auto rows = AssembledMatrix::make(grid.size(), grid.size(), workers, writer);
-  if (!rows) return nullptr;
-  return std::unique_ptr<PlateMatrix>(new PlateMatrix(unknowns, grid.size(), std::move(rows)));
+  return std::unique_ptr<PlateMatrix>(new PlateMatrix(plate, unknowns, workers));
+}
+
+PlateMatrix::PlateMatrix(const PlateDifferences& plate, const Unknowns& unknowns, Workers& workers)
+    : moves_(unknowns.vertex) {
+  const std::size_t points = plate.rings().points();
+  chunk_.resize((points + chunk_rows - 1) / chunk_rows);
+  workers.for_parts(chunk_.size(), 1, [&](std::size_t begin, std::size_t end) {
+    RowSum row(points);
+    Chunk chunk;
+    for (std::size_t c = begin; c < end; ++c) {
+      for (std::size_t p = c * chunk_rows; p < std::min(points, (c + 1) * chunk_rows); ++p) {
+        if (plate.rings().is_unknown(Index(p))) sum_row(plate, Index(p), row);
+        chunk.column.insert(chunk.column.end(), row.columns().begin(), row.columns().end());
+        chunk.number.insert(chunk.number.end(), row.numbers().begin(), row.numbers().end());
+        chunk.end.push_back(std::uint32_t(chunk.column.size()));
+        row.clear();
+      }
+      chunk_[c] = chunk;  // a copy, so that its vectors have no spare capacity
+      chunk.end.clear();
+      chunk.column.clear();
+      chunk.number.clear();
+    }
+  });
+  std::size_t bytes = 0;
+  for (const Chunk& chunk : chunk_)
+    bytes += sizeof(std::uint32_t) * chunk.end.size() +
+             (sizeof(Index) + sizeof(float)) * chunk.column.size();
+  counted_.emplace(bytes);
+}
+
+void PlateMatrix::multiply(const Chunk& chunk, const float* x, float* product) {
+  run_loop<RowsLoop, float>(chunk.end.size(), chunk.end.data(), chunk.column.data(),
+                            chunk.number.data(), x, product);
+}
+
+template <class Visit>
+void PlateMatrix::visit_numbers(Workers& workers, const Visit& visit) const {
+  workers.for_each(chunk_.size(), 1, [&](std::size_t c) {
+    const Chunk& chunk = chunk_[c];
+    std::size_t k = 0;
+    for (std::size_t r = 0; r < chunk.end.size(); ++r)
+      for (; k < chunk.end[r]; ++k)
+        visit(Index(c * chunk_rows + r), chunk.column[k], chunk.number[k]);
+  });
 }
 
 void PlateMatrix::set_weights(const VertexWeights& weights) {
@@ -181,22 +167,27 @@ void PlateMatrix::set_weights(const VertexWeights& weights) {
 void PlateMatrix::write_lines(const Array<float>& inverse_diagonal, LineBand& band,
                               Workers& workers) const {
   const auto offer = [&] {
-    Array<float> root(points_);
-    for_each_index(workers, points_,
+    Array<float> root(inverse_diagonal.size());
+    for_each_index(workers, root.size(),
                    [&](std::size_t p) { root[p] = std::sqrt(inverse_diagonal[p]); });
-    rows_->visit_numbers(workers, [&](Index p, Index q, float number) {
-      if (p != q) band.offer(p, q, std::abs(number) * root[p] * root[q]);
+    visit_numbers(workers, [&](Index p, Index q, float number) {
+      if (p != q && number != 0) band.offer(p, q, std::abs(number) * root[p] * root[q]);
     });
   };
   band.write(offer, [&] {
-    rows_->visit_numbers(workers, [&](Index p, Index q, float number) { band.add(p, q, number); });
+    visit_numbers(workers, [&](Index p, Index q, float number) { band.add(p, q, number); });
   });
 }
 
 Array<float> PlateMatrix::inverse_diagonal(Workers& workers) const {
-  Array<float> inverse(points_);
-  workers.for_each(points_, chunk_rows, [&](std::size_t p) {
-    const float diagonal = rows_->diagonal(p) + (3 * p < weight_.size() ? weight_[3 * p] : 0.0f);
+  std::size_t points = 0;
+  for (const Chunk& chunk : chunk_) points += chunk.end.size();
+  Array<float> inverse(points, 0.0f);
+  visit_numbers(workers, [&](Index p, Index q, float number) {
+    if (p == q) inverse[p] = number;
+  });
+  for_each_index(workers, points, [&](std::size_t p) {
+    const float diagonal = inverse[p] + (3 * p < weight_.size() ? weight_[3 * p] : 0.0f);
     inverse[p] = diagonal > 0 ? 1 / diagonal : 1.0f;
   });
   return inverse;

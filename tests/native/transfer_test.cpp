@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Prolongation and restriction; and the rows of matrices.
+// Prolongation and restriction.
 #include <gtest/gtest.h>
 
 #include <map>
-#include <span>
 #include <utility>
 #include <vector>
 
 #include "grid/linear.h"
 #include "level_settings.h"
-#include "sparse/matrix.h"
 #include "thin_plate/operator.h"
 #include "transfer/level_transfer.h"
 
@@ -129,20 +127,6 @@ TEST(Transfer, RestrictionIsTheTranspose) {
             << choice;
     }
   });
-}
-
-// A block whose rows name more columns than 16-bit indices can tell apart is refused.
-TEST(Rows, RefuseTooManyColumnsInOnePlace) {
-  Workers workers(1);
-  for (const Index columns : {65000, 66000}) {
-    const auto writer = [&] {
-      return [columns](Index row, RowBuilder& builder) {
-        for (Index c = row; c < columns; c += 2) builder.add(c, 1.0);
-      };
-    };
-    EXPECT_EQ(AssembledMatrix::make(2, std::size_t(columns), workers, writer) != nullptr,
-              columns == 65000);
-  }
 }
 
 }  // namespace
