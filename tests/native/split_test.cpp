@@ -103,6 +103,18 @@ TEST(Split, WarpedQuads) {
   EXPECT_EQ(vertex_sets(split(long_one)), (Sets{{0, 1, 3}, {1, 2, 3}}));
 }
 
+TEST(Split, NeverTakesADiagonalThatIsAnEdge) {
+  // The arrow's best diagonal 1-3 is an edge already, of a triangle behind it.
+  OwnedPolygonMesh mesh = arrow();
+  mesh.coordinates.insert(mesh.coordinates.end(), {1, 0, -1});
+  mesh.corners.insert(mesh.corners.end(), {1, 3, 4});
+  mesh.offsets.push_back(7);
+  // Faces that touch in two vertices without an edge are two fans there; only split_polygons sees
+  // this mesh.
+  const SplitMesh result = split_polygons(mesh.view());
+  EXPECT_EQ(vertex_sets(result).count({0, 1, 3}), 0u);
+}
+
 TEST(Split, OpensVerticesOfValenceTwo) {
   const SplitMesh both = split(quad_doublet());
   EXPECT_EQ(vertex_sets(both), (Sets{{0, 1, 3}, {1, 2, 3}, {1, 2, 4}, {0, 1, 4}}));

@@ -170,5 +170,30 @@ TEST(Rows, AreTheAssembledSystemBesideJoints) {
     }
 }
 
+// Rows finished where they are computed, against one application and then the vectors.
+TEST(Rows, RelaxAsApplicationsDo) {
+  on_all(3, [](const Setting& s, Workers& workers) {
+    const Unknowns unknowns = some_points(s.mesh, 1);
+    ThinPlateShared shared(s.mesh, s.stencils, unknowns, workers);
+    ThinPlateLevel level(shared, s.grid, {});
+    const auto start = [&](unsigned seed) {
+      return with_room(masked(s.grid, unknowns, random_points(s.grid.size(), seed)));
+    };
+    for (const bool adds : {false, true}) {
+      FloatPoints d = start(1), x[2] = {start(2), start(2)}, r[2] = {start(3), start(3)},
+                  next[2] = {start(4), start(4)};
+      level.relax({d.data(), next[0].data(), x[0].data(), r[0].data(), 0.3f, 0.7f, adds}, workers);
+      level.LevelOperator::relax(
+          {d.data(), next[1].data(), x[1].data(), r[1].data(), 0.3f, 0.7f, adds}, workers);
+      EXPECT_EQ((x[0] - x[1]).topRows(Eigen::Index(s.grid.size())).norm(), 0);
+      EXPECT_EQ((r[0] - r[1]).topRows(Eigen::Index(s.grid.size())).norm(), 0);
+      EXPECT_EQ((next[0] - next[1]).topRows(Eigen::Index(s.grid.size())).norm(), 0);
+      level.subtract_product(d.data(), next[0].data(), x[0].data(), workers);
+      level.LevelOperator::subtract_product(d.data(), next[1].data(), x[1].data(), workers);
+      EXPECT_EQ((x[0] - x[1]).topRows(Eigen::Index(s.grid.size())).norm(), 0);
+    }
+  });
+}
+
 }  // namespace
 }  // namespace fairing::test
