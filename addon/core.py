@@ -5,7 +5,7 @@ The only place that knows both names of a setting, Blender's and that of `discre
 arrays, no Blender.
 """
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from functools import cache
 from typing import Any
 
@@ -39,7 +39,7 @@ def module() -> Any:
 
 def lattice(n: int, quad: bool) -> Any:
     """The points and cells of a control face whose edges are split into `n`."""
-    return module().piecewise.lattice.Lattice(n, quad)
+    return module().lattice.Lattice(n, quad)
 
 
 def why_missing() -> str:
@@ -141,46 +141,9 @@ def with_partner(arguments: Mapping[str, Any]) -> dict[str, Any]:
     return own if partner is None else own | {"neighbour": partner(), "halfway": True}
 
 
-# Computes pieces with a memory_limit (bytes) each; returns their parts.
-Spread = Callable[[Sequence[Any], int], Iterable[Any]]
-
-
-def faired(
-    arguments: Mapping[str, Any],
-    pieces: int | None = None,
-    spread: Spread | None = None,
-    progress: Callable[[float, str], bool | None] | None = None,
-    **monitor: Any,
-) -> Any:
-    """The Result of discrete_fairing for `fair_arguments`. With `pieces`, the mesh is faired in so many
-    pieces, one after another: memory for one suffices, and nothing is measured. `spread` computes them
-    in another way; then `progress` counts finished parts.
-    """
-    arguments = with_partner(arguments)
-    if pieces is None:
-        return module().fair(**arguments, progress=progress, **monitor)
-    own = {name: value for name, value in arguments.items() if name != "measure"}
-    run = {name: own.pop(name) for name in ("threads", "memory_limit")} | monitor
-    cut = module().pieces(**own, count=pieces)
-    if spread is not None:
-        return module().join(_counted(spread(cut, run["memory_limit"]), len(cut), progress))
-
-    def watch(index: int) -> Callable[[float, str], bool | None]:
-        def tell(fraction: float, phase: str) -> bool | None:
-            return progress((index + fraction) / len(cut), phase) if progress else None
-
-        return tell
-
-    return module().join(piece.fair(**run, progress=watch(piece.index)) for piece in cut)
-
-
-def _counted(
-    parts: Iterable[Any], count: int, progress: Callable[[float, str], bool | None] | None
-) -> Iterator[Any]:
-    for done, part in enumerate(parts):
-        if progress:
-            progress((done + 1) / count, "pieces")
-        yield part
+def faired(arguments: Mapping[str, Any], **watchers: Any) -> Any:
+    """The Result of discrete_fairing for `fair_arguments`."""
+    return module().fair(**with_partner(arguments), **watchers)
 
 
 def patch_arguments(fairing: Mapping[str, Any], options: PatchOptions) -> dict[str, Any]:

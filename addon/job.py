@@ -119,9 +119,6 @@ class Job(TimedRun):
                 f"Passes where Subdivision Surface would (Limit), for its {cages.REASON}. To pass through every "
                 "vertex, set Vertices to Through."
             )
-        # number of pieces, faired one after another; None: faired as a whole
-        self.pieces: int | None = None
-        self.spread: core.Spread | None = None  # another way to fair pieces
 
     @property
     def fewest_levels(self) -> int:
@@ -179,7 +176,7 @@ class Job(TimedRun):
         self._seams = seam_pairs(self.result, self.arrays, self.settings, self._edges)
 
     def surface(self, **watchers: Any) -> Any:
-        return core.faired(self.arguments, self.pieces, self.spread, **watchers)
+        return core.faired(self.arguments, **watchers)
 
     def control(self) -> core.ControlArrays:
         """The mesh with which the surface is compared, as arrays."""

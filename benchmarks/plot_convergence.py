@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/images/convergence.png from benchmarks/results/tables/exact.levels.md. Needs matplotlib, as plot_rings.py does."""
+"""docs/images/convergence.png from benchmarks/results/tables/exact.levels.md. Needs matplotlib."""
 
 import sys
 from pathlib import Path

@@ -25,7 +25,6 @@ import measured_points
 import offsets
 import pads
 import peers
-import piecewise
 import rims
 import side_by_side
 import sizes
@@ -35,7 +34,6 @@ import table
 
 BENCHMARKS = {
     "peers": peers,
-    "piecewise": piecewise,
     "sizes": sizes,
     "step_distances": step_distances,
     "side_by_side": side_by_side,

@@ -32,7 +32,6 @@ SCRIPTS = {
     "filling": "examples/render_fills.py",
     "gallery": "examples/gallery.py",
     "jobs": "examples/render_jobs.py",
-    "pieces": "benchmarks/plot_rings.py",
     "settings": "examples/render_settings.py",
     "splines": "examples/render_splines.py",
     "tutorials": "examples/render_tutorials.py",

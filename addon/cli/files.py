@@ -133,10 +133,10 @@ def write_whole(path: Path, write: Callable[[str], None]) -> None:
         write(str(path))
 
 
-def write_text(path: str, text: str, newline: str | None = None) -> None:
-    """Writes the report or a table. `newline`: as for open()."""
+def write_text(path: str, text: str) -> None:
+    """Writes the report."""
     with _explained(path), _whole_files().whole_file(path) as part:
-        part.write_text(text, encoding="utf-8", newline=newline)
+        part.write_text(text, encoding="utf-8")
 
 
 class _NotWritten(Exception):

@@ -71,8 +71,8 @@ def options_of(arguments: argparse.Namespace, settings: Settings) -> FitOptions 
     for name in _NOT_HERE:
         if name in vars(arguments):
             raise ValueError(f"{option(name)} is not for --fit, which moves all vertices by itself")
-    for name in ("pieces", "ease", "ease_tolerance", "ease_stiffness", "strain", "fill", "clean"):
-        if getattr(arguments, name, None) not in (None, False):
+    for name in ("fill", "clean"):
+        if getattr(arguments, name):
             raise ValueError(f"{option(name)} is not for --fit: call twice")
     if arguments.cage is not None and arguments.cage_faces is not None:
         raise ValueError("give one of --cage and --cage-faces: a cage has its own faces")

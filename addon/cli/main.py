@@ -5,17 +5,17 @@ import argparse
 import os
 import signal
 import sys
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, nullcontext
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any, TextIO
 
 import bpy
 
 from .. import core
 from ..settings import Settings
-from . import ease, executors, fit, mending, report, step
+from . import fit, mending, report, step
 from .files import FileError, write_text
-from .one_file import fail, run_one, say, tell
+from .one_file import run_one, say, tell
 from .options import parser, settings_of, shown
 from .places import BadPlaces, Place, no_report_over, places
 
@@ -32,7 +32,7 @@ def main(argv: list[str]) -> int:
         say(core.why_missing())
         return NO_NATIVE_MODULE
     with _standard_output(arguments.json) as output, _interruptible():
-        records, exit_code = _run_all(arguments, settings, files, argv)
+        records, exit_code = _run_all(arguments, settings, files)
         return _write_report(arguments.json, output, exit_code, records)
 
 
@@ -43,11 +43,6 @@ def _understand(argv: list[str]) -> tuple[argparse.Namespace, Settings, list[Pla
     try:
         settings = settings_of(arguments)
         files = places(arguments.inputs, arguments.output, arguments.format)
-        arguments.prepared = ease.options_of(arguments, files)
-        arguments.tables = dict(zip(files, arguments.prepared.tables or ()))
-        files = files[arguments.only] if arguments.only else files
-        if arguments.scheduler is not None and arguments.jobs > 1:
-            raise ValueError("give one of --jobs and --scheduler: a cluster has workers of its own")
         no_report_over(arguments.json, files)
         arguments.patches = step.options_of(arguments, settings, files)
         arguments.mending = mending.asked_of(arguments, files)
@@ -58,61 +53,24 @@ def _understand(argv: list[str]) -> tuple[argparse.Namespace, Settings, list[Pla
 
 
 def _run_all(
-    arguments: argparse.Namespace,
-    settings: Settings,
-    files: list[Place],
-    argv: Sequence[str],
+    arguments: argparse.Namespace, settings: Settings, files: list[Place]
 ) -> tuple[list[dict[str, Any]], int]:
     """Records of all inputs, including those not reached after an interruption, and the exit code."""
-    reported = shown(settings) | ease.shown(arguments.prepared) | fit.shown(arguments.drawn)
+    reported = shown(settings) | fit.shown(arguments.drawn)
     if arguments.mending is not None:
         reported = arguments.mending.said
     records = [report.new_record(file, reported) for file in files]
-    spread = executors.is_spread(arguments)
-    try:
-        with executors.executor(arguments) if spread else nullcontext() as executor:
-            if executor is not None and arguments.pieces is None:
-                _run_batches(executor, argv, records, arguments.quiet)
-            else:
-                arguments.spread = executor and executor.faired
-                for index, file in enumerate(files):
-                    run_one(file, records[index], arguments, settings)
-                    tell(records[index], arguments.quiet)
-    except executors.NoExecutor as error:
-        say(f"error: {error}")
-        return records, SOME_FAILED
-    except KeyboardInterrupt:
-        _note_interruption(records, all_of_them=spread and arguments.pieces is None)
-        return records, INTERRUPTED
+    for file, record in zip(files, records):
+        try:
+            run_one(file, record, arguments, settings)
+        except KeyboardInterrupt:
+            record["status"] = report.CANCELLED
+            record["error"] = report.error_entry("CANCELLED", "Interrupted.")
+            say(f"{record['input']}: interrupted")
+            return records, INTERRUPTED
+        tell(record, arguments.quiet)
     failed = any(record["status"] == report.FAILED for record in records)
     return records, SOME_FAILED if failed else ALL_DONE
-
-
-def _note_interruption(records: list[dict[str, Any]], all_of_them: bool) -> None:
-    """Notes an interruption in the record of the current input, or of `all_of_them`."""
-    waiting = [record for record in records if record["status"] == report.NOT_RUN]
-    for record in waiting if all_of_them else waiting[:1]:
-        record["status"] = report.CANCELLED
-        record["error"] = report.error_entry("CANCELLED", "Interrupted.")
-    if waiting:
-        say(f"{waiting[0]['input']}: interrupted")
-
-
-def _run_batches(
-    executor: executors.TaskExecutor,
-    argv: Sequence[str],
-    records: list[dict[str, Any]],
-    quiet: bool,
-) -> None:
-    """Runs all files in parallel."""
-    for share, found in executors.run_files(executor, argv, len(records)):
-        for k, index in enumerate(share):
-            record = records[index]
-            if isinstance(found, str):
-                fail(record, "INTERNAL", (), f"{record['input']}: {found}")
-            else:
-                record.update(found[k])
-            tell(record, quiet)
 
 
 def _write_report(

@@ -11,7 +11,6 @@ from . import clean, fill
 from .places import Place, is_cad
 from .rna import OfOperator, option
 
-_OTHERS = ("pieces", "weld")  # options without effect here, beside settings
 _OF_BOTH = OfOperator("object.fairing_fill", {}, largest_hole="largest")
 _MODULES: dict[str, Any] = {"fill": fill, "clean": clean}
 
@@ -47,8 +46,9 @@ def asked_of(arguments: argparse.Namespace, files: Sequence[Place]) -> Mending |
             raise ValueError("--largest-hole needs --fill or --clean")
         return None
     kept = ("energy",) if name == "fill" else ()
-    found = [key for key in vars(arguments) if key in NAMES and key not in (*_OTHERS, *kept)]
-    found += [key for key in _OTHERS if getattr(arguments, key) is not None]
+    found = [key for key in vars(arguments) if key in NAMES and key not in ("weld", *kept)]
+    if arguments.weld is not None:
+        found.append("weld")
     if found:
         raise ValueError(
             f"{option(found[0])} is for fairing, and --{name} does not fair: call twice"

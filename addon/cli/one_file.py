@@ -19,9 +19,8 @@ from ..job import Job
 from ..queue import ConsoleProgress
 from ..scan_fit import Fit, FitJob
 from ..settings import PatchOptions, Settings
-from ..strain import table
-from . import ease, fit, report, step
-from .files import FileError, read_file, write_file, write_text, write_whole
+from . import fit, report, step
+from .files import FileError, read_file, write_file, write_whole
 from .places import Place, is_cad, is_there
 
 
@@ -31,9 +30,8 @@ def run_one(
     """Fairs one file, and notes the outcome in its record."""
     start = time.perf_counter()
     try:
-        for path in (file.target, arguments.tables.get(file)):
-            if arguments.overwrite is False and path is not None and is_there(path):
-                raise FileError("EXISTS", f"{path} exists, and is kept.")
+        if arguments.overwrite is False and is_there(file.target):
+            raise FileError("EXISTS", f"{file.target} exists, and is kept.")
         if arguments.mending is None:
             _fair_file(file, record, arguments, settings)
         else:
@@ -60,10 +58,7 @@ def _fair_file(
         sources = read_file(file.source, arguments.merge)
     else:
         sources, near = fit.read(file, arguments.drawn, arguments.merge)
-    prepared = arguments.prepared
-    ease.require_one(sources, prepared)
-    runs = len(sources) * (1 + prepared.runs)
-    progress = ConsoleProgress(str(file.source), runs, sys.stderr)
+    progress = ConsoleProgress(str(file.source), len(sources), sys.stderr)
     watchers: dict[str, Any] = {} if arguments.quiet else {"progress": progress}
     patches = arguments.patches if is_cad(file.target) else None
     asked = {
@@ -71,40 +66,29 @@ def _fair_file(
         for name in ("weld", "threads")
         if (value := getattr(arguments, name)) is not None
     }
-    entries, tables = [], []
-    for source in sources:
-        entry, found = ease.prepare(source, prepared, settings, asked, progress.end_run, **watchers)
-        entries.append(entry)
-        tables += found
     jobs = [_job(source, settings, patches, near) for source in sources]
     for job in jobs:
         # the report contains energies
         job.arguments |= asked | {"measure": arguments.json is not None and patches is None}
-        job.pieces, job.spread = arguments.pieces, arguments.spread
         job.compute(**watchers)
         progress.end_run()
     if patches is not None:
         step.require_patches(jobs)
-    for job, source, entry in zip(jobs, sources, entries):
+    for job, source in zip(jobs, sources):
         if mended := repairs_text(job.result.report["repairs"]):
             record["notes"].append(f"mended: {mended}")
-        if "eased" in entry:
-            record["notes"].append(f"{source.name}: {entry['eased']['said']}")
         record["warnings"] += job.warnings()
+        done = step.object_entry(job) if isinstance(job, PatchJob) else _replace(job, source)
         if near is not None:
-            entry["fit"] = fit.entry(job)
+            done["fit"] = fit.entry(job)
             if patches is None:  # `summary` says the same of patches
-                record["notes"].append(fit.said(entry["fit"]))
-        is_patches = isinstance(job, PatchJob)
-        done = step.object_entry(job) if is_patches else _replace(job, source)
-        record["objects"].append(done | entry)
+                record["notes"].append(fit.said(done["fit"]))
+        record["objects"].append(done)
     if patches is None:
         write_file(file.target)
     else:
         write_whole(file.target, lambda path: write_jobs(path, jobs, patches.unit, 1.0))
         record["notes"].append(summary(jobs, patches.unit, 1.0))
-    for rows in tables:
-        write_text(str(arguments.tables[file]), table.text(rows), newline="")
 
 
 def _mend_file(file: Place, record: dict[str, Any], arguments: argparse.Namespace) -> None:

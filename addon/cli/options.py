@@ -8,7 +8,7 @@ from typing import Any
 
 from ..properties import FAIRING_PG_settings
 from ..settings import NAMES, OF_NEAR, Settings
-from . import ease, fit, mending, step
+from . import fit, mending, step
 from .places import FORMATS
 from .rna import add, default, number, option, whole_number
 
@@ -59,7 +59,6 @@ examples:
   {_PROGRAM} scan.ply fair.ply --tolerance 0.01 --crease-angle 40
   {_PROGRAM} parts/*.stl out/ --format ply
   {_PROGRAM} hull.obj hull.step --unit m --fit-tolerance 1e-5
-  {_PROGRAM} offsets.obj hull.step --unit m --ease --strain offsets.csv
   {_PROGRAM} scan.ply closed.ply --fill --largest-hole 30
   {_PROGRAM} scan.stl closed.ply --clean --clean-noise
   {_PROGRAM} --fit scan.ply --cage cage.obj --tolerance 0.2 part.step
@@ -195,27 +194,6 @@ def parser(version: str) -> argparse.ArgumentParser:
         help="0: all cores [as in the preferences]",
     )
     made.add_argument(
-        "--pieces",
-        type=whole_number(1),
-        metavar="N",
-        help="fair each mesh in this number of pieces, in the memory of one; needs the Python package "
-        "pymetis [whole]",
-    )
-    made.add_argument(
-        "--jobs",
-        type=whole_number(1),
-        default=1,
-        metavar="N",
-        help="files at a time, each in a Blender of its own; with --pieces, pieces at a time [1]",
-    )
-    made.add_argument(
-        "--scheduler",
-        metavar="tcp://HOST:PORT",
-        help="the same on the workers of a Dask cluster, which have the files under the same names; needs the Python "
-        "package distributed [none]",
-    )
-    made.add_argument("--only", type=_share, metavar="FIRST:END", help=argparse.SUPPRESS)
-    made.add_argument(
         "--json",
         metavar="FILE|-",
         help="write a report to a file; -: to standard output, which then has nothing else",
@@ -230,7 +208,6 @@ def parser(version: str) -> argparse.ArgumentParser:
     )
     add_settings(made)
     step.add_options(made)
-    ease.add_options(made)
     fit.add_options(made)
     mending.add_options(made)
     return made
@@ -241,9 +218,3 @@ class _Formatter(argparse.RawDescriptionHelpFormatter):
 
     def __init__(self, prog: str) -> None:
         super().__init__(prog, max_help_position=32, width=110)
-
-
-def _share(text: str) -> slice:
-    """A range of the inputs, for one task of an executor."""
-    first, end = map(int, text.split(":"))
-    return slice(first, end)

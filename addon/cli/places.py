@@ -11,7 +11,6 @@ CAD_FORMATS = ("step", "stp")  # outputs only
 # inputs only: Blender's importers of these turn axes; and tables of offsets
 MORE_INPUTS = ("blend", "csv", "glb", "gltf", "tsv", "usd", "usda", "usdc", "usdz")
 _NAME = "{name}"
-_TABLE = "csv"
 
 
 class BadPlaces(Exception):
@@ -88,22 +87,6 @@ def no_report_over(report: str | None, found: Sequence[Place]) -> None:
             own = [path, path.with_suffix(".mtl")] if file_format(path) == "obj" else [path]
             if any(_same(Path(report), other) for other in own):
                 raise BadPlaces(f"{report} is {role}; give the report another name.")
-
-
-def tables(pattern: str, found: Sequence[Place], report: str | None) -> tuple[Path, ...]:
-    """A table for each Place. Raises BadPlaces if one would overwrite another file."""
-    if file_format(Path(pattern)) != _TABLE:
-        raise BadPlaces(f"{pattern} is no table: its name must end in .{_TABLE}.")
-    if len(found) > 1 and _NAME not in pattern:
-        raise BadPlaces(f"Tables of {len(found)} inputs need a name with {_NAME}, not {pattern}.")
-    paths = tuple(Path(pattern.replace(_NAME, place.source.stem)) for place in found)
-    taken: set[str] = set()
-    for path in paths:
-        real = os.path.realpath(path)
-        if real in taken or (report not in (None, "-") and _same(Path(str(report)), path)):
-            raise BadPlaces(f"Two files would be called {path}.")
-        taken.add(real)
-    return paths
 
 
 def is_there(path: Path) -> bool:

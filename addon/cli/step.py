@@ -36,8 +36,6 @@ def options_of(
             if getattr(arguments, name) is not None:
                 raise ValueError(f"{option(name)} needs an output that ends in .step")
         return None
-    if arguments.pieces is not None:
-        raise ValueError("--pieces is for meshes: spline patches are fitted to the whole surface")
     levels = settings.levels if "levels" in vars(arguments) else 0
     return PatchOptions(fit_levels=levels, **_OPTIONS.said(arguments))
 

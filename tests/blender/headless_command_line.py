@@ -72,17 +72,6 @@ def test_one_file():
     assert "in.obj" in error and "→" in error
 
 
-def test_files_side_by_side():
-    for name in ("a.obj", "b.obj", "c.obj"):
-        write_obj(name)
-    names = ("a.obj", "b.obj", "c.obj")
-    assert report(*names, "alone/", "--levels", 2)[0] == 0
-    code, told = report(*names, "spread/", "--levels", 2, "--jobs", 2)
-    assert code == 0 and [entry["status"] for entry in told["inputs"]] == ["done"] * 3, told
-    for name in names:
-        assert Path("spread", name).read_bytes() == Path("alone", name).read_bytes()
-
-
 def test_help_and_version():
     code, output, _ = call("--help")
     assert code == 0 and "--crease-angle" in output

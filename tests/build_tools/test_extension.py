@@ -98,7 +98,7 @@ def test_wheels_of_a_folder_are_sorted_by_platform(tmp_path):
 def test_staged_folder(staged):
     manifest = tomllib.loads((staged / "blender_manifest.toml").read_text())
     assert all((staged / entry).is_file() for entry in manifest["wheels"])
-    assert manifest["permissions"].keys() == {"files", "network"}
+    assert manifest["permissions"].keys() == {"files"}
     assert all((staged / name).is_file() for name in ("__init__.py", *extension.LICENCES))
     assert (staged / "LICENSE").read_text().strip().startswith("GNU GENERAL PUBLIC LICENSE")
     assert not list(staged.rglob("__pycache__"))

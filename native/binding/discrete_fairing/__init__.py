@@ -6,7 +6,8 @@
 >>> result.vertices, result.triangles, result.report["energy"]
 """
 
-from . import whole_files as whole_files  # the add-on uses it too
+from . import lattice as lattice  # the add-on uses these two
+from . import whole_files as whole_files
 from ._native import FairingError, Monitor, __version__
 from .checking import Defect, check, predicted_size
 from .cleaning import Act, Cleaned, clean, hole_width, holes_to_fill
@@ -19,7 +20,6 @@ from .fitting import fit_patches
 from .joints import Joint, joint
 from .options import AllSettings, Settings
 from .patches import SplinePatches, spline_knots
-from .piecewise import Part, Piece, join, largest_jump, pieces
 from .result import Result
 from .scan_fitting import Fitted, fit
 from .solver import Solver
@@ -39,8 +39,6 @@ __all__ = [
     "FilledHole",
     "Joint",
     "Monitor",
-    "Part",
-    "Piece",
     "Result",
     "SkippedHole",
     "Settings",
@@ -59,10 +57,7 @@ __all__ = [
     "fit_patches",
     "hole_width",
     "holes_to_fill",
-    "join",
     "joint",
-    "largest_jump",
-    "pieces",
     "predicted_size",
     "spline_knots",
     "strain",

@@ -11,10 +11,6 @@ _Progress = Callable[[float, str], bool | None] | None
 
 __version__: str
 most_levels: int
-curve_edge: int
-boundary_edge: int
-split_edge: int
-straight_edge: int
 
 class FairingError(ValueError):
     code: str
@@ -116,7 +112,6 @@ def fair(
     options: Options,
     monitor: Monitor,
     progress: _Progress,
-    whole: dict[str, Any] | None = None,
 ) -> dict[str, Any]: ...
 def strain(
     vertices: np.ndarray,
@@ -166,14 +161,6 @@ def predicted_size(
     shapes: int,
     energy: Energy,
 ) -> dict[str, int]: ...
-def outline(
-    vertices: np.ndarray,
-    corners: np.ndarray,
-    offsets: np.ndarray,
-    shapes: np.ndarray,
-    options: Options,
-    monitor: Monitor,
-) -> dict[str, Any]: ...
 def fit_splines(
     vertices: np.ndarray,
     triangles: np.ndarray,

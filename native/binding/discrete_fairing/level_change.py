@@ -7,7 +7,7 @@ from math import inf
 
 import numpy as np
 
-from .piecewise.lattice import Lattice
+from .lattice import Lattice
 from .result import Result
 
 CELLS_AT_ONCE = 1 << 14  # at which two surfaces are compared; at least one control face

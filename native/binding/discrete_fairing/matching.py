@@ -21,7 +21,7 @@ from .converters import vertex_pairs
 from .errors import fairing_error
 from .halfway import Halfway
 from .halves import Control
-from .piecewise.lattice import Lattice
+from .lattice import Lattice
 from .turning import Angles, needed, rotation
 
 # Ends nearer to the neighbour's border than this share of a border edge lie on it.

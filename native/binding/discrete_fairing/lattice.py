@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Numbers the points of a refined surface in the order of native/grid/grid_level.h.
+
+[control vertices | edge interiors, edge by edge | face interiors, face by face, row by row]
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+
+class Lattice:
+    """The closed lattice of a control face whose edges are split into n: points (i, j), row by row.
+
+    A triangle holds i + j <= n, a quad i, j <= n; i runs along side 0, j along the last side
+    reversed.
+    """
+
+    def __init__(self, n: int, quad: bool):
+        self.n, self.quad = n, quad
+        self.size = 4 if quad else 3
+        rows = [n if quad else n - j for j in range(n + 1)]
+        self.i = np.concatenate([np.arange(last + 1) for last in rows])
+        self.j = np.repeat(np.arange(n + 1), [last + 1 for last in rows])
+
+    def at(self, i: Any, j: Any) -> Any:
+        """Positions of points (i, j) in the closed lattice, for numbers or arrays."""
+        return j * (self.n + 1) + i - (0 if self.quad else (j * j - j) // 2)
+
+    @cached_property
+    def corners(self) -> np.ndarray:
+        n = self.n
+        places = [(0, 0), (n, 0), (n, n), (0, n)] if self.quad else [(0, 0), (n, 0), (0, n)]
+        return np.array([self.at(*place) for place in places])
+
+    @cached_property
+    def cells(self) -> np.ndarray:
+        """(cells, 3 or 4): the small faces, in the order of the result."""
+        n, at = self.n, self.at
+        out = []
+        for j in range(n):
+            if self.quad:
+                i = np.arange(n)
+                out.append(np.stack([at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)], 1))
+                continue
+            row = np.empty((2 * (n - j) - 1, 3), np.int64)
+            i = np.arange(n - j)
+            row[::2] = np.stack([at(i, j), at(i + 1, j), at(i, j + 1)], 1)
+            i = i[:-1]
+            row[1::2] = np.stack([at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)], 1)
+            out.append(row)
+        return np.concatenate(out)
+
+    def weights(self) -> np.ndarray:
+        """(closed, corners): weights of the corners that interpolate linearly on the face."""
+        n, i, j = self.n, self.i, self.j
+        if self.quad:
+            return np.stack([(n - i) * (n - j), i * (n - j), i * j, (n - i) * j], 1) / n**2
+        return np.stack([n - i - j, i, j], 1) / n
