@@ -41,7 +41,6 @@ from .settings import (
 )
 from .transfer.attributes import AttributeTransfer
 from .transfer.lattice import edge_table, fine_edges
-from .transfer.mirror import find_mirrors, symmetrize, uneven_axes
 from .transfer.seams import seam_pairs
 
 NOTICED_MEMORY = 2**28  # bytes: less is negligible beside Blender itself
@@ -171,8 +170,6 @@ class Job(TimedRun):
         given_way = errors.pads_text(self.result.report["pads"])
         if given_way:
             self.notes.append(given_way)
-        if self.settings.keep_symmetry and self._neighbour is None:
-            self._symmetrize()
         self._seams = seam_pairs(self.result, self.arrays, self.settings, self._edges)
 
     def surface(self, **watchers: Any) -> Any:
@@ -207,31 +204,9 @@ class Job(TimedRun):
         result.vertices = self.shape.back(result.vertices, sent["vertices"], self.arrays.positions)
         result.shapes = [
             self.shape.back(shape, world, own)
-            for shape, world, own in zip(result.shapes, sent.get("shapes", ()), self._own_shapes())
-        ]
-
-    def _own_shapes(self) -> np.ndarray | tuple[()]:
-        """(k, n, 3): the shape keys without the first, in the object's coordinates."""
-        return self.keys.shapes if self.keys else ()
-
-    def _symmetrize(self) -> None:
-        result, arguments = self.result, self.arguments
-        corners = arguments["corner_vertices"]
-        soft, weights = arguments.get("soft_creases", (np.empty((0, 2), np.int32), ()))
-        if result.mended is not None:
-            corners, soft = (result.mended.vertex_origin[ids] for ids in (corners, soft))
-        mirrors, notes = find_mirrors(
-            self.transfer, self.arrays, result.crease_edges, corners, (soft, weights)
-        )
-        self.notes += notes
-        self.notes += [
-            f"The mesh is symmetric in {axis} but its surface is not, by more than rounding: no exact symmetry."
-            for axis in uneven_axes(result.vertices, mirrors)
-        ]
-        result.vertices = symmetrize(result.vertices, mirrors, self.arrays.positions)
-        result.shapes = [
-            symmetrize(shape, mirrors, positions)
-            for shape, positions in zip(result.shapes, self._own_shapes())
+            for shape, world, own in zip(
+                result.shapes, sent.get("shapes", ()), self.keys.shapes if self.keys else ()
+            )
         ]
 
     @property

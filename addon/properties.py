@@ -146,11 +146,6 @@ class FairingSettings:
         items=JOINTS,
         default="TANGENT",
     )
-    keep_symmetry: BoolProperty(
-        name="Keep Symmetry",
-        description="A source that is symmetric in the object's X, Y or Z gives an exactly symmetric surface",
-        default=True,
-    )
 
     use_crease_attribute: BoolProperty(
         name="Edge Creases",

@@ -69,7 +69,6 @@ def settings_of_fit(settings: Settings, scan: Scan) -> Settings:
         interpolation="EXACT",
         use_selection=False,
         use_shape_keys=False,
-        keep_symmetry=False,
     )
 
 

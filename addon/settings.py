@@ -45,7 +45,6 @@ class Settings:
     mesh_source: str
     use_selection: bool
     joint: str
-    keep_symmetry: bool
     use_crease_attribute: bool
     crease_threshold: float
     use_sharp_edges: bool

@@ -133,13 +133,6 @@ class AttributeTransfer:
         """Triangles of the refined mesh, two for each quad."""
         return sum(len(patch.fine) * (patch.fine.shape[1] - 2) for patch in self.patches)
 
-    def used_vertices(self) -> np.ndarray:
-        """(n,) bool: whether a control vertex belongs to a face."""
-        used = np.zeros(self.vertex_count, bool)
-        for patch in self.patches:
-            used[patch.faces.vertices] = True
-        return used[: self.control_count]
-
     def corner(self, values: np.ndarray) -> np.ndarray:
         """(c,) or (c, w) on corners → (refined corners, w) float32, within each face only."""
         values = self._faired.corner(_table(values))

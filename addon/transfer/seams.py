@@ -9,7 +9,8 @@ from .. import core
 from ..core import ControlArrays
 from ..settings import Settings
 from .lattice import edge_table
-from .mirror import AXES
+
+AXES = "XYZ"
 
 
 def seam_pairs(

@@ -40,7 +40,6 @@ class VIEW3D_PT_fairing_inspect(Sidebar, bpy.types.Panel):
         if target is not None:
             draw_sections(layout, target, context.scene.discrete_fairing_inspection)
         layout.operator("object.fairing_measure", icon="DRIVER_DISTANCE")
-        layout.operator("object.fairing_compare", icon="MOD_ARRAY")
         record = recall(target, "readout") if target is not None else None
         if target is not None and record is not None:
             _draw_readout(layout, context, target, record)

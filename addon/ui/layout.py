@@ -157,7 +157,6 @@ def draw_source(layout: bpy.types.UILayout, settings: FairingSettings) -> None:
     row.prop(settings, "mesh_source")
     if settings.use_selection:
         _reason(layout, "Faces are selected on the mesh as modelled")
-    layout.prop(settings, "keep_symmetry")
     layout.prop(settings, "repair")
     if settings.repair == "MEND":
         layout.prop(settings, "weld")

@@ -27,7 +27,7 @@ def add_crumpled():
 
 def test_where_pads_gave_way_is_said_and_kept(capfd):
     source = add_crumpled()
-    result = fair(**CRUMPLED, keep_symmetry=False)
+    result = fair(**CRUMPLED)
     pads = recall(result, "report")["pads"]
     assert pads["gone"] == len(source.data.vertices)
     assert pads_text(pads) in capfd.readouterr().out

@@ -46,7 +46,7 @@ def loose_by_attribute(source):
 @pytest.mark.parametrize("settings", [{}, {"mesh_source": "EVALUATED"}])
 def test_a_group_says_where_the_surface_may_miss(source, make, settings):
     make(source)
-    result = fair(tolerance=0.05, keep_symmetry=False, **LOOSE, **settings)
+    result = fair(tolerance=0.05, **LOOSE, **settings)
     distance = moved(source, result)
     assert 0.05 < distance[0] <= 0.1 * (1 + 1e-5) and 0 < distance[1] <= 0.05 * (1 + 1e-5)
     assert np.array_equal(positions(result.data)[2:8], positions(source.data)[2:])
@@ -124,7 +124,7 @@ def test_an_attribute_of_what_is_no_weight_is_refused(source, wrong):
 def test_a_stronger_pull_is_nearer(source):
     add_group(source, dict(enumerate([1.0, 0.9, 0.6, *[0.3] * 5])), "Pulls")
     near = {"levels": 1, "interpolation": "APPROXIMATE", "pull_group": "Pulls"}
-    result = fair(tolerance=0, keep_symmetry=False, **near)
+    result = fair(tolerance=0, **near)
     distance = moved(source, result)
     assert distance[0] == 0
     assert 0 < distance[1] < distance[2] < distance[3:].min()

@@ -15,7 +15,6 @@ op.tension = 0.0
 op.boundary = "CORNERS"
 op.mesh_source = "ORIGINAL"
 op.joint = "TANGENT"
-op.keep_symmetry = True
 op.use_crease_attribute = True
 op.crease_threshold = 1.0
 op.use_sharp_edges = False
