@@ -110,7 +110,7 @@ void HeldSolve<N>::solve(bool whole) {
     solved_.residual *= scale;
     for (double& r : solved_.residuals) r *= scale;
   }
-  if (system_.hats && !system_.leaves_residual) compute_residual(x_, r_);
+  if (system_.hats) compute_residual(x_, r_);
   own_forces_ = forces_;
   correct_by_residual(solved_.direct);
 }

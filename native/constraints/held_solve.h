@@ -74,8 +74,6 @@ struct HeldSystem {
   std::function<Vector(std::size_t v)> target;
   // r <- b - K x without springs, on the unknowns and on vertices on pads.
   std::function<void(const double* x, double* r)> residual;
-  // Whether a solve that is not direct also computes the residual of its result.
-  bool leaves_residual;
   std::function<LevelSolve(const PcgLimits&, const LinearSystem&)> solve;
   // sums <- H^T r for control vertices; empty: the prolongation does not approximate H, and the
   // vertices' own rows are used.

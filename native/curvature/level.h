@@ -110,9 +110,6 @@ class CurvatureLevel final : public LevelOperator {
   void apply(const float* x, float* y) override;
   // y <- K x on `rows` without weights; x is zero off the unknowns. For total curvature only.
   void apply_on(const Unknowns& rows, const double* x, double* y);
-  bool single_precision_suffices() const override {
-    return grid_.n() <= most_of_single && !varies();
-  }
   const Array<float>& inverse_diagonal() const override { return inverse_diagonal_; }
   AssembledSystem assemble() const override;
   void write_lines(LineBand& band, Workers& workers) override;

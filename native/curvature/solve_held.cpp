@@ -118,7 +118,6 @@ LevelSolve GaussNewtonSystem::solve_held(int level, const LinearizedSurface& abo
       .couples = nullptr,
       .target = [&](std::size_t v) { return Vector(constraints_->target(v)); },
       .residual = residual,
-      .leaves_residual = op(level).single_precision_suffices(),
       .solve = [&](const PcgLimits& now,
                    const LinearSystem& linear) { return hierarchy_->solve(index, now, linear); },
       .restrict_to_vertices = op(level).penalty() ? Restriction{} : restriction,

@@ -17,10 +17,6 @@ namespace fairing {
 // Extra numbers at the end of vectors in single precision: operators may read them in packs.
 constexpr std::size_t vector_room = 16;
 
-// The finest subdivision of control edges for which fourth differences of smooth vectors survive in
-// single precision, which has 24 bits: they shrink with n^-4, and 32^4 takes 20 of them.
-constexpr int most_of_single = 32;
-
 using SparseMatrix = Eigen::SparseMatrix<double>;
 constexpr std::size_t matrix_entry = sizeof(double) + sizeof(int);  // bytes, as stored
 inline std::size_t matrix_bytes(const SparseMatrix& matrix) {
@@ -86,9 +82,6 @@ class LevelOperator {
   // y <- K x. In single precision inside the preconditioner.
   virtual void apply(const double* x, double* y) = 0;
   virtual void apply(const float* x, float* y) = 0;
-  // Whether apply() in single precision distinguishes smooth vectors from zero: fourth order
-  // cancels their leading digits.
-  virtual bool single_precision_suffices() const = 0;
   virtual const Array<float>& inverse_diagonal() const = 0;
 
   // A smoothing step, and y -= K x with a work vector `room`. Both may be overridden by something

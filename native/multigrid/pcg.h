@@ -53,8 +53,7 @@ struct PcgResult {
 
 // A level's linear system K x = b.
 struct LinearSystem {
-  // r <- b - K x, in double. Solves call it last for their final x, unless the iteration itself is
-  // in double.
+  // r <- b - K x, for direct solves.
   std::function<void(const double* x, double* r)> residual;
   double* x;  // improved in place
   double* r;  // b - K x for the initial x; overwritten
@@ -67,14 +66,11 @@ struct LinearSystem {
 
 // Work vectors of the conjugate gradients, kept between levels.
 struct PcgState {
-  Array<double> direction, product;                             // of iterations in double
-  Array<float> rest, fast_direction, fast_product, correction;  // of those in single precision
+  Array<double> direction, product;
 };
 
 // Preconditioned conjugate gradients on all components at once (one scalar system, so the iterates
-// rotate with the mesh). If single precision suffices for the level they run in it, on a residual
-// that is recomputed in double, from x, each time it has fallen by a hundred [residual replacement:
-// van der Vorst and Ye 2000]; so the limits are met in double. The flexible beta allows a
+// rotate with the mesh), in double. The flexible beta allows a
 // preconditioner in single precision, and one that changes: `each` may raise cycle.degree after an
 // iteration; it returns false to stop. Ends unconverged at max_iterations, or if rounding prevents
 // progress. Throws FairingError(cancelled).

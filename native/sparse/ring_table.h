@@ -51,9 +51,6 @@ class RingTable {
     while (s < ring.size && id_of(member[s]) != p) ++s;
     return s;
   }
-  bool is_about_vertex(const Ring& ring) const {
-    return ring.element < grid_.mesh().vertex_count();
-  }
   std::size_t points() const { return ring_.size(); }
   bool is_unknown(Index p) const { return coded_[p] >= 0; }
 

@@ -23,8 +23,6 @@ class PlateDifferences {
                    Workers& workers, const SurfaceRows* surface = nullptr);
 
   const RingTable& rings() const { return rings_; }
-  // Whether points have weights besides the stencils.
-  bool is_weighted() const { return surface_ || !weight_.empty(); }
   double penalty(Index p) const { return surface_ ? double(surface_->penalty[p]) : 0; }
   const Stencils& stencils() const { return stencils_; }
   bool has_fit(const RingTable::Ring& ring) const { return stencils_.has_fit[ring.element]; }

@@ -116,10 +116,6 @@ class ThinPlateLevel final : public LevelOperator {
                                 y[3 * first + i] -= product[i];
                             });
   }
-  // Control vertices that move allow waves longer than a face.
-  bool single_precision_suffices() const override {
-    return grid_.n() <= most_of_single && !shared_.unknowns.any_vertex;
-  }
   const Array<float>& inverse_diagonal() const override { return inverse_diagonal_; }
   AssembledSystem assemble() const override {
     return assemble_thin_plate(grid_, shared_.stencils, shared_.unknowns, weights_, shared_.workers,

@@ -28,8 +28,7 @@ struct ThinPlateRows {
 
 // y <- (K + W) x on the unknowns of a level, zero elsewhere. W has the weights of control vertices
 // or of all points: 0 on points that are not unknowns, except control vertices. T: float or double.
-// In float, fourth differences lose as many digits as n^4 has: see most_of_single
-// (multigrid/level_operator.h).
+// In float, which serves the smoother, fourth differences lose as many digits as n^4 has.
 template <class T>
 void apply_thin_plate(const GridLevel& grid, const ThinPlateRows<T>& rows, const Unknowns& unknowns,
                       const VertexWeights& weights, Workers& workers, ElementSlots<T>& slots,

@@ -80,7 +80,6 @@ ThinPlateSolver::Run::Solved ThinPlateSolver::Run::solve(int level, const PcgLim
             return (constraints ? constraints->shifted_targets() : data.targets)[v];
           },
       .residual = residual,
-      .leaves_residual = levels().op(level).single_precision_suffices(),
       .solve = solve_level,
       .restrict_to_vertices = reads_own_rows ? Restriction{} : restrict_to_vertices,
       .set_weights = [&](const VertexWeights& weights) { levels().set_weights(weights, level); },

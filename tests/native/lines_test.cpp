@@ -119,7 +119,6 @@ class DenseOperator final : public LevelOperator {
   std::size_t components() const override { return components_; }
   void apply(const double*, double*) override {}
   void apply(const float*, float*) override {}
-  bool single_precision_suffices() const override { return true; }
   const Array<float>& inverse_diagonal() const override { return inverse_; }
   AssembledSystem assemble() const override { return {}; }
   void write_lines(LineBand& band, Workers&) override {
