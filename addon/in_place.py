@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fairs selected faces in their own mesh: moves its vertices, or refines the faces too.
+"""Fairs selected faces in their own mesh: moves its vertices.
 
 Only the selection and the faces near it are computed.
 """
@@ -7,9 +7,7 @@ Only the selection and the faces near it are computed.
 from dataclasses import dataclass, replace
 from typing import Any, cast
 
-import bmesh
 import numpy as np
-from mathutils import kdtree
 
 from . import core, errors, measured, size
 from .blender import Context, Object, column
@@ -18,37 +16,28 @@ from .errors import JobError
 from .job import run_warnings
 from .mesh.edited import edited
 from .mesh.read import selected_faces
-from .mesh.shape_keys import dependent_keys
 from .mesh.timed_run import TimedRun
 from .preferences import of_runs
 from .settings import Settings
 from .transfer.attributes import AttributeTransfer
-from .transfer.cut_out import CutOut, cut_out, grown, inside
+from .transfer.cut_out import cut_out, grown, inside
 from .units import Units
 
 # levels of the surface if only its control vertices are needed
 _UNSEEN_LEVELS = 2
-# rings of faces that determine the continuation if the selection is not refined
+# rings of faces that determine the continuation
 _RINGS = {"POSITION": 0, "TANGENT": 1, "CURVATURE": 2}
-# the same if it is refined: the faces at the rim and their neighbours
-_RINGS_REFINED = 2
 
 
 @dataclass(frozen=True)
 class InPlaceOptions:
-    levels: int  # 0: vertices move, faces stay
     joint: str  # POSITION, TANGENT, CURVATURE
     energy: str
     tension: float
-    release: bool  # whether vertices of the selection move; callers may pass others
     factor: float = 1.0  # the share of the way that they move
     # whether the vertices are measured, so that the surface passes near them
     measured: bool = False
     noise: float = 0.0  # their noise, rms along the normals, a length; 0: estimated
-
-    @property
-    def moves(self) -> bool:
-        return self.release or self.measured or not self.levels
 
 
 class InPlaceJob(TimedRun):
@@ -69,17 +58,14 @@ class InPlaceJob(TimedRun):
             chosen = np.full(len(self.arrays.face_sizes), source.mode != "EDIT")
             if source.mode == "EDIT":
                 chosen[selected_faces(mesh, source.name)] = True
-        rings = _RINGS_REFINED if options.levels else _RINGS[options.joint]
-        near = grown(self.arrays, chosen, rings)
+        near = grown(self.arrays, chosen, _RINGS[options.joint])
         free = inside(self.arrays, chosen)
         _refuse(source.name, self.arrays, chosen, free, options)
         self._chosen = chosen
         self._part = part = cut_out(self.arrays, near)
-        refined = options.levels > 0
-        region = np.flatnonzero(chosen[part.faces]).astype(np.int32) if refined else None
         self._asked = asked = _settings(settings, options)
         self.triangles = size.triangle_count(part.arrays.face_sizes, asked.levels)
-        self._arguments = self._arguments_of(part.arrays, region)
+        self._arguments = self._arguments_of(part.arrays)
         # CORNERS means corners of the mesh; the selection's own do not count
         if settings.boundary == "CORNERS":
             whole = self.shape.of_arrays(self.arrays).border_corners()
@@ -87,13 +73,13 @@ class InPlaceJob(TimedRun):
             given = self._arguments["corner_vertices"]
             self._arguments["corner_vertices"] = np.union1d(given, np.flatnonzero(corners))
         self._free = free[part.vertices]
-        if options.moves and not options.measured:
+        if not options.measured:
             self._arguments["interpolation"] = "approximate"
             self._arguments["weights"] = np.where(free[part.vertices], 0.0, np.inf)
 
-    def _arguments_of(self, arrays: Any, region: np.ndarray | None = None) -> dict[str, Any]:
+    def _arguments_of(self, arrays: Any) -> dict[str, Any]:
         world = self.shape.of_arrays(arrays)
-        return core.fair_arguments(world, self._asked, self._preferences, region)
+        return core.fair_arguments(world, self._asked, self._preferences)
 
     def _smoothed(self, watchers: dict[str, Any]) -> tuple[Any, float]:
         """The measured vertices without noise, at level 0, and the noise, found on a part."""
@@ -113,16 +99,14 @@ class InPlaceJob(TimedRun):
         return made, found.noise
 
     def _compute(self, watchers: dict[str, Any]) -> None:
-        arguments, part, levels = self._arguments, self._part, self._options.levels
-        self._noise, moved = 0.0, {}  # of measured vertices, a length
+        arguments, part = self._arguments, self._part
+        self._noise = 0.0  # of measured vertices, a length
         with errors.explained(self.name, errors.WITHOUT_MENDING):
             if self._options.measured:
                 result, self._noise = self._smoothed(watchers)
-                moved = {"vertices": self._part_of_the_way(result.vertices, arguments["vertices"])}
-            if levels or not self._options.measured:
-                result = core.module().fair(**arguments | moved, **watchers)
-        if not (moved and levels):
-            result.vertices = self._part_of_the_way(result.vertices, arguments["vertices"])
+            else:
+                result = core.module().fair(**arguments, **watchers)
+        result.vertices = self._part_of_the_way(result.vertices, arguments["vertices"])
         # (N, 3) in the object's coordinates, the vertices of the part first
         self._points = self.shape.back(
             result.vertices, arguments["vertices"], part.arrays.positions
@@ -130,16 +114,7 @@ class InPlaceJob(TimedRun):
         transfer = AttributeTransfer(result, part.arrays, self._asked.levels)
         world = self.shape.of_arrays(part.arrays)
         theirs = self._chosen[part.faces]
-        self._faults = find_faults_in_place(result, transfer, world, theirs, self._options)
-        if levels:
-            self._splits = _split_faces(transfer, part)
-            if any(not common for index, common in self._splits.items() if self._chosen[index]):
-                raise JobError(
-                    f"{self.name}: Triangulate faces of many corners (Ctrl T). "
-                    "One is too bent to be refined in place."
-                )
-            # (N, 3) float32: all different, linear between those of the vertices
-            self._labels = transfer.point(np.random.default_rng(0).random((len(part.vertices), 3)))
+        self._faults = find_faults_in_place(result, transfer, world, theirs, self._options.joint)
         self.result = result
 
     def _part_of_the_way(self, vertices: np.ndarray, before: np.ndarray) -> np.ndarray:
@@ -159,7 +134,7 @@ class InPlaceJob(TimedRun):
         if counts:
             # Near is no option here, and removing noise has neither Fairness nor Tension
             settings = replace(self._asked, interpolation="APPROXIMATE")
-            if self._options.measured and not self._options.levels:
+            if self._options.measured:
                 settings = replace(settings, energy="THIN_PLATE", tension=1.0)
             sentences.append(errors.faults_in_place_text(self.name, counts, settings))
         return sentences
@@ -172,9 +147,9 @@ class InPlaceJob(TimedRun):
         return [f"{self.name}: noise of {text} (rms) removed."]
 
     def apply(self) -> None:
-        """Moves the faces that were read, and with levels refines them."""
+        """Moves the faces that were read."""
         source, vertices = cast(Object, self.reference.find()), self._part.vertices
-        if source.mode != "EDIT" and not self._options.levels:  # without a copy: scans are large
+        if source.mode != "EDIT":  # without a copy: scans are large
             points = column(source.data.vertices, "co", width=3)
             points[vertices] = self._points[: len(vertices)]
             source.data.vertices.foreach_set("co", points.ravel())
@@ -182,90 +157,20 @@ class InPlaceJob(TimedRun):
         else:
             with edited(source) as bm:
                 bm.verts.ensure_lookup_table()
-                if self._options.levels:
-                    self._refine(bm, *dependent_keys(source))
-                else:
-                    for index, point in zip(vertices.tolist(), self._points.tolist()):
-                        bm.verts[index].co = point
+                for index, point in zip(vertices.tolist(), self._points.tolist()):
+                    bm.verts[index].co = point
                 bm.normal_update()
         self.note()
-
-    def _refine(self, bm: bmesh.types.BMesh, key: str, following: list[str]) -> None:
-        """Refines by Blender's own subdivision, which interpolates all data on the faces and the labels of
-        the vertices; a label identifies the point of a new vertex. `key`, `following`: of dependent_keys().
-        """
-        of_vertices: Any = bm.verts.layers.float_vector
-        label = of_vertices.new("fairing_label")
-        bm.verts.ensure_lookup_table()
-        for row, index in enumerate(self._part.vertices.tolist()):
-            bm.verts[index][label] = self._labels[row].tolist()
-        old = set(bm.verts)
-        of_faces: Any = bm.faces.layers.int
-        chosen = of_faces.new("fairing_chosen")
-        bm.faces.ensure_lookup_table()
-        for index in np.flatnonzero(self._chosen).tolist():
-            bm.faces[index][chosen] = 1
-        self._split(bm, label, chosen)
-        faces = [face for face in bm.faces if face[chosen]]
-        edges = list({edge for face in faces for edge in face.edges})
-        cast(Any, bmesh.ops).subdivide_edges(
-            bm, edges=edges, cuts=2**self._options.levels - 1, use_grid_fill=True
-        )
-        tree: Any = kdtree.KDTree(len(self._labels))
-        for row, place in enumerate(self._labels.tolist()):
-            tree.insert(place, row)
-        tree.balance()
-        layers: Any = bm.verts.layers.shape
-        edited_key, others = layers.get(key), [layers[name] for name in following]
-        for vertex in {v for face in bm.faces if face[chosen] for v in face.verts}:
-            vertex.co = self._points[tree.find(vertex[label])[1]].tolist()
-            if vertex not in old:  # Blender itself passes on the move of old ones
-                for other in others:
-                    vertex[other] += vertex.co - vertex[edited_key]
-        for face in bm.faces:
-            face.select_set(face.select or bool(face[chosen]))
-        of_vertices.remove(label)
-        of_faces.remove(chosen)
-
-    def _split(self, bm: bmesh.types.BMesh, label: Any, chosen: Any) -> None:
-        """Splits the faces to be refined like the core."""
-        bm.faces.ensure_lookup_table()
-        faces = [(bm.faces[index], common) for index, common in self._splits.items()]
-        known = [bm.verts[index] for index in self._part.vertices.tolist()]
-        for face, common in faces:
-            if not face[chosen]:
-                continue
-            if len(common) == 1:
-                made: Any = bmesh.ops.poke(bm, faces=[face])
-                made["verts"][0][label] = self._labels[common[0]].tolist()
-            else:
-                bmesh.utils.face_split(face, *(known[row] for row in common))
-
-
-def _split_faces(transfer: AttributeTransfer, part: CutOut) -> dict[int, list[int]]:
-    """By selected face that the core splits, of five corners or more, or warped: the points common to all
-    its triangles, a centre or a diagonal.
-    """
-    found: dict[int, list[int]] = {}
-    for patch in transfer.patches:
-        if patch.faces.size == 3:
-            pairs = zip(patch.faces.polygon.tolist(), patch.faces.vertices.tolist(), strict=True)
-            for polygon, corners in pairs:
-                if part.arrays.face_sizes[polygon] > 3:
-                    common = found.setdefault(polygon, corners)
-                    found[polygon] = [v for v in common if v in corners]
-    return {int(part.faces[polygon]): common for polygon, common in found.items()}
 
 
 def _refuse(
     name: str, arrays: Any, chosen: np.ndarray, free: np.ndarray, options: InPlaceOptions
 ) -> None:
-    if not options.levels and not free.any():
+    if not free.any():
         raise JobError(
-            f"{name}: Select more faces, or raise Levels. "
-            "No vertex lies inside of the selection, so none can move."
+            f"{name}: Select more faces. No vertex lies inside of the selection, so none can move."
         )
-    if options.moves and not options.measured and floats(arrays, free):
+    if not options.measured and floats(arrays, free):
         raise JobError(
             f"{name}: Leave out some faces of each part. One is selected whole, so nothing holds it."
         )
@@ -278,10 +183,9 @@ def floats(arrays: Any, free: np.ndarray) -> bool:
 
 
 def _settings(settings: Settings, options: InPlaceOptions) -> Settings:
-    unseen = 0 if options.measured else _UNSEEN_LEVELS
     return replace(
         settings,
-        levels=options.levels or unseen,
+        levels=0 if options.measured else _UNSEEN_LEVELS,
         # a scan has only the creases that the user has marked
         use_sharp_edges=settings.use_sharp_edges or options.measured,
         joint=options.joint,

@@ -75,23 +75,17 @@ def find_faults_in_place(
     transfer: AttributeTransfer,
     control: ControlArrays,
     chosen: np.ndarray,
-    options: Any,
+    joint: str,
 ) -> Faults:
-    """The same for the `chosen` faces, (m,) bool, of a part of a mesh, faired by `options`
-    (in_place.InPlaceOptions).
-
-    Without levels only the part's own vertices count. If vertices move, any distance within the
-    tolerance is right.
+    """The same for the `chosen` faces, (m,) bool, of a part of a mesh, whose vertices have moved. Only
+    these count, and any distance is right.
     """
-    before, vertices = transfer.point(control.positions), result.vertices
-    if not options.levels:
-        vertices = transfer.point(vertices[: len(control.positions)])
-    joined = options.joint != "POSITION"
-    near = np.zeros(len(vertices), bool)
+    before = transfer.point(control.positions)
+    vertices = transfer.point(result.vertices[: len(control.positions)])
     return Faults(
         _crossing(vertices, before, transfer),
-        near if options.moves else _departure(vertices, transfer, control) > FAR,
-        folded_in_place(result, vertices, before, transfer, chosen, options.levels, joined),
+        np.zeros(len(vertices), bool),
+        folded_in_place(result, vertices, before, transfer, chosen, joint != "POSITION"),
     )
 
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from ..inspection.curvature import cross, unit
 from ..transfer.attributes import AttributeTransfer, coarse_triangles
-from ..transfer.lattice import fine_edges, pair_keys
+from ..transfer.lattice import pair_keys
 from ..triangles import marked
 
 
@@ -22,11 +22,10 @@ def folded_in_place(
     before: np.ndarray,
     transfer: AttributeTransfer,
     chosen: np.ndarray,
-    levels: int,
     joined: bool,
 ) -> np.ndarray:
     """(N,) bool: vertices at folds of the `chosen` control faces, (m,) bool, of the core's `result`,
-    after `levels` refinements and with its points at `vertices` (N, 3).
+    with its points at `vertices` (N, 3).
 
     `joined`: whether the faces must meet those around smoothly; otherwise any angle is right there.
     Creases do not count, nor do folds of the control mesh, which is at `before`, and of the faces at
@@ -38,15 +37,13 @@ def folded_in_place(
     edges, sides = _folds(before, coarsest)
     at = marked(edges[theirs[owner[sides]].all(axis=1)], len(vertices))
     excused = marked(owner[at[coarsest].any(axis=1)], len(polygon))
-    triangles, face = coarse_triangles(transfer, levels)
-    edges, sides = _folds(vertices, triangles)
-    inside = theirs[face[sides]]
-    counted = inside.all(axis=1) & ~excused[face[sides]].any(axis=1)
+    edges, sides = _folds(vertices, coarsest)
+    inside = theirs[owner[sides]]
+    counted = inside.all(axis=1) & ~excused[owner[sides]].any(axis=1)
     if joined:
         counted |= inside.any(axis=1) & ~inside.all(axis=1)
-    pairs = result.crease_edges
-    creases = fine_edges(result.faces, pairs, levels) if levels else pairs
-    return marked(edges[counted & ~np.isin(pair_keys(edges), pair_keys(creases))], len(vertices))
+    creases = pair_keys(result.crease_edges)
+    return marked(edges[counted & ~np.isin(pair_keys(edges), creases)], len(vertices))
 
 
 def _folds(

@@ -162,21 +162,6 @@ def key_positions(source: Object, name: str, vertex_count: int) -> np.ndarray | 
     return keys.positions[names.index(name)] if keys and name in names else None
 
 
-def dependent_keys(source: Object) -> tuple[str, list[str]]:
-    """The names of the edited key and of those relative to it, which move with it."""
-    keys: Any = source.data.shape_keys
-    active = source.active_shape_key
-    if keys is None or active is None:
-        return "", []
-    found = {active.name}
-    while keys.use_relative:
-        more = {b.name for b in keys.key_blocks if b.relative_key.name in found} - found
-        if not more:
-            break
-        found |= more
-    return active.name, sorted(found - {active.name})
-
-
 def write_shape_keys(
     target: Object,
     keys: ShapeKeys,

@@ -4,7 +4,7 @@
 from collections.abc import Iterator, Sequence
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
+from bpy.props import EnumProperty, FloatProperty
 
 from .. import in_place
 from ..blender import Context, Object
@@ -46,14 +46,6 @@ class OBJECT_OT_fairing_in_place(Shown, InMeshes, bpy.types.Operator):
     bl_idname = "object.fairing_in_place"
     bl_label = "Fair in Place"
 
-    levels: IntProperty(
-        name="Levels",
-        description="How often the selected faces are split in four, or 0 to move their vertices only",
-        default=0,
-        min=0,
-        max=6,
-        soft_max=3,
-    )
     joint: EnumProperty(
         name="Joint",
         description="How the selection meets the faces around it",
@@ -67,11 +59,6 @@ class OBJECT_OT_fairing_in_place(Shown, InMeshes, bpy.types.Operator):
         min=0.0,
         max=1.0,
         subtype="FACTOR",
-    )
-    release: BoolProperty(
-        name="Move Vertices",
-        description="Moves the vertices of the selection too; off: the surface passes through them",
-        default=False,
     )
     vertices: EnumProperty(
         name="Vertices",
@@ -110,20 +97,15 @@ class OBJECT_OT_fairing_in_place(Shown, InMeshes, bpy.types.Operator):
 
     def shown(self, context: Context) -> Iterator[str]:
         measured = self._are_measured(context)
-        yield "levels"
         if context.mode == "EDIT_MESH":
             yield from ("joint", "vertices")
         if measured:
             yield "noise"
-        elif self.levels:
-            yield "release"
-        if measured or self.release or not self.levels:
-            yield "factor"
-        if measured and not self.levels:
-            return
-        yield "energy"
-        if self.energy != "MINIMUM_VARIATION":
-            yield "tension"
+        yield "factor"
+        if not measured:
+            yield "energy"
+            if self.energy != "MINIMUM_VARIATION":
+                yield "tension"
 
     def make_jobs(self, context: Context) -> list[in_place.InPlaceJob]:
         options = values_of(in_place.InPlaceOptions, self, measured=self._are_measured(context))

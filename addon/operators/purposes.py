@@ -102,7 +102,7 @@ class OBJECT_OT_fairing_for(ExplainedPoll, bpy.types.Operator):
             return getattr(operators, OPERATORS[self.purpose])(how, _UNDO)
         path = preset_file(self.purpose)
         if path is None:
-            return operators.fairing_in_place(how, _UNDO, vertices="MEASURED", levels=0)
+            return operators.fairing_in_place(how, _UNDO, vertices="MEASURED")
         sources = control_meshes(context)
         said = set_job(context, self.purpose, sources)
         if said:

@@ -7,10 +7,11 @@ import discrete_fairing as df
 import numpy as np
 import pytest
 from lattices import lattice_faces
-from scenes import CUBE, add, edit, faces_at_edges, positions, refused, settings, to_object_mode
+from scenes import CUBE, add, edit, positions, refused, settings, to_object_mode
 
 from addon import prediction
 from addon.in_place import InPlaceJob, InPlaceOptions
+from addon.mesh.edited import edited
 from addon.operators import redo
 from addon.operators.fair import Fairing
 from addon.queue import Queue
@@ -67,60 +68,8 @@ def test_factor_goes_part_of_the_way():
     assert np.allclose(half, (before + whole) / 2, atol=1e-6)
 
 
-@pytest.mark.parametrize("release", [False, True])
-def test_refined_in_place_joins_without_a_gap(release):
-    target, middle = cap()
-    before = positions(target.data)
-    selected = sum(p.select for p in target.data.polygons)
-    after = fair(target, levels=2, release=release, joint="TANGENT")
-    mesh = target.data
-    kept = ~middle if release else np.ones(len(before), bool)
-    assert np.array_equal(after[: len(before)][kept], before[kept])
-    assert 16 * selected <= sum(p.select for p in mesh.polygons) <= 32 * selected
-    # the old border and no other: no gap, no T-junction
-    assert faces_at_edges(mesh).count(1) == 4 * SIZE
-    assert not [a for a in mesh.attributes if a.name.startswith("fairing")]
-    inside = (np.abs(after[:, :2]) < 0.45).all(axis=1)
-    if release:
-        assert off_sphere(after[inside]).max() < 0.03
-    assert off_sphere(after[len(before) :][inside[len(before) :]]).max() > 1e-4
-
-
-@pytest.mark.parametrize("noise", [0.0, 0.1])
-def test_refined_points_are_those_of_the_core(noise):
-    """Noise warps quads, so that the core splits them."""
-    target, middle = cap(noise)
-    before = positions(target.data)
-    faces = [tuple(p.vertices) for p in target.data.polygons]
-    region = [i for i, p in enumerate(target.data.polygons) if p.select]
-    whole = df.fair(before, faces, levels=1, region=region, joint="curvature")
-    after = fair(target, levels=1, joint="CURVATURE")
-    assert (len(whole.faces[0]) > 0) == (noise > 0)
-    pieces = zip(whole.faces, (whole.triangle_polygon, whole.quad_polygon), strict=True)
-    inner = np.unique(np.concatenate([f[np.isin(of, region)].ravel() for f, of in pieces]))
-    used = np.unique(np.concatenate([p.vertices for p in target.data.polygons if p.select]))
-    apart = np.abs(after[:, None] - whole.vertices[None, inner]).max(axis=2)
-    assert apart.min(axis=0).max() < 1e-5, "cut out or whole"
-    assert apart[used].min(axis=1).max() < 1e-5
-
-
-def test_layers_of_the_mesh_are_refined_with_it():
-    target, _ = cap()
-    to_object_mode()
-    target.data.uv_layers.new(name="UV")
-    for corner, loop in enumerate(target.data.loops):
-        target.data.uv_layers["UV"].data[corner].uv = positions(target.data)[loop.vertex_index, :2]
-    bpy.ops.object.mode_set(mode="EDIT")
-    after = fair(target, levels=1)
-    flat = [
-        (target.data.uv_layers["UV"].data[i].uv[:], after[loop.vertex_index, :2])
-        for i, loop in enumerate(target.data.loops)
-    ]
-    assert max(abs(u[0] - p[0]) + abs(u[1] - p[1]) for u, p in flat) < 0.2
-
-
 def funnel(rows=3, count=4):
-    """A square hole at the end of walls that lean out, each `count` faces wide, filled with one face."""
+    """A square hole at the end of walls that lean out, each `count` faces wide, filled with rings of faces."""
     along = [2.0 * i / count - 1.0 for i in range(count)]
     ring = [(t, -1.0) for t in along] + [(1.0, t) for t in along]
     ring += [(-x, -y) for x, y in ring]
@@ -132,15 +81,19 @@ def funnel(rows=3, count=4):
     n = len(ring)
     faces = lattice_faces(rows + 1, n, (False, True))[:, [0, 3, 2, 1]]
     target = add("Funnel", points, [*faces.tolist(), list(range(rows * n, len(points)))])
-    select(target, lambda ids: len(ids) == n)
+    with edited(target) as bm:
+        poked = bmesh.ops.poke(bm, faces=[face for face in bm.faces if len(face.verts) == n])
+        spokes = list(poked["verts"][0].link_edges)
+        bmesh.ops.subdivide_edges(bm, edges=spokes, cuts=2)
+    select(target, lambda ids: all(target.data.vertices[i].co.z > 0.5 * rows - 1e-6 for i in ids))
     return target
 
 
 def test_a_filled_hole_that_ends_in_a_fold_is_told(capfd):
-    fair(funnel(), levels=2, joint="TANGENT")
+    fair(funnel(), joint="TANGENT")
     said = capfd.readouterr().out
     assert "What was faired is folded (" in said and "Raise Tension" in said
-    fair(funnel(), levels=2, joint="POSITION")
+    fair(funnel(), joint="POSITION")
     assert "folded" not in capfd.readouterr().out, "any angle is right there"
 
 
@@ -151,24 +104,24 @@ def test_refusals_say_what_to_do_and_change_nothing():
     bpy.ops.mesh.select_all(action="SELECT")
     refused("Leave out some faces of each part", bpy.ops.object.fairing_in_place)
     select(box, lambda ids: 0 in ids and 1 in ids and 2 in ids)
-    refused("Select more faces", bpy.ops.object.fairing_in_place, levels=0)
+    refused("Select more faces", bpy.ops.object.fairing_in_place)
     assert np.array_equal(positions(box.data), np.array(CUBE[0], np.float32))
     to_object_mode()
 
 
 def begun(target, **options):
     """A job as the button begins it, before it is computed."""
-    plain = {"levels": 0, "joint": "TANGENT", "energy": "THIN_PLATE", "tension": 0.0}
-    asked = InPlaceOptions(**plain | {"release": False} | options)
+    plain = {"joint": "TANGENT", "energy": "THIN_PLATE", "tension": 0.0}
+    asked = InPlaceOptions(**plain | options)
     return InPlaceJob(bpy.context, target, settings(), asked)
 
 
 def test_a_long_run_is_computed_beside_the_window_and_applied_at_its_end():
     target, _ = cap()
-    expected = fair(target, levels=2)
+    expected = fair(target)
     target, _ = cap()
-    job = begun(target, levels=2)
-    assert job.predicted_seconds > 0.0 and job.triangles > 16 * 2 * 16
+    job = begun(target)
+    assert job.predicted_seconds > 0.0 and job.triangles > 0
     queue = Queue([job], df.Monitor)
     queue.start()
     bpy.ops.mesh.select_all(action="DESELECT")  # what is selected meanwhile does not matter
@@ -209,11 +162,11 @@ def test_adjust_last_operation_lets_a_long_run_begin_anew(monkeypatch):
     monkeypatch.setattr(Fairing, "is_redone", lambda self: True)
     monkeypatch.setattr(prediction, "_AT_FIRST", {"THIN_PLATE": 1.0})
     monkeypatch.setattr(redo, "invoke_soon", lambda *given: asked.append(given[1:]))
-    after = fair(target, levels=1, factor=0.5)
+    after = fair(target, factor=0.5)
     assert np.array_equal(after, before)
     ((operator, properties),) = asked
     assert operator.idname_py() == "object.fairing_in_place"
-    assert (properties["levels"], properties["factor"], properties["joint"]) == (1, 0.5, "TANGENT")
+    assert (properties["factor"], properties["joint"]) == (0.5, "TANGENT")
 
 
 @pytest.mark.parametrize("slant, scale", [(0, 1), (0.7, 3)])
@@ -223,10 +176,10 @@ def test_corners_of_the_mesh_stay(slant, scale):
     target = add("Sheet", points, lattice_faces(5, 5)[:, ::-1].tolist())
     target.scale.y = scale
     select(target, lambda ids: max(max(v % 5, v // 5) for v in ids) < 3)
-    after = fair(target, levels=2)
+    after = fair(target)
     after[:, 0] += slant * after[:, 1]
     border = after[(after[:, :2] < 0.1).any(axis=1)]
-    assert len(border) > 16 and np.abs(border[:, :2].min(axis=1)).max() < 1e-6
+    assert len(border) == 9 and np.abs(border[:, :2].min(axis=1)).max() < 1e-6
 
 
 def cap_with_keys(*names):
@@ -243,9 +196,7 @@ def keys_of(target):
     return {key.name: np.array([point.co[:] for point in key.data]) for key in keys}
 
 
-@pytest.mark.parametrize("release", [False, True])
-@pytest.mark.parametrize("levels", [0, 1, 2])
-def test_shape_keys_follow_what_is_faired(levels, release):
+def test_shape_keys_follow_what_is_faired():
     target, middle = cap_with_keys("Shift", "Twice")
     keys = target.data.shape_keys.key_blocks
     for name, shift in (("Shift", 1.0), ("Twice", 2.0)):
@@ -254,7 +205,7 @@ def test_shape_keys_follow_what_is_faired(levels, release):
     keys["Twice"].relative_key = keys["Shift"]
     target.active_shape_key_index = 0
     select(target, lambda ids: middle[ids].any())
-    fair(target, levels=levels, release=release)
+    fair(target)
     found = keys_of(target)
     assert len(found["Basis"]) == len(target.data.vertices)
     for name, shift in (("Shift", 1.0), ("Twice", 2.0)):
