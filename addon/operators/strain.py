@@ -201,12 +201,10 @@ class OBJECT_OT_fairing_strain_table(ByFileBrowser, _Straining, bpy.types.Operat
 
         eased = key_positions(source, EASED, len(job.result.positions))
         written = table.text(
-            table.rows(
-                in_world(job.result.positions),
-                job.result.lengths,
-                None if eased is None else in_world(eased),
-                job.names,
-            )
+            in_world(job.result.positions),
+            job.result.lengths,
+            None if eased is None else in_world(eased),
+            job.names,
         )
         write_text_file(self.filepath, written)
         path = bpy.path.abspath(self.filepath)

@@ -13,7 +13,6 @@ from ..errors import JobError
 from ..in_place import floats
 from ..live.switch import look_again
 from ..mesh.shape_keys import EASED, key_positions, put_key
-from ..settings import Settings
 from ..triangles import marked
 from . import words
 from .measure import PlateRun, knuckle_of
@@ -34,14 +33,8 @@ class _Moving(PlateRun):
 
     kind, again = "EASE", "Ease"
 
-    def __init__(
-        self,
-        context: Context,
-        source: Object,
-        go_on: bool = False,
-        settings: Settings | None = None,
-    ) -> None:
-        """Reads the mesh with the `settings` of its surface; `go_on`: from an earlier result. Raises
+    def __init__(self, context: Context, source: Object, go_on: bool = False) -> None:
+        """Reads the mesh with the settings of its surface; `go_on`: from an earlier result. Raises
         JobError.
         """
 
@@ -50,7 +43,7 @@ class _Moving(PlateRun):
             eased = key_positions(source, EASED, len(own)) if go_on else None
             return own if eased is None else eased
 
-        self._read_plate(context, source, settings, start)
+        self._read_plate(context, source, start)
 
     def _compute(self, watchers: dict[str, Any]) -> None:
         with errors.explained(self.name):
@@ -76,14 +69,8 @@ class _Moving(PlateRun):
 class EaseJob(_Moving):
     """Eases the mesh itself, without its shape keys, by `options`."""
 
-    def __init__(
-        self,
-        context: Context,
-        source: Object,
-        options: EaseOptions,
-        settings: Settings | None = None,
-    ) -> None:
-        super().__init__(context, source, options.go_on, settings)
+    def __init__(self, context: Context, source: Object, options: EaseOptions) -> None:
+        super().__init__(context, source, options.go_on)
         self.knuckle: list[int] = []
         self._options = options
         if options.use_selection and not self.selected.any():

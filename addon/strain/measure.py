@@ -37,14 +37,10 @@ class PlateRun(TimedRun):
     """The thin plate through all control vertices of one source, from which strain is measured."""
 
     def _read_plate(
-        self,
-        context: Context,
-        source: Object,
-        settings: Settings | None,
-        positions: Callable[[Mesh], np.ndarray],
+        self, context: Context, source: Object, positions: Callable[[Mesh], np.ndarray]
     ) -> None:
-        """`positions(mesh)`: those of the vertices. `settings`: used in place of those of its surface."""
-        settings = plate_settings(settings or settings_for(context, source))
+        """`positions(mesh)`: those of the vertices."""
+        settings = plate_settings(settings_for(context, source))
         with self._reading(context, source) as mesh:
             self.names, self.positions = read_names(mesh), positions(mesh)
             self.selected = shown_selection(mesh.vertices)
@@ -66,18 +62,17 @@ class StrainJob(PlateRun):
         source: Object,
         known: "StrainJob | None" = None,
         as_mixed: bool = True,
-        settings: Settings | None = None,
     ) -> None:
         """Reads the mesh; raises JobError if that is impossible. `known`: an earlier job, whose result
         is used if nothing has changed since. `as_mixed`: with the mix of shape keys, not the mesh
-        alone. `settings`: replace those of its surface.
+        alone.
         """
 
         def positions(mesh: Mesh) -> np.ndarray:
             own = self.arrays.positions
             return mixed_positions(source, mesh, own) if as_mixed else own
 
-        self._read_plate(context, source, settings, positions)
+        self._read_plate(context, source, positions)
         self.arguments = core.plate_arguments(self.arguments)
         self.result = None
         if known is not None and known.result is not None and self.is_that_of(known):
