@@ -48,7 +48,7 @@ struct Costs {
   double point, row, factor;
 };
 constexpr Costs plate_costs{200, 190, 1100}, curvature_costs{520, 1200, 1500},
-    variation_costs{980, 480, 4000};
+    variation_costs{980, 500, 4000};
 // In addition: for a point, with the limit surface beside the plate, or with the sweeps of the back
 // leg; for a factored unknown, with that surface or if control vertices move; for two neighbours of
 // a vertex of high valence.
