@@ -58,7 +58,7 @@ def test_blender_is_asked_on_its_own_thread_alone(monkeypatch):
     monkeypatch.setattr(preferences, "current_context", context)
     bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=3)
     source = bpy.context.object
-    options = InPlaceOptions(0, "TANGENT", "THIN_PLATE", 0.0, release=False, measured=True)
+    options = InPlaceOptions("TANGENT", "THIN_PLATE", 0.0, measured=True)
     jobs = [
         Job(bpy.context, source, settings()),
         StrainJob(bpy.context, source),
