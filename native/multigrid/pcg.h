@@ -70,10 +70,10 @@ struct PcgState {
 };
 
 // Preconditioned conjugate gradients on all components at once (one scalar system, so the iterates
-// rotate with the mesh), in double. The flexible beta allows a
-// preconditioner in single precision, and one that changes: `each` may raise cycle.degree after an
-// iteration; it returns false to stop. Ends unconverged at max_iterations, or if rounding prevents
-// progress. Throws FairingError(cancelled).
+// rotate with the mesh), in double. The flexible beta allows a preconditioner in single precision,
+// and one that changes: `each` may raise cycle.degree after an iteration; it returns false to stop.
+// Ends unconverged at max_iterations, or if rounding prevents progress. Throws
+// FairingError(cancelled).
 PcgResult conjugate_gradients(VCycle& cycle, std::size_t top, Workers& workers,
                               const PcgLimits& limits, const LinearSystem& system, PcgState& state,
                               const std::function<bool(const PcgResult&)>& each);

@@ -1,8 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Numbers the points of a refined surface in the order of native/grid/grid_level.h.
-
-[control vertices | edge interiors, edge by edge | face interiors, face by face, row by row]
-"""
+"""The points and cells of one refined control face, numbered as native/grid/grid_level.h numbers them."""
 
 from __future__ import annotations
 

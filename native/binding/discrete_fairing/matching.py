@@ -26,8 +26,8 @@ from .turning import Angles, needed, rotation
 
 # Ends nearer to the neighbour's border than this share of a border edge lie on it.
 NEAR = 0.05
-# Most passes: with curvature a hull's triangles need 15 to 18, as rounding falls, two halves of a bottle of 60 faces
-# that meet at 34 degrees before 16. They end once a change is this share of the first.
+# Most passes. With curvature, two halves of a bottle of 60 faces, which meet at 34 degrees before, need 16; a hull's
+# triangles need 16 or more, since rounding changes their number. Passes end once a change is this share of the first.
 PASSES = {"position": 1, "tangent": 4, "curvature": 24}
 SETTLED = 1e-5
 # Radians: larger kinks that are left show that the passes diverge. With curvature a surface gets spikes before
