@@ -29,9 +29,6 @@ from .triangles import marked
 from .units import Units
 from .words import counted
 
-# codes of a JobError: nothing to fill, or nothing below Largest Hole
-NO_HOLE, LARGER_HOLES = "NO_HOLE", "LARGER_HOLES"
-
 
 @dataclass(frozen=True)
 class FillOptions:
@@ -87,8 +84,8 @@ class HoleJob(TimedRun):
         if not self._holes:
             rims = self._points[np.unique(arrays.edges[arrays.edge_uses == 1])]
             units = Units.of(context.scene)
-            code, why = _why_none(options, self._editing, self.unclear, rims, units)
-            raise JobError(f"{self.name}: {why}", code)
+            why = _why_none(options, self._editing, self.unclear, rims, units)
+            raise JobError(f"{self.name}: {why}")
         self.triangles = sum(_triangles_in(sum(map(len, h)), options.density) for h in self._holes)
 
     @property
@@ -215,29 +212,24 @@ def _triangles_in(edges: int, density: float) -> int:
 
 def _why_none(
     options: FillOptions, editing: bool, unclear: int, rims: np.ndarray, units: Units
-) -> tuple[str, str]:
-    """The error's code, and a sentence. `rims`: (k, 3) all border vertices."""
+) -> str:
+    """The error, as a sentence. `rims`: (k, 3) all border vertices."""
     if options.edge is not None:
-        return NO_HOLE, "Press Check Mesh again: this hole is no longer there"
+        return "Press Check Mesh again: this hole is no longer there"
     if unclear:
-        return NO_HOLE, _unclear_text(unclear)
+        return _unclear_text(unclear)
     if not editing and not len(rims):
-        return NO_HOLE, "Delete faces first: there is no hole, every edge has a face on both sides"
+        return "Delete faces first: there is no hole, every edge has a face on both sides"
     if not editing and options.largest > 0.0:
         most = units.lengths(options.largest)(options.largest)
-        return LARGER_HOLES, f"Raise Largest Hole: there is no hole of a width of at most {most}"
+        return f"Raise Largest Hole: there is no hole of a width of at most {most}"
     if not editing and 2 * len(np.unique(rims, axis=0)) <= len(rims):
-        return (
-            NO_HOLE,
-            "Merge vertices by distance first, or use Clean Scan: its faces are not joined",
-        )
+        return "Merge vertices by distance first, or use Clean Scan: its faces are not joined"
     if not editing:
-        why = "Set Largest Hole to a width, or select the border in Edit Mode: it seems to be that of a sheet"
-        return LARGER_HOLES, why
+        return "Set Largest Hole to a width, or select the border in Edit Mode: it seems to be that of a sheet"
     if options.replaces:
-        return NO_HOLE, "Select faces with others around them: the selected ones leave no hole"
-    why = "Select a border edge of a hole, or in Face Mode faces to be replaced: no such edge is selected"
-    return NO_HOLE, why
+        return "Select faces with others around them: the selected ones leave no hole"
+    return "Select a border edge of a hole, or in Face Mode faces to be replaced: no such edge is selected"
 
 
 def _unclear_text(count: int) -> str:

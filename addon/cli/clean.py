@@ -1,18 +1,22 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`--clean` on the command line: its options, the run, and the entries of the report."""
+"""`--clean` on the command line: its options, and the run."""
 
 import argparse
-from math import isfinite
 from typing import Any
 
 from ..blender import Object, current_context
 from ..cleaning import STEPS, CleanJob, CleanOptions
-from .report import counts
-from .rna import OfOperator
+from ..settings import NAMES
+from .places import is_cad
+from .rna import OfOperator, option
 
 _NAMES = [name for name, *_ in STEPS if name != "noise"]
-OPTIONS = OfOperator(
-    "object.fairing_clean", {"clean_without": ()}, clean_islands="islands", clean_noise="noise"
+_OPTIONS = OfOperator(
+    "object.fairing_clean",
+    {"clean_without": ()},
+    clean_islands="islands",
+    clean_noise="noise",
+    largest_hole="largest",
 )
 
 
@@ -31,28 +35,32 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         metavar="STEP",
         help=f"leave out a step; may be repeated: {', '.join(_NAMES)} [none]",
     )
-    OPTIONS.add(group)
+    _OPTIONS.add(group)
 
 
-def options_of(said: dict[str, Any]) -> CleanOptions:
+def options_of(arguments: argparse.Namespace) -> CleanOptions | None:
+    """None if meshes are faired. Raises ValueError for contradictory options."""
+    if not arguments.clean:
+        for given in _OPTIONS.names:
+            if getattr(arguments, given) is not None:
+                raise ValueError(f"{option(given)} needs --clean")
+        return None
+    found = [name for name in NAMES if getattr(arguments, name, None) is not None]
+    if found:
+        raise ValueError(
+            f"{option(found[0])} is for fairing, and --clean does not fair: call twice"
+        )
+    if is_cad(arguments.output):
+        raise ValueError("--clean writes meshes: OUT cannot be a STEP file")
+    said = _OPTIONS.said(arguments)
     steps = {name: name not in said["clean_without"] for name in _NAMES}
     steps["noise"] = said["clean_noise"]
     return CleanOptions(steps, said["clean_islands"], said["largest_hole"])
 
 
-def run(source: Object, options: CleanOptions, **watchers: Any) -> tuple[dict[str, Any], list[str]]:
-    """Cleans an object's mesh; returns its entry for the report, and the remaining defects."""
-    entry: dict[str, Any] = {"name": source.name, "control": counts(source.data)}
+def run(source: Object, options: CleanOptions, **watchers: Any) -> tuple[list[str], bool]:
+    """Cleans an object's mesh; returns sentences, and whether nothing is left to do."""
     job = CleanJob(current_context(), source, options)
     job.compute(**watchers)
     said, found = job.apply(current_context()), job.result
-    entry["result"] = counts(source.data)
-    entry["report"] = {
-        "done": [{"step": act.step, "count": act.count, "text": act.text} for act in found.done],
-        "watertight": found.watertight,
-        "volume": found.volume if isfinite(found.volume) else None,
-        "left": [{"code": d.code, "count": len(d.elements)} for d in found.left],
-        "said": said,
-    }
-    good = found.watertight and not found.left
-    return entry, [] if good else [f"{source.name}: {said[-1]}."]
+    return said, found.watertight and not found.left

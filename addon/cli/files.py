@@ -2,19 +2,15 @@
 """Reads and writes files with Blender's own importers and exporters, in the files' coordinates."""
 
 import os
-import re
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, cast
 
-import bmesh
 import bpy
-import numpy as np
 
 from .. import core
-from ..blender import Mesh, Object, column, current_context
-from ..mesh.layers import write_creases
+from ..blender import Object, current_context
 from .places import FORMATS, file_format
 
 # With the same axes for reading and writing, coordinates in the file are those of the mesh.
@@ -54,14 +50,10 @@ _IMPORTERS: dict[str, Any] = {
 
 
 class FileError(Exception):
-    """Why a file cannot be read or written, as a sentence; `code` is for programs."""
-
-    def __init__(self, code: str, message: str) -> None:
-        super().__init__(message)
-        self.code = code
+    """Why a file cannot be read or written, as a sentence."""
 
 
-def read_file(path: Path, merge: bool = False) -> list[Object]:
+def read_file(path: Path) -> list[Object]:
     """The mesh objects of a file, alone in an empty scene without the user's startup file."""
     _readable(path)
     bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
@@ -72,45 +64,11 @@ def read_file(path: Path, merge: bool = False) -> list[Object]:
     try:
         _IMPORTERS[kind](filepath=str(path), **axes)
     except (RuntimeError, OSError) as error:
-        raise FileError("UNREADABLE", f"{path} cannot be read: {_reason(error)}") from error
+        raise FileError(f"{path} cannot be read: {_reason(error)}") from error
     found = [o for o in current_context().scene.objects if o.type == "MESH"]
     if not found:
-        raise FileError("NO_MESH", f"{path} has no mesh that Blender can read.")
-    if kind == "obj":
-        _crease(found, path)
-    if merge:
-        for item in found:
-            _merge(item.data)
+        raise FileError(f"{path} has no mesh that Blender can read.")
     return found
-
-
-def _crease(found: list[Object], path: Path) -> None:
-    """Reads the creases of an OBJ in OpenSubdiv's format, which Blender's importer ignores: `t crease
-    2/1/0 v w sharpness`, with vertices counted from 0 over the whole file. FileError if the objects do
-    not have all vertices in order.
-    """
-    text = path.read_text("utf-8", "replace")
-    tags = [
-        tag.split() for tag in re.findall(r"^t[ \t]+crease[ \t]+2/1/0\b(.*)$", text, re.MULTILINE)
-    ]
-    if not tags:
-        return
-    mesh, count = found[0].data, len(re.findall(r"^v[ \t]", text, re.MULTILINE))
-    try:
-        # Blender's crease c is sharp during 10 c² steps
-        weights = {
-            frozenset((int(v), int(w))): min(max(float(s), 0.0) / 10.0, 1.0) ** 0.5
-            for v, w, s in tags
-        }
-    except ValueError:
-        raise FileError(
-            "UNREADABLE", f"{path} cannot be read: a crease is 't crease 2/1/0 v w sharpness'."
-        ) from None
-    if len(found) > 1 or len(mesh.vertices) != count:
-        raise FileError(
-            "UNREADABLE", f"{path} cannot be read: creases need one object that has all vertices."
-        )
-    write_creases(mesh, weights)
 
 
 def write_file(path: Path) -> None:
@@ -133,26 +91,20 @@ def write_whole(path: Path, write: Callable[[str], None]) -> None:
         write(str(path))
 
 
-def write_text(path: str, text: str) -> None:
-    """Writes the report."""
-    with _explained(path), _whole_files().whole_file(path) as part:
-        part.write_text(text, encoding="utf-8")
-
-
 class _NotWritten(Exception):
     """Why an exporter has not written a complete file."""
 
 
 @contextmanager
-def _explained(path: Path | str) -> Iterator[None]:
+def _explained(path: Path) -> Iterator[None]:
     """A context in which errors of writing become a FileError."""
     try:
         yield
     except (OSError, _NotWritten) as error:
         reason = getattr(error, "strerror", None) or str(error)
-        raise FileError("UNWRITABLE", f"{path} cannot be written: {reason}.") from error
+        raise FileError(f"{path} cannot be written: {reason}.") from error
     except core.module().FairingError as error:
-        raise FileError(error.code, f"{path} cannot be written: {error}") from error
+        raise FileError(f"{path} cannot be written: {error}") from error
 
 
 def _whole_files() -> Any:
@@ -192,25 +144,9 @@ def _readable(path: Path) -> None:
     try:
         with path.open("rb") as stream:
             if not stream.read(1):
-                raise FileError("UNREADABLE", f"{path} is empty.")
+                raise FileError(f"{path} is empty.")
     except OSError as error:
-        raise FileError("UNREADABLE", f"{path} cannot be read: {error.strerror}.") from error
-
-
-def _merge(mesh: Mesh) -> None:
-    """Merges vertices with equal coordinates; `remove_doubles` merges none at a distance of 0."""
-    positions = column(mesh.vertices, "co", width=3)
-    # + 0 turns a negative zero into zero
-    _, first, group = np.unique(positions + 0, axis=0, return_index=True, return_inverse=True)
-    target = first[group.reshape(-1)]
-    doubles = np.flatnonzero(target != np.arange(len(target)))
-    edited = bmesh.new()
-    edited.from_mesh(mesh)
-    edited.verts.ensure_lookup_table()
-    joined = {edited.verts[i]: edited.verts[target[i]] for i in doubles.tolist()}
-    bmesh.ops.weld_verts(edited, targetmap=joined)
-    edited.to_mesh(mesh)
-    edited.free()
+        raise FileError(f"{path} cannot be read: {error.strerror}.") from error
 
 
 def _reason(error: Exception) -> str:

@@ -2,14 +2,12 @@
 """The options of the command line: settings, and options for files."""
 
 import argparse
-from dataclasses import asdict
 from math import inf
 from typing import Any
 
 from ..properties import FAIRING_PG_settings
 from ..settings import NAMES, OF_NEAR, Settings
-from . import fit, mending, step
-from .places import FORMATS
+from . import clean, fit, places, step
 from .rna import add, default, number, option, whole_number
 
 # Settings that apply only in an open scene, or to data that OBJ, PLY and STL files do not have.
@@ -50,23 +48,20 @@ _GROUPS = {
 
 _PROGRAM = "blender --background --command discrete_fairing"
 _DESCRIPTION = """\
-Fairs every mesh of each input file and writes the refined surfaces to the output. Files are OBJ, PLY or STL, by their
-names; OUT may also be a file of spline patches for CAD, as STEP. Coordinates are unchanged: no axes are
+Fairs every mesh of a file and writes the refined surfaces to another. Files are OBJ, PLY or STL, by their names; OUT
+may also be a file of spline patches for CAD, as STEP. Coordinates are unchanged: no axes are
 swapped, no units converted, whatever the formats."""
 _EXAMPLES = f"""\
 examples:
   {_PROGRAM} in.obj out.obj --levels 4
   {_PROGRAM} scan.ply fair.ply --tolerance 0.01 --crease-angle 40
-  {_PROGRAM} parts/*.stl out/ --format ply
   {_PROGRAM} hull.obj hull.step --unit m --fit-tolerance 1e-5
-  {_PROGRAM} scan.ply closed.ply --fill --largest-hole 30
-  {_PROGRAM} scan.stl closed.ply --clean --clean-noise
+  {_PROGRAM} scan.stl closed.ply --clean --clean-noise --largest-hole 30
   {_PROGRAM} --fit scan.ply --cage cage.obj --tolerance 0.2 part.step
-  {_PROGRAM} *.obj 'fair/{{name}}_fair.obj' --quiet --json report.json
+  for file in *.obj; do {_PROGRAM} "$file" "fair/$file" --quiet; done
 
 exit codes:
-  0 all done, 1 an input failed (the others are written), 2 wrong usage, 3 the native module is missing,
-  130 interrupted"""
+  0 done, 1 failed, 2 wrong usage, 3 the native module is missing, 130 interrupted"""
 
 _DISTANCE = number("a distance, 0 or more", lambda value: 0.0 <= value < inf)
 
@@ -118,10 +113,6 @@ def settings_of(arguments: argparse.Namespace) -> Settings:
     return Settings(**settings)
 
 
-def shown(settings: Settings) -> dict[str, Any]:
-    return {name: value for name, value in asdict(settings).items() if name not in NOT_HERE}
-
-
 def _tolerance(text: str) -> tuple[float, str]:
     share = text.endswith("%")
     value = _DISTANCE(text.removesuffix("%"))
@@ -143,48 +134,18 @@ def parser(version: str) -> argparse.ArgumentParser:
     """The parser; needs the add-on registered, since its settings become options."""
     made = argparse.ArgumentParser(
         prog=_PROGRAM,
-        usage=f"{_PROGRAM} IN [IN …] OUT [options]",
+        usage=f"{_PROGRAM} IN OUT [options]",
         description=_DESCRIPTION,
         epilog=_EXAMPLES,
         formatter_class=_Formatter,
         allow_abbrev=False,  # the meaning of a script must not change when an option is added
     )
-    made.add_argument(
-        "inputs",
-        metavar="IN",
-        nargs="+",
-        help="OBJ, PLY or STL files; also .blend, glTF and USD, as Blender imports them, and tables of offsets (CSV)",
-    )
-    made.add_argument(
-        "output",
-        metavar="OUT",
-        help="a file; for several inputs a folder (an existing one, or with / at its end) or a pattern with {name}, "
-        "which stands for an input's name without its ending. Missing folders are created. An existing file is overwritten, "
-        "but never an input",
-    )
-    made.add_argument(
-        "--format",
-        choices=(*FORMATS, "step"),
-        help="type of the files in an output folder [each like its input]",
-        metavar="obj|ply|stl|step",
-    )
-    made.add_argument(
-        "--overwrite",
-        action=argparse.BooleanOptionalAction,
-        default=None,
-        help="whether an existing output is replaced; if not, its input fails [on]",
-    )
-    made.add_argument(
-        "--merge",
-        action="store_true",
-        help="join vertices at the same place in OBJ and PLY files too; in STL files, which cannot share vertices, "
-        "they always are",
-    )
+    places.add_options(made)
     made.add_argument(
         "--weld",
         type=_DISTANCE,
         metavar="DISTANCE",
-        help="join vertices no farther apart than this, in the file's unit; 0: those at the same place, as --merge does "
+        help="join vertices no farther apart than this, in the file's unit; 0: those at the same place "
         "[none]",
     )
     made.add_argument(
@@ -192,11 +153,6 @@ def parser(version: str) -> argparse.ArgumentParser:
         type=whole_number(0, 1024),
         metavar="N",
         help="0: all cores [as in the preferences]",
-    )
-    made.add_argument(
-        "--json",
-        metavar="FILE|-",
-        help="write a report to a file; -: to standard output, which then has nothing else",
     )
     made.add_argument(
         "--quiet",
@@ -209,7 +165,7 @@ def parser(version: str) -> argparse.ArgumentParser:
     add_settings(made)
     step.add_options(made)
     fit.add_options(made)
-    mending.add_options(made)
+    clean.add_options(made)
     return made
 
 

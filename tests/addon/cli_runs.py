@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs the command in this process, and reads its files."""
 
-import json
 import os
 import resource
 import subprocess
@@ -20,14 +19,6 @@ CORE = Path(core.module().__file__).parents[1]  # of this process, for others
 
 def run(*words):
     return command.main([str(word) for word in words])
-
-
-def entries(*words):
-    """The exit code and the report's inputs."""
-    code = run(*words, "--json", "report.json")
-    report = json.loads(Path("report.json").read_text(encoding="utf-8"))
-    assert report["exit_code"] == code
-    return code, report["inputs"]
 
 
 def imported(path):

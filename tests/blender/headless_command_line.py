@@ -2,11 +2,10 @@
 """The command of the installed extension, as scripts call it: `blender --background --python headless_command_line.py`.
 
 Prints `PASS name` or `FAIL name` for each test and exits with 1 if any failed. Each test starts this Blender again, with
-the files it writes, and looks at exit codes, outputs and the report.
+the files it writes, and looks at exit codes and outputs.
 """
 
 import contextlib
-import json
 import re
 import signal
 import subprocess
@@ -42,15 +41,6 @@ def call(*arguments):
     return done.returncode, done.stdout.decode(), done.stderr.decode()
 
 
-def report(*arguments):
-    """The exit code, and the report from standard output, which has to be all of it."""
-    code, output, error = call(*arguments, "--json", "-")
-    assert output.startswith("{"), (
-        f"standard output begins with {output[:60]!r}; standard error: {error}"
-    )
-    return code, json.loads(output)
-
-
 def write_obj(name):
     lines = ["v {} {} {}".format(*point) for point in POINTS]
     lines += ["f " + " ".join(str(corner + 1) for corner in face) for face in FACES]
@@ -82,7 +72,7 @@ def test_help_and_version():
 def test_ctrl_c_ends_it_with_130():
     write_obj("in.obj")
     process = subprocess.Popen(
-        words("in.obj", "out.obj", "--levels", 10, "--json", "report.json"),
+        words("in.obj", "out.obj", "--levels", 10),
         stderr=subprocess.PIPE,
         stdout=subprocess.DEVNULL,
         text=True,
@@ -98,7 +88,6 @@ def test_ctrl_c_ends_it_with_130():
     finally:
         process.kill()
         process.stderr.close()
-    assert json.loads(Path("report.json").read_text())["inputs"][0]["status"] == "cancelled"
     assert not Path("out.obj").exists()
 
 

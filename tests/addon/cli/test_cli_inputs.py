@@ -25,31 +25,13 @@ def test_blenders_own_types_are_read(name):
     set_edge_attribute(cube.data, "crease_edge", "FLOAT", rim, 1.0)
     cube.location.x = 5.0
     WRITERS[name](str(Path(name).absolute()))
-    assert run(name, "out.obj", "--levels", 1, "--merge", "--quiet") == 0
+    assert run(name, "out.obj", "--levels", 1, "--weld", 0, "--quiet") == 0
     points, faces = imported("out.obj")
     # of quads, or of the two triangles that glTF has of each
     assert len(faces) in (24, 48) and points[:, 0].min() > 3.0
     if name != "cube.glb":  # which has no creases
         top = points[points[:, 2] > points[:, 2].max() - 1e-6]
         assert len(top) >= 8, "a sharp rim stays in its plane"
-
-
-def test_creases_of_an_obj_are_read(capfd):
-    add("Cube", *CUBE)
-    bpy.ops.wm.obj_export(filepath="cube.obj", forward_axis="Y", up_axis="Z")
-    plain, highest = Path("cube.obj").read_text(), []
-    rim = "".join(f"t crease 2/1/0 {v} {w} 10\n" for v, w in ((1, 5), (5, 7), (7, 3), (3, 1)))
-    for creases in ("", rim):
-        Path("cube.obj").write_text(plain + creases)
-        assert run("cube.obj", "out.obj", "--levels", 1, "--quiet") == 0
-        highest.append(imported("out.obj")[0][:, 2].max())
-    assert highest[0] > 1.1 and highest[1] == pytest.approx(1.0), "the rim keeps its plane"
-    for wrong, why in (
-        ("t crease 2/1/0 0 1\n", "a crease is"),
-        ("v 9 9 9\n" + rim, "all vertices"),
-    ):
-        Path("cube.obj").write_text(plain + wrong)
-        assert run("cube.obj", "out.obj") == 1 and why in capfd.readouterr().err
 
 
 def test_a_table_of_offsets_is_read(capfd):

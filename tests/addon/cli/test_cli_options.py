@@ -1,23 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The options follow the settings, every input has its place, and a vertex may have its own tolerance."""
+"""The options follow the settings, and a vertex may have its own tolerance."""
 
 from dataclasses import asdict
-from pathlib import Path
 
 import pytest
 
 from addon.cli import options
 from addon.cli.options import parser
-from addon.cli.places import BadPlaces, places
 from addon.settings import NAMES
 
 
 def settings(*words):
     return options.settings_of(parser("").parse_intermixed_args(["in.obj", "out.obj", *words]))
-
-
-def targets(inputs, output, chosen_format=None):
-    return [str(place.target) for place in places(inputs, output, chosen_format)]
 
 
 def test_every_other_setting_can_be_said():
@@ -76,42 +70,3 @@ def test_a_share_of_the_way_to_the_limit_says_that_it_is_meant():
 def test_no_number_out_of_range_passes(number):
     with pytest.raises(SystemExit):
         settings("--tolerance", number)
-
-
-def test_places(tmp_path):
-    assert targets(["a.obj"], "b.ply") == ["b.ply"]
-    assert targets(["x/a.obj", "b.PLY"], "out/") == ["out/a.obj", "out/b.ply"]
-    assert targets(["x/a.obj"], str(tmp_path)) == [str(tmp_path / "a.obj")]
-    assert targets(["a.b.obj", "c.stl"], "out/", "ply") == ["out/a.b.ply", "out/c.ply"]
-    assert targets(["a.obj", "c.stl"], "o/{name}_fair.stl") == ["o/a_fair.stl", "o/c_fair.stl"]
-    assert targets(["in.obj"], "fair/", "step") == ["fair/in.step"]
-
-
-@pytest.mark.parametrize(
-    ("inputs", "output", "chosen_format", "match"),
-    [
-        (["a.fbx"], "b.obj", None, "a.fbx.*OBJ, PLY, STL"),
-        (["in.step"], "out.obj", None, "no known type"),
-        (["a.glb"], "out/", None, "Give --format: a.glb is of a type that is only read"),
-        (["a.obj"], "b", None, "b is of no known type"),
-        (["a.obj"], "{name}", None, "no known type"),
-        (["a.obj", "b.obj"], "c.obj", None, "2 inputs need a folder"),
-        (["a.obj"], "c.obj", "ply", "--format is for"),
-        (["x/a.obj", "y/a.obj"], "out/", None, "x/a.obj and y/a.obj would both"),
-        (["a.obj"], "./a.obj", None, "is an input"),
-        (["x/a.obj", "b.obj"], "x/", None, "x/a.obj is an input"),
-        (["a.obj", "b.obj"], "./", "obj", "is an input"),
-    ],
-)
-def test_bad_places(inputs, output, chosen_format, match):
-    with pytest.raises(BadPlaces, match=match):
-        places(inputs, output, chosen_format)
-
-
-def test_a_link_to_an_input_is_an_input(tmp_path):
-    source, link = tmp_path / "a.obj", tmp_path / "b.obj"
-    source.write_text("")
-    link.hardlink_to(source)
-    with pytest.raises(BadPlaces, match="is an input"):
-        places([str(source)], str(link))
-    assert Path(source).exists()

@@ -11,7 +11,6 @@ from cli_files import materials_of, write_obj
 from cli_runs import process, run
 
 from addon.cli import files
-from addon.cli.places import BadPlaces, places
 
 
 def names():
@@ -58,22 +57,6 @@ def test_the_materials_of_an_obj_keep_its_name(named):
     assert names() == ["in.obj", "out.mtl", "out.obj"]
 
 
-def reports_that_destroy():
-    Path("link.json").symlink_to("in.obj")
-    os.link("in.obj", "hard.json")
-    Path("out.json").symlink_to("out.obj")  # which is not there yet
-    return ["in.obj", "in.mtl", "link.json", "hard.json", "./out.obj", "out.mtl", "out.json"]
-
-
-def test_a_report_destroys_no_input_and_no_output(capsys):
-    write_obj("in.obj")
-    before = Path("in.obj").read_bytes()
-    for name in reports_that_destroy():
-        assert run("in.obj", "out.obj", "--json", name) == 2
-        assert "give the report another name" in capsys.readouterr().err
-    assert Path("in.obj").read_bytes() == before and not Path("out.obj").exists()
-
-
 @pytest.mark.parametrize("kind", ["obj", "ply", "stl", "step"])
 def test_no_link_leads_the_writing_astray(kind, monkeypatch):
     """Links are planted at all names, other than the output's own, that one can foresee."""
@@ -101,14 +84,3 @@ def test_what_is_no_file_is_written_to_itself(kind):
     Path(f"out.{kind}").symlink_to(os.devnull)
     assert run("in.obj", f"out.{kind}", "--levels", 3) == 0
     assert not Path(os.devnull).is_file() and Path(f"out.{kind}").is_symlink()
-
-
-def test_patterns_are_expanded():
-    for name in ("b.obj", "a.obj", "c.ply"):
-        Path(name).write_text("v 0 0 0")
-    found = [str(place.source) for place in places(["*.obj", "c.ply"], "out/")]
-    assert found == ["a.obj", "b.obj", "c.ply"]
-    Path("[x].obj").write_text("v 0 0 0")
-    assert [str(place.source) for place in places(["[x].obj"], "out/")] == ["[x].obj"]
-    with pytest.raises(BadPlaces, match="No file matches"):
-        places(["*.stl"], "out/")
