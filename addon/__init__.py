@@ -28,7 +28,7 @@ def _modules() -> tuple[Any, ...]:
     )  # fmt: skip
     from .ui import (
         pictures, main, curves as curves_panel, inspect as inspect_panel, strain as strain_panel,
-        hull as hull_panel, check as check_panel, menus, outliner,
+        hull as hull_panel, check as check_panel, menus,
     )  # fmt: skip
     from . import cli
     # isort: on

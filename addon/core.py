@@ -86,7 +86,7 @@ def fair_arguments(
         "boundary": "curve" if settings.boundary == "CORNERS" else settings.boundary.lower(),
         "boundary_edges": arrays.boundary_edges(),
         "repair": settings.repair.lower(),
-        "memory_limit": (settings.memory_limit or preferences.memory_limit) * 2**20,
+        "memory_limit": preferences.memory_limit * 2**20,
         "threads": preferences.threads,
         "measure": False,
     }
@@ -294,15 +294,3 @@ def folds(report: Mapping[str, Any]) -> int:
     """Number of folded edges on the finest level; 0 if they were not counted."""
     level = _finest_level(report)
     return 0 if level is None else level["folds"]
-
-
-def step_count(report: Mapping[str, Any]) -> int | None:
-    """Number of steps on the finest level, None for the thin plate."""
-    level = _finest_level(report)
-    return None if level is None else len(level["steps"])
-
-
-def last_decrement(report: Mapping[str, Any]) -> float | None:
-    """The decrement of the last step, None without steps; its square is a share of the energy."""
-    level = _finest_level(report)
-    return level["steps"][-1]["decrement"] if level and level["steps"] else None

@@ -30,7 +30,7 @@ from .mesh.read import (
 )
 from .mesh.shape_keys import ShapeKeys, read_shape_keys
 from .mesh.world_shape import matrix_relative_to, world_matrix, world_shape
-from .redraw import tag_areas, tag_sidebars
+from .redraw import tag_sidebars
 from .settings import NAMES, AnySettings, is_evaluated
 
 SOURCE_CHANGED = "Source changed"
@@ -42,7 +42,7 @@ NEIGHBOUR_CHANGED = "Neighbour changed"
 NEIGHBOUR_MOVED = "Neighbour moved"
 UNFINISHED = "Shown with fewer levels"
 # settings that do not change an existing surface
-_ELSEWHERE = {"hide_source", "copy_modifiers", "memory_limit"}
+_ELSEWHERE = {"hide_source", "copy_modifiers"}
 _SOON = 0.3  # seconds
 
 _surfaces: dict[int | str, Reference] = {}  # known surfaces
@@ -213,7 +213,6 @@ def _look() -> None:
             _seen[key] = total, near, beside
     _unread.clear()
     tag_sidebars(context)
-    tag_areas(context, "OUTLINER")  # headers count outdated surfaces
 
 
 def _checksum(

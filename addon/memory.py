@@ -65,7 +65,6 @@ class FAIRING_PG_surface(FairingSettings, bpy.types.PropertyGroup):
         ),
     )
     report: _hidden("Report", "What the core has reported, as JSON")
-    readout: _hidden("Read-out", "What Measure has measured, as JSON")
     carried: _hidden("Carried", "What came from the source, by name, as JSON")
     made: _hidden("Made of", "Settings and source as they were when the surface was made, as JSON")
     stood: _hidden("Stood", "Where the source stood when the surface followed it last, as JSON")

@@ -234,14 +234,6 @@ class FairingSettings:
         description="Shades all faces smooth except at creases and sharp edges; off: each like its source face",
         default=True,
     )
-    memory_limit: IntProperty(
-        name="Memory Limit (MB)",
-        description="Refuses runs that need more megabytes than this; 0: the limit in the preferences",
-        default=0,
-        min=0,
-        soft_max=65536,
-        subtype="NONE",
-    )
 
 
 class FitAmount:

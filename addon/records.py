@@ -8,19 +8,6 @@ from typing import Any
 
 from .errors import FAULT_KINDS, REPAIR_CODES
 
-# the keys of a read-out, for a surface and for its control mesh
-FIGURES = (
-    "total_curvature",
-    "largest_curvature",
-    "curvature_98",
-    "worst_fold",
-    "worst_fold_with_sharp",
-    "deviation",
-    "steps",
-    "left",
-    "faces",
-)
-
 # limit of whole numbers: no count is as large, and larger ones cannot be written as decimals
 _MOST = 2**63
 
@@ -55,10 +42,6 @@ def _has_key(record: dict[str, Any], key: str, form: Any) -> bool:
     return _has(record[name], form) if name in record else name != key
 
 
-def _is_none(value: Any) -> bool:
-    return value is None
-
-
 def _id(value: Any) -> bool:
     return _has(value, int) and 0 <= value < 2**31
 
@@ -88,13 +71,11 @@ def _defect(value: Any) -> bool:
 
 _NUMBER = (int, float)
 _LEVEL = {"steps": [{"decrement": _NUMBER}], "converged?": bool, "folds?": int}
-_FIGURES = {f"{name}?": (_is_none, *_NUMBER) for name in FIGURES}
 _NAMES = {f"{name}?": [str] for name in ("attributes", "groups", "marks", "keys")}
 _SCANS = {"shape": int, "places": [_matrix]}
 
 _FORMS: dict[str, Any] = {
     "report": {"curvature?": [_LEVEL], "faults?": _counts, "repairs?": [_repair]},
-    "readout": {"after": _FIGURES, "before": (_is_none, _FIGURES), "counts": [int]},
     "carried": _NAMES,
     "stood": dict,
     "made": {

@@ -12,21 +12,21 @@ INTERVAL = 0.2  # least seconds between two redraws during a run
 
 def tag_sidebars(context: Context) -> None:
     """Redraws the sidebars of all viewports, but not the viewports, which may be slow."""
-    for area in _areas(context, "VIEW_3D"):
+    for area in _viewports(context):
         for region in area.regions:
             if region.type == "UI":
                 region.tag_redraw()
 
 
-def tag_areas(context: Context, kind: str) -> None:
-    """Redraws whole areas, such as VIEW_3D or OUTLINER."""
-    for area in _areas(context, kind):
+def tag_viewports(context: Context) -> None:
+    """Redraws whole viewports."""
+    for area in _viewports(context):
         area.tag_redraw()
 
 
-def _areas(context: Context, kind: str) -> list[Any]:
+def _viewports(context: Context) -> list[Any]:
     areas = (area for window in context.window_manager.windows for area in window.screen.areas)
-    return [area for area in areas if area.type == kind]
+    return [area for area in areas if area.type == "VIEW_3D"]
 
 
 class Progress:

@@ -59,7 +59,6 @@ class Settings:
     copy_modifiers: bool
     hide_source: bool
     shade_smooth: bool
-    memory_limit: int  # megabytes
 
     @classmethod
     def of(cls, properties: FairingSettings) -> Settings:

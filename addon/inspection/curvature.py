@@ -30,11 +30,6 @@ class Curvature:
         # at least 2 H² and 2 |K| on a smooth surface; the discrete H and K may violate this by rounding
         return np.maximum(4.0 * self.mean**2 - 2.0 * self.gauss, 0.0)
 
-    @property
-    def largest(self) -> np.ndarray:
-        """(n,) float64, the larger of |κ₁| and |κ₂|."""
-        return np.abs(self.mean) + np.sqrt(np.maximum(self.mean**2 - self.gauss, 0.0))
-
 
 def curvature(arrays: ControlArrays) -> Curvature:
     """Curvature of a polygon mesh; not at borders and edges marked sharp."""

@@ -1,12 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The numbers of the read-out, and the colours of curvature. Plain arrays, no Blender."""
-
-from typing import Any
+"""Angles of edges, shapes of faces, and the colours of curvature. Plain arrays, no Blender."""
 
 import numpy as np
 
 from ..core import ControlArrays
-from .curvature import Curvature, curvature, face_areas, face_normals, faces_of_edges
+from .curvature import face_areas, face_normals, faces_of_edges
 
 # even steps from the lowest value to the highest, sRGB
 _SIGNED = (
@@ -29,27 +27,6 @@ _AMOUNT = (
 )
 
 NEUTRAL = (0.15, 0.15, 0.15)  # linear; the colour of missing values
-
-
-def measure(arrays: ControlArrays) -> dict[str, Any]:
-    """The measures of one mesh, angles in degrees; curvature without borders and sharp edges."""
-    bent = curvature(arrays)
-    worst, worst_any = worst_folds(arrays)
-    return {
-        "vertices": len(arrays.positions),
-        "faces": len(arrays.offsets) - 1,
-        "area": float(bent.area.sum()),
-        "total_curvature": total_curvature(bent),
-        "largest_curvature": float(bent.largest[bent.inner].max(initial=0.0)),
-        "curvature_98": percentiles(bent.largest[bent.inner], 98.0)[0],
-        "worst_fold": worst,
-        "worst_fold_with_sharp": worst_any,
-    }
-
-
-def total_curvature(bent: Curvature) -> float:
-    """∫ κ₁² + κ₂² as a sum over the measured vertices."""
-    return float((bent.total * bent.area)[bent.inner].sum())
 
 
 def worst_folds(arrays: ControlArrays) -> tuple[float, float]:
@@ -92,13 +69,6 @@ def percentiles(values: np.ndarray, *ranks: float) -> list[float]:
     """Floats at the `ranks` (0 to 100) of the finite `values`; zeros if there are none."""
     values = values[np.isfinite(values)]
     return [float(v) for v in np.percentile(values, ranks)] if len(values) else [0.0] * len(ranks)
-
-
-def largest_deviation(control: np.ndarray, result: np.ndarray) -> float | None:
-    """The largest distance of `control` (n, 3) from the first of `result` (N, 3); None: fewer."""
-    if len(result) < len(control) or not len(control):
-        return None
-    return float(np.linalg.norm(result[: len(control)] - control, axis=1).max())
 
 
 def _same_way(arrays: ControlArrays) -> np.ndarray:

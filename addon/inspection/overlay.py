@@ -16,7 +16,7 @@ from mathutils import Matrix
 
 from ..blender import Object, current_context
 from ..mesh.object import Showing, changed_keys, session_key
-from ..redraw import tag_areas
+from ..redraw import tag_viewports
 from .overlay_arrays import lines_of, pulled, surface_of
 from .sections import Drawn
 
@@ -56,7 +56,7 @@ def moved(target: Object) -> None:
 
 def redraw() -> None:
     """Redraws all viewports after settings have changed."""
-    tag_areas(current_context(), "VIEW_3D")
+    tag_viewports(current_context())
 
 
 def _draw() -> None:

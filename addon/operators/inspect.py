@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Inspection: show, measure again, read out, and switch the viewport."""
+"""Inspection: show, and measure again."""
 
 from typing import Any, cast
 
@@ -7,11 +7,11 @@ import bpy
 from bpy.props import EnumProperty
 
 from ..blender import Answer, Context, Object
-from ..inspection import display, readout, viewport_shading
+from ..inspection import display, viewport_shading
 from ..inspection.display import VALUES
 from ..inspection.settings import MODES
 from ..memory import source_of
-from ..poll import IN_EITHER_MODE, IN_OBJECT_MODE, Reason, needs, of_meshes
+from ..poll import IN_EITHER_MODE, IN_OBJECT_MODE, Reason, of_meshes
 from .mixins import Action
 
 
@@ -73,32 +73,3 @@ class OBJECT_OT_fairing_refresh(_Inspecting, bpy.types.Operator):
     def act(self, context: Context) -> None:
         for target in meshes(context):
             display.refresh(target, context.scene.discrete_fairing_inspection)
-
-
-class OBJECT_OT_fairing_measure(_Inspecting, bpy.types.Operator):
-    """Measure the fairness of the selected surfaces and of their sources"""
-
-    bl_idname = "object.fairing_measure"
-    bl_label = "Measure"
-
-    def act(self, context: Context) -> None:
-        for target in meshes(context):
-            readout.take(context, target, source_of(target))
-
-
-class OBJECT_OT_fairing_viewport(Action, bpy.types.Operator):
-    """Switch this viewport to Material Preview, which shows stripes and colours, until Off switches it back"""
-
-    bl_idname = "object.fairing_viewport"
-    bl_label = "Show in This Viewport"
-    bl_options = {"REGISTER"}  # undo does not concern views
-
-    reasons = (
-        needs(
-            lambda c: c.space_data is not None and c.space_data.type == "VIEW_3D",
-            "Point at a 3D viewport first",
-        ),
-    )
-
-    def act(self, context: Context) -> None:
-        viewport_shading.show(context.space_data, "ZEBRA")

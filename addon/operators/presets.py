@@ -19,7 +19,7 @@ from ..ui.main import active_settings
 
 _FOLDER = str(FOLDER.parent)  # contains presets/
 # settings of the present work, not of a kind of object
-NOT_KEPT = {"use_selection", "tolerance_group", "pull_group", "symmetry_plane", "memory_limit"}
+NOT_KEPT = {"use_selection", "tolerance_group", "pull_group", "symmetry_plane"}
 
 
 def _settings_as_operator(context: Context) -> Any:

@@ -1,16 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The panel "Inspect": stripes, colours, sections, and the numbers before and after."""
+"""The panel "Inspect": stripes, colours, and sections."""
 
 from typing import Any
 
 import bpy
 
 from ..blender import Context, Object
-from ..inspection import display, readout, viewport_shading
+from ..inspection import display, viewport_shading
 from ..inspection.display import VALUES
 from ..inspection.settings import MODES
 from ..inspection.stripes import STRIPES
-from ..memory import recall
 from .layout import Sidebar, draw_notice
 
 
@@ -39,10 +38,6 @@ class VIEW3D_PT_fairing_inspect(Sidebar, bpy.types.Panel):
             _draw_legend(layout, context, target, mode)
         if target is not None:
             draw_sections(layout, target, context.scene.discrete_fairing_inspection)
-        layout.operator("object.fairing_measure", icon="DRIVER_DISTANCE")
-        record = recall(target, "readout") if target is not None else None
-        if target is not None and record is not None:
-            _draw_readout(layout, context, target, record)
 
 
 def draw_stripes(layout: bpy.types.UILayout, settings: Any) -> None:
@@ -80,11 +75,9 @@ def _draw_modes(layout: bpy.types.UILayout, current: str) -> None:
 
 
 def _draw_viewport(layout: bpy.types.UILayout, context: Context, mode: str) -> None:
-    """A button for viewports that do not show the inspected mode."""
-    if viewport_shading.shows(context.space_data, mode):
-        return
-    draw_notice(layout, "This viewport's shading does not show it", icon="INFO")
-    layout.operator("object.fairing_viewport", text="Material Preview")
+    """What to do in viewports that do not show the inspected mode."""
+    if not viewport_shading.shows(context.space_data, mode):
+        draw_notice(layout, "Switch this viewport to Material Preview to see it", icon="INFO")
 
 
 _ENDS = {
@@ -109,18 +102,3 @@ def _draw_legend(layout: bpy.types.UILayout, context: Context, target: Object, m
         if display.shows_uncovered(target.data):
             column.label(text="Grey: no points of the scan", icon="BLANK1")
     layout.operator("object.fairing_refresh", icon="FILE_REFRESH")
-
-
-def _draw_readout(
-    layout: bpy.types.UILayout, context: Context, target: Object, record: dict[str, Any]
-) -> None:
-    if readout.is_stale(target, record):
-        draw_notice(layout, "The mesh was changed since: press Measure again", icon="INFO")
-    split = layout.box().split(factor=0.46)
-    columns = split.column(align=True), split.column(align=True), split.column(align=True)
-    heads = ("", "Before" if record["before"] else "", "After" if record["before"] else "Now")
-    for row in (heads, *readout.table(record, context.scene)):
-        for column, text in zip(columns, row, strict=True):
-            column.label(text=text)
-    if record["before"]:
-        draw_notice(layout, readout.NO_SURFACE, icon="INFO")

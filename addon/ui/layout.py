@@ -183,7 +183,6 @@ def draw_result(layout: bpy.types.UILayout, settings: FairingSettings) -> None:
 
 def draw_advanced(layout: bpy.types.UILayout, settings: FairingSettings) -> None:
     layout.prop(settings, "metric_exponent")
-    layout.prop(settings, "memory_limit")
 
 
 FOLDED = (

@@ -53,7 +53,6 @@ class VIEW3D_MT_fairing(bpy.types.Menu):
         layout.operator("object.fairing_joints")
         layout.operator("object.fairing_select_faults")
         layout.separator()
-        layout.operator("object.fairing_measure")
         layout.operator("object.fairing_refresh")
         for mode, label, *_ in MODES:
             button: Any = layout.operator("object.fairing_inspect", text=f"Inspect: {label}")

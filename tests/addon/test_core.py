@@ -22,11 +22,11 @@ def arguments(mesh=None, **changes):
 def test_values():
     given = arguments(
         levels=5, interpolation="APPROXIMATE", tolerance=0.25, tolerance_unit="SCENE", boundary="FREE", metric_exponent=1.0,
-        use_crease_angle=True, crease_angle=1.0, use_corner_angle=True, corner_angle=2.0, repair="REFUSE", memory_limit=3,
+        use_crease_angle=True, crease_angle=1.0, use_corner_angle=True, corner_angle=2.0, repair="REFUSE",
     )  # fmt: skip
     expected = {
         "levels": 5, "interpolation": "approximate", "tolerance": 0.25, "boundary": "free", "metric_exponent": 1.0,
-        "crease_angle": 1.0, "corner_angle": 2.0, "repair": "refuse", "memory_limit": 3 * 2**20, "measure": False,
+        "crease_angle": 1.0, "corner_angle": 2.0, "repair": "refuse", "measure": False,
     }  # fmt: skip
     assert {name: given[name] for name in expected} == expected
     corners, offsets = given["faces"]

@@ -18,7 +18,7 @@ from addon.ui import check, inspect, main
 PANELS = [panel for module in (main, check, inspect) for panel in classes_of(module)]
 DEEP = "[" * 100_000 + "]" * 100_000
 VALUES = (None, -1, 10**400, float("nan"), "x", [{}], {"x": "x"})
-RECORDS = ("report", "readout", "carried", "made", "defects")
+RECORDS = ("report", "carried", "made", "defects")
 
 
 def surface():
@@ -26,7 +26,6 @@ def surface():
     add("Box", *CUBE)
     target = fair(levels=1, energy="TOTAL_CURVATURE")
     activate(target)
-    bpy.ops.object.fairing_measure()
     bpy.ops.object.fairing_check()
     to_object_mode()
     return target
@@ -59,7 +58,7 @@ def test_nothing_is_in_the_panel_custom_properties():
     bpy.ops.object.fairing_inspect(mode="MEAN")
     for owner in (target, target.data):
         assert not set(owner.keys()) - set(owner.bl_rna.properties.keys())
-    assert all(recall(target, name) is not None for name in ("report", "readout", "defects"))
+    assert all(recall(target, name) is not None for name in ("report", "defects"))
     target.discrete_fairing.report = "no JSON"
     assert recall(target, "report") is None
 
@@ -80,7 +79,6 @@ def test_records_that_nobody_can_have_written(name):
         if recall(target, name) is not None:  # else all is as without a record
             redraw()
     bpy.ops.object.fairing_recompute()
-    bpy.ops.object.fairing_measure()
 
 
 DEFECTS = [{"code": "NONMANIFOLD_EDGE", "message": "Text", "kind": "edge", "elements": [[0, 1]]}]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The user's preferences reach scenes and the core."""
+"""The user's preferences reach the core."""
 
 from threading import current_thread, main_thread
 from types import SimpleNamespace
@@ -18,23 +18,9 @@ from addon.strain.measure import StrainJob
 
 
 def prefer(monkeypatch, **values):
-    chosen = SimpleNamespace(**{"levels": 3, "memory_limit": 0, "threads": 0, **values})
+    chosen = SimpleNamespace(**{"memory_limit": 0, "threads": 0, **values})
     monkeypatch.setattr(preferences, "preferences", lambda: chosen)
     return chosen
-
-
-def test_new_files_and_scenes_begin_with_the_default_levels(monkeypatch):
-    assert preferences.preferences() is preferences.Defaults, "where it is not installed"
-    prefer(monkeypatch, levels=5)
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    assert bpy.context.scene.discrete_fairing.levels == 5
-    bpy.ops.scene.new(type="EMPTY")
-    add("Box", *CUBE)
-    bpy.context.view_layer.update()
-    assert bpy.context.scene.discrete_fairing.levels == 5
-    bpy.context.scene.discrete_fairing.levels = 3
-    preferences.give_scenes_default_levels()
-    assert bpy.context.scene.discrete_fairing.levels == 3
 
 
 def test_memory_and_threads_reach_the_core(monkeypatch):
@@ -42,8 +28,6 @@ def test_memory_and_threads_reach_the_core(monkeypatch):
     arrays = read_mesh(add("Box", *CUBE).data)
     given = fair_arguments(arrays, settings(), chosen)
     assert given["memory_limit"] == 7 * 2**20 and given["threads"] == 1
-    given = fair_arguments(arrays, settings(memory_limit=9), chosen)
-    assert given["memory_limit"] == 9 * 2**20
 
 
 def test_blender_is_asked_on_its_own_thread_alone(monkeypatch):

@@ -9,7 +9,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 import bpy
 import harness
-from what_is_kept import EXTENSION, FILE, FOLDER, LEVELS, PRESET, the_version
+from what_is_kept import EXTENSION, FILE, FOLDER, PRESET, THREADS, the_version
 
 
 def test_it_is_enabled_with_the_version_of_the_repository():
@@ -41,7 +41,7 @@ def keep_preset():
 
 def test_a_preset_and_preferences_are_kept():
     keep_preset()
-    bpy.context.preferences.addons[EXTENSION].preferences.levels = LEVELS
+    bpy.context.preferences.addons[EXTENSION].preferences.threads = THREADS
     bpy.ops.wm.save_userpref()
 
 

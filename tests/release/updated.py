@@ -9,7 +9,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 import bpy
 import harness
-from what_is_kept import EXTENSION, FILE, FOLDER, LEVELS, PRESET, the_version
+from what_is_kept import EXTENSION, FILE, FOLDER, PRESET, THREADS, the_version
 
 
 def test_the_next_version_is_enabled():
@@ -18,7 +18,7 @@ def test_the_next_version_is_enabled():
 
 
 def test_preferences_are_kept():
-    assert bpy.context.preferences.addons[EXTENSION].preferences.levels == LEVELS
+    assert bpy.context.preferences.addons[EXTENSION].preferences.threads == THREADS
 
 
 def test_the_preset_is_offered_and_applied():

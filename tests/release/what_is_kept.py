@@ -11,7 +11,7 @@ EXTENSION = os.environ["DF_EXTENSION"]
 USER = Path(bpy.utils.resource_path("USER"))
 FILE = USER / "cube.blend"
 FOLDER = "presets/operator/object.fairing_surface"
-PRESET, LEVELS = "mine", 5
+PRESET, THREADS = "mine", 5
 
 
 def the_version():

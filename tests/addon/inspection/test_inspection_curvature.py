@@ -49,7 +49,7 @@ def test_inside_out_sphere_is_hollow():
     inside_out = replace(ball, corners=ball.corners.reshape(-1, 4)[:, ::-1].ravel())
     bent = curvature.curvature(inside_out)
     assert (bent.mean < -0.9).all() and (bent.gauss > 0.9).all()
-    assert measures.total_curvature(bent) == pytest.approx(8 * np.pi, rel=0.03)
+    assert (bent.total * bent.area).sum() == pytest.approx(8 * np.pi, rel=0.03)
 
 
 def test_gauss_bonnet_to_the_last_digits():
@@ -80,7 +80,6 @@ def test_cylinder_and_its_open_ends():
     # 1 / 2r, on the rims too: taken from their neighbours
     assert np.abs(bent.mean - 1.0).max() < 1e-3
     assert np.abs(bent.gauss).max() < 1e-9
-    assert np.abs(bent.largest - 2.0).max() < 1e-2
     assert (~bent.inner).sum() == 2 * 64
 
 
@@ -134,11 +133,4 @@ def test_degenerate_faces_give_finite_numbers():
     mesh = polygons(positions, [(0, 1, 2), (0, 1, 3), (0, 4, 5), (2, 1, 3)])
     bent = curvature.curvature(mesh)
     assert np.isfinite(bent.mean).all() and np.isfinite(bent.gauss).all()
-    assert all(np.isfinite(v) for v in measures.measure(mesh).values())
-
-
-def test_largest_curvature_finds_the_tight_tube():
-    found = measures.measure(torus(48))
-    assert found["largest_curvature"] == pytest.approx(1.0, rel=0.02)
-    assert measures.largest_deviation(np.zeros((2, 3)), np.zeros((1, 3))) is None
-    assert found["worst_fold"] == pytest.approx(360 / 48, rel=0.05)
+    assert all(np.isfinite(measures.worst_folds(mesh)))

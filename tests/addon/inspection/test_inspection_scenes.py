@@ -78,6 +78,6 @@ def test_zebra_in_edit_mode():
     assert bpy.ops.object.fairing_inspect(mode="ZEBRA") == {"FINISHED"}
     modifier = inspection_modifier(one)
     assert modifier.show_viewport and modifier.show_in_editmode
-    assert not bpy.ops.object.fairing_measure.poll()
+    assert not bpy.ops.object.fairing_refresh.poll()
     bpy.ops.object.mode_set(mode="SCULPT")
     assert not bpy.ops.object.fairing_inspect.poll()
