@@ -40,7 +40,6 @@ class FillOptions:
     # in Edit Mode: whether to replace the selected faces, or to fill holes at selected border edges
     replaces: bool
     noisy: bool = False  # whether the faces around are measured, with noise
-    quads: bool = False  # whether to make grids of quads if the rim allows it
     edge: tuple[int, int] | None = None  # only the hole with this edge, whatever else is selected
 
 
@@ -130,7 +129,6 @@ class HoleJob(TimedRun):
                     energy=self.energy,
                     density=0.0 if self._is_flat else self._options.density,
                     rim="noisy" if self._options.noisy else "exact",
-                    quads=self._options.quads,
                     **watchers,
                 )
         except JobCancelled:
@@ -295,9 +293,6 @@ def fill_warnings(done: list[HoleJob]) -> list[str]:
         count = sum(is_so(hole, job.energy) for job in done for hole in job.result.holes)
         if count:
             said.append(sentence.format(counted(count, "hole")))
-    reasons = [h.why_triangles for job in done for h in job.result.holes if h.why_triangles]
-    if reasons:
-        said.append(f"{counted(len(reasons), 'hole')} filled with triangles: {_listed(reasons)}")
     return said
 
 

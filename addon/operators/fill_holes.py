@@ -68,12 +68,6 @@ class OBJECT_OT_fairing_fill(Shown, LargestHole, WholeFairing, bpy.types.Operato
         description="For measured faces: reads six rings around the hole, so that their noise does not continue",
         default=False,
     )
-    quads: BoolProperty(
-        name="Quads",
-        description="Fills a hole among quads with a grid of quads if its rim allows it, else with triangles",
-        default=False,
-    )
-
     edge: IntVectorProperty(
         name="Edge",
         description="Two vertices of the rim of the one hole of the active object to be filled",
@@ -90,7 +84,7 @@ class OBJECT_OT_fairing_fill(Shown, LargestHole, WholeFairing, bpy.types.Operato
             return
         if self.joint != "POSITION":
             yield from ("energy", "noisy")
-        yield from ("quads", "density")
+        yield "density"
         if context.mode == "OBJECT" and min(self.edge) < 0:
             yield "largest"
 

@@ -31,7 +31,6 @@ CALLS = {
     "clean": lambda **given: df.clean(*OPEN, **given),
     "ease": lambda **given: df.ease(*ROUGH, **given),
     "fill_holes": lambda **given: df.fill_holes(*OPEN, **given),
-    "fill_holes with quads": lambda **given: df.fill_holes(*OPEN, quads=True, **given),
     "fit": lambda **given: df.fit(*CAGE, SCAN, **given),
     "fit_patches": lambda **given: df.fit_patches(
         *meshes.random_hull(12), levels=4, force=True, **given

@@ -152,7 +152,7 @@ REFUSED = {
         partial(df.fill_holes, *HOLED),
         [
             *each(OPTION, holes=[[RIM[:2]]], joint=["loose"], density=[-1], energy=["none"]),
-            *each(OPTION, rim=["rough"], quads=[1]),
+            *each(OPTION, rim=["rough"]),
             *each(RANGE, [10**6], holes=[[[0, 1, 10**6]]]),
         ],
     ),

@@ -78,25 +78,16 @@ def crossing_faces(
     (k, 2, 3) contain these fillings; ids are those of in_whole(). Faces that share a vertex do not count.
     """
     asked, count = len(boxes), len(around.whole.points)
-    split = [_split(f.faces) for f in fillings]
-    new = np.concatenate(split[:asked])
-    faces = np.concatenate([around.near(boxes), *split[asked:], new])
+    own = [f.faces for f in fillings]
+    new = np.concatenate(own[:asked])
+    faces = np.concatenate([around.near(boxes), *own[asked:], new])
     old = np.unique(faces[faces < count])
     number = np.where(faces < count, np.searchsorted(old, faces), faces - count + len(old))
     points = np.concatenate([around.whole.points[old], *(f.own for f in fillings)])
     first = len(faces) - len(new)
     found = _native._crossings(points, number.astype(np.int32), first, *watched.watchers(1.0))
-    ends = np.cumsum([first, *map(len, split[:asked])])
-    return [
-        np.unique((found[(found >= a) & (found < b)] - a) // (f.faces.shape[1] - 2))
-        for f, a, b in zip(fillings, ends[:-1], ends[1:])
-    ]
-
-
-def _split(faces: np.ndarray) -> np.ndarray:
-    """(t, 3) triangles of faces (f, 3) or (f, 4), in the same order."""
-    corners = [[0, k, k + 1] for k in range(1, faces.shape[1] - 1)]
-    return faces[:, corners].reshape(-1, 3)
+    ends = np.cumsum([first, *map(len, own[:asked])])
+    return [np.unique(found[(found >= a) & (found < b)] - a) for a, b in zip(ends[:-1], ends[1:])]
 
 
 class _Chosen:
@@ -154,11 +145,7 @@ def with_less_crossing(
     counts = chosen.counts()
     tried = False
     for row, (near, filling) in enumerate(zip(nears, fillings, strict=True)):
-        if (
-            not (counts[row] or filling.made.stands_in)
-            or filling.faces.shape[1] != 3
-            or edges.are_taken(near.faces, row)
-        ):
+        if not (counts[row] or filling.made.stands_in) or edges.are_taken(near.faces, row):
             continue
         tried = True
         best, least = filling, (counts[row], filling.made.folds)

@@ -25,7 +25,7 @@ class FilledHole:
         Its rim, and those of its islands.
     vertices: (k, 3) float64
         The new vertices.
-    faces: (t, 3) int64, or (t, 4) of quads
+    faces: (t, 3) int64
         The new faces. Ids below the number of vertices of the mesh are the mesh's; the new vertices
         follow, hole after hole.
     energy: str
@@ -38,8 +38,6 @@ class FilledHole:
         Edges at which the surface turns by more than a right angle, the rim's included.
     crossings: int
         Faces of the filling that cross others, of the mesh or of a filling.
-    why_triangles: str
-        If a requested grid of quads was not possible, the reason, as the end of a sentence; else empty.
     ignored: list of int
         Faces around it that fair() refuses; they were not used to continue the surface.
     """
@@ -52,7 +50,6 @@ class FilledHole:
     converged: bool
     folds: int
     crossings: int = 0
-    why_triangles: str = ""
     ignored: list[int] = field(default_factory=list)
 
 
@@ -151,8 +148,7 @@ class Filled:
         """Corners and offsets of all faces before `cuts`."""
         mesh, new = self._mesh, [hole.faces for hole in self.holes]
         corners = np.concatenate([mesh.corners, *(faces.ravel() for faces in new)])
-        more = [np.full(len(faces), faces.shape[1]) for faces in new]
-        sizes = np.concatenate([np.diff(mesh.offsets), *more])
+        sizes = np.concatenate([np.diff(mesh.offsets), np.full(sum(map(len, new)), 3)])
         return corners, np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64)
 
     @property
@@ -167,7 +163,7 @@ class Filled:
 
     @property
     def new_faces(self) -> np.ndarray:
-        """(M - m,) int64 ids of the new faces: triangles, or quads if requested."""
+        """(M - m,) int64 ids of the new faces, which are triangles."""
         count = len(self.faces if isinstance(self.faces, np.ndarray) else self.faces[1][1:])
         return np.arange(len(self._mesh.offsets) - 1, count)
 
@@ -176,16 +172,16 @@ def put_together(
     mesh: MeshPart,
     loops: Sequence[list[np.ndarray]],
     fillings: Sequence[Filling],
-    told: Sequence[tuple[int, str]],
+    crossings: Sequence[int],
     skipped: list[SkippedHole],
     cuts: Cuts,
 ) -> Filled:
-    """Adds the fillings of holes with these loops to a mesh. `told` has for each filling the number of
-    its crossing faces, and why it has no quads.
+    """Adds the fillings of holes with these loops to a mesh. `crossings`: the number of crossing
+    faces of each filling.
     """
     holes = []
-    for rims, f, (crossings, why) in zip(loops, fillings, told, strict=True):
+    for rims, f, crossing in zip(loops, fillings, crossings, strict=True):
         by, faces = f.made, f.faces.astype(np.int64)
-        found = by.energy, by.joint, by.converged, by.folds, crossings, why
+        found = by.energy, by.joint, by.converged, by.folds, crossing
         holes.append(FilledHole(rims, f.own, faces, *found, list(by.ignored)))
     return Filled(holes, skipped, cuts, mesh)

@@ -18,8 +18,7 @@ from .filled import Filled, SkippedHole, put_together
 from .mesh_part import MeshPart
 from .near_hole import NOISY_RINGS, RIMS, RINGS, NearHole, Wanted
 from .options import native_options
-from .quad_grid import quad_filling
-from .rounds import Filling, RimEdges, faired_in_rounds, near_holes, without_folds
+from .rounds import Filling, faired_in_rounds, near_holes, without_folds
 from .watching import Progress, SeveralRuns, check_watchers
 
 
@@ -67,7 +66,6 @@ def fill_holes(
     energy: str = "total_curvature",
     density: float = 1.0,
     rim: str = "exact",
-    quads: bool = False,
     threads: int = 0,
     progress: Progress | None = None,
     monitor: _native.Monitor | None = None,
@@ -103,10 +101,6 @@ def fill_holes(
     rim : "exact" or "noisy"
         Noisy: six rings of faces are continued, and all but the outermost may be missed, so that the
         noise of a scan does not continue. The rim itself does not move.
-    quads : bool
-        A grid of quads in a hole of a quad mesh whose rim has an even number of edges, between the four
-        sharpest corners of the rim [Coons 1967]; triangles if it would fold or be skew
-        (FilledHole.why_triangles). `density` is for triangles only.
     threads : int
         0: all cores. The result is the same, to the last bit, for any number.
     progress : callable(fraction, phase)
@@ -136,8 +130,6 @@ def fill_holes(
     native_options({"energy": energy, "threads": threads})  # refuses what fair() would
     if not (isinstance(density, int | float) and 0.0 <= density <= 100.0):
         raise fairing_error("BAD_OPTION", f"density is {density!r}; it must be from 0 to 100.")
-    if not isinstance(quads, bool):
-        raise fairing_error("BAD_OPTION", f"quads is {quads!r}; it must be True or False.")
     points = vertex_array(vertices)
     corners, offsets = face_arrays(faces)
     watched = SeveralRuns(progress, monitor, threads)
@@ -163,21 +155,14 @@ def fill_holes(
             rims = list(map(np.array, asked[row]))
             skipped.append(SkippedHole.of(rims, reason, mesh.vertex_ids))
     asked, loops = ([all_[row] for row in by_row] for all_ in (asked, loops))
-    found = list(by_row.values())
-    grids: list[Filling | str] = [""] * len(found)
-    if quads:
-        for row, (hole, (_, triangles)) in enumerate(zip(loops, found, strict=True)):
-            run = watched.run(0.1, 0.1)
-            grids[row] = quad_filling(mesh, _running_as(hole, triangles), wanted, run)
-    fillings, nears = _with_triangles(mesh, filler, (loops, found), grids, wanted, watched)
+    nears = near_holes(mesh, list(by_row.values()))
+    fillings = _faired(mesh, filler, loops, nears, wanted, watched)
     fillings, crossings = with_less_crossing(whole, mesh, nears, fillings, wanted, watched)
     watched.finish()
-    told = [
-        (count, grid if isinstance(grid, str) else "")
-        for count, grid in zip(crossings, grids, strict=True)
-    ]
     loops_asked = [list(map(np.array, hole)) for hole in asked]
-    return put_together(whole, loops_asked, in_whole(whole, mesh, fillings), told, skipped, cuts)
+    return put_together(
+        whole, loops_asked, in_whole(whole, mesh, fillings), crossings, skipped, cuts
+    )
 
 
 _Triangulated = tuple[np.ndarray, np.ndarray]  # new vertices, triangles
@@ -196,52 +181,22 @@ def _triangulated(
     return dict(zip(filled, found, strict=True)), refused
 
 
-def _running_as(hole: list[list[int]], triangles: np.ndarray) -> list[list[int]]:
-    """The loops of a hole; the first one is turned to run in the direction of its `triangles`."""
-    loop = hole[0]
-    sides = np.stack([triangles, np.roll(triangles, -1, axis=1)], -1).reshape(-1, 2)
-    same = (sides == loop[:2]).all(axis=1).any()
-    return [loop if same else loop[::-1], *hole[1:]]
-
-
-def _with_triangles(
+def _faired(
     mesh: MeshPart,
     filler: _native.Filler,
-    triangulated: tuple[list[list[list[int]]], list[_Triangulated]],
-    grids: list[Filling | str],
+    loops: list[list[list[int]]],
+    nears: list[NearHole],
     wanted: Wanted,
     watched: SeveralRuns,
-) -> tuple[list[Filling], list[NearHole]]:
-    """The fillings of all holes, by grids of quads where there are any and by triangles elsewhere; and the
-    fillings before fairing. If a grid repeats an edge of another filling, triangles replace it, with the
-    reason in `grids`.
-    """
-    loops, found = triangulated
-    while True:
-        nears = near_holes(mesh, found)
-        rows = [row for row, grid in enumerate(grids) if isinstance(grid, str)]
-        fillings = faired_in_rounds(mesh, filler, nears, wanted, watched, rows)
-        watchers = watched.watchers(1.0)
-        folding = [row for row, filling in fillings.items() if filling.made.folds]
-        if wanted.density > 0.0 and folding:
-            asked = [loops[row] for row in folding]
-            bare, _ = _triangulated(filler, asked, (0.0, False), watchers)
-            fillings = without_folds(mesh, fillings, {folding[k]: own for k, own in bare.items()})
-        doubled = []
-        edges = RimEdges(len(mesh.points), {row: f.faces for row, f in fillings.items()})
-        for row, grid in enumerate(grids):
-            if isinstance(grid, str):
-                continue
-            if edges.are_taken(grid.faces, row):
-                doubled.append(row)
-            else:
-                fillings[row] = grid
-                edges.put(row, grid.faces)
-        if not doubled:
-            return [fillings[row] for row in range(len(grids))], nears
-        for row in doubled:
-            grids[row] = "a grid would have an edge of another filling"
-        found, _ = filler.fill(loops, *wanted.triangles, *watchers)
+) -> list[Filling]:
+    """The faired fillings of all holes; triangles without new vertices replace those that fold, if they do not."""
+    fillings = faired_in_rounds(mesh, filler, nears, wanted, watched)
+    folding = [row for row, filling in fillings.items() if filling.made.folds]
+    if wanted.density > 0.0 and folding:
+        asked = [loops[row] for row in folding]
+        bare, _ = _triangulated(filler, asked, (0.0, False), watched.watchers(1.0))
+        fillings = without_folds(mesh, fillings, {folding[k]: own for k, own in bare.items()})
+    return [fillings[row] for row in range(len(nears))]
 
 
 def asked_holes(holes: Sequence[Any]) -> list[list[list[int]]]:

@@ -72,7 +72,7 @@ _NOT_OF_A_HOLE = ("CANCELLED", "OUT_OF_MEMORY", "FORKED")
 
 class NearHole:
     """The filling of one hole and the faces around the hole. `own` (k, 3) are the filling's new vertices,
-    with ids from `first` on; `faces` (t, 3), or (t, 4) for quads, contain vertex ids.
+    with ids from `first` on; `faces` (t, 3) contain vertex ids.
     """
 
     def __init__(self, mesh: MeshPart, own: np.ndarray, faces: np.ndarray, first: int) -> None:
@@ -204,9 +204,7 @@ class NearHole:
         known = np.concatenate([ids, np.arange(self.first, self.first + len(self.own))])
         corners = np.concatenate([mesh.corners_at(touching), self.faces.ravel()])
         sizes = mesh.offsets[touching + 1] - mesh.offsets[touching]
-        ends = np.cumsum(
-            np.concatenate([[0], sizes, np.full(len(self.faces), self.faces.shape[1])])
-        )
+        ends = np.cumsum(np.concatenate([[0], sizes, np.full(len(self.faces), 3)]))
         result = fair(
             np.concatenate([mesh.points[ids], self.own]),
             (np.searchsorted(known, corners), ends),
@@ -233,7 +231,7 @@ class NearHole:
         return found
 
     def corners(self, own: np.ndarray) -> np.ndarray:
-        """(t, 3 or 4, 3) corner positions of the filling's faces, with the new vertices at `own`."""
+        """(t, 3, 3) corner positions of the filling's faces, with the new vertices at `own`."""
         rows = np.where(
             self.faces < len(self._mesh.points),
             np.searchsorted(self._rim, self.faces),

@@ -35,7 +35,7 @@ SLIVER = 15.0
 
 @dataclass(frozen=True, slots=True)
 class Filling:
-    """The filling of one hole: new vertices (k, 3), with ids from `first` on; faces (t, 3 or 4) of ids."""
+    """The filling of one hole: new vertices (k, 3), with ids from `first` on; faces (t, 3) of ids."""
 
     own: np.ndarray
     faces: np.ndarray
@@ -58,9 +58,9 @@ def faired_in_rounds(
     nears: list[NearHole],
     wanted: Wanted,
     watched: SeveralRuns,
-    rows: list[int],
 ) -> dict[int, Filling]:
-    """The best filling of each of the holes `rows`. `nears` has all holes, in the order of `filler`."""
+    """The best filling of each hole. `nears` has all holes, in the order of `filler`."""
+    rows = list(range(len(nears)))
     best: dict[int, Filling] = {}
     last: dict[int, Filling] = {}
     ranks: dict[int, _Rank] = {}
