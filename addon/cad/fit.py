@@ -112,7 +112,7 @@ class PatchJob(Job):
         if self._mesh is not None:
             vertices = transformed(self.result.vertices, self.placement)
             shown = replace(self._mesh, positions=transformed(self._mesh.positions, self._stands))
-            self.apart = distance(self.result, self.arrays, self.patches.levels, vertices, shown)
+            self.apart = distance(self.result, self.patches.levels, vertices, shown)
 
     def predict(self, energy: str, levels: int) -> float:
         finest = max(levels, self.arguments["levels"] or _USUAL_LEVELS)

@@ -3,19 +3,17 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 
-from .. import core, vertex_values
+from .. import core
 from ..blender import Context, Object
 from ..errors import JobError
-from ..inspection.curvature import unit
 from ..mesh.read import control_mesh, read_mesh
-from ..mesh.shape_keys import ShapeKeys, influences, mixed, read_shape_keys
+from ..mesh.shape_keys import ShapeKeys, influences, mixed_positions, read_shape_keys
 from ..transfer.attributes import AttributeTransfer
-from ..transfer.lattice import Cells, make_cells
-from ..triangles import normals
 
 Share = float | np.ndarray  # of a shape: one number, or one a control vertex
 
@@ -24,19 +22,7 @@ def shown_mesh(context: Context, shown: Object) -> core.ControlArrays:
     """The mesh of `shown` with its mix of shape keys, without modifiers, in its own coordinates."""
     with control_mesh(context, shown) as mesh:
         arrays = read_mesh(mesh)
-        keys = read_shape_keys(shown, len(arrays.positions))
-        if keys is None:
-            return arrays
-        count = len(arrays.positions)
-        positions = mixed(
-            keys,
-            lambda group: (
-                vertex_values.factors(shown, mesh, group)
-                if group in shown.vertex_groups
-                else np.ones(count)
-            ),
-        )
-    return replace(arrays, positions=positions)
+        return replace(arrays, positions=mixed_positions(shown, mesh, arrays.positions))
 
 
 def shares_of(
@@ -85,52 +71,25 @@ class Blend:
 
 
 def distance(
-    result: Any,
-    control: core.ControlArrays,
-    levels: int,
-    vertices: np.ndarray,
-    mesh: core.ControlArrays,
+    result: Any, levels: int, vertices: np.ndarray, mesh: core.ControlArrays
 ) -> float | None:
-    """The largest distance, along normals, between the surface `result` of `levels` for the mesh
-    `control`, with its `vertices` (N, 3), and the `mesh` shown, in the same coordinates, at common
-    points. None if the mesh has other faces than such a surface.
+    """The largest distance, along normals, between the surface `result` of `levels`, with its `vertices`
+    (N, 3), and the `mesh` shown, in the same coordinates, at common points. None if the mesh has other
+    faces than such a surface.
     """
-    transfer = AttributeTransfer(result, control, levels)
-    pairs = _same_points(transfer, levels, mesh.corners)
-    if pairs is None:
+    triangles = int((mesh.face_sizes == 3).sum())
+    counts = [triangles, len(mesh.face_sizes) - triangles]
+    at_0 = [len(faces) >> 2 * levels for faces in result.faces]
+    own = next((k for k in range(levels + 9) if [n << 2 * k for n in at_0] == counts), None)
+    if own is None or not any(at_0) or len(mesh.corners) != 3 * counts[0] + 4 * counts[1]:
         return None
-    there, here = pairs
-    outward = unit(normals(vertices, result.triangles))[here]
-    gap = np.einsum("ij,ij->i", mesh.positions[there] - vertices[here], outward)
-    return float(np.abs(gap).max(initial=0.0))
-
-
-def _same_points(
-    transfer: AttributeTransfer, levels: int, corners: np.ndarray
-) -> tuple[np.ndarray, np.ndarray] | None:
-    """Ids of refined vertices with `corners`, and those of `transfer` there; or None."""
-    at_level_0 = sum(patch.fine.size for patch in transfer.patches) >> 2 * levels
-    own = next((k for k in range(levels + 9) if at_level_0 << 2 * k == len(corners)), None)
-    if own is None or not at_level_0:
-        return None
-    common, first, pairs = min(own, levels), 0, []
-    for patch in transfer.patches:
-        faces, size = len(patch.faces.polygon), patch.faces.size
-        last = first + (faces * size << 2 * own)
-        cells = make_cells(size, own)
-        there = corners[first:last].reshape(faces, -1)[:, cells.first_corner]
-        here = patch.fine.reshape(faces, -1)[:, patch.cells.first_corner]
-        pairs.append(
-            (
-                there[:, _points_of(cells, own - common)].ravel(),
-                here[:, _points_of(patch.cells, levels - common)].ravel(),
-            )
-        )
-        first = last
-    ids, vertices = (np.concatenate(parts) for parts in zip(*pairs, strict=True))
-    return ids, vertices
-
-
-def _points_of(cells: Cells, finer: int) -> np.ndarray:
-    """Rows of the points of a face that exist with `finer` levels less, in their order."""
-    return np.flatnonzero((cells.points % 2**finer == 0).all(axis=1))
+    faces = np.split(mesh.corners, [3 * triangles])
+    shown = SimpleNamespace(
+        vertices=mesh.positions, faces=(faces[0].reshape(-1, 3), faces[1].reshape(-1, 4))
+    )
+    both = shown, SimpleNamespace(vertices=vertices, faces=result.faces)
+    coarse, fine = both if own <= levels else both[::-1]
+    change = core.module().level_change.change_between(
+        coarse, fine, max(own, levels), abs(own - levels)
+    )
+    return float(change.max(initial=0.0))

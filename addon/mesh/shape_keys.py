@@ -8,7 +8,9 @@ from typing import Any
 import bpy
 import numpy as np
 
+from .. import vertex_values
 from ..blender import Mesh, Object, column
+from ..errors import JobError
 from .object import copy_drivers, session_key
 
 SETTINGS = (
@@ -33,7 +35,6 @@ class ShapeKey:
     relative_key: int
     # by the names in SETTINGS that this version of Blender has, in an order that is safe to write
     settings: dict
-    frame: float = 0.0  # frame of an absolute key
 
 
 @dataclass(frozen=True)
@@ -74,7 +75,7 @@ def read_shape_keys(source: Object, vertex_count: int) -> ShapeKeys | None:
 
 def _key(block: bpy.types.ShapeKey, place: dict[str, int]) -> ShapeKey:
     settings = {name: getattr(block, name) for name in SETTINGS if hasattr(block, name)}
-    return ShapeKey(block.name, place[block.relative_key.name], settings, block.frame)
+    return ShapeKey(block.name, place[block.relative_key.name], settings)
 
 
 def _positions(block: bpy.types.ShapeKey) -> np.ndarray:
@@ -84,14 +85,17 @@ def _positions(block: bpy.types.ShapeKey) -> np.ndarray:
 def influences(
     keys: ShapeKeys, weights: Callable[[str], np.ndarray]
 ) -> dict[int, float | np.ndarray]:
-    """The influence of each key but the first, by index, from its slider or, for absolute keys, from
-    the time. The shape is the first key plus the other keys' differences times their influences, each a
-    number or one a vertex. `weights`: (n,) of a vertex group by its name.
+    """The influence of each key but the first, by index, from its slider. The shape is the first key plus
+    the other keys' differences times their influences, each a number or one a vertex. `weights`: (n,) of a
+    vertex group by its name. Raises JobError for absolute keys, which the time mixes.
     """
     if keys.show_only:
         return {keys.active: 1.0} if keys.active else {}
     if not keys.use_relative:
-        return _absolute_influences(keys)
+        raise JobError(
+            "Switch on Relative for the shape keys (Object Data), or apply their mix: they are absolute, and only Blender "
+            "mixes such keys."
+        )
     found: dict[int, float | np.ndarray] = {}
     for place, key in enumerate(keys.keys):
         value = 0.0 if key.settings["mute"] else key.settings["value"]
@@ -105,53 +109,19 @@ def influences(
     return found
 
 
-def _absolute_influences(keys: ShapeKeys) -> dict[int, float | np.ndarray]:
-    """The same for absolute keys: between two of them, by the interpolation of each. Blender applies
-    them to its own keys only, and other meshes cannot get their frames, which are read-only.
-    """
-    frames = [key.frame for key in keys.keys]
-    kinds = [key.settings["interpolation"] for key in keys.keys]
-    last = len(frames) - 1
-    time = min(max(keys.eval_time, frames[0]), frames[-1])
-    begin = 0
-    while begin + 1 < last and frames[begin + 1] < time:
-        begin += 1
-    end = min(begin + 1, last)
-    span = frames[end] - frames[begin]
-    if "KEY_BSPLINE" not in (kinds[begin], kinds[end]) and (span == 0.0 or not 0.0 < time - frames[begin] < span):  # fmt: skip
-        return {end: 1.0} if end and time >= frames[end] else {}
-    at = (time - frames[begin]) / span if span else 0.0
-    of_begin, of_end = (_curve_weights(at, kinds[place]) for place in (begin, end))
-    places = max(begin - 1, 0), begin, end, min(end + 1, last)
-    found: dict[int, float | np.ndarray] = {}
-    for place, a, b in zip(places, of_begin, of_end, strict=True):
-        if place:
-            found[place] = found.get(place, 0.0) + (1.0 - at) * a + at * b
-    return {place: share for place, share in found.items() if share}
-
-
-def _curve_weights(at: float, kind: str) -> tuple[float, float, float, float]:
-    """Weights of four consecutive keys, at the parameter `at` from 0 to 1 between the middle ones: a
-    cardinal spline, whose tangents are a share of the chord, or a uniform cubic B-spline, or linear.
-    """
-    square, cube = at * at, at * at * at
-    if kind == "KEY_BSPLINE":
-        outer = (1.0 - at) ** 3 / 6.0, cube / 6.0
-        inner = 0.5 * cube - square + 2.0 / 3.0
-        return outer[0], inner, 1.0 - inner - outer[0] - outer[1], outer[1]
-    tight = {"KEY_CARDINAL": 0.71, "KEY_CATMULL_ROM": 0.5}.get(kind)
-    if tight is None:
-        return 0.0, 1.0 - at, at, 0.0
-    first, fourth = tight * (2.0 * square - cube - at), tight * (cube - square)
-    hermite = 3.0 * square - 2.0 * cube
-    return first, 1.0 - hermite - fourth, hermite - first, fourth
-
-
-def mixed(keys: ShapeKeys, weights: Callable[[str], np.ndarray]) -> np.ndarray:
-    """(n, 3): the shape that the sliders mix from `keys`; `weights`: as for `influences`."""
-    first, shape = keys.positions[0], keys.positions[0].copy()
-    for place, share in influences(keys, weights).items():
-        shape += np.reshape(share, (-1, 1)) * (keys.positions[place] - first)
+def mixed_positions(source: Object, mesh: Mesh, positions: np.ndarray) -> np.ndarray:
+    """(n, 3): `positions` of the `mesh` of `source` or, in Object Mode, those of its mix of shape keys."""
+    keys = None if source.mode == "EDIT" else read_shape_keys(source, len(positions))
+    if keys is None:
+        return positions
+    groups = source.vertex_groups
+    whole = np.ones(len(positions))
+    shares = influences(
+        keys, lambda name: vertex_values.factors(source, mesh, name) if name in groups else whole
+    )
+    shape = keys.positions[0].copy()
+    for place, share in shares.items():
+        shape += np.reshape(share, (-1, 1)) * (keys.positions[place] - keys.positions[0])
     return shape
 
 

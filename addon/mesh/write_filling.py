@@ -87,14 +87,12 @@ def cut_sides(bm: Any, sides: list[list[Any]]) -> None:
 def _spread_vertices(bm: Any, rim: list[Any], patch: Patch) -> Spread:
     found: Spread = []
     for read, write in _layers(bm.verts.layers, OWN_VERTICES_ONLY):
-        found.append(
-            (write, spread(patch.points, patch.triangles, np.array([read(v) for v in rim])))
-        )
+        found.append((write, spread(patch.points, np.array([read(v) for v in rim]))))
     for deform in bm.verts.layers.deform.values():
         groups = sorted({g for v in rim for g, _ in v[deform].items()})
         if groups:
             shares = np.array([[v[deform].get(g, 0.0) for g in groups] for v in rim])
-            found.append((_weights(deform, groups), spread(patch.points, patch.triangles, shares)))
+            found.append((_weights(deform, groups), spread(patch.points, shares)))
     return found
 
 
@@ -115,9 +113,7 @@ def _spread_corners(bm: Any, rim: list[Any], patch: Patch) -> Spread:
     for read, write in _layers(bm.loops.layers):
         values = [[read(corner) for corner in v.link_loops] for v in rim]
         if all(row and all(value == row[0] for value in row) for row in values):
-            found.append(
-                (write, spread(patch.points, patch.triangles, np.array([row[0] for row in values])))
-            )
+            found.append((write, spread(patch.points, np.array([row[0] for row in values]))))
     return found
 
 

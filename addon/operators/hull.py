@@ -15,9 +15,9 @@ from ..mesh.object import new_object, select_only
 from ..mesh.offset_names import read_names, write_names
 from ..mesh.read import active_mesh, control_mesh, read_mesh
 from ..mesh.scans import in_metres, of_mesh
+from ..mesh.shape_keys import mixed_positions
 from ..poll import IN_OBJECT_MODE, needs
 from ..settings import Settings
-from ..strain.measure import mixed_positions
 from ..yard.closing import NotHalf, Whole, whole
 from ..yard.hydrostatics import NotClosed, Solid, solid
 from .mixins import Action

@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from .. import core, errors, size, vertex_values
+from .. import core, errors, size
 from ..blender import Context, Mesh, Object, scene_of
 from ..live.switch import live_surfaces_of, surfaces_of
 from ..mesh.offset_names import read_names
 from ..mesh.read import shown_selection
-from ..mesh.shape_keys import mixed, read_shape_keys
+from ..mesh.shape_keys import mixed_positions
 from ..mesh.timed_run import TimedRun
 from ..preferences import preferences
 from ..settings import Settings, halves
@@ -116,11 +116,3 @@ def knuckle_of(lengths: np.ndarray, arrays: core.ControlArrays, positions: np.nd
     crease = arrays.edge_crease
     creased = np.zeros(len(arrays.edges), bool) if crease is None else crease > 0.0
     return knuckle(lengths, arrays.edges, creased, arrays.edge_uses == 1, positions)
-
-
-def mixed_positions(source: Object, mesh: Mesh, positions: np.ndarray) -> np.ndarray:
-    """(n, 3): `positions` of the `mesh` of `source` or, in Object Mode, those of its mix of shape keys."""
-    keys = None if source.mode == "EDIT" else read_shape_keys(source, len(positions))
-    if keys is None:
-        return positions
-    return mixed(keys, lambda group: vertex_values.factors(source, mesh, group))

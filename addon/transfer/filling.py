@@ -5,7 +5,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-_RESIDUAL = 1e-7  # relative to the first one: colours and coordinates are single precision
 _AT_ONCE = 1 << 20  # distances that are compared at a time: 8 MB
 
 
@@ -18,13 +17,6 @@ class Patch:
     points: np.ndarray  # (r + k, 3)
     faces: list[np.ndarray]  # rows, an array (t, k) for each size k of faces
     nearest: np.ndarray  # (r + k,) row of the nearest vertex of the rim
-
-    @property
-    def triangles(self) -> np.ndarray:
-        """(t, 3) rows: its faces as fans."""
-        return np.concatenate(
-            [its[:, [0, k, k + 1]] for its in self.faces for k in range(1, its.shape[1] - 1)]
-        )
 
     @classmethod
     def of(cls, faces: list[np.ndarray], points: np.ndarray, new: np.ndarray) -> "Patch":
@@ -50,52 +42,17 @@ def _nearest(points: np.ndarray, known: int) -> np.ndarray:
     return found
 
 
-def spread(points: np.ndarray, triangles: np.ndarray, known: np.ndarray) -> np.ndarray:
-    """(n, c) values, from those of the first k rows, `known` (k, c), on a mesh of `points` (n, 3) and
-    `triangles` (t, 3). Each other value is the mean of its neighbours', weighted by inverse edge
-    lengths, so that all are between the least and the largest known one.
+def spread(points: np.ndarray, known: np.ndarray) -> np.ndarray:
+    """(n, c) values at `points` (n, 3), from those of the first k, `known` (k, c): means, weighted by inverse
+    squares of the distances, so that all are between the least and the largest known one.
     """
-    count, first = len(points), len(known)
-    values = np.zeros((count, known.shape[1]))
+    first, values = len(known), np.empty((len(points), known.shape[1]))
     values[:first] = known
-    pairs = np.unique(np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1), axis=0).T
-    length = np.linalg.norm(points[pairs[0]] - points[pairs[1]], axis=1)
-    weight = 1.0 / np.maximum(length, np.finfo(np.float32).tiny)
-    degree = _at(pairs[0], weight, count) + _at(pairs[1], weight, count)
-    for column in values.T:
-        # constants are reproduced exactly
-        column[first:] = 0.5 * (column[:first].min() + column[:first].max())
-        column[first:] += _correction(column, pairs, weight, degree, first)
+    middle = 0.5 * (known.min(axis=0) + known.max(axis=0))  # constants are reproduced exactly
+    step = max(1, _AT_ONCE // first)
+    for begin in range(first, len(points), step):
+        away = points[begin : begin + step, None] - points[:first]
+        weight = 1.0 / np.maximum((away**2).sum(axis=2), np.finfo(np.float32).tiny)
+        mean = weight @ (known - middle) / weight.sum(axis=1, keepdims=True)
+        values[begin : begin + step] = middle + mean
     return values
-
-
-def _at(rows: np.ndarray, values: np.ndarray, count: int) -> np.ndarray:
-    return np.bincount(rows, values, minlength=count)
-
-
-def _correction(
-    start: np.ndarray, pairs: np.ndarray, weight: np.ndarray, degree: np.ndarray, first: int
-) -> np.ndarray:
-    """The correction of start[first:], by conjugate gradients with a diagonal preconditioner."""
-
-    def laplacian(x: np.ndarray) -> np.ndarray:
-        flow = weight * (x[pairs[0]] - x[pairs[1]])
-        return (_at(pairs[0], flow, len(x)) - _at(pairs[1], flow, len(x)))[first:]
-
-    found, padded = np.zeros(len(start) - first), np.zeros(len(start))
-    residual = -laplacian(start)
-    scaled = residual / degree[first:]
-    way, energy = scaled.copy(), residual @ scaled
-    enough = _RESIDUAL**2 * energy
-    for _ in range(len(found)):
-        if energy <= enough:
-            break
-        padded[first:] = way
-        bent = laplacian(padded)
-        step = energy / (way @ bent)
-        found += step * way
-        residual -= step * bent
-        scaled = residual / degree[first:]
-        energy, before = residual @ scaled, energy
-        way = scaled + (energy / before) * way
-    return found

@@ -13,20 +13,23 @@ from .result import Result
 CELLS_AT_ONCE = 1 << 14  # at which two surfaces are compared; at least one control face
 
 
-def change_between(coarse: Result, fine: Result, levels: int) -> np.ndarray:
+def change_between(coarse: Result, fine: Result, levels: int, finer: int = 1) -> np.ndarray:
     """(F,) float64: for each control face, the largest distance, along normals, between the surfaces of
-    `levels` and of one level less, at common points; mesh units. Computed in blocks of control faces.
+    `levels` and of `finer` levels less, at common points; mesh units. Computed in blocks of control faces.
     """
     cells, n = 4**levels, 2**levels
     found = np.zeros(sum(map(len, fine.faces)) // cells)
     begin = 0  # of the triangles, then of the quads
     for corners, few, many in zip((3, 4), coarse.faces, fine.faces):
-        few, many = few.reshape(-1, cells // 4, corners), many.reshape(-1, cells, corners)
+        few, many = few.reshape(-1, cells >> 2 * finer, corners), many.reshape(-1, cells, corners)
         own = found[begin : begin + len(few)]
         begin += len(few)
         if not len(few):
             continue
-        shared = _cells(n // 2, corners == 4, 1), _cells(n, corners == 4, 2)
+        shared = (
+            _cells(n >> finer, corners == 4, 1),
+            _cells(n, corners == 4, 1 << finer),
+        )
         at_once = max(1, CELLS_AT_ONCE // cells)
         for first in range(0, len(few), at_once):
             part = slice(first, first + at_once)

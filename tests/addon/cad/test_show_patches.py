@@ -92,23 +92,20 @@ def with_keys():
     return box, fair(energy="TOTAL_CURVATURE", levels=3)
 
 
-@pytest.mark.parametrize("what", ["surface", "source", "absolute"])
+@pytest.mark.parametrize("what", ["surface", "source"])
 def test_patches_pass_where_shape_keys_have_the_surface(what):
     box, surface = with_keys()
-    if what == "absolute":
-        keys = surface.data.shape_keys
-        keys.use_relative, keys.eval_time = False, 15.0  # keys are 10 apart, from 0 on
-        bpy.context.view_layer.update()
     wanted = shown(surface)[:8]
     assert np.abs(wanted - CUBE[0]).max() > 0.3
-    if what == "absolute":
-        assert np.allclose(np.abs(wanted), [1.5, 1.0, 1.5], atol=1e-6)  # between Tall and Wide
     bpy.context.scene.discrete_fairing.energy = "TOTAL_CURVATURE"
     job = patches_of(box if what == "source" else surface)
     found = job.patches.vertices
     apart = np.linalg.norm(found[:, None] - wanted, axis=2).min(axis=1)
     assert len(found) == 8 and apart.max() < 1e-3
     assert job.apart is None if what == "source" else job.apart < 0.02
+    surface.data.shape_keys.use_relative = False
+    with pytest.raises(JobError, match="Switch on Relative"):
+        PatchJob(bpy.context, surface, WANTED)
 
 
 def test_keys_of_the_surface_alone_are_refused_with_a_cure():

@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Shape keys keep their settings, and get the positions that they are given."""
 
-import bpy
 import numpy as np
 import pytest
 from refined import refine
-from scenes import CUBE, add, shown
+from scenes import CUBE, add
 
-from addon.mesh.shape_keys import mixed, read_shape_keys, write_shape_keys
+from addon.mesh.shape_keys import write_shape_keys
 
 
 @pytest.fixture
@@ -44,21 +43,3 @@ def test_settings(source):
     assert found["Tall"].relative_key == found["Wide"]
     assert made.target.active_shape_key_index == 2
     assert made.mesh.validate() is False
-
-
-@pytest.mark.parametrize("kinds", ["LLLL", "CCCC", "RRRR", "BBBB", "LCRB", "BLBL", "RLCB"])
-def test_absolute_keys_are_mixed_as_blender_does(kinds):
-    """The mix is the mesh that Blender shows, for each kind of curve between keys, also between two kinds."""
-    names = {"L": "LINEAR", "C": "CARDINAL", "R": "CATMULL_ROM", "B": "BSPLINE"}
-    made = add("Cube", *CUBE)
-    rng = np.random.default_rng(1)
-    for kind in kinds:
-        key = made.shape_key_add(from_mix=False)
-        key.data.foreach_set("co", rng.standard_normal(24).astype(np.float32))
-        key.interpolation = f"KEY_{names[kind]}"
-    made.data.shape_keys.use_relative = False
-    for time in (-5.0, 0.0, 3.0, 10.0, 14.0, 27.0, 30.0, 99.0):
-        made.data.shape_keys.eval_time = time
-        bpy.context.view_layer.update()
-        found = mixed(read_shape_keys(made, 8), lambda _: np.ones(8))
-        assert np.abs(found - shown(made)).max() < 1e-5, time
