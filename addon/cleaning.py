@@ -108,7 +108,7 @@ class CleanJob(TimedRun):
             write_cleaned(target, self.arrays, made)
         with control_mesh(context, target) as mesh:
             arrays = read_mesh(mesh)
-        store_defects(context, target, self._left(arrays, made), listed(arrays, self.shape), said)
+        store_defects(context, target, self._left(arrays), listed(arrays, self.shape), said)
         self.note()
         return said
 
@@ -121,25 +121,14 @@ class CleanJob(TimedRun):
         left = "; ".join(errors.what(defect).rstrip(".") for defect in as_dicts(found.left))
         return f"{begin}; left: {left or 'nothing'}"
 
-    def _left(self, arrays: core.ControlArrays, made: Cleaned) -> list[dict[str, Any]]:
+    def _left(self, arrays: core.ControlArrays) -> list[dict[str, Any]]:
         """The remaining defects, with element ids of the written mesh."""
-        found = as_dicts(self.result.left)
-        corners: list[list[Any]] = [
-            [_corners(made, f) for f in defect["elements"]]
-            if defect["kind"] == "face"
-            else defect["elements"]
-            for defect in found
-        ]
-        vertex, face = _numbers(arrays, made, corners)
-        for defect, its in zip(found, corners, strict=True):
-            if defect["kind"] == "face":
-                ids = [face.get(frozenset(each)) for each in its]
-                defect["elements"] = [i for i in ids if i is not None]
-            elif defect["kind"] == "vertex":
-                defect["elements"] = [vertex[v] for v in its]
-            elif defect["kind"] == "edge":
-                defect["elements"] = [[vertex[v] for v in each] for each in its]
-        return found
+        if not self.result.left:
+            return []
+        mesh = self.shape.of(arrays.positions), (arrays.corners, arrays.offsets)
+        found = as_dicts(core.module().cleaning.left_in(*mesh))
+        said = {defect.code: defect.message for defect in self.result.left}
+        return [each | {"message": said.get(each["code"], each["message"])} for each in found]
 
 
 # by code of a defect: the text of a button, and the step that mends it
@@ -165,32 +154,6 @@ def repair(context: Context, target: Object, code: str) -> None:
     job = CleanJob(context, target, CleanOptions(steps, islands=0.0, largest=0.0))
     job.compute()
     job.apply(context)
-
-
-def _corners(made: Cleaned, face: int) -> list[int]:
-    return cast(list[int], made.corners[made.offsets[face] : made.offsets[face + 1]].tolist())
-
-
-def _numbers(
-    arrays: core.ControlArrays, made: Cleaned, elements: list[Any]
-) -> tuple[dict[int, int], dict[frozenset[int], int]]:
-    """Maps lists of vertices in `elements`, with ids of the computed mesh, to ids of the written mesh:
-    each vertex, and each face by its vertices. Found by position, since BMesh numbers new elements
-    itself.
-    """
-    wanted = np.unique([v for its in elements for each in its for v in np.ravel(each)]).astype(int)
-    places = made.positions[wanted].astype(np.float32)
-    now = arrays.positions.astype(np.float32)
-    near = np.flatnonzero(np.isin(now[:, 0], places[:, 0]))
-    order = {tuple(p): i for i, p in zip(near.tolist(), now[near].tolist(), strict=True)}
-    ids = [order.get(tuple(p), 0) for p in places.tolist()]
-    back = np.full(len(now), -1)
-    back[ids] = wanted
-    named = back[arrays.corners]
-    ends = arrays.offsets
-    faces = np.flatnonzero(np.minimum.reduceat(named, ends[:-1]) >= 0).tolist()
-    by_vertices = {frozenset(named[ends[f] : ends[f + 1]].tolist()): f for f in faces}
-    return dict(zip(wanted.tolist(), ids, strict=True)), by_vertices
 
 
 def _marked(arrays: core.ControlArrays) -> np.ndarray:

@@ -6,8 +6,6 @@ An undo step contains `was_on`, which follows the switch, but no session.
 
 from typing import Any
 
-import bpy
-
 from .. import events
 from ..blender import Object, all_objects
 from . import cage, registry, switch
@@ -22,11 +20,10 @@ def _note(*_: Any) -> None:
 
 
 def _restore(*_: Any) -> None:
-    """Switches on the live surfaces of the opened file; without a window only those for renders."""
+    """Switches on the live surfaces of the opened file that are live in renders."""
     for target in _surfaces():
         live = target.discrete_fairing_live
-        wanted = live.was_on and live.keep_on
-        if wanted and (live.in_renders or not bpy.app.background):
+        if live.was_on and live.in_renders:
             switch.switch_on(target)
         if not switch.is_on(target):
             cage.restore(target)

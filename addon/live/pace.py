@@ -5,7 +5,7 @@ slow.
 No Blender.
 """
 
-from time import monotonic, perf_counter
+from time import monotonic
 
 MAX_TRIANGLES = 250_000  # above this the level is lowered from the start
 SLOW = 0.25  # seconds; slower updates lower the level by one
@@ -59,20 +59,3 @@ class Deadline:
     def __call__(self, _fraction: float, _phase: str) -> bool:
         self.is_over = monotonic() > self._end
         return not self.is_over
-
-
-class Clock:
-    """Measures the parts of an update in milliseconds."""
-
-    def __init__(self) -> None:
-        self.parts: dict[str, float] = {}
-        self._last = perf_counter()
-
-    def lap(self, name: str) -> None:
-        now = perf_counter()
-        self.parts[name] = 1e3 * (now - self._last)
-        self._last = now
-
-    @property
-    def total(self) -> float:
-        return sum(self.parts.values())

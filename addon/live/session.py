@@ -3,6 +3,7 @@
 
 from collections.abc import Collection
 from contextlib import AbstractContextManager
+from time import perf_counter
 from typing import Any, TypeAlias
 
 import bpy
@@ -25,7 +26,7 @@ from ..queue import progress_text
 from ..settings import Settings, halves, is_evaluated
 from .full_level import FullLevel, Schedule, is_dragging
 from .others import Others
-from .pace import Clock, Deadline, Pace
+from .pace import Deadline, Pace
 from .registry import why_gone
 
 # accurate enough for display, and usually one step an update; the full level has the core's default
@@ -49,8 +50,7 @@ class Session:
         self.trouble = ""
         self.level = 0  # level of the surface shown last
         self.triangles = 0
-        # milliseconds of the last update: read, build, solve, write
-        self.parts: dict[str, float] = {}
+        self.seconds = 0.0  # of the last update
         self.updates = 0
         self._stale = True  # whether the mesh may differ from the one written
         # whether the timer must check, because Blender's update did not show a change
@@ -137,7 +137,7 @@ class Session:
         return True
 
     def _follow(self, source: Object, target: Object, depsgraph: Update) -> bool:
-        clock = Clock()
+        began = perf_counter()
         if not self._has_settings_of(source, target):
             self._forget()
             self._settings = Settings.of(target.discrete_fairing)
@@ -151,7 +151,6 @@ class Session:
             if not self._has_values_of(arrays):
                 self._tolerance_factors = tolerance_factors(source, mesh, self._settings)
                 self._pulls = vertex_pulls(source, mesh, self._settings)
-        clock.lap("read")
         is_new = self._prepare(source, arrays, depsgraph)
         if not (is_new or self._stale or self.trouble) and np.array_equal(
             arrays.positions, self._arrays.positions
@@ -159,14 +158,11 @@ class Session:
             return False
         self.cancel_full()
         self._arrays = arrays
-        clock.lap("build")
         result = self._solve(source, arrays, depsgraph)
-        clock.lap("solve")
         self._write(source, target, result, depsgraph)
-        clock.lap("write")
+        self.seconds, self.trouble = perf_counter() - began, ""
         if result.report["warm"] or not is_new:
-            self._pace.note(self.level, self._arguments["energy"], clock.total / 1e3)
-        self.parts, self.trouble = clock.parts, ""
+            self._pace.note(self.level, self._arguments["energy"], self.seconds)
         self.updates += 1
         self._schedule.plan()
         return True

@@ -4,7 +4,7 @@
 from typing import Any
 
 import bpy
-from bpy.props import BoolProperty, FloatProperty, IntProperty, StringProperty
+from bpy.props import BoolProperty, IntProperty, StringProperty
 
 from .. import core
 from ..blender import Context, Object, all_objects, current_context
@@ -114,7 +114,7 @@ def lines(target: Object) -> list[str]:
     found = []
     if session.triangles:
         found.append(f"Level {session.level}: {count_text(session.triangles)}")
-        found.append(f"Last update: {sum(session.parts.values()):.1f} ms")
+        found.append(f"Last update: {1e3 * session.seconds:.1f} ms")
     found += session.slower
     if session.full_text:
         found.append(f"Full level: {session.full_text}")
@@ -156,11 +156,6 @@ def _in_renders_changed(group: Any, _context: Context) -> None:
             scene.render.use_lock_interface = True
 
 
-def _milliseconds(group: Any) -> float:
-    session = registry.session_of(group.id_data)
-    return sum(session.parts.values()) if session is not None else 0.0
-
-
 class FAIRING_PG_live(bpy.types.PropertyGroup):
     """How a faired object follows its source. Files store all except `on`."""
 
@@ -178,14 +173,9 @@ class FAIRING_PG_live(bpy.types.PropertyGroup):
         max=10,
         soft_max=5,
     )
-    keep_on: BoolProperty(
-        name="Keep On in File",
-        description="If the file is saved while Live is on, it is on again when the file is opened",
-        default=False,
-    )
     in_renders: BoolProperty(
         name="Live in Renders",
-        description="The surface follows frame by frame in renders too, at its Live Levels, and the window waits meanwhile",
+        description="The surface follows frame by frame in renders too, at its Live Levels, and the window waits meanwhile. Live is on again when the file is opened",
         default=False,
         update=_in_renders_changed,
     )
@@ -207,11 +197,6 @@ class FAIRING_PG_live(bpy.types.PropertyGroup):
     )
     status: StringProperty(
         name="Status", description="What Live is doing, or why it has ended", get=_status
-    )
-    milliseconds: FloatProperty(
-        name="Last Update",
-        description="How long the last update took, in milliseconds",
-        get=_milliseconds,
     )
 
 

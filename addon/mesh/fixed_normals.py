@@ -4,7 +4,7 @@ coordinates of the object. Shorter vectors, and no attribute, fix nothing; so on
 mix of a fixed normal and none fixes nothing.
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 
 import bmesh
 import numpy as np
@@ -13,7 +13,6 @@ from mathutils import Vector
 from ..blender import Mesh, Object, column
 from .layers import find_layer, layer_values
 from .mesh_changes import shown
-from .world_shape import world_matrix
 
 NORMAL = "fair_normal"
 
@@ -32,18 +31,19 @@ def read_normals(mesh: Mesh) -> np.ndarray | None:
 
 def fix(mesh: Mesh, normals: np.ndarray) -> int:
     """Fixes unit `normals` (n, 3) at selected vertices, in Edit Mode; returns their number."""
-    return _mark(mesh, lambda vertex: Vector(normals[vertex.index]))
-
-
-def fix_along(source: Object, axis: Vector) -> int:
-    """The same for the mesh of `source` along `axis`, in the world, on the outer side of the mesh."""
-    matrix = np.array(world_matrix(source))[:3, :3]
-    along = Vector(matrix.T @ np.array(axis)).normalized()
-
-    def towards(vertex: bmesh.types.BMVert) -> Vector:
-        return -along if along.dot(vertex.normal) < 0 else along
-
-    return _mark(source.data, towards)
+    edit = bmesh.from_edit_mesh(mesh)
+    if not any(v.select for v in edit.verts):
+        return 0
+    layer = edit.verts.layers.float_vector.get(NORMAL)
+    if layer is None:  # this invalidates references to vertices
+        layer = edit.verts.layers.float_vector.new(NORMAL)
+    edit.normal_update()
+    edit.verts.index_update()
+    chosen = [v for v in edit.verts if v.select and v.link_faces]
+    for vertex in chosen:
+        vertex[layer] = Vector(normals[vertex.index])
+    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
+    return len(chosen)
 
 
 def free(mesh: Mesh) -> int:
@@ -82,19 +82,3 @@ def own_normals(mesh: Mesh) -> np.ndarray:
     np.add.at(sums, corners, column(mesh.corner_normals, "vector", width=3).astype(float))
     length = np.linalg.norm(sums, axis=1, keepdims=True)
     return np.divide(sums, length, out=np.zeros_like(sums), where=length > 0)
-
-
-def _mark(mesh: Mesh, normal_of: Callable[[bmesh.types.BMVert], Vector]) -> int:
-    edit = bmesh.from_edit_mesh(mesh)
-    if not any(v.select for v in edit.verts):
-        return 0
-    layer = edit.verts.layers.float_vector.get(NORMAL)
-    if layer is None:  # this invalidates references to vertices
-        layer = edit.verts.layers.float_vector.new(NORMAL)
-    edit.normal_update()
-    edit.verts.index_update()
-    chosen = [v for v in edit.verts if v.select and v.link_faces]
-    for vertex in chosen:
-        vertex[layer] = normal_of(vertex)
-    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
-    return len(chosen)

@@ -50,7 +50,7 @@ def _draw_target(layout: bpy.types.UILayout, context: Context, target: Object) -
     layout.prop(live, "levels")
     if live.on:
         switches = layout.column(align=True, heading="Options")
-        for name in ("cage_as_wire", "keep_on", "in_renders"):
+        for name in ("cage_as_wire", "in_renders"):
             switches.prop(live, name)
         render = context.scene.render
         if live.in_renders and not render.use_lock_interface:

@@ -89,8 +89,7 @@ class VIEW3D_MT_fairing_normals(bpy.types.Menu):
 
     def draw(self, _context: Context) -> None:
         layout: Any = self.layout
-        for origin, text in (("MESH", "Fix as in the Mesh"), ("EMPTY", "Fix along Z of the Empty")):
-            layout.operator("object.fairing_fix_normal", text=text).origin = origin
+        layout.operator("object.fairing_fix_normal", text="Fix as in the Mesh")
         layout.operator("object.fairing_free_normal")
 
 

@@ -177,7 +177,7 @@ REFUSED = {
             *each("NON_FINITE", "Point 20", points=[[[0, 0, 1.0]] * 20 + [[0, NAN, 0]]]),
             *each(SHAPE, "units", points=[1000 * SCAN, SCAN / 1000]),
             *each(SHAPE, "Move", points=[SCAN + [9, 0, 0]]),
-            *each(SHAPE, "(S, 3)", points=[np.zeros((5, 2))]),
+            *each(SHAPE, "(n, 3)", points=[np.zeros((5, 2))]),
         ],
     ),
 }

@@ -16,13 +16,13 @@ from numpy.typing import ArrayLike
 from .errors import fairing_error
 
 
-def vertex_array(vertices: ArrayLike) -> np.ndarray:
+def vertex_array(vertices: ArrayLike, name: str = "vertices") -> np.ndarray:
     """(n, 3) float64, C-contiguous. Raises FairingError BAD_SHAPE."""
-    array = numbers(vertices, "vertices", "iuf")
+    array = numbers(vertices, name, "iuf")
     if array.size == 0 and array.ndim <= 2:
         array = array.reshape(0, 3)
     if array.ndim != 2 or array.shape[1] != 3:
-        raise fairing_error("BAD_SHAPE", f"vertices has shape {array.shape}; it must be (n, 3).")
+        raise fairing_error("BAD_SHAPE", f"{name} has shape {array.shape}; it must be (n, 3).")
     return plain(array, np.float64)
 
 

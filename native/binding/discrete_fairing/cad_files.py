@@ -44,13 +44,6 @@ def cad_parts(
     ]
 
 
-def require_unit(unit: object) -> None:
-    """Raises FairingError BAD_OPTION for anything but one of UNITS."""
-    if not isinstance(unit, str) or unit not in UNITS:
-        known = " or ".join(f'"{name}"' for name in UNITS)
-        raise fairing_error("BAD_OPTION", f"unit is {unit!r}; it must be {known}.")
-
-
 def _scaled(patches: object, factor: float, k: int) -> SplinePatches:
     """The patches times `factor`. Refuses numbers that are not finite, which no program reads."""
     if not isinstance(patches, SplinePatches):

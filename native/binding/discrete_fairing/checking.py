@@ -75,7 +75,7 @@ def predicted_size(
         raise fairing_error(
             "BAD_OPTION", f"levels is {depth}; it must be from 0 to {_native.most_levels}."
         )
-    functional = choice(_native.Energy)("energy", energy)
+    functional = choice(_native.Energy.__members__)("energy", energy)
     corners, offsets = face_arrays(faces)
 
     def of(copies: int) -> dict[str, int]:

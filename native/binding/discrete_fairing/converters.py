@@ -4,8 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from enum import Enum
-from math import isfinite
+from math import inf, isfinite
 from typing import Any, cast
 
 import numpy as np
@@ -92,9 +91,8 @@ def normal_rows(name: str, normals: ArrayLike) -> np.ndarray:
     return array.reshape(-1)
 
 
-def choice(enum: type[Enum]) -> Callable[[str, object], Any]:
-    """The converter of a setting whose values are the names of one of the core's enums."""
-    members = enum.__members__
+def choice(members: Mapping[str, Any]) -> Callable[[str, object], Any]:
+    """The converter of a setting whose values are names, such as those of one of the core's enums."""
     listed = " or ".join(f'"{member}"' for member in members)
 
     def chosen(name: str, value: object) -> Any:
@@ -148,11 +146,12 @@ def positive(name: str, value: object) -> float:
     return number
 
 
-def distance(name: str, value: object) -> float:
-    """A finite number, 0 or more."""
+def size(name: str, value: object, most: float = inf) -> float:
+    """A finite number, from 0 to `most`."""
     number = real(name, value)
-    if number < 0:
-        raise fairing_error("BAD_OPTION", f"{name} is {number}; it must be 0 or more, or None.")
+    if not 0 <= number <= most:
+        limit = "0 or more" if most == inf else f"from 0 to {most:g}"
+        raise fairing_error("BAD_OPTION", f"{name} is {number}; it must be {limit}.")
     return number
 
 

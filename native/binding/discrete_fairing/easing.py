@@ -4,15 +4,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
 from .arrays import fixed_vertices, vertex_array
+from .converters import size, whole
 from .errors import fairing_error
 from .halves import Control
+from .options import CommonSettings
 from .watching import Progress, check_watchers
 
 
@@ -61,10 +63,12 @@ def ease(
     most: int | None = None,
     fixed: ArrayLike | None = None,
     amount: float | None = None,
+    levels: int = 3,
+    normals: ArrayLike | None = None,
     symmetry_plane: str | None = None,
     progress: Progress | None = None,
     monitor: _native.Monitor | None = None,
-    **settings: Any,  # AllSettings, but for tolerance
+    **settings: Unpack[CommonSettings],
 ) -> Eased:
     """Move control vertices of the thin plate so little, and so, that they stop fighting it.
 
@@ -74,8 +78,8 @@ def ease(
 
     Parameters
     ----------
-    vertices, faces, symmetry_plane, progress, monitor
-        As of fair(). Vertices in the symmetry plane stay in it.
+    vertices, faces, levels, normals, symmetry_plane, progress, monitor
+        As of fair(). Levels above the second change nothing; vertices in the symmetry plane stay in it.
     tolerance
         Mesh units: a float or (n,) floats, 0 or more. No vertex moves farther: those that would
         stop at their bound, and the others make the best of that. The amount is as without one; where
@@ -89,8 +93,7 @@ def ease(
         0 or more, without a unit: how much to ease; 1 takes half of what scatters from one vertex to
         the next. None: by robust generalized cross-validation (Lukas 2006).
     settings
-        Those of fair(), but for shapes. The thin plate on pads, through all its control vertices;
-        levels above the second change nothing.
+        Those of fair(), for the thin plate on pads, through all its control vertices.
 
     Raises
     ------
@@ -101,14 +104,23 @@ def ease(
     check_watchers(progress, monitor)
     start = vertex_array(vertices)
     bounds, stays = _bounds(tolerance, len(start)), fixed_vertices(fixed, len(start))
-    chosen = _most(most, tolerance)
-    control = Control(start, faces, dict(settings), symmetry_plane)
+    strength = -1.0 if amount is None else min(size("amount", amount), 1e6)
+    count = 0 if most is None else whole("most", most)
+    for name, value in (("tolerance", tolerance), ("amount", amount)):
+        if most is not None and value is not None:
+            raise fairing_error(
+                "BAD_OPTION", f"most and {name} exclude each other.", cure="Give one."
+            )
+    if most is not None and not count:
+        raise fairing_error("BAD_OPTION", "most is 0; it must be 1 or more.")
+    given: dict[str, Any] = {**settings, "levels": levels, "normals": normals}
+    control = Control(start, faces, given, symmetry_plane)
     with control.named():
         found = _native.ease(
             *control.arrays,
             control.values(bounds),
-            _amount(amount, most),
-            chosen,
+            strength,
+            count,
             control.values(stays.astype(np.uint8)),
             control.options,
             monitor or _native.Monitor(),
@@ -128,29 +140,3 @@ def _bounds(tolerance: ArrayLike | None, count: int) -> np.ndarray:
             "BAD_OPTION", f"tolerance must be a length, or {count} of them, and not below 0."
         )
     return np.ascontiguousarray(np.broadcast_to(bounds, (count,)))
-
-
-def _amount(amount: float | None, most: int | None) -> float:
-    if amount is None:
-        return -1.0
-    if most is not None:
-        raise fairing_error("BAD_OPTION", "most and amount exclude each other.", cure="Give one.")
-    if (
-        isinstance(amount, bool)
-        or not isinstance(amount, (int, float, np.number))
-        or not amount >= 0
-    ):
-        raise fairing_error("BAD_OPTION", f"amount is {amount!r}; it must be 0 or more.")
-    return float(min(amount, 1e6))
-
-
-def _most(most: int | None, tolerance: ArrayLike | None) -> int:
-    if most is None:
-        return 0
-    if tolerance is not None:
-        raise fairing_error(
-            "BAD_OPTION", "most and tolerance exclude each other.", cure="Give one."
-        )
-    if isinstance(most, bool) or not isinstance(most, (int, np.integer)) or most < 1:
-        raise fairing_error("BAD_OPTION", f"most is {most!r}; it must be an integer, 1 or more.")
-    return min(int(most), 2**31 - 1)

@@ -11,9 +11,9 @@ from numpy.typing import ArrayLike
 
 from . import _native
 from .arrays import face_arrays, index_array, vertex_array
+from .converters import choice, size
 from .crossings import in_whole, with_less_crossing
 from .edge_cuts import cuts_for, sides_of
-from .errors import fairing_error
 from .filled import Filled, SkippedHole, put_together
 from .mesh_part import MeshPart
 from .near_hole import NOISY_RINGS, RIMS, RINGS, NearHole, Wanted
@@ -123,13 +123,10 @@ def fill_holes(
         INDEX_OUT_OF_RANGE for missing vertices, CANCELLED, and the errors of check() for invalid arrays.
     """
     check_watchers(progress, monitor)
-    if joint not in RINGS:
-        raise fairing_error("BAD_OPTION", f"joint is {joint!r}; it must be one of {list(RINGS)}.")
-    if rim not in RIMS:
-        raise fairing_error("BAD_OPTION", f"rim is {rim!r}; it must be one of {list(RIMS)}.")
+    choice(RINGS)("joint", joint)
     native_options({"energy": energy, "threads": threads})  # refuses what fair() would
-    if not (isinstance(density, int | float) and 0.0 <= density <= 100.0):
-        raise fairing_error("BAD_OPTION", f"density is {density!r}; it must be from 0 to 100.")
+    noisy = choice(RIMS)("rim", rim)
+    wanted = Wanted(energy, joint, noisy, size("density", density, 100.0))
     points = vertex_array(vertices)
     corners, offsets = face_arrays(faces)
     watched = SeveralRuns(progress, monitor, threads)
@@ -143,10 +140,9 @@ def fill_holes(
         skipped = [SkippedHole.of([], why, whole.vertex_ids) for why in unclear]
     else:
         asked = asked_holes(holes)
-    mesh = _around(whole, asked, NOISY_RINGS if rim == "noisy" else max(RINGS.values()))
+    mesh = _around(whole, asked, NOISY_RINGS if noisy else max(RINGS.values()))
     loops = asked if mesh is whole else [[mesh.renumbered(loop) for loop in hole] for hole in asked]
     filler = _native.Filler(mesh.points, mesh.corners, mesh.offsets)
-    wanted = Wanted(energy, joint, rim == "noisy", float(density))
     by_row, why = _triangulated(filler, loops, wanted.triangles, watchers)
     flat = [asked[row] for row, reason in why.items() if reason["code"] == "DEGENERATE_FACE"]
     cuts = cuts_for(points, corners, offsets, [hole[0] for hole in flat if len(hole) == 1])

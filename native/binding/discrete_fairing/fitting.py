@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,6 +14,7 @@ from .arrays import face_arrays, vertex_array
 from .checking import predicted_size
 from .converters import switch, whole
 from .fairing import fair
+from .options import CommonSettings
 from .patch_distances import distances_from
 from .patch_fits import PatchFits
 from .patch_levels import at_level, at_own_level
@@ -21,6 +22,18 @@ from .patches import SplinePatches
 from .result import Result
 from .scan_fitting import Fitted, fit
 from .watching import Progress, SeveralRuns, check_watchers
+
+
+class PatchSettings(CommonSettings, total=False):
+    """The settings of fit_patches() beside its own: those of fair()."""
+
+    energy: str
+    normals: ArrayLike | None
+    symmetry_plane: str | None
+    neighbour: tuple[ArrayLike, Any] | None
+    border: ArrayLike | None
+    halfway: bool
+    shapes: ArrayLike | Sequence[ArrayLike] | None
 
 
 def fit_patches(
@@ -35,10 +48,9 @@ def fit_patches(
     scan: Mapping[str, Any] | None = None,
     blend: Callable[[Result, int], np.ndarray] | None = None,
     groups: ArrayLike | None = None,
-    threads: int = 0,
     progress: Progress | None = None,
     monitor: _native.Monitor | None = None,
-    **options: Any,
+    **settings: Unpack[PatchSettings],
 ) -> SplinePatches:
     """Bicubic B-spline patches of a control mesh's fair surface, ready for CAD (write_step).
 
@@ -70,7 +82,7 @@ def fit_patches(
         shapes. Called for each surface, at each level; patches.result has the outcome.
     groups : (f,) int
         Faces of different numbers, such as materials, are in different patches.
-    threads, progress, monitor, **options
+    progress, monitor, **settings
         As those of fair(): energy, creases, boundary and so on.
 
     Returns
@@ -86,9 +98,10 @@ def fit_patches(
     """
     fits = PatchFits(tolerance, normal_tolerance, switch("force", force))
     check_watchers(progress, monitor)
+    options: dict[str, Any] = dict(settings)
     if fair_tolerance is not None:
         options["tolerance"] = fair_tolerance
-    runs = SeveralRuns(progress, monitor, whole("threads", threads))
+    runs = SeveralRuns(progress, monitor, whole("threads", options.pop("threads", 0)))
     points = vertex_array(vertices)
     polygons = face_arrays(faces)
     if groups is not None:

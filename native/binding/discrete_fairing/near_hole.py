@@ -23,7 +23,7 @@ RINGS = {"position": 0, "tangent": 1, "curvature": 2}
 # noise of 0.02 and 0.1 edges (docs/developers/notes/filling.md).
 NOISY_RINGS, HELD_ROWS, NOISY_WEIGHT = 6, 2, 1.0
 
-RIMS = ("exact", "noisy")
+RIMS = {"exact": False, "noisy": True}
 
 
 @dataclass(frozen=True, slots=True)

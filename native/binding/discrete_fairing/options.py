@@ -18,13 +18,13 @@ from . import _native
 from .converters import (
     choice,
     corner_ids,
-    distance,
     edges_with_values,
     face_ids,
     lengths,
     normal_rows,
     pairs_by_boundary,
     real,
+    size,
     switch,
     vertex_pairs,
     weight_array,
@@ -54,8 +54,8 @@ def native_options(settings: Mapping[str, Any]) -> _native.Options:
     return options
 
 
-class Settings(TypedDict, total=False):
-    """The settings of fair(), Solver, strain(), ease() and pieces(), beside `levels` and `energy`."""
+class CommonSettings(TypedDict, total=False):
+    """The settings of all functions that make a surface; `tolerance` and `normals` are others for some."""
 
     metric_exponent: Annotated[float, real]
     """From 0 to 1, 0.5: charts are made from control edge lengths to this power: 1 the paper's, 0
@@ -64,11 +64,11 @@ class Settings(TypedDict, total=False):
     chart_blend: Annotated[float, real]
     """From 0 to 1, 1: the paper's linear blend of charts: 0 uniform, 1 the chart itself."""
 
-    chart: Annotated[Literal["exponential", "tangent"], choice(_native.Chart)]
+    chart: Annotated[Literal["exponential", "tangent"], choice(_native.Chart.__members__)]
     """Exponential map of the control metric, or projection to its tangent planes."""
 
     interpolation: Annotated[
-        Literal["exact", "approximate", "limit"] | None, choice(_native.Interpolation)
+        Literal["exact", "approximate", "limit"] | None, choice(_native.Interpolation.__members__)
     ]
     """None: approximate where there is a tolerance or weights, else exact. Exact: control vertices
     stay, to the last bit. Approximate: they move, within `tolerance` or against `weights`; vertices
@@ -77,11 +77,6 @@ class Settings(TypedDict, total=False):
     for cages drawn to look right under subdivision. The first n rows of `vertices` are then the limit
     positions. Creases, borders and corners have their own rules [DeRose, Kass, Truong 1998]; vertices
     at corners and on straight borders, and those not inside a region, stay."""
-
-    tolerance: Annotated[float | ArrayLike, lengths]
-    """Mesh units, one number or (n,), 0. Approximate: the farthest that any control vertex moves, or
-    each of them; the energy is as low as that allows. One number 0 means none. In an array, 0
-    interpolates a vertex, and infinity leaves it to its weight."""
 
     weights: Annotated[ArrayLike | None, weight_array]
     """(n,) float, dimensionless. Approximate: the pull of each control vertex on the surface. 0 leaves
@@ -110,10 +105,6 @@ class Settings(TypedDict, total=False):
     length along all edges, at 1 up to 1.5 times the shortest edge at its vertex, and less where the
     mesh turns unevenly. The surface still passes through every vertex."""
 
-    normals: Annotated[ArrayLike | None, normal_rows]
-    """(n, 3) float: the surface's normal at each control vertex, of any length; NaN or zero: none.
-    Vertices on curves take none (report["warnings"]). For the thin plate, from level 1 on."""
-
     tension: Annotated[float, real]
     """From 0 to 1, 0: a membrane stretched over the control mesh beside its bending, against swelling
     and overshoots: 0 none, 1 as taut as is of use."""
@@ -140,7 +131,7 @@ class Settings(TypedDict, total=False):
     corner_angle: Annotated[float | None, real]
     """Radians: curves that turn by more at a vertex end there. None: no such rule."""
 
-    boundary: Annotated[Literal["curve", "linear", "free"], choice(_native.Boundary)]
+    boundary: Annotated[Literal["curve", "linear", "free"], choice(_native.Boundary.__members__)]
     """A smooth curve through the boundary's own vertices ("curve", the default), its straight edges,
     or fixed at its vertices only."""
 
@@ -152,21 +143,23 @@ class Settings(TypedDict, total=False):
     region: Annotated[ArrayLike | None, face_ids]
     """(r,) int: the faces to fair; all others are refined linearly, and stay. None: all faces."""
 
-    joint: Annotated[Literal["position", "tangent", "curvature"], choice(_native.RegionContinuity)]
+    joint: Annotated[
+        Literal["position", "tangent", "curvature"], choice(_native.RegionContinuity.__members__)
+    ]
     """How the region meets the other faces: along straight edges, with their tangent planes (the
     default), or with curvature that fades out as well. A crease on the joint makes it "position"
     there."""
 
-    repair: Annotated[Literal["refuse", "mend"], choice(_native.Repair)]
+    repair: Annotated[Literal["refuse", "mend"], choice(_native.Repair.__members__)]
     """What happens to a mesh with defects. Mend: duplicate faces, doubled corners, sides without
     length and faces without area go, and faces that look the wrong way turn over (report["repairs"],
     result.mended). All ids, of creases, regions and the result, stay those of the mesh as given."""
 
-    weld: Annotated[float | None, distance]
+    weld: Annotated[float | None, size]
     """Mesh units, with repair="mend": vertices no farther apart become one; 0: those at one point.
     None: no welding."""
 
-    method: Annotated[Literal["multigrid", "back_leg"], choice(_native.Method)]
+    method: Annotated[Literal["multigrid", "back_leg"], choice(_native.Method.__members__)]
     """The solution of the linear system, or the paper's own refine-and-smooth with `sweeps` sweeps a
     level."""
 
@@ -202,6 +195,19 @@ class Settings(TypedDict, total=False):
     up to half of a run's time again."""
 
 
+class Settings(CommonSettings, total=False):
+    """The settings of fair(), Solver and strain(), beside `levels` and `energy`."""
+
+    tolerance: Annotated[float | ArrayLike, lengths]
+    """Mesh units, one number or (n,), 0. Approximate: the farthest that any control vertex moves, or
+    each of them; the energy is as low as that allows. One number 0 means none. In an array, 0
+    interpolates a vertex, and infinity leaves it to its weight."""
+
+    normals: Annotated[ArrayLike | None, normal_rows]
+    """(n, 3) float: the surface's normal at each control vertex, of any length; NaN or zero: none.
+    Vertices on curves take none (report["warnings"]). For the thin plate, from level 1 on."""
+
+
 class AllSettings(Settings, total=False):
     """All settings: also those that fair() and Solver take as positional arguments."""
 
@@ -210,7 +216,8 @@ class AllSettings(Settings, total=False):
     quads."""
 
     energy: Annotated[
-        Literal["thin_plate", "total_curvature", "minimum_variation"], choice(_native.Energy)
+        Literal["thin_plate", "total_curvature", "minimum_variation"],
+        choice(_native.Energy.__members__),
     ]
     """Thin plate: the paper's quadratic energy over charts of the control mesh, one linear solve
     [Kobbelt 1997a, section 4]. Total curvature: the integral of k1**2 + k2**2 over the surface itself,

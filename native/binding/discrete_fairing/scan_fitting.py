@@ -4,16 +4,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
-from .arrays import fixed_vertices, index_array, numbers, plain
+from .arrays import fixed_vertices, index_array, vertex_array
 from .converters import positive
 from .errors import fairing_error, written_report
 from .halves import Control, Half
+from .options import CommonSettings
 from .result import Result
 from .watching import Progress, check_watchers
 
@@ -70,7 +71,7 @@ def fit(
     symmetry_plane: str | None = None,
     progress: Progress | None = None,
     monitor: _native.Monitor | None = None,
-    **options: Any,
+    **settings: Unpack[CommonSettings],
 ) -> Fitted:
     """The fairest surface near a scan: the thin plate of a coarse control mesh, drawn to points.
 
@@ -99,9 +100,8 @@ def fit(
         Control vertices that stay where they are, as points: there are no pads under them.
     symmetry_plane
         As of fair(); the scan is that of the whole, and both halves' points count.
-    **options
-        Further settings of fair(), but for those that move control vertices. Without triangles
-        boundary is "free".
+    **settings
+        Those of fair(), but for those that move control vertices. Without triangles boundary is "free".
 
     Raises
     ------
@@ -110,14 +110,17 @@ def fit(
         INCONSISTENT_ORIENTATION where most normals are against those of the control mesh.
     """
     check_watchers(progress, monitor)
-    scan, outward, sides = _points(points), _normals(normals), _triangles(triangles)
+    scan, outward = vertex_array(points, "points"), np.empty((0, 3))
+    if normals is not None:
+        outward = vertex_array(normals, "normals")
+    sides = np.empty(0, np.int64) if triangles is None else _triangles(triangles)
     bound = 0.0 if tolerance is None else positive("tolerance", tolerance)
     strength = 0.0 if weight is None else positive("weight", weight)
     if bound and strength:
         raise fairing_error(
             "BAD_OPTION", "tolerance and weight exclude each other.", cure="Give one."
         )
-    if options.get("pad_size", 0):
+    if settings.get("pad_size", 0):
         raise fairing_error(
             "BAD_OPTION",
             "A fit has no pads: fixed vertices are points.",
@@ -125,7 +128,7 @@ def fit(
         )
     # without the border of a mesh nothing along the surface fixes a border curve
     border = {"boundary": "free"} if triangles is None else {}
-    control = Control(vertices, faces, {**border, **options, "levels": levels}, symmetry_plane)
+    control = Control(vertices, faces, {**border, **settings, "levels": levels}, symmetry_plane)
     stays, half = fixed_vertices(fixed, control.count), control.half
     if half:
         scan, sides, _ = half.beside(scan, sides, np.arange(0, len(sides) + 1, 3))
@@ -159,22 +162,7 @@ def _of_half(half: Half, found: dict[str, Any], count: int) -> dict[str, Any]:
     return found
 
 
-def _points(points: ArrayLike) -> np.ndarray:
-    array = numbers(points, "points", "iuf")
-    if array.size == 0:
-        array = array.reshape(0, 3)
-    if array.ndim != 2 or array.shape[1] != 3:
-        raise fairing_error("BAD_SHAPE", f"points has shape {array.shape}; it must be (S, 3).")
-    return plain(array, np.float64)
-
-
-def _normals(normals: ArrayLike | None) -> np.ndarray:
-    return np.empty((0, 3)) if normals is None else _points(normals)
-
-
-def _triangles(triangles: ArrayLike | None) -> np.ndarray:
-    if triangles is None:
-        return np.empty(0, np.int64)
+def _triangles(triangles: ArrayLike) -> np.ndarray:
     array = index_array(triangles, "triangles")
     if array.size and (array.ndim != 2 or array.shape[1] != 3):
         raise fairing_error("BAD_SHAPE", f"triangles has shape {array.shape}; it must be (T, 3).")

@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
-from .cad_files import UNITS, Part, cad_parts, require_unit
+from .cad_files import UNITS, Part, cad_parts
+from .converters import choice
 from .patches import SplinePatches
 from .whole_files import file_name, whole_file
 
@@ -49,7 +50,7 @@ def write_step(
 
     Raises FairingError BAD_OPTION, and OSError where the file cannot be written.
     """
-    require_unit(unit)
+    choice(UNITS)("unit", unit)
     parts = cad_parts(patches, scale, names, colours)
     name = file_name(path)
     with (

@@ -6,7 +6,7 @@ import pytest
 from live_scenes import box, live, pull, session, through
 from scenes import CUBE, activate, add, again, positions, reopen
 
-from addon.live import kept, registry
+from addon.live import kept
 
 FRAMES = (1, 11)
 
@@ -52,20 +52,15 @@ def test_frames_are_followed(way, hidden):
         assert (height != 0.0) == (frame != 1)
 
 
-@pytest.mark.parametrize("keep", [False, True])
-@pytest.mark.parametrize("window", [False, True])
-def test_files_keep_it_where_asked(tmp_path, monkeypatch, keep, window):
+@pytest.mark.parametrize("on", [False, True])
+def test_files_keep_it_where_it_is_on_in_renders(tmp_path, on):
     source, target = box()
-    target.discrete_fairing_live.keep_on = keep
+    target.discrete_fairing_live.in_renders = on
     reopen(tmp_path)
     target = bpy.data.objects["Box Fair"]
-    assert not registry.sessions(), "nothing follows where there is no window"
     target.discrete_fairing.source.display_type = "WIRE"
     target.discrete_fairing_live.cage_display = "TEXTURED"
-    if window:
-        target.discrete_fairing_live.in_renders = True  # as good as a window
     kept._restore()
-    on = keep and window
     assert target.discrete_fairing_live.on == on
     assert (target.discrete_fairing.source.display_type == "WIRE") == on
     if on:

@@ -4,7 +4,7 @@
 import bpy
 import numpy as np
 import pytest
-from mathutils import Euler, Vector
+from mathutils import Vector
 from scenes import computed, edit, fair, positions, settings, to_object_mode
 from test_boundary_marks import sheet
 
@@ -17,9 +17,9 @@ INSIDE = 5  # vertex (1, 1) of the sheet
 TILTED = (0.6, 0.0, 0.8)
 
 
-def fix(target, *vertices, origin="MESH"):
+def fix(target, *vertices):
     edit(target, "VERT", vertices)
-    answer = bpy.ops.object.fairing_fix_normal(origin=origin)
+    answer = bpy.ops.object.fairing_fix_normal()
     to_object_mode()
     return answer
 
@@ -35,14 +35,6 @@ def marks(target):
     """{vertex: normal} of those that are fixed."""
     normals = read_normals(target.data)
     return {} if normals is None else {int(v): normals[v] for v in np.flatnonzero(normals.any(1))}
-
-
-def empty(rotation):
-    made = bpy.data.objects.new("Empty", None)
-    made.rotation_euler = rotation
-    bpy.context.collection.objects.link(made)
-    bpy.context.view_layer.update()
-    return made
 
 
 def slope(surface, source, vertex, axis=0):
@@ -72,28 +64,10 @@ def test_custom_normals_are_those_of_the_mesh():
     assert np.allclose(marks(source)[INSIDE], TILTED, atol=1e-3)
 
 
-@pytest.mark.parametrize("turned_over", [False, True])
-def test_an_empty_says_where_the_normal_looks(turned_over):
-    source = sheet()
-    source.rotation_euler = (0.3, 0.2, 0.1)
-    source.scale = (1, 2, 1)
-    made = empty(Euler((0.5 + np.pi * turned_over, 0.2, 0)))
-    axis = np.array(made.matrix_world)[:3, 2] * (-1 if turned_over else 1)
-    edit(source, "VERT", range(16))
-    made.select_set(True)
-    assert bpy.ops.object.fairing_fix_normal(origin="EMPTY") == {"FINISHED"}
-    to_object_mode()
-    linear = np.array(source.matrix_world)[:3, :3]
-    in_the_world = np.linalg.inv(linear).T @ marks(source)[INSIDE]
-    assert np.allclose(in_the_world / np.linalg.norm(in_the_world), axis, atol=1e-5)
-
-
 def test_without_a_vertex_nothing_is_fixed():
     source = sheet()
     with pytest.raises(RuntimeError, match="Select a vertex with faces"):
         fix(source)
-    with pytest.raises(RuntimeError, match="Select one empty"):
-        fix(source, INSIDE, origin="EMPTY")
     assert bpy.ops.object.fairing_fix_normal.poll()
     to_object_mode()
     assert NORMAL not in source.data.attributes

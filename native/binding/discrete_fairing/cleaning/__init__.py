@@ -2,6 +2,7 @@
 """The steps by which clean() makes a closed surface of a raw scan."""
 
 from .holes import hole_width, holes_to_fill
+from .left import left_in as left_in  # the add-on uses it
 from .run import clean
 from .steps import Act, Cleaned
 

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from .. import _native
 from ..arrays import face_arrays, vertex_array
-from ..converters import distance
+from ..converters import size
 from ..filling import asked_holes, fill_holes, with_islands
 from ..watching import SeveralRuns
 from .flat_rims import stood_on
@@ -51,7 +51,7 @@ def holes_to_fill(
     borders of sheets stay open. `holes` None: all holes of with_islands().
     Raises FairingError BAD_OPTION for a `largest` below 0, and the errors of with_islands().
     """
-    most, points = distance("largest", largest), vertex_array(vertices)
+    most, points = size("largest", largest), vertex_array(vertices)
     asked = asked_holes(with_islands(vertices, faces) if holes is None else holes)
     for hole in asked:
         if len(hole) > 1:

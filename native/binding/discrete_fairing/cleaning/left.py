@@ -7,10 +7,23 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .. import _native
+from ..arrays import face_arrays, vertex_array
 from ..checking import Defect, check
 from .state import State
+
+
+def left_in(vertices: ArrayLike, faces: ArrayLike | Sequence[Sequence[int]]) -> list[Defect]:
+    """What clean() would list as left in this mesh, which it has cleaned."""
+    state = State.of(vertex_array(vertices), *face_arrays(faces))
+    return all_left(state, (), (_native.Monitor(), None))
+
+
+def all_left(state: State, skipped: Sequence[Exception], watchers: tuple[Any, Any]) -> list[Defect]:
+    """Defects, open holes and faces that cross; `skipped`: the errors of holes that were left open."""
+    return _defects(state) + _open_holes(state, skipped) + _crossing(state, watchers)
 
 
 def is_watertight(state: State) -> bool:
@@ -20,7 +33,7 @@ def is_watertight(state: State) -> bool:
     return bool((sides.uses == 2).all() and (sides.forward[a] != sides.forward[b]).all())
 
 
-def defects(state: State) -> list[Defect]:
+def _defects(state: State) -> list[Defect]:
     """The defects that check() finds. Coincident points count only at borders; elsewhere parts touch."""
     found = check(state.points, (state.corners, state.offsets))
     sides = state.sides
@@ -34,7 +47,7 @@ def defects(state: State) -> list[Defect]:
     ]
 
 
-def open_holes(state: State, skipped: Sequence[Exception]) -> list[Defect]:
+def _open_holes(state: State, skipped: Sequence[Exception]) -> list[Defect]:
     """The border edges as one defect; `skipped`: the errors of holes that were left open."""
     sides = state.sides
     rows = np.flatnonzero(sides.at_border)
@@ -50,7 +63,7 @@ def open_holes(state: State, skipped: Sequence[Exception]) -> list[Defect]:
     return [Defect("OPEN_HOLE", text, list(map(tuple, ends.tolist())), "edge", "warning", False)]
 
 
-def crossing(state: State, watchers: tuple[Any, Any]) -> list[Defect]:
+def _crossing(state: State, watchers: tuple[Any, Any]) -> list[Defect]:
     """The faces that cross other faces, as one defect."""
     rows = state.triangle_corners
     found = _native._crossings(state.points, state.triangles().astype(np.int32), 0, *watchers)

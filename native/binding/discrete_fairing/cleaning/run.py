@@ -12,9 +12,8 @@ from numpy.typing import ArrayLike
 
 from .. import _native
 from ..arrays import face_arrays, fixed_vertices, vertex_array
-from ..converters import switch
+from ..converters import size, switch
 from ..denoising import denoised
-from ..errors import fairing_error
 from ..watching import Progress, SeveralRuns, check_watchers
 from . import topology
 from .state import State, all_pairs, diagonals, numbered_parts
@@ -120,8 +119,7 @@ def clean(
     }
     for name, value in switches.items():
         switch(name, value)
-    _require_number("islands", islands, 1.0)
-    _require_number("largest", largest, np.inf)
+    least, widest = size("islands", islands, 1.0), size("largest", largest)
     points = vertex_array(vertices)
     state = State.of(points, *face_arrays(faces))
     held = fixed_vertices(fixed, len(points))
@@ -140,8 +138,8 @@ def clean(
         run.step("normals", 0.18, run.watched(topology.turned_alike), TURNED)
     if join:
         run.step("join", 0.19, run.watched(topology.edges_cut), CUT)
-    if islands > 0.0:
-        apart = partial(_without_islands, share=float(islands))
+    if least > 0.0:
+        apart = partial(_without_islands, share=least)
         run.step("islands", 0.2, apart, "{island|islands} dropped")
     if inner:
         run.step("inner", 0.25, topology.without_inner, "{face|faces} inside dropped")
@@ -154,7 +152,7 @@ def clean(
     skipped: list[Any] = []
     if fill:
         settings = {"joint": joint, "energy": energy, "density": density, "rim": rim}
-        skipped = run.fill(float(largest), settings)
+        skipped = run.fill(widest, settings)
         if spikes or folds:
             run.press(held, spikes, folds, filled=True)
             if mend:
@@ -174,12 +172,6 @@ def clean(
 CUT = "{edge cut at a vertex on it|edges cut at vertices on them}"
 TURNED = "{face|faces} flipped"
 SPLIT = "{vertex|vertices} split where parts touched"
-
-
-def _require_number(name: str, value: Any, most: float) -> None:
-    if isinstance(value, bool) or not (isinstance(value, int | float) and 0.0 <= value <= most):
-        limit = f"from 0 to {most:g}" if np.isfinite(most) else "0 or more"
-        raise fairing_error("BAD_OPTION", f"{name} is {value!r}; it must be {limit}.")
 
 
 def _without_noise(state: State, fixed: np.ndarray) -> tuple[State, int]:

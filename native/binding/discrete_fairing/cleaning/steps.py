@@ -175,11 +175,8 @@ class Run:
     def cleaned(self, skipped: list[Any]) -> Cleaned:
         state, number = self.state.compact()
         self.state = state
-        found = left.defects(state)
-        found += left.open_holes(
-            state, [about(h.error, number[h.error.elements].tolist()) for h in skipped]
-        )
-        found += left.crossing(state, self.watchers)
+        why = [about(h.error, number[h.error.elements].tolist()) for h in skipped]
+        found = left.all_left(state, why, self.watchers)
         watertight = left.is_watertight(state)
         rows = np.zeros(len(state.face_origin), np.int64)
         volume = float(topology.volumes(state, rows, 1)[0]) if watertight else float("nan")
