@@ -62,7 +62,7 @@ bool Hierarchy::factors_cheaply(std::size_t index) const {
 }
 
 bool Hierarchy::continues(std::size_t index, const PcgResult& so_far, const PcgLimits& limits) {
-  if (so_far.iterations % probe_interval == first_probe) raise_degree(index, so_far, limits);
+  if (so_far.iterations % probe_interval == first_probe) raise_degree(so_far, limits);
   return !is_too_hard(index, limits);
 }
 
@@ -87,15 +87,19 @@ void Hierarchy::promote_to_coarsest(std::size_t index) {
 
 // Raises the smoother's degree by the gain of the iterations so far, which shows how hard the mesh
 // is, so that few iterations remain. (The work, iterations times degree, hardly changes.)
-void Hierarchy::raise_degree(std::size_t index, const PcgResult& result, const PcgLimits& limits) {
-  // The first iterations gain more than later ones, so the latest are used.
+void Hierarchy::raise_degree(const PcgResult& result, const PcgLimits& limits) {
   const int window = std::min(result.iterations, probe_interval);
-  const double gained =
-      std::log(result.history[result.history.size() - 1 - std::size_t(window)] / result.residual);
+  const auto gain_of = [&](const std::vector<double>& norms) {
+    const std::size_t back = std::min(norms.size(), std::size_t(window) + 1);
+    return std::log(norms[norms.size() - back] / norms.back());
+  };
+  double gained = gain_of(result.history);
+  // Beside faces much smaller than others residuals rise at first while the error falls.
+  if (gained <= 0) gained = gain_of(result.seen);
   const double missing =
       std::log(std::max(result.residual, result.energy_error) / limits.tolerance);
   const double ahead = gained > 0 ? window * missing / gained : 10.0 * iterations_wanted;
-  if (ahead <= iterations_wanted || corrects_eigenvalue(index)) return;
+  if (ahead <= iterations_wanted) return;
   const int degree = int(std::ceil(cycle_.degree * std::min(most_rise, ahead / iterations_wanted)));
   cycle_.degree = std::min(degree, limits.may_end_early ? most_degree_over_factor : most_degree);
 }

@@ -101,8 +101,7 @@ class Hierarchy {
   bool may_factor(std::size_t index, const PcgLimits& limits) const;
   bool fits_factor(std::size_t index, const PcgLimits& limits) const;  // in memory too
   bool factors_cheaply(std::size_t index) const;
-  void raise_degree(std::size_t index, const PcgResult& result, const PcgLimits& limits);
-  bool corrects_eigenvalue(std::size_t index);
+  void raise_degree(const PcgResult& result, const PcgLimits& limits);
 
   Workers& workers_;
   HierarchyOptions options_;

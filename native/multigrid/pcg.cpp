@@ -118,7 +118,8 @@ class Iteration {
     const double unit = length_;
     double *const r = system_.r, *const p = direction_.data(), *const q = product_.data();
     const double rz = unit * sum(workers_, size_, [&](std::size_t i) { return r[i] * z[i]; });
-    if (result_.iterations == 0 && is_done_before(std::sqrt(std::max(0.0, rz)))) return false;
+    result_.seen.push_back(std::sqrt(std::max(0.0, rz)));
+    if (result_.iterations == 0 && is_done_before(result_.seen[0])) return false;
     // A new preconditioner starts a new sequence of conjugate directions.
     const bool fresh = result_.iterations == 0 || cycle_.degree != last_.degree;
     last_.degree = cycle_.degree;

@@ -49,6 +49,7 @@ struct PcgResult {
   bool broke_down = false;                      // rounding prevents progress
   double residual_scale = 0, energy_scale = 0;  // to which both are relative
   std::vector<double> history;                  // relative residual, the start's first
+  std::vector<double> seen;  // the same in the preconditioner's norm, sqrt(r M^-1 r); not the end's
 };
 
 // A level's linear system K x = b.

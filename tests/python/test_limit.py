@@ -198,6 +198,20 @@ def test_outside_a_region_and_on_its_rim_nothing_moves():
     )
 
 
+def test_the_smoother_allows_for_longer_lines():
+    """A coin with narrow chamfers: by the levels below the largest eigenvalue is a fifth too small, and it takes 55."""
+    turn = np.pi / 4 * np.arange(8)
+    profile = ((0.995, 0), (1, 0.005), (1, 0.095), (0.995, 0.1))
+    vertices = [(r * np.cos(t), r * np.sin(t), z) for r, z in profile for t in turn]
+    faces = [
+        [8 * k + i, 8 * k + (i + 1) % 8, 8 * k + 8 + (i + 1) % 8, 8 * k + 8 + i]
+        for k, i in np.ndindex(3, 8)
+    ]
+    faces += [[*range(7, -1, -1)], [*range(24, 32)]]
+    finest = df.fair(vertices, faces, 5, interpolation="limit").report["levels"][-1]
+    assert finest["lines"] and finest["iterations"] <= 30
+
+
 def test_thin_faces_are_smoothed_along_lines_on_the_finest_level_too():
     """There K is not stored. Without lines the smoother takes degree 48."""
     radius, height = np.array([(0.6, 0), (0.9, 0), (0.95, 0.02), (1, 0.08), (1, 1)]).T
