@@ -21,7 +21,7 @@ REASON = "flat faces at tight rims or in hollows"
 def _is_auto(settings: Settings) -> bool:
     """Whether the shape decides. Where folds become sharp, a fold is no rim."""
     return settings.interpolation == "AUTO" and not (
-        is_evaluated(settings) or settings.use_selection or settings.use_crease_angle
+        settings.use_selection or settings.use_crease_angle
     )
 
 
@@ -79,13 +79,13 @@ def _has_rims(cage: core.ControlArrays, flats: np.ndarray) -> bool:
 
 
 def shown_settings(properties: FairingSettings, source: Object) -> Settings | None:
-    """The settings with which `source` will be faired, for panels, AUTO resolved; None in Edit Mode if
-    its shape decides.
+    """The settings with which `source` will be faired, for panels, AUTO resolved; None in Edit Mode, and with
+    modifiers, if its shape decides.
     """
     settings = Settings.of(properties)
     if not _is_auto(settings) or subdivision(source) is not None:
         return settings.for_source(source)
-    if source.mode == "EDIT":
+    if source.mode == "EDIT" or (is_evaluated(settings) and source.modifiers):
         return None
     shape = world_shape(source)
 

@@ -14,7 +14,7 @@ from ..mesh.object import is_in_view_layer, new_object, nothing_left_behind
 from ..mesh.read import control_mesh, read_mesh
 from ..mesh.world_shape import world_shape
 from ..poll import in_mode
-from ..settings import Settings, wants_modifiers
+from ..settings import Settings, is_evaluated, wants_modifiers
 from .mixins import Action
 
 _MODES = {"OBJECT", "EDIT_MESH", "SCULPT"}
@@ -57,7 +57,7 @@ class OBJECT_OT_fairing_live(Action, bpy.types.Operator):
         """A faired object of the active mesh, with the panel's settings and a live first surface."""
         source = cast(Object, context.active_object)
         settings = Settings.of(context.scene.discrete_fairing)
-        with control_mesh(context, source) as edited:
+        with control_mesh(context, source, is_evaluated(settings)) as edited:
             cage = world_shape(source).of_arrays(read_mesh(edited))
         settings = settings.for_source(source, wants_limit(settings, cage))
         mesh = cast(Mesh, bpy.data.meshes.new(f"{source.name} Fair"))

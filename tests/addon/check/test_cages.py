@@ -192,13 +192,25 @@ def test_all_else_passes_through_its_vertices(name):
         {"interpolation": "EXACT"},
         {"use_selection": True},
         {"use_crease_angle": True},
-        {"mesh_source": "EVALUATED"},
     ],
 )
 def test_settings_that_decide_otherwise(changes):
     source = phone()
     source.data.polygons[4].select = True
     assert Job(bpy.context, source, settings(**changes)).settings.interpolation == "EXACT"
+
+
+def test_rims_may_be_a_modifiers():
+    """With modifiers Auto judges the mesh that is faired: a box itself has no rims."""
+    bpy.ops.mesh.primitive_cube_add(size=20.0)
+    source = bpy.context.object
+    bevel = source.modifiers.new("Bevel", "BEVEL")
+    bevel.width, bevel.segments = LOOP, 2
+    for read, interpolation in (("ORIGINAL", "EXACT"), ("EVALUATED", "LIMIT")):
+        job = Job(bpy.context, source, settings(mesh_source=read))
+        assert job.settings.interpolation == interpolation
+    bpy.context.scene.discrete_fairing.mesh_source = "EVALUATED"
+    assert not vertices_line()  # the panel does not evaluate them
 
 
 def test_flat_faces_are_flat_and_through_remains_a_choice():
