@@ -20,6 +20,11 @@ def finest(result):
     return result.report["curvature"][-1]
 
 
+def error_of_dome(result):
+    points = result.vertices[np.hypot(*result.vertices[:, :2].T) < 0.98]
+    return np.abs(points[:, 2] - sliver_meshes.height_of_dome(points[:, :2])).max()
+
+
 @pytest.mark.parametrize("levels", [2, 3])
 @pytest.mark.parametrize(
     "name", ["tetrahedron", "octahedron", "icosahedron", "cube", "random_hull"]
@@ -70,6 +75,15 @@ def test_a_flat_mesh_stays_flat():
     assert np.abs(result.vertices[:, 2] - result.vertices[0, 2]).max() < 1e-12
 
 
+@pytest.mark.parametrize(("levels", "most"), [(1, 0.0025), (2, 0.0006)])
+def test_thinner_faces_leave_a_dome_as_it_is(levels, most):
+    """Rows across slivers were bent: 0.0202 and 0.0124 off with 160 points a ring."""
+    for around in (24, 80, 160):
+        result = df.fair(*sliver_meshes.dome_of_rings(around), levels, "minimum_variation")
+        assert finest(result)["converged"]
+        assert error_of_dome(result) < most
+
+
 def test_steps_on_slivers_reach_their_end_where_levels_are_large():
     """They stopped after one, 0.0046 off, with the factor that total curvature had left."""
     result = df.fair(
@@ -79,6 +93,5 @@ def test_steps_on_slivers_reach_their_end_where_levels_are_large():
         metric_exponent=1,
         threads=1,
     )
-    points = result.vertices[np.hypot(*result.vertices[:, :2].T) < 0.98]
     assert finest(result)["converged"]
-    assert np.abs(points[:, 2] - sliver_meshes.height_of_dome(points[:, :2])).max() < 0.001
+    assert error_of_dome(result) < 0.001
