@@ -63,6 +63,12 @@ else:
     Context = bpy.types.Context
 
 
+def viewport_of(context: Context) -> tuple[Any, Any] | None:
+    """The space and the view of the viewport that is being drawn; None elsewhere."""
+    space, view = cast(Any, context.space_data), cast(Any, context.region_data)
+    return None if space is None or space.type != "VIEW_3D" or view is None else (space, view)
+
+
 def current_context() -> Context:
     """The context, for code that is not given one."""
     return cast(Context, bpy.context)

@@ -107,10 +107,4 @@ def _plain(value: Any) -> Any:
 
 
 def _copied(value: Any) -> Any:
-    return (
-        value
-        if isinstance(value, str)
-        else value.copy()
-        if hasattr(value, "copy")
-        else tuple(value)
-    )
+    return value if isinstance(value, str) else tuple(value)

@@ -4,7 +4,7 @@
 from collections.abc import Iterable, Sequence
 from math import ceil, degrees, floor, log10
 
-from ..units import Text
+from ..units import Text, digits_of
 from ..words import counted, listed
 
 _LISTED = 8  # faces
@@ -27,10 +27,8 @@ def allowed(off: str, angle: float) -> str:
 
 
 def short(value: float) -> str:
-    """Two significant digits, without an exponent: 0.0082, 12, 3,400."""
-    digits = float(f"{value:.1e}")
-    text = f"{digits:,.12f}".rstrip("0").rstrip(".")
-    return text if digits == 0.0 or text not in ("0", "-0") else f"{digits:g}"
+    """Two significant digits, or all before the point."""
+    return digits_of(value, 2)
 
 
 def faces_text(faces: Sequence[int]) -> str:

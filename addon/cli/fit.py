@@ -16,7 +16,7 @@ from ..scan_fit import Fit
 from ..settings import Settings
 from .files import FileError, read_file
 from .places import require_format
-from .rna import option, whole_number
+from .rna import number, option
 
 _CAGE_FACES = 300
 # options that a fit decides itself, or that have another meaning there
@@ -54,7 +54,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
     group.add_argument(
         "--cage-faces",
-        type=whole_number(6, 100_000),
+        type=number(int, 6, 100_000),
         metavar="N",
         help=f"faces of the cage that is made, about [{_CAGE_FACES}]",
     )

@@ -2,13 +2,12 @@
 """The options of the command line: settings, and options for files."""
 
 import argparse
-from math import inf
 from typing import Any
 
 from ..properties import FAIRING_PG_settings
 from ..settings import NAMES, OF_NEAR, Settings
 from . import clean, fit, places, step
-from .rna import add, default, number, option, whole_number
+from .rna import add, default, number, option
 
 # Settings that apply only in an open scene, or to data that OBJ, PLY and STL files do not have.
 NOT_HERE = frozenset(
@@ -63,7 +62,7 @@ examples:
 exit codes:
   0 done, 1 failed, 2 wrong usage, 3 the native module is missing, 130 interrupted"""
 
-_DISTANCE = number("a distance, 0 or more", lambda value: 0.0 <= value < inf)
+_DISTANCE = number(float, 0)
 
 
 def add_settings(parser: argparse.ArgumentParser) -> None:
@@ -150,7 +149,7 @@ def parser(version: str) -> argparse.ArgumentParser:
     )
     made.add_argument(
         "--threads",
-        type=whole_number(0, 1024),
+        type=number(int, 0, 1024),
         metavar="N",
         help="0: all cores [as in the preferences]",
     )

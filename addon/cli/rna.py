@@ -3,7 +3,7 @@
 
 import argparse
 from collections.abc import Callable
-from math import degrees, nan, radians
+from math import degrees, inf, nan, radians
 from typing import Any
 
 import bpy
@@ -19,30 +19,22 @@ def option(name: str) -> str:
     return "--" + name.removeprefix("use_").replace("_", "-")
 
 
-def number(what: str, accepts: Callable[[float], bool]) -> Callable[[str], float]:
-    """The `type` of a numeric argument; `what`: such as "a length, 0 or more". Refuses NaN."""
+def number(
+    kind: type, lowest: float, highest: float = inf, angle: bool = False
+) -> Callable[[str], float]:
+    """The `type` of a numeric argument in this range, int or float; an `angle` is given in degrees."""
+    span = f"from {lowest:g} to {highest:g}" if highest < 2**30 else f"{lowest:g} or more"
+    what = "a whole number" if kind is int else "a number"
 
     def read(text: str) -> float:
         try:
-            value = float(text)
+            value = kind(text)
         except ValueError:
             value = nan
-        if not accepts(value):
-            raise argparse.ArgumentTypeError(f"{text!r} is not {what}")
-        return value
-
-    return read
-
-
-def whole_number(lowest: int, highest: int = 2**31 - 1) -> Callable[[str], int]:
-    """The `type` of an argument that is a number in this range."""
-    span = f", {lowest} or more" if highest == 2**31 - 1 else f" from {lowest} to {highest}"
-    what = "a whole number" + span
-
-    def read(text: str) -> int:
-        if not text.isdecimal() or not lowest <= int(text) <= highest:
-            raise argparse.ArgumentTypeError(f"{text!r} is not {what}")
-        return int(text)
+        # the limits of angles were converted to radians in single precision
+        if not lowest - 1e-4 * angle <= value <= highest + 1e-4 * angle or value == inf:
+            raise argparse.ArgumentTypeError(f"{text!r} is not {what}, {span}")
+        return radians(value) if angle else value
 
     return read
 
@@ -87,11 +79,12 @@ def _boolean(prop: Any, _is_off: bool) -> dict[str, Any]:
 
 def _number(prop: Any, is_off: bool) -> dict[str, Any]:
     angle = prop.subtype == "ANGLE"
-    shown = degrees(prop.default) if angle else prop.default
+    degrees_of = degrees if angle else float
+    lowest, highest = degrees_of(prop.hard_min), degrees_of(prop.hard_max)
     return {
-        "type": _bounded(prop, int if prop.type == "INT" else float, angle),
+        "type": number(int if prop.type == "INT" else float, lowest, highest, angle),
         "metavar": "DEGREES" if angle else "N" if prop.type == "INT" else "X",
-        "help": _help(prop, "off" if is_off else f"{shown:.4g}"),
+        "help": _help(prop, "off" if is_off else f"{degrees_of(prop.default):.4g}"),
     }
 
 
@@ -114,25 +107,6 @@ def _text(prop: Any, _is_off: bool) -> dict[str, Any]:
 
 
 _KINDS = {"BOOLEAN": _boolean, "INT": _number, "FLOAT": _number, "ENUM": _choice, "STRING": _text}
-
-
-def _bounded(prop: Any, number: type, angle: bool) -> Callable[[str], float]:
-    """A parser of numbers within Blender's limits; in degrees for angles."""
-    lowest, highest = (degrees(x) if angle else x for x in (prop.hard_min, prop.hard_max))
-
-    def parse(text: str) -> float:
-        try:
-            value = number(text)
-        except ValueError:
-            value = None
-        # the limits of angles were converted to radians in single precision
-        if value is None or not lowest - 1e-4 * angle <= value <= highest + 1e-4 * angle:
-            span = f"from {lowest:g}" + (f" to {highest:g}" if highest < 2**30 else "")
-            whole = "a whole number " if number is int else "a number "
-            raise argparse.ArgumentTypeError(f"{text!r} is not {whole}{span}")
-        return radians(value) if angle else value
-
-    return parse
 
 
 def _help(prop: Any, shown: str, more: str = "") -> str:

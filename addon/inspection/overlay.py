@@ -6,7 +6,7 @@ of a mesh, undo or a new file clears it, and the next drawing fills it.
 """
 
 from dataclasses import dataclass, field
-from typing import Any, cast
+from typing import Any
 
 import bpy
 import gpu as _gpu
@@ -14,7 +14,7 @@ import numpy as np
 from gpu_extras import batch as _batch
 from mathutils import Matrix
 
-from ..blender import Object, current_context
+from ..blender import Object, current_context, viewport_of
 from ..mesh.object import Showing, changed_keys, session_key
 from ..redraw import tag_viewports
 from .overlay_arrays import lines_of, pulled, surface_of
@@ -61,9 +61,10 @@ def redraw() -> None:
 
 def _draw() -> None:
     context = current_context()
-    space, view = cast(Any, context.space_data), cast(Any, context.region_data)
-    if space is None or space.type != "VIEW_3D" or view is None:
+    viewport = viewport_of(context)
+    if viewport is None:
         return
+    space, view = viewport
     for target in _shown:
         if target.mode in {"OBJECT", "EDIT"} and target.visible_in_viewport_get(space):
             _draw_object(context, target, view)

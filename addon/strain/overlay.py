@@ -15,7 +15,7 @@ from bpy_extras.view3d_utils import location_3d_to_region_2d
 from gpu_extras import batch as _batch
 from mathutils import Matrix, Vector
 
-from ..blender import Context, Object, current_context
+from ..blender import Context, Object, current_context, viewport_of
 from ..inspection.overlay_arrays import pulled
 from ..live.switch import surfaces_of
 from ..mesh.object import session_key
@@ -89,10 +89,8 @@ def _seen(space: Any) -> list[tuple[Object, Strained]]:
 
 def _viewport(context: Context) -> tuple[Any, Any] | None:
     """The space and the view being drawn; None if overlays are off."""
-    space, view = cast(Any, context.space_data), cast(Any, context.region_data)
-    if space is None or space.type != "VIEW_3D" or view is None:
-        return None
-    return (space, view) if space.overlay.show_overlays else None
+    found = viewport_of(context)
+    return found if found and found[0].overlay.show_overlays else None
 
 
 def _draw_points() -> None:

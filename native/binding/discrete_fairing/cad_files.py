@@ -51,7 +51,10 @@ def _scaled(patches: object, factor: float, k: int) -> SplinePatches:
             "BAD_OPTION", f"patches has {patches!r}; it must be the result of fit_patches()."
         )
     with np.errstate(over="ignore", invalid="ignore"):
-        scaled = patches.scaled(factor)
+        scaled = patches.transformed(np.diag([factor, factor, factor, 1.0]))
+        scaled.size = (
+            patches.size * factor
+        )  # it determines the tolerance of programs that read a file
     arrays = (scaled.vertices, scaled.patch_points, scaled.edge_points)
     if not all(np.isfinite(array).all() for array in arrays):
         raise fairing_error(

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from copy import copy
 from functools import cached_property
 from typing import Any
@@ -157,22 +156,12 @@ class SplinePatches:
                 f"matrix has shape {given.shape}; it must be (4, 4) or (3, 4), of finite numbers.",
             )
         linear, shift = given[:3, :3], given[:3, 3]
-        moved = self._with_points(lambda points: points @ linear.T + shift)
+        moved = copy(self)
+        for name in ("vertices", "patch_points", "edge_points"):
+            setattr(moved, name, getattr(self, name) @ linear.T + shift)
         if np.linalg.slogdet(linear)[0] < 0:
             moved._turn()
         return moved
-
-    def scaled(self, factor: float) -> SplinePatches:
-        """A copy of the patches, scaled by this factor together with their size."""
-        larger = self._with_points(lambda points: points * factor)
-        larger.size = self.size * factor  # it determines the tolerance of programs that read a file
-        return larger
-
-    def _with_points(self, moved: Callable[[np.ndarray], np.ndarray]) -> SplinePatches:
-        found = copy(self)
-        for name in ("vertices", "patch_points", "edge_points"):
-            setattr(found, name, moved(getattr(self, name)))
-        return found
 
     def _turn(self) -> None:
         """Exchanges u and v."""

@@ -133,6 +133,6 @@ def test_the_largest_distance_from_the_mesh_shown_is_told(capfd):
     nurbs_of(surface)
     told = capfd.readouterr().out
     assert patches_of(surface).apart == pytest.approx(3 * 0.1 * np.sqrt(3), rel=0.02)
-    assert "520 mm from the mesh shown, as Box Fair has 2 levels: " in told
+    assert "522 mm from the mesh shown, as Box Fair has 2 levels: " in told
     box.data.vertices[0].co *= 2  # the surface is that of the mesh before
     assert patches_of(surface).apart > 1

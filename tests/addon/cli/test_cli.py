@@ -116,7 +116,7 @@ TO = "in.obj out.obj"
         (f"{TO} --clean-noise", "--clean-noise needs --clean"),
         (f"{TO} --clean --levels 2", "--levels is for fairing"),
         (f"{TO} --clean --weld 0", "--weld is for fairing"),
-        (f"{TO} --clean --largest-hole -2", "is not a number from 0"),
+        (f"{TO} --clean --largest-hole -2", "is not a number, 0 or more"),
         ("in.obj out.step --clean", "STEP"),
         (f"{TO} --clean --energy thin_plate", "--energy is for fairing, and --clean does not"),
         (f"{TO} --clean --clean-islands 2", "from 0 to 1"),
