@@ -4,6 +4,8 @@
 
 #include <pybind11/pybind11.h>
 
+#include "fairing/whole.h"
+
 namespace fairing {
 
 // Adds the class Options, with one attribute for each setting, and the enums of choices.
@@ -23,6 +25,11 @@ void bind_strain(pybind11::module_& m);
 
 // Adds fit(), which the package wraps.
 void bind_fit(pybind11::module_& m);
+
+// Adds outline(), which the package's pieces() cuts.
+void bind_outline(pybind11::module_& m);
+// The data of a piece from its whole: a dict of the package's, or None.
+OfWhole whole_from(const pybind11::object& given);
 
 // Adds fit_splines() for the package's fit_patches(), and the members of Monitor that it needs.
 void bind_splines(pybind11::module_& m);

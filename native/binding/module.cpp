@@ -90,10 +90,11 @@ void bind_monitor(py::module_& m) {
 
 py::dict fair_arrays(const Numbers& vertices, const Ids& corners, const Ids& offsets,
                      const Numbers& shapes, FairOptions options, Monitor& monitor,
-                     const py::object& progress) {
+                     const py::object& progress, const py::object& whole) {
   const OwnedPolygonMesh mesh = copy_of(vertices, corners, offsets);
   const std::vector<double> positions = copy_of(shapes);
   options.shapes = positions;
+  options.whole = whole_from(whole);
   FairResult result;
   run_once(monitor, progress, [&] { result = fair(mesh.view(), options, monitor); });
   py::dict d;
@@ -153,6 +154,7 @@ PYBIND11_MODULE(_native, m) {
   bind_options(m);
   m.def("fair", &fair_arrays, exact("vertices"), exact("corners"), exact("offsets"),
         exact("shapes"), py::arg("options"), py::arg("monitor"), py::arg("progress"),
+        py::arg("whole") = py::none(),
         "discrete_fairing.fair on plain arrays: vertices (n, 3) and shapes (k, n, 3) float64,\n"
         "corners and offsets int64. Returns what Result takes.");
   m.def("check", &check_arrays, exact("vertices"), exact("corners"), exact("offsets"),
@@ -171,6 +173,7 @@ PYBIND11_MODULE(_native, m) {
   bind_solver(m);
   bind_strain(m);
   bind_fit(m);
+  bind_outline(m);
   bind_splines(m);
   bind_fill(m);
   bind_clean(m);

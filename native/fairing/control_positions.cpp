@@ -10,6 +10,7 @@
 #include "base/points.h"
 #include "base/roundoff.h"
 #include "mesh/validate/check.h"
+#include "mesh/vertex_pair.h"
 
 namespace fairing {
 namespace {
@@ -55,6 +56,34 @@ ControlPositions in_both_systems(const ControlMesh& mesh, std::vector<Vec3> worl
   return control;
 }
 
+// Replaces a chain's points by those that the caller of a piece has given. `surface`: 0 for the
+// mesh, s + 1 for shape s.
+void set_handed(const ControlMesh& mesh, const HandedCurves& handed, std::size_t surface,
+                FeatureCurves& curves) {
+  const auto inner = std::size_t(curves.points_per_edge);
+  const std::size_t size = 3 * inner * handed.edges.size();
+  if (size == 0 ? !handed.points.empty()
+                : handed.points.size() % size || handed.points.size() / size <= surface)
+    throw FairingError(ErrorCode::bad_shape, "Curves of the whole have points of another level.");
+  std::vector<std::pair<VertexPair, std::size_t>> place;
+  for (std::size_t k = 0; k < handed.edges.size(); ++k)
+    place.push_back({ascending(handed.edges[k][0], handed.edges[k][1]), k});
+  std::sort(place.begin(), place.end());
+  for (Index e = 0; e < mesh.first_copied_edge() && !place.empty(); ++e) {
+    if (curves.run[e] < 0) continue;
+    const Index from = mesh.original_vertex(mesh.edges[e].vertex[0]),
+                to = mesh.original_vertex(mesh.edges[e].vertex[1]);
+    const VertexPair pair = ascending(from, to);
+    const auto at = std::lower_bound(place.begin(), place.end(), std::pair(pair, std::size_t(0)));
+    if (at == place.end() || at->first != pair) continue;
+    const double* points = handed.points.data() + surface * size + 3 * inner * at->second;
+    Vec3* own = curves.points.data() + std::size_t(curves.run[e]) * inner;
+    const bool along = handed.edges[at->second][0] == from;
+    for (std::size_t k = 0; k < inner; ++k)
+      own[along ? k : inner - 1 - k] = Eigen::Map<const Vec3>(points + 3 * k);
+  }
+}
+
 void require_numbers(std::span<const double> coordinates, const std::string& where) {
   const std::vector<std::int64_t> bad = non_finite_vertices(coordinates);
   if (!bad.empty())
@@ -84,8 +113,10 @@ Frame working_frame(const ControlMesh& mesh, std::span<const Vec3> world) {
 }
 
 ControlPositions positions_of_mesh(const ControlMesh& mesh, std::vector<Vec3> world,
-                                   const Frame& frame, const CurveScheme& scheme) {
+                                   const Frame& frame, const CurveScheme& scheme,
+                                   const HandedCurves& handed) {
   FeatureCurves curves = refine_feature_edges(mesh, world, world, scheme);
+  set_handed(mesh, handed, 0, curves);
   return in_both_systems(mesh, std::move(world), std::move(curves), frame);
 }
 
@@ -101,9 +132,11 @@ std::vector<Vec3> all_positions(const ControlMesh& mesh, std::span<const Vec3> b
 
 ControlPositions positions_of_shape(const ControlMesh& mesh, std::span<const Vec3> basis_world,
                                     std::span<const double> coordinates, const Frame& frame,
-                                    const CurveScheme& scheme) {
+                                    const CurveScheme& scheme, const HandedCurves& handed,
+                                    std::size_t shape) {
   std::vector<Vec3> world = all_positions(mesh, basis_world, coordinates);
   FeatureCurves curves = refine_feature_edges(mesh, basis_world, world, scheme);
+  if (!handed.edges.empty()) set_handed(mesh, handed, shape + 1, curves);
   return in_both_systems(mesh, std::move(world), std::move(curves), frame);
 }
 

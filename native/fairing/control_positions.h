@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "curves/feature_curves.h"
+#include "fairing/whole.h"
 #include "mesh/polygon_mesh.h"
 
 namespace fairing {
@@ -45,16 +46,19 @@ struct ControlPositions {
   }
 };
 
-// The positions `world` themselves, which also give the parameters of the curves.
+// The positions `world` themselves, which also give the parameters of the curves. `handed` curves are taken from the whole mesh; throws FairingError(bad_shape) if they have the wrong
+// number of points.
 ControlPositions positions_of_mesh(const ControlMesh& mesh, std::vector<Vec3> world,
-                                   const Frame& frame, const CurveScheme& scheme);
+                                   const Frame& frame, const CurveScheme& scheme,
+                                   const HandedCurves& handed);
 
 // Other positions of the input's vertices: `coordinates`, world, 3 numbers each. The result is
 // linear in them: curve parameters and the weights of centres in their polygons are those of
-// `basis_world`.
+// `basis_world`. Handed curves are those of the shape with this number.
 ControlPositions positions_of_shape(const ControlMesh& mesh, std::span<const Vec3> basis_world,
                                     std::span<const double> coordinates, const Frame& frame,
-                                    const CurveScheme& scheme);
+                                    const CurveScheme& scheme, const HandedCurves& handed = {},
+                                    std::size_t shape = 0);
 
 // Extends `coordinates`, 3 numbers for each input vertex, to all control vertices: copies, and
 // centres by their weights in `basis_world`.

@@ -17,9 +17,11 @@ namespace fairing {
 namespace {
 
 // A shape may repeat the mesh or an earlier shape, as unused shape keys do. Returns the number of
-// the first surface with the same positions, 0 for the mesh and s + 1 for shape s; -1: none.
+// the first surface with the same positions, 0 for the mesh and s + 1 for shape s; -1: none. Given
+// curves may differ in spite of equal positions.
 std::ptrdiff_t first_equal_surface(const PolygonMesh& input, const FairOptions& options,
                                    std::size_t shape) {
+  if (!options.whole.curves.edges.empty()) return -1;
   const std::span<const double> shapes = options.shapes;
   const std::size_t size = input.coordinates.size();
   const auto own = shapes.subspan(shape * size, size);

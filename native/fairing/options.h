@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "curves/curve.h"
+#include "fairing/whole.h"
 #include "mesh/control_mesh.h"
 #include "mesh/polygon_mesh.h"
 #include "mesh/sharpness.h"
@@ -89,6 +90,9 @@ struct FairOptions {
   bool has_normals() const;
 
   MembraneOptions membrane;
+
+  // For a piece of a larger mesh: data of the whole (fairing/outline.h). Not a setting.
+  OfWhole whole{};
 
   // Further positions of all vertices, shape after shape, 3 numbers a vertex. The caller owns them.
   std::span<const double> shapes{};

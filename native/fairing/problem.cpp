@@ -96,6 +96,21 @@ RunSize size_of(const PolygonMesh& input, const FairOptions& options, std::int64
   return size;
 }
 
+// Units of the whole mesh if this is a piece of it.
+MeshUnits units_in_working(const FairingProblem& problem) {
+  const OfWhole& whole = problem.options.whole;
+  return whole.given ? in_lengths_of(whole.units, problem.frame.scale, problem.exponent)
+                     : measure_units(problem.mesh, problem.exponent);
+}
+
+// Stencils measure it in the mean edge of their own mesh.
+MembraneOptions membrane_of(const FairingProblem& problem) {
+  MembraneOptions out = problem.options.membrane;
+  if (problem.options.whole.given && out.tension > 0)
+    out.edge_ratio = measure_units(problem.mesh, problem.exponent).edge / problem.units.edge;
+  return out;
+}
+
 // Largest distance of two positions in working coordinates that count as the same: rounding in the
 // caller's computation at the mesh's size, and some units in the last place of world coordinates.
 double same_place(const Frame& frame) {
@@ -136,7 +151,8 @@ void make_about(std::vector<Vec3> world, std::vector<Vec3> cage, Stopwatch& watc
   ControlMesh& mesh = problem.mesh;
   watch.enter(Phase::curves, 0);
   problem.frame = working_frame(mesh, world);
-  problem.basis = positions_of_mesh(mesh, std::move(world), problem.frame, options.curve_scheme());
+  problem.basis = positions_of_mesh(mesh, std::move(world), problem.frame, options.curve_scheme(),
+                                    options.whole.curves);
   problem.basis.cage = std::move(cage);
 
   watch.enter(Phase::hierarchy, 0);
@@ -144,9 +160,9 @@ void make_about(std::vector<Vec3> world, std::vector<Vec3> cage, Stopwatch& watc
   problem.normals = choose_normals(mesh, options);
   require_near(mesh, problem.normals.fixed);
   set_upright(mesh, problem.basis, problem.normals);
-  problem.units = measure_units(mesh, problem.exponent);
+  problem.units = units_in_working(problem);
   problem.stencils =
-      make_stencils(mesh, *problem.charts(), options.paper, *problem.workers, options.membrane);
+      make_stencils(mesh, *problem.charts(), options.paper, *problem.workers, membrane_of(problem));
   problem.symmetry = find_symmetry(mesh, same_place(problem.frame), [&](const Mirror& mirror) {
     return mirrors_weights(mesh, mirror, options.weights) &&
            (options.tolerance.size() == 1 || mirrors_weights(mesh, mirror, options.tolerance)) &&
@@ -211,16 +227,21 @@ std::unique_ptr<const FairingProblem> make_problem_about(const PolygonMesh& inpu
 }
 
 ControlPositions FairingProblem::control_positions(std::span<const double> coordinates) const {
-  ControlPositions control =
-      positions_of_shape(mesh, basis.world, held.of(coordinates), frame, options.curve_scheme());
-  for (std::size_t v = 0; v < control.cage.size(); ++v)
-    control.cage[v] = point_at(coordinates, Index(v));
-  return control;
+  return about(coordinates, {}, 0);
 }
 
 ControlPositions FairingProblem::shape_positions(std::size_t shape) const {
   const std::size_t size = 3 * std::size_t(mesh.input_vertices);
-  return control_positions(options.shapes.subspan(shape * size, size));
+  return about(options.shapes.subspan(shape * size, size), options.whole.curves, shape);
+}
+
+ControlPositions FairingProblem::about(std::span<const double> coordinates,
+                                       const HandedCurves& handed, std::size_t shape) const {
+  ControlPositions control = positions_of_shape(mesh, basis.world, held.of(coordinates), frame,
+                                                options.curve_scheme(), handed, shape);
+  for (std::size_t v = 0; v < control.cage.size(); ++v)
+    control.cage[v] = point_at(coordinates, Index(v));
+  return control;
 }
 
 Symmetry FairingProblem::symmetry_of(const ControlPositions& control) const {

@@ -10,7 +10,6 @@
 #include "fairing/control_positions.h"
 #include "fairing/fixed_normals.h"
 #include "fairing/held_positions.h"
-#include "fairing/mesh_units.h"
 #include "fairing/options.h"
 #include "fairing/report.h"
 #include "mesh/symmetry.h"
@@ -55,6 +54,8 @@ struct FairingProblem {
   }
 
  private:
+  ControlPositions about(std::span<const double> coordinates, const HandedCurves& handed,
+                         std::size_t shape) const;
   // Per input vertex and copy, in working coordinates; infinity: none. May be empty.
   std::vector<double> working_tolerances() const;
   std::vector<double> weights_with_copies() const;

@@ -124,7 +124,8 @@ Array<double> make_membrane(const ControlMesh& mesh, const ChartMaker& charts,
   if (!(options.tension > 0)) return {};
   std::vector<FaceWeights> faces = weigh(mesh, charts.flat());
   const double length = mean_edge(mesh, charts.flat()),
-               factor = 0.5 * options.strength() / (length * length);
+               t = options.strength() * options.edge_ratio * options.edge_ratio,
+               factor = 0.5 * t / (length * length);
   for (FaceWeights& face : faces)
     for (double& w : face.direction) w *= factor;
   Array<double> out(begin.back());

@@ -20,6 +20,8 @@ namespace fairing {
 struct MembraneOptions {
   // A membrane that prevents swelling and overshoots: 0 none, 1 the strongest that is of use.
   double tension = 0;
+  // For a piece of a larger mesh: its mean edge over that of the whole. Not a setting.
+  double edge_ratio = 1;
 
   // The membrane's factor relative to bending over the length of a control edge.
   double strength() const;

@@ -64,6 +64,8 @@ def test_other_calls_know_flat_faces():
         np.abs(df.Solver(points, faces, 2, flat_faces=flat).solve(points).vertices - found).max()
         < 1e-2
     )
+    parts = [piece.fair() for piece in df.pieces(points, faces, 2, count=2, flat_faces=flat)]
+    assert np.abs(df.join(parts).vertices - found).max() < 1e-2
     twice = [*faces, faces[0]]
     assert (
         np.abs(df.fair(points, twice, 2, repair="mend", flat_faces=flat).vertices - found).max()

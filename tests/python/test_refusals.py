@@ -7,6 +7,7 @@ import control_meshes as meshes
 import discrete_fairing as df
 import numpy as np
 import pytest
+from piece_meshes import torus
 from ragged_holes import quads_with_a_hole
 from refusing import refusal
 from scans import blob_cage, blob_scan
@@ -105,6 +106,19 @@ REFUSED = {
         [
             *each(OPTION, region=[[0]], border=[[(0, 5)]], levels=[1], shapes=[[OTHER[0]]]),
             *each(OPTION, "No border edge meets", neighbour=[(FIXED[0] + [0, 5, 0], FIXED[1])]),
+        ],
+    ),
+    "pieces": (
+        lambda **more: df.pieces(*torus(), 2, **{"count": 3} | more),
+        [
+            *each(OPTION, "symmetry_plane ", symmetry_plane=["x"]),
+            *each(OPTION, "measure ", measure=[True]),
+            *each(OPTION, "threads ", threads=[2]),
+            *each(OPTION, "memory_limit ", memory_limit=[10**9]),
+            *each(OPTION, "progress ", progress=[print]),
+            *each(OPTION, "monitor ", monitor=[df.Monitor()]),
+            *each(OPTION, "count is 0", count=[0]),
+            *each("BAD_FEATURE_EDGE", "no edge", crease_edges=[[(0, 200)]]),
         ],
     ),
     "weld": (partial(df.fair, *BALL, 1), each(OPTION, "weld", weld=[0])),

@@ -129,7 +129,7 @@ def test_patches_across_a_fading_crease_miss_at_most_where_it_becomes_soft():
     assert set(patches.unmet) <= {CENTRE - 1, CENTRE, CENTRE - 1 + COLUMNS, CENTRE + COLUMNS}
 
 
-def test_any_number_of_threads_a_solver_and_a_mended_mesh_give_the_same():
+def test_any_number_of_threads_pieces_a_solver_and_a_mended_mesh_give_the_same():
     points, faces = bonnet()
     given = {"levels": 3, "soft_creases": (line(5), WEIGHTS)}
     found = df.fair(points, faces, **given).vertices
@@ -137,6 +137,8 @@ def test_any_number_of_threads_a_solver_and_a_mended_mesh_give_the_same():
     solver = df.Solver(points, faces, **given)
     solver.solve(points + [0, 0, 0.1] * (points[:, :1] > 2))
     assert np.abs(solver.solve(points).vertices - found).max() < 1e-3
+    parts = [piece.fair() for piece in df.pieces(points, faces, count=2, rings=4, **given)]
+    assert np.abs(df.join(parts).vertices - found).max() < 1e-3
     twice = np.concatenate([faces, faces[:1]])
     mended = df.fair(points, twice, repair="mend", **given).vertices
     assert np.abs(mended - found).max() < 1e-12

@@ -193,6 +193,17 @@ def test_a_matrix_beyond_the_memory_limit_is_refused(call):
     assert caught.value.code == "TOO_LARGE"
 
 
+def test_a_result_has_its_strain_where_it_is_asked_for():
+    points, faces = MESHES["torus"]()
+    alone = df.strain(points, faces)
+    for energy in ("thin_plate", "total_curvature"):
+        result = df.fair(points, faces, 2, energy, strain=True)
+        np.testing.assert_array_equal(result.strain, alone.lengths)
+    assert df.fair(points, faces, 2).strain is None
+    with pytest.raises(df.FairingError, match="no pads"):
+        df.fair(points, faces, 2, "minimum_variation", strain=True)
+
+
 def terrain(across, wrong=()):
     """Heights of eight hills on 1000 m, exact but for those that are 25 m `wrong`."""
     random = np.random.default_rng(1)

@@ -20,6 +20,7 @@ from .fitting import fit_patches
 from .joints import Joint, joint
 from .options import AllSettings, Settings
 from .patches import SplinePatches, spline_knots
+from .piecewise import Part, Piece, join, pieces
 from .result import Result
 from .scan_fitting import Fitted, fit
 from .solver import Solver
@@ -39,6 +40,8 @@ __all__ = [
     "FilledHole",
     "Joint",
     "Monitor",
+    "Part",
+    "Piece",
     "Result",
     "SkippedHole",
     "Settings",
@@ -57,7 +60,9 @@ __all__ = [
     "fit_patches",
     "hole_width",
     "holes_to_fill",
+    "join",
     "joint",
+    "pieces",
     "predicted_size",
     "spline_knots",
     "strain",

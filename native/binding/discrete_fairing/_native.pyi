@@ -11,6 +11,10 @@ _Progress = Callable[[float, str], bool | None] | None
 
 __version__: str
 most_levels: int
+curve_edge: int
+boundary_edge: int
+split_edge: int
+straight_edge: int
 
 class FairingError(ValueError):
     code: str
@@ -112,6 +116,7 @@ def fair(
     options: Options,
     monitor: Monitor,
     progress: _Progress,
+    whole: dict[str, Any] | None = None,
 ) -> dict[str, Any]: ...
 def strain(
     vertices: np.ndarray,
@@ -161,6 +166,14 @@ def predicted_size(
     shapes: int,
     energy: Energy,
 ) -> dict[str, int]: ...
+def outline(
+    vertices: np.ndarray,
+    corners: np.ndarray,
+    offsets: np.ndarray,
+    shapes: np.ndarray,
+    options: Options,
+    monitor: Monitor,
+) -> dict[str, Any]: ...
 def fit_splines(
     vertices: np.ndarray,
     triangles: np.ndarray,

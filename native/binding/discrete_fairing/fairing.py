@@ -14,8 +14,9 @@ from .borders import mesh_arrays
 from .errors import written_report
 from .halves import Control
 from .matching import match_border, require_matchable
-from .options import Settings
+from .options import Settings, native_options
 from .result import Result
+from .strain import strain_of
 from .watching import Progress, check_watchers
 
 
@@ -30,6 +31,7 @@ def fair(
     border: ArrayLike | None = None,
     halfway: bool = False,
     shapes: ArrayLike | Sequence[ArrayLike] | None = None,
+    strain: bool = False,
     progress: Progress | None = None,
     monitor: _native.Monitor | None = None,
     **settings: Unpack[Settings],
@@ -69,6 +71,9 @@ def fair(
         Further positions of the same control vertices, such as shape keys. Their surfaces
         (result.shapes) use the charts and stencils of `vertices`, so the surface is linear in the
         positions.
+    strain : bool
+        Measure result.strain too, the lengths of strain(); of total curvature those of the thin plate
+        through the same vertices.
     progress : callable(fraction, phase)
         Called from this thread some 40 times a second; returning False cancels.
     monitor : Monitor
@@ -101,8 +106,18 @@ def fair(
         if half:
             beside = half.beside(*beside)
             border = None if border is None else half.with_images("border", "vertex", border)
+    strained = strain_of(control, _of_plate(control), watch).lengths if strain else None
     with control.named():
         found = _native.fair(*control.arrays, others, control.options, watch, progress)
         if beside is not None:
             match_border(found, control, beside, border, halfway)
-    return Result(written_report(control.cut(found)))
+    result = Result(written_report(control.cut(found)))
+    result.strain = strained
+    return result
+
+
+def _of_plate(control: Control) -> _native.Options:
+    """The options of the thin plate from which total curvature starts; others as they are."""
+    if control.settings.get("energy") != "total_curvature":
+        return control.options
+    return native_options(control.settings | {"energy": "thin_plate"})

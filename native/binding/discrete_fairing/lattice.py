@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The points and cells of one refined control face, numbered as native/grid/grid_level.h numbers them."""
+"""Numbers the points of a refined surface in the order of native/grid/grid_level.h.
+
+[control vertices | edge interiors, edge by edge | face interiors, face by face, row by row]
+"""
 
 from __future__ import annotations
 
@@ -19,6 +22,7 @@ class Lattice:
     def __init__(self, n: int, quad: bool):
         self.n, self.quad = n, quad
         self.size = 4 if quad else 3
+        self.interior_count = (n - 1) ** 2 if quad else (n - 1) * (n - 2) // 2
         rows = [n if quad else n - j for j in range(n + 1)]
         self.i = np.concatenate([np.arange(last + 1) for last in rows])
         self.j = np.repeat(np.arange(n + 1), [last + 1 for last in rows])
@@ -32,6 +36,29 @@ class Lattice:
         n = self.n
         places = [(0, 0), (n, 0), (n, n), (0, n)] if self.quad else [(0, 0), (n, 0), (0, n)]
         return np.array([self.at(*place) for place in places])
+
+    @cached_property
+    def sides(self) -> np.ndarray:
+        """(sides, n - 1): the points inside each side, from its own corner on."""
+        n, k = self.n, np.arange(1, self.n)
+        if self.quad:
+            places = [(k, 0 * k), (n + 0 * k, k), (n - k, n + 0 * k), (0 * k, n - k)]
+        else:
+            places = [(k, 0 * k), (n - k, k), (0 * k, n - k)]
+        return np.array([self.at(i, j) for i, j in places])
+
+    @cached_property
+    def interior(self) -> np.ndarray:
+        last = self.n - self.j * (not self.quad)
+        inside = (self.i > 0) & (self.j > 0) & (self.i < last) & (self.j < self.n)
+        return np.flatnonzero(inside)
+
+    @cached_property
+    def mirrored(self) -> np.ndarray:
+        """(interior,): interior points (j, i) of the reversed face, which keeps its first corner."""
+        rank = np.empty(len(self.i), np.int64)
+        rank[self.interior] = np.arange(self.interior_count)
+        return rank[self.at(self.j[self.interior], self.i[self.interior])]
 
     @cached_property
     def cells(self) -> np.ndarray:

@@ -43,6 +43,7 @@ class Result:
     crease_edges: (k, 2) int32, the control edges that became creases, by any rule.
     shapes: list of (N, 3) float64, the surface of each shape, with the rows of vertices.
     mended: Mended, the mesh that was faired, if it is not the given one; else None.
+    strain: (n,) float64, Strain.lengths, if fair() was asked for it; else None.
     report: dict; its keys are in docs/python/report.md.
     """
 
@@ -54,6 +55,7 @@ class Result:
         self.crease_edges: np.ndarray = arrays["crease_edges"]
         self.shapes: list[np.ndarray] = arrays["shapes"]
         self.report: dict[str, Any] = arrays["report"]
+        self.strain: np.ndarray | None = None
         mended = arrays["mended"]
         self.mended: Mended | None = (
             Mended(mended, arrays["triangle_mended"], arrays["quad_mended"]) if mended else None

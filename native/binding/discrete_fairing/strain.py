@@ -95,7 +95,16 @@ def strain(
     """
     check_watchers(progress, monitor)
     control = Control(vertices, faces, dict(settings), symmetry_plane)
-    watch = monitor or _native.Monitor()
+    return strain_of(control, control.options, monitor or _native.Monitor(), progress)
+
+
+def strain_of(
+    control: Control,
+    options: _native.Options,
+    monitor: _native.Monitor,
+    progress: Progress | None = None,
+) -> Strain:
+    """strain() of a control mesh that has been read."""
     with control.named():
-        found = _native.strain(*control.arrays, control.options, watch, progress)
+        found = _native.strain(*control.arrays, options, monitor, progress)
     return Strain(found, control.count)

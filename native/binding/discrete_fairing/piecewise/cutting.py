@@ -1,0 +1,224 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""pieces(): a control mesh, cut into pieces that are faired alone."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, Unpack
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .. import _native
+from ..arrays import face_arrays, faces_by_vertex, ranges, shape_array, vertex_array
+from ..converters import whole
+from ..errors import fairing_error
+from ..options import Settings
+from .outline import Outline
+from .partition import partition
+from .piece import Piece
+from .settings import PieceSettings, checked
+
+# How a piece's surface ends where it was cut off: along straight edges. Measured (docs/developers/notes/pieces.md): the
+# difference to the whole is the same as with curves there and with free edges, within a third; but
+# free edges take two to four times as long, and total curvature goes astray along them.
+CUT_BOUNDARY = "linear"
+
+
+def pieces(
+    vertices: ArrayLike,
+    faces: ArrayLike | Sequence[Sequence[int]],
+    levels: int = 3,
+    energy: str = "thin_plate",
+    *,
+    count: int,
+    rings: int = 8,
+    shapes: ArrayLike | Sequence[ArrayLike] | None = None,
+    symmetry_plane: str | None = None,
+    **settings: Unpack[Settings],
+) -> list[Piece]:
+    """Cut a control mesh into pieces whose surfaces together form that of the whole mesh.
+
+    Each piece knows its own faces and some rings around them, and can be pickled and faired anywhere. What concerns the whole is decided here, once: what is mended, which way faces run,
+    what is a crease, and where all curves lie. The whole's surface is never computed.
+
+    Parameters
+    ----------
+    vertices, faces, levels, energy, shapes
+        As fair() takes them.
+    count : int
+        How many pieces; there are fewer where the mesh has fewer faces.
+    rings : int
+        Of control faces around each piece that are faired with it. With every ring the difference
+        to the whole's surface becomes about 2.6 times smaller.
+    **settings
+        Those of fair(), but for symmetry_plane and measure, which exclude pieces, and for threads and
+        memory_limit, which Piece.fair() takes.
+
+    Returns
+    -------
+    list of Piece
+        The same on every call. join() takes their parts in any order.
+
+    Raises
+    ------
+    FairingError
+        As fair() does, for the whole; BAD_OPTION for settings that exclude pieces.
+    """
+    wanted, around = whole("count", count), whole("rings", rings)
+    if wanted < 1:
+        raise fairing_error("BAD_OPTION", f"count is {wanted}; it must be 1 or more.")
+    points = vertex_array(vertices)
+    others = shape_array(shapes, len(points))
+    asked = {**settings, "energy": energy, "symmetry_plane": symmetry_plane}
+    given, options = checked(asked, levels)
+    outline = Outline(points, *face_arrays(faces), others, options)
+    weights = np.bincount(outline.polygon, outline.quad + 1.0, outline.polygon_count)
+    labels = partition(outline.middles(), weights, min(wanted, outline.polygon_count))
+    return Cutter(outline, labels, around, PieceSettings(given, outline)).all()
+
+
+class Cutter:
+    """Cuts one mesh into pieces; `labels` has the piece of each face."""
+
+    def __init__(self, outline: Outline, labels: np.ndarray, rings: int, settings: PieceSettings):
+        self.outline, self.labels, self.rings, self.settings = outline, labels, rings, settings
+        self.count = int(labels.max()) + 1
+        self.vertex_owner = outline.vertex_owner(labels)
+        self.edge_owner = outline.edge_owner(labels)
+        self.faces_at, self.at = faces_by_vertex(
+            outline.corners, outline.offsets, outline.input_vertices
+        )
+        self.control_at = np.searchsorted(outline.polygon, np.arange(outline.polygon_count + 1))
+        self.curve_of = np.full(len(outline.edge), -1, np.int64)
+        self.curve_of[outline.curve] = np.arange(len(outline.curve))
+        self.softness = outline.on_edges(*outline.options.soft_creases)
+        face, side = np.nonzero(outline.side_edge >= 0)
+        edge = outline.side_edge[face, side]
+        several = outline.edge_uses[edge] > 2
+        self.sheet_edge, self.sheet_polygon = edge[several], outline.polygon[face[several]]
+        self.local = np.full(outline.input_vertices, -1, np.int64)  # scratch
+        self.reached = np.zeros(outline.polygon_count, bool)  # scratch
+
+    def all(self) -> list[Piece]:
+        return [self.piece(index) for index in range(self.count)]
+
+    def with_rings(self, polygons: np.ndarray) -> np.ndarray:
+        """These faces and the rings of faces around them, ascending."""
+        outline, found, front = self.outline, [polygons], polygons
+        self.reached[polygons] = True
+        for _ in range(self.rings):
+            corners = outline.corners[ranges(outline.offsets[front], outline.offsets[front + 1])]
+            around = np.unique(corners)
+            near = np.unique(self.faces_at[ranges(self.at[around], self.at[around + 1])])
+            front = near[~self.reached[near]]
+            if not len(front):
+                break
+            self.reached[front] = True
+            found.append(front)
+        every = self.with_sheets(np.sort(np.concatenate(found)))
+        self.reached[every] = False
+        return every
+
+    def with_sheets(self, polygons: np.ndarray) -> np.ndarray:
+        """These faces and all others at edges of several sheets, two of which would be taken for one sheet."""
+        while True:
+            edges = self.sheet_edge[np.isin(self.sheet_polygon, polygons)]
+            beside = self.sheet_polygon[np.isin(self.sheet_edge, edges)]
+            every = np.union1d(polygons, beside)
+            if len(every) == len(polygons):
+                return polygons
+            polygons = every
+
+    def piece(self, index: int) -> Piece:
+        outline = self.outline
+        polygon = self.with_rings(np.flatnonzero(self.labels == index))
+        starts, ends = outline.offsets[polygon], outline.offsets[polygon + 1]
+        corners = outline.corners[ranges(starts, ends)]
+        vertex_id = np.unique(corners)
+        self.local[vertex_id] = np.arange(len(vertex_id))
+        control = ranges(self.control_at[polygon], self.control_at[polygon + 1])
+        face, side_edge = outline.face[control], outline.side_edge[control]
+        mine = self.labels[outline.polygon[control]] == index
+        settings, curves = self.settings.of(vertex_id, polygon), self.edges_of(side_edge)
+        settings.update(curves.pop("settings"))
+        return Piece(
+            index=index,
+            vertices=outline.vertices[vertex_id],
+            shapes=np.ascontiguousarray(outline.shapes[:, vertex_id]),
+            corners=self.local[corners],
+            offsets=np.concatenate([[0], np.cumsum(ends - starts)]),
+            settings=settings,
+            of_whole={"units": list(outline.units), **curves},
+            vertex_id=vertex_id,
+            face=face,
+            side_edge=side_edge,
+            side_reversed=outline.side_reversed[control],
+            face_id=control,
+            quads_before=outline.quads_before[control],
+            polygon=outline.polygon[control],
+            owned=mine,
+            corner_owned=mine[:, None] & (face >= 0) & (self.vertex_owner[face] == index),
+            side_owned=mine[:, None] & (side_edge >= 0) & (self.edge_owner[side_edge] == index),
+            surface=self.surface(index),
+        )
+
+    def edges_of(self, side_edge: np.ndarray) -> dict[str, Any]:
+        """Creases, boundaries and cut edges of a piece, and the curves of the whole mesh on them."""
+        outline = self.outline
+        edges, uses = np.unique(side_edge[side_edge >= 0], return_counts=True)
+        kind = outline.edge_kind[edges]
+        is_curve, is_boundary = kind & _native.curve_edge != 0, kind & _native.boundary_edge != 0
+        is_straight = kind & _native.straight_edge != 0
+        is_cut = (uses == 1) & (outline.edge_uses[edges] > 1)
+        handed = edges[self.curve_of[edges] >= 0]
+        points = outline.curve_points[:, self.curve_of[handed]]
+        soft = edges[self.softness[edges] > 0]
+        free = edges[is_boundary & ~is_curve]
+        by_mode = {"free": [self.pairs(free)], "curve": [], "linear": []}
+        by_mode["linear"].append(self.pairs(edges[is_boundary & is_straight]))
+        by_mode[CUT_BOUNDARY].append(self.pairs(edges[is_cut]))
+        return {
+            "edges": self.pairs(handed),
+            "points": points.reshape(-1, 3),
+            "settings": {
+                "crease_edges": self.pairs(edges[is_curve & ~is_boundary]),
+                "soft_creases": (self.pairs(soft), self.softness[soft]),
+                "boundary_edges": {
+                    mode: np.concatenate(rows) for mode, rows in by_mode.items() if rows
+                },
+            },
+        }
+
+    def pairs(self, edges: np.ndarray) -> np.ndarray:
+        """(k, 2): the piece's own ids of edges' ends."""
+        return self.local[self.outline.edge[edges]].reshape(-1, 2)
+
+    def surface(self, index: int) -> dict[str, Any]:
+        """The data that all parts of a surface share; the first part has the points of no piece."""
+        outline, numbering = self.outline, self.outline.numbering
+        same: dict[str, Any] = {
+            "fingerprint": outline.fingerprint,
+            "count": self.count,
+            "rings": self.rings,
+            "input_vertices": outline.input_vertices,
+            "levels": numbering.levels,
+            "vertices": numbering.vertices,
+            "edges": numbering.edges,
+            "triangles": numbering.triangles,
+            "quads": numbering.quads,
+            "shapes": len(outline.shapes),
+            "size": float(np.ptp(outline.vertices[outline.corners], axis=0).max()),
+        }
+        if index == 0:
+            alone = np.flatnonzero(self.vertex_owner < 0)
+            same |= {
+                "report": outline.report,
+                "crease_edges": outline.crease_edges(),
+                "alone": alone,
+                "alone_points": outline.vertices[alone],
+                "alone_shapes": outline.shapes[:, alone],
+            }
+            if outline.mended:
+                same["mended"] = outline.mended
+        return same
