@@ -211,15 +211,12 @@ def warning_text(object_name: str, warning: Mapping[str, Any]) -> str:
     return f"{object_name}: {' '.join(map(_sentence, sentences))}"
 
 
-def unfinished_text(object_name: str, energy: str, face: int, ratio: float, fold: float) -> str:
-    """The text for a surface whose steps ended early; `energy`: its name in the interface. For the
-    source: `face`, the thinnest face, whose length over its height is `ratio`, and the sharpest `fold`,
-    in degrees.
-    """
+def unfinished_text(object_name: str, energy: str) -> str:
+    """The text for a surface whose steps ended early; `energy`: its name in the interface."""
     return (
-        f"{object_name}: Even out the thinnest faces of the source, or set Fairness to Bending, for an exact answer. "
-        f"The surface can be used, but {energy} could make it a little fairer. "
-        f"Face {face} is the thinnest, {ratio:.3g} times as long as high; the sharpest fold has {fold:.0f}°."
+        f"{object_name}: Even out the thinnest faces of the source and the sharpest folds, which Mesh Analysis shows in Edit "
+        "Mode, or set Fairness to Bending, for an exact answer. "
+        f"The surface can be used, but {energy} could make it a little fairer."
     )
 
 

@@ -126,10 +126,7 @@ class InPlaceJob(TimedRun):
         return vertices
 
     def warnings(self) -> list[str]:
-        world = self.shape.of_arrays(self._part.arrays)
-        sentences = run_warnings(
-            self.name, self.result.report, self._options.energy, world, self._part.faces
-        )
+        sentences = run_warnings(self.name, self.result.report, self._options.energy)
         counts = self._faults.counts
         if counts:
             # Near is no option here, and removing noise has neither Fairness nor Tension

@@ -17,7 +17,7 @@ from .check import cages
 from .check.faults import find_faults
 from .choices import ENERGY_NAMES
 from .errors import JobError
-from .inspection import display, measures
+from .inspection import display
 from .mesh.layers import read_data, write_data
 from .mesh.modifiers import copy_modifiers, left_out, without_inspection
 from .mesh.object import Reference, new_object
@@ -274,21 +274,14 @@ class Job(TimedRun):
         self.faults.write(mesh)
 
     def warnings(self) -> list[str]:
-        world = self.shape.of_arrays(self.arrays)
-        sentences = run_warnings(self.name, self.result.report, self.settings.energy, world)
+        sentences = run_warnings(self.name, self.result.report, self.settings.energy)
         if self.faults.counts:
             sentences.append(errors.faults_text(self.name, self.faults.counts, self.settings))
         return sentences
 
 
-def run_warnings(
-    name: str,
-    report: Mapping[str, Any],
-    energy: str,
-    control: core.ControlArrays,
-    ids: np.ndarray | None = None,
-) -> list[str]:
-    """The core's warnings, one sentence each; `ids` (m,): the faces of the mesh `control`."""
+def run_warnings(name: str, report: Mapping[str, Any], energy: str) -> list[str]:
+    """The core's warnings, one sentence each."""
     sentences = [
         errors.warning_text(name, warning)
         for warning in report["warnings"]
@@ -296,8 +289,5 @@ def run_warnings(
     ]
     explained = any(map(errors.is_unfinished, report["warnings"]))
     if not explained and not core.has_converged(report):
-        face, ratio = measures.thinnest_face(control)
-        face = face if ids is None else int(ids[face])
-        fold = measures.worst_folds(control)[1]
-        sentences.append(errors.unfinished_text(name, ENERGY_NAMES[energy], face, ratio, fold))
+        sentences.append(errors.unfinished_text(name, ENERGY_NAMES[energy]))
     return sentences

@@ -8,8 +8,9 @@ from math import degrees
 import numpy as np
 
 from .. import core
-from ..blender import Context, Object
+from ..blender import Context
 from ..mesh.object import Reference
+from ..mesh.read import source_objects
 from ..neighbours import shown
 
 
@@ -38,13 +39,9 @@ def rows() -> list[Row]:
     return [row for row in _rows if row.first.find() is not None]
 
 
-def chosen(context: Context) -> list[Object]:
-    return [o for o in context.selected_objects if o.type == "MESH"]
-
-
 def measure(context: Context) -> list[Row]:
     """Measures all pairs of selected objects whose borders meet, as shown in the window."""
-    objects = chosen(context)
+    objects = source_objects(context)
     meshes = [shown(context, target) for target in objects]
     found: dict[tuple[int, int], Row] = {}
     for a, b in permutations(range(len(objects)), 2):

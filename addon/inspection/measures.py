@@ -4,7 +4,7 @@
 import numpy as np
 
 from ..core import ControlArrays
-from .curvature import face_areas, face_normals, faces_of_edges
+from .curvature import face_normals, faces_of_edges
 
 # even steps from the lowest value to the highest, sRGB
 _SIGNED = (
@@ -29,13 +29,6 @@ _AMOUNT = (
 NEUTRAL = (0.15, 0.15, 0.15)  # linear; the colour of missing values
 
 
-def worst_folds(arrays: ControlArrays) -> tuple[float, float]:
-    """The largest angles of two faces at an edge, in degrees: (of smooth edges, of all)."""
-    angles, inside = fold_angles(arrays)
-    smooth = inside if arrays.sharp_edge is None else inside & ~arrays.sharp_edge
-    return float(angles[smooth].max(initial=0.0)), float(angles[inside].max(initial=0.0))
-
-
 def fold_angles(arrays: ControlArrays) -> tuple[np.ndarray, np.ndarray]:
     """(e,) degrees between each edge's two faces as if oriented alike; (e,) bool: has two."""
     normals = face_normals(arrays.positions, arrays.corners, arrays.offsets)
@@ -50,19 +43,6 @@ def fold_angles(arrays: ControlArrays) -> tuple[np.ndarray, np.ndarray]:
     has_area = (normals != 0.0).any(axis=1)
     inside = (arrays.edge_uses == 2) & has_area[pair].all(axis=1)
     return np.degrees(2.0 * np.arctan2(apart, together)), inside
-
-
-def thinnest_face(arrays: ControlArrays) -> tuple[int, float]:
-    """(id, ratio) of the face with the largest length over height; (-1, 0) if none has an area."""
-    area = face_areas(arrays.positions, arrays.corners, arrays.offsets)
-    if not (area > 0.0).any():
-        return -1, 0.0
-    ends = arrays.positions[arrays.edges[arrays.corner_edges]]
-    longest, face = np.zeros(len(area)), np.repeat(np.arange(len(area)), arrays.face_sizes)
-    np.maximum.at(longest, face, np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1))
-    box = np.where(arrays.face_sizes == 3, 2.0, 1.0) * area  # length times height
-    ratio = np.where(area > 0.0, longest**2 / np.where(area > 0.0, box, 1.0), 0.0)
-    return int(ratio.argmax()), float(ratio.max())
 
 
 def percentiles(values: np.ndarray, *ranks: float) -> list[float]:

@@ -9,7 +9,7 @@ import numpy as np
 from bpy.props import IntProperty, IntVectorProperty
 
 from .. import core, errors
-from ..blender import Answer, Context, Object
+from ..blender import Context, Object
 from ..check.defects import (
     bring_into_view,
     check_object,
@@ -26,7 +26,7 @@ from ..mesh.read import active_mesh, source_objects
 from ..mesh.write import FAULTS, NO_POINTS, faces_without_points
 from ..poll import IN_EITHER_MODE, needs, of_meshes
 from ..words import counted
-from .mixins import Action, refusing
+from .mixins import Action
 
 
 class _Checking(Action):
@@ -100,20 +100,15 @@ class OBJECT_OT_fairing_repair(_AtDefect, bpy.types.Operator):
     bl_idname = "object.fairing_repair"
     bl_label = "Repair"
 
-    @refusing
-    def execute(self, context: Context) -> Answer:
+    def act(self, context: Context) -> str:
         target, defect, _ = self._defect(context)
         if defect is None or not repair_label(defect["code"]):
-            self.report({"INFO"}, "There is nothing to repair here")
-            return {"CANCELLED"}
+            return "There is nothing to repair here"
         repair(context, target, defect["code"])
         left = check_object(context, target)
         select_in_all(context, [(target, _groups(left))])
         store_defects(context, target, left)
-        self.report(
-            {"INFO"}, errors.what(left[0]) if left else "Repaired: nothing is wrong any more"
-        )
-        return {"FINISHED"}
+        return errors.what(left[0]) if left else "Repaired: nothing is wrong any more"
 
 
 class OBJECT_OT_fairing_select_hole(_OfActive, bpy.types.Operator):

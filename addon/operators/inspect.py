@@ -6,24 +6,18 @@ from typing import Any, cast
 import bpy
 from bpy.props import EnumProperty
 
-from ..blender import Answer, Context, Object
+from ..blender import Answer, Context
 from ..inspection import display, viewport_shading
 from ..inspection.display import VALUES
 from ..inspection.settings import MODES
 from ..memory import source_of
+from ..mesh.read import source_objects
 from ..poll import IN_EITHER_MODE, IN_OBJECT_MODE, Reason, of_meshes
 from .mixins import Action
 
 
-def meshes(context: Context) -> list[Object]:
-    """The mesh objects that a button acts on: the selected ones, or else the active one."""
-    chosen = [o for o in context.selected_objects if o.type == "MESH"]
-    active = context.active_object
-    return chosen or ([active] if active is not None and active.type == "MESH" else [])
-
-
 class _Inspecting(Action):
-    reasons: tuple[Reason, ...] = (IN_OBJECT_MODE, of_meshes(meshes))
+    reasons: tuple[Reason, ...] = (IN_OBJECT_MODE, of_meshes(source_objects))
 
 
 class OBJECT_OT_fairing_inspect(_Inspecting, bpy.types.Operator):
@@ -38,7 +32,7 @@ class OBJECT_OT_fairing_inspect(_Inspecting, bpy.types.Operator):
     def description(cls, _context: Context, properties: Any) -> str:
         return next(text for key, _, text, *_ in MODES if key == properties.mode)
 
-    reasons = (IN_EITHER_MODE, of_meshes(meshes))
+    reasons = (IN_EITHER_MODE, of_meshes(source_objects))
 
     def invoke(self, context: Context, _event: bpy.types.Event) -> Answer:
         """From a button: also switches the viewport beside it, so that the result is visible."""
@@ -48,7 +42,7 @@ class OBJECT_OT_fairing_inspect(_Inspecting, bpy.types.Operator):
         return self.execute(context)
 
     def act(self, context: Context) -> str:
-        for target in meshes(context):
+        for target in source_objects(context):
             target.discrete_fairing_inspection.mode = self.mode
         if self.mode in VALUES and context.mode == "EDIT_MESH":
             return "Press Tab, then Refresh: colours are measured in Object Mode"
@@ -61,7 +55,7 @@ class OBJECT_OT_fairing_inspect(_Inspecting, bpy.types.Operator):
 
 def _has_reference(context: Context) -> bool:
     other = context.scene.discrete_fairing_inspection.deviation_object
-    return other is not None or all(map(source_of, meshes(context)))
+    return other is not None or all(map(source_of, source_objects(context)))
 
 
 class OBJECT_OT_fairing_refresh(_Inspecting, bpy.types.Operator):
@@ -71,5 +65,5 @@ class OBJECT_OT_fairing_refresh(_Inspecting, bpy.types.Operator):
     bl_label = "Refresh Colours"
 
     def act(self, context: Context) -> None:
-        for target in meshes(context):
+        for target in source_objects(context):
             display.refresh(target, context.scene.discrete_fairing_inspection)

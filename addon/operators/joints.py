@@ -9,7 +9,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, IntProperty
 
 from .. import errors, neighbours
-from ..blender import Answer, Context, Object
+from ..blender import Context, Object
 from ..check import joints
 from ..check.defects import bring_into_view, select_defects
 from ..choices import JOINTS
@@ -17,7 +17,8 @@ from ..errors import JobError
 from ..freshness import is_own
 from ..job import Job
 from ..memory import source_of
-from ..poll import LINKED_SURFACE, ExplainedPoll, in_mode, needs
+from ..mesh.read import source_objects
+from ..poll import LINKED_SURFACE, in_mode, needs
 from ..settings import Settings
 from ..words import counted
 from .fair import Fairing, can_fair
@@ -74,7 +75,7 @@ class OBJECT_OT_fairing_match_border(Fairing, bpy.types.Operator):
             other.discrete_fairing.neighbour = None
 
 
-class OBJECT_OT_fairing_joints(ExplainedPoll, bpy.types.Operator):
+class OBJECT_OT_fairing_joints(Action, bpy.types.Operator):
     """Measure gaps, kinks and jumps of curvature where the borders of the selected objects meet"""
 
     bl_idname = "object.fairing_joints"
@@ -83,21 +84,16 @@ class OBJECT_OT_fairing_joints(ExplainedPoll, bpy.types.Operator):
 
     reasons = (
         in_mode("Go to Object Mode first", "OBJECT"),
-        needs(lambda c: len(joints.chosen(c)) > 1, "Select two mesh objects or more first"),
+        needs(lambda c: len(source_objects(c)) > 1, "Select two mesh objects or more first"),
     )
 
-    def execute(self, context: Context) -> Answer:
+    def act(self, context: Context) -> str:
         with errors.explained("Check Joints"):
             found = joints.measure(context)
         if not found:
-            self.report({"INFO"}, "No two borders of these objects meet")
-            return {"CANCELLED"}
+            return "No two borders of these objects meet"
         worst = max(found, key=lambda row: row.kink)
-        self.report(
-            {"INFO"},
-            f"{counted(len(found), 'joint')}, listed in the panel Check; the worst is {worst.text()}",
-        )
-        return {"FINISHED"}
+        return f"{counted(len(found), 'joint')}, listed in the panel Check; the worst is {worst.text()}"
 
 
 class OBJECT_OT_fairing_select_joint(Action, bpy.types.Operator):

@@ -98,8 +98,6 @@ def test_folds_of_a_box_are_right_angles():
     assert inside.all() and np.allclose(angles, 90)
     turned = [faces[0][::-1], *faces[1:]]
     assert np.allclose(measures.fold_angles(polygons(box, turned))[0], 90)
-    every = polygons(box, faces).edges.tolist()
-    assert measures.worst_folds(polygons(box, faces, every)) == (0.0, pytest.approx(90))
 
 
 DART = np.array([(0, 0), (2, -1), (0.5, 0), (2, 1)])
@@ -133,4 +131,4 @@ def test_degenerate_faces_give_finite_numbers():
     mesh = polygons(positions, [(0, 1, 2), (0, 1, 3), (0, 4, 5), (2, 1, 3)])
     bent = curvature.curvature(mesh)
     assert np.isfinite(bent.mean).all() and np.isfinite(bent.gauss).all()
-    assert all(np.isfinite(measures.worst_folds(mesh)))
+    assert np.isfinite(measures.fold_angles(mesh)[0]).all()
