@@ -13,7 +13,7 @@ from ..mesh.world_shape import world_shape
 from ..properties import FairingSettings
 from ..settings import Settings, is_evaluated, subdivision
 from ..triangles import marked
-from .flats import ANGLE, find_flats, plane_parts
+from .flats import ANGLE, find_flats, halves_of_quads, plane_parts
 
 REASON = "flat faces at tight rims or in hollows"
 
@@ -43,7 +43,11 @@ def wants_limit(settings: Settings, cage: core.ControlArrays) -> bool:
         sharp |= cage.edge_crease > 0
     if settings.use_sharp_edges and cage.sharp_edge is not None:
         sharp |= cage.sharp_edge
-    return _has_floor(cage, sharp) or _has_rims(cage, find_flats(cage, ANGLE, sharp, tight=True))
+    return (
+        _has_floor(cage, sharp)
+        or _has_rims(cage, find_flats(cage, ANGLE, sharp, tight=True))
+        or _has_chamfers_of_triangles(cage, sharp)
+    )
 
 
 def _has_floor(cage: core.ControlArrays, sharp: np.ndarray) -> bool:
@@ -72,10 +76,30 @@ def _has_rims(cage: core.ControlArrays, flats: np.ndarray) -> bool:
     faces_at = np.bincount(cage.corners)
     if (faces_at[cage.corners[np.repeat(flats, cage.face_sizes)]] > 3).any():
         return True
+    return _turns_beyond(cage, flats | _beside(cage, flats))
+
+
+def _has_chamfers_of_triangles(cage: core.ControlArrays, sharp: np.ndarray) -> bool:
+    """The same of faces that are two triangles each: how many meet at a vertex tells nothing then."""
+    if not (cage.face_sizes == 3).any():
+        return False
+    folds, inside = fold_angles(cage)
+    other = halves_of_quads(cage, inside & ~sharp & (folds <= ANGLE))
+    flats = find_flats(cage, ANGLE, sharp, tight=True, other_half=other)
+    known = flats | _beside(cage, flats)
+    known |= (other >= 0) & known[other]
+    return _turns_beyond(cage, known)
+
+
+def _beside(cage: core.ControlArrays, faces: np.ndarray) -> np.ndarray:
     pair = faces_of_edges(cage)
-    known = flats | marked(pair[flats[pair].any(axis=1)], len(flats))
-    beyond = known[pair].sum(axis=1) == 1
-    return bool((fold_angles(cage)[0][beyond] > ANGLE).any())
+    return marked(pair[faces[pair].any(axis=1)], len(faces))
+
+
+def _turns_beyond(cage: core.ControlArrays, known: np.ndarray) -> bool:
+    """Whether the mesh turns at an edge of the faces `known`."""
+    border = known[faces_of_edges(cage)].sum(axis=1) == 1
+    return bool((fold_angles(cage)[0][border] > ANGLE).any())
 
 
 def shown_settings(properties: FairingSettings, source: Object) -> Settings | None:

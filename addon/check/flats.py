@@ -18,9 +18,11 @@ def find_flats(
     angle: float,
     sharp: np.ndarray | None = None,
     tight: bool = False,
+    other_half: np.ndarray | None = None,
 ) -> np.ndarray:
     """(m,) bool: the faces of flats. `sharp`: (e,) bool, edges that count as open borders. `tight`: only
-    flats with quads all around that are no deeper, from the flat's border on, than the flat is wide.
+    flats with quads all around that are no deeper, from the flat's border on, than the flat is wide;
+    `other_half`: of `halves_of_quads`, which count as quads too.
 
     Faces that are joined within `angle` (degrees) and lie in one plane form a part. A part is a flat if
     at each of its borders, except open ones, the mesh turns away, the part is at least as wide as the
@@ -54,11 +56,33 @@ def find_flats(
     turns &= 2.0 * turn[here] * width[there] <= beyond[there] * width[here]
     if tight:
         length = _lengths(arrays, edge[there])
-        area = face_areas(arrays.positions, arrays.corners, arrays.offsets)[face[there]]
-        turns &= (arrays.face_sizes[face[there]] == 4) & (area <= length * width[here])
+        area = face_areas(arrays.positions, arrays.corners, arrays.offsets)
+        quad = arrays.face_sizes == 4
+        if other_half is not None:
+            quad |= other_half >= 0
+            area += np.where(other_half >= 0, area[other_half], 0.0)
+        turns &= quad[face[there]] & (area[face[there]] <= length * width[here])
     some = marked(owner[here], len(plane))
     some[owner[here[~turns]]] = False
     return (some & plane)[part]
+
+
+def halves_of_quads(arrays: core.ControlArrays, flush: np.ndarray) -> np.ndarray:
+    """(m,) int: the triangle across the longest side of each triangle, if that is the longest of both and
+    among the edges `flush` (e,) bool; elsewhere -1.
+    """
+    corner_length = _lengths(arrays, arrays.corner_edges)
+    longest = np.maximum.reduceat(corner_length, arrays.offsets[:-1])
+    is_longest = (corner_length == np.repeat(longest, arrays.face_sizes)) & np.repeat(
+        arrays.face_sizes == 3, arrays.face_sizes
+    )
+    diagonal = flush & (
+        np.bincount(arrays.corner_edges[is_longest], minlength=len(arrays.edges)) == 2
+    )
+    pair = faces_of_edges(arrays)[diagonal]
+    other = np.full(len(arrays.face_sizes), -1)
+    other[pair] = pair[:, ::-1]
+    return other
 
 
 def plane_parts(arrays: core.ControlArrays, joined: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
