@@ -8,6 +8,7 @@ import discrete_fairing as df
 import numpy as np
 import pytest
 import sheet_meshes
+import thin_walls
 from half_hulls import hull
 from one_sided_meshes import strip
 from refusing import refusal
@@ -73,6 +74,7 @@ CASES = {
     "creature, variation": (meshes.creature(), (3,), VARIATION),
     "9,700 points, variation": (meshes.random_hull(40), (4,), VARIATION),
     "even, variation": (egg(), (5,), VARIATION),
+    "thin walls at limit positions": (thin_walls.sheet()[:2], (5,), {"interpolation": "limit"}),
     # whatever is fixed, merged away or apart
     "ball": (BALL, (2, 3), {}),
     "ball of STL": (apart(BALL), (2, 3), MEND),
