@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "curvature/fold_repair.h"
 #include "parallel/reductions.h"
 #include "transfer/quadratic.h"
 
@@ -29,19 +30,20 @@ void add_prolonged(SurfaceIterate& it, const Array<double> below) {
   it.linearize(of_variation);
 }
 
-// Makes iterate.current the surface of least variation. Returns whether it varies less; with a penalty
-// also whether the steps have converged, since rims wave on the way there: a mug's turned by 524
-// degrees for 360, total curvature's by 408.
+// Makes iterate.current the surface of least variation. Returns whether it varies less and, if the
+// steps have not converged, has no more folds; with a penalty they have to converge, since rims wave
+// on the way there: a mug's turned by 524 degrees for 360, total curvature's by 408.
 bool vary(SurfaceIterate& it, VariationBelow& below, const StopCriterion& end,
           CurvatureLevelReport& report) {
   const Array<double> start = it.current.points;
   it.linearize(of_variation);
   report.start_variation = it.current.energy;
+  const std::size_t folds = folds_of(it).count();
   const double most =
       equal_energy * report.start_variation + flat_energy_about(it.current, it.workers());
   const auto steps_fall = [&] {
     run_to_variation(it, end, report);
-    const bool may_keep = report.converged || !it.op().penalty();
+    const bool may_keep = report.converged || (!it.op().penalty() && folds_of(it).count() <= folds);
     if (it.current.energy <= most && may_keep) return true;
     it.current.points = start;
     it.linearize(of_variation);
