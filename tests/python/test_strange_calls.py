@@ -39,9 +39,10 @@ def test_a_size_is_not_predicted_from_offsets_that_lead_elsewhere(offsets):
         (len(POINTS), FACES, 2.5),
         (len(POINTS), FACES, "3"),
         (len(POINTS), FACES, None),
-        (len(POINTS), FACES, 2**62),
-        (len(POINTS), FACES, -1),
-        (len(POINTS), FACES, 3, "cheap"),
+        (len(POINTS), FACES, 3, 2**62),
+        (len(POINTS), FACES, 3, 1.5),
+        (len(POINTS), FACES, 3, -1),
+        (len(POINTS), FACES, 3, 0, "cheap"),
     ],
     ids=lambda arguments: repr([a for a in arguments if a is not FACES]),
 )

@@ -6,11 +6,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
 from .arrays import face_arrays, vertex_array
-from .converters import choice, whole
+from .converters import choice, switch, whole
 from .errors import fairing_error
 
 
@@ -55,18 +56,33 @@ def predicted_size(
     vertex_count: int,
     faces: ArrayLike | Sequence[Sequence[int]],
     levels: int,
+    shapes: int = 0,
     energy: str = "thin_plate",
+    halved: bool = False,
 ) -> dict[str, int]:
     """The size of a surface and the memory of its run, without running it.
 
-    `faces`, `levels` and `energy` are those of fair(), `vertex_count` is a number. Returns "vertices" and
-    "triangles" of the refined surface, and "bytes", a bound on the peak of the run's own arrays. Quads
-    that will be split count as quads. Raises FairingError BAD_SHAPE and BAD_OPTION.
+    `faces`, `levels` and `energy` are those of fair(), `vertex_count` and `shapes` are numbers.
+    `halved`: the mesh will have a symmetry_plane. Returns "vertices" and "triangles" of the refined
+    surface, and "bytes", a bound on the peak of the run's own arrays (with `halved`, of both halves).
+    Quads that will be split count as quads. Raises FairingError BAD_SHAPE and BAD_OPTION.
     """
-    count, depth = whole("vertex_count", vertex_count), whole("levels", levels)
+    count, depth, more = (
+        whole(name, value)
+        for name, value in (("vertex_count", vertex_count), ("levels", levels), ("shapes", shapes))
+    )
     if depth > _native.most_levels:
         raise fairing_error(
             "BAD_OPTION", f"levels is {depth}; it must be from 0 to {_native.most_levels}."
         )
     functional = choice(_native.Energy.__members__)("energy", energy)
-    return _native.predicted_size(count, *face_arrays(faces), depth, 0, functional)
+    corners, offsets = face_arrays(faces)
+
+    def of(copies: int) -> dict[str, int]:
+        every, shift = np.arange(copies)[:, None], count * np.arange(copies)[:, None]
+        starts = np.append(offsets[:-1] + len(corners) * every, copies * len(corners))
+        ids = (corners + shift).ravel()
+        return _native.predicted_size(copies * count, ids, starts, depth, more, functional)
+
+    size = of(1)
+    return {**size, "bytes": of(2)["bytes"]} if switch("halved", halved) else size

@@ -122,7 +122,7 @@ def fit_patches(
     def count(level: int) -> int:
         halves = 1 if options.get("symmetry_plane") is None else 2
         energy = options.get("energy", "thin_plate")
-        return halves * predicted_size(len(points), polygons, level, energy)["vertices"]
+        return halves * predicted_size(len(points), polygons, level, energy=energy)["vertices"]
 
     # near a scan the weight of its points is that of the first surface
     coarser = 2 if given is None else 1

@@ -196,7 +196,7 @@ class CommonSettings(TypedDict, total=False):
 
 
 class Settings(CommonSettings, total=False):
-    """The settings of fair(), Solver and strain(), beside `levels` and `energy`."""
+    """The settings of fair(), Solver, strain() and pieces(), beside `levels` and `energy`."""
 
     tolerance: Annotated[float | ArrayLike, lengths]
     """Mesh units, one number or (n,), 0. Approximate: the farthest that any control vertex moves, or
