@@ -22,20 +22,17 @@ struct TurnedEdge {
   double cosine, sine;  // of twice the angle from the neighbour's chart to the point's
 };
 
-Vec2 direction(const Vec3& along, const TensorPoint& p) {
-  const Eigen::Map<const Vec3> normal(p.normal), axis(p.axis);
-  return Vec2(along.dot(axis), along.dot(normal.cross(axis))).normalized();
+Vec2 direction(const Vec3& along, const ChartAxes& p) {
+  return Vec2(along.dot(p.axis), along.dot(p.normal.cross(p.axis))).normalized();
 }
 
-// The rotation between two charts, from the edge between their points. The edge's directions at its
-// two ends differ by half a turn, which does not change twice the angle.
 TurnedEdge edge_between(const TensorPoint& a, const TensorPoint& b, double weight) {
   if (!(weight > 0) || !(b.area > 0)) return {0, 1, 0};
-  const Vec3 along = Eigen::Map<const Vec3>(b.x) - Eigen::Map<const Vec3>(a.x);
-  const Vec2 p = direction(along, a), q = direction(along, b);
-  const double c = p.dot(q), s = q.x() * p.y() - q.y() * p.x();
-  if (!std::isfinite(c) || !std::isfinite(s)) return {0, 1, 0};
-  return {weight, c * c - s * s, 2 * c * s};
+  using At = Eigen::Map<const Vec3>;
+  const Vec2 turn =
+      turn_between({At(a.normal), At(a.axis)}, {At(b.normal), At(b.axis)}, At(b.x) - At(a.x));
+  if (!turn.allFinite()) return {0, 1, 0};
+  return {weight, turn.x(), turn.y()};
 }
 
 // Reads the weights of point i of a run and writes its rows; returns the energy of half its edges.
@@ -104,6 +101,13 @@ struct SurfaceGather {
 };
 
 }  // namespace
+
+// The edge's directions at its two ends differ by half a turn, which does not change twice the angle.
+Vec2 turn_between(const ChartAxes& to, const ChartAxes& from, const Vec3& along) {
+  const Vec2 p = direction(along, to), q = direction(along, from);
+  const double c = p.dot(q), s = q.x() * p.y() - q.y() * p.x();
+  return {c * c - s * s, 2 * c * s};
+}
 
 Connection::Connection(RingRows cotangents, const Surface& surface, const double* tensor,
                        Workers& workers, double* force)

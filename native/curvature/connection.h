@@ -9,6 +9,14 @@
 
 namespace fairing {
 
+struct ChartAxes {
+  Vec3 normal, axis;  // the u axis in space
+};
+
+// Cosine and sine of twice the angle between two points' charts, by which a tensor rotates from the
+// second to the first, from the edge `along` between them. Not finite for an edge along a normal.
+Vec2 turn_between(const ChartAxes& to, const ChartAxes& from, const Vec3& along);
+
 // Tensors have the orthonormal components of point_curvature.h, 3 numbers a point, each times the
 // root of its point's area; points without an area are ignored.
 class Connection {

@@ -32,6 +32,7 @@ struct CurvatureShared {
   Workers& workers;
   double tension = 0;              // tension times area is added to the energy
   bool ends_in_variation = false;  // the finest level minimizes it
+  bool refined = false;            // faces have points of their own
   ElementSlots<double, 1> double_slots{};
   ElementSlots<float, 1> float_slots{};
   Array<double> moment{}, turned{};  // for minimum variation

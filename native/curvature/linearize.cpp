@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "curvature/held_sides.h"
 #include "curvature/level.h"
 #include "curvature/rings.h"
 #include "parallel/reductions.h"
@@ -87,7 +88,8 @@ struct PointScratch {
 
   // Stores the rows of point i of a run; returns its energy and adds its part of the force.
   double store(const RingInSpace& at, bool closed, CurvatureEnergy energy, double weight,
-               const RowRun<float>& run, std::size_t i, double* const* force) {
+               const HeldSide* held, const RowRun<float>& run, std::size_t i,
+               double* const* force) {
     linearize(at.view(closed), energy, rows);
     if (!rows.point.has_rows()) {
       const double out = rows.point.area;  // infinite, or zero
@@ -99,7 +101,8 @@ struct PointScratch {
       root = 0;
       return out;
     }
-    const double area = weight * rows.point.area;
+    if (held) rows.shape -= held->share * held->shape;
+    const double area = weight * rows.point.area / (held ? 1 - held->share : 1);
     root = std::sqrt(area);
     const auto put = [&](int slot, const Vec3& row) {
       for (int c = 0; c < 3; ++c) run.at(c, slot, i) = float(root * row[c]);
@@ -153,6 +156,7 @@ struct RunLinearizer {
   const Run& run;
   CurvatureEnergy energy;
   const EnergyWeight& factor;
+  const HeldSide* held;  // of the run's vertex; null: none
   const PointValues& values;
   RowRun<float> rows, cotangents;  // the latter without slots unless there is a connection
   double* const* force;
@@ -160,7 +164,8 @@ struct RunLinearizer {
 
   // One point; returns its energy.
   double alone(std::size_t i, const RingInSpace& ring, bool closed) const {
-    const double out = point.store(ring, closed, energy, factor.point(run, i), rows, i, force);
+    const double out =
+        point.store(ring, closed, energy, factor.point(run, i), held, rows, i, force);
     const Vec3& normal = point.rows.point.normal;
     const Vec3 axis =
         values.need_axes() ? chart_axis(normal, point.rows.chart) : Vec3(Vec3::Zero());
@@ -258,6 +263,9 @@ double CurvatureLevel::linearize_points(const double* x, const Unknowns& force_r
   const EnergyWeight factor(grid_);
   const Array<float> lifts = area_lifts(grid_, shared_.workers, x);
   const float* lift = lifts.empty() ? nullptr : lifts.data();
+  std::vector<HeldSide> sides;
+  if (!varies() && !shared_.refined && mesh.region.whole())
+    sides = held_sides(grid_, shared_.unknowns, x);
   if (!mesh.region.whole())  // points outside are not visited
     shared_.workers.for_parts(
         grid_.size(), vector_grain / 8,
@@ -265,10 +273,15 @@ double CurvatureLevel::linearize_points(const double* x, const Unknowns& force_r
   ElementSums energy(mesh);
   const auto body = [&](const Run& run, double* const* to, Gather& gather) {
     if (!has_fit(mesh, run)) return values.clear(run.first, run.count);
-    const RunLinearizer pass{
-        run,    energy_,       factor,
-        values, rows_.of(run), cotangents ? cotangents->of(run) : RowRun<float>{},
-        to,     gather.point};
+    const RunLinearizer pass{run,
+                             energy_,
+                             factor,
+                             sides.empty() ? nullptr : &sides[run.element],
+                             values,
+                             rows_.of(run),
+                             cotangents ? cotangents->of(run) : RowRun<float>{},
+                             to,
+                             gather.point};
     const bool is_regular = run.kind == RunKind::face_row ||
                             (run.kind == RunKind::edge && !mesh.edges[run.element].boundary());
     if (is_regular) {

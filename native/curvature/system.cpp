@@ -48,6 +48,7 @@ GaussNewtonSystem::GaussNewtonSystem(const ControlMesh& mesh, const GridLevels& 
       constraints_(constraints) {
   shared_.tension = options.tension;
   shared_.ends_in_variation = options.energy == CurvatureEnergy::minimum_variation;
+  shared_.refined = finest() > 0;
   std::vector<HierarchyLevel> all;
   for (int l = base; l <= finest(); ++l) {
     operators_.push_back(std::make_unique<CurvatureLevel>(shared_, grid(l)));

@@ -265,6 +265,9 @@ def test_half_a_torus_gets_a_ring(n, m):
         elif n > 24:  # of revolution the least one goes down to -1.456, from 1.998 to 4
             assert radius.min() > 1.8 and radius.max() < 4.2
             assert -2 < one.vertices[:, 2].min() < -1.3 and one.holes[0].energy == "total_curvature"
+        if joint == "curvature" and n > 90:
+            assert one.holes[0].converged and radius.min() > 1.99
+            assert -1.49 < one.vertices[:, 2].min() < -1.44
 
 
 @pytest.mark.parametrize("bend", [0.0, -0.05])
