@@ -52,9 +52,7 @@ def _scaled(patches: object, factor: float, k: int) -> SplinePatches:
         )
     with np.errstate(over="ignore", invalid="ignore"):
         scaled = patches.transformed(np.diag([factor, factor, factor, 1.0]))
-        scaled.size = (
-            patches.size * factor
-        )  # it determines the tolerance of programs that read a file
+        scaled.size = patches.size * factor  # of which readers of the file take their tolerance
     arrays = (scaled.vertices, scaled.patch_points, scaled.edge_points)
     if not all(np.isfinite(array).all() for array in arrays):
         raise fairing_error(
