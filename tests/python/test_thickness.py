@@ -124,9 +124,9 @@ def upper_side(count, sections):
     return points[used], faces.reshape(-1, 4)
 
 
-@pytest.mark.parametrize("count, sections, level", [(9, 6, 2), (14, 8, 3), (14, 11, 2)])
+@pytest.mark.parametrize("count, sections, level", [(9, 6, 2), (14, 8, 3), (11, 9, 2)])
 def test_a_sheet_that_bulges_farther_than_its_faces_are_wide_is_told_of(count, sections, level):
-    """Nothing lies behind it, and so it left its mesh by 0.2 to 0.3 chords without a word."""
+    """Nothing lies behind it, and so it left its mesh by 0.1 to 0.3 chords without a word."""
     sheet = upper_side(count, sections)
     (warning,) = told(df.fair(*sheet, level, "minimum_variation", threads=1), "BULGES")
     assert warning["kind"] == "face" and 'energy="thin_plate"' in warning["message"]
