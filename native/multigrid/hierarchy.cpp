@@ -189,13 +189,13 @@ void Hierarchy::solve_direct(CoarseSolver& solver, const PcgLimits& limits,
     out.converged = norm(workers_, size, r) <= roundoff_of_terms * solver.norm_of_terms(x);
 }
 
-// Ratio of the largest eigenvalue to that of the level below; 0: unknown. Stencils hardly change
-// between levels; but lines become longer, and adjacent to others (on a toroidal tetrahedron it
-// rises from 2.9 to 3.7 at level 5).
-double Hierarchy::growth_of_eigenvalue(std::size_t index) const {
+// Whether a level's largest eigenvalue is that of the level below, with a margin. Stencils hardly
+// change between levels; but lines become longer, and adjacent to others (on a toroidal tetrahedron
+// it rises from 2.9 to 3.7 at level 5).
+bool Hierarchy::has_eigenvalue_of_below(std::size_t index) const {
   const CycleLevel& level = cycle_.levels[index];
-  const bool is_known = index > cycle_.base && !(level.lines && level.lines->any());
-  return is_known && cycle_.levels[index - 1].largest_eigenvalue > 0 ? settled_margin : 0;
+  return index >= options_.settled && index > cycle_.base && !(level.lines && level.lines->any()) &&
+         cycle_.levels[index - 1].largest_eigenvalue > 0;
 }
 
 // Lanczos starts with the restricted residual, which rotates and renumbers with the mesh.
@@ -215,9 +215,8 @@ void Hierarchy::estimate_eigenvalues(std::size_t top, const double* residual) {
   }
   for (std::size_t l = lowest; l <= top; ++l) {
     CycleLevel& level = cycle_.levels[l];
-    const double growth = l >= options_.settled ? growth_of_eigenvalue(l) : 0;
-    if (growth > 0)
-      level.largest_eigenvalue = growth * cycle_.levels[l - 1].largest_eigenvalue;
+    if (has_eigenvalue_of_below(l))
+      level.largest_eigenvalue = settled_margin * cycle_.levels[l - 1].largest_eigenvalue;
     else
       level.largest_eigenvalue =
           largest_eigenvalue(*level.op, level.lines.get(), workers_, level.state.residual.data());

@@ -88,7 +88,7 @@ class Hierarchy {
   void solve_direct(CoarseSolver& solver, const PcgLimits& limits, const LinearSystem& system,
                     LevelSolve& out);
   void seek_lines(std::size_t index);
-  double growth_of_eigenvalue(std::size_t index) const;
+  bool has_eigenvalue_of_below(std::size_t index) const;
   void estimate_eigenvalues(std::size_t top, const double* residual);
 
   // adaptation.cpp

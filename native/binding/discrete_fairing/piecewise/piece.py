@@ -157,9 +157,7 @@ class Piece:
         self, own: Outline, mirrored: np.ndarray, which: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray]:
         """Ids in the whole and rows in the piece of the vertices at these corners (F, 4), each once."""
-        face, corner = np.nonzero(which)
-        ids, first = np.unique(self.face[face, corner], return_index=True)
-        face, corner = face[first], corner[first]
+        ids, face, corner = _once(self.face, which)
         size = 3 + (self.face[:, 3] >= 0)
         turned = turned_corners(size)[face, corner]
         return ids, own.face[face, np.where(mirrored[face], turned, corner)]
@@ -168,9 +166,7 @@ class Piece:
         self, own: Outline, mirrored: np.ndarray, which: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray]:
         """Ids in the whole (e,) and rows in the piece (e, n - 1) of the edges at these sides."""
-        face, side = np.nonzero(which)
-        ids, first = np.unique(self.side_edge[face, side], return_index=True)
-        face, side = face[first], side[first]
+        ids, face, side = _once(self.side_edge, which)
         turned = 2 + (self.face[face, 3] >= 0) - side
         place = np.where(mirrored[face], turned, side)
         along = own.side_reversed[face, place] ^ mirrored[face]
@@ -196,6 +192,13 @@ class Piece:
             f"Piece({self.index} of {self.surface['count']}, {int(self.owned.sum())} control faces "
             f"and {int((~self.owned).sum())} around them)"
         )
+
+
+def _once(ids: np.ndarray, which: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The ids (F, 4) that are chosen, ascending, each once, with the row and column of its first place."""
+    row, column = np.nonzero(which)
+    found, first = np.unique(ids[row, column], return_index=True)
+    return found, row[first], column[first]
 
 
 def turned_corners(size: np.ndarray) -> np.ndarray:
