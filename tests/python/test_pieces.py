@@ -105,7 +105,7 @@ def test_every_point_has_one_owner():
     joined = df.join(reversed(parts))
     for part in parts:
         assert np.array_equal(joined.vertices[part.ids], part.vertices)
-        shared = part.seam_ids()
+        shared = part.seam_ids
         assert not np.isin(shared, part.ids).any()
     faces_of_parts = np.concatenate([part.faces[0] for part in parts])
     assert len(np.unique(faces_of_parts, axis=0)) == len(joined.faces[0])
@@ -117,7 +117,7 @@ def test_a_piece_gives_the_same_bits_wherever_it_is_faired():
     part = pickle.loads(pickle.dumps(piece)).fair(threads=3)
     assert np.array_equal(part.vertices, here.vertices)
     assert np.array_equal(part.ids, here.ids)
-    assert np.array_equal(part.seam_points(), here.seam_points())
+    assert np.array_equal(part.seam_points, here.seam_points)
 
 
 def test_the_same_pieces_on_every_call():
@@ -190,7 +190,7 @@ def test_a_worker_needs_the_memory_of_its_piece():
     whole = df.fair(*mesh, 3)
     pieces = cut(*mesh, levels=3, count=8, rings=2, relative_residual=1e-4)
     parts = [piece.fair() for piece in pieces]
-    share = max(len(piece.face) for piece in pieces) / len(mesh[1])
+    share = max(len(piece.owned) for piece in pieces) / len(mesh[1])
     assert share < 0.3
     peak = max(part.report["peak_bytes"] for part in parts)
     assert peak < 1.2 * share * whole.report["peak_bytes"]

@@ -54,13 +54,6 @@ class Lattice:
         return np.flatnonzero(inside)
 
     @cached_property
-    def mirrored(self) -> np.ndarray:
-        """(interior,): interior points (j, i) of the reversed face, which keeps its first corner."""
-        rank = np.empty(len(self.i), np.int64)
-        rank[self.interior] = np.arange(self.interior_count)
-        return rank[self.at(self.j[self.interior], self.i[self.interior])]
-
-    @cached_property
     def cells(self) -> np.ndarray:
         """(cells, 3 or 4): the small faces, in the order of the result."""
         n, at = self.n, self.at

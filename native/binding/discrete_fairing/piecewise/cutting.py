@@ -19,11 +19,6 @@ from .partition import partition
 from .piece import Piece
 from .settings import PieceSettings, checked
 
-# How a piece's surface ends where it was cut off: along straight edges. Measured (docs/developers/notes/pieces.md): the
-# difference to the whole is the same as with curves there and with free edges, within a third; but
-# free edges take two to four times as long, and total curvature goes astray along them.
-CUT_BOUNDARY = "linear"
-
 
 def pieces(
     vertices: ArrayLike,
@@ -39,8 +34,9 @@ def pieces(
 ) -> list[Piece]:
     """Cut a control mesh into pieces whose surfaces together form that of the whole mesh.
 
-    Each piece knows its own faces and some rings around them, and can be pickled and faired anywhere. What concerns the whole is decided here, once: what is mended, which way faces run,
-    what is a crease, and where all curves lie. The whole's surface is never computed.
+    Each piece knows its own faces and some rings around them, and can be pickled and faired anywhere. What
+    concerns the whole is decided here, once: what is mended, which way faces run, what is a crease, and
+    where all curves lie. The whole's surface is never computed.
 
     Parameters
     ----------
@@ -73,7 +69,8 @@ def pieces(
     asked = {**settings, "energy": energy, "symmetry_plane": symmetry_plane}
     given, options = checked(asked, levels)
     outline = Outline(points, *face_arrays(faces), others, options)
-    weights = np.bincount(outline.polygon, outline.quad + 1.0, outline.polygon_count)
+    control = outline.control
+    weights = np.bincount(control.polygon, control.quad + 1.0, outline.polygon_count)
     labels = partition(outline.middles(), weights, min(wanted, outline.polygon_count))
     return Cutter(outline, labels, around, PieceSettings(given, outline)).all()
 
@@ -89,14 +86,15 @@ class Cutter:
         self.faces_at, self.at = faces_by_vertex(
             outline.corners, outline.offsets, outline.input_vertices
         )
-        self.control_at = np.searchsorted(outline.polygon, np.arange(outline.polygon_count + 1))
+        control = outline.control
+        self.control_at = np.searchsorted(control.polygon, np.arange(outline.polygon_count + 1))
         self.curve_of = np.full(len(outline.edge), -1, np.int64)
         self.curve_of[outline.curve] = np.arange(len(outline.curve))
         self.softness = outline.on_edges(*outline.options.soft_creases)
-        face, side = np.nonzero(outline.side_edge >= 0)
-        edge = outline.side_edge[face, side]
+        face, side = np.nonzero(control.edge >= 0)
+        edge = control.edge[face, side]
         several = outline.edge_uses[edge] > 2
-        self.sheet_edge, self.sheet_polygon = edge[several], outline.polygon[face[several]]
+        self.sheet_edge, self.sheet_polygon = edge[several], control.polygon[face[several]]
         self.local = np.full(outline.input_vertices, -1, np.int64)  # scratch
         self.reached = np.zeros(outline.polygon_count, bool)  # scratch
 
@@ -137,58 +135,49 @@ class Cutter:
         corners = outline.corners[ranges(starts, ends)]
         vertex_id = np.unique(corners)
         self.local[vertex_id] = np.arange(len(vertex_id))
-        control = ranges(self.control_at[polygon], self.control_at[polygon + 1])
-        face, side_edge = outline.face[control], outline.side_edge[control]
-        mine = self.labels[outline.polygon[control]] == index
-        settings, curves = self.settings.of(vertex_id, polygon), self.edges_of(side_edge)
-        settings.update(curves.pop("settings"))
+        rows = ranges(self.control_at[polygon], self.control_at[polygon + 1])
+        control = outline.control.take(rows)
+        mine = self.labels[control.polygon] == index
+        of_edges, curves = self.edges_of(control.edge)
         return Piece(
             index=index,
             vertices=outline.vertices[vertex_id],
             shapes=np.ascontiguousarray(outline.shapes[:, vertex_id]),
             corners=self.local[corners],
             offsets=np.concatenate([[0], np.cumsum(ends - starts)]),
-            settings=settings,
+            settings=self.settings.of(vertex_id, polygon) | of_edges,
             of_whole={"units": list(outline.units), **curves},
             vertex_id=vertex_id,
-            face=face,
-            side_edge=side_edge,
-            side_reversed=outline.side_reversed[control],
-            face_id=control,
-            quads_before=outline.quads_before[control],
-            polygon=outline.polygon[control],
+            control=control,
             owned=mine,
-            corner_owned=mine[:, None] & (face >= 0) & (self.vertex_owner[face] == index),
-            side_owned=mine[:, None] & (side_edge >= 0) & (self.edge_owner[side_edge] == index),
+            corner_owned=self.vertex_owner[control.vertex] == index,
+            side_owned=self.edge_owner[control.edge] == index,
             surface=self.surface(index),
         )
 
-    def edges_of(self, side_edge: np.ndarray) -> dict[str, Any]:
-        """Creases, boundaries and cut edges of a piece, and the curves of the whole mesh on them."""
+    def edges_of(self, side_edge: np.ndarray) -> tuple[dict[str, Any], dict[str, Any]]:
+        """Settings of a piece: creases, boundaries and cut edges; and the curves of the whole on them."""
         outline = self.outline
         edges, uses = np.unique(side_edge[side_edge >= 0], return_counts=True)
-        kind = outline.edge_kind[edges]
-        is_curve, is_boundary = kind & _native.curve_edge != 0, kind & _native.boundary_edge != 0
-        is_straight = kind & _native.straight_edge != 0
+        kinds = _native.curve_edge, _native.boundary_edge, _native.straight_edge
+        is_curve, is_boundary, is_straight = (outline.is_(kind)[edges] for kind in kinds)
+        # Where it was cut off a piece ends along straight edges. Measured (docs/developers/notes/pieces.md): the
+        # difference to the whole is that with curves there, and with free edges, within a third; but free
+        # edges take two to four times as long, and total curvature goes astray along them.
         is_cut = (uses == 1) & (outline.edge_uses[edges] > 1)
         handed = edges[self.curve_of[edges] >= 0]
         points = outline.curve_points[:, self.curve_of[handed]]
         soft = edges[self.softness[edges] > 0]
-        free = edges[is_boundary & ~is_curve]
-        by_mode = {"free": [self.pairs(free)], "curve": [], "linear": []}
-        by_mode["linear"].append(self.pairs(edges[is_boundary & is_straight]))
-        by_mode[CUT_BOUNDARY].append(self.pairs(edges[is_cut]))
-        return {
-            "edges": self.pairs(handed),
-            "points": points.reshape(-1, 3),
-            "settings": {
-                "crease_edges": self.pairs(edges[is_curve & ~is_boundary]),
-                "soft_creases": (self.pairs(soft), self.softness[soft]),
-                "boundary_edges": {
-                    mode: np.concatenate(rows) for mode, rows in by_mode.items() if rows
-                },
+        straight = (is_boundary & is_straight) | is_cut
+        settings = {
+            "crease_edges": self.pairs(edges[is_curve & ~is_boundary]),
+            "soft_creases": (self.pairs(soft), self.softness[soft]),
+            "boundary_edges": {
+                "free": self.pairs(edges[is_boundary & ~is_curve]),
+                "linear": self.pairs(edges[straight]),
             },
         }
+        return settings, {"edges": self.pairs(handed), "points": points.reshape(-1, 3)}
 
     def pairs(self, edges: np.ndarray) -> np.ndarray:
         """(k, 2): the piece's own ids of edges' ends."""
@@ -196,17 +185,13 @@ class Cutter:
 
     def surface(self, index: int) -> dict[str, Any]:
         """The data that all parts of a surface share; the first part has the points of no piece."""
-        outline, numbering = self.outline, self.outline.numbering
+        outline = self.outline
         same: dict[str, Any] = {
             "fingerprint": outline.fingerprint,
             "count": self.count,
             "rings": self.rings,
             "input_vertices": outline.input_vertices,
-            "levels": numbering.levels,
-            "vertices": numbering.vertices,
-            "edges": numbering.edges,
-            "triangles": numbering.triangles,
-            "quads": numbering.quads,
+            "numbering": outline.numbering,
             "shapes": len(outline.shapes),
             "size": float(np.ptp(outline.vertices[outline.corners], axis=0).max()),
         }

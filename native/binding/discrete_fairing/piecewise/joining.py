@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable
 from typing import Any
 
@@ -30,19 +31,17 @@ def join(parts: Iterable[Part]) -> Result:
     return whole.result()
 
 
-def jumps(seams: list[tuple[int, np.ndarray, np.ndarray]], owner: Any, size: float) -> dict:
-    """The distances for seams (part, ids, points), with owner(ids) -> points."""
-    gaps = [np.linalg.norm(points - owner(ids), axis=1) for _, ids, points in seams]
-    largest = [float(gap.max(initial=0.0)) for gap in gaps]
-    every = np.concatenate(gaps) if gaps else np.empty(0)
-    at = int(np.argmax(largest)) if largest else 0
-    return {
-        "largest": largest[at] if largest else 0.0,
-        "median": float(np.median(every)) if len(every) else 0.0,
-        "points": len(every),
-        "part": seams[at][0] if seams else 0,
-        "share": (largest[at] if largest else 0.0) / size,
-    }
+def worst(values: list[Any]) -> Any:
+    """Of the same entry of several reports: whether all are true, or the largest number; of lists and
+    dicts, element by element.
+    """
+    if isinstance(values[0], dict):
+        names = dict.fromkeys(name for value in values for name in value)
+        return {name: worst([v[name] for v in values if name in v]) for name in names}
+    if isinstance(values[0], list):
+        longest = max(map(len, values))
+        return [worst([v[k] for v in values if k < len(v)]) for k in range(longest)]
+    return all(values) if isinstance(values[0], bool) else max(values)
 
 
 class Whole:
@@ -82,20 +81,18 @@ class Whole:
         if part.index in self.reports:
             raise fairing_error("BAD_OPTION", f"Part {part.index} is given twice.")
         part.write_into(self.vertices)
-        for shape, vertices in enumerate(self.shapes):
-            part.of_shape(shape).write_into(vertices)
+        for vertices, shape in zip(self.shapes, part.shapes):
+            vertices[part.ids] = shape
         cells = 1 << (2 * self.numbering.levels)
         for kind, faces in enumerate(part.faces):
-            which = part.is_quad == bool(kind)
-            quads = part.quads_before[which]
-            rank = quads if kind else part.face_id[which] - quads
+            its = part.control.take(np.flatnonzero(part.control.quad == bool(kind)))
+            rank = its.quads_before if kind else its.number - its.quads_before
             self.faces[kind][rank] = faces.reshape(-1, cells, 3 + kind)
-            self.polygon[kind][rank] = part.polygon[which]
-        own = part.vertex_id < len(self.widths)
+            self.polygon[kind][rank] = its.polygon
         if len(part.report["pad_widths"]):
-            self.widths[part.vertex_id[own]] = part.report["pad_widths"]
+            self.widths[part.vertex_ids] = part.report["pad_widths"]
             self.has_pads = True
-        self.seams.append((part.index, part.seam_ids(), part.seam_points()))
+        self.seams.append((part.index, part.seam_ids, part.seam_points))
         self.reports[part.index] = part.report
         if part.index == 0:
             self.first = part.surface
@@ -140,62 +137,39 @@ class Whole:
 
     def _report(self) -> dict[str, Any]:
         reports = [self.reports[index] for index in sorted(self.reports)]
-        levels = max((len(report["iterations"]) for report in reports), default=0)
-
-        def most(name: str) -> Any:
-            return max(report[name] for report in reports)
-
-        def by_level(name: str) -> list[Any]:
-            return [
-                max(report[name][level] for report in reports if level < len(report[name]))
-                for level in range(levels)
-            ]
-
-        def of_shape(shape: int) -> dict[str, Any]:
-            told = [report["shapes"][shape] for report in reports if report["shapes"]]
-            return {
-                name: all(entry[name] for entry in told)
-                if name == "converged"
-                else max(entry[name] for entry in told)
-                for name in (told[0] if told else ())
-            }
-
-        phases = dict.fromkeys(phase for report in reports for phase in report["seconds"])
-        pads = [report["pads"] for report in reports if "pads" in report]
+        told = [r for r in reports if "seconds" in r]
+        apart = ("pad_widths", "pads", "warnings")
+        merged = worst([{key: r[key] for key in r if key not in apart} for r in reports])
+        seconds = sum((Counter(r["seconds"]) for r in told), Counter[str]())
         return {
-            "iterations": by_level("iterations"),
-            "residuals": by_level("residuals"),
-            "converged": all(report["converged"] for report in reports),
+            **merged,
             "warm": False,
-            "shapes": [of_shape(shape) for shape in range(len(self.shapes))],
-            "seconds": {
-                phase: sum(report["seconds"].get(phase, 0.0) for report in reports)
-                for phase in phases
-            },
-            "predicted_bytes": most("predicted_bytes"),
-            "peak_bytes": most("peak_bytes"),
-            "largest_deviation": most("largest_deviation"),
-            "constraint_rounds": most("constraint_rounds"),
-            "constraint_gap": most("constraint_gap"),
+            "seconds": dict(seconds),
             "pads": {
-                "gone": sum(pad["gone"] for pad in pads),
+                "gone": sum(r["pads"]["gone"] for r in told),
                 "widths": self.widths.tolist() if self.has_pads else [],
             },
-            "normals": {
-                "fixed": sum(report["normals"]["fixed"] for report in reports),
-                "largest_angle": max(report["normals"]["largest_angle"] for report in reports),
-            },
-            "threads": most("threads"),
+            "normals": {**merged["normals"], "fixed": sum(r["normals"]["fixed"] for r in told)},
             **self.first["report"],
             "warnings": self.first["report"]["warnings"]
             + [warning for report in reports for warning in report["warnings"]],
             "pieces": {
                 "count": self.surface["count"],
                 "rings": self.surface["rings"],
-                "jump": jumps(self.seams, lambda ids: self.vertices[ids], self.surface["size"]),
-                "parts": [
-                    {key: value for key, value in report.items() if key != "pad_widths"}
-                    for report in reports
-                ],
+                "jump": self._jump(),
+                "parts": [{k: v for k, v in r.items() if k != "pad_widths"} for r in reports],
             },
+        }
+
+    def _jump(self) -> dict[str, Any]:
+        """How far parts are from the owners of their seams."""
+        gaps = [np.linalg.norm(p - self.vertices[ids], axis=1) for _, ids, p in self.seams]
+        largest, every = [float(gap.max(initial=0.0)) for gap in gaps], np.concatenate(gaps)
+        at = int(np.argmax(largest))
+        return {
+            "largest": largest[at],
+            "median": float(np.median(every)) if len(every) else 0.0,
+            "points": len(every),
+            "part": self.seams[at][0],
+            "share": largest[at] / self.surface["size"],
         }

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
@@ -28,46 +28,46 @@ class Numbering:
         return Lattice(self.n, quad)
 
     @property
-    def first_edge_point(self) -> int:
-        return self.vertices
-
-    @property
-    def first_face_point(self) -> int:
-        return self.vertices + self.edges * (self.n - 1)
-
-    @property
     def size(self) -> int:
-        inside = [self.lattice(quad).interior_count for quad in (False, True)]
-        return self.first_face_point + self.triangles * inside[0] + self.quads * inside[1]
-
-    def edge_bases(self, edges: np.ndarray) -> np.ndarray:
-        return self.first_edge_point + edges.astype(np.int64) * (self.n - 1)
+        return int(self.face_bases(np.array(self.triangles + self.quads), np.array(self.quads)))
 
     def face_bases(self, faces: np.ndarray, quads_before: np.ndarray) -> np.ndarray:
         """The first interior point of each face. `quads_before`: the number of quads before it."""
         inside = [self.lattice(quad).interior_count for quad in (False, True)]
         before = quads_before.astype(np.int64)
-        return self.first_face_point + (faces - before) * inside[0] + before * inside[1]
+        first = self.vertices + self.edges * (self.n - 1)
+        return first + (faces - before) * inside[0] + before * inside[1]
 
 
-def closed_ids(
-    numbering: Numbering,
-    corner: np.ndarray,
-    edge: np.ndarray,
-    reversed_side: np.ndarray,
-    base: np.ndarray,
-    lattice: Lattice,
-) -> np.ndarray:
-    """(f, closed) int64: all points of these faces, which are all triangles or all quads.
+@dataclass(frozen=True, eq=False)
+class ControlFaces:
+    """F control faces of a surface, with -1 in the fourth column of triangles."""
 
-    corner, edge, reversed_side: (f, 3 or 4), for their sides; base: (f,), their first interior points.
-    """
-    n = numbering.n
-    ids = np.empty((len(corner), len(lattice.i)), np.int64)
-    ids[:, lattice.corners] = corner
-    along = np.arange(n - 1)
-    for s in range(lattice.size):
-        k = np.where(reversed_side[:, s, None].astype(bool), n - 2 - along, along)
-        ids[:, lattice.sides[s]] = numbering.edge_bases(edge[:, s])[:, None] + k
-    ids[:, lattice.interior] = base[:, None] + np.arange(lattice.interior_count)
-    return ids
+    vertex: np.ndarray  # (F, 4)
+    edge: np.ndarray  # (F, 4), at its sides
+    reversed: np.ndarray  # (F, 4): whether a side runs against its edge
+    number: np.ndarray  # (F,)
+    quads_before: np.ndarray  # (F,)
+    polygon: np.ndarray  # (F,) the face of the mended mesh
+
+    @property
+    def quad(self) -> np.ndarray:
+        return self.vertex[:, 3] >= 0
+
+    def take(self, rows: np.ndarray) -> ControlFaces:
+        return ControlFaces(*(getattr(self, field.name)[rows] for field in fields(self)))
+
+    def points(self, numbering: Numbering, quad: bool) -> np.ndarray:
+        """(f, closed) int64: the ids of all points of the triangles, or of the quads, by lattice point."""
+        its, lattice = self.take(np.flatnonzero(self.quad == quad)), numbering.lattice(quad)
+        ids = np.empty((len(its.number), len(lattice.i)), np.int64)
+        ids[:, lattice.corners] = its.vertex[:, : lattice.size]
+        along = np.arange(numbering.n - 1)
+        for s in range(lattice.size):
+            first = numbering.vertices + its.edge[:, s, None].astype(np.int64) * len(along)
+            ids[:, lattice.sides[s]] = first + np.where(
+                its.reversed[:, s, None].astype(bool), along[::-1], along
+            )
+        base = numbering.face_bases(its.number, its.quads_before)
+        ids[:, lattice.interior] = base[:, None] + np.arange(lattice.interior_count)
+        return ids

@@ -11,14 +11,13 @@ import numpy as np
 
 from .. import _native
 from ..errors import written_report
-from .numbering import Numbering
+from .numbering import ControlFaces, Numbering
 
 
 class Outline:
     """The control mesh with its faces split and turned, its edges numbered and its curves refined.
 
-    Ids are those of the result. face, side_edge, side_reversed: (F, 4), -1 in the fourth column of
-    triangles; polygon: (F,), the face of the mended mesh; edge: (E, 2) vertices. curve_points:
+    Ids are those of the result. control: its F control faces; edge: (E, 2) vertices. curve_points:
     (1 + k, c, n - 1, 3), and centres: (1 + k, p, 3), of the mesh and its k shapes. shapes: (k, V, 3), of the
     mended mesh.
     """
@@ -40,10 +39,6 @@ class Outline:
         self.offsets: np.ndarray = found["offsets"]
         self.mended: dict[str, Any] | None = found["mended"]
         self.options: _native.Options = found["options"]
-        self.face: np.ndarray = found["face"]
-        self.polygon: np.ndarray = found["polygon"]
-        self.side_edge: np.ndarray = found["side_edge"]
-        self.side_reversed: np.ndarray = found["side_reversed"]
         self.edge: np.ndarray = found["edge"]
         self.edge_kind: np.ndarray = found["edge_kind"]
         self.curve: np.ndarray = found["curve"]
@@ -54,16 +49,18 @@ class Outline:
         self.units: tuple[float, float, float, float] = found["units"]
         self.report: dict[str, Any] = written_report(found)["report"]
         self.centres: np.ndarray = found["centres"].reshape(1 + len(shapes), -1, 3)
-        self.quad = self.face[:, 3] >= 0
-        self.quads_before = np.cumsum(self.quad) - self.quad
-        quads = int(self.quad.sum())
-        self.numbering = Numbering(
-            int(options.levels),
-            len(points) + self.centres.shape[1],
-            len(self.edge),
-            len(self.face) - quads,
-            quads,
+        quad = found["face"][:, 3] >= 0
+        self.control = ControlFaces(
+            found["face"],
+            found["side_edge"],
+            found["side_reversed"],
+            np.arange(len(quad)),
+            np.cumsum(quad) - quad,
+            found["polygon"],
         )
+        vertices, quads = len(points) + self.centres.shape[1], int(quad.sum())
+        numbers = vertices, len(self.edge), len(quad) - quads, quads
+        self.numbering = Numbering(int(options.levels), *numbers)
 
     @property
     def polygon_count(self) -> int:
@@ -106,15 +103,17 @@ class Outline:
     @cached_property
     def edge_uses(self) -> np.ndarray:
         """(E,): the number of faces at each edge."""
-        return np.bincount(self.side_edge[self.side_edge >= 0], minlength=len(self.edge))
+        sides = self.control.edge
+        return np.bincount(sides[sides >= 0], minlength=len(self.edge))
 
     def vertex_owner(self, labels: np.ndarray) -> np.ndarray:
         """(V,): the lowest piece around each vertex, with `labels` of the polygons; -1 without faces."""
-        return _lowest(self.face, labels[self.polygon], self.numbering.vertices)
+        its = self.control
+        return _lowest(its.vertex, labels[its.polygon], self.numbering.vertices)
 
     def edge_owner(self, labels: np.ndarray) -> np.ndarray:
         """(E,): the lowest piece beside each edge."""
-        return _lowest(self.side_edge, labels[self.polygon], len(self.edge))
+        return _lowest(self.control.edge, labels[self.control.polygon], len(self.edge))
 
 
 def _lowest(elements: np.ndarray, label: np.ndarray, count: int) -> np.ndarray:

@@ -11,7 +11,7 @@ import numpy as np
 from .. import _native
 from ..options import native_options
 from ..watching import Progress, check_watchers
-from .numbering import closed_ids
+from .numbering import ControlFaces
 from .outline import Outline
 from .part import Part, report_of
 
@@ -20,15 +20,16 @@ from .part import Part, report_of
 class Piece:
     """Some faces of a control mesh with rings around them, as pieces() cuts them out.
 
-    Can be pickled. It needs nothing but itself: fair() gives what it owns of the surface. All arrays are of the size of its control mesh, but for the points of curves.
+    Can be pickled. It needs nothing but itself: fair() gives what it owns of the surface. All arrays are
+    of the size of its control mesh, but for the points of curves.
 
     index: which piece, from 0.
     vertices: (v, 3) float64, shapes: (k, v, 3); corners and offsets: its faces, as fair() takes them.
     settings: of fair(), with the piece's own ids.
     of_whole: what a piece cannot know, curves and units.
     vertex_id: (v,), its vertices' ids in the whole.
-    face, side_edge, side_reversed: (F, 4), face_id, quads_before, polygon, owned: (F,),
-    corner_owned, side_owned: (F, 4): its control faces in the whole (outline.py), and what it owns.
+    control: its control faces in the whole. owned: (F,), corner_owned, side_owned: (F, 4), bool: whether it
+    owns a face, and the points at its corners and inside its sides.
     surface: what all parts agree on.
     """
 
@@ -40,12 +41,7 @@ class Piece:
     settings: dict[str, Any]
     of_whole: dict[str, Any]
     vertex_id: np.ndarray
-    face: np.ndarray
-    side_edge: np.ndarray
-    side_reversed: np.ndarray
-    face_id: np.ndarray
-    quads_before: np.ndarray
-    polygon: np.ndarray
+    control: ControlFaces
     owned: np.ndarray
     corner_owned: np.ndarray
     side_owned: np.ndarray
@@ -95,97 +91,59 @@ class Piece:
         self, own: Outline, surfaces: list[np.ndarray], report: dict[str, Any] | None
     ) -> Part:
         """The owned part of `surfaces`, of the mesh and then of each shape."""
-        mirrored = self._mirrored(own)
-        mine, quad = np.flatnonzero(self.owned), self.face[:, 3] >= 0
-        vertex_id, vertex_row = self._vertices(own, mirrored, self.corner_owned)
-        edge_id, edge_rows = self._edges(own, mirrored, self.side_owned)
-        there = self.owned[:, None] & (self.face >= 0)
-        seam_vertex_id, seam_vertex_row = self._vertices(own, mirrored, there & ~self.corner_owned)
-        seam_edge_id, seam_edge_rows = self._edges(own, mirrored, there & ~self.side_owned)
-        inside = [
-            self._interiors(own, mirrored, np.flatnonzero(self.owned & (quad == kind)), kind)
-            for kind in (False, True)
-        ]
-
-        def owned_of(points: np.ndarray) -> dict[str, np.ndarray]:
-            return {
-                "vertex_points": points[vertex_row],
-                "edge_points": points[edge_rows],
-                "triangle_points": points[inside[0]],
-                "quad_points": points[inside[1]],
-                "seam_vertex_points": points[seam_vertex_row],
-                "seam_edge_points": points[seam_edge_rows],
-            }
-
-        points, *shapes = surfaces
+        mine = np.flatnonzero(self.owned)
+        both = self._points(own, mine, False), self._points(own, mine, True)
+        ids, rows, owned = (np.concatenate(arrays) for arrays in zip(*both))
+        shared, beside = np.unique(ids[~owned], return_index=True)
+        ids, first = np.unique(ids[owned], return_index=True)
+        points, *shapes = [surface[rows[owned][first]] for surface in surfaces]
+        count = np.searchsorted(ids, self.surface["input_vertices"])
         return Part(
             index=self.index,
             surface=self.surface,
-            vertex_id=vertex_id,
-            edge_id=edge_id,
-            face=self.face[mine],
-            side_edge=self.side_edge[mine],
-            side_reversed=self.side_reversed[mine],
-            face_id=self.face_id[mine],
-            quads_before=self.quads_before[mine],
-            polygon=self.polygon[mine],
-            seam_vertex_id=seam_vertex_id,
-            seam_edge_id=seam_edge_id,
-            shapes={str(s): owned_of(shape) for s, shape in enumerate(shapes)},
-            report=report_of(
-                self, report, vertex_id, [surface[vertex_row] for surface in surfaces]
-            ),
-            **owned_of(points),
+            ids=ids,
+            vertices=points,
+            shapes=shapes,
+            seam_ids=shared,
+            seam_points=surfaces[0][rows[~owned][beside]],
+            control=self.control.take(mine),
+            report=report_of(self, report, ids[:count], [p[:count] for p in (points, *shapes)]),
         )
+
+    def _points(
+        self, own: Outline, mine: np.ndarray, quad: bool
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Of all points of the triangles, or of the quads, among the faces `mine`: ids in the whole, rows in
+        the piece, and whether the piece owns them.
+        """
+        mine = mine[self.control.quad[mine] == quad]
+        there = self.control.take(mine).points(self.surface["numbering"], quad)
+        here = own.control.take(mine).points(own.numbering, quad)
+        lattice = own.numbering.lattice(quad)
+        mirrored = self._mirrored(own)[mine]
+        here[mirrored] = here[mirrored][:, lattice.at(lattice.j, lattice.i)]
+        owned = np.zeros(there.shape, bool)
+        owned[:, lattice.interior] = True
+        owned[:, lattice.corners] = self.corner_owned[mine, : lattice.size]
+        for s in range(lattice.size):
+            owned[:, lattice.sides[s]] = self.side_owned[mine, s, None]
+        return there.ravel(), here.ravel(), owned.ravel()
 
     def _mirrored(self, own: Outline) -> np.ndarray:
         """(F,) bool: faces that are reversed in this piece, as on one-sided sheets."""
         ids = np.full(own.numbering.vertices + 1, -1, np.int64)  # the last one is for no vertex
         ids[: len(self.vertex_id)] = self.vertex_id
-        here = ids[own.face]
-        there = np.where(np.isin(self.face, self.vertex_id), self.face, -1)
+        here = ids[own.control.vertex]
+        face = self.control.vertex
+        there = np.where(np.isin(face, self.vertex_id), face, -1)
         if here.shape != there.shape:
             raise RuntimeError("The piece's polygons are split differently from the whole's.")
-        size = 3 + (self.face[:, 3] >= 0)
-        turned = here[np.arange(len(here))[:, None], turned_corners(size)]
+        orders = np.array([[0, 2, 1, 3], [0, 3, 2, 1]])  # of reversed faces; the first corner stays
+        turned = np.take_along_axis(here, orders[self.control.quad.astype(int)], axis=1)
         mirrored = (here != there).any(axis=1)
         if (turned[mirrored] != there[mirrored]).any():
             raise RuntimeError("The piece's faces are numbered differently from the whole's.")
         return mirrored
-
-    def _vertices(
-        self, own: Outline, mirrored: np.ndarray, which: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray]:
-        """Ids in the whole and rows in the piece of the vertices at these corners (F, 4), each once."""
-        ids, face, corner = _once(self.face, which)
-        size = 3 + (self.face[:, 3] >= 0)
-        turned = turned_corners(size)[face, corner]
-        return ids, own.face[face, np.where(mirrored[face], turned, corner)]
-
-    def _edges(
-        self, own: Outline, mirrored: np.ndarray, which: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray]:
-        """Ids in the whole (e,) and rows in the piece (e, n - 1) of the edges at these sides."""
-        ids, face, side = _once(self.side_edge, which)
-        turned = 2 + (self.face[face, 3] >= 0) - side
-        place = np.where(mirrored[face], turned, side)
-        along = own.side_reversed[face, place] ^ mirrored[face]
-        against = along.astype(bool) != self.side_reversed[face, side].astype(bool)
-        k = np.arange(own.numbering.n - 1)
-        k = np.where(against[:, None], k[::-1], k)
-        return ids, own.numbering.edge_bases(own.side_edge[face, place])[:, None] + k
-
-    def _interiors(
-        self, own: Outline, mirrored: np.ndarray, faces: np.ndarray, quad: bool
-    ) -> np.ndarray:
-        """(f, interior): rows of the points inside these faces, all quads or all triangles."""
-        lattice = own.numbering.lattice(quad)
-        base = own.numbering.face_bases(faces, own.quads_before[faces])
-        rows = base[:, None] + np.arange(lattice.interior_count)
-        turn = mirrored[faces]
-        if turn.any():
-            rows[turn] = base[turn, None] + lattice.mirrored
-        return rows
 
     def __repr__(self) -> str:
         return (
@@ -194,32 +152,13 @@ class Piece:
         )
 
 
-def _once(ids: np.ndarray, which: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The ids (F, 4) that are chosen, ascending, each once, with the row and column of its first place."""
-    row, column = np.nonzero(which)
-    found, first = np.unique(ids[row, column], return_index=True)
-    return found, row[first], column[first]
-
-
-def turned_corners(size: np.ndarray) -> np.ndarray:
-    """(F, 4): the corners of reversed faces, in the order of the original ones; the first one stays."""
-    rows = np.array([[0, 2, 1, 3], [0, 3, 2, 1]])
-    return rows[size - 3]
-
-
 def linear_surface(own: Outline, control: np.ndarray) -> np.ndarray:
     """(N, 3): a piece's linear surface outside the region; `control`: its vertices and centres."""
-    numbering = own.numbering
-    points = np.empty((numbering.size, 3))
-    for kind in (False, True):
-        faces = np.flatnonzero(own.quad == kind)
-        lattice = numbering.lattice(kind)
-        k = lattice.size
-        base = numbering.face_bases(faces, own.quads_before[faces])
-        corner = own.face[faces, :k]
-        ids = closed_ids(
-            numbering, corner, own.side_edge[faces, :k], own.side_reversed[faces, :k], base, lattice
-        )
-        points[ids] = np.einsum("pc,fca->fpa", lattice.weights(), control[corner])
+    points = np.empty((own.numbering.size, 3))
+    for quad in (False, True):
+        weights = own.numbering.lattice(quad).weights()
+        corner = own.control.vertex[own.control.quad == quad, : weights.shape[1]]
+        ids = own.control.points(own.numbering, quad)
+        points[ids] = np.einsum("pc,fca->fpa", weights, control[corner])
     points[: len(control)] = control
     return points
