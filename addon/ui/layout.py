@@ -2,8 +2,8 @@
 """The layout of settings, for sidebar, redo panel and stored surfaces."""
 
 import textwrap
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import bpy
 
@@ -15,6 +15,8 @@ from ..settings import is_evaluated, is_limit, is_near
 from .pictures import draw_choices, draw_ends, icon, name_of
 
 WIDTH = 33  # characters that fit a sidebar of default width
+# what is known about the source, by the setting below which it stands, since the sidebar is narrow
+Remarks: TypeAlias = Mapping[str, Sequence[str]]
 
 
 class Sidebar:
@@ -43,39 +45,32 @@ def draw_notice(layout: bpy.types.UILayout, text: str, icon: Any = "ERROR") -> N
         icon = "BLANK1"
 
 
-@dataclass(frozen=True)
-class Known:
-    """Remarks on the source, empty for none; below their setting, as the sidebar is narrow."""
-
-    triangles: str = ""
-    tolerance: str = ""  # the resulting length
-    held: str = ""  # number of vertices at the tolerance
-    missing_groups: dict[str, str] = field(default_factory=dict)
-    edges: str = ""  # border edges with their own boundary
-    normals: str = ""  # fixed normals
-    flats: str = ""  # faces that stay flat
-    vertices: str = ""  # the meaning of Auto
-    follows: bool = False  # whether that is Limit
-
-
-_NOTHING = Known()
+_NOTHING: Remarks = {}
 
 
 def draw_job(
-    layout: bpy.types.UILayout, settings: FairingSettings, known: Known = _NOTHING, job: str = ""
+    layout: bpy.types.UILayout,
+    settings: FairingSettings,
+    remarks: Remarks = _NOTHING,
+    job: str = "",
+    follows: bool = False,
 ) -> None:
-    """How fine, how near to the source; and energy and vertices unless a `job` sets them."""
+    """How fine, how near to the source; and energy and vertices unless a `job` sets them. `follows`: whether
+    Auto is Limit.
+    """
     if job:
         layout.label(text=name_of_purpose(job), icon_value=icon(job))
     layout.prop(settings, "levels")
-    if known.triangles:
-        _remark(layout, known.triangles)
+    _draw_remarks(layout, remarks, "levels")
     if not job:
-        draw_fairness(layout, settings, known)
-    if is_limit(settings) or known.follows:
+        draw_fairness(layout, settings, remarks)
+    if is_limit(settings) or follows:
         layout.prop(settings, "limit", slider=True)
+    elif is_near(settings) and settings.pull_group == HOLD:  # a length is meaningless
+        _remark(layout, "Held along its curves")
     elif is_near(settings):
-        _draw_tolerance(layout, settings, known)
+        layout.prop(settings, "tolerance", text="Hold within")
+        _draw_remarks(layout, remarks, "tolerance")
 
 
 def amount_names(near: FitAmount) -> tuple[str, ...]:
@@ -83,58 +78,34 @@ def amount_names(near: FitAmount) -> tuple[str, ...]:
 
 
 def draw_fairness(
-    layout: bpy.types.UILayout, settings: FairingSettings, known: Known = _NOTHING
+    layout: bpy.types.UILayout, settings: FairingSettings, remarks: Remarks = _NOTHING
 ) -> None:
     """The settings that a job sets: the energy and the meaning of vertices."""
     draw_choices(layout, settings, "energy", ENERGY_NAMES)
     _remark(layout, ENERGY_MEANINGS[settings.energy])
     draw_choices(layout, settings, "interpolation", INTERPOLATION_NAMES)
-    if known.vertices:
-        _remark(layout, known.vertices)
+    _draw_remarks(layout, remarks, "interpolation")
 
 
 def draw_shape(
-    layout: bpy.types.UILayout, settings: FairingSettings, known: Known = _NOTHING
+    layout: bpy.types.UILayout, settings: FairingSettings, remarks: Remarks = _NOTHING
 ) -> None:
     if is_near(settings):
-        _draw_held_by(layout, settings, known)
+        layout.prop(settings, "tolerance_unit")
+        for name in ("tolerance_group", "pull_group"):
+            row = layout.row()
+            row.alert = name in remarks
+            row.prop(settings, name, icon="GROUP_VERTEX")
+            _draw_remarks(layout, remarks, name, icon="ERROR")
     _draw_pads(layout, settings)
     row = layout.row()
     row.active = settings.energy != "MINIMUM_VARIATION"
     row.prop(settings, "tension")
     if not row.active:
         _reason(layout, "Not with this fairness")
-    layout.prop(settings, "boundary")
-    if known.edges:
-        _remark(layout, known.edges)
-    layout.prop(settings, "symmetry_plane")
-    if known.normals:
-        _remark(layout, known.normals)
-    if known.flats:
-        _remark(layout, known.flats)
-
-
-def _draw_tolerance(layout: bpy.types.UILayout, settings: FairingSettings, known: Known) -> None:
-    if settings.pull_group == HOLD:  # a surface from curves, for which a length is meaningless
-        _remark(layout, "Held along its curves")
-        return
-    layout.prop(settings, "tolerance", text="Hold within")
-    if known.tolerance:
-        _remark(layout, known.tolerance)
-    if known.held:
-        _remark(layout, known.held)
-
-
-def _draw_held_by(layout: bpy.types.UILayout, settings: FairingSettings, known: Known) -> None:
-    """The unit of the tolerance, and its value at each vertex."""
-    layout.prop(settings, "tolerance_unit")
-    for name in ("tolerance_group", "pull_group"):
-        missing = known.missing_groups.get(name, "")
-        row = layout.row()
-        row.alert = bool(missing)
-        row.prop(settings, name, icon="GROUP_VERTEX")
-        if missing:
-            _remark(layout, missing, icon="ERROR")
+    for name in ("boundary", "symmetry_plane"):
+        layout.prop(settings, name)
+        _draw_remarks(layout, remarks, name)
 
 
 def _draw_pads(layout: bpy.types.UILayout, settings: FairingSettings) -> None:
@@ -213,6 +184,13 @@ def draw_folded(layout: bpy.types.UILayout, settings: FairingSettings, identifie
 def _reason(layout: bpy.types.UILayout, text: str) -> None:
     """Why the setting above is grey."""
     _remark(layout, text, icon="INFO")
+
+
+def _draw_remarks(
+    layout: bpy.types.UILayout, remarks: Remarks, setting: str, icon: Any = "NONE"
+) -> None:
+    for text in filter(None, remarks.get(setting, ())):
+        _remark(layout, text, icon)
 
 
 def _remark(layout: bpy.types.UILayout, text: str, icon: Any = "NONE") -> None:

@@ -25,7 +25,7 @@ from ..queue import running, status_text
 from ..settings import Settings, halves, is_evaluated, is_limit, is_near, subdivision
 from ..units import length_text
 from .layout import (
-    Known,
+    Remarks,
     Sidebar,
     amount_names,
     draw_fairness,
@@ -89,8 +89,18 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
         job = "SCAN_SURFACE" if near is not None else job_of(settings)
         sources = _sources(context, memory)
         triangles = sum(coarse_triangles(o.data) for o in sources) * 4**settings.levels
-        known = _known(context, settings, sources, triangles, memory)
-        draw_job(layout, settings, known, job)
+        found = [shown_settings(settings, source) for source in sources]
+        limit = any(own is not None and is_limit(own) for own in found)
+        flats = flats_text(settings, sources, limit)
+        remarks: Remarks = {
+            "levels": [_size_text(settings, sources, triangles)],
+            "interpolation": [vertices_text(found, settings, sources)],
+            "tolerance": [tolerance_text(context, settings, sources), _held_text(memory)],
+            "boundary": [boundary_marks.summary(filter(_is_small, sources))],
+            "symmetry_plane": [normals_text(settings, sources), flats],
+            **missing_groups(settings, sources),
+        }
+        draw_job(layout, settings, remarks, job, limit)
         if near is not None:
             for name in amount_names(near):
                 layout.prop(near, name)
@@ -121,32 +131,10 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
         header.label(text="More")
         if more is not None:
             if job and near is None:
-                draw_fairness(more, settings, known)
-            draw_shape(more, settings, known)
-            _draw_flats(more, bool(known.flats))
+                draw_fairness(more, settings, remarks)
+            draw_shape(more, settings, remarks)
+            _draw_flats(more, bool(flats))
             draw_folded(more, settings, "fairing")
-
-
-def _known(
-    context: Context,
-    settings: FairingSettings,
-    sources: list[Object],
-    triangles: int,
-    memory: FAIRING_PG_surface | None,
-) -> Known:
-    found = [shown_settings(settings, source) for source in sources]
-    limit = any(own is not None and is_limit(own) for own in found)
-    return Known(
-        _size_text(settings, sources, triangles),
-        tolerance_text(context, settings, sources),
-        "" if memory is None else _held_text(memory),
-        missing_groups(settings, sources),
-        boundary_marks.summary(o for o in sources if len(o.data.edges) <= _MEASURED),
-        normals_text(settings, sources),
-        flats_text(settings, sources, limit),
-        vertices_text(found, settings, sources),
-        limit,
-    )
 
 
 def _draw_surface(
@@ -233,10 +221,9 @@ def tolerance_text(context: Context, settings: FairingSettings, sources: list[Ob
     """The length of the tolerance, with its unit; empty if it does not apply, or takes long to find."""
     if not is_near(settings) or is_evaluated(settings) or len(sources) != 1:
         return ""
-    mesh = sources[0].data
-    if len(mesh.edges) > _MEASURED or sources[0].mode == "EDIT":
+    if not _is_small(sources[0]) or sources[0].mode == "EDIT":
         return ""
-    shape = world_shape(sources[0])
+    mesh, shape = sources[0].data, world_shape(sources[0])
 
     def mean(mesh: Mesh) -> float:
         return shape.of_arrays(read_mesh(mesh)).mean_edge_length
@@ -245,9 +232,14 @@ def tolerance_text(context: Context, settings: FairingSettings, sources: list[Ob
     return "= " + length_text(context.scene, length, digits=4) if length else ""
 
 
-def _held_text(memory: FAIRING_PG_surface) -> str:
+def _is_small(source: Object) -> bool:
+    """Whether panels may read the whole mesh while they are drawn."""
+    return len(source.data.edges) <= _MEASURED
+
+
+def _held_text(memory: FAIRING_PG_surface | None) -> str:
     """For example `37 of 63 vertices at the limit`; empty if none may move."""
-    if not is_near(memory):
+    if memory is None or not is_near(memory):
         return ""
     held = (recall(cast(Object, memory.id_data), "report") or {}).get("at_tolerance")
     return f"{held[0]:,} of {held[1]:,} vertices at the limit" if held and held[1] else ""
@@ -255,8 +247,7 @@ def _held_text(memory: FAIRING_PG_surface) -> str:
 
 def normals_text(settings: FairingSettings, sources: list[Object]) -> str:
     """For example `Normals: 3 fixed`; empty if there are none."""
-    small = (o for o in sources if len(o.data.edges) <= _MEASURED)
-    count = fixed_normals.count(small)
+    count = fixed_normals.count(filter(_is_small, sources))
     if not count:
         return ""
     return f"Normals: {count} fixed" + ("" if keeps_marks(settings) else ", by Bending only")
@@ -264,7 +255,7 @@ def normals_text(settings: FairingSettings, sources: list[Object]) -> str:
 
 def flats_text(settings: FairingSettings, sources: list[Object], limit: bool) -> str:
     """For example `Flat faces: 6`, or why they do not apply; empty if none is marked."""
-    count = flat_marks.count(o for o in sources if len(o.data.edges) <= _MEASURED)
+    count = flat_marks.count(filter(_is_small, sources))
     if not count:
         return ""
     if not keeps_marks(settings):
@@ -289,7 +280,7 @@ def vertices_text(
     return "Limit for some of them" if any(limit) else "Through every vertex"
 
 
-def missing_groups(settings: FairingSettings, sources: list[Object]) -> dict[str, str]:
+def missing_groups(settings: FairingSettings, sources: list[Object]) -> Remarks:
     """The source that lacks a group, by setting; none if modifiers may make it."""
     found = {}
     for setting in ("tolerance_group", "pull_group"):
@@ -298,7 +289,7 @@ def missing_groups(settings: FairingSettings, sources: list[Object]) -> dict[str
             continue
         lacking = [o.name for o in sources if not vertex_values.exists(o, o.data, name)]
         if lacking:
-            found[setting] = f"Not in {lacking[0]}"
+            found[setting] = [f"Not in {lacking[0]}"]
     return found
 
 
