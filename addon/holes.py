@@ -12,7 +12,6 @@ from . import core, errors
 from .blender import Context, Object, column
 from .check.defects import check_object, entry, store_defects
 from .errors import JobCancelled, JobError
-from .inspection.curvature import face_normals
 from .mesh.edited import edited, select_nothing
 from .mesh.timed_run import TimedRun
 from .mesh.write_filling import cut_sides, with_new, write_hole
@@ -81,7 +80,7 @@ class HoleJob(TimedRun):
         else:
             self._holes = [h for h in holes if not all(map(chosen.isdisjoint, map(sides_of, h)))]
         if not self._holes:
-            rims = self._points[np.unique(arrays.edges[arrays.edge_uses == 1])]
+            rims = self._points[np.unique(arrays.border_edges)]
             units = Units.of(context.scene)
             why = _why_none(options, self._editing, self.unclear, rims, units)
             raise JobError(f"{self.name}: {why}")
@@ -95,11 +94,8 @@ class HoleJob(TimedRun):
         """
         if self._editing and self._options.replaces:
             return False
-        least = 0 if self._editing else _BY_CHANCE
-        return all(
-            sum(map(len, hole)) > least and _is_cap(self._points, self.arrays, hole)
-            for hole in self._holes
-        )
+        least, world = 0 if self._editing else _BY_CHANCE, self.shape.of_arrays(self.arrays)
+        return all(sum(map(len, hole)) > least and _is_cap(world, hole) for hole in self._holes)
 
     def flatten(self) -> None:
         """Fills with flat faces, whatever the joint."""
@@ -190,16 +186,17 @@ _BY_CHANCE = 6  # vertices of a rim that may be planar by chance: twice as many 
 _PLANAR = 1e-3  # largest distance of a rim's vertices from its plane, relative to its width
 
 
-def _is_cap(points: np.ndarray, arrays: core.ControlArrays, hole: list[list[int]]) -> bool:
+def _is_cap(arrays: core.ControlArrays, hole: list[list[int]]) -> bool:
     """Whether the rim lies in a plane that the faces around cross at more than 45 degrees on average."""
-    rim = points[[v for loop in hole for v in loop]]
+    ids = [v for loop in hole for v in loop]
+    rim = arrays.positions[ids]
     away = rim - rim.mean(axis=0)
     _, sizes, ways = np.linalg.svd(away, full_matrices=False)
     if len(sizes) < 3 or np.abs(away @ ways[2]).max() > _PLANAR * np.ptp(away @ ways[0]):
         return False
-    on_rim = marked([v for loop in hole for v in loop], len(points))
+    on_rim = marked(ids, len(arrays.positions))
     around = np.flatnonzero(np.add.reduceat(on_rim[arrays.corners], arrays.offsets[:-1]) >= 2)
-    normals = face_normals(points, arrays.corners, arrays.offsets)[around]
+    normals = arrays.face_normals[around]
     return bool(len(around)) and float(np.abs(normals @ ways[2]).mean()) < np.sqrt(0.5)
 
 

@@ -5,8 +5,6 @@ import numpy as np
 
 from .. import core
 from ..blender import Mesh, Object
-from ..inspection.curvature import face_areas, face_normals, faces_of_edges
-from ..inspection.measures import fold_angles
 from ..mesh.mesh_changes import shown
 from ..mesh.read import read_mesh
 from ..mesh.world_shape import world_shape
@@ -52,16 +50,13 @@ def wants_limit(settings: Settings, cage: core.ControlArrays) -> bool:
 
 def _has_floor(cage: core.ControlArrays, sharp: np.ndarray) -> bool:
     """Whether the mesh turns inwards along the whole border of a plane part, by no `sharp` edge."""
-    folds, inside = fold_angles(cage)
+    folds, inside = cage.fold_angles
     bent = inside & ~sharp & (folds > ANGLE)
     part, plane = plane_parts(cage, inside & ~sharp & (folds <= ANGLE))
-    pair = faces_of_edges(cage)
-    normals = face_normals(cage.positions, cage.corners, cage.offsets)
-    middles = cage.face_centres
-    areas = face_areas(cage.positions, cage.corners, cage.offsets)
-    outwards = np.sign((areas * (normals * (middles - middles.mean(axis=0))).sum(axis=1)).sum())
+    pair, vectors, middles = cage.faces_of_edges, cage.face_vectors, cage.face_centres
+    outwards = np.sign((vectors * (middles - middles.mean(axis=0))).sum())
     for here, there in (pair.T, pair.T[::-1]):
-        rise = (normals[here] * (middles[there] - middles[here])).sum(axis=1)
+        rise = (vectors[here] * (middles[there] - middles[here])).sum(axis=1)
         border = part[here] != part[there]
         plane[part[here[border & ~(bent & (outwards * rise > 0.0))]]] = False
     return bool(plane.any())
@@ -83,7 +78,7 @@ def _has_chamfers_of_triangles(cage: core.ControlArrays, sharp: np.ndarray) -> b
     """The same of faces that are two triangles each: how many meet at a vertex tells nothing then."""
     if not (cage.face_sizes == 3).any():
         return False
-    folds, inside = fold_angles(cage)
+    folds, inside = cage.fold_angles
     other = halves_of_quads(cage, inside & ~sharp & (folds <= ANGLE))
     flats = find_flats(cage, ANGLE, sharp, tight=True, other_half=other)
     known = flats | _beside(cage, flats)
@@ -92,14 +87,14 @@ def _has_chamfers_of_triangles(cage: core.ControlArrays, sharp: np.ndarray) -> b
 
 
 def _beside(cage: core.ControlArrays, faces: np.ndarray) -> np.ndarray:
-    pair = faces_of_edges(cage)
+    pair = cage.faces_of_edges
     return marked(pair[faces[pair].any(axis=1)], len(faces))
 
 
 def _turns_beyond(cage: core.ControlArrays, known: np.ndarray) -> bool:
     """Whether the mesh turns at an edge of the faces `known`."""
-    border = known[faces_of_edges(cage)].sum(axis=1) == 1
-    return bool((fold_angles(cage)[0][border] > ANGLE).any())
+    border = known[cage.faces_of_edges].sum(axis=1) == 1
+    return bool((cage.fold_angles[0][border] > ANGLE).any())
 
 
 def shown_settings(properties: FairingSettings, source: Object) -> Settings | None:

@@ -13,7 +13,7 @@ from mathutils.bvhtree import BVHTree
 
 from ..blender import Mesh
 from ..core import ControlArrays, folds, module
-from ..inspection.curvature import cross, face_areas, face_normals, unit
+from ..inspection.curvature import unit
 from ..mesh.layers import fill_layer, layer_values, make_layer
 from ..mesh.write import FAULTS
 from ..transfer.attributes import AttributeTransfer, coarse_triangles
@@ -95,15 +95,11 @@ def _departure(
     """(N,) each vertex's distance from its place on the control mesh, along the normal there, in lengths of its
     edges: in flat faces with many corners a surface may slide by several.
     """
-    ends = control.positions[control.edges]
-    length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
     count = len(control.positions)
-    sums = np.bincount(control.edges.ravel(), np.repeat(length, 2), count)
+    sums = np.bincount(control.edges.ravel(), np.repeat(control.edge_lengths, 2), count)
     size = sums / np.maximum(np.bincount(control.edges.ravel(), minlength=count), 1)
-    mesh = control.positions, control.corners, control.offsets
-    across = face_areas(*mesh)[:, None] * face_normals(*mesh)
     normals = np.zeros((count, 3))
-    np.add.at(normals, control.corners, np.repeat(across, control.face_sizes, axis=0))
+    np.add.at(normals, control.corners, control.face_vectors[control.face_of])
     way = unit(transfer.point(normals))
     away = np.abs(((vertices - transfer.point(control.positions)) * way).sum(axis=1))
     around = transfer.point(size).ravel()
@@ -179,10 +175,10 @@ def _pierced(triangles: np.ndarray, others: np.ndarray) -> np.ndarray:
     u, v = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
     start = others[:, 1] - triangles[:, 0]
     way = others[:, 2] - others[:, 1]
-    across = cross(way, v)
+    across = np.cross(way, v)
     determinant = (u * across).sum(axis=1)
     inverse = 1.0 / np.where(determinant == 0.0, np.inf, determinant)
-    turned = cross(start, u)
+    turned = np.cross(start, u)
     a, b, along = (
         inverse * (x * y).sum(axis=1) for x, y in ((start, across), (way, turned), (v, turned))
     )

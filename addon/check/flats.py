@@ -4,8 +4,6 @@
 import numpy as np
 
 from .. import core
-from ..inspection.curvature import face_areas, face_normals, faces_of_edges
-from ..inspection.measures import fold_angles
 from ..triangles import marked
 
 # largest distance of a flat's corners from its plane, relative to its size; files have about six digits
@@ -32,14 +30,13 @@ def find_flats(
     """
     if not len(arrays.face_sizes):
         return np.zeros(0, bool)
-    folds, inside = fold_angles(arrays)
+    folds, inside = arrays.fold_angles
     if sharp is not None:
-        inside &= ~sharp
+        inside = inside & ~sharp
     part, plane = plane_parts(arrays, inside & (folds <= angle))
-    edge = arrays.corner_edges
-    face = np.repeat(np.arange(len(arrays.face_sizes)), arrays.face_sizes)
+    edge, face = arrays.corner_edges, arrays.face_of
     owner = part[face]
-    pair = part[faces_of_edges(arrays)]
+    pair = part[arrays.faces_of_edges]
     borders = np.flatnonzero((pair[edge, 0] != pair[edge, 1]) | ~inside[edge])
     borders = borders[np.argsort(owner[borders], kind="stable")]
     edge, owner, face = edge[borders], owner[borders], face[borders]
@@ -55,8 +52,7 @@ def find_flats(
     # turn / width <= 0.5 * beyond / width, without a division by zero
     turns &= 2.0 * turn[here] * width[there] <= beyond[there] * width[here]
     if tight:
-        length = _lengths(arrays, edge[there])
-        area = face_areas(arrays.positions, arrays.corners, arrays.offsets)
+        length, area = arrays.edge_lengths[edge[there]], arrays.face_areas
         quad = arrays.face_sizes == 4
         if other_half is not None:
             quad |= other_half >= 0
@@ -71,7 +67,7 @@ def halves_of_quads(arrays: core.ControlArrays, flush: np.ndarray) -> np.ndarray
     """(m,) int: the triangle across the longest side of each triangle, if that is the longest of both and
     among the edges `flush` (e,) bool; elsewhere -1.
     """
-    corner_length = _lengths(arrays, arrays.corner_edges)
+    corner_length = arrays.edge_lengths[arrays.corner_edges]
     longest = np.maximum.reduceat(corner_length, arrays.offsets[:-1])
     is_longest = (corner_length == np.repeat(longest, arrays.face_sizes)) & np.repeat(
         arrays.face_sizes == 3, arrays.face_sizes
@@ -79,7 +75,7 @@ def halves_of_quads(arrays: core.ControlArrays, flush: np.ndarray) -> np.ndarray
     diagonal = flush & (
         np.bincount(arrays.corner_edges[is_longest], minlength=len(arrays.edges)) == 2
     )
-    pair = faces_of_edges(arrays)[diagonal]
+    pair = arrays.faces_of_edges[diagonal]
     other = np.full(len(arrays.face_sizes), -1)
     other[pair] = pair[:, ::-1]
     return other
@@ -89,7 +85,7 @@ def plane_parts(arrays: core.ControlArrays, joined: np.ndarray) -> tuple[np.ndar
     """(m,) the part of each face, (parts,) bool: planar; `joined` (e,) bool: edges inside."""
     count = len(arrays.face_sizes)
     connected = core.module().patches.connected_parts
-    pair = faces_of_edges(arrays)[joined]
+    pair = arrays.faces_of_edges[joined]
     part = connected(count, pair)
     plane = _in_plane(arrays, part)[part]
     part = connected(count, pair[plane[pair].all(axis=1)])
@@ -98,7 +94,7 @@ def plane_parts(arrays: core.ControlArrays, joined: np.ndarray) -> tuple[np.ndar
 
 def _in_plane(arrays: core.ControlArrays, part: np.ndarray) -> np.ndarray:
     """(parts,) bool: whether all corners lie in the plane of the part's first face with an area."""
-    normals = face_normals(arrays.positions, arrays.corners, arrays.offsets)
+    normals = arrays.face_normals
     has_area = np.flatnonzero((normals != 0.0).any(axis=1))
     count = int(part.max()) + 1
     normal = np.zeros((count, 3))
@@ -121,16 +117,9 @@ def _widths(
     """(parts,) twice the area over the length of the border, the edges `edge` (b,) of the parts
     `owner`: the width of a strip or ring, half the width of a square or disc.
     """
-    border = np.bincount(owner, _lengths(arrays, edge), len(part))
-    area = np.bincount(
-        part, face_areas(arrays.positions, arrays.corners, arrays.offsets), len(part)
-    )
+    border = np.bincount(owner, arrays.edge_lengths[edge], len(part))
+    area = np.bincount(part, arrays.face_areas, len(part))
     return 2.0 * np.divide(area, border, out=np.zeros(len(part)), where=border > 0)
-
-
-def _lengths(arrays: core.ControlArrays, edge: np.ndarray) -> np.ndarray:
-    ends = arrays.positions[arrays.edges[edge]]
-    return np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
 
 
 def _turns_beyond(

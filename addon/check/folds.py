@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from ..inspection.curvature import cross, unit
+from ..inspection.curvature import unit
 from ..transfer.attributes import AttributeTransfer, coarse_triangles
 from ..transfer.lattice import pair_keys
 from ..triangles import marked
@@ -51,7 +51,7 @@ def _folds(
 ) -> tuple[np.ndarray, np.ndarray]:
     """(k, 2) the ends of the folded edges, and (k, 2) their triangles."""
     a, b, c = (vertices[triangles[:, i]] for i in range(3))
-    normals = unit(cross(b - a, c - a))
+    normals = unit(np.cross(b - a, c - a))
     edges = triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
     keys = pair_keys(edges)
     order = np.argsort(keys, kind="stable")

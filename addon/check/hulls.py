@@ -4,8 +4,6 @@
 import numpy as np
 
 from ..control_arrays import ControlArrays
-from ..inspection.curvature import face_areas, faces_of_edges
-from ..inspection.measures import fold_angles
 from ..settings import Settings
 
 # length of an edge over the radius of the turn across it, above which sections relax between their
@@ -26,7 +24,7 @@ def why_bending(cage: ControlArrays, settings: Settings) -> str:
 
 def _ends_inside(cage: ControlArrays, creases: np.ndarray, plane: str) -> bool:
     """Whether a crease (k, 2) ends inside the surface, such as that of a sharp stem at a round keel."""
-    border = cage.edges[cage.edge_uses == 1]
+    border = cage.border_edges
     if plane != "NONE":
         across = cage.positions[:, "XYZ".index(plane)]
         near = np.abs(across) <= _NEAR * np.ptp(cage.positions, axis=0).max(initial=0.0)
@@ -40,11 +38,9 @@ def _longest(cage: ControlArrays, creases: np.ndarray) -> float:
     """The largest length of a smooth edge over the radius of the turn across it: its angle times its
     length over the mean width of its two faces.
     """
-    angles, inside = fold_angles(cage)
+    angles, inside = cage.fold_angles
     keys = len(cage.positions), 1
     smooth = inside & ~np.isin(cage.edges @ keys, creases @ keys)
-    ends = cage.positions[cage.edges[smooth]]
-    squared = ((ends[:, 1] - ends[:, 0]) ** 2).sum(axis=1)
-    areas = face_areas(cage.positions, cage.corners, cage.offsets)
-    both = areas[faces_of_edges(cage)[smooth]].mean(axis=1)
-    return float((np.radians(angles[smooth]) * squared / both).max(initial=0.0))
+    both = cage.face_areas[cage.faces_of_edges[smooth]].mean(axis=1)
+    lengths = np.radians(angles[smooth]) * cage.edge_lengths[smooth] ** 2 / both
+    return float(lengths.max(initial=0.0))

@@ -56,7 +56,7 @@ def triangle_curvature(
     points = [positions[ids] for ids in corners]
     side = [points[(i + 2) % 3] - points[(i + 1) % 3] for i in range(3)]  # opposite corner i
     square = [np.einsum("ij,ij->i", s, s) for s in side]
-    normal = cross(side[0], side[1])
+    normal = np.cross(side[0], side[1])
     twice_area = np.sqrt(np.einsum("ij,ij->i", normal, normal))
     # slivers have no useful cotangent
     sound = twice_area > 1e-14 * (square[0] + square[1] + square[2])
@@ -141,52 +141,6 @@ def rim_edges(arrays: ControlArrays) -> np.ndarray:
     return rim if arrays.sharp_edge is None else rim | arrays.sharp_edge
 
 
-def faces_of_edges(arrays: ControlArrays) -> np.ndarray:
-    """(e, 2) int32: the two faces of each edge. Only meaningful if `edge_uses` is 2."""
-    sizes = np.diff(arrays.offsets)
-    face = np.repeat(np.arange(len(sizes), dtype=np.int32), sizes)
-    pair = np.zeros((len(arrays.edges), 2), np.int32)
-    pair[arrays.corner_edges, 1] = face  # the last assignment wins
-    pair[arrays.corner_edges[::-1], 0] = face[::-1]
-    return pair
-
-
-def face_normals(positions: np.ndarray, corners: np.ndarray, offsets: np.ndarray) -> np.ndarray:
-    """(m, 3) unit normals by Newell's sum; zero for faces without area."""
-    return unit(_newell_sums(positions, corners, offsets))
-
-
-def face_areas(positions: np.ndarray, corners: np.ndarray, offsets: np.ndarray) -> np.ndarray:
-    """(m,) areas by the same sum."""
-    return 0.5 * np.linalg.norm(_newell_sums(positions, corners, offsets), axis=1)
-
-
-def _newell_sums(positions: np.ndarray, corners: np.ndarray, offsets: np.ndarray) -> np.ndarray:
-    """(m, 3) vectors along the normals, with twice the areas as lengths."""
-    sums = np.zeros((len(offsets) - 1, 3))
-    if not len(corners):
-        return sums
-    sizes = np.diff(offsets)
-    following = np.arange(1, len(corners) + 1, dtype=np.int32)
-    following[offsets[1:][sizes > 0] - 1] = offsets[:-1][sizes > 0]
-    # relative to the first corner of each face, since the sum would lose digits far from the origin
-    local = positions[corners] - np.repeat(
-        positions[corners[offsets[:-1][sizes > 0]]], sizes[sizes > 0], axis=0
-    )
-    turned = cross(local, local[following])
-    for axis in range(3):
-        sums[sizes > 0, axis] = np.add.reduceat(turned[:, axis], offsets[:-1][sizes > 0])
-    return sums
-
-
-def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Cross products of rows; several times as fast as np.cross."""
-    out = np.empty_like(a)
-    for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
-        out[:, i] = a[:, j] * b[:, k] - a[:, k] * b[:, j]
-    return out
-
-
 def unit(vectors: np.ndarray) -> np.ndarray:
     """Rows of length 1; zero rows stay zero."""
     length = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
@@ -197,9 +151,9 @@ def _halve(positions: np.ndarray, quads: np.ndarray) -> tuple[np.ndarray, np.nda
     """Triangles and weights (t,) of (q, 4) quads; a cut outside a concave quad has weight zero."""
     a, b, c, d = (positions[quads[:, i]] for i in range(4))
     ac, bd = c - a, d - b
-    normal = cross(ac, bd)
-    inside_ac = _both_face(normal, cross(b - a, ac), cross(ac, d - a))
-    inside_bd = _both_face(normal, cross(b - a, d - a), cross(c - b, bd))
+    normal = np.cross(ac, bd)
+    inside_ac = _both_face(normal, np.cross(b - a, ac), np.cross(ac, d - a))
+    inside_bd = _both_face(normal, np.cross(b - a, d - a), np.cross(c - b, bd))
     square_ac, square_bd = np.einsum("ij,ij->i", ac, ac), np.einsum("ij,ij->i", bd, bd)
     share = square_bd / np.maximum(square_ac + square_bd, np.finfo(float).tiny)
     # weight of ac: from 0 to 1 while the lengths exchange their order

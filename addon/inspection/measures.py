@@ -1,10 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Angles of edges, shapes of faces, and the colours of curvature. Plain arrays, no Blender."""
+"""The colours of values, such as curvature. Plain arrays, no Blender."""
 
 import numpy as np
-
-from ..core import ControlArrays
-from .curvature import face_normals, faces_of_edges
 
 # even steps from the lowest value to the highest, sRGB
 _SIGNED = (
@@ -29,33 +26,10 @@ _AMOUNT = (
 NEUTRAL = (0.15, 0.15, 0.15)  # linear; the colour of missing values
 
 
-def fold_angles(arrays: ControlArrays) -> tuple[np.ndarray, np.ndarray]:
-    """(e,) degrees between each edge's two faces as if oriented alike; (e,) bool: has two."""
-    normals = face_normals(arrays.positions, arrays.corners, arrays.offsets)
-    pair = faces_of_edges(arrays)
-    if not len(normals):
-        return np.zeros(len(pair)), np.zeros(len(pair), bool)
-    first, second = normals[pair[:, 0]], normals[pair[:, 1]]
-    second = second * np.where(_same_way(arrays), -1.0, 1.0)[:, None]
-    # from the lengths of sum and difference, since arccos would lose half of its digits near 0°
-    apart = np.linalg.norm(first - second, axis=1)
-    together = np.linalg.norm(first + second, axis=1)
-    has_area = (normals != 0.0).any(axis=1)
-    inside = (arrays.edge_uses == 2) & has_area[pair].all(axis=1)
-    return np.degrees(2.0 * np.arctan2(apart, together)), inside
-
-
 def percentiles(values: np.ndarray, *ranks: float) -> list[float]:
     """Floats at the `ranks` (0 to 100) of the finite `values`; zeros if there are none."""
     values = values[np.isfinite(values)]
     return [float(v) for v in np.percentile(values, ranks)] if len(values) else [0.0] * len(ranks)
-
-
-def _same_way(arrays: ControlArrays) -> np.ndarray:
-    """(e,) bool: edges along which both faces run in the same direction."""
-    forward = arrays.edges[arrays.corner_edges, 0] == arrays.corners
-    total = np.bincount(arrays.corner_edges, weights=forward, minlength=len(arrays.edges))
-    return total != 1
 
 
 def value_range(values: np.ndarray, inner: np.ndarray, signed: bool) -> tuple[float, float]:

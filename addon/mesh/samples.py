@@ -56,15 +56,14 @@ class Samples:
     def _find(self, domain: str) -> tuple[np.ndarray, np.ndarray]:
         """Old elements with weights (k, 3) for each new one; for faces only their ids (k,)."""
         new, (triangles, faces) = self._new, self._triangles()
-        sizes = np.diff(new.offsets)
-        centres = np.add.reduceat(new.positions[new.corners], new.offsets[:-1]) / sizes[:, None]
+        centres = new.face_centres
         if domain == "FACE":
             return faces[self._nearest(centres)], np.empty(0)
         places = new.positions
         sought = places
         if domain == "CORNER":
             places = new.positions[new.corners]
-            sought = places + _INWARD * (np.repeat(centres, sizes, axis=0) - places)
+            sought = places + _INWARD * (centres[new.face_of] - places)
         found = triangles[self._nearest(sought)]
         weights = _barycentric(self._old.positions[self._old.corners[found]], places)
         return (found if domain == "CORNER" else self._old.corners[found]), weights

@@ -117,19 +117,16 @@ _SAME, _TURNED, _OTHER, _NEW = range(4)
 
 def _states(arrays: ControlArrays, made: Cleaned) -> np.ndarray:
     """(M,) the state of each face's original face."""
-    origin, following = made.face_origin, module().arrays.following
-    sizes = np.diff(made.offsets)
+    origin, sizes = made.face_origin, np.diff(made.offsets)
     old = origin >= 0
     f = np.where(old, origin, 0)
     fits = old & (sizes == arrays.face_sizes[f]) & (np.bincount(f[old], minlength=1)[f] == 1)
     corner = np.maximum(made.corner_origin, 0)
     own = (made.corner_origin >= 0) & _in_place(made)[made.corners]
     own &= made.vertex_origin[made.corners] == arrays.corners[corner]
-    own &= np.repeat(np.arange(len(arrays.face_sizes)), arrays.face_sizes)[corner] == f.repeat(
-        sizes
-    )
-    after = corner[following(made.offsets)]
-    next_old = following(arrays.offsets)
+    own &= arrays.face_of[corner] == f.repeat(sizes)
+    after = corner[module().arrays.following(made.offsets)]
+    next_old = arrays.following
 
     def all_of(flags: np.ndarray) -> np.ndarray:
         return fits & np.logical_and.reduceat(own & flags, made.offsets[:-1])
@@ -146,9 +143,8 @@ def _models(
     """By id, the corners of the faces whose data the faces `again`, (M,) bool, take over; in copies on
     vertices of their own, since no face can be made where another still is.
     """
-    face_of = np.repeat(np.arange(len(old_faces)), arrays.face_sizes)
     corners = made.corner_origin[np.repeat(again, np.diff(made.offsets))]
-    faces = np.union1d(made.face_origin[again], face_of[corners[corners >= 0]])
+    faces = np.union1d(made.face_origin[again], arrays.face_of[corners[corners >= 0]])
     found: dict[int, Any] = {}
     for face, begin in zip(faces.tolist(), arrays.offsets[faces].tolist(), strict=True):
         found.update(enumerate(old_faces[face].copy().loops, begin))

@@ -176,5 +176,5 @@ class EaseSelectedJob(_Moving):
 def _inner(arrays: core.ControlArrays) -> np.ndarray:
     """(n,) bool: vertices with faces that are not on an open border."""
     inner = marked(arrays.corners, len(arrays.positions))
-    inner[arrays.edges[arrays.edge_uses == 1].ravel()] = False
+    inner[arrays.border_edges.ravel()] = False
     return inner

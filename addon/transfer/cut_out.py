@@ -20,27 +20,26 @@ class CutOut:
 
 def grown(arrays: ControlArrays, chosen: np.ndarray, rings: int) -> np.ndarray:
     """(m,) bool: the faces `chosen` (m,) bool, and `rings` rings of faces around them."""
-    face_of = np.repeat(np.arange(len(chosen)), arrays.face_sizes)
     for _ in range(rings):
-        touched = marked(arrays.corners[chosen[face_of]], len(arrays.positions))
+        touched = marked(arrays.corners[chosen[arrays.face_of]], len(arrays.positions))
         chosen = chosen.copy()
-        chosen[face_of[touched[arrays.corners]]] = True
+        chosen[arrays.face_of[touched[arrays.corners]]] = True
     return chosen
 
 
 def inside(arrays: ControlArrays, chosen: np.ndarray) -> np.ndarray:
     """(n,) bool: vertices all of whose faces are `chosen` (m,) bool, and that are not on a border."""
-    in_chosen = chosen[np.repeat(np.arange(len(chosen)), arrays.face_sizes)]
+    in_chosen = chosen[arrays.face_of]
     found = marked(arrays.corners[in_chosen], len(arrays.positions))
     found[arrays.corners[~in_chosen]] = False
-    found[arrays.edges[arrays.edge_uses == 1].ravel()] = False
+    found[arrays.border_edges.ravel()] = False
     return found
 
 
 def cut_out(arrays: ControlArrays, chosen: np.ndarray) -> CutOut:
     """The faces `chosen` (m,) bool, in their order, with their vertices and edges."""
     faces = np.flatnonzero(chosen)
-    kept = chosen[np.repeat(np.arange(len(chosen)), arrays.face_sizes)]
+    kept = chosen[arrays.face_of]
     vertices, corners = np.unique(arrays.corners[kept], return_inverse=True)
     edges, corner_edges = np.unique(arrays.corner_edges[kept], return_inverse=True)
     renumbered = np.zeros(len(arrays.positions), np.int32)

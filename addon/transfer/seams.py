@@ -48,7 +48,7 @@ def _reach(points: np.ndarray) -> float:
 
 def half_axes(arrays: ControlArrays) -> list[int]:
     """The axes whose plane has the whole mesh on one side, and border edges in it."""
-    ends = arrays.positions[arrays.edges[arrays.edge_uses == 1]]
+    ends = arrays.positions[arrays.border_edges]
     used = arrays.positions[arrays.corners]
     if not len(ends):
         return []

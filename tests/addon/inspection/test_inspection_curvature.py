@@ -10,7 +10,7 @@ from polygons import polygons
 from scans import cube_sphere
 from scenes import CUBE
 
-from addon.inspection import curvature, measures
+from addon.inspection import curvature
 
 
 def grid(shape, n, m, close_u, close_v, diagonals=True):
@@ -94,10 +94,10 @@ def test_curvature_stops_at_sharp_edges():
 
 def test_folds_of_a_box_are_right_angles():
     box, faces = CUBE
-    angles, inside = measures.fold_angles(polygons(box, faces))
+    angles, inside = polygons(box, faces).fold_angles
     assert inside.all() and np.allclose(angles, 90)
     turned = [faces[0][::-1], *faces[1:]]
-    assert np.allclose(measures.fold_angles(polygons(box, turned))[0], 90)
+    assert np.allclose(polygons(box, turned).fold_angles[0], 90)
 
 
 DART = np.array([(0, 0), (2, -1), (0.5, 0), (2, 1)])
@@ -131,4 +131,4 @@ def test_degenerate_faces_give_finite_numbers():
     mesh = polygons(positions, [(0, 1, 2), (0, 1, 3), (0, 4, 5), (2, 1, 3)])
     bent = curvature.curvature(mesh)
     assert np.isfinite(bent.mean).all() and np.isfinite(bent.gauss).all()
-    assert np.isfinite(measures.fold_angles(mesh)[0]).all()
+    assert np.isfinite(mesh.fold_angles[0]).all()
