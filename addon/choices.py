@@ -1,30 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The options of settings with a choice: identifier, name in the interface, description."""
 
+# a choice a line, so that each table reads as one
+# fmt: off
+
 # for the operator, the panel and the command line
 DEFAULT_ENERGY = "THIN_PLATE"
 ENERGY_MEANING = "What is minimized: bending, total curvature, or the change of curvature"
 
 # numbered, because files keep the number
 ENERGIES = (
-    (
-        "THIN_PLATE",
-        "Bending",
-        "Bends as little as a thin sheet of spring steel, and is a little flat between the vertices",
-        0,
-    ),
-    (
-        "TOTAL_CURVATURE",
-        "Curvature",
-        "The least total curvature: vertices on a sphere give the sphere",
-        1,
-    ),
-    (
-        "MINIMUM_VARIATION",
-        "Flow Lines",
-        "Curvature changes as little as possible along the surface, so that reflections are even",
-        2,
-    ),
+    ("THIN_PLATE", "Bending",
+     "Bends as little as a thin sheet of spring steel, and is a little flat between the vertices", 0),
+    ("TOTAL_CURVATURE", "Curvature", "The least total curvature: vertices on a sphere give the sphere", 1),
+    ("MINIMUM_VARIATION", "Flow Lines",
+     "Curvature changes as little as possible along the surface, so that reflections are even", 2),
 )
 
 ENERGY_NAMES = {key: name for key, name, *_ in ENERGIES}
@@ -38,70 +28,35 @@ ENERGY_MEANINGS = {
 
 # numbered like files from before the third option existed
 INTERPOLATIONS = (
-    (
-        "AUTO",
-        "Auto",
-        "Limit where the source has a Subdivision Surface modifier, or is closed and has flat faces between tight "
-        "rims, such as a phone case; else Through",
-        3,
-    ),
+    ("AUTO", "Auto",
+     "Limit where the source has a Subdivision Surface modifier, or is closed and has flat faces between tight rims, "
+     "such as a phone case; else Through", 3),
     ("EXACT", "Through", "The surface passes exactly through every vertex of the source", 0),
-    (
-        "APPROXIMATE",
-        "Near",
-        "Bends as little as the tolerance of each vertex allows; for scattered or wrong points use Ease Control Mesh",
-        1,
-    ),
-    (
-        "LIMIT",
-        "Limit",
-        "The surface passes where Subdivision Surface would, for cages that were modelled under that modifier",
-        2,
-    ),
+    ("APPROXIMATE", "Near",
+     "Bends as little as the tolerance of each vertex allows; for scattered or wrong points use Ease Control Mesh", 1),
+    ("LIMIT", "Limit",
+     "The surface passes where Subdivision Surface would, for cages that were modelled under that modifier", 2),
 )
 
 INTERPOLATION_NAMES = {key: name for key, name, *_ in INTERPOLATIONS}
 
 TOLERANCE_UNITS = (
-    (
-        "RELATIVE",
-        "Share of Edges",
-        "As a share of the mean edge length of the control mesh, whatever its size",
-        0,
-    ),
+    ("RELATIVE", "Share of Edges", "As a share of the mean edge length of the control mesh, whatever its size", 0),
     ("SCENE", "Length", "As a length in scene units", 1),
 )
 
 REPAIRS = (
-    (
-        "MEND",
-        "Mend",
-        "Fairs a copy without defects, such as duplicate faces, and says what was done; the source stays",
-    ),
+    ("MEND", "Mend", "Fairs a copy without defects, such as duplicate faces, and says what was done; the source stays"),
     ("REFUSE", "Refuse", "Fairs no mesh that has such defects, and says where they are"),
 )
 
 # numbered like files from before the first option existed
 BOUNDARIES = (
-    (
-        "CORNERS",
-        "Keep Corners",
-        "Borders become smooth curves through their vertices, with corners where the sheet turns by over 60°",
-        3,
-    ),
-    (
-        "CURVE",
-        "Smooth",
-        "Open borders become smooth curves through their own vertices, around corners too",
-        0,
-    ),
+    ("CORNERS", "Keep Corners",
+     "Borders become smooth curves through their vertices, with corners where the sheet turns by over 60°", 3),
+    ("CURVE", "Smooth", "Open borders become smooth curves through their own vertices, around corners too", 0),
     ("LINEAR", "Straight", "Open borders keep the straight edges of the source", 1),
-    (
-        "FREE",
-        "Free",
-        "Open borders follow the surface and are fixed only at their vertices",
-        2,
-    ),
+    ("FREE", "Free", "Open borders follow the surface and are fixed only at their vertices", 2),
 )
 
 # of single border edges, numbered like their attribute (mesh/boundary_marks.py)
@@ -127,14 +82,7 @@ MESH_SOURCES = (
 
 JOINTS = (
     ("POSITION", "Touching", "The surface meets the rest without a gap, at any angle (G0)"),
-    (
-        "TANGENT",
-        "Tangent",
-        "The surface leaves the rest in the direction of the neighbouring faces (G1)",
-    ),
-    (
-        "CURVATURE",
-        "Curvature",
-        "As Tangent, and the surface begins to bend gently, so that reflections flow across (like G2)",
-    ),
+    ("TANGENT", "Tangent", "The surface leaves the rest in the direction of the neighbouring faces (G1)"),
+    ("CURVATURE", "Curvature",
+     "As Tangent, and the surface begins to bend gently, so that reflections flow across (like G2)"),
 )

@@ -16,42 +16,21 @@ from .mesh.write_cleaned import Cleaned, write_cleaned
 from .units import Units
 
 # steps that can be turned off: name, label, description
+# fmt: off
 STEPS = (
-    (
-        "mend",
-        "Bad Faces",
-        "Removes duplicate faces and parts, faces without area and vertices without a face",
-    ),
-    (
-        "join",
-        "Join Borders",
-        "Joins border edges that lie on one another, and cuts those with vertices on them",
-    ),
+    ("mend", "Bad Faces", "Removes duplicate faces and parts, faces without area and vertices without a face"),
+    ("join", "Join Borders", "Joins border edges that lie on one another, and cuts those with vertices on them"),
     ("fins", "Fins", "Removes sheets that are attached to an edge of the surface"),
     ("normals", "Normals", "Flips faces that point the wrong way"),
-    (
-        "inner",
-        "Inner Parts",
-        "Removes parts inside others; hollows stay",
-    ),
+    ("inner", "Inner Parts", "Removes parts inside others; hollows stay"),
     ("pinched", "Pinched Vertices", "Separates parts that touch in a vertex or an edge"),
-    (
-        "spikes",
-        "Spikes",
-        "Flattens tips higher than 1.6 edges; creased and sharp ones stay",
-    ),
-    (
-        "folds",
-        "Folds",
-        "Flattens faces that point away from all faces around, or cross those beside them",
-    ),
+    ("spikes", "Spikes", "Flattens tips higher than 1.6 edges; creased and sharp ones stay"),
+    ("folds", "Folds", "Flattens faces that point away from all faces around, or cross those beside them"),
     ("fill", "Holes", "Fills holes with a surface that continues the faces around"),
-    (
-        "noise",
-        "Noise",
-        "Takes noise off, around each vertex as much as the scan there allows: edges and details stay sharp",
-    ),
+    ("noise", "Noise",
+     "Takes noise off, around each vertex as much as the scan there allows: edges and details stay sharp"),
 )
+# fmt: on
 
 
 @dataclass(frozen=True)

@@ -6,19 +6,13 @@ from typing import Any, cast
 
 import bpy
 import numpy as np
-from bpy.props import (
-    BoolProperty,
-    CollectionProperty,
-    FloatProperty,
-    IntProperty,
-    PointerProperty,
-    StringProperty,
-)
+from bpy.props import CollectionProperty, PointerProperty, StringProperty
 
 from .blender import Context, Mesh, Object, column, current_context
 from .curves.cubics import Curve
 from .curves.settle import Covered, CoverOptions, covered
 from .errors import JobError
+from .fields import length, switch, whole
 from .mesh.layers import fill_layer, make_layer
 from .mesh.object import linked_object, session_key
 from .mesh.read_curves import read_curves
@@ -39,30 +33,24 @@ def _look_again(settings: Any, _context: Context) -> None:
 class CageSettings:
     """Mix-in of annotations for an operator or a property group."""
 
-    snap: FloatProperty(
-        name="Snap",
-        description="Curves no farther apart than this meet, in scene units; 0: a hundredth of a typical curve's size",
-        default=0.0,
-        min=0.0,
+    snap: length(
+        "Snap",
+        "Curves no farther apart than this meet, in scene units; 0: a hundredth of a typical curve's size",
         soft_max=1.0,
         precision=4,
-        subtype="DISTANCE",
         update=_look_again,
     )
-    per_side: IntProperty(
-        name="Edges per Side",
-        description="Edges of the control mesh on the shorter sides of cells; more of them follow the curves more closely",
-        default=4,
+    per_side: whole(
+        "Edges per Side",
+        "Edges of the control mesh on the shorter sides of cells; more of them follow the curves more closely",
+        4,
         min=1,
         max=64,
         soft_max=16,
         update=_look_again,
     )
-    closed: BoolProperty(
-        name="Close",
-        description="Fills open ends too, as of a tube, and the outside of a sheet",
-        default=False,
-        update=_look_again,
+    closed: switch(
+        "Close", "Fills open ends too, as of a tube, and the outside of a sheet", update=_look_again
     )
 
 
@@ -84,10 +72,9 @@ class FAIRING_PG_curves(CageSettings, bpy.types.PropertyGroup):
         description="Edges on each arc of the network, numbers with spaces between",
         options={"HIDDEN"},
     )
-    sharp: BoolProperty(
-        name="Sharp",
-        description="The surface has a sharp edge along this curve, and is smooth across all others",
-        default=False,
+    sharp: switch(
+        "Sharp",
+        "The surface has a sharp edge along this curve, and is smooth across all others",
         update=lambda group, _context: group.id_data.update_tag(),
     )
 

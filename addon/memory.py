@@ -11,17 +11,11 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, cast
 
 import bpy
-from bpy.props import (
-    BoolProperty,
-    CollectionProperty,
-    FloatProperty,
-    FloatVectorProperty,
-    PointerProperty,
-    StringProperty,
-)
+from bpy.props import CollectionProperty, FloatVectorProperty, PointerProperty, StringProperty
 
 from . import events, records
 from .blender import Context, Object, all_objects, all_scenes
+from .fields import number, switch
 from .properties import FairingSettings, FitAmount, copy_settings
 from .settings import Settings
 
@@ -68,14 +62,14 @@ class FAIRING_PG_surface(FairingSettings, bpy.types.PropertyGroup):
     carried: _hidden("Carried", "What came from the source, by name, as JSON")
     made: _hidden("Made of", "Settings and source as they were when the surface was made, as JSON")
     stood: _hidden("Stood", "Where the source stood when the surface followed it last, as JSON")
-    follow_transform: BoolProperty(
-        name="Follow Transform",
-        description="Moves, turns and scales with its source, until you transform the surface yourself",
-        default=True,
+    follow_transform: switch(
+        "Follow Transform",
+        "Moves, turns and scales with its source, until you transform the surface yourself",
+        True,
     )
-    unfinished: BoolProperty(
-        name="Unfinished",
-        description="The mesh has fewer levels than the settings say: Recompute makes the whole surface",
+    unfinished: switch(
+        "Unfinished",
+        "The mesh has fewer levels than the settings say: Recompute makes the whole surface",
         options={"HIDDEN"},
     )
     defects: _hidden("Defects", "What Check Mesh has found, as JSON")
@@ -93,7 +87,7 @@ class FAIRING_PG_fit(FitAmount, bpy.types.PropertyGroup):
     """The scans of a surface near scans; empty for other surfaces."""
 
     scans: CollectionProperty(type=FAIRING_PG_scan)
-    weight: FloatProperty(name="Weight", description="How strongly points pull", options={"HIDDEN"})
+    weight: number("Weight", "How strongly points pull", options={"HIDDEN"})
     said: _hidden("Fit", "How near the surface is")
 
 
@@ -106,9 +100,9 @@ class FAIRING_PG_mesh(bpy.types.PropertyGroup):
         size=2,
         options={"HIDDEN"},
     )
-    joint_normals: BoolProperty(
-        name="Joint Normals",
-        description="The mesh has custom normals where its border meets another's",
+    joint_normals: switch(
+        "Joint Normals",
+        "The mesh has custom normals where its border meets another's",
         options={"HIDDEN"},
     )
 

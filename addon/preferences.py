@@ -5,9 +5,10 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 import bpy
-from bpy.props import IntProperty, StringProperty
+from bpy.props import StringProperty
 
 from .blender import Context, current_context
+from .fields import whole
 
 
 class Defaults:
@@ -21,17 +22,17 @@ class Defaults:
 class DiscreteFairingPreferences(bpy.types.AddonPreferences):
     bl_idname = __package__
 
-    memory_limit: IntProperty(
-        name="Memory Limit (MB)",
-        description="Refuses runs that need more megabytes than this; 0: three quarters of the memory",
-        default=Defaults.memory_limit,
+    memory_limit: whole(
+        "Memory Limit (MB)",
+        "Refuses runs that need more megabytes than this; 0: three quarters of the memory",
+        Defaults.memory_limit,
         min=0,
         soft_max=65536,
     )
-    threads: IntProperty(
-        name="Threads",
-        description="How many processor cores a run may use, or 0 for all; the surface is the same for any number",
-        default=Defaults.threads,
+    threads: whole(
+        "Threads",
+        "How many processor cores a run may use, or 0 for all; the surface is the same for any number",
+        Defaults.threads,
         min=0,
         max=1024,
     )

@@ -9,7 +9,7 @@ from math import radians
 from typing import Any
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
+from bpy.props import StringProperty
 
 from . import vertex_values
 from .blender import Context, Object
@@ -25,6 +25,7 @@ from .choices import (
     SYMMETRY_PLANES,
     TOLERANCE_UNITS,
 )
+from .fields import angle, choice, factor, length, number, switch, whole
 from .settings import NAMES, OF_NEAR, Settings
 
 
@@ -51,46 +52,38 @@ def _sources(settings: Any, context: Context) -> list[Object]:
 class FairingSettings:
     """Mix-in of annotations for an operator or a property group."""
 
-    levels: IntProperty(
-        name="Levels",
-        description="Each level splits every face in four: 2 or 3 show the shape, 4 and more are for close-ups",
-        default=3,
+    levels: whole(
+        "Levels",
+        "Each level splits every face in four: 2 or 3 show the shape, 4 and more are for close-ups",
+        3,
         min=1,
         max=10,
         soft_max=5,
     )
-    energy: EnumProperty(
-        name="Fairness",
-        description=ENERGY_MEANING,
-        items=ENERGIES,
-        default=DEFAULT_ENERGY,
+    energy: choice("Fairness", ENERGY_MEANING, ENERGIES, DEFAULT_ENERGY)
+    interpolation: choice(
+        "Vertices",
+        "Whether the surface passes through the vertices of the source, near them, or where Subdivision Surface would",
+        INTERPOLATIONS,
+        "AUTO",
     )
-    interpolation: EnumProperty(
-        name="Vertices",
-        description="Whether the surface passes through the vertices of the source, near them, or where Subdivision Surface would",
-        items=INTERPOLATIONS,
-        default="AUTO",
+    limit: factor(
+        "Follow",
+        "How closely the surface keeps to Subdivision Surface: at 1 thin walls do not wave, at 0 it is free",
+        1.0,
     )
-    limit: FloatProperty(
-        name="Follow",
-        description="How closely the surface keeps to Subdivision Surface: at 1 thin walls do not wave, at 0 it is free",
-        default=1.0,
-        min=0.0,
-        max=1.0,
-        subtype="FACTOR",
-    )
-    tolerance: FloatProperty(
-        name="Tolerance",
-        description="How far the surface may pass from each vertex, in its unit: a little already removes most bumps",
-        default=0.02,
+    tolerance: number(
+        "Tolerance",
+        "How far the surface may pass from each vertex, in its unit: a little already removes most bumps",
+        0.02,
         min=0.0,
         soft_max=1.0,
         precision=4,
     )
-    tolerance_unit: EnumProperty(
-        name="Tolerance Unit",
-        description="Whether the tolerance is a share of the mean edge length or a length in the scene",
-        items=TOLERANCE_UNITS,
+    tolerance_unit: choice(
+        "Tolerance Unit",
+        "Whether the tolerance is a share of the mean edge length or a length in the scene",
+        TOLERANCE_UNITS,
     )
     tolerance_group: StringProperty(
         name="Tolerance Group",
@@ -104,145 +97,94 @@ class FairingSettings:
         search=_vertex_values,
         search_options={"SUGGESTION"},
     )
-    pad_size: FloatProperty(
-        name="Hold Softly",
-        description="Removes the marks of vertices in reflections: at 0 each holds the surface at a point, at 1 over the faces around",
-        default=1.0,
-        min=0.0,
-        max=1.0,
-        subtype="FACTOR",
+    pad_size: factor(
+        "Hold Softly",
+        "Removes the marks of vertices in reflections: at 0 each holds the surface at a point, at 1 over the faces around",
+        1.0,
     )
-    tension: FloatProperty(
-        name="Tension",
-        description="Keeps fins, ears and ends of limbs from swelling (not with Flow Lines)",
-        default=0.0,
-        min=0.0,
-        max=1.0,
-        subtype="FACTOR",
+    tension: factor(
+        "Tension", "Keeps fins, ears and ends of limbs from swelling (not with Flow Lines)"
     )
-    boundary: EnumProperty(
-        name="Boundary",
-        description="What happens to open borders",
-        items=BOUNDARIES,
-        default="CORNERS",
-    )
-    symmetry_plane: EnumProperty(
-        name="Symmetry Plane",
-        description="The surface crosses this plane of the object as if its mirror image were there, as for half a hull",
-        items=SYMMETRY_PLANES,
+    boundary: choice("Boundary", "What happens to open borders", BOUNDARIES, "CORNERS")
+    symmetry_plane: choice(
+        "Symmetry Plane",
+        "The surface crosses this plane of the object as if its mirror image were there, as for half a hull",
+        SYMMETRY_PLANES,
     )
 
-    mesh_source: EnumProperty(
-        name="Control Mesh", description="Which state of the source is faired", items=MESH_SOURCES
+    mesh_source: choice("Control Mesh", "Which state of the source is faired", MESH_SOURCES)
+    use_selection: switch(
+        "Selected Faces Only",
+        "Fairs the selected faces only, and subdivides all others to match without changing their shape",
     )
-    use_selection: BoolProperty(
-        name="Selected Faces Only",
-        description="Fairs the selected faces only, and subdivides all others to match without changing their shape",
-        default=False,
-    )
-    joint: EnumProperty(
-        name="Joint",
-        description="How the faired faces meet those that keep their shape",
-        items=JOINTS,
-        default="TANGENT",
+    joint: choice(
+        "Joint", "How the faired faces meet those that keep their shape", JOINTS, "TANGENT"
     )
 
-    use_crease_attribute: BoolProperty(
-        name="Edge Creases",
-        description="Creased edges (Shift E in Edit Mode) become sharp curves or soft turns, and creased vertices corners",
-        default=True,
+    use_crease_attribute: switch(
+        "Edge Creases",
+        "Creased edges (Shift E in Edit Mode) become sharp curves or soft turns, and creased vertices corners",
+        True,
     )
-    crease_threshold: FloatProperty(
-        name="Threshold",
-        description="Creases of at least this weight are sharp; below it the surface turns softly, the wider the lower the weight",
-        default=1.0,
-        min=0.0,
-        max=1.0,
-        subtype="FACTOR",
+    crease_threshold: factor(
+        "Threshold",
+        "Creases of at least this weight are sharp; below it the surface turns softly, the wider the lower the weight",
+        1.0,
     )
-    use_sharp_edges: BoolProperty(
-        name="Sharp Edges",
-        description="Edges marked sharp become sharp curves as well",
-        default=False,
+    use_sharp_edges: switch("Sharp Edges", "Edges marked sharp become sharp curves as well")
+    use_crease_angle: switch(
+        "Crease Angle", "Edges folded by more than this angle become sharp curves"
     )
-    use_crease_angle: BoolProperty(
-        name="Crease Angle",
-        description="Edges folded by more than this angle become sharp curves",
-        default=False,
+    crease_angle: angle(
+        "Angle", "The angle between two faces above which their edge stays sharp", radians(40)
     )
-    crease_angle: FloatProperty(
-        name="Angle",
-        description="The angle between two faces above which their edge stays sharp",
-        default=radians(40),
-        min=0.0,
-        max=radians(180),
-        subtype="ANGLE",
+    use_corner_angle: switch(
+        "Corner Angle",
+        "Borders and creases that turn by more than this angle at a vertex get a corner there, not a bend",
     )
-    use_corner_angle: BoolProperty(
-        name="Corner Angle",
-        description="Borders and creases that turn by more than this angle at a vertex get a corner there, not a bend",
-        default=False,
-    )
-    corner_angle: FloatProperty(
-        name="Angle",
-        description="The turn of a border or crease above which its vertex is a corner",
-        default=radians(60),
-        min=0.0,
-        max=radians(180),
-        subtype="ANGLE",
+    corner_angle: angle(
+        "Angle", "The turn of a border or crease above which its vertex is a corner", radians(60)
     )
 
-    metric_exponent: FloatProperty(
-        name="Spacing",
-        description="How strongly edge lengths shape the surface: at 1 faces keep their proportions, at 0 all count the same",
-        default=0.5,
-        min=0.0,
-        max=1.0,
-        subtype="FACTOR",
+    metric_exponent: factor(
+        "Spacing",
+        "How strongly edge lengths shape the surface: at 1 faces keep their proportions, at 0 all count the same",
+        0.5,
     )
-    repair: EnumProperty(
-        name="Defects",
-        description="What happens to a mesh with defects",
-        items=REPAIRS,
-    )
-    weld: FloatProperty(
-        name="Weld",
-        description="Joins vertices that are no farther apart than this, in scene units, and leaves the source as it is",
-        default=0.0,
-        min=0.0,
+    repair: choice("Defects", "What happens to a mesh with defects", REPAIRS)
+    weld: length(
+        "Weld",
+        "Joins vertices that are no farther apart than this, in scene units, and leaves the source as it is",
         soft_max=0.1,
         precision=4,
-        subtype="DISTANCE",
     )
-    use_shape_keys: BoolProperty(
-        name="Shape Keys",
-        description="Fairs every shape key of the source too, so that you can animate the surface with them",
-        default=True,
+    use_shape_keys: switch(
+        "Shape Keys",
+        "Fairs every shape key of the source too, so that you can animate the surface with them",
+        True,
     )
-    copy_modifiers: BoolProperty(
-        name="Copy Modifiers",
-        description="Gives the surface the modifiers of the source, such as its armature",
-        default=False,
+    copy_modifiers: switch(
+        "Copy Modifiers", "Gives the surface the modifiers of the source, such as its armature"
     )
-    hide_source: BoolProperty(
-        name="Hide Source",
-        description="Hides the source afterwards, because both overlap; Show Source shows it again",
-        default=True,
+    hide_source: switch(
+        "Hide Source",
+        "Hides the source afterwards, because both overlap; Show Source shows it again",
+        True,
     )
-    shade_smooth: BoolProperty(
-        name="Shade Smooth",
-        description="Shades all faces smooth except at creases and sharp edges; off: each like its source face",
-        default=True,
+    shade_smooth: switch(
+        "Shade Smooth",
+        "Shades all faces smooth except at creases and sharp edges; off: each like its source face",
+        True,
     )
 
 
 class FitAmount:
     """Mix-in of annotations: how closely a surface follows a scan."""
 
-    amount: EnumProperty(
-        name="Amount",
-        description="How closely the surface follows the scan",
-        items=(
+    amount: choice(
+        "Amount",
+        "How closely the surface follows the scan",
+        (
             ("AUTO", "Automatic", "As closely as the noise of the scan allows"),
             (
                 "TOLERANCE",
@@ -250,12 +192,12 @@ class FitAmount:
                 "The calmest surface with 95 % of the scan within it",
             ),
         ),
-        default="AUTO",
+        "AUTO",
     )
-    tolerance: FloatProperty(
-        name="Tolerance",
-        description="Distance that 95 % of the scan's points are within",
-        default=0.001,
+    tolerance: number(
+        "Tolerance",
+        "Distance that 95 % of the scan's points are within",
+        0.001,
         min=1e-9,
         subtype="DISTANCE",
         unit="LENGTH",

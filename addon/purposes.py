@@ -17,50 +17,24 @@ PRESET_FOLDER = "operator/object.fairing_surface"
 _DEFAULT = "Default.py"
 
 # identifier, name, description, number in files
+# fmt: off
 PURPOSES = (
-    (
-        "HULL",
-        "Hull",
-        "Boats: through the offsets, or within a tolerance of them; marked edges are chines (Flow Lines)",
-        0,
-    ),
-    (
-        "PANEL",
-        "Panel",
-        "Bonnets, doors, wings: through the points where Subdivision Surface passes; corners stay (Bending)",
-        1,
-    ),
-    (
-        "MECHANICAL",
-        "Mechanical",
-        "Machine parts of few sides: round between sharp edges, which are folds of 30° and more (Bending)",
-        2,
-    ),
-    (
-        "CHARACTER",
-        "Character",
-        "Characters, cases, mugs: where Subdivision Surface passes, and fairer in between (Bending)",
-        3,
-    ),
-    (
-        "SCAN_PATCH",
-        "Scan Patch",
-        "Measured faces: removes the noise of the selected ones, in Object Mode of all; adds no faces",
-        4,
-    ),
-    (
-        "POINTS",
-        "Points (measured)",
-        "Points with an error: eased first, as the shape key Eased, then a surface through them (Bending)",
-        5,
-    ),
-    (
-        "SCAN_SURFACE",
-        "Scan to Surface",
-        "A scan, and a cage drawn over it if there is one: the fairest surface near its points, as a new object",
-        6,
-    ),
+    ("HULL", "Hull",
+     "Boats: through the offsets, or within a tolerance of them; marked edges are chines (Flow Lines)", 0),
+    ("PANEL", "Panel",
+     "Bonnets, doors, wings: through the points where Subdivision Surface passes; corners stay (Bending)", 1),
+    ("MECHANICAL", "Mechanical",
+     "Machine parts of few sides: round between sharp edges, which are folds of 30° and more (Bending)", 2),
+    ("CHARACTER", "Character",
+     "Characters, cases, mugs: where Subdivision Surface passes, and fairer in between (Bending)", 3),
+    ("SCAN_PATCH", "Scan Patch",
+     "Measured faces: removes the noise of the selected ones, in Object Mode of all; adds no faces", 4),
+    ("POINTS", "Points (measured)",
+     "Points with an error: eased first, as the shape key Eased, then a surface through them (Bending)", 5),
+    ("SCAN_SURFACE", "Scan to Surface",
+     "A scan, and a cage drawn over it if there is one: the fairest surface near its points, as a new object", 6),
 )
+# fmt: on
 
 
 # words by which Blender's search finds the entries of the menu

@@ -3,13 +3,11 @@
 
 from typing import Any
 
-import bmesh
 import numpy as np
-from mathutils import Matrix, Vector, bvhtree, kdtree
+from mathutils import Vector, bvhtree, kdtree
 
-from ..blender import Context, Mesh, Object, column
-from ..mesh.read import control_mesh
-from ..mesh.scans import Scan
+from ..blender import Object, column
+from ..mesh.scans import Scan, of_mesh
 from ..mesh.world_shape import transformed, world_matrix, world_shape
 
 _ROUNDING = 1e-4  # relative to a distance, since Blender's trees are single precision
@@ -24,33 +22,25 @@ def from_vertices(target: Object, positions: np.ndarray, control: np.ndarray) ->
     control, surface = shape.of(control), shape.of(positions)
     nearest, _ = _nearest(control, surface)
     used = np.unique(nearest)
-    tree = _tree(target.data, Matrix(np.linalg.inv(shape.way_back).tolist()))
+    tree = _tree(surface, of_mesh(target.data).triangles)
     missed = np.zeros(len(control))
     missed[used] = -signed_distances(tree, control[used])
     return missed[nearest]
 
 
-def from_object(
-    context: Context, target: Object, positions: np.ndarray, other: Object
-) -> np.ndarray:
-    """(n,) distances of `positions` (n, 3) from `other` as displayed; above 0 outside."""
-    with control_mesh(context, other, evaluated=True) as mesh:
-        tree = _tree(mesh, world_matrix(other))
-    return signed_distances(tree, _in_world(target, positions))
-
-
 def from_scan(target: Object, positions: np.ndarray, scan: Scan) -> np.ndarray:
-    """(n,) at each of the surface's `positions` (n, 3) the distance from a scan in the world, in scene
-    units; positive outside. For points without triangles, the side is that of the surface's normals.
+    """(n,) at each of the surface's `positions` (n, 3) the distance from a scan, or any mesh, in the world, in
+    scene units; positive outside. For points without triangles, the side is that of the surface's normals.
     """
-    surface = _in_world(target, positions)
+    matrix = np.array(world_matrix(target), dtype=np.float64)
+    surface = transformed(positions, matrix)
+    if not len(scan.points):
+        return np.zeros(len(surface))
     if len(scan.triangles):
-        make: Any = bvhtree.BVHTree.FromPolygons
-        tree = make(scan.points.tolist(), scan.triangles.tolist(), all_triangles=True)
-        return signed_distances(tree, surface)
+        return signed_distances(_tree(scan.points, scan.triangles), surface)
     normals = column(target.data.vertex_normals, "vector", width=3)
-    matrix = np.array(world_matrix(target), dtype=np.float64)[:3, :3]
-    turned = normals @ np.linalg.inv(matrix) * np.sign(np.linalg.det(matrix))
+    linear = matrix[:3, :3]
+    turned = normals @ np.linalg.inv(linear) * np.sign(np.linalg.det(linear))
     nearest, away = _nearest(scan.points, surface)
     outside = ((surface - scan.points[nearest]) * turned).sum(axis=1) >= 0.0
     return np.where(outside, away, -away)
@@ -83,17 +73,6 @@ def _nearest(control: np.ndarray, surface: np.ndarray) -> tuple[np.ndarray, np.n
     return nearest, np.linalg.norm(surface - control[nearest], axis=1)
 
 
-def _tree(mesh: Mesh, matrix: Any) -> Any:
-    """A tree of all faces of `mesh`, transformed by a (4, 4) matrix."""
-    there = bmesh.new(use_operators=False)
-    there.from_mesh(mesh, face_normals=False, vertex_normals=False)
-    there.transform(matrix)
-    there.normal_update()
-    make: Any = bvhtree.BVHTree.FromBMesh
-    tree = make(there)
-    there.free()
-    return tree
-
-
-def _in_world(target: Object, positions: np.ndarray) -> np.ndarray:
-    return transformed(positions, np.array(world_matrix(target)))
+def _tree(points: np.ndarray, triangles: np.ndarray) -> Any:
+    make: Any = bvhtree.BVHTree.FromPolygons
+    return make(points.tolist(), triangles.tolist(), all_triangles=True)

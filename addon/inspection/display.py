@@ -16,8 +16,13 @@ from ..settings import is_evaluated
 from ..units import curvature_text, length_text
 from . import deviation, measures, viewport_material
 from .curvature import curvature
-from .materials import COLOUR, CURVATURE_MODE, curvature_material, stripes_material
-from .stripes import STRIPES
+from .materials import (
+    COLOUR,
+    CURVATURE_MODE,
+    STRIPES,
+    curvature_material,
+    stripes_material,
+)
 
 CURVATURES = {
     "MEAN": "fair_mean_curvature",
@@ -47,10 +52,9 @@ def _write_deviation(context: Context, target: Object, other: Object | None) -> 
     """Deviation from `other`; None: from its scans, or from the control vertices, if it has a source."""
     positions = read_mesh(target.data).positions
     source = source_of(target)
-    if other is not None:
-        values = deviation.from_object(context, target, positions, other)
-    elif scans_of(target):
-        values = deviation.from_scan(target, positions, read_scans(context, scans_of(target)))
+    scans = scans_of(target) if other is None else [other]
+    if scans:
+        values = deviation.from_scan(target, positions, read_scans(context, scans))
     elif source is not None:
         with control_mesh(context, source, is_evaluated(target.discrete_fairing)) as mesh:
             control = read_mesh(mesh).positions
@@ -138,13 +142,10 @@ def show(target: Object, mode: str, settings: Any) -> None:
         remove_values(target.data)
     if mode == "NONE":
         viewport_material.take_off(target)
-    elif mode in STRIPES:
-        viewport_material.put_on(target, mode, stripes_material(mode, settings), settings)
-    else:
-        if target.mode != "EDIT":
-            write_values(target, mode, settings)
-            write_colours(target.data, mode, settings)
-        viewport_material.put_on(target, CURVATURE_MODE, curvature_material(), settings)
+    elif mode in VALUES and target.mode != "EDIT":
+        write_values(target, mode, settings)
+        write_colours(target.data, mode, settings)
+    redraw(target, settings, mode)
 
 
 def refresh(target: Object, settings: Any) -> None:
@@ -184,9 +185,9 @@ def recolour(target: Object, settings: Any) -> None:
         write_colours(target.data, mode, settings)
 
 
-def redraw(target: Object, settings: Any) -> None:
+def redraw(target: Object, settings: Any, mode: str = "") -> None:
     """Updates stripes and smoothness to the `settings` of the scene; measures nothing."""
-    mode = target.discrete_fairing_inspection.mode
+    mode = mode or target.discrete_fairing_inspection.mode
     if mode in STRIPES:
         viewport_material.put_on(target, mode, stripes_material(mode, settings), settings)
     elif mode in VALUES:

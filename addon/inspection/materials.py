@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Node materials for stripes and for colours of values."""
 
+from math import cos, pi, sin
 from typing import Any
 
 import bpy
 
 from ..blender import all_scenes
 from ..mesh.modifiers import INSPECTION_TAG
-from .stripes import DARK, LIGHT, stripes_of
 
 # the scene whose settings zebra and smooth it has; none: the first one's, and in older files
 SCENE_TAG = "fairing_inspection_scene"
@@ -15,11 +15,14 @@ SCENE_TAG = "fairing_inspection_scene"
 # the colour attribute that the curvature material reads
 COLOUR = "Fairing Curvature"
 
-STRIPES_NAMES = {
+# modes of inspection that show stripes, and their materials
+STRIPES = {
     "ZEBRA": "Fairing Zebra",
     "LINES": "Fairing Reflection Lines",
     "ISOPHOTES": "Fairing Isophotes",
 }
+_LIGHT, _DARK = (0.88, 0.88, 0.865), (0.012, 0.013, 0.016)  # linear
+_LINE = 0.15  # relative to the distance between two reflection lines: their thickness
 CURVATURE_NAME, CURVATURE_MODE = "Fairing Curvature", "CURVATURE"
 
 
@@ -84,15 +87,23 @@ def tag(item: Any, mode: str, key: int) -> None:
 
 
 def stripes_material(mode: str, settings: Any) -> bpy.types.Material:
-    """The material for one of STRIPES in the scene with these `settings`; created if missing."""
+    """The material for one of STRIPES in the scene with these `settings`; created if missing.
+
+    Each point has a direction: that of the mirrored ray, or for isophotes that of the normal. A wave of its
+    angle from the plane across the axis of the room is dark where it is low.
+    """
     key = scene_key(settings)
     material: Any = tagged(bpy.data.materials, mode, key) or _build_stripes(mode, key)
-    nodes, stripes = material.node_tree.nodes, stripes_of(mode, settings)
-    nodes["Direction"].inputs[1].default_value = stripes.axis
-    nodes["Room"].convert_to = "CAMERA" if stripes.by_view else "OBJECT"
-    nodes["Stripes"].inputs[1].default_value = stripes.waves
-    nodes["Edge"].inputs["From Min"].default_value = stripes.level - stripes.width
-    nodes["Edge"].inputs["From Max"].default_value = stripes.level + stripes.width
+    nodes, by_view = material.node_tree.nodes, settings.fixed_to == "VIEW"
+    along, up = sin(settings.direction), cos(settings.direction)
+    # upright is y in the view and z in the object
+    nodes["Direction"].inputs[1].default_value = (along, up, 0.0) if by_view else (along, 0.0, up)
+    nodes["Room"].convert_to = "CAMERA" if by_view else "OBJECT"
+    nodes["Stripes"].inputs[1].default_value = 2.0 * settings.stripes
+    level = -cos(pi * _LINE) if mode == "LINES" else 0.0  # of the wave, dark below
+    width = 0.02 + (1.0 - settings.sharpness) * 0.98  # half of the transition's
+    nodes["Edge"].inputs["From Min"].default_value = level - width
+    nodes["Edge"].inputs["From Max"].default_value = level + width
     return material
 
 
@@ -135,7 +146,7 @@ def _seen_direction(graph: Graph, mode: str) -> bpy.types.NodeSocket:
 
 
 def _build_stripes(mode: str, key: int) -> bpy.types.Material:
-    material, graph = _begin(STRIPES_NAMES[mode], mode, key)
+    material, graph = _begin(STRIPES[mode], mode, key)
     room = graph.node(
         "ShaderNodeVectorTransform",
         "Room",
@@ -165,7 +176,7 @@ def _build_stripes(mode: str, key: int) -> bpy.types.Material:
 def _set_colours(graph: Graph, mix: Any, factor: bpy.types.NodeSocket) -> None:
     """Sets the colour sockets of the Mix node, which has sockets of the same name for every type."""
     colours = [socket for socket in mix.inputs if socket.type == "RGBA"]
-    colours[0].default_value, colours[1].default_value = (*DARK, 1.0), (*LIGHT, 1.0)
+    colours[0].default_value, colours[1].default_value = (*_DARK, 1.0), (*_LIGHT, 1.0)
     graph.tree.links.new(factor, mix.inputs[0])
 
 

@@ -1,69 +1,41 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The display of each object; and settings of a scene, so that its objects are comparable."""
 
+from collections.abc import Callable
 from math import radians
 from typing import Any
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty
+from bpy.props import PointerProperty
 
-from ..blender import Context, Mesh, scene_of
+from ..blender import Context, Mesh, Object, scene_of
+from ..fields import choice, factor, number, switch, whole
 from . import display, overlay
 
+# fmt: off
 MODES = (
     ("NONE", "Off", "The object in its own materials", "SHADING_SOLID", 0),
-    (
-        "ZEBRA",
-        "Zebra",
-        "Stripes as if the surface mirrored light tubes: they break at edges, kink where curvature jumps, else flow",
-        "ALIGN_JUSTIFY",
-        1,
-    ),
-    (
-        "MEAN",
-        "Mean",
-        "Mean curvature: how much the surface bulges (red) or is hollow (blue), on average over all directions",
-        "COLOR",
-        2,
-    ),
-    (
-        "GAUSS",
-        "Gauss",
-        "Gaussian curvature: domes and bowls (red), saddles (blue), and what can be unrolled flat (white)",
-        "COLOR",
-        3,
-    ),
-    (
-        "TOTAL",
-        "Total",
-        "Total curvature: how strongly the surface bends, whichever way, with red where it is least fair",
-        "COLOR",
-        4,
-    ),
-    (
-        "LINES",
-        "Lines",
-        "Reflection lines: thin dark tubes in a light room, which show small faults between the stripes of Zebra",
-        "ALIGN_FLUSH",
-        5,
-    ),
-    (
-        "ISOPHOTES",
-        "Isophotes",
-        "Lines of equal brightness: they follow the direction of the surface alone, wherever you "
-        "look from",
-        "LIGHT_SUN",
-        6,
-    ),
-    (
-        "DEVIATION",
-        "Deviation",
-        "How far the surface is from its scans, from the vertices of its source or from another object: outside (red), "
-        "inside (blue); grey where a scan has no points",
-        "DRIVER_DISTANCE",
-        7,
-    ),
+    ("ZEBRA", "Zebra",
+     "Stripes as if the surface mirrored light tubes: they break at edges, kink where curvature jumps, else "
+     "flow", "ALIGN_JUSTIFY", 1),
+    ("MEAN", "Mean",
+     "Mean curvature: how much the surface bulges (red) or is hollow (blue), on average over all "
+     "directions", "COLOR", 2),
+    ("GAUSS", "Gauss",
+     "Gaussian curvature: domes and bowls (red), saddles (blue), and what can be unrolled flat (white)", "COLOR", 3),
+    ("TOTAL", "Total",
+     "Total curvature: how strongly the surface bends, whichever way, with red where it is least fair", "COLOR", 4),
+    ("LINES", "Lines",
+     "Reflection lines: thin dark tubes in a light room, which show small faults between the stripes of "
+     "Zebra", "ALIGN_FLUSH", 5),
+    ("ISOPHOTES", "Isophotes",
+     "Lines of equal brightness: they follow the direction of the surface alone, wherever you look "
+     "from", "LIGHT_SUN", 6),
+    ("DEVIATION", "Deviation",
+     "How far the surface is from its scans, from the vertices of its source or from another object: outside (red), "
+     "inside (blue); grey where a scan has no points", "DRIVER_DISTANCE", 7),
 )
+# fmt: on
 
 
 def _mode_changed(group: Any, _context: Context) -> None:
@@ -72,39 +44,39 @@ def _mode_changed(group: Any, _context: Context) -> None:
         display.show(target, group.mode, scene_of(target).discrete_fairing_inspection)
 
 
-def _deviation_changed(group: Any, _context: Context) -> None:
-    for target in group.id_data.objects:
-        if target.type == "MESH" and target.discrete_fairing_inspection.mode == "DEVIATION":
-            display.refresh(target, group)
+def _for_all(act: Callable[[Object, Any], None]) -> Callable[[Any, Context], None]:
+    """An update callback: `act` on all meshes of the scene; one in two scenes shows the last change."""
+
+    def changed(group: Any, _context: Context) -> None:
+        for target in group.id_data.objects:
+            if target.type == "MESH":
+                act(target, group)
+        overlay.redraw()
+
+    return changed
 
 
-def _range_changed(group: Any, _context: Context) -> None:
-    for target in group.id_data.objects:
-        if target.type == "MESH":
-            display.recolour(target, group)
+def _measure_deviation(target: Object, settings: Any) -> None:
+    if target.discrete_fairing_inspection.mode == "DEVIATION":
+        display.refresh(target, settings)
 
 
-def _drawing_changed(group: Any, _context: Context) -> None:
-    """Updates all objects of this scene; an object in two scenes shows the last change."""
-    for target in group.id_data.objects:
-        if target.type == "MESH":
-            display.redraw(target, group)
-    overlay.redraw()
+_drawing_changed, _range_changed = _for_all(display.redraw), _for_all(display.recolour)
 
 
 class FAIRING_PG_display(bpy.types.PropertyGroup):
     """The display of an object; stored with the object."""
 
-    mode: EnumProperty(
-        name="Show",
-        description="What the object shows instead of its materials",
-        items=MODES,
+    mode: choice(
+        "Show",
+        "What the object shows instead of its materials",
+        MODES,
         update=_mode_changed,
         options=set(),
     )
-    sections: BoolProperty(
-        name="Sections",
-        description="Draws the curves in which even planes cut the object, in any shading",
+    sections: switch(
+        "Sections",
+        "Draws the curves in which even planes cut the object, in any shading",
         update=lambda _group, _context: overlay.shown_changed(),
         options=set(),
     )
@@ -113,43 +85,38 @@ class FAIRING_PG_display(bpy.types.PropertyGroup):
 class FAIRING_PG_inspection(bpy.types.PropertyGroup):
     """Settings of the display; stored with the scene."""
 
-    key: IntProperty(
-        name="Key",
-        description="Distinguishes the materials of this scene from those of others",
-        options={"HIDDEN"},
+    key: whole(
+        "Key", "Distinguishes the materials of this scene from those of others", options={"HIDDEN"}
     )
 
-    stripes: IntProperty(
-        name="Stripes",
-        description="Number of pairs of light and dark stripes: more stripes show smaller faults",
-        default=10,
+    stripes: whole(
+        "Stripes",
+        "Number of pairs of light and dark stripes: more stripes show smaller faults",
+        10,
         min=1,
         max=200,
         soft_max=60,
         update=_drawing_changed,
     )
-    direction: FloatProperty(
-        name="Direction",
-        description="How far the stripes lean, from 0° level to 90° upright: faults show best in stripes that cross them",
-        default=radians(20),
+    direction: number(
+        "Direction",
+        "How far the stripes lean, from 0° level to 90° upright: faults show best in stripes that cross them",
+        radians(20),
         soft_min=radians(-90),
         soft_max=radians(90),
+        update=_drawing_changed,
         subtype="ANGLE",
+    )
+    sharpness: factor(
+        "Sharpness",
+        "Sharpness of the edges of the stripes: softer edges suit coarse meshes",
+        0.95,
         update=_drawing_changed,
     )
-    sharpness: FloatProperty(
-        name="Sharpness",
-        description="Sharpness of the edges of the stripes: softer edges suit coarse meshes",
-        default=0.95,
-        min=0.0,
-        max=1.0,
-        subtype="FACTOR",
-        update=_drawing_changed,
-    )
-    fixed_to: EnumProperty(
-        name="Fixed to",
-        description="Where the light tubes stand",
-        items=(
+    fixed_to: choice(
+        "Fixed to",
+        "Where the light tubes stand",
+        (
             (
                 "VIEW",
                 "View",
@@ -163,32 +130,31 @@ class FAIRING_PG_inspection(bpy.types.PropertyGroup):
         ),
         update=_drawing_changed,
     )
-    smooth: BoolProperty(
-        name="Smooth",
-        description="Shades the object smooth while it is inspected, except at edges marked sharp",
-        default=True,
+    smooth: switch(
+        "Smooth",
+        "Shades the object smooth while it is inspected, except at edges marked sharp",
+        True,
         update=_drawing_changed,
     )
-    use_fixed_range: BoolProperty(
-        name="Fixed Range",
-        description="The same colours for the same curvature on every object, so that they can be compared",
-        default=False,
+    use_fixed_range: switch(
+        "Fixed Range",
+        "The same colours for the same curvature on every object, so that they can be compared",
         update=_range_changed,
     )
-    fixed_range: FloatProperty(
-        name="Limit",
-        description="The curvature that gets the last colour: one over a radius, or over a radius squared, "
+    fixed_range: number(
+        "Limit",
+        "The curvature that gets the last colour: one over a radius, or over a radius squared, "
         "in the object's own units",
-        default=2.0,
+        2.0,
         min=1e-6,
         soft_max=100.0,
         precision=3,
         update=_range_changed,
     )
-    fixed_deviation: FloatProperty(
-        name="Limit",
-        description="The distance that gets the last colour",
-        default=0.01,
+    fixed_deviation: number(
+        "Limit",
+        "The distance that gets the last colour",
+        0.01,
         min=1e-9,
         soft_max=1.0,
         precision=4,
@@ -200,39 +166,39 @@ class FAIRING_PG_inspection(bpy.types.PropertyGroup):
         description="The mesh object from which distances are measured; if empty, the vertices of the source",
         type=bpy.types.Object,
         poll=lambda _group, target: target.type == "MESH",
-        update=_deviation_changed,
+        update=_for_all(_measure_deviation),
     )
-    section_axes: EnumProperty(
-        name="Planes across",
-        description="The axes of the object across which the planes cut, several with Shift",
-        items=(
+    section_axes: choice(
+        "Planes across",
+        "The axes of the object across which the planes cut, several with Shift",
+        (
             ("X", "X", "Planes across the object's x axis"),
             ("Y", "Y", "Planes across the object's y axis"),
             ("Z", "Z", "Planes across the object's z axis"),
         ),
-        default={"X"},
+        {"X"},
         options={"ENUM_FLAG"},
         update=lambda _group, _context: overlay.redraw(),
     )
-    section_count: IntProperty(
-        name="Planes",
-        description="How many planes cut the object across each axis",
-        default=10,
+    section_count: whole(
+        "Planes",
+        "How many planes cut the object across each axis",
+        10,
         min=1,
         max=200,
         soft_max=50,
         update=lambda _group, _context: overlay.redraw(),
     )
-    show_combs: BoolProperty(
-        name="Combs",
-        description="Draws curvature as teeth: an even comb is a fair curve, a notch a flat spot, a spike a tight bend",
-        default=True,
+    show_combs: switch(
+        "Combs",
+        "Draws curvature as teeth: an even comb is a fair curve, a notch a flat spot, a spike a tight bend",
+        True,
         update=lambda _group, _context: overlay.redraw(),
     )
-    comb_scale: FloatProperty(
-        name="Comb Scale",
-        description="Scales the length of the teeth",
-        default=1.0,
+    comb_scale: number(
+        "Comb Scale",
+        "Scales the length of the teeth",
+        1.0,
         min=0.0,
         soft_max=5.0,
         update=lambda _group, _context: overlay.redraw(),

@@ -4,10 +4,11 @@
 from typing import Any
 
 import bpy
-from bpy.props import BoolProperty, IntProperty, StringProperty
+from bpy.props import StringProperty
 
 from .. import core
 from ..blender import Context, Object, all_objects, current_context
+from ..fields import switch, whole
 from ..memory import no_source_reason, source_of
 from ..mesh.object import session_key
 from ..poll import LINKED_SURFACE
@@ -159,37 +160,32 @@ def _in_renders_changed(group: Any, _context: Context) -> None:
 class FAIRING_PG_live(bpy.types.PropertyGroup):
     """How a faired object follows its source. Files store all except `on`."""
 
-    on: BoolProperty(
-        name="Live",
-        description="The surface follows while its source is edited, until you switch this off or open a file",
+    on: switch(
+        "Live",
+        "The surface follows while its source is edited, until you switch this off or open a file",
         get=lambda group: is_on(group.id_data),
         set=_switch,
     )
-    levels: IntProperty(
-        name="Live Levels",
-        description="The level shown during an edit, at most the surface's own, and lower where updates would be slow",
-        default=DEFAULT_LEVELS,
+    levels: whole(
+        "Live Levels",
+        "The level shown during an edit, at most the surface's own, and lower where updates would be slow",
+        DEFAULT_LEVELS,
         min=1,
         max=10,
         soft_max=5,
     )
-    in_renders: BoolProperty(
-        name="Live in Renders",
-        description="The surface follows frame by frame in renders too, at its Live Levels, and the window waits meanwhile. Live is on again when the file is opened",
-        default=False,
+    in_renders: switch(
+        "Live in Renders",
+        "The surface follows frame by frame in renders too, at its Live Levels, and the window waits meanwhile. Live is on again when the file is opened",
         update=_in_renders_changed,
     )
-    cage_as_wire: BoolProperty(
-        name="Cage as Wire",
-        description="Shows the source as wire while Live is on, so that the surface is visible",
-        default=True,
+    cage_as_wire: switch(
+        "Cage as Wire",
+        "Shows the source as wire while Live is on, so that the surface is visible",
+        True,
         update=_cage_changed,
     )
-    was_on: BoolProperty(
-        name="Was On",
-        description="Live was on in this file, or this step of undo",
-        options={"HIDDEN"},
-    )
+    was_on: switch("Was On", "Live was on in this file, or this step of undo", options={"HIDDEN"})
     cage_display: StringProperty(
         name="Cage Display",
         description="How the source was shown before Live was switched on",

@@ -2,11 +2,11 @@
 """Makes single border edges smooth, straight or free, whatever the surface's setting."""
 
 import bpy
-from bpy.props import EnumProperty
 
 from ..blender import Context
 from ..choices import EDGE_BOUNDARIES
 from ..errors import JobError
+from ..fields import choice
 from ..mesh.boundary_marks import mark_selected, select_marked
 from ..poll import in_edit_mode
 from ..words import counted
@@ -22,9 +22,7 @@ class OBJECT_OT_fairing_boundary(Action, bpy.types.Operator):
     bl_idname = "object.fairing_boundary"
     bl_label = "Boundary of Edges"
 
-    boundary: EnumProperty(
-        name="Boundary", description="What these edges become", items=EDGE_BOUNDARIES
-    )
+    boundary: choice("Boundary", "What these edges become", EDGE_BOUNDARIES)
 
     reasons = _REASONS
 
@@ -42,10 +40,8 @@ class OBJECT_OT_fairing_select_boundary(Action, bpy.types.Operator):
     bl_idname = "object.fairing_select_boundary"
     bl_label = "Select Boundary of Edges"
 
-    boundary: EnumProperty(
-        name="Boundary",
-        description="Which edges are selected",
-        items=[choice for choice in EDGE_BOUNDARIES if choice[-1]],
+    boundary: choice(
+        "Boundary", "Which edges are selected", [choice for choice in EDGE_BOUNDARIES if choice[-1]]
     )
 
     reasons = _REASONS

@@ -6,7 +6,7 @@ from typing import Any, cast
 
 import bpy
 import numpy as np
-from bpy.props import IntProperty, IntVectorProperty
+from bpy.props import IntVectorProperty
 
 from .. import core, errors
 from ..blender import Context, Object
@@ -22,6 +22,7 @@ from ..check.defects import (
 from ..check.faults import faulty_vertices
 from ..check.holes import edges_of
 from ..cleaning import repair, repair_label
+from ..fields import whole
 from ..mesh.read import active_mesh, source_objects
 from ..mesh.write import FAULTS, NO_POINTS, faces_without_points
 from ..poll import IN_EITHER_MODE, needs, of_meshes
@@ -64,9 +65,7 @@ class _OfActive(Action):
 
 
 class _AtDefect(_OfActive):
-    index: IntProperty(
-        name="Defect", description="Which line of the check", min=0, options={"HIDDEN"}
-    )
+    index: whole("Defect", "Which line of the check", min=0, options={"HIDDEN"})
 
     def _defect(
         self, context: Context

@@ -4,10 +4,10 @@
 from collections.abc import Iterator, Sequence
 
 import bpy
-from bpy.props import BoolProperty, FloatProperty
 
 from ..blender import Context
 from ..cleaning import STEPS, CleanJob, CleanOptions
+from ..fields import factor, switch
 from ..mesh.read import source_objects
 from ..poll import of_meshes
 from .fair import InMeshes, can_fair
@@ -22,23 +22,18 @@ class OBJECT_OT_fairing_clean(Shown, LargestHole, InMeshes, bpy.types.Operator):
     bl_label = "Clean Scan"
     cancelled_text = "Cleaning was cancelled: nothing has changed"
 
-    mend: BoolProperty(name=STEPS[0][1], description=STEPS[0][2], default=True)
-    join: BoolProperty(name=STEPS[1][1], description=STEPS[1][2], default=True)
-    fins: BoolProperty(name=STEPS[2][1], description=STEPS[2][2], default=True)
-    normals: BoolProperty(name=STEPS[3][1], description=STEPS[3][2], default=True)
-    inner: BoolProperty(name=STEPS[4][1], description=STEPS[4][2], default=True)
-    pinched: BoolProperty(name=STEPS[5][1], description=STEPS[5][2], default=True)
-    spikes: BoolProperty(name=STEPS[6][1], description=STEPS[6][2], default=True)
-    folds: BoolProperty(name=STEPS[7][1], description=STEPS[7][2], default=True)
-    fill: BoolProperty(name=STEPS[8][1], description=STEPS[8][2], default=True)
-    noise: BoolProperty(name=STEPS[9][1], description=STEPS[9][2], default=False)
-    islands: FloatProperty(
-        name="Islands",
-        description="Removes parts whose box has a diagonal below this share of the longest",
-        default=0.1,
-        min=0.0,
-        max=1.0,
-        subtype="FACTOR",
+    mend: switch(STEPS[0][1], STEPS[0][2], True)
+    join: switch(STEPS[1][1], STEPS[1][2], True)
+    fins: switch(STEPS[2][1], STEPS[2][2], True)
+    normals: switch(STEPS[3][1], STEPS[3][2], True)
+    inner: switch(STEPS[4][1], STEPS[4][2], True)
+    pinched: switch(STEPS[5][1], STEPS[5][2], True)
+    spikes: switch(STEPS[6][1], STEPS[6][2], True)
+    folds: switch(STEPS[7][1], STEPS[7][2], True)
+    fill: switch(STEPS[8][1], STEPS[8][2], True)
+    noise: switch(STEPS[9][1], STEPS[9][2])
+    islands: factor(
+        "Islands", "Removes parts whose box has a diagonal below this share of the longest", 0.1
     )
     reasons = (can_fair, of_meshes(source_objects))
 

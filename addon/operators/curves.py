@@ -6,12 +6,12 @@ from dataclasses import replace
 from typing import Any, cast
 
 import bpy
-from bpy.props import EnumProperty, IntProperty
 
 from .. import curve_cage
 from ..blender import Answer, Context, Object
 from ..choices import ENERGIES, ENERGY_MEANING
 from ..curve_cage import CageSettings
+from ..fields import choice, whole
 from ..job import Job
 from ..mesh.object import Reference
 from ..mesh.read_curves import has_curves
@@ -50,20 +50,15 @@ class OBJECT_OT_fairing_curves(Shown, CageSettings, Fairing, bpy.types.Operator)
     bl_idname = "object.fairing_curves"
     bl_label = "Fair Surface from Curves"
 
-    levels: IntProperty(
-        name="Levels",
-        description="How often every face of the control mesh is split in four",
-        default=3,
+    levels: whole(
+        "Levels",
+        "How often every face of the control mesh is split in four",
+        3,
         min=1,
         max=10,
         soft_max=5,
     )
-    energy: EnumProperty(
-        name="Fairness",
-        description=ENERGY_MEANING,
-        items=ENERGIES,
-        default="MINIMUM_VARIATION",
-    )
+    energy: choice("Fairness", ENERGY_MEANING, ENERGIES, "MINIMUM_VARIATION")
 
     reasons = (
         in_mode("Press Tab first: surfaces from curves are made in Object Mode", "OBJECT"),

@@ -5,9 +5,9 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
 from ..blender import Context
+from ..fields import choice, length, number, switch, whole
 from ..mesh.read import source_objects
 from ..poll import in_edit_mode, in_mode, of_meshes
 from ..settings import values_of
@@ -43,10 +43,10 @@ class OBJECT_OT_fairing_ease(Shown, _Easing, bpy.types.Operator):
     bl_label = "Ease Control Mesh"
     bl_options = {"REGISTER", "UNDO", "PRESET"}
 
-    amount: EnumProperty(
-        name="Amount",
-        description="How far vertices are moved",
-        items=(
+    amount: choice(
+        "Amount",
+        "How far vertices are moved",
+        (
             (
                 "AUTOMATIC",
                 "Automatic",
@@ -69,38 +69,31 @@ class OBJECT_OT_fairing_ease(Shown, _Easing, bpy.types.Operator):
             ),
         ),
     )
-    tolerance: FloatProperty(
-        name="Tolerance",
-        description="How far a vertex may be moved, in scene units",
-        default=0.005,
-        min=0.0,
+    tolerance: length(
+        "Tolerance",
+        "How far a vertex may be moved, in scene units",
+        0.005,
         soft_max=1.0,
         precision=4,
-        subtype="DISTANCE",
     )
-    stiffness: FloatProperty(
-        name="Stiffness",
-        description="At 1 it removes half of the scatter between neighbouring vertices; larger values remove more",
-        default=1.0,
+    stiffness: number(
+        "Stiffness",
+        "At 1 it removes half of the scatter between neighbouring vertices; larger values remove more",
+        1.0,
         min=0.0,
         soft_max=10.0,
     )
-    count: IntProperty(
-        name="Number", description="How many vertices move at most", default=3, min=1, soft_max=30
+    count: whole("Number", "How many vertices move at most", 3, min=1, soft_max=30)
+    use_selection: switch(
+        "Selected Vertices Only", "Vertices that are not selected in Edit Mode stay where they are"
     )
-    use_selection: BoolProperty(
-        name="Selected Vertices Only",
-        description="Vertices that are not selected in Edit Mode stay where they are",
-        default=False,
+    go_on: switch(
+        "Go On from Eased",
+        "Starts from the shape key Eased, if there is one: first the worst vertices, then the scatter of all",
     )
-    go_on: BoolProperty(
-        name="Go On from Eased",
-        description="Starts from the shape key Eased, if there is one: first the worst vertices, then the scatter of all",
-        default=False,
-    )
-    fair_afterwards: BoolProperty(
-        name="Fair Afterwards",
-        description="Makes the surface, or makes it again, once the vertices are eased",
+    fair_afterwards: switch(
+        "Fair Afterwards",
+        "Makes the surface, or makes it again, once the vertices are eased",
         options={"HIDDEN", "SKIP_SAVE"},
     )
 
@@ -134,10 +127,10 @@ class OBJECT_OT_fairing_ease_selected(_Easing, bpy.types.Operator):
     bl_idname = "object.fairing_ease_selected"
     bl_label = "Ease Selected"
 
-    factor: FloatProperty(
-        name="Factor",
-        description="How far the vertices move: at 1 to the surface through the others",
-        default=1.0,
+    factor: number(
+        "Factor",
+        "How far the vertices move: at 1 to the surface through the others",
+        1.0,
         soft_min=0.0,
         soft_max=1.0,
         subtype="FACTOR",

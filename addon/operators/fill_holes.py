@@ -5,11 +5,12 @@ from collections.abc import Iterator, Sequence
 from typing import cast
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntVectorProperty
+from bpy.props import IntVectorProperty
 
 from ..blender import Answer, Context, Object
 from ..choices import ENERGIES, JOINTS
 from ..errors import JobError
+from ..fields import choice, length, number, switch
 from ..holes import FillOptions, HoleJob, fill_warnings
 from ..mesh.read import source_objects
 from ..poll import of_meshes
@@ -20,12 +21,9 @@ from .mixins import Shown
 
 
 class LargestHole:
-    largest: FloatProperty(
-        name="Largest Hole",
-        description="Holes wider than this between two vertices of the rim stay open; 0 fills all but borders of sheets",
-        default=0.0,
-        min=0.0,
-        subtype="DISTANCE",
+    largest: length(
+        "Largest Hole",
+        "Holes wider than this between two vertices of the rim stay open; 0 fills all but borders of sheets",
     )
 
 
@@ -36,10 +34,10 @@ class OBJECT_OT_fairing_fill(Shown, LargestHole, WholeFairing, bpy.types.Operato
     bl_label = "Fill Hole Fair"
     cancelled_text = "Filling was cancelled: nothing has changed"
 
-    joint: EnumProperty(
-        name="Joint",
-        description="How the filling meets the faces around",
-        items=(
+    joint: choice(
+        "Joint",
+        "How the filling meets the faces around",
+        (
             *JOINTS,
             (
                 "FLAT",
@@ -47,26 +45,25 @@ class OBJECT_OT_fairing_fill(Shown, LargestHole, WholeFairing, bpy.types.Operato
                 "Flat faces without new vertices, and a sharp rim: for caps and transoms",
             ),
         ),
-        default="CURVATURE",
+        "CURVATURE",
     )
-    energy: EnumProperty(
-        name="Fairness",
-        description="What the filling minimizes: Curvature restores half a sphere",
-        items=ENERGIES,
-        default="TOTAL_CURVATURE",
+    energy: choice(
+        "Fairness",
+        "What the filling minimizes: Curvature restores half a sphere",
+        ENERGIES,
+        "TOTAL_CURVATURE",
     )
-    density: FloatProperty(
-        name="Density",
-        description="How many times finer than the rim the filling is; 0: no new vertices",
-        default=1.0,
+    density: number(
+        "Density",
+        "How many times finer than the rim the filling is; 0: no new vertices",
+        1.0,
         min=0.0,
         max=100.0,
         soft_max=4.0,
     )
-    noisy: BoolProperty(
-        name="Noisy Rim",
-        description="For measured faces: reads six rings around the hole, so that their noise does not continue",
-        default=False,
+    noisy: switch(
+        "Noisy Rim",
+        "For measured faces: reads six rings around the hole, so that their noise does not continue",
     )
     edge: IntVectorProperty(
         name="Edge",

@@ -5,11 +5,11 @@ from collections.abc import Iterable
 from math import degrees, radians
 
 import bpy
-from bpy.props import BoolProperty, FloatProperty
 
 from ..blender import Context, Object
 from ..check.flats import ANGLE, find_flats
 from ..errors import JobError
+from ..fields import number, switch
 from ..memory import source_of
 from ..mesh import flat_marks
 from ..mesh.read import read_mesh, source_objects
@@ -25,14 +25,13 @@ class OBJECT_OT_fairing_flat_faces(Shown, Action, bpy.types.Operator):
     bl_idname = "object.fairing_flat_faces"
     bl_label = "Keep Faces Flat"
 
-    clear: BoolProperty(
-        name="Clear",
-        description="Let faces curve again: in Edit Mode the selected ones, in Object Mode all",
+    clear: switch(
+        "Clear", "Let faces curve again: in Edit Mode the selected ones, in Object Mode all"
     )
-    angle: FloatProperty(
-        name="Angle",
-        description="In Object Mode: faces that meet at a smaller angle are one flat, if they lie in a plane",
-        default=radians(ANGLE),
+    angle: number(
+        "Angle",
+        "In Object Mode: faces that meet at a smaller angle are one flat, if they lie in a plane",
+        radians(ANGLE),
         min=0.0,
         max=radians(30.0),
         subtype="ANGLE",

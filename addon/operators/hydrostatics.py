@@ -7,10 +7,11 @@ from typing import cast
 
 import bpy
 import numpy as np
-from bpy.props import FloatProperty, IntProperty, StringProperty
+from bpy.props import StringProperty
 
 from ..blender import Context, Object
 from ..errors import JobError
+from ..fields import length, number, whole
 from ..mesh.scans import in_metres
 from ..yard.hydrostatics import Hydrostatics, NotClosed, hydrostatics
 from .hull import ACTIVE_MESH
@@ -28,24 +29,21 @@ class _Afloat(Action):
 
     reasons = ACTIVE_MESH
 
-    draught: FloatProperty(
-        name="Draught",
-        description="Waterplane above the lowest point of the hull, in the middle of its length; 0: half its height",
-        default=0.0,
-        min=0.0,
-        subtype="DISTANCE",
+    draught: length(
+        "Draught",
+        "Waterplane above the lowest point of the hull, in the middle of its length; 0: half its height",
     )
-    trim: FloatProperty(
-        name="Trim",
-        description="How far the waterplane is tilted: it rises with X",
+    trim: number(
+        "Trim",
+        "How far the waterplane is tilted: it rises with X",
         soft_min=radians(-10.0),
         soft_max=radians(10.0),
         subtype="ANGLE",
     )
-    density: FloatProperty(
-        name="Density",
-        description="Kilograms per cubic metre: 1025 in the sea, 1000 in fresh water",
-        default=1025.0,
+    density: number(
+        "Density",
+        "Kilograms per cubic metre: 1025 in the sea, 1000 in fresh water",
+        1025.0,
         min=0.0,
     )
 
@@ -117,9 +115,7 @@ class OBJECT_OT_fairing_hydrostatics_table(_Afloat, WritesText, bpy.types.Operat
     filename_ext = ".csv"
 
     filter_glob: StringProperty(default="*.csv", options={"HIDDEN"})
-    count: IntProperty(
-        name="Draughts", description="How many, up to the draught", default=10, min=1, soft_max=50
-    )
+    count: whole("Draughts", "How many, up to the draught", 10, min=1, soft_max=50)
 
     def act(self, context: Context) -> str:
         rows = [

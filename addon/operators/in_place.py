@@ -4,12 +4,12 @@
 from collections.abc import Iterator, Sequence
 
 import bpy
-from bpy.props import EnumProperty, FloatProperty
 
 from .. import in_place
 from ..blender import Context, Object
 from ..choices import DEFAULT_ENERGY, ENERGIES, ENERGY_MEANING, JOINTS
 from ..errors import JobError
+from ..fields import choice, factor, length
 from ..mesh.read import source_objects
 from ..poll import IN_EITHER_MODE, of_meshes
 from ..settings import Settings, values_of
@@ -26,18 +26,12 @@ def _joints() -> tuple[tuple[str, str, str], ...]:
     return tuple((key, name, meanings[key]) for key, name, _ in JOINTS)
 
 
+# fmt: off
 VERTICES = (
-    (
-        "FREE",
-        "Free",
-        "They move to the fairest surface, wherever they were: for bumps and holes",
-    ),
-    (
-        "MEASURED",
-        "Measured",
-        "They are noisy data: they move to a surface near them, except at edges marked sharp",
-    ),
+    ("FREE", "Free", "They move to the fairest surface, wherever they were: for bumps and holes"),
+    ("MEASURED", "Measured", "They are noisy data: they move to a surface near them, except at edges marked sharp"),
 )
+# fmt: on
 
 
 class OBJECT_OT_fairing_in_place(Shown, InMeshes, bpy.types.Operator):
@@ -46,48 +40,17 @@ class OBJECT_OT_fairing_in_place(Shown, InMeshes, bpy.types.Operator):
     bl_idname = "object.fairing_in_place"
     bl_label = "Fair in Place"
 
-    joint: EnumProperty(
-        name="Joint",
-        description="How the selection meets the faces around it",
-        items=_joints(),
-        default="TANGENT",
-    )
-    factor: FloatProperty(
-        name="Factor",
-        description="How far the vertices move towards the fairest surface",
-        default=1.0,
-        min=0.0,
-        max=1.0,
-        subtype="FACTOR",
-    )
-    vertices: EnumProperty(
-        name="Vertices",
-        description="How the vertices inside the selection are treated",
-        items=VERTICES,
-    )
-    noise: FloatProperty(
-        name="Noise",
-        description="Noise of measured vertices in scene units, root mean square; 0: estimated from them",
-        default=0.0,
-        min=0.0,
+    joint: choice("Joint", "How the selection meets the faces around it", _joints(), "TANGENT")
+    factor: factor("Factor", "How far the vertices move towards the fairest surface", 1.0)
+    vertices: choice("Vertices", "How the vertices inside the selection are treated", VERTICES)
+    noise: length(
+        "Noise",
+        "Noise of measured vertices in scene units, root mean square; 0: estimated from them",
         soft_max=1.0,
         precision=4,
-        subtype="DISTANCE",
     )
-    energy: EnumProperty(
-        name="Fairness",
-        description=ENERGY_MEANING,
-        items=ENERGIES,
-        default=DEFAULT_ENERGY,
-    )
-    tension: FloatProperty(
-        name="Tension",
-        description="Keeps the surface from swelling",
-        default=0.0,
-        min=0.0,
-        max=1.0,
-        subtype="FACTOR",
-    )
+    energy: choice("Fairness", ENERGY_MEANING, ENERGIES, DEFAULT_ENERGY)
+    tension: factor("Tension", "Keeps the surface from swelling")
 
     reasons = (can_fair, IN_EITHER_MODE, of_meshes(source_objects))
 

@@ -4,9 +4,9 @@
 from typing import Any, cast
 
 import bpy
-from bpy.props import EnumProperty
 
 from ..blender import Answer, Context
+from ..fields import choice
 from ..inspection import display, viewport_shading
 from ..inspection.display import VALUES
 from ..inspection.settings import MODES
@@ -26,7 +26,7 @@ class OBJECT_OT_fairing_inspect(_Inspecting, bpy.types.Operator):
     bl_idname = "object.fairing_inspect"
     bl_label = "Inspect Surface"
 
-    mode: EnumProperty(name="Show", description="What the objects show", items=MODES)
+    mode: choice("Show", "What the objects show", MODES)
 
     @classmethod
     def description(cls, _context: Context, properties: Any) -> str:

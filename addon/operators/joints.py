@@ -6,7 +6,6 @@ from dataclasses import replace
 from typing import cast
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, IntProperty
 
 from .. import errors, neighbours
 from ..blender import Context, Object
@@ -14,6 +13,7 @@ from ..check import joints
 from ..check.defects import bring_into_view, select_defects
 from ..choices import JOINTS
 from ..errors import JobError
+from ..fields import choice, switch, whole
 from ..freshness import is_own
 from ..job import Job
 from ..memory import source_of
@@ -36,15 +36,9 @@ class OBJECT_OT_fairing_match_border(Fairing, bpy.types.Operator):
     bl_idname = "object.fairing_match_border"
     bl_label = "Match Border"
 
-    joint: EnumProperty(
-        name="Joint",
-        description="How the border meets the other object",
-        items=JOINTS,
-        default="TANGENT",
-    )
-    both: BoolProperty(
-        name="Both Change",
-        description="Each surface turns by half. Without it the other object stays as it is",
+    joint: choice("Joint", "How the border meets the other object", JOINTS, "TANGENT")
+    both: switch(
+        "Both Change", "Each surface turns by half. Without it the other object stays as it is"
     )
 
     reasons = (
@@ -102,9 +96,7 @@ class OBJECT_OT_fairing_select_joint(Action, bpy.types.Operator):
     bl_idname = "object.fairing_select_joint"
     bl_label = "Show Joint"
 
-    index: IntProperty(
-        name="Joint", description="Which line of the table", min=0, options={"HIDDEN"}
-    )
+    index: whole("Joint", "Which line of the table", min=0, options={"HIDDEN"})
 
     reasons = (needs(lambda _: joints.rows(), "Press Check Joints first"),)
 

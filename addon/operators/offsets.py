@@ -5,11 +5,12 @@ from pathlib import Path
 from typing import Any, cast
 
 import bpy
-from bpy.props import BoolProperty, EnumProperty, StringProperty
+from bpy.props import StringProperty
 from bpy_extras.io_utils import ImportHelper
 
 from ..blender import Answer, Context, Mesh, Object
 from ..errors import JobError
+from ..fields import choice, switch
 from ..mesh.layers import write_creases
 from ..mesh.object import linked_object, select_only
 from ..mesh.offset_names import write_names
@@ -45,11 +46,11 @@ class IMPORT_MESH_OT_fairing_offsets(ImportHelper, Action, bpy.types.Operator):
     # without the path of the last import: a given file was dropped
     filepath: StringProperty(subtype="FILE_PATH", options={"SKIP_SAVE"})
     filter_glob: StringProperty(default="*.csv;*.tsv;*.txt", options={"HIDDEN"})
-    unit: EnumProperty(name="Unit", description="The unit of the table's numbers", items=_UNITS)
-    symmetry: BoolProperty(
-        name="Symmetry Plane",
-        description="Sets Symmetry Plane to Y where the half hull ends in it: keel and stem are round unless creased",
-        default=True,
+    unit: choice("Unit", "The unit of the table's numbers", _UNITS)
+    symmetry: switch(
+        "Symmetry Plane",
+        "Sets Symmetry Plane to Y where the half hull ends in it: keel and stem are round unless creased",
+        True,
     )
 
     def invoke(self, context: Context, event: bpy.types.Event) -> Answer:

@@ -7,11 +7,12 @@ from typing import Any, cast
 
 import bpy
 import numpy as np
-from bpy.props import EnumProperty, FloatProperty, StringProperty
+from bpy.props import StringProperty
 
 from ..blender import Context, Object
 from ..cad.settings import METRES
 from ..errors import JobError
+from ..fields import choice, length, number
 from ..inspection.sections import Drawn, cut
 from ..memory import active_source
 from ..mesh.object import linked_object, select_only
@@ -77,16 +78,10 @@ def cuts(surface: Drawn, planes: list[Plane]) -> list[Cut]:
 
 
 class _Spaced:
-    spacing: FloatProperty(
-        name="Spacing",
-        description="Between planes, if none are listed; 0: five to ten planes at round places",
-        default=0.0,
-        min=0.0,
-        subtype="DISTANCE",
+    spacing: length(
+        "Spacing", "Between planes, if none are listed; 0: five to ten planes at round places"
     )
-    start: FloatProperty(
-        name="Start", description="Where one of the evenly spaced planes is", subtype="DISTANCE"
-    )
+    start: number("Start", "Where one of the evenly spaced planes is", subtype="DISTANCE")
 
 
 class OBJECT_OT_fairing_section_curves(Shown, _Spaced, Action, bpy.types.Operator):
@@ -95,10 +90,10 @@ class OBJECT_OT_fairing_section_curves(Shown, _Spaced, Action, bpy.types.Operato
     bl_idname = "object.fairing_section_curves"
     bl_label = "Section Curves"
 
-    kind: EnumProperty(
-        name="Planes",
-        description="Which planes cut the mesh",
-        items=(
+    kind: choice(
+        "Planes",
+        "Which planes cut the mesh",
+        (
             (
                 "STATIONS",
                 "Stations",
@@ -114,10 +109,10 @@ class OBJECT_OT_fairing_section_curves(Shown, _Spaced, Action, bpy.types.Operato
         name="Places",
         description="Where planes cut, such as 0, 1.5, 3, in scene units; empty: by Spacing and Start",
     )
-    angle: FloatProperty(
-        name="Angle",
-        description="How far diagonals are tilted from level",
-        default=radians(45.0),
+    angle: number(
+        "Angle",
+        "How far diagonals are tilted from level",
+        radians(45.0),
         min=radians(1.0),
         max=radians(89.0),
         subtype="ANGLE",
@@ -199,17 +194,17 @@ class EXPORT_SCENE_OT_fairing_lines(_Spaced, WritesText, bpy.types.Operator):
         name="Stations",
         description="Where stations are, such as 0, 1.5, 3; empty: those of the imported table, else by Spacing",
     )
-    scale: FloatProperty(
-        name="Scale 1 :",
-        description="How many times smaller the drawing is than the hull",
-        default=1.0,
+    scale: number(
+        "Scale 1 :",
+        "How many times smaller the drawing is than the hull",
+        1.0,
         min=1e-3,
         soft_max=100.0,
     )
-    unit: EnumProperty(
-        name="Unit",
-        description="Length of one unit of the drawing",
-        items=[(key, key.lower(), f"One unit is one {key.lower()}") for key in METRES],
+    unit: choice(
+        "Unit",
+        "Length of one unit of the drawing",
+        [(key, key.lower(), f"One unit is one {key.lower()}") for key in METRES],
     )
     reasons = ACTIVE_MESH
 

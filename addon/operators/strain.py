@@ -6,12 +6,13 @@ from typing import Any, cast
 
 import bpy
 import numpy as np
-from bpy.props import EnumProperty, IntProperty, StringProperty
+from bpy.props import StringProperty
 from mathutils import Vector
 
 from ..blender import Context, Object
 from ..check.defects import select_defects, select_in_all
 from ..errors import JobError
+from ..fields import choice, whole
 from ..memory import active_source
 from ..mesh.edited import edited
 from ..mesh.object import why_not_here
@@ -82,10 +83,10 @@ class OBJECT_OT_fairing_select_strained(Shown, _Straining, bpy.types.Operator):
 
     reasons = _TO_SELECT
 
-    by: EnumProperty(
-        name="Which",
-        description="Which vertices are selected",
-        items=(
+    by: choice(
+        "Which",
+        "Which vertices are selected",
+        (
             (
                 "FLOOR",
                 "Outliers",
@@ -94,9 +95,7 @@ class OBJECT_OT_fairing_select_strained(Shown, _Straining, bpy.types.Operator):
             ("COUNT", "The Worst", "So many"),
         ),
     )
-    count: IntProperty(
-        name="Number", description="How many vertices", default=3, min=1, soft_max=30
-    )
+    count: whole("Number", "How many vertices", 3, min=1, soft_max=30)
 
     def shown(self, _context: Context) -> Iterable[str]:
         return ("by",) if self.by == "FLOOR" else ("by", "count")
@@ -157,7 +156,7 @@ class OBJECT_OT_fairing_go_to_strained(Action, bpy.types.Operator):
     bl_idname = "object.fairing_go_to_strained"
     bl_label = "Go to Vertex"
 
-    vertex: IntProperty(name="Vertex", description="Which vertex of the control mesh", min=0)
+    vertex: whole("Vertex", "Which vertex of the control mesh", min=0)
 
     reasons = _TO_SELECT
 

@@ -4,9 +4,9 @@
 from typing import Any
 
 import bpy
-from bpy.props import BoolProperty, FloatProperty, IntProperty
 
 from ..blender import Context
+from ..fields import number, switch, whole
 from ..inspection import overlay
 from . import known
 
@@ -19,9 +19,9 @@ def _show_changed(_group: Any, _context: Context) -> None:
 class FAIRING_PG_strain(bpy.types.PropertyGroup):
     """Stored with the object."""
 
-    show: BoolProperty(
-        name="Show Strain",
-        description="Draws a line at each vertex: how far the surface would move there if this vertex were released",
+    show: switch(
+        "Show Strain",
+        "Draws a line at each vertex: how far the surface would move there if this vertex were released",
         update=_show_changed,
         options=set(),
     )
@@ -30,18 +30,18 @@ class FAIRING_PG_strain(bpy.types.PropertyGroup):
 class FAIRING_PG_strain_drawing(bpy.types.PropertyGroup):
     """Stored with the scene."""
 
-    needle_length: FloatProperty(
-        name="Longest Line",
-        description="Length at which the longest line is drawn, in mean edges of the mesh",
-        default=1.0,
+    needle_length: number(
+        "Longest Line",
+        "Length at which the longest line is drawn, in mean edges of the mesh",
+        1.0,
         min=0.0,
         soft_max=5.0,
         update=lambda _group, _context: overlay.redraw(),
     )
-    label_count: IntProperty(
-        name="Labels",
-        description="How many of the worst vertices have a label and are listed",
-        default=10,
+    label_count: whole(
+        "Labels",
+        "How many of the worst vertices have a label and are listed",
+        10,
         min=0,
         max=1000,
         soft_max=30,

@@ -8,8 +8,8 @@ import bpy
 from ..blender import Context, Object
 from ..inspection import display, viewport_shading
 from ..inspection.display import VALUES
+from ..inspection.materials import STRIPES
 from ..inspection.settings import MODES
-from ..inspection.stripes import STRIPES
 from .layout import Sidebar, draw_notice
 
 

@@ -7,7 +7,7 @@ import pytest
 from scenes import CUBE, activate, add, reopen, snapshot
 
 from addon.inspection import display, measures
-from addon.inspection.materials import COLOUR, STRIPES_NAMES
+from addon.inspection.materials import COLOUR, STRIPES
 from addon.inspection.settings import MODES
 
 SHOWN = [key for key, *_ in MODES if key != "NONE"]
@@ -49,7 +49,7 @@ def test_all_faces_show_it_and_off_leaves_no_trace(mode):
     two_materials(box)
     before, slots_before = snapshot(box), slots(box)
     show(box, mode)
-    assert shown_materials(box) == {STRIPES_NAMES.get(mode, "Fairing Curvature")}
+    assert shown_materials(box) == {STRIPES.get(mode, "Fairing Curvature")}
     assert slots(box) == slots_before
     show(box, "NONE")
     assert (snapshot(box), slots(box)) == (before, slots_before)

@@ -10,6 +10,7 @@ from scenes import activate, add_suzanne, positions
 
 from addon.inspection import deviation, display
 from addon.mesh.read import read_mesh
+from addon.mesh.scans import read_scans
 
 
 def near_surface():
@@ -53,7 +54,7 @@ def test_from_an_object_each_search_begins_at_the_last_place(order):
     points = arrays.positions * rng.uniform(0.5, 1.5, (len(arrays.positions), 1))
     if order == "any":
         rng.shuffle(points)
-    found = deviation.from_object(bpy.context, ball, points, ball)
+    found = deviation.from_scan(ball, points, read_scans(bpy.context, [ball]))
     expected = brute_force(ball.data, points)
     assert (found < -0.1).any() and (found > 0.1).any()
     assert np.allclose(found, expected, atol=1e-5)
