@@ -13,8 +13,6 @@ from .lattice import Cells, make_cells, pair_keys, sides
 
 CHUNK = 1 << 18  # values at a time, which fit in a processor's cache
 
-_NEVER = np.iinfo(np.int32).max
-
 
 @dataclass(frozen=True)
 class Patch:
@@ -27,39 +25,29 @@ class Patch:
 
     def mix_corners(self, known: np.ndarray, out: np.ndarray) -> None:
         """Writes interpolated `known` (corners and centres, w) to `out` (refined corners, w)."""
-        own = self._own(out)
+        own = self.own(out)
         for part, values in self._mixed(known, self.faces.corners):
             for w, lattice in enumerate(values):
                 own[part, :, w] = np.take(lattice, self.cells.corner_point, axis=1)
 
     def mix_points(self, known: np.ndarray, out: np.ndarray) -> None:
         """The same at refined vertices: `known` (vertices and centres, w) → `out` (vertices, w)."""
-        ids = self.fine.reshape(len(self.faces.polygon), -1)
         for part, values in self._mixed(known, self.faces.vertices):
-            points = ids[part][:, self.cells.first_corner]
-            out[points] = np.moveaxis(values, 0, 2)
+            out[self.points(part)] = np.moveaxis(values, 0, 2)
 
-    def pick_corners(
-        self, values: np.ndarray, ids: np.ndarray, fans: np.ndarray, out: np.ndarray
-    ) -> None:
-        """Writes the nearest of `values` (corners, …) at all refined corners; `ids` (F, k): the corners
-        of a face.
+    def points(self, part: slice = slice(None)) -> np.ndarray:
+        """(F, P): the refined vertices of the control faces, or of a part of them."""
+        return self.fine.reshape(len(self.faces.polygon), -1)[part][:, self.cells.first_corner]
 
-        `fans` (F,) bool: faces whose last corner is a centre.
+    def nearest(self, ids: np.ndarray, count: int) -> np.ndarray:
+        """(F, P): for each point that of the `ids` (F, k) of the corners which is nearest, the first of
+        several; `count`: of control vertices, since the centre of a fan has no value.
         """
-        own = self._own(out)
-        for part, picked in self._picked(ids, fans):
-            own[part] = values[np.take(picked, self.cells.corner_point, axis=1)]
+        weights = self.cells.weights
+        plain, of_fan = ids[:, weights.argmax(axis=1)], ids[:, weights[:, :-1].argmax(axis=1)]
+        return np.where(self.faces.vertices[:, -1:] >= count, of_fan, plain)
 
-    def pick_points(
-        self, values: np.ndarray, ids: np.ndarray, fans: np.ndarray, out: np.ndarray
-    ) -> None:
-        """The same at all refined vertices."""
-        fine = self.fine.reshape(len(self.faces.polygon), -1)
-        for part, picked in self._picked(ids, fans):
-            out[fine[part][:, self.cells.first_corner]] = values[picked]
-
-    def _own(self, out: np.ndarray) -> np.ndarray:
+    def own(self, out: np.ndarray) -> np.ndarray:
         """The part of `out` (corners, …) that belongs to these faces, by control face."""
         own = out[self.start : self.start + self.fine.size]
         return own.reshape(len(self.faces.polygon), -1, *out.shape[1:])
@@ -77,27 +65,6 @@ class Patch:
             corners = np.moveaxis(known[ids[part]].astype(np.float64, copy=False), 2, 0)
             mixed = np.ascontiguousarray(corners).reshape(-1, size) @ spread
             yield part, mixed.astype(np.float32).reshape(width, -1, len(self.cells.points))
-
-    def _picked(self, ids: np.ndarray, fans: np.ndarray) -> Iterator[tuple[slice, np.ndarray]]:
-        """Chunks of faces, with the id (faces, P) int32 in `ids` (F, k) that is nearest to each point."""
-        nearest = _nearest(self.cells)
-        for part in self._chunks(self.faces.size):
-            # at equal distance the lowest vertex, so that adjacent faces agree
-            order = np.where(
-                nearest[fans[part].astype(np.intp)], self.faces.vertices[part, None, :], _NEVER
-            )
-            yield part, np.take_along_axis(ids[part], order.argmin(axis=2), axis=1)
-
-
-def _nearest(cells: Cells) -> np.ndarray:
-    """(2, P, k) bool: the nearest corners; in plain faces, and in those with a centre last."""
-    plain = cells.weights == cells.weights.max(axis=1, keepdims=True)
-    rest = cells.weights[:, :-1]
-    fan = np.zeros_like(plain)
-    fan[:, :-1] = rest == rest.max(axis=1, keepdims=True)
-    apex = cells.lattice.corners[-1]
-    fan[apex] = plain[apex]
-    return np.stack([plain, fan])
 
 
 class AttributeTransfer:
@@ -175,53 +142,24 @@ class AttributeTransfer:
 
     def pick_corner(self, values: np.ndarray) -> np.ndarray:
         """(c, …) of any type on corners → (refined corners, …): the value of the nearest corner of the
-        same polygon.
-
-        At equal distance that of the vertex with the lowest id.
+        same control face.
         """
         values = self._faired.pick_corner(values)
         out = np.empty((self.corner_count, *values.shape[1:]), values.dtype)
-        _, lowest = self._centres.lowest()
         for patch in self.patches:
-            patch.pick_corners(
-                values,
-                self._replace(patch.faces.corners, lowest, len(values)),
-                self._fans(patch),
-                out,
-            )
+            nearest = patch.nearest(patch.faces.corners, self.control_count)
+            patch.own(out)[:] = values[nearest[:, patch.cells.corner_point]]
         return out
 
     def pick_point(self, values: np.ndarray) -> np.ndarray:
-        """(n, …) of any type on vertices → (refined vertices, …): the value of the nearest vertex of
-        the control face.
-
-        At equal distance the one with the lowest id.
+        """(n, …) of any type on vertices → (refined vertices, …): the value of the nearest vertex of a
+        control face there.
         """
         out = np.zeros((self.vertex_count, *values.shape[1:]), values.dtype)
-        lowest, _ = self._centres.lowest()
         for patch in self.patches:
-            patch.pick_points(
-                values,
-                self._replace(patch.faces.vertices, lowest, len(values)),
-                self._fans(patch),
-                out,
-            )
+            out[patch.points()] = values[patch.nearest(patch.faces.vertices, self.control_count)]
         out[: len(values)] = values
         return out
-
-    def _fans(self, patch: Patch) -> np.ndarray:
-        fans = np.zeros(len(patch.faces.polygon), bool)
-        if patch.faces.size == 3:
-            fans[self._centres.members] = True
-        return fans
-
-    @staticmethod
-    def _replace(ids: np.ndarray, lowest: np.ndarray, count: int) -> np.ndarray:
-        """`ids` with centres, which have no values, replaced by `lowest`."""
-        replaced = ids.copy()
-        centre = replaced >= count
-        replaced[centre] = lowest[replaced[centre] - count]
-        return replaced
 
 
 def _table(values: np.ndarray) -> np.ndarray:

@@ -71,16 +71,15 @@ def _keys(polygon: np.ndarray, vertex: np.ndarray) -> np.ndarray:
 
 
 class Centres:
-    """The centres of all fans; `members` (t,): their control triangles, fan after fan."""
+    """The centres of all fans, each of control triangles one after another."""
 
     def __init__(self, triangles: ControlFaces, arrays: ControlArrays) -> None:
         """`triangles`: ControlFaces of size 3; `arrays`: the input mesh."""
         n, c = len(arrays.positions), len(arrays.corners)
-        fan = triangles.vertices[:, 2] >= n if triangles.size == 3 else np.zeros(0, bool)
-        self.members = np.flatnonzero(fan)
-        self._vertices = triangles.vertices[self.members, 0]
-        self._corners = triangles.corners[self.members, 0]
-        centre = triangles.corners[self.members, 2] - c
+        fan = triangles.vertices[:, 2] >= n
+        self._vertices = triangles.vertices[fan, 0]
+        self._corners = triangles.corners[fan, 0]
+        centre = triangles.corners[fan, 2] - c
         self._starts = np.flatnonzero(np.diff(centre, prepend=-1))
         self.count = len(self._starts)
         self._sizes = np.diff(self._starts, append=len(centre))
@@ -93,14 +92,6 @@ class Centres:
     def point(self, values: np.ndarray) -> np.ndarray:
         """(n, w) values of control vertices → (centres, w) float64."""
         return self._mean(values[self._vertices])
-
-    def lowest(self) -> tuple[np.ndarray, np.ndarray]:
-        """(centres,) int32 each: the vertex of lowest id around each centre, and its corner."""
-        if not self.count:
-            return np.empty(0, np.int32), np.empty(0, np.int32)
-        fan = np.repeat(np.arange(self.count), self._sizes)
-        first = np.lexsort((self._vertices, fan))[self._starts]
-        return self._vertices[first], self._corners[first]
 
     def _mean(self, values: np.ndarray) -> np.ndarray:
         if not self.count:
