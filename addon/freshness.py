@@ -21,13 +21,7 @@ from .errors import JobError
 from .memory import FAIRING_PG_surface, source_of
 from .mesh import scans
 from .mesh.object import Reference, changed_keys, session_key
-from .mesh.read import (
-    control_mesh,
-    read_mesh,
-    shown_selection,
-    tolerance_factors,
-    vertex_pulls,
-)
+from .mesh.read import control_mesh, group_values, read_mesh, shown_selection
 from .mesh.shape_keys import ShapeKeys, read_shape_keys
 from .mesh.world_shape import matrix_relative_to, world_matrix, world_shape
 from .redraw import tag_sidebars
@@ -46,8 +40,8 @@ _ELSEWHERE = {"hide_source", "copy_modifiers"}
 _SOON = 0.3  # seconds
 
 _surfaces: dict[int | str, Reference] = {}  # known surfaces
-# surface: checksum of its source, and state of its scans and neighbour, when last read
-_seen: dict[int | str, tuple[int, dict[str, Any] | None, dict[str, Any] | None]] = {}
+# surface: its state when last read, as far as another object can change it
+_seen: dict[int | str, dict[str, Any]] = {}
 _unread: set[int | str] = set()  # surfaces whose sources may have changed since
 _watched: dict[int | str, set[int | str]] = {}  # source or its mesh: surfaces made from it
 
@@ -58,26 +52,25 @@ class OwnMesh:
 
     arrays: ControlArrays
     selection: np.ndarray | None  # (m,) bool, if the settings use the selection
-    values: tuple[np.ndarray | None, ...]  # values of groups; None for missing ones
+    values: dict[str, np.ndarray]  # of groups, without missing ones
     keys: ShapeKeys | None  # if the settings use shape keys
 
     @classmethod
     def read(cls, context: Context, source: Object, settings: AnySettings) -> "OwnMesh":
-        values: list[np.ndarray | None] = []
+        values: dict[str, np.ndarray] = {}
         with control_mesh(context, source) as mesh:
             arrays = read_mesh(mesh)
             selection = shown_selection(mesh.polygons) if settings.use_selection else None
             with suppress(JobError):
-                values.append(tolerance_factors(source, mesh, settings))
-                values.append(vertex_pulls(source, mesh, settings))
+                values = group_values(source, mesh, settings)
         keys = read_shape_keys(source, len(arrays.positions)) if settings.use_shape_keys else None
-        return cls(arrays, selection, tuple(values), keys)
+        return cls(arrays, selection, values, keys)
 
     @property
     def parts(self) -> list[np.ndarray | None]:
         arrays = [getattr(self.arrays, field.name) for field in fields(self.arrays)]
         keys = None if self.keys is None else self.keys.shapes
-        return [*arrays, self.selection, *self.values, keys]
+        return [*arrays, self.selection, *self.values.values(), keys]
 
 
 def made_of(
@@ -148,8 +141,8 @@ def why_stale(target: Object) -> str:
             _look()
         else:
             events.start_timer(_look, _SOON)
-    total, near, beside = _seen.get(key, (made["source"], None, None))
-    if total != made["source"]:
+    now = _seen.get(key, made)
+    if now["source"] != made["source"]:
         return SOURCE_CHANGED
     if place.moved(target):
         return SOURCE_MOVED
@@ -157,20 +150,17 @@ def why_stale(target: Object) -> str:
         its = memory.recall(neighbour, "made")
         if its and _differ(its["settings"], neighbour.discrete_fairing):
             return NEIGHBOUR_CHANGED
-    return _why_off(made.get("scans"), near, SCAN_CHANGED, SCAN_MOVED) or _why_off(
-        made.get("beside"), beside, NEIGHBOUR_CHANGED, NEIGHBOUR_MOVED
-    )
-
-
-def _why_off(
-    made: dict[str, Any] | None, now: dict[str, Any] | None, changed: str, moved: str
-) -> str:
-    """Why another object has made a surface out of date, from its states before and now."""
-    if not made or now is None:
-        return ""
-    if (made["shape"], len(made["places"])) != (now["shape"], len(now["places"])):
-        return changed
-    return moved if scans.are_moved(made, now) else ""
+    for kind, changed, moved in (
+        ("scans", SCAN_CHANGED, SCAN_MOVED),
+        ("beside", NEIGHBOUR_CHANGED, NEIGHBOUR_MOVED),
+    ):
+        if kind in made and kind in now:
+            one, other = made[kind], now[kind]
+            if (one["shape"], len(one["places"])) != (other["shape"], len(other["places"])):
+                return changed
+            if scans.are_moved(one, other):
+                return moved
+    return ""
 
 
 def stale_surfaces(source: Object | None = None) -> Iterator[Object]:
@@ -205,12 +195,13 @@ def _look() -> None:
         target = _surfaces[key].find() if key in _surfaces else None
         source = source_of(target) if target is not None else None
         if target is not None and source is not None:
-            total, near = _checksum(context, source, target.discrete_fairing), None
+            now: dict[str, Any] = {"source": _checksum(context, source, target.discrete_fairing)}
             if len(target.discrete_fairing_fit.scans):
-                near = scans.made_of(context, memory.scans_of(target), source)
+                now["scans"] = scans.made_of(context, memory.scans_of(target), source)
             met, halfway = neighbours.neighbour_of(target), neighbours.is_mutual(target)
-            beside = None if met is None else beside_of(context, met, target, halfway)
-            _seen[key] = total, near, beside
+            if met is not None:
+                now["beside"] = beside_of(context, met, target, halfway)
+            _seen[key] = now
     _unread.clear()
     tag_sidebars(context)
 

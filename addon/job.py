@@ -22,23 +22,12 @@ from .mesh.layers import read_data, write_data
 from .mesh.modifiers import copy_modifiers, left_out, without_inspection
 from .mesh.object import Reference, new_object
 from .mesh.own import OwnData, carried_names, read_own, write_own
-from .mesh.read import (
-    selected_faces,
-    shown_selection,
-    tolerance_factors,
-    vertex_pulls,
-)
+from .mesh.read import group_values, selected_faces, shown_selection
 from .mesh.shape_keys import write_shape_keys
 from .mesh.timed_run import TimedRun
 from .mesh.write import attributes_left_out, refill_mesh, write_mesh, write_pad_sizes
 from .preferences import preferences
-from .settings import (
-    Settings,
-    halves,
-    is_evaluated,
-    subdivision,
-    wants_modifiers,
-)
+from .settings import Settings, halves, is_evaluated, subdivision, wants_modifiers
 from .transfer.attributes import AttributeTransfer
 from .transfer.lattice import edge_table, fine_edges
 from .transfer.seams import seam_pairs
@@ -80,15 +69,14 @@ class Job(TimedRun):
             world = self.shape.of_arrays(self.arrays)
             by_shape = cages.wants_limit(settings, world)
             self.settings = settings.for_source(source, by_shape)
-            factors = tolerance_factors(source, mesh, self.settings)
-            pulls = vertex_pulls(source, mesh, self.settings)
+            values = group_values(source, mesh, self.settings)
             selection = shown_selection(mesh.polygons) if self.settings.use_selection else None
             if selection is None:
                 region = None
             elif region is None:
                 region = selected_faces(mesh, self.name)
         self.keys = self.data.shape_keys if self.settings.use_shape_keys else None
-        own = freshness.OwnMesh(self.arrays, selection, (factors, pulls), self.keys)
+        own = freshness.OwnMesh(self.arrays, selection, values, self.keys)
         self.kind = self.settings.energy
         self._made = freshness.made_of(context, source, self.settings, None if evaluated else own)
         self.edge_length = world.mean_edge_length
@@ -102,9 +90,8 @@ class Job(TimedRun):
             preferences(),
             region,
             self.shape.of(self.keys.shapes) if self.keys else None,
-            factors,
-            pulls,
-            self.edge_length,
+            edge_length=self.edge_length,
+            **values,
         )
         self._halfway = neighbours.is_mutual(target) if halfway is None else halfway
         stands = surface or place.next_of(source, target)

@@ -13,7 +13,7 @@ import numpy as np
 
 from . import core, memory
 from .blender import Context, Object
-from .mesh.read import control_mesh, read_mesh, selected_faces, tolerance_factors, vertex_pulls
+from .mesh.read import control_mesh, group_values, read_mesh, selected_faces
 from .mesh.world_shape import transformed, world_matrix, world_shape
 from .preferences import preferences
 from .settings import AnySettings, Settings, is_evaluated
@@ -109,9 +109,8 @@ def _alone(
             settings,
             preferences(),
             selected_faces(mesh, source.name) if settings.use_selection else None,
-            tolerance_factors=tolerance_factors(source, mesh, settings),
-            pulls=vertex_pulls(source, mesh, settings),
             edge_length=arrays.mean_edge_length,
+            **group_values(source, mesh, settings),
         )
     matrix = way @ np.array(world_matrix(target), np.float64) @ shape.way_back
 

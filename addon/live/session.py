@@ -18,7 +18,7 @@ from ..memory import source_of
 from ..mesh.layers import read_data
 from ..mesh.object import Reference, session_key
 from ..mesh.own import OwnData, carried_names, read_own, write_own
-from ..mesh.read import control_mesh, read_mesh, selected_faces, tolerance_factors, vertex_pulls
+from ..mesh.read import control_mesh, group_values, read_mesh, selected_faces
 from ..mesh.world_shape import WorldShape, world_shape
 from ..mesh.write import has_faces_of, rebuild_mesh, write_positions
 from ..preferences import preferences
@@ -69,8 +69,7 @@ class Session:
         self._shape = WorldShape(None)
         self._others = Others()
         self._region: np.ndarray | None = None
-        self._tolerance_factors: np.ndarray | None = None
-        self._pulls: np.ndarray | None = None
+        self._values: dict[str, np.ndarray] = {}  # from vertex groups
         # of the mesh that the solver was made for, which a drag does not change
         self._edge_length = 0.0
         self._chosen = 0
@@ -149,8 +148,7 @@ class Session:
         with self._mesh_now(source, depsgraph) as mesh:
             arrays = read_mesh(mesh)
             if not self._has_values_of(arrays):
-                self._tolerance_factors = tolerance_factors(source, mesh, self._settings)
-                self._pulls = vertex_pulls(source, mesh, self._settings)
+                self._values = group_values(source, mesh, self._settings)
         is_new = self._prepare(source, arrays, depsgraph)
         if not (is_new or self._stale or self.trouble) and np.array_equal(
             arrays.positions, self._arrays.positions
@@ -204,9 +202,8 @@ class Session:
             self._settings,
             preferences(),
             self._region,
-            tolerance_factors=self._tolerance_factors,
-            pulls=self._pulls,
             edge_length=self._edge_length,
+            **self._values,
         )
         arguments |= {
             "levels": self._level,

@@ -162,15 +162,11 @@ def selected_faces(mesh: Mesh, source_name: str) -> np.ndarray:
     return found
 
 
-def tolerance_factors(source: Object, mesh: Mesh, settings: AnySettings) -> np.ndarray | None:
-    """(n,) shares of the tolerance, None for the whole; JobError if the group is missing."""
-    if not (is_near(settings) and settings.tolerance_group):
-        return None
-    return vertex_values.factors(source, mesh, settings.tolerance_group)
-
-
-def vertex_pulls(source: Object, mesh: Mesh, settings: AnySettings) -> np.ndarray | None:
-    """(n,) weights for the core, None for none; JobError if the group is missing."""
-    if not (is_near(settings) and settings.pull_group):
-        return None
-    return vertex_values.pulls(source, mesh, settings.pull_group)
+def group_values(source: Object, mesh: Mesh, settings: AnySettings) -> dict[str, np.ndarray]:
+    """Arguments of `core.fair_arguments` (n,) from vertex groups; JobError if a group is missing."""
+    readers = {
+        "tolerance_factors": (vertex_values.factors, settings.tolerance_group),
+        "pulls": (vertex_values.pulls, settings.pull_group),
+    }
+    named = readers.items() if is_near(settings) else ()
+    return {name: read(source, mesh, group) for name, (read, group) in named if group}
