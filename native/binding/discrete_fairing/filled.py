@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -14,7 +13,6 @@ from ._native import FairingError
 from .edge_cuts import Cuts, cut_faces
 from .errors import about, fairing_error
 from .mesh_part import MeshPart
-from .rounds import Filling
 
 
 @dataclass(frozen=True, slots=True)
@@ -166,22 +164,3 @@ class Filled:
         """(M - m,) int64 ids of the new faces, which are triangles."""
         count = len(self.faces if isinstance(self.faces, np.ndarray) else self.faces[1][1:])
         return np.arange(len(self._mesh.offsets) - 1, count)
-
-
-def put_together(
-    mesh: MeshPart,
-    loops: Sequence[list[np.ndarray]],
-    fillings: Sequence[Filling],
-    crossings: Sequence[int],
-    skipped: list[SkippedHole],
-    cuts: Cuts,
-) -> Filled:
-    """Adds the fillings of holes with these loops to a mesh. `crossings`: the number of crossing
-    faces of each filling.
-    """
-    holes = []
-    for rims, f, crossing in zip(loops, fillings, crossings, strict=True):
-        by, faces = f.made, f.faces.astype(np.int64)
-        found = by.energy, by.joint, by.converged, by.folds, crossing
-        holes.append(FilledHole(rims, f.own, faces, *found, list(by.ignored)))
-    return Filled(holes, skipped, cuts, mesh)

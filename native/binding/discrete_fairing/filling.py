@@ -14,7 +14,7 @@ from .arrays import face_arrays, index_array, vertex_array
 from .converters import choice, size
 from .crossings import in_whole, with_less_crossing
 from .edge_cuts import cuts_for, sides_of
-from .filled import Filled, SkippedHole, put_together
+from .filled import Filled, FilledHole, SkippedHole
 from .mesh_part import MeshPart
 from .near_hole import NOISY_RINGS, RIMS, RINGS, NearHole, Wanted
 from .options import native_options
@@ -155,10 +155,12 @@ def fill_holes(
     fillings = _faired(mesh, filler, loops, nears, wanted, watched)
     fillings, crossings = with_less_crossing(whole, mesh, nears, fillings, wanted, watched)
     watched.finish()
-    loops_asked = [list(map(np.array, hole)) for hole in asked]
-    return put_together(
-        whole, loops_asked, in_whole(whole, mesh, fillings), crossings, skipped, cuts
-    )
+    filled = []
+    for hole, f, count in zip(asked, in_whole(whole, mesh, fillings), crossings, strict=True):
+        rims, faces, by = list(map(np.array, hole)), f.faces.astype(np.int64), f.made
+        how = by.energy, by.joint, by.converged, by.folds
+        filled.append(FilledHole(rims, f.own, faces, *how, count, list(by.ignored)))
+    return Filled(filled, skipped, cuts, whole)
 
 
 _Triangulated = tuple[np.ndarray, np.ndarray]  # new vertices, triangles

@@ -15,7 +15,7 @@ from ..converters import size
 from ..filling import asked_holes, fill_holes, with_islands
 from ..watching import SeveralRuns
 from .flat_rims import stood_on
-from .state import State, diagonals, numbered_parts, of_parts
+from .state import State, diagonals, numbered_parts
 from .topology import cut, vertices_split
 
 BLOCK = 64  # rows of distances at a time: 25 MB for the longest rim
@@ -76,7 +76,7 @@ def wanted_holes(state: State, holes: list[Any], largest: float) -> tuple[list[A
     of_vertex[state.corners] = part[state.face_of]
     sizes = diagonals(state, part, count)
     if largest == 0.0:
-        areas = of_parts(part, np.linalg.norm(state.face_vectors, axis=1), count)
+        areas = np.bincount(part, np.linalg.norm(state.face_vectors, axis=1), count)
     narrow: list[Any] = []
     wide: list[Any] = []
     for hole in holes:

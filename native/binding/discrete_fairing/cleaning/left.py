@@ -38,8 +38,7 @@ def _defects(state: State) -> list[Defect]:
     found = check(state.points, (state.corners, state.offsets))
     sides = state.sides
     border = np.zeros(len(state.points), bool)
-    border[state.corners[sides.at_border]] = True
-    border[state.corners[sides.next[sides.at_border]]] = True
+    border[sides.ends[sides.at_border]] = True
     return [
         d
         for d in found
@@ -49,17 +48,14 @@ def _defects(state: State) -> list[Defect]:
 
 def _open_holes(state: State, skipped: Sequence[Exception]) -> list[Defect]:
     """The border edges as one defect; `skipped`: the errors of holes that were left open."""
-    sides = state.sides
-    rows = np.flatnonzero(sides.at_border)
-    if not len(rows):
+    ends = np.sort(state.sides.ends[state.sides.at_border], axis=1)
+    if not len(ends):
         return []
-    ends = np.stack([state.corners[rows], state.corners[sides.next[rows]]], axis=1)
-    ends = np.sort(ends, axis=1)
     leads = _native.joined(len(state.points), np.ascontiguousarray(ends, np.int64))
     count = len(np.unique(leads[ends[:, 0]]))
     begin = "1 hole is" if count == 1 else f"{count:,} holes are"
     why = f" {skipped[0]}" if skipped else ""
-    text = f"{begin} open, of {len(rows):,} edges.{why}"
+    text = f"{begin} open, of {len(ends):,} edges.{why}"
     return [Defect("OPEN_HOLE", text, list(map(tuple, ends.tolist())), "edge", "warning", False)]
 
 

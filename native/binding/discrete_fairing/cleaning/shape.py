@@ -26,7 +26,7 @@ def flattened(
     """
     rim = np.zeros(len(state.points), bool)
     lone = state.sides.uses[state.sides.edge] != 2
-    rim[state.corners[lone]] = rim[state.corners[state.sides.next[lone]]] = True
+    rim[state.sides.ends[lone]] = True
     free = ~rim & ~fixed
     points = state.points.copy()
     near = np.arange(len(state.face_origin))
@@ -51,7 +51,7 @@ def flattened(
         tips |= sharp & bad
         if not bad.any():
             break
-        points = _in_the_middle(state, points, bad)
+        points = in_the_middle(state, points, bad)
         near = _around(state, bad)
     if (points == state.points).all():
         return state, 0, 0
@@ -90,7 +90,7 @@ class _Fans:
         self._sizes = sizes
         rows = ranges(state.offsets[faces], state.offsets[faces + 1])
         self._corner = state.corners[rows]
-        here, after = points[self._corner], points[state.corners[state.sides.next[rows]]]
+        here, after = points[state.sides.ends[rows]].swapaxes(0, 1)
         way = after - here
         before = np.arange(len(rows)) - 1
         before[self._starts] = self._starts + sizes - 1
@@ -138,19 +138,17 @@ def _around(state: State, vertices: np.ndarray) -> np.ndarray:
     return np.flatnonzero(faces)
 
 
-def _in_the_middle(state: State, points: np.ndarray, bad: np.ndarray) -> np.ndarray:
-    """The `points`, with `bad` ones at the mean of their neighbours that are not bad, or of all."""
-    begin, end = state.corners, state.corners[state.sides.next]
-    begin, end = np.concatenate([begin, end]), np.concatenate([end, begin])
-    at = np.flatnonzero(bad[begin])
-    begin, end = begin[at], end[at]
+def in_the_middle(
+    state: State, points: np.ndarray, bad: np.ndarray, of_all: bool = False
+) -> np.ndarray:
+    """The `points`, with `bad` ones at the mean of their neighbours that are not bad, or `of_all`, also
+    where all are bad.
+    """
+    ends = state.sides.ends
+    begin, end = np.concatenate([ends, ends[:, ::-1]])[bad[ends.T].ravel()].T
     good = np.bincount(begin, ~bad[end], len(points))
-    counts = ~bad[end] | (good[begin] == 0)
-    begin, end = begin[counts], end[counts]
-    weight = np.bincount(begin, minlength=len(points))
-    found = points.copy()
-    rows = np.flatnonzero(bad)
-    for axis in range(3):
-        total = np.bincount(begin, points[end, axis], len(points))
-        found[rows, axis] = total[rows] / weight[rows]
-    return found
+    counts = of_all | ~bad[end] | (good[begin] == 0)
+    sums = np.zeros_like(points)
+    np.add.at(sums, begin[counts], points[end[counts]])
+    number = np.bincount(begin[counts], minlength=len(points))
+    return np.where(bad[:, None], sums / np.maximum(number, 1)[:, None], points)

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -41,13 +41,11 @@ class State:
         """The state without the faces `gone`, (m,) bool. Vertices stay."""
         sizes = np.diff(self.offsets)
         kept = np.repeat(~gone, sizes)
-        return State(
-            self.points,
-            self.corners[kept],
-            np.concatenate([[0], np.cumsum(sizes[~gone])]),
-            self.vertex_origin,
-            self.face_origin[~gone],
-            self.corner_origin[kept],
+        return self.replaced(
+            corners=self.corners[kept],
+            offsets=np.concatenate([[0], np.cumsum(sizes[~gone])]),
+            face_origin=self.face_origin[~gone],
+            corner_origin=self.corner_origin[kept],
         )
 
     def in_pieces(self, pieces: dict[int, list[list[tuple[int, int]]]]) -> State:
@@ -84,8 +82,7 @@ class State:
         return self.replaced(corners=self.corners[at], corner_origin=self.corner_origin[at])
 
     def replaced(self, **arrays: np.ndarray) -> State:
-        names = self.__dataclass_fields__
-        return State(**{name: arrays.get(name, getattr(self, name)) for name in names})
+        return replace(self, **arrays)
 
     def with_split(self, corners: np.ndarray, vertices: np.ndarray) -> State:
         """The state with new `corners`, and with copies of `vertices` (ids) added at the end."""
@@ -147,6 +144,7 @@ class Sides:
         count = len(state.corners)
         self.next = following(state.offsets)
         begin, end = state.corners, state.corners[self.next]
+        self.ends = np.stack([begin, end], axis=1)  # (c, 2) vertices
         self.forward = begin < end
         low, high = np.minimum(begin, end), np.maximum(begin, end)
         keys = low * np.int64(len(state.points)) + high
@@ -192,11 +190,6 @@ def all_pairs(state: State) -> np.ndarray:
     same = sides.edge[sides.order[1:]] == sides.edge[sides.order[:-1]]
     at = np.flatnonzero(same)
     return np.stack([sides.order[at], sides.order[at + 1]], axis=1)
-
-
-def of_parts(part: np.ndarray, values: np.ndarray, count: int) -> np.ndarray:
-    """(count,) sums of `values` (m,) over each part."""
-    return np.bincount(part, values, count)
 
 
 def diagonals(state: State, part: np.ndarray, count: int) -> np.ndarray:

@@ -11,7 +11,7 @@ import numpy as np
 
 from .. import _native
 from ..edge_cuts import Cuts, cuts_for, pieces
-from .state import State, all_pairs, numbered_parts, of_parts
+from .state import State, all_pairs, numbered_parts
 
 
 def mended(state: State, watchers: tuple[Any, Any]) -> tuple[State, dict[str, int]]:
@@ -55,7 +55,7 @@ def borders_joined(state: State) -> tuple[State, int]:
     border = np.flatnonzero(state.sides.at_border)
     if not len(border):
         return state, 0
-    ends = np.stack([state.corners[border], state.corners[state.sides.next[border]]], axis=1)
+    ends = state.sides.ends[border]
     ids, rows = np.unique(ends, return_inverse=True)
     rows = rows.reshape(ends.shape)
     place = _places(state.points[ids])
@@ -109,7 +109,7 @@ def without_fins(state: State) -> tuple[State, int]:
         return state, 0
     part, count = numbered_parts(state, sides.pairs)
     of_side = part[state.face_of]
-    area = of_parts(part, np.linalg.norm(state.face_vectors, axis=1), count)
+    area = np.bincount(part, np.linalg.norm(state.face_vectors, axis=1), count)
     ends = np.zeros(count, bool)
     ends[of_side[sides.at_border]] = True
     ends[np.argmax(area)] = False
@@ -161,7 +161,9 @@ def volumes(state: State, part: np.ndarray, count: int) -> np.ndarray:
     rows = state.triangle_corners
     centred = state.points - state.points[state.corners].mean(axis=0)
     a, b, c = centred[state.corners[rows]].swapaxes(0, 1)
-    return of_parts(part[state.face_of[rows[:, 0]]], (a * np.cross(b, c)).sum(axis=1), count) / 6.0
+    return (
+        np.bincount(part[state.face_of[rows[:, 0]]], (a * np.cross(b, c)).sum(axis=1), count) / 6.0
+    )
 
 
 SAMPLES = 8  # faces of a part that are tested for lying inside others
@@ -198,7 +200,7 @@ def _winding(triangles: np.ndarray) -> float:
 def without_inner(state: State) -> tuple[State, int]:
     """The state without parts and walls inside others, and the number of faces removed."""
     part, volume, closed = closed_parts(state)
-    area = of_parts(part, np.linalg.norm(state.face_vectors, axis=1), len(volume))
+    area = np.bincount(part, np.linalg.norm(state.face_vectors, axis=1), len(volume))
     gone = np.zeros(len(part), bool)
     for name in np.argsort(area, kind="stable")[:-1].tolist():
         if closed[name] and volume[name] < 0.0:
@@ -252,8 +254,7 @@ def _heals(state: State, pairs: np.ndarray, fan: np.ndarray, leads: np.ndarray) 
     open_[fan[sides.next[lone]]] = True
     heals = np.ones(len(state.points), bool)
     heals[state.corners[leads[~open_[leads]]]] = False
-    heals[state.corners[sides.uses[sides.edge] > 2]] = False
-    heals[state.corners[sides.next[sides.uses[sides.edge] > 2]]] = False
+    heals[sides.ends[sides.uses[sides.edge] > 2]] = False
     part, _ = numbered_parts(state, pairs)
     of_corner = part[state.face_of]
     low = np.full(len(state.points), len(part))
@@ -293,8 +294,7 @@ def _wedges(state: State) -> np.ndarray:
 def _angles_around(state: State, rows: np.ndarray) -> list[float]:
     """Angles of the faces of these sides around their common edge, radians, from the first one."""
     sides = state.sides
-    begin, end = state.corners[rows[0]], state.corners[sides.next[rows[0]]]
-    begin, end = min(begin, end), max(begin, end)
+    begin, end = np.sort(sides.ends[rows[0]])
     axis = state.points[end] - state.points[begin]
     axis = axis / max(float(np.linalg.norm(axis)), 1e-300)
     found = []
