@@ -49,7 +49,7 @@ _UNRESOLVED_TAUTER = "Move or add vertices there, crease the edges where it turn
 # The same where there is no setting Defects, for scans, and for holes.
 WITHOUT_MENDING = {code: text.removesuffix(_OR_MEND) for code, text in REMEDIES.items()}
 OF_FITS = REMEDIES | {
-    "INCONSISTENT_ORIENTATION": "Recalculate the normals of cage and scan (Shift N in Edit Mode)",
+    "INCONSISTENT_ORIENTATION": "Recalculate the normals of cage and scan (Shift N in Edit Mode)"
 }
 OF_HOLES = WITHOUT_MENDING | {
     "BAD_OPTION": "Select the hole without its islands, or fill it by hand",

@@ -237,11 +237,7 @@ class Job(TimedRun):
         if wants_modifiers(settings) and old is None:
             self.notes += copy_modifiers(context, source, target)
         self.mark(target.data)
-        report = {
-            **result.report,
-            "faults": self.faults.counts,
-            "at_tolerance": self._at_tolerance,
-        }
+        report = {**result.report, "faults": self.faults.counts, "at_tolerance": self._at_tolerance}
         memory.remember(target, source, settings, report)
         if self._neighbour is not None:
             target.discrete_fairing.neighbour = self._neighbour.find()

@@ -107,12 +107,7 @@ class FAIRING_PG_mesh(bpy.types.PropertyGroup):
     )
 
 
-def remember(
-    target: Object,
-    source: Object,
-    settings: Settings,
-    report: Mapping[str, Any],
-) -> None:
+def remember(target: Object, source: Object, settings: Settings, report: Mapping[str, Any]) -> None:
     """Stores on `target` its source and settings, so that it can be recomputed, and the core's report."""
     target.discrete_fairing.source = source
     target.discrete_fairing.unfinished = False

@@ -100,8 +100,7 @@ def select_defects(context: Context, target: Object, kind: str, elements: Sequen
 
 
 def select_in_all(
-    context: Context,
-    wanted: list[tuple[Object, list[tuple[str, Sequence[Any]]]]],
+    context: Context, wanted: list[tuple[Object, list[tuple[str, Sequence[Any]]]]]
 ) -> int:
     """The same for several objects: `wanted` has (object, [(kind, elements), …]) pairs.
 

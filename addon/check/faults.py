@@ -71,11 +71,7 @@ def find_faults(result: Any, transfer: AttributeTransfer, control: ControlArrays
 
 
 def find_faults_in_place(
-    result: Any,
-    transfer: AttributeTransfer,
-    control: ControlArrays,
-    chosen: np.ndarray,
-    joint: str,
+    result: Any, transfer: AttributeTransfer, control: ControlArrays, chosen: np.ndarray, joint: str
 ) -> Faults:
     """The same for the `chosen` faces, (m,) bool, of a part of a mesh, whose vertices have moved. Only
     these count, and any distance is right.

@@ -38,11 +38,7 @@ _GROUPS = {
         "symmetry_plane",
         "shade_smooth",
     ),
-    "creases": (
-        "use_sharp_edges",
-        "crease_angle",
-        "corner_angle",
-    ),
+    "creases": ("use_sharp_edges", "crease_angle", "corner_angle"),
 }
 
 _PROGRAM = "blender --background --command discrete_fairing"

@@ -16,13 +16,7 @@ from ..settings import is_evaluated
 from ..units import curvature_text, length_text
 from . import deviation, measures, viewport_material
 from .curvature import curvature
-from .materials import (
-    COLOUR,
-    CURVATURE_MODE,
-    STRIPES,
-    curvature_material,
-    stripes_material,
-)
+from .materials import COLOUR, CURVATURE_MODE, STRIPES, curvature_material, stripes_material
 
 CURVATURES = {
     "MEAN": "fair_mean_curvature",

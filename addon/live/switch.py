@@ -97,8 +97,7 @@ def surfaces_of(source: Object) -> list[Object]:
     """Surfaces made from `source` that can be recomputed, the newest last."""
     made = [o for o in all_objects() if o.type == "MESH" and o.discrete_fairing.source == source]
     return sorted(
-        (o for o in made if not why_not(o) and is_in_a_scene(o)),
-        key=lambda o: _age(session_key(o)),
+        (o for o in made if not why_not(o) and is_in_a_scene(o)), key=lambda o: _age(session_key(o))
     )
 
 

@@ -175,11 +175,7 @@ def read_marks(elements: Any, names: tuple[str, ...]) -> dict[str, np.ndarray]:
 
 
 def _losses(
-    source: Object,
-    mesh: Mesh,
-    unknown: list[str],
-    evaluated: bool,
-    shape_keys: ShapeKeys | None,
+    source: Object, mesh: Mesh, unknown: list[str], evaluated: bool, shape_keys: ShapeKeys | None
 ) -> list[str]:
     notes = []
     if mesh.has_custom_normals:

@@ -24,11 +24,7 @@ PAD_SIZES = "fair_pad_size"
 # an attribute on faces: faces of a surface near scans without points
 NO_POINTS = "fair_no_points"
 # attributes on points: the faults of a surface, by kind
-FAULTS = {
-    "crossing": "fair_crosses_itself",
-    "far": "fair_far_from_mesh",
-    "folded": "fair_folded",
-}
+FAULTS = {"crossing": "fair_crosses_itself", "far": "fair_far_from_mesh", "folded": "fair_folded"}
 
 
 def write_mesh(

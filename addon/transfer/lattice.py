@@ -64,11 +64,7 @@ def pair_keys(pairs: np.ndarray) -> np.ndarray:
 def _triangle_sides(n: int) -> tuple[Side, ...]:
     left = np.arange(n)
     row = n * n - (n - left) ** 2  # the first cell of each row
-    return (
-        (2 * left, 0, 1),
-        (row + 2 * (n - left - 1), 1, 2),
-        (row[::-1], 2, 0),
-    )
+    return ((2 * left, 0, 1), (row + 2 * (n - left - 1), 1, 2), (row[::-1], 2, 0))
 
 
 def _quad_sides(n: int) -> tuple[Side, ...]:

@@ -15,11 +15,7 @@ _SETTING = re.compile(r"\{setting:(\w+)[^}]*\}")
 
 
 def fairing_error(
-    code: str,
-    cause: str,
-    elements: Sequence[int] = (),
-    kind: str = "mesh",
-    cure: str = "",
+    code: str, cause: str, elements: Sequence[int] = (), kind: str = "mesh", cure: str = ""
 ) -> FairingError:
     """A FairingError. In `cause` and `cure` "{face}", "{vertex}" and "{edge}" stand for the elements,
     "{has|have}" for the word that agrees with their number, "{length:0.25}" for a length.

@@ -26,10 +26,7 @@ def change_between(coarse: Result, fine: Result, levels: int, finer: int = 1) ->
         begin += len(few)
         if not len(few):
             continue
-        shared = (
-            _cells(n >> finer, corners == 4, 1),
-            _cells(n, corners == 4, 1 << finer),
-        )
+        shared = (_cells(n >> finer, corners == 4, 1), _cells(n, corners == 4, 1 << finer))
         at_once = max(1, CELLS_AT_ONCE // cells)
         for first in range(0, len(few), at_once):
             part = slice(first, first + at_once)

@@ -108,11 +108,7 @@ class Run:
             self.done.append(Act(step, count, f"{count:,} {text}"))
 
     def step(
-        self,
-        name: str,
-        fraction: float,
-        call: Callable[[State], tuple[State, int]],
-        text: str,
+        self, name: str, fraction: float, call: Callable[[State], tuple[State, int]], text: str
     ) -> None:
         self._at = fraction
         if not len(self.state.face_origin):
