@@ -94,7 +94,8 @@ def smoothed(
         span = [_SOUGHT + (1 - _SOUGHT) * share / count for share in (begin, done)]
         fit = _Fit(arguments_of(part.arrays), free[part.vertices], runs.run(*span))
         surface = fit.own(fit.run(weight).vertices)
-        off = _along(surface - fit.points, fit.normals(surface))
+        along = fit.normals(surface)
+        off = np.einsum("ij,ij->i", surface - fit.points, along)[:, None] * along
         mine = marked(
             part.arrays.corners[np.repeat(own, part.arrays.face_sizes)], len(part.vertices)
         )
@@ -182,10 +183,6 @@ class _Trial:
             middle = float(np.sqrt(low * high))
             low, high = (middle, high) if self._off(middle) >= noise else (low, middle)
         return low
-
-
-def _along(way: np.ndarray, normals: np.ndarray) -> np.ndarray:
-    return np.einsum("ij,ij->i", way, normals)[:, None] * normals
 
 
 def blocks(

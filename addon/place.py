@@ -41,7 +41,7 @@ def follow(context: Context | None, target: Object) -> bool:
         return False
     follows = _following(target, memory.recall(target, "stood") or {})
     if due:
-        own = {name: _copied(getattr(target, name)) for name in PLACE if name not in follows}
+        own = {name: _plain(getattr(target, name)) for name in PLACE if name not in follows}
         copy_place(context, source, target)
         for name, value in own.items():
             setattr(target, name, value)
@@ -104,7 +104,3 @@ def _plain(value: Any) -> Any:
     if value is None or isinstance(value, (str, int, float)):
         return value
     return value.name_full if hasattr(value, "name_full") else [_plain(part) for part in value]
-
-
-def _copied(value: Any) -> Any:
-    return value if isinstance(value, str) else tuple(value)

@@ -46,7 +46,8 @@ def value_range(values: np.ndarray, inner: np.ndarray, signed: bool) -> tuple[fl
 def colours_of(values: np.ndarray, limits: tuple[float, float], signed: bool) -> np.ndarray:
     """(n, 4) float32 linear RGBA for `values` (n,); beyond `limits` the end colours."""
     rgba = shades_of(values, limits, signed)
-    rgba[:, :3] = _linear(rgba[:, :3])
+    srgb = rgba[:, :3]
+    rgba[:, :3] = np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
     return rgba
 
 
@@ -62,7 +63,3 @@ def shades_of(values: np.ndarray, limits: tuple[float, float], signed: bool) -> 
     for channel in range(3):
         rgba[:, channel] = np.interp(at, np.arange(len(stops)), stops[:, channel])
     return rgba
-
-
-def _linear(srgb: np.ndarray) -> np.ndarray:
-    return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)

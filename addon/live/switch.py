@@ -10,7 +10,6 @@ from .. import core
 from ..blender import Context, Object, all_objects, current_context
 from ..fields import switch, whole
 from ..memory import no_source_reason, source_of
-from ..mesh.object import session_key
 from ..poll import LINKED_SURFACE
 from ..size import count_text
 from . import cage, handlers, registry
@@ -96,14 +95,8 @@ def look_again(source: Object) -> None:
 def surfaces_of(source: Object) -> list[Object]:
     """Surfaces made from `source` that can be recomputed, the newest last."""
     made = [o for o in all_objects() if o.type == "MESH" and o.discrete_fairing.source == source]
-    return sorted(
-        (o for o in made if not why_not(o) and is_in_a_scene(o)), key=lambda o: _age(session_key(o))
-    )
-
-
-def _age(identity: int | str) -> int:
-    """Session ids grow with time; names do not."""
-    return identity if isinstance(identity, int) else 0
+    made = [o for o in made if not why_not(o) and is_in_a_scene(o)]
+    return sorted(made, key=lambda o: getattr(o, "session_uid", 0))  # which grow with time
 
 
 def lines(target: Object) -> list[str]:

@@ -18,11 +18,6 @@ from .hull import ACTIVE_MESH
 from .mixins import Action, Shown
 from .written_files import WritesText, write_text_file
 
-_COLUMNS = (
-    "draught_m,trim_deg,volume_m3,displacement_kg,lcb_m,vcb_m,wetted_m2,waterplane_m2,lcf_m,bm_m,"
-    "length_m,beam_m,block_coefficient"
-)
-
 
 class _Afloat(Action):
     """x is along the hull, z up; the draught is measured from the lowest point at no trim."""
@@ -82,7 +77,13 @@ class OBJECT_OT_fairing_hydrostatics(Shown, _Afloat, bpy.types.Operator):
         ((draught, found),) = self.afloat(context, 1).items()
         if found.beam > found.length:
             self.report({"WARNING"}, "Turn the hull, unless it is wider than long: X is along it")
-        lines = _said(found, draught, self.density)
+        lines = [
+            f"Draught {draught:.4g} m: displacement {found.volume * self.density:,.5g} kg, {found.volume:.5g} m³",
+            f"LCB {found.buoyancy[0]:.4g} m, VCB {found.buoyancy[2]:.4g} m",
+            f"Wetted surface {found.wetted:.5g} m²",
+            f"Waterplane {found.waterplane:.5g} m², LCF {found.flotation:.4g} m",
+            f"BM {found.metacentre:.4g} m, block coefficient {found.block_coefficient(draught):.3g}",
+        ]
         self.said = "\n".join(lines)
         return ", ".join(lines)
 
@@ -94,16 +95,6 @@ class OBJECT_OT_fairing_hydrostatics(Shown, _Afloat, bpy.types.Operator):
         column = cast(bpy.types.UILayout, self.layout).box().column(align=True)
         for line in self.said.split("\n"):
             column.label(text=line)
-
-
-def _said(found: Hydrostatics, draught: float, density: float) -> list[str]:
-    return [
-        f"Draught {draught:.4g} m: displacement {found.volume * density:,.5g} kg, {found.volume:.5g} m³",
-        f"LCB {found.buoyancy[0]:.4g} m, VCB {found.buoyancy[2]:.4g} m",
-        f"Wetted surface {found.wetted:.5g} m²",
-        f"Waterplane {found.waterplane:.5g} m², LCF {found.flotation:.4g} m",
-        f"BM {found.metacentre:.4g} m, block coefficient {found.block_coefficient(draught):.3g}",
-    ]
 
 
 class OBJECT_OT_fairing_hydrostatics_table(_Afloat, WritesText, bpy.types.Operator):
@@ -118,26 +109,24 @@ class OBJECT_OT_fairing_hydrostatics_table(_Afloat, WritesText, bpy.types.Operat
     count: whole("Draughts", "How many, up to the draught", 10, min=1, soft_max=50)
 
     def act(self, context: Context) -> str:
-        rows = [
-            self._row(one, draught) for draught, one in self.afloat(context, self.count).items()
-        ]
-        write_text_file(self.filepath, "\r\n".join([_COLUMNS, *rows, ""]))
+        rows = [self._row(one, at) for at, one in self.afloat(context, self.count).items()]
+        lines = [",".join(f"{number:.9g}" for number in row.values()) for row in rows]
+        write_text_file(self.filepath, "\r\n".join([",".join(rows[0]), *lines, ""]))
         return f"{len(rows)} draughts written to {bpy.path.abspath(self.filepath)}"
 
-    def _row(self, found: Hydrostatics, draught: float) -> str:
-        numbers = (
-            draught,
-            degrees(self.trim),
-            found.volume,
-            found.volume * self.density,
-            found.buoyancy[0],
-            found.buoyancy[2],
-            found.wetted,
-            found.waterplane,
-            found.flotation,
-            found.metacentre,
-            found.length,
-            found.beam,
-            found.block_coefficient(draught),
-        )
-        return ",".join(f"{number:.9g}" for number in numbers)
+    def _row(self, found: Hydrostatics, draught: float) -> dict[str, float]:
+        return {
+            "draught_m": draught,
+            "trim_deg": degrees(self.trim),
+            "volume_m3": found.volume,
+            "displacement_kg": found.volume * self.density,
+            "lcb_m": found.buoyancy[0],
+            "vcb_m": found.buoyancy[2],
+            "wetted_m2": found.wetted,
+            "waterplane_m2": found.waterplane,
+            "lcf_m": found.flotation,
+            "bm_m": found.metacentre,
+            "length_m": found.length,
+            "beam_m": found.beam,
+            "block_coefficient": found.block_coefficient(draught),
+        }

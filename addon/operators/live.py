@@ -48,7 +48,9 @@ class OBJECT_OT_fairing_live(Action, bpy.types.Operator):
         with nothing_left_behind():
             targets = targets or [self._make(context)]
         for target in targets:
-            _show(context, cast(Object, memory.source_of(target)))
+            source = cast(Object, memory.source_of(target))
+            if is_in_view_layer(context, source):  # hidden, it could not be edited or followed
+                source.hide_set(False)
             switch.switch_on(target)
             if switch.problem(target):
                 self.report({"WARNING"}, switch.problem(target))
@@ -70,9 +72,3 @@ class OBJECT_OT_fairing_live(Action, bpy.types.Operator):
             for sentence in copy_modifiers(context, source, target):
                 self.report({"INFO"}, sentence)
         return target
-
-
-def _show(context: Context, source: Object) -> None:
-    """Unhides the source: hidden objects can neither be edited nor are they updated by Blender."""
-    if is_in_view_layer(context, source):
-        source.hide_set(False)

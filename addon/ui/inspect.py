@@ -27,7 +27,8 @@ class VIEW3D_PT_fairing_inspect(Sidebar, bpy.types.Panel):
         layout.use_property_split = True
         layout.use_property_decorate = False
         if mode != "NONE":
-            _draw_viewport(layout, context, mode)
+            if not viewport_shading.shows(context.space_data, mode):
+                draw_notice(layout, "Switch this viewport to Material Preview to see it", "INFO")
             settings = context.scene.discrete_fairing_inspection
             if mode in VALUES:
                 draw_range(layout, settings, mode)
@@ -72,12 +73,6 @@ def _draw_modes(layout: bpy.types.UILayout, current: str) -> None:
             label = labels[mode]
             button = row.operator("object.fairing_inspect", text=label, depress=mode == current)
             button.mode = mode
-
-
-def _draw_viewport(layout: bpy.types.UILayout, context: Context, mode: str) -> None:
-    """What to do in viewports that do not show the inspected mode."""
-    if not viewport_shading.shows(context.space_data, mode):
-        draw_notice(layout, "Switch this viewport to Material Preview to see it", icon="INFO")
 
 
 _ENDS = {

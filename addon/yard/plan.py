@@ -64,7 +64,7 @@ def sheet(
     gap, text = _GAP * length, _TEXT * length
     middle = 0.5 * (low[0] + high[0])
     below, centre = low[2] - gap - beam, high[0] + gap + beam
-    x, y, z = (_places(cuts) for cuts in (stations, buttocks, waterlines))
+    x, y, z = (np.array([c.plane.place for c in cuts]) for cuts in (stations, buttocks, waterlines))
     level, out = np.unique([low[2], *z]), np.unique([0.0, *np.abs(y)])
     drawn: list[Polyline | Label] = [
         *_grid((low[0], high[0]), (low[2], high[2]), x, level),
@@ -88,10 +88,6 @@ def sheet(
     drawn.append(Label("TEXT", (corner[0] + text, corner[1] + text), 2.0 * text, title))
     around = _box(corner, (centre + beam + gap, high[2] + gap))
     return [*drawn, Polyline("FRAME", around, closed=True)]
-
-
-def _places(cuts: list[Cut]) -> np.ndarray:
-    return np.array([cut.plane.place for cut in cuts])
 
 
 def _box(low: tuple[float, float], high: tuple[float, float]) -> np.ndarray:

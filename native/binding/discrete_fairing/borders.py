@@ -293,10 +293,6 @@ def _ranges(begin: np.ndarray, end: np.ndarray) -> tuple[np.ndarray, np.ndarray]
     return np.repeat(np.arange(len(begin)), end - begin), ranges(begin, end)
 
 
-def _terms(degree: int) -> int:
-    return (degree + 1) * (degree + 2) // 2 - 1
-
-
 def _fitted(near: np.ndarray, along: np.ndarray, up: np.ndarray) -> tuple[np.ndarray, ...]:
     """Normals, inward directions and second fundamental forms, at the origin, of polynomials fitted to the
     points `near` (g, n, 3); and rows of Border.fits (g, 2, n).
@@ -304,7 +300,9 @@ def _fitted(near: np.ndarray, along: np.ndarray, up: np.ndarray) -> tuple[np.nda
     size = np.linalg.norm(near, axis=2).max(axis=1)
     # Ends of joints between triangles have few points, where a polynomial of lower degree would
     # have another curvature than those beside.
-    degree = max(d for d in range(2, DEGREE + 1) if d == 2 or _terms(d) + 3 <= near.shape[1])
+    degree = max(
+        d for d in range(2, DEGREE + 1) if d == 2 or (d + 1) * (d + 2) // 2 + 2 <= near.shape[1]
+    )
     for _ in range(3):
         up = unit_vectors(up - dot(up, along)[:, None] * along)
         inward = np.cross(up, along)

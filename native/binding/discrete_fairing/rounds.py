@@ -60,7 +60,7 @@ def faired_in_rounds(
     watched: SeveralRuns,
 ) -> dict[int, Filling]:
     """The best filling of each hole. `nears` has all holes, in the order of `filler`."""
-    rows = list(range(len(nears)))
+    rows, movable = list(range(len(nears))), wanted.density > 0.0 and wanted.joint != "position"
     best: dict[int, Filling] = {}
     last: dict[int, Filling] = {}
     ranks: dict[int, _Rank] = {}
@@ -82,7 +82,7 @@ def faired_in_rounds(
                 best[row], ranks[row] = last[row], rank
             area = near.area(onward[row])
             more = area > _GROWN * start or (better and _is_mendable(made, rank))
-            if more and _may_go_on(near.own, wanted) and area < _MOST_GROWN * flat[row]:
+            if more and movable and len(near.own) and area < _MOST_GROWN * flat[row]:
                 left.append(row)
                 if made.converged and moved is onward[row]:
                     fair.append(row)
@@ -123,10 +123,6 @@ def _rank(made: Made, corners: np.ndarray, wanted: Wanted) -> _Rank:
     after, before = np.roll(corners, -1, axis=1) - corners, np.roll(corners, 1, axis=1) - corners
     slivers = (angles_between(after, before).min(axis=1) < np.radians(SLIVER)).sum()
     return made.folds, made.energy != wanted.energy, not made.converged, int(slivers)
-
-
-def _may_go_on(own: np.ndarray, wanted: Wanted) -> bool:
-    return len(own) > 0 and wanted.density > 0.0 and wanted.joint != "position"
 
 
 def without_folds(

@@ -54,7 +54,9 @@ def whole_file(path: str | os.PathLike, suffix: str | None = None) -> Iterator[P
             if is_file:
                 put(place, target)
             else:
-                _copy(place, target)
+                # a pipe or a device
+                with place.open("rb") as source, target.open("wb") as out:
+                    shutil.copyfileobj(source, out)
         finally:
             shutil.rmtree(folder, ignore_errors=True)
     except OSError as error:
@@ -85,9 +87,3 @@ def _mode(target: Path) -> int | None:
         return target.stat().st_mode
     except FileNotFoundError:
         return None
-
-
-def _copy(place: Path, target: Path) -> None:
-    """Copies the bytes into a pipe or a device."""
-    with place.open("rb") as source, target.open("wb") as out:
-        shutil.copyfileobj(source, out)

@@ -60,7 +60,7 @@ class PieceSettings:
 
     def __init__(self, settings: dict[str, Any], outline: Outline):
         self.common = {
-            name: _plain(value)
+            name: value.item() if isinstance(value, np.generic) else value
             for name, value in settings.items()
             if name in SETTINGS and name not in (*DECIDED, *PER_VERTEX, *BY_ID)
         }
@@ -109,7 +109,3 @@ class PieceSettings:
         self.local[vertex_id] = -1
         inside = (ends >= 0).all(axis=1)
         return ends[inside], self.sharpness[inside]
-
-
-def _plain(value: Any) -> Any:
-    return value.item() if isinstance(value, np.generic) else value
