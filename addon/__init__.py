@@ -23,7 +23,7 @@ def _modules() -> tuple[Any, ...]:
     from . import freshness
     from .live import switch, handlers, kept
     from .operators import (
-        fair, fill_holes, modal, in_place, curves, boundary, fixed_normals, flat_faces, live, check, joints,
+        fair, fill_holes, modal, in_place, curves, marks, live, check, joints,
         clean, fit, inspect, offsets, hull, hydrostatics, sections, strain, ease, presets, purposes, step,
     )  # fmt: skip
     from .ui import (

@@ -14,7 +14,7 @@ from ..mesh.world_shape import world_shape
 from ..mesh.write import NO_POINTS, faces_without_points
 from ..settings import is_evaluated
 from ..units import curvature_text, length_text
-from . import deviation, measures, viewport_material
+from . import colours, deviation, viewport_material
 from .curvature import curvature
 from .materials import COLOUR, CURVATURE_MODE, STRIPES, curvature_material, stripes_material
 
@@ -79,11 +79,11 @@ def write_colours(mesh: Mesh, mode: str, settings: Any) -> None:
         limit = settings.fixed_deviation if mode == "DEVIATION" else settings.fixed_range
         limits = (-limit if signed else 0.0, limit)
     else:
-        limits = measures.value_range(values, inner, signed)
-    rgba = measures.colours_of(values, limits, signed)
+        limits = colours.value_range(values, inner, signed)
+    rgba = colours.colours_of(values, limits, signed)
     if bare is not None:
         rgba = rgba[corners]
-        rgba[bare] = (*measures.NEUTRAL, 1.0)
+        rgba[bare] = (*colours.NEUTRAL, 1.0)
     domain = "POINT" if bare is None else "CORNER"
     fill_layer(make_layer(mesh, COLOUR, "FLOAT_COLOR", domain), rgba)
     mesh.discrete_fairing.curvature_range = limits

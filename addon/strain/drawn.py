@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ..inspection.measures import shades_of
+from ..inspection.colours import shades_of
 from .strained import Strained
 
 # the largest magnification of needles; shorter ones are rounding

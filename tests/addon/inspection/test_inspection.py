@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scenes import CUBE, activate, add, reopen, snapshot
 
-from addon.inspection import display, measures
+from addon.inspection import colours, display
 from addon.inspection.materials import COLOUR, STRIPES
 from addon.inspection.settings import MODES
 
@@ -103,13 +103,13 @@ def test_smooth_while_inspected_is_not_the_mesh():
 
 
 def test_flat_is_the_middle_colour_and_beyond_the_ends_nothing_changes():
-    low, middle, high = measures.colours_of(np.array([-9.0, 0.0, 9.0]), (-1.0, 1.0), True)
+    low, middle, high = colours.colours_of(np.array([-9.0, 0.0, 9.0]), (-1.0, 1.0), True)
     assert low[2] > low[0] and high[0] > high[2] and np.ptp(middle[:3]) < 0.1
-    assert np.allclose(measures.colours_of(np.array([1.0]), (-1.0, 1.0), True)[0], high)
+    assert np.allclose(colours.colours_of(np.array([1.0]), (-1.0, 1.0), True)[0], high)
     values = np.append(np.linspace(-1.0, 1.0, 101), 100.0)  # one extreme
-    low, high = measures.value_range(values, np.ones(102, bool), True)
+    low, high = colours.value_range(values, np.ones(102, bool), True)
     assert -low == high == pytest.approx(0.98, abs=0.01)
-    assert measures.value_range(np.zeros(3), np.ones(3, bool), False) == (0.0, 1.0)
+    assert colours.value_range(np.zeros(3), np.ones(3, bool), False) == (0.0, 1.0)
 
 
 def test_what_is_measured_is_that_of_the_world():

@@ -24,7 +24,7 @@ from scenes import (
 from addon.check.defects import recall_defects
 from addon.freshness import SCAN_CHANGED, SCAN_MOVED, SOURCE_CHANGED, why_stale
 from addon.inspection import display
-from addon.inspection.measures import NEUTRAL, value_range
+from addon.inspection.colours import NEUTRAL, value_range
 from addon.live import registry, switch
 from addon.mesh.layers import layer_values
 from addon.mesh.scans import read_scans

@@ -5,9 +5,9 @@ Interpolation makes a surface local: the effect of a control vertex decreases by
 with every ring of control faces. So a piece with a few rings around it, faired alone, has the surface of
 the whole mesh there, and pieces are independent.
 
-In the order of the data: `outline` asks the core for the decisions about the whole mesh; `partition`
-assigns faces to pieces; `cutting` cuts out pieces with their `settings`; a `piece` is faired alone and
-returns its `part` of the surface, whose points `numbering` has; `joining` joins the parts.
+In the order of the data: `outline` asks the core for the decisions about the whole mesh; `cutting` assigns
+faces to pieces and cuts these out, with their `settings`; a `piece` is faired alone and returns its `part`
+of the surface, whose points `numbering` has; `joining` joins the parts.
 """
 
 from .cutting import pieces

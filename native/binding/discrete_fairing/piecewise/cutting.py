@@ -15,7 +15,6 @@ from ..converters import whole
 from ..errors import fairing_error
 from ..options import Settings
 from .outline import Outline
-from .partition import partition
 from .piece import Piece
 from .settings import PieceSettings, checked
 
@@ -71,7 +70,7 @@ def pieces(
     outline = Outline(points, *face_arrays(faces), others, options)
     control = outline.control
     weights = np.bincount(control.polygon, control.quad + 1.0, outline.polygon_count)
-    labels = partition(outline.middles(), weights, min(wanted, outline.polygon_count))
+    labels = _labels(outline.middles(), weights, min(wanted, outline.polygon_count))
     return Cutter(outline, labels, around, PieceSettings(given, outline)).all()
 
 
@@ -207,3 +206,31 @@ class Cutter:
             if outline.mended:
                 same["mended"] = outline.mended
         return same
+
+
+def _labels(centres: np.ndarray, weights: np.ndarray, count: int) -> np.ndarray:
+    """(m,) int32: the piece of each face, from 0 to count - 1, numbered by their first faces. The mesh is cut
+    across its longest side, and the parts again, so that all have about the same weight.
+
+    centres: (m, 3), of the faces; weights: (m,), the number of refined faces of each; count: at most m.
+    """
+    labels = np.zeros(len(centres), np.int64)
+    parts = [(np.arange(len(centres)), count)]
+    found = 0
+    while parts:
+        faces, pieces = parts.pop()
+        if pieces == 1:
+            labels[faces] = found
+            found += 1
+            continue
+        axis = int(np.argmax(np.ptp(centres[faces], axis=0)))
+        faces = faces[np.argsort(centres[faces, axis], kind="stable")]
+        before = np.cumsum(weights[faces])
+        here = pieces // 2
+        share = np.searchsorted(before, before[-1] * here / pieces)
+        cut = int(np.clip(share, here, len(faces) - (pieces - here)))
+        parts += [(faces[cut:], pieces - here), (faces[:cut], here)]
+    _, first, place = np.unique(labels, return_index=True, return_inverse=True)
+    rank = np.empty(len(first), np.int32)
+    rank[np.argsort(first)] = np.arange(len(first))
+    return rank[place]
