@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from .. import core
 from .crossings import STEPS, Meeting, meetings
 from .cubics import Curve, points_at, tangents_on
 
@@ -105,12 +106,13 @@ def network(curves: Sequence[Curve], tolerance: float = 0.0) -> Network:
 
 
 class _Stops:
-    """Places on curves; places of one node are joined by union-find."""
+    """Places on curves; joined ones are one node."""
 
     def __init__(self, curves: Sequence[Curve], tolerance: float) -> None:
         self._curves, self._tolerance = curves, tolerance
         self._ids: list[dict[float, int]] = [{} for _ in curves]  # parameter: number of the place
-        self._parents: list[int] = []
+        self._count = 0
+        self._joined: list[tuple[int, int]] = []
         self._lengths = [_lengths(curve) for curve in curves]
 
     def at(self, curve: int, t: float) -> int:
@@ -121,10 +123,9 @@ class _Stops:
         return self._new(curve, t)
 
     def _new(self, curve: int, t: float) -> int:
-        number = len(self._parents)
-        self._parents.append(number)
-        self._ids[curve][t] = number
-        return number
+        self._ids[curve][t] = self._count
+        self._count += 1
+        return self._ids[curve][t]
 
     def _way(self, curve: int, t: float, u: float) -> float:
         table = self._lengths[curve]
@@ -132,12 +133,7 @@ class _Stops:
         return min(way, table[1][-1] - way) if self._curves[curve].closed else way
 
     def join(self, a: int, b: int) -> None:
-        self._parents[self._root(a)] = self._root(b)
-
-    def _root(self, number: int) -> int:
-        while self._parents[number] != number:
-            number = self._parents[number]
-        return number
+        self._joined.append((a, b))
 
     def settled(self) -> tuple[np.ndarray, list[list[tuple[float, int]]]]:
         """(nodes (n, 3), each curve's (parameter, node)); a node is the mean of its places."""
@@ -147,12 +143,13 @@ class _Stops:
             if curve.closed and not self._ids[i]:
                 self._new(i, 0.0)
             self._close(i, curve)
-        roots = sorted({self._root(k) for k in range(len(self._parents))})
-        number = {root: k for k, root in enumerate(roots)}
-        sums, counts = np.zeros((len(roots), 3)), np.zeros(len(roots))
+        pairs = np.array(self._joined, np.int64).reshape(-1, 2)
+        number = core.module().patches.connected_parts(self._count, pairs).tolist()
+        count = 1 + max(number, default=-1)
+        sums, counts = np.zeros((count, 3)), np.zeros(count)
         visits: list[list[tuple[float, int]]] = []
         for i, curve in enumerate(self._curves):
-            mine = sorted((t, number[self._root(k)]) for t, k in self._ids[i].items())
+            mine = sorted((t, number[k]) for t, k in self._ids[i].items())
             visits.append(mine)
             for t, node in mine:
                 sums[node] += points_at(curve.pieces, np.array([t]))[0]

@@ -3,6 +3,7 @@
 nearest places.
 """
 
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -34,8 +35,10 @@ class Samples:
         """(size, …) values of old elements of `domain` → of new ones; interpolated if `mixable`."""
         if self.same:
             return values
-        if not len(self._triangles()[0]):
-            return np.zeros((self._size(domain), *values.shape[1:]), values.dtype)
+        if not len(self._triangles[0]):
+            new = self._new
+            of = {"POINT": new.positions, "CORNER": new.corners, "FACE": new.face_sizes}[domain]
+            return np.zeros((len(of), *values.shape[1:]), values.dtype)
         if domain not in self._known:
             self._known[domain] = self._find(domain)
         ids, weights = self._known[domain]
@@ -45,17 +48,9 @@ class Samples:
             return np.einsum("ij,ij...->i...", weights, values[ids].astype(np.float64))
         return values[np.take_along_axis(ids, weights.argmax(axis=1)[:, None], axis=1)[:, 0]]
 
-    def _size(self, domain: str) -> int:
-        new = self._new
-        return {
-            "POINT": len(new.positions),
-            "CORNER": len(new.corners),
-            "FACE": len(new.offsets) - 1,
-        }[domain]
-
     def _find(self, domain: str) -> tuple[np.ndarray, np.ndarray]:
         """Old elements with weights (k, 3) for each new one; for faces only their ids (k,)."""
-        new, (triangles, faces) = self._new, self._triangles()
+        new, (triangles, faces) = self._new, self._triangles
         centres = new.face_centres
         if domain == "FACE":
             return faces[self._nearest(centres)], np.empty(0)
@@ -68,17 +63,18 @@ class Samples:
         weights = _barycentric(self._old.positions[self._old.corners[found]], places)
         return (found if domain == "CORNER" else self._old.corners[found]), weights
 
+    @cached_property
     def _triangles(self) -> tuple[np.ndarray, np.ndarray]:
         """(t, 3) corners of the old mesh as triangles, fans of its faces, and (t,) their faces."""
         return fans(self._old.offsets[:-1], np.diff(self._old.offsets))
 
+    @cached_property
+    def _tree(self) -> Any:
+        triangles = self._old.corners[self._triangles[0]].tolist()
+        return BVHTree.FromPolygons(self._old.positions.tolist(), triangles, all_triangles=True)
+
     def _nearest(self, places: np.ndarray) -> np.ndarray:
         """(k,) the nearest old triangle for each place."""
-        if not hasattr(self, "_tree"):
-            triangles = self._old.corners[self._triangles()[0]]
-            self._tree: Any = BVHTree.FromPolygons(
-                self._old.positions.tolist(), triangles.tolist(), all_triangles=True
-            )
         find = self._tree.find_nearest
         return np.array([find(place)[2] or 0 for place in places.tolist()], np.int64)
 

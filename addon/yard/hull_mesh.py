@@ -17,7 +17,6 @@ class HullMesh:
     faces: list[list[int]]
     names: list[str]  # (n,) names such as `station 4, WL 300`
     creases: list[tuple[int, int]]  # edges along knuckles, and along a sharp stem or keel
-    stations: list[tuple[str, float]]  # name and mean x of each, by ascending x
 
     @property
     def is_half(self) -> bool:
@@ -32,19 +31,17 @@ class HullMesh:
 
 def hull_mesh(table: Offsets) -> HullMesh:
     """The mesh of a table; stations are sorted by position."""
-    ladders = {
-        name: _ladder([p for p in table.points if p.station == name], table)
-        for name in table.stations
-    }
-    order = sorted(ladders, key=lambda name: _mean_x(ladders[name]))
+    ladders = [
+        _ladder([p for p in table.points if p.station == name], table) for name in table.stations
+    ]
     ids: dict[tuple[str, tuple[float, float, float]], int] = {}
     positions: list[tuple[float, float, float]] = []
     names: list[str] = []
     rungs = []
-    for name in order:
+    for ladder in sorted(ladders, key=_mean_x):
         rung = []
-        for point in ladders[name]:
-            key = name, point.place
+        for point in ladder:
+            key = point.station, point.place
             if key not in ids:  # where lines meet in one point it has the first one's name
                 ids[key] = len(positions)
                 positions.append(point.place)
@@ -63,13 +60,7 @@ def hull_mesh(table: Offsets) -> HullMesh:
     sides = {side for face in faces for side in _sides(face)}
     knuckles = {frozenset(pair) for pair in creases} & sides
     marked = knuckles | _sharp_middle(places, faces, knuckles)
-    return HullMesh(
-        places,
-        faces,
-        names,
-        sorted((min(pair), max(pair)) for pair in marked),
-        [(name, _mean_x(ladders[name])) for name in order],
-    )
+    return HullMesh(places, faces, names, sorted((min(p), max(p)) for p in marked))
 
 
 def _sharp_middle(

@@ -53,9 +53,8 @@ class _Series:
 
     line: str
     quantity: str  # x, y, z; d: along a diagonal, from the middle
-    fixed: dict[
-        str, float
-    ]  # values of the line's own number; for a diagonal its height in the middle and its angle
+    # values of the line's own number; for a diagonal its height in the middle and its angle
+    fixed: dict[str, float]
     head: Cell
     cells: list[Cell]
 
@@ -135,17 +134,15 @@ def _listed(sheet: Sheet, words: list[str]) -> list[Offset]:
 def _by_station(sheet: Sheet, rows: list[list[Cell]], head: str) -> list[Offset]:
     """Offsets from rows of stations, whose first row names the lines."""
     lines, body = rows[0], rows[1:]
-    kinds: list[Cell] | None = None
-    places: list[Cell] | None = None
-    angles: list[Cell] | None = None
+    more: dict[str, list[Cell]] = {}  # rows on the lines themselves
     while body:
         words = [cell.word for cell in body[0][1:] if not cell.is_blank]
         if words and all(word in _QUANTITY for word in words):
-            kinds = body.pop(0)
+            more["kind"] = body.pop(0)
         elif body[0][0].word in _LINE_PLACE:
-            places = body.pop(0)
+            more["height"] = body.pop(0)
         elif body[0][0].word == _ANGLE:
-            angles = body.pop(0)
+            more[_ANGLE] = body.pop(0)
         else:
             break
     where = next((k for k in range(1, len(lines)) if lines[k].word in _STATION_PLACE), None)
@@ -153,9 +150,7 @@ def _by_station(sheet: Sheet, rows: list[list[Cell]], head: str) -> list[Offset]
         _series(
             sheet,
             lines[k],
-            kinds[k] if kinds else None,
-            places[k] if places else None,
-            angles[k] if angles else None,
+            {name: row[k] for name, row in more.items() if not row[k].is_blank},
             head,
             [r[k] for r in body],
         )
@@ -189,16 +184,11 @@ def _station_x(sheet: Sheet, station: Cell, where: Cell | None, index: int) -> f
 
 
 def _series(
-    sheet: Sheet,
-    head: Cell,
-    kind: Cell | None,
-    place: Cell | None,
-    angle: Cell | None,
-    first: str,
-    cells: list[Cell],
+    sheet: Sheet, head: Cell, more: dict[str, Cell], first: str, cells: list[Cell]
 ) -> _Series:
+    """`more`: what the rows below the head say of this line."""
     label = head.text.split("(")[0].split("[")[0].strip()
-    quantity = _QUANTITY[kind.word] if kind is not None and not kind.is_blank else ""
+    quantity = _QUANTITY[more["kind"].word] if "kind" in more else ""
     last = _LAST.match(label)
     if last and not quantity:
         label, quantity = last.group(1), _QUANTITY[last.group(2).lower()]
@@ -207,26 +197,21 @@ def _series(
     rest = (own.group(2) or own.group(4) or "") if own else ""
     if not family and label[:1].isdigit():  # a bare number belongs to the first cell of the head
         family = next((word[0] for word in ("waterline", "buttock") if word in first), "")
-        rest, label = (
-            label,
-            f"{'waterline' if family == 'w' else 'buttock'} {label}" if family else label,
-        )
         if not family:
-            raise head.error(f"'{head.text}' is no name of a line: call it WL {rest} or B {rest}")
+            raise head.error(f"'{head.text}' is no name of a line: call it WL {label} or B {label}")
+        rest, label = label, f"{'waterline' if family == 'w' else 'buttock'} {label}"
     fixed = {}
     if family:
-        at = (
-            place if place is not None and not place.is_blank else Cell(head.row, head.column, rest)
-        )
+        at = more.get("height", Cell(head.row, head.column, rest))
         fixed = {_AXIS[family]: sheet.number(at)}
         if isnan(fixed[_AXIS[family]]):
             raise head.error(f"{label} has no number: where it lies")
         quantity = quantity or ("y" if family == "w" else "z")
     elif is_diagonal(label) and not quantity:
-        for name, cell in (("height", place), (_ANGLE, angle)):
-            if cell is None or cell.is_blank:
+        for name in ("height", _ANGLE):
+            if name not in more:
                 raise head.error(f"{label} needs its {name} in a row '{name}' below the head")
-            fixed[name] = sheet.number(cell)
+            fixed[name] = sheet.number(more[name])
         quantity = "d"
     elif "keel" in label.lower():
         quantity = quantity or "z"
