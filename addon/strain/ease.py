@@ -4,7 +4,6 @@
 from dataclasses import dataclass
 from typing import Any, cast
 
-import bmesh
 import numpy as np
 
 from .. import core, errors
@@ -12,7 +11,9 @@ from ..blender import Context, Mesh, Object
 from ..errors import JobError
 from ..in_place import floats
 from ..live.switch import look_again
+from ..mesh.edited import edited
 from ..mesh.shape_keys import EASED, key_positions, put_key
+from ..transfer.cut_out import inside
 from ..triangles import marked
 from . import words
 from .measure import PlateRun, knuckle_of
@@ -142,7 +143,7 @@ class EaseSelectedJob(_Moving):
     def __init__(self, context: Context, source: Object, factor: float) -> None:
         super().__init__(context, source)
         self._factor = factor
-        self._free = self.selected & _inner(self.arrays)
+        self._free = self.selected & inside(self.arrays, np.ones(len(self.arrays.face_sizes), bool))
         if not self._free.any():
             raise JobError(
                 f"{self.name}: Select vertices inside of the mesh. Those on open borders stay."
@@ -164,17 +165,8 @@ class EaseSelectedJob(_Moving):
         return words.moved(self.moves, text, self.names)
 
     def write(self) -> None:
-        mesh = cast(Object, self.reference.find()).data
-        edited = bmesh.from_edit_mesh(mesh)
-        edited.verts.ensure_lookup_table()
-        for index in np.flatnonzero(self.moves).tolist():
-            edited.verts[index].co = self.positions[index].tolist()
-        edited.normal_update()
-        bmesh.update_edit_mesh(mesh)
-
-
-def _inner(arrays: core.ControlArrays) -> np.ndarray:
-    """(n,) bool: vertices with faces that are not on an open border."""
-    inner = marked(arrays.corners, len(arrays.positions))
-    inner[arrays.border_edges.ravel()] = False
-    return inner
+        with edited(cast(Object, self.reference.find())) as bm:
+            bm.verts.ensure_lookup_table()
+            for index in np.flatnonzero(self.moves).tolist():
+                bm.verts[index].co = self.positions[index].tolist()
+            bm.normal_update()

@@ -22,10 +22,8 @@ class Strained:
     # In scene units: strains of mere scatter, or of a fair shape between its vertices, are smaller.
     floor: float
     edge_length: float  # the mean, in scene units
-    # (k,) ids of the outliers, the worst first; None: all above the floor
-    standing_out: np.ndarray | None = None
+    wrong: np.ndarray  # (k,) ids of the outliers, the worst first
     names: list[str] = field(default_factory=list)  # (n,) from a table of offsets; or empty
-
     # ids along a chain that suggests a missing crease
     knuckle: list[int] = field(default_factory=list)
 
@@ -42,11 +40,6 @@ class Strained:
     def largest(self) -> float:
         """0 if no vertex is held."""
         return float(np.abs(self.lengths[self.held]).max(initial=0.0))
-
-    @cached_property
-    def wrong(self) -> np.ndarray:
-        """(k,) ids of the outliers, the worst first."""
-        return above(self.lengths, self.floor) if self.standing_out is None else self.standing_out
 
     def worst(self, count: int) -> np.ndarray:
         """(k,) ids, the largest strain first; at most `count`."""
