@@ -20,7 +20,7 @@ from ..mesh.offset_names import read_names, stations
 from ..mesh.scans import of_mesh, with_faces
 from ..mesh.world_shape import world_matrix
 from ..yard.dxf import text
-from ..yard.plan import Cut, Plane, opened, places, scaled, sheet
+from ..yard.plan import Cut, Plane, opened, places, sheet
 from .hull import ACTIVE_MESH
 from .mixins import Action, Shown
 from .written_files import WritesText, write_text_file
@@ -35,13 +35,13 @@ def _surface(context: Context, target: Object) -> Drawn:
     return Drawn(points, np.zeros_like(points), triangles)
 
 
-def _imported_stations(context: Context, target: Object) -> list[tuple[str, float]]:
-    """The stations of the table of offsets from which the mesh, or its source, was made."""
+def _imported_stations(context: Context) -> list[tuple[str, float]]:
+    """The stations of the table of offsets from which the active mesh, or its source, was made."""
     source = cast(Object, active_source(context))
     names = read_names(source.data)
     if not names:
         return []
-    placed = of_mesh(source.data).moved(np.array(world_matrix(target)))
+    placed = of_mesh(source.data).moved(np.array(world_matrix(cast(Object, context.active_object))))
     return stations(names, placed.points[:, 0])
 
 
@@ -52,15 +52,10 @@ def even_planes(
     axis = _AXES[kind]
     normal = tuple(float(k == axis) for k in range(3))
     low, high = surface.points[:, axis].min(), surface.points[:, axis].max()
-    named = (
-        []
-        if listed.strip() or axis
-        else _imported_stations(context, cast(Object, context.active_object))
-    )
+    named = [] if listed.strip() or axis else _imported_stations(context)
     if not named:
-        named = [
-            (f"{_WORDS[kind]} {at:.6g}", at) for at in places(listed, low, high, spacing, start)
-        ]
+        even = places(listed, low, high, spacing, start)
+        named = [(f"{_WORDS[kind]} {at:.6g}", at) for at in even]
     inset = 1e-5 * (high - low)  # the end stations are borders, which a plane only touches
     if axis == 1 and abs(low) <= inset and not listed.strip():
         named = [("profile", 0.0), *named]  # of a half hull
@@ -212,27 +207,23 @@ class EXPORT_SCENE_OT_fairing_lines(_Spaced, WritesText, bpy.types.Operator):
         target = cast(Object, context.active_object)
         surface = _surface(context, target)
         try:
+            given = {kind: self.stations if kind == "STATIONS" else "" for kind in _AXES}
             listed = {
-                kind: even_planes(
-                    context,
-                    kind,
-                    surface,
-                    self.stations if kind == "STATIONS" else "",
-                    self.spacing,
-                    self.start,
-                )
-                for kind in _AXES
+                kind: even_planes(context, kind, surface, said, self.spacing, self.start)
+                for kind, said in given.items()
             }
         except ValueError as error:
             raise JobError(
                 f"Write Stations as numbers, such as 0, 1.5, 3: '{self.stations}' is no list"
             ) from error
-        found = {kind: cuts(surface, planes) for kind, planes in listed.items()}
+        factor = context.scene.unit_settings.scale_length / METRES[self.unit] / self.scale
+        found = {
+            kind: [one.scaled(factor) for one in cuts(surface, planes)]
+            for kind, planes in listed.items()
+        }
         if not any(found.values()):
             raise JobError("Select the surface of a hull: no plane cuts this mesh")
-        factor = context.scene.unit_settings.scale_length / METRES[self.unit] / self.scale
         title = f"{target.name}   1 : {self.scale:g}   {self.unit.lower()}"
-        drawing = scaled(sheet(title, *found.values()), factor)
-        write_text_file(self.filepath, text(drawing))
+        write_text_file(self.filepath, text(sheet(title, *found.values())))
         count = ", ".join(f"{len(cuts)} {kind.lower()}" for kind, cuts in found.items())
         return f"{count} written to {bpy.path.abspath(self.filepath)}"

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Planes that cut a hull, and the sheet of its lines: profile, half-breadths, body plan."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -26,6 +26,10 @@ class Cut:
 
     plane: Plane
     curves: list[np.ndarray]
+
+    def scaled(self, factor: float) -> "Cut":
+        plane = replace(self.plane, place=factor * self.plane.place)
+        return Cut(plane, [factor * curve for curve in self.curves])
 
 
 def places(text: str, low: float, high: float, spacing: float, start: float) -> list[float]:
@@ -102,20 +106,6 @@ def _grid(
     upright = [[(at, end, 0.0) for end in up] for at in x]
     level = [[(end, at, 0.0) for end in across] for at in y]
     return [Polyline("GRID", np.array(line)) for line in (*upright, *level)]
-
-
-def scaled(drawing: list[Polyline | Label], factor: float) -> list[Polyline | Label]:
-    return [
-        Polyline(item.layer, item.points * factor, item.closed)
-        if isinstance(item, Polyline)
-        else Label(
-            item.layer,
-            (item.place[0] * factor, item.place[1] * factor),
-            item.height * factor,
-            item.text,
-        )
-        for item in drawing
-    ]
 
 
 def opened(curve: np.ndarray) -> tuple[np.ndarray, bool]:
