@@ -3,5 +3,5 @@
 
 `cubics` (a curve) → `crossings` (where two meet) → `network` (nodes and arcs) → `tangent_planes` →
 `cells` (regions between arcs) → `counts` (edges on an arc) → `control_mesh`. `words` reports the parts
-that were left out.
+that were left out; `chains` follows edges.
 """

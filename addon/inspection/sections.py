@@ -10,6 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..curves.chains import chains
+
 _SAME = 1e-4  # relative to a unit normal: corners with a smaller difference share a point
 _TOOTH = 0.12  # relative to the surface's diagonal: a tooth of the comb that few exceed
 
@@ -139,13 +141,13 @@ def _sections_at(surface: Drawn, axis: int, height: float, spacing: float) -> li
     cut = above[edges[:, :, 0]] != above[edges[:, :, 1]]
     ends = np.sort(edges[cut], axis=1)
     keys = ends[:, 0].astype(np.int64) * len(surface.points) + ends[:, 1]
-    unique, first, node = np.unique(keys, return_index=True, return_inverse=True)
+    _, first, node = np.unique(keys, return_index=True, return_inverse=True)
     points, normals = _crossings(surface, ends[first], axis, height)
     links = node.reshape(-1, 2)
     return [
         section
-        for chain, closed in _chains(links, len(unique))
-        if (section := _resampled(points[chain], normals[chain], axis, closed, spacing)) is not None
+        for chain, _ in chains(links, np.zeros(len(links), bool))
+        if (section := _resampled(points[chain], normals[chain], axis, spacing)) is not None
     ]
 
 
@@ -162,42 +164,15 @@ def _crossings(
     return points, normals
 
 
-def _chains(links: np.ndarray, count: int) -> list[tuple[np.ndarray, bool]]:
-    """Walks along `links` (l, 2) of `count` nodes, each used once, and whether they are closed."""
-    at = np.concatenate([links[:, 0], links[:, 1]])
-    order = np.argsort(at, kind="stable")
-    begin = np.searchsorted(at[order], np.arange(count + 1)).tolist()
-    link = (order % len(links)).tolist()
-    sides = links.tolist()
-    used = [False] * len(links)
-    found = []
-
-    def walk(node: int) -> list[int]:
-        chain = [node]
-        while True:
-            free = next((i for i in link[begin[node] : begin[node + 1]] if not used[i]), None)
-            if free is None:
-                return chain
-            used[free] = True
-            node = sides[free][0] + sides[free][1] - node
-            chain.append(node)
-
-    degree = np.diff(begin)
-    for node in (*np.flatnonzero(degree % 2).tolist(), *range(count)):  # ends of open walks first
-        chain = walk(node)
-        if len(chain) > 1:
-            found.append((np.array(chain), chain[0] == chain[-1]))
-    return found
-
-
 def _resampled(
-    points: np.ndarray, normals: np.ndarray, axis: int, closed: bool, spacing: float
+    points: np.ndarray, normals: np.ndarray, axis: int, spacing: float
 ) -> Section | None:
     """A chain as a section with points about `spacing` apart; None if it has no length."""
     along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
     length = along[-1]
     if length <= 1e-6 * spacing:
         return None
+    closed = bool((points[0] == points[-1]).all())
     u, v = (axis + 1) % 3, (axis + 2) % 3
     turn = np.unwrap(np.arctan2(normals[:, v], normals[:, u]))
     count = max(int(round(length / spacing)), 8 if closed else 2)

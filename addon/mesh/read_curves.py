@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Reads curve objects, and edges without faces, as curves in the world."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any, cast
 
 import numpy as np
 
 from ..blender import Object, column
+from ..curves.chains import chains
 from ..curves.cubics import Curve, from_bezier, from_nurbs, through
 from .read import read_mesh
 from .world_shape import transformed
@@ -81,29 +82,3 @@ def _wires(source: Object) -> Iterator[Curve]:
         closed = chain[0] == chain[-1]
         points = arrays.positions[chain[:-1] if closed else chain]
         yield Curve(f"edges {number}", through(points, closed), closed, sharp)
-
-
-def chains(edges: np.ndarray, marks: Sequence[bool] | np.ndarray) -> list[tuple[list[int], bool]]:
-    """Vertices along each chain of `edges` (e, 2), and whether it is closed. Chains end wherever the
-    number of edges at a vertex is not two, or their marks differ; closed ones repeat the first vertex.
-    """
-    at: dict[int, list[int]] = {}
-    for k, pair in enumerate(edges.tolist()):
-        for vertex in pair:
-            at.setdefault(vertex, []).append(k)
-    stops = {v for v, ks in at.items() if len(ks) != 2 or marks[ks[0]] != marks[ks[1]]}
-    used = np.zeros(len(edges), bool)
-    found = []
-    for start in [*sorted(stops), *sorted(set(at) - stops)]:
-        for first in at[start]:
-            chain, k = [start], first
-            while not used[k]:
-                used[k] = True
-                a, b = edges[k].tolist()
-                chain.append(b if a == chain[-1] else a)
-                if chain[-1] in stops:
-                    break
-                k = next((n for n in at[chain[-1]] if n != k), k)
-            if len(chain) > 1:
-                found.append((chain, bool(marks[first])))
-    return found
