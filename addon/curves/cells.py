@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The cells of a network: closed walks that take the leftmost arc at every node."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -38,15 +38,7 @@ def find_cells(network: Network, closed: bool = False) -> Cells:
     """The cells of a network; `closed`: the walk around the outside of a sheet is a cell too."""
     arcs, loose = list(network.arcs), list(network.loose)
     while True:
-        found = Network(
-            network.curves,
-            network.nodes,
-            arcs,
-            network.tolerance,
-            network.crossings,
-            loose,
-            network.misses,
-        )
+        found = replace(network, arcs=arcs, loose=loose)
         planes = TangentPlanes(found)
         walks = _walks(planes, 2 * len(arcs))
         bridges = {half // 2 for walk in walks for half in walk if half ^ 1 in walk}

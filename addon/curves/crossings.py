@@ -26,7 +26,7 @@ class Meeting:
 
 def meetings(curves: Sequence[Curve], reach: float) -> list[Meeting]:
     """All meetings with distances up to `reach`, by pairs of curves and by parameters."""
-    chords = [_chords(curve) for curve in curves]
+    chords = [curve_chords(curve)[1] for curve in curves]
     found: list[tuple[int, float, int, float]] = []
     for a in range(len(curves)):
         for b in range(a + 1, len(curves)):
@@ -47,9 +47,10 @@ def meetings(curves: Sequence[Curve], reach: float) -> list[Meeting]:
     return _once(curves, refined)
 
 
-def _chords(curve: Curve) -> np.ndarray:
+def curve_chords(curve: Curve) -> tuple[np.ndarray, np.ndarray]:
+    """(k,) parameters of the ends of a curve's chords, and (k, 3) these ends."""
     t = np.arange(STEPS * len(curve.pieces) + 1) / STEPS
-    return points_at(curve.pieces, t)
+    return t, points_at(curve.pieces, t)
 
 
 def _apart(p: np.ndarray, q: np.ndarray, reach: float) -> bool:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .. import core
-from .crossings import STEPS, Meeting, meetings
+from .crossings import STEPS, Meeting, curve_chords, meetings
 from .cubics import Curve, points_at, tangents_on
 
 CHORDS = 32  # evenly spaced chords of an arc, for its direction and turns
@@ -167,8 +167,8 @@ class _Stops:
 
 def _lengths(curve: Curve) -> tuple[np.ndarray, np.ndarray]:
     """Parameters, and the length of the curve up to each."""
-    t = np.arange(STEPS * len(curve.pieces) + 1) / STEPS
-    steps = np.linalg.norm(np.diff(points_at(curve.pieces, t), axis=0), axis=1)
+    t, ends = curve_chords(curve)
+    steps = np.linalg.norm(np.diff(ends, axis=0), axis=1)
     return t, np.concatenate([[0.0], np.cumsum(steps)])
 
 

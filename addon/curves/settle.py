@@ -39,14 +39,8 @@ class Covered:
 
     @property
     def summary(self) -> str:
-        found = self.cells
-        return ", ".join(
-            [
-                counted(len(found.network.curves), "curve"),
-                counted(found.network.crossings, "crossing"),
-                f"{counted(len(found.cells), 'cell')} filled",
-            ]
-        )
+        of, cells = self.cells.network, counted(len(self.cells.cells), "cell")
+        return f"{counted(len(of.curves), 'curve')}, {counted(of.crossings, 'crossing')}, {cells} filled"
 
 
 def covered(

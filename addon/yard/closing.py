@@ -72,14 +72,8 @@ def _turned(corners: np.ndarray, offsets: np.ndarray) -> np.ndarray:
 
 def _require_ends(rim: np.ndarray, middle: np.ndarray) -> None:
     """Every chain of the rim must reach the middle; otherwise it is a hole in one side."""
-    reached = middle.copy()
-    while True:
-        more = reached[rim].any(axis=1)
-        before = int(reached.sum())
-        reached[rim[more].ravel()] = True
-        if int(reached.sum()) == before:
-            break
-    apart = int((~reached[rim]).all(axis=1).sum())
+    part = module().patches.connected_parts(len(middle), rim)
+    apart = int((~np.isin(part[rim[:, 0]], part[middle])).sum())
     if apart:
         raise NotHalf(
             f"{apart} open edges are at holes in its side: fill these first (Fill Hole Fair)"
