@@ -85,8 +85,8 @@ class Fitting {
   }
 
   void meet_neighbours() {
-    refine_at_edges();
-    if (sharpen()) refine_at_edges();
+    refine_at_edges(false);  // patches that miss have their curves sharpened and are fitted again
+    if (sharpen()) refine_at_edges(true);
     unmet_.assign(unmet_.size(), 0);
   }
 
@@ -168,7 +168,9 @@ class Fitting {
     });
   }
 
-  void fit_patch_to(std::size_t p, int spans_u, int spans_v, bool to_tolerance) {
+  // With `spans_u` and `spans_v` spans or, `to_tolerance`, with as many more as it needs. Only `in_all_ways`
+  // are the other ways to fit tried where it misses.
+  void fit_patch_to(std::size_t p, int spans_u, int spans_v, bool to_tolerance, bool in_all_ways) {
     const PatchPlace& place = topology_.patches[p];
     PatchData data = patch_data(lattice_, topology_, place, curves_);
     const FaceSurface surface(Sheet(lattice_, place.grid), topology_);
@@ -184,7 +186,7 @@ class Fitting {
               most_v = std::max(place.most_spans(lattice_, place.grid.rows), spans_v);
     const auto fit = [&](int u, int v, bool last) {
       choose_fitted(lattice_, place, u, v, data);
-      FittedPatch next = fit_patch(data, u, v, last && !place.several());
+      FittedPatch next = fit_patch(data, u, v, last && in_all_ways && !place.several());
       // a patch that meets its neighbours better, but turns by more inside, oscillates between its
       // samples
       const bool swings = !to_tolerance && next.turned > std::max(folded / 4, fitted_[p].turned);
@@ -217,7 +219,8 @@ class Fitting {
       if (!which[p]) return;
       fitted_[p] = {};
       settled_[p] = 0;
-      fit_patch_to(p, topology_.patches[p].grid.columns, topology_.patches[p].grid.rows, true);
+      fit_patch_to(p, topology_.patches[p].grid.columns, topology_.patches[p].grid.rows, true,
+                   true);
     });
   }
 
@@ -288,13 +291,13 @@ class Fitting {
   }
 
   // Ends, since a patch has at most `most_spans` in each direction, and each number is tried once.
-  void refine_at_edges() {
-    while (add_spans_at_edges()) stop_if_cancelled();
+  void refine_at_edges(bool in_all_ways) {
+    while (add_spans_at_edges(in_all_ways)) stop_if_cancelled();
   }
 
   // Adds spans where neighbours meet at too large an angle: along their edge if that halves the
   // error, otherwise in both directions. False if nothing changed.
-  bool add_spans_at_edges() {
+  bool add_spans_at_edges(bool in_all_ways) {
     const std::vector<Directions> wanted = patches_to_refine(
         {lattice_, topology_, curves_, fitted_, workers_}, options_.normal_tolerance);
     std::vector<std::uint8_t> changed(fitted_.size(), 0);
@@ -309,9 +312,9 @@ class Fitting {
       };
       const int more_u = more(spans_u, place.grid.columns), more_v = more(spans_v, place.grid.rows);
       const int u = wanted[p].u ? more_u : spans_u, v = wanted[p].v ? more_v : spans_v;
-      if (u != spans_u || v != spans_v) fit_patch_to(p, u, v, false);
+      if (u != spans_u || v != spans_v) fit_patch_to(p, u, v, false, in_all_ways);
       if (fitted_[p].misses > Misses{before.folds, before.by / 2} && (u != more_u || v != more_v))
-        fit_patch_to(p, more_u, more_v, false);
+        fit_patch_to(p, more_u, more_v, false, in_all_ways);
       changed[p] = fitted_[p].misses < before;
       settled_[p] = !changed[p];
     });
