@@ -92,3 +92,41 @@ def test_names_and_colours(tmp_path):
     assert np.allclose(read[0][1], [(1, 0.5, 0.25)], atol=1e-3)
     for _, found in read[1:]:
         assert np.allclose(found, shades, atol=1e-3)
+
+
+def flat_comb(teeth=6):
+    """A plate with narrow gaps, whose top and bottom are polygons of 26 corners; edges by 30° are creased."""
+    line = [(0.0, 0.0), (2.0 * teeth, 0.0)]
+    for k in range(teeth - 1, -1, -1):
+        line += [(2 * k + x, y) for x, y in ((2, 3), (1.2, 3), (1.2, 1), (0.02, 1))]
+    count = len(line)
+    points = np.array([(x, y, z) for z in (0.0, 0.5) for x, y in line])
+    around = [(k, (k + 1) % count) for k in range(count)]
+    faces = [list(range(count))[::-1], list(range(count, 2 * count))]
+    faces += [[a, b, b + count, a + count] for a, b in around]
+    x, y = np.array(line).T
+    return points, faces, abs(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 4
+
+
+def test_flat_polygons_are_planes(tmp_path):
+    points, faces, solid = flat_comb()
+    patches = df.fit_patches(points, faces, levels=5, crease_angle=np.radians(30))
+    assert np.unique(patches.patch_plane).tolist() == [-1, 0, 1] and not len(patches.unmet)
+    colours = np.zeros((len(patches), 3))
+    colours[patches.patch_polygon == 1] = 1, 0, 0
+    name = tmp_path / "comb.step"
+    mirrored = patches.transformed(np.diag([-1.0, 1, 1, 1]))
+    df.write_step(name, [patches, mirrored], unit="mm", colours=[colours, colours])
+    read = step_files.read(name)
+    assert read.valid and read.solids == 2 and read.faces == 2 * len(faces)
+    assert not read.free_edges
+    assert read.volume == pytest.approx(2 * solid, rel=1e-9)
+    assert name.read_text().count("=PLANE(") == 4
+
+
+def test_a_flat_polygon_whose_border_crosses_itself_is_no_plane():
+    line = [(0, 0), (2, 0), (2, 1), (1.2, 1), (1.1, -0.2), (1, 1), (0, 1)]
+    points = np.array([(x, y, 0.0) for x, y in line])
+    faces = [list(range(len(line)))]
+    with pytest.raises(df.FairingError, match="folds"):
+        df.fit_patches(points, faces, levels=4, boundary="linear")

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,7 @@ from . import _native
 from .arrays import following, numbers
 from .converters import positive
 from .errors import fairing_error
+from .flat_polygons import is_flat, mark_flat
 from .patches import SplinePatches, control_polygons
 from .result import Result
 from .scan_fitting import Fitted
@@ -85,6 +87,7 @@ class PatchFits:
         groups = self._groups[polygons] if len(self._groups) else self._groups
         allowed = self.tolerance, self.normal_tolerance
         found = _native.fit_splines(*arrays, groups, level, *allowed, **watched)
+        mark_flat(found, polygons, partial(_points, arrays, polygons))
         bad = (found["lattice_turn"] > TURN_LIMIT) | (found["face_angle"] > TURN_LIMIT)
         folded = np.repeat(~(found["turned"] <= FOLD_LIMIT), np.diff(found["patch_face_offsets"]))
         bad[found["patch_faces"][folded]] = True
@@ -129,7 +132,7 @@ class PatchFits:
     @staticmethod
     def sharp_faces(result: Result, level: int, turns: np.ndarray) -> list[int]:
         """Faces whose refined surface folds or turns too sharply for any patch."""
-        return _faces_of(result, level, turns > TURN_LIMIT)
+        return _curved(result, level, turns > TURN_LIMIT)
 
     def checked(self, patches: SplinePatches) -> SplinePatches:
         self.refuse(patches.unresolved.tolist())
@@ -147,17 +150,32 @@ class PatchFits:
 
     def _refuses(self, result: Result, level: int, bad: np.ndarray) -> bool:
         """Whether any control face is `bad`: refuses them."""
-        self.refuse(_faces_of(result, level, bad))
-        return bool(bad.any())
+        faces = _curved(result, level, bad)
+        self.refuse(faces)
+        return bool(faces)
 
 
 def _arrays(result: Result) -> Arrays:
     return (result.vertices, *result.faces, result.crease_edges)
 
 
-def _faces_of(result: Result, level: int, control_faces: np.ndarray) -> list[int]:
-    """The input faces of a mask of control faces."""
-    return np.unique(control_polygons(result, level)[control_faces]).tolist()
+def _curved(result: Result, level: int, bad: np.ndarray) -> list[int]:
+    """The input faces of a mask of control faces, without flat ones: there the patches decide."""
+    polygons = control_polygons(result, level)
+    size = float(np.ptp(result.vertices, axis=0).max(initial=0))
+    points = partial(_points, _arrays(result), polygons)
+    return [p for p in np.unique(polygons[bad]).tolist() if not is_flat(points(p), size)]
+
+
+def _points(arrays: Arrays, polygons: np.ndarray, polygon: int) -> np.ndarray:
+    """(k, 3): the corners of the cells of an input face, of `polygons` (F,) by control faces."""
+    cells = (len(arrays[1]) + len(arrays[2])) // len(polygons)
+    masks = np.split(polygons == polygon, [len(arrays[1]) // cells])
+    corners = [
+        faces.reshape(len(mask), cells * faces.shape[1])[mask].ravel()
+        for faces, mask in zip(arrays[1:3], masks)
+    ]
+    return arrays[0][np.concatenate(corners)]
 
 
 def _around(result: Result, level: int, chosen: np.ndarray) -> tuple[np.ndarray, Arrays]:

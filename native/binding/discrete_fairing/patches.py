@@ -38,6 +38,8 @@ class SplinePatches:
     patch_faces: (F,) or more int32; patch_face_offsets: (P + 1,) int64: the control faces of each
     patch, row by row; all triangles come first, then all quads.
     patch_polygon: (P,) int32, the first input face that each covers; polygons(p) has all.
+    patch_plane: (P,) int32, the input face where it is flat, between creases or borders, and was split
+    into triangles: its patches may fold within the plane, and are written as one face; otherwise -1.
     patch_shell: (P,) int32, the shell that each belongs to.
     shell_closed: (S,) bool, whether a shell has no free edge.
     edge_spans: (E,) int32; edge_points: (D, 3) float64; edge_offsets: (E + 1,) int64; as of patches.
@@ -79,6 +81,7 @@ class SplinePatches:
         self.patch_face_offsets: np.ndarray = arrays["patch_face_offsets"]
         self._control_polygons = control_polygons(result, levels)
         self.patch_polygon = self._control_polygons[self.patch_faces[self.patch_face_offsets[:-1]]]
+        self.patch_plane: np.ndarray = arrays["patch_plane"]
         self.edge_spans: np.ndarray = arrays["edge_spans"]
         self.edge_points: np.ndarray = arrays["edge_points"]
         self.edge_offsets = _offsets(self.edge_spans.astype(np.int64) + 3)

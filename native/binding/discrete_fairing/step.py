@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 from . import _native
 from .cad_files import UNITS, Part, cad_parts
 from .converters import choice
+from .flat_polygons import Step, outline
 from .patches import SplinePatches
 from .whole_files import file_name, whole_file
 
@@ -129,7 +130,7 @@ class _Writer:
         origin = self._add("CARTESIAN_POINT('',(0.,0.,0.))")
         z = self._add("DIRECTION('',(0.,0.,1.))")
         x = self._add("DIRECTION('',(1.,0.,0.))")
-        self._axes = self._add(f"AXIS2_PLACEMENT3D('',#{origin},#{z},#{x})")
+        self._axes = self._add(f"AXIS2_PLACEMENT_3D('',#{origin},#{z},#{x})")
         self._length = self._length_unit()
         self._angle = self._add("(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.))")
         self._solid_angle = self._add("(NAMED_UNIT(*)SI_UNIT($,.STERADIAN.)SOLID_ANGLE_UNIT())")
@@ -146,9 +147,11 @@ class _Writer:
         outward = _outward(patches)
         shells: list[list[int]] = [[] for _ in patches.shell_closed]
         faces = []
-        for p in range(len(patches)):
+        written = _written(patches.patch_plane)
+        for p in written:
             shell = patches.patch_shell[p]
-            faces.append(self._face(patches, p, edges, bool(outward[shell])))
+            face = self._face if patches.patch_plane[p] < 0 else self._flat_face
+            faces.append(face(patches, p, edges, bool(outward[shell])))
             shells[shell].append(faces[-1])
         items = [
             self._shell(title, shell, bool(closed))
@@ -156,8 +159,9 @@ class _Writer:
         ]
         self._product(title, context, items, patches.shell_closed)
         if colours is not None:
-            styled = items if colours.ndim == 1 else faces
-            self._colour(context, styled, np.broadcast_to(colours, (len(styled), 3)))
+            if colours.ndim > 1:
+                items, colours = faces, colours[written]
+            self._colour(context, items, np.broadcast_to(colours, (len(items), 3)))
 
     def _add(self, entity: str) -> int:
         self._last += 1
@@ -215,7 +219,31 @@ class _Writer:
             f"B_SPLINE_SURFACE_WITH_KNOTS('',3,3,({','.join(rows)}),.UNSPECIFIED.,.F.,.F.,.F.,"
             f"{_multiplicities(u)},{_multiplicities(v)},{_knots(u)},{_knots(v)},.UNSPECIFIED.)"
         )
-        loop = patches.loop(p) if outward else [(e, not on) for e, on in patches.loop(p)[::-1]]
+        return self._bounded(surface, patches.loop(p), edges, outward)
+
+    def _flat_face(self, patches: SplinePatches, p: int, edges: list[int], outward: bool) -> int:
+        """The face of all patches in the plane of p."""
+        own = np.flatnonzero(patches.patch_plane == patches.patch_plane[p])
+        steps = [step for patch in own for step in patches.loop(patch)]
+        used, forward = map(np.array, zip(*steps))
+        loop = outline(used, forward, patches.edge_vertices)
+        line = np.concatenate([patches.edge(e)[:: 1 if on else -1][:-1] for e, on in loop])
+        arms = (line - line[0]) / np.abs(line - line[0]).max()  # so that squares do not overflow
+        normal = np.cross(arms, np.roll(arms, -1, axis=0)).sum(axis=0)
+        normal /= np.linalg.norm(normal)
+        along = arms[1]
+        along -= along @ normal * normal
+        origin, axes = self._point(line[0]), [self._direction(v) for v in (normal, along)]
+        place = self._add(f"AXIS2_PLACEMENT_3D('',#{origin},#{axes[0]},#{axes[1]})")
+        return self._bounded(self._add(f"PLANE('',#{place})"), loop, edges, outward)
+
+    def _direction(self, along: np.ndarray) -> int:
+        x, y, z = (step_real(value) for value in (along / np.linalg.norm(along)).tolist())
+        return self._add(f"DIRECTION('',({x},{y},{z}))")
+
+    def _bounded(self, surface: int, loop: list[Step], edges: list[int], outward: bool) -> int:
+        if not outward:
+            loop = [(e, not on) for e, on in loop[::-1]]
         oriented = [self._add(f"ORIENTED_EDGE('',*,*,#{edges[e]},{_flag(on)})") for e, on in loop]
         around = self._add(f"EDGE_LOOP('',{_ids(oriented)})")
         bound = self._add(f"FACE_OUTER_BOUND('',#{around},.T.)")
@@ -281,6 +309,12 @@ def _outward(patches: SplinePatches) -> np.ndarray:
         cells = np.cross(a, b) * c + np.cross(a, c) * d
         volume[patches.patch_shell[p]] += cells.sum()
     return ~patches.shell_closed | (volume >= 0)
+
+
+def _written(planes: np.ndarray) -> np.ndarray:
+    """The patches that are written: of those in one plane the first."""
+    _, first = np.unique(planes, return_index=True)
+    return np.flatnonzero((planes < 0) | np.isin(np.arange(len(planes)), first))
 
 
 def _multiplicities(spans: int) -> str:

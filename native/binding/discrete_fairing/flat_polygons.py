@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Input polygons that are flat and lie between creases or borders. Triangles of their fans are often so
+narrow that patches fold; in CAD each is one face, on a plane.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+SMOOTH = 0  # of edge_kind
+FLAT = 1e-9  # of the size: the accuracy of CAD files
+
+Step = tuple[int, bool]  # an edge, and whether it runs forward
+
+
+@dataclass
+class _Flat:
+    """A flat polygon: its patches, all their edges, and those around it."""
+
+    patches: np.ndarray
+    edges: np.ndarray
+    outer: np.ndarray
+
+
+def mark_flat(
+    found: dict[str, Any], polygons: np.ndarray, points_of: Callable[[int], np.ndarray]
+) -> None:
+    """Adds `patch_plane` to the core's arrays: (P,) int32, for patches of a flat polygon its number, of
+    `polygons` (F,) by control faces, otherwise -1. Only the edges of such a polygon are off.
+    `points_of` has the refined surface's points of a polygon, (k, 3).
+    """
+    own = polygons[found["patch_faces"][found["patch_face_offsets"][:-1]]]
+    found["patch_plane"] = np.full(len(own), -1, np.int32)
+    for polygon, flat in _enclosed(found, _flat_ones(found, polygons, own, points_of)).items():
+        found["patch_plane"][flat.patches] = polygon
+        found["angles"][flat.edges] = found["jumps"][flat.edges] = np.nan
+        found["edge_error"][np.setdiff1d(flat.edges, flat.outer)] = 0
+        found["residual"][flat.patches] = found["turned"][flat.patches] = 0
+        faces = polygons == polygon
+        found["face_angle"][faces] = found["lattice_turn"][faces] = 0
+        found["face_off"][faces] = found["edge_error"][flat.outer].max()
+
+
+def _flat_ones(
+    found: dict[str, Any],
+    polygons: np.ndarray,
+    own: np.ndarray,
+    points_of: Callable[[int], np.ndarray],
+) -> dict[int, _Flat]:
+    """Flat polygons that were split, and those that meet them at smooth edges."""
+    alone = np.diff(found["patch_face_offsets"]) == 1
+    of_steps = np.repeat(np.arange(len(own)), np.diff(found["loop_offsets"]))
+    flat: dict[int, _Flat] = {}
+    waiting = np.flatnonzero(np.bincount(polygons) > 1).tolist()
+    known = set(waiting)
+    while waiting:
+        polygon = waiting.pop()
+        patches = np.flatnonzero(own == polygon)
+        if not (alone[patches].all() and is_flat(points_of(polygon), found["size"])):
+            continue
+        steps = np.isin(of_steps, patches)
+        edges = found["loop_edges"][steps]
+        around = outline(edges, found["loop_forward"][steps] > 0, found["edge_vertices"])
+        if not around or _crosses_itself(_line(found, around)):
+            continue
+        outer = np.array([edge for edge, _ in around])
+        flat[polygon] = _Flat(patches, edges, outer)
+        across = np.isin(found["loop_edges"], outer[found["edge_kind"][outer] == SMOOTH])
+        waiting += set(own[of_steps[across]].tolist()) - known
+        known.update(waiting)
+    return flat
+
+
+def _enclosed(found: dict[str, Any], flat: dict[int, _Flat]) -> dict[int, _Flat]:
+    """Those between creases, borders and one another: at other edges patches on both sides are compared."""
+    for _ in range(len(flat)):
+        used = [found["loop_edges"][:0], *(own.outer for own in flat.values())]
+        twice = np.bincount(np.concatenate(used), minlength=len(found["edge_kind"])) > 1
+        fine = twice | (found["edge_kind"] != SMOOTH)
+        flat = {polygon: own for polygon, own in flat.items() if fine[own.outer].all()}
+    return flat
+
+
+def outline(edges: np.ndarray, forward: np.ndarray, ends: np.ndarray) -> list[Step]:
+    """The edges around patches with these `edges` (k,), used `forward` (k,) or not, counter-clockwise;
+    `ends` (E, 2) are vertices. Empty if they are not one ring.
+    """
+    _, first, count = np.unique(edges, return_index=True, return_counts=True)
+    free = first[count == 1]
+    from_, to = np.where(forward[free, None], ends[edges[free]], ends[edges[free]][:, ::-1]).T
+    place = {vertex: k for k, vertex in enumerate(from_.tolist())}
+    order = [0] if len(free) else []
+    while order and (after := place.get(int(to[order[-1]]), -1)) != 0:
+        if after < 0 or len(order) == len(free):
+            return []
+        order.append(after)
+    if len(order) < len(free):
+        return []
+    return [(int(edges[free[k]]), bool(forward[free[k]])) for k in order]
+
+
+def _line(found: dict[str, Any], around: list[Step]) -> np.ndarray:
+    """(k, 3): the control points of the edges in turn, which are near their curves."""
+    offsets = np.concatenate([[0], np.cumsum(found["edge_spans"] + 3)])
+    lines = [
+        found["edge_points"][offsets[e] : offsets[e + 1]][:: 1 if on else -1] for e, on in around
+    ]
+    return np.concatenate([line[:-1] for line in lines])
+
+
+def is_flat(points: np.ndarray, size: float) -> bool:
+    """Whether points (k, 3) are in one plane, as accurately as in a CAD file of this size."""
+    off = (points - points.mean(axis=0)) @ _axes(points)[2]
+    return bool(np.abs(off).max() <= FLAT * size)
+
+
+def _axes(points: np.ndarray) -> np.ndarray:
+    """(3, 3): of their scatter, the largest first."""
+    arms = points - points.mean(axis=0)
+    return np.linalg.eigh(arms.T @ arms)[1].T[::-1]
+
+
+def _crosses_itself(line: np.ndarray) -> bool:
+    """Whether a closed line in a plane does."""
+    a = (line - line.mean(axis=0)) @ _axes(line)[:2].T
+    b = np.roll(a, -1, axis=0)
+
+    def side(p: np.ndarray, q: np.ndarray, x: np.ndarray) -> np.ndarray:
+        along, arm = (q - p).T, (x - p).T
+        return along[0] * arm[1] - along[1] * arm[0]
+
+    return any(
+        ((side(p, q, a) * side(p, q, b) < 0) & (side(a, b, p) * side(a, b, q) < 0)).any()
+        for p, q in zip(a, b)
+    )
