@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fits on cages that QuadriFlow makes of noisy scans, for several numbers of faces and seeds of the noise:
+"""Fits on cages that the add-on makes of noisy scans, for several numbers of faces and seeds of the noise:
 the means of their errors, and beside them those of the cage's Subdivision Surface, wrapped on the scan after
 Taubin's filter.
 """
 
+import sys
+from pathlib import Path
 from typing import Any
 
 import fit
@@ -11,49 +13,37 @@ import fit_shapes
 import numpy as np
 import table
 
+sys.path.append(str(Path(__file__).resolve().parent.parent))  # the add-on
+
 SHAPES = ("blob", "handle")  # closed and without creases, as a cage of a scan alone is
 FACES = (100, 300, 1000)
 SEEDS = (1, 2, 3)
 NOISE = 0.002  # of the size
 
 
-def quadriflow(scan: fit_shapes.Mesh, faces: int) -> Any:
-    """A cage, nearly all quads, by Blender's QuadriFlow, whose double vertices are merged and whose
-    small holes are closed, as the add-on does.
-    """
-    import bpy  # isort: skip - before bmesh, which it contains
-    import bmesh
+def made_over(scan: fit_shapes.Mesh, faces: int) -> fit_shapes.Mesh:
+    """The cage that *Fair Surface on Scan* makes, with quads and some triangles."""
+    import bpy
+
+    from addon.scan_cage import make_cage
 
     points, triangles = scan
-    mesh = bpy.data.meshes.new("Cage")
+    mesh = bpy.data.meshes.new("Scan")
     mesh.from_pydata(points.tolist(), [], triangles.tolist())
-    cage = bpy.data.objects.new("Cage", mesh)
-    bpy.context.collection.objects.link(cage)
-    bpy.context.view_layer.objects.active = cage
-    cage.select_set(True)
-    bpy.ops.object.quadriflow_remesh(mode="FACES", target_faces=faces, use_preserve_sharp=False)
-    made = cage.data
-    edit = bmesh.new()
-    edit.from_mesh(made)
-    apart = 1e-6 * max(cage.dimensions)
-    bmesh.ops.remove_doubles(edit, verts=list(edit.verts), dist=apart)
-    bmesh.ops.dissolve_degenerate(edit, dist=apart, edges=list(edit.edges))
-    open_edges = [edge for edge in edit.edges if edge.is_boundary]
-    bmesh.ops.holes_fill(edit, edges=open_edges, sides=4)
-    bmesh.ops.triangulate(edit, faces=[face for face in edit.faces if len(face.verts) > 4])
-    edit.to_mesh(made)
-    edit.free()
-    vertices = np.array([vertex.co for vertex in made.vertices], float)
-    faces_made = [list(face.vertices) for face in made.polygons]
-    bpy.data.objects.remove(cage)
-    bpy.data.meshes.remove(made)
+    dense = bpy.data.objects.new("Scan", mesh)
+    bpy.context.collection.objects.link(dense)
+    made = make_cage(bpy.context, [dense], faces).object
+    vertices = np.array([vertex.co for vertex in made.data.vertices], float)
+    faces_made = [list(face.vertices) for face in made.data.polygons]
+    for used in (made, dense):
+        bpy.data.meshes.remove(used.data)  # and its object
     return vertices, faces_made
 
 
 def cell(shape: fit_shapes.Shape, faces: int, seed: int) -> dict[str, fit.Errors]:
     """The errors on one cage."""
     scan = shape.scanned(NOISE, seed)
-    drawn = fit_shapes.Shape(shape.scan, quadriflow(scan, faces), shape.nearest, shape.options)
+    drawn = fit_shapes.Shape(shape.scan, made_over(scan, faces), shape.nearest, shape.options)
     return {
         "faces": (float(len(drawn.cage[1])), 0.0),
         "Taubin, Shrinkwrap": fit.wrapped_on(drawn, fit.smoothed(scan)),
