@@ -39,6 +39,12 @@ int search_level(const ControlMesh& mesh, int top, std::size_t points) {
   return level;
 }
 
+bool has_ends(const ControlMesh& mesh) {
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e)
+    if (mesh.feature_edge[e] || mesh.edges[e].boundary()) return true;
+  return false;
+}
+
 double area_of(const GridLevel& grid, Workers& workers, const std::vector<Vec3>& control) {
   Array<double> x(3 * grid.size());
   refine_linearly(grid, control, workers, x.data());
@@ -65,7 +71,7 @@ void FitLevels::run(FitReport& report) {
   const FitProblem rough = problem_of(thin_);
   auto fit = std::make_unique<LevelFit>(rough, search_);
   begin(*fit);
-  WeightChoice choice(*fit, settings_, problem_.frame.scale);
+  WeightChoice choice(*fit, settings_, problem_.frame.scale, has_ends(problem_.mesh));
   weight_ = choice.choose(monitor_, !curves_.any());
   is_kept_ = choice.is_by_tolerance();
   const bool is_automatic = !(settings_.weight > 0) && !is_kept_;

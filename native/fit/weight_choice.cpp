@@ -19,23 +19,28 @@ std::size_t best_of(const std::vector<WeightTrial>& trials) {
   return std::size_t(std::min_element(trials.begin(), trials.end(), less) - trials.begin());
 }
 
-// The middle, by logarithms, of all weights around the best trial that are worse by no more than is
-// known, so that a least one among them says nothing: the error of n points is known within
+// The weight of least error, from all weights around the best trial that are worse by no more than
+// is known, so that a least one among them says nothing: the error of n points is known within
 // 1 / sqrt(2 n) of itself.
-double middle_of_good(const std::vector<WeightTrial>& trials, std::size_t points) {
+double least_of_good(const std::vector<WeightTrial>& trials, std::size_t points, double bias) {
   const double least = trials[best_of(trials)].error;
   std::vector<double> worse;
   for (const auto& trial : trials)
     worse.push_back(least > 0 ? (trial.error / least - 1) * std::sqrt(2 * double(points)) : 0);
   const auto best = std::ptrdiff_t(best_of(trials)), count = std::ptrdiff_t(trials.size());
-  const auto reach = [&](int way) {
+  const auto end = [&](int way) {
     auto k = best;
     while (k + way >= 0 && k + way < count && worse[k + way] <= 1) k += way;
-    double end = double(k - best);
-    if (k + way >= 0 && k + way < count) end += way * (1 - worse[k]) / (worse[k + way] - worse[k]);
-    return end;
+    double steps = double(k - best);
+    if (k + way >= 0 && k + way < count)
+      steps += way * (1 - worse[k]) / (worse[k + way] - worse[k]);
+    return trials[best].weight * std::pow(ratio, -steps);
   };
-  return trials[best].weight * std::pow(ratio, -(reach(-1) + reach(1)) / 2);
+  // V sqrt(w) + B / w^bias is the same at both ends
+  const double low = end(1), high = end(-1), rise = std::sqrt(high) - std::sqrt(low),
+               fall = std::pow(low, -bias) - std::pow(high, -bias);
+  if (!(fall > 0)) return high;
+  return std::clamp(std::pow(2 * bias * rise / fall, 1 / (bias + 0.5)), low, high);
 }
 
 std::size_t tests_of(std::span<const HeldOut> sets) {
@@ -59,11 +64,10 @@ double WeightChoice::choose(Monitor& monitor, bool is_last) {
   return by_held_out(monitor, is_last);
 }
 
-// For a plate under noise the best weight by area grows with the 2/5 power of the number of points:
-// the bias falls with the square of the weight, the variance grows with its root over that number.
+// The variance grows with the root of the weight over the number of points.
 double WeightChoice::more_points(std::size_t points) const {
   if (!is_chosen_by_points_ || trained_points_ == 0) return 1;
-  return std::pow(double(points) / double(trained_points_), 2.0 / 5);
+  return std::pow(double(points) / double(trained_points_), 1 / (bias_ + 0.5));
 }
 
 // Squared distances along the normals of one smooth surface, with outliers limited as in the fit.
@@ -137,14 +141,15 @@ double WeightChoice::by_held_out(Monitor& monitor, bool is_last) {
   const std::vector<WeightTrial> by_cells = search(fit_.stiffest(), {&cells, 1}, start, monitor);
   use(by_cells, cells);
   if (cells.tests.empty()) return by_cells[0].weight;  // a tiny scan: no trial has an error
-  const double weight = middle_of_good(by_cells, cells.tests.size());
+  const double weight = least_of_good(by_cells, cells.tests.size(), bias_);
   if (!is_last) return weight;
   Place fitted = place();
   // from a calm surface, which has not seen what a disc hides, and from two weights above that of
   // the cells on, so that the middle has weights to both sides
   const std::vector<WeightTrial> by_discs = search(ratio * ratio * weight, discs, calm, monitor);
   put(std::move(fitted));
-  if (by_discs[best_of(by_discs)].weight >= weight) return weight;
+  const double wider = least_of_good(by_discs, tests_of(discs), bias_);
+  if (std::sqrt(ratio) * wider >= weight) return weight;  // as trials know it to half a step
   shared_ = shared;
   std::vector<WeightTrial> by_shared = search(fit_.stiffest(), {&cells, 1}, calm, monitor);
   for (std::size_t best = by_shared.size(); best_of(by_shared) < best;) {
@@ -155,8 +160,7 @@ double WeightChoice::by_held_out(Monitor& monitor, bool is_last) {
     for (WeightTrial& trial : by_shared) set_error(trial, cells.tests.size());
   }
   use(by_shared, cells);
-  return std::min(middle_of_good(by_shared, cells.tests.size()),
-                  middle_of_good(by_discs, tests_of(discs)));
+  return std::min(least_of_good(by_shared, cells.tests.size(), bias_), wider);
 }
 
 double WeightChoice::by_tolerance(Monitor& monitor) {

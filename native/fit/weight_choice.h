@@ -19,8 +19,9 @@ struct WeightTrial {
 class WeightChoice {
  public:
   // `fit` must be on the scan; it ends with the chosen weight's surface. `scale`: of the frame.
-  WeightChoice(LevelFit& fit, const FitSettings& settings, double scale)
-      : fit_(fit), settings_(settings), scale_(scale) {}
+  // `has_ends`: the surface has borders or creases.
+  WeightChoice(LevelFit& fit, const FitSettings& settings, double scale, bool has_ends)
+      : fit_(fit), settings_(settings), scale_(scale), bias_(has_ends ? 5.0 / 4 : 2) {}
 
   // From the surface of `fit`, which may have changed since the last choice.
   // `is_last`: there is no other choice, so correlated noise matters.
@@ -51,6 +52,9 @@ class WeightChoice {
   LevelFit& fit_;
   const FitSettings& settings_;
   double scale_;
+  // The square of a plate's bias falls with this power of the weight. At free ends it does not bend,
+  // and is off by more, over strips that are narrower for larger weights [Rice, Rosenblatt 1983].
+  double bias_;
   std::size_t trained_points_ = 0;
   double shared_ = 0;  // noise that points share
   double cut_ = 0;     // larger distances have less weight

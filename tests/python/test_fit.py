@@ -11,6 +11,7 @@ from scans import (
     angles_to_blob,
     blob_cage,
     blob_scan,
+    cube_sphere,
     distance_to_blob,
     normals_of_blob,
     on_blob,
@@ -70,6 +71,27 @@ def test_weight_goes_with_the_noise(cage, noise):
     fitted = df.fit(*cage, blob_scan(26_000, noise), levels=3)
     assert errors(fitted)[0] < noise / 3
     assert fitted.noise == pytest.approx(noise, rel=0.25)
+
+
+def test_no_smaller_weight_is_much_nearer_to_the_truth():
+    axes = np.array([1.5, 1, 0.7])
+    sphere, quads = cube_sphere(58)
+    drawn, cage = cube_sphere(4)
+    normal = sphere / axes
+    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+    points = sphere * axes + np.random.default_rng(1).normal(0, 0.006, (len(sphere), 1)) * normal
+
+    def error(found):
+        far = np.linalg.norm(found.vertices / axes, axis=1)  # of the ellipsoid: 1
+        return rms((far - 1) * far / np.linalg.norm(found.vertices / axes**2, axis=1))
+
+    options = {"triangles": cut_quads((points, quads))[1], "levels": 3}
+    fitted = df.fit(drawn * axes, cage, points, **options)
+    calmer = [
+        df.fit(drawn * axes, cage, points, weight=fitted.weight * share, **options)
+        for share in (1 / 2, 1 / 4)
+    ]
+    assert error(fitted) < 1.08 * min(map(error, calmer))
 
 
 def test_without_noise_the_surface_converges_by_four_a_level(cage):
