@@ -49,7 +49,7 @@ _UNRESOLVED_TAUTER = "Move or add vertices there, crease the edges where it turn
 # The same where there is no setting Defects, for scans, and for holes.
 WITHOUT_MENDING = {code: text.removesuffix(_OR_MEND) for code, text in REMEDIES.items()}
 OF_FITS = REMEDIES | {
-    "INCONSISTENT_ORIENTATION": "Recalculate the normals of cage and scan (Shift N in Edit Mode)"
+    "INCONSISTENT_ORIENTATION": "Recalculate the normals of cage and scan (Shift N in Edit Mode), or flip those of an open one (Alt N)",
 }
 OF_HOLES = WITHOUT_MENDING | {
     "BAD_OPTION": "Select the hole without its islands, or fill it by hand",
@@ -228,10 +228,12 @@ _FAULTS = {
 FAULT_KINDS = frozenset(_FAULTS)
 
 
-def faults_text(object_name: str, counts: Mapping[str, int], settings: AnySettings) -> str:
+def faults_text(
+    object_name: str, counts: Mapping[str, int], settings: AnySettings, is_fit: bool
+) -> str:
     """The faults of a surface, from the number of points at each, and what helps."""
     summary = faults_summary(counts)
-    return f"{object_name}: {faults_remedy(settings)} T{summary[1:]}: Select Places in the panel shows where."
+    return f"{object_name}: {faults_remedy(settings, is_fit)} T{summary[1:]}: Select Places in the panel shows where."
 
 
 def faults_in_place_text(object_name: str, counts: Mapping[str, int], settings: AnySettings) -> str:
@@ -245,14 +247,16 @@ def faults_summary(counts: Mapping[str, int]) -> str:
     return f"the surface {listed([_FAULTS[kind] for kind in counts])}"
 
 
-def faults_remedy(settings: AnySettings) -> str:
-    """What to do about faults, in one sentence; `settings`: those of the surface."""
+def faults_remedy(settings: AnySettings, is_fit: bool = False) -> str:
+    """What to do about faults, in one sentence; `settings`: those of the surface, which may be near a scan."""
     if settings.energy == "MINIMUM_VARIATION":
         return "Set Fairness to Bending, or to Curvature with Tension."
     help_by = [] if settings.energy == "THIN_PLATE" else ["set Fairness to Bending"]
     if _may_be_tauter(settings):
         help_by.insert(0, "raise Tension")
-    if settings.interpolation == "EXACT":
+    if is_fit:
+        help_by.append("draw the cage nearer to the scan")
+    elif settings.interpolation == "EXACT":
         help_by.append("set Vertices to Limit or Near")
     help_by.append("add vertices there")
     words = listed(help_by, "or")

@@ -259,7 +259,9 @@ class Job(TimedRun):
     def warnings(self) -> list[str]:
         sentences = run_warnings(self.name, self.result.report, self.settings.energy)
         if self.faults.counts:
-            sentences.append(errors.faults_text(self.name, self.faults.counts, self.settings))
+            sentences.append(
+                errors.faults_text(self.name, self.faults.counts, self.settings, self.kind == "FIT")
+            )
         return sentences
 
 

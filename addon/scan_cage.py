@@ -54,7 +54,7 @@ def make_cage(context: Context, near: Sequence[Object], faces: int) -> MadeCage:
     scan = read_scans(context, near)
     names = ", ".join(scan.name for scan in near)
     scans.require_finite(scan.points, names)  # QuadriFlow does not end then
-    if 0 < len(scan.points) < LEAST_CAGE_FACES:
+    if len(scan.points) < LEAST_CAGE_FACES:
         raise JobError(
             f"{names}: Select a scan. This mesh has {counted(len(scan.points), 'point')}, and a cage at least"
             f" {LEAST_CAGE_FACES} faces."

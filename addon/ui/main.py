@@ -187,7 +187,8 @@ def _draw_places(layout: bpy.types.UILayout, memory: FAIRING_PG_surface) -> None
     is_faulty = any(FAULTS[kind] in attributes for kind in counts)
     if is_faulty:
         summary = errors.faults_summary(counts)
-        draw_notice(layout, f"T{summary[1:]}. {errors.faults_remedy(memory)}")
+        is_fit = len(target.discrete_fairing_fit.scans) > 0
+        draw_notice(layout, f"T{summary[1:]}. {errors.faults_remedy(memory, is_fit)}")
     if is_faulty or NO_POINTS in attributes:
         layout.operator("object.fairing_select_faults", icon="RESTRICT_SELECT_OFF")
 

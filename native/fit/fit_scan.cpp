@@ -76,7 +76,8 @@ void warn_of_fit(const FitReport& fit, double tolerance, Report& report) {
         {"MOSTLY_UNCOVERED",
          {"The scan has points over " + std::to_string(int(100 * covered)) +
               " % of the control mesh only.",
-          "Draw the control mesh nearer to the scan, or leave out what is not scanned."},
+          "Draw the control mesh nearer to the scan, in the same unit, or leave out what is not "
+          "scanned."},
          {}});
 }
 

@@ -8,7 +8,7 @@ import pytest
 from fake_layout import draw
 from live_scenes import follow
 from mathutils import Matrix
-from scans import blob_cage, blob_scan
+from scans import blob_cage, blob_scan, cube_sphere, on_blob
 from scenes import (
     CUBE,
     activate,
@@ -159,7 +159,20 @@ def test_what_cannot_be_fitted_is_said():
     refused("Line: Draw a cage over it", bpy.ops.object.fairing_fit)
     activate(add("Box", *CUBE))
     refused("Box: Select a scan. This mesh has 8 points", bpy.ops.object.fairing_fit)
-    assert len(bpy.data.objects) == count + 4
+    activate(add("Bare", [], []))
+    refused("Bare: Select a scan. This mesh has 0 points", bpy.ops.object.fairing_fit)
+    assert len(bpy.data.objects) == count + 5
+
+
+def test_a_surface_that_crosses_itself_near_a_scan_asks_for_a_nearer_cage(capsys):
+    vertices, faces = blob_cage(6, 0.02)
+    cage = add("Cage", (3 * vertices).tolist(), faces.tolist())
+    sphere, quads = cube_sphere(40)
+    scan = add("Scan", on_blob(sphere * [1.9, 1.2, 1.1]).tolist(), quads.tolist())
+    fit(scan, cage)
+    for said in (capsys.readouterr().out, " ".join(draw(VIEW3D_PT_fairing))):
+        assert "crosses itself" in said and "draw the cage nearer to the scan" in said
+        assert "set Vertices" not in said
 
 
 def test_a_scan_that_is_inside_out_is_said(capsys):
