@@ -6,6 +6,7 @@ from difflib import SequenceMatcher
 
 import numpy as np
 
+from .. import core
 from .offsets import Offset, Offsets, is_buttock, is_diagonal, is_sharp, is_waterline
 
 
@@ -82,23 +83,20 @@ def _sharp_middle(
             unknown.add(middle)
         else:
             known.add(middle)
-    return found | _between_sharp(unknown, found | knuckles, known)
+    return found | _between_sharp(len(places), unknown, found | knuckles, known)
 
 
 def _between_sharp(
-    unknown: set[frozenset[int]], sharp: set[frozenset[int]], smooth: set[frozenset[int]]
+    count: int,
+    unknown: set[frozenset[int]],
+    sharp: set[frozenset[int]],
+    smooth: set[frozenset[int]],
 ) -> set[frozenset[int]]:
     """The runs of `unknown` edges, beside triangles, that join `sharp` edges and no `smooth` one."""
-    found, left = set(), set(unknown)
-    while left:
-        run = {left.pop()}
-        while more := {edge for edge in left if any(edge & other for other in run)}:
-            run |= more
-            left -= more
-        ends = frozenset().union(*run)
-        if any(edge & ends for edge in sharp) and not any(edge & ends for edge in smooth):
-            found |= run
-    return found
+    pairs = np.array([[*edge] for edge in unknown], np.int64).reshape(-1, 2)
+    run = core.module().patches.connected_parts(count, pairs).tolist()
+    at_sharp, at_smooth = ({run[v] for edge in of for v in edge} for of in (sharp, smooth))
+    return {edge for edge in unknown if run[min(edge)] in at_sharp - at_smooth}
 
 
 def _sides(face: list[int]) -> list[frozenset[int]]:

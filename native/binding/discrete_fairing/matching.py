@@ -251,9 +251,8 @@ class _Face:
 
     def side_ids(self, k: int) -> np.ndarray:
         """(n + 1,): ids along side k, from its first corner."""
-        u, v = _along(self.lattice, k)
-        on = np.flatnonzero(v == 0)
-        return np.asarray(self.ids[on[np.argsort(u[on])]])
+        begin, end = self.lattice.corners[[k, (k + 1) % self.lattice.size]]
+        return np.asarray(self.ids[np.r_[begin, self.lattice.sides[k], end]])
 
 
 def _closed_faces(found: dict[str, Any], n: int) -> list[_Face]:
@@ -266,15 +265,6 @@ def _closed_faces(found: dict[str, Any], n: int) -> list[_Face]:
             ids[lattice.cells] = cells
             out.append(_Face(lattice, ids, ids[lattice.corners].tolist()))
     return out
-
-
-def _along(lattice: Lattice, side: int) -> tuple[np.ndarray, np.ndarray]:
-    """Steps along this side, in a triangle from the foot of the median, and steps across it."""
-    i, j, n = lattice.i, lattice.j, lattice.n
-    if lattice.quad:
-        return [(i, j), (j, n - i), (n - i, n - j), (n - j, i)][side]
-    k, r = [(i, j), (j, n - i - j), (n - i - j, i)][side]
-    return k + r / 2, r
 
 
 def _chosen(
