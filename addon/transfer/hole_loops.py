@@ -28,9 +28,7 @@ def unclear_edges(
     if not left:
         return []
     shared = np.add.reduceat(uses[arrays.corner_edges] > 1, arrays.offsets[:-1]) > 0
-    beside = marked(
-        arrays.corner_edges[np.repeat(shared & ~gone, arrays.face_sizes)], len(arrays.edges)
-    )
+    beside = marked(arrays.corner_edges[(shared & ~gone)[arrays.face_of]], len(arrays.edges))
     return [_side(arrays, e) for e in left if beside[e]]
 
 
@@ -40,10 +38,8 @@ def _side(arrays: core.ControlArrays, edge: int) -> Side:
 
 def _uses(arrays: core.ControlArrays, gone: np.ndarray) -> np.ndarray:
     """(e,) number of faces at each edge, without those that are `gone`."""
-    corners = arrays.corner_edges
-    if gone.any():
-        corners = corners[np.repeat(~gone, arrays.face_sizes)]
-    return np.bincount(corners, minlength=len(arrays.edges))
+    left = arrays.corner_edges[~gone[arrays.face_of]]
+    return np.bincount(left, minlength=len(arrays.edges))
 
 
 def sides_of(loop: list[int]) -> Iterable[Side]:
@@ -54,20 +50,13 @@ def where_faces_were(
     arrays: core.ControlArrays, gone: np.ndarray, loops: list[list[int]]
 ) -> list[list[list[int]]]:
     """The loops around each connected part of the deleted faces: its rim, the longest, then islands."""
-    faces = np.flatnonzero(gone).tolist()
-    edges_of = {f: arrays.corner_edges[arrays.offsets[f] : arrays.offsets[f + 1]] for f in faces}
-    faces_at: dict[int, list[int]] = {}
-    for face, edges in edges_of.items():
-        for edge in edges.tolist():
-            faces_at.setdefault(edge, []).append(face)
-    pairs = [pair for at in faces_at.values() for pair in zip(at, at[1:], strict=False)]
-    part_of = core.module().patches.connected_parts(len(gone), np.array(pairs, np.int64)).tolist()
-    uses = arrays.edge_uses
-    rim = {
-        frozenset(arrays.edges[edge].tolist()): part_of[at[0]]
-        for edge, at in faces_at.items()
-        if len(at) < uses[edge]
-    }
+    corners = np.flatnonzero(gone[arrays.face_of])
+    corners = corners[np.argsort(arrays.corner_edges[corners], kind="stable")]
+    edge, face = arrays.corner_edges[corners], arrays.face_of[corners]
+    pairs = np.stack([face[:-1], face[1:]], axis=1)[edge[:-1] == edge[1:]]
+    part = core.module().patches.connected_parts(len(gone), pairs)[face]
+    on_rim = (_uses(arrays, gone) > 0)[edge]
+    rim = {_side(arrays, e): p for e, p in zip(edge[on_rim].tolist(), part[on_rim].tolist())}
     holes: dict[int, list[list[int]]] = {}
     for loop in loops:
         part = next((rim[side] for side in sides_of(loop) if side in rim), None)

@@ -10,7 +10,7 @@ from ..inspection import display, viewport_shading
 from ..inspection.display import VALUES
 from ..inspection.materials import STRIPES
 from ..inspection.settings import MODES
-from .layout import Sidebar, draw_notice
+from .layout import Sidebar, draw_notice, split
 
 
 class VIEW3D_PT_fairing_inspect(Sidebar, bpy.types.Panel):
@@ -24,8 +24,7 @@ class VIEW3D_PT_fairing_inspect(Sidebar, bpy.types.Panel):
             target = None
         mode = target.discrete_fairing_inspection.mode if target is not None else "NONE"
         _draw_modes(layout, mode)
-        layout.use_property_split = True
-        layout.use_property_decorate = False
+        split(layout)
         if mode != "NONE":
             if not viewport_shading.shows(context.space_data, mode):
                 draw_notice(layout, "Switch this viewport to Material Preview to see it", "INFO")

@@ -37,6 +37,13 @@ class Folded(Sidebar):
     bl_options = {"DEFAULT_CLOSED"}
 
 
+def split(layout: Any) -> Any:
+    """The layout with the names of properties in a column of their own."""
+    layout.use_property_split = True
+    layout.use_property_decorate = False
+    return layout
+
+
 def draw_notice(layout: bpy.types.UILayout, text: str, icon: Any = "ERROR") -> None:
     """Sentences, broken into lines, since Blender's labels do not wrap."""
     box = layout.box().column(align=True)
@@ -166,8 +173,7 @@ FOLDED = (
 
 def draw_settings(layout: bpy.types.UILayout, settings: FairingSettings, identifier: str) -> None:
     """All settings, the rare ones folded; Blender stores under `identifier` which are open."""
-    layout.use_property_split = True
-    layout.use_property_decorate = False
+    split(layout)
     draw_job(layout, settings)
     draw_shape(layout, settings)
     draw_folded(layout, settings, identifier)

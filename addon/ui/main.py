@@ -33,6 +33,7 @@ from .layout import (
     draw_job,
     draw_notice,
     draw_shape,
+    split,
 )
 from .live import draw_live, draw_stale, draw_stale_surfaces
 from .pictures import PRESETS, draw_pictures, draw_purposes
@@ -71,7 +72,7 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
         VIEW3D_PT_fairing_presets.draw_panel_header(self.layout)
 
     def draw(self, context: Context) -> None:
-        layout = _split(self.layout)
+        layout = split(self.layout)
         if core.why_missing():
             draw_notice(layout, core.why_missing())
             return
@@ -292,12 +293,6 @@ def missing_groups(settings: FairingSettings, sources: list[Object]) -> Remarks:
         if lacking:
             found[setting] = [f"Not in {lacking[0]}"]
     return found
-
-
-def _split(layout: bpy.types.UILayout) -> bpy.types.UILayout:
-    layout.use_property_split = True
-    layout.use_property_decorate = False
-    return layout
 
 
 def _draw_source(layout: bpy.types.UILayout, memory: FAIRING_PG_surface) -> None:

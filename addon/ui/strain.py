@@ -12,16 +12,14 @@ from ..strain.drawn import magnification
 from ..strain.strained import Strained
 from ..strain.words import looks_like_knuckle
 from ..units import Units
-from .layout import Folded, draw_notice
+from .layout import Folded, draw_notice, split
 
 
 class VIEW3D_PT_fairing_strain(Folded, bpy.types.Panel):
     bl_label = "Strain"
 
     def draw(self, context: Context) -> None:
-        layout: Any = self.layout
-        layout.use_property_split = True
-        layout.use_property_decorate = False
+        layout = split(self.layout)
         source = active_source(context)
         if source is None:
             layout.operator("object.fairing_strain")
