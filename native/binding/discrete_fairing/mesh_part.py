@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A mesh, or a part of one with the ids of the whole, for fillings; and angles between vectors."""
+"""A mesh, or a part of one with the ids of the whole, for fillings, cleaning and pieces; and angles between vectors."""
 
 from __future__ import annotations
 

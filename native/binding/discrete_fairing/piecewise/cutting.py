@@ -10,9 +10,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import _native
-from ..arrays import face_arrays, faces_by_vertex, ranges, shape_array, vertex_array
+from ..arrays import face_arrays, ranges, shape_array, vertex_array
 from ..converters import whole
 from ..errors import fairing_error
+from ..mesh_part import MeshPart
 from ..options import Settings
 from .outline import Outline
 from .piece import Piece
@@ -82,9 +83,7 @@ class Cutter:
         self.count = int(labels.max()) + 1
         self.vertex_owner = outline.vertex_owner(labels)
         self.edge_owner = outline.edge_owner(labels)
-        self.faces_at, self.at = faces_by_vertex(
-            outline.corners, outline.offsets, outline.input_vertices
-        )
+        self.mesh = MeshPart.of(outline.vertices, outline.corners, outline.offsets)
         control = outline.control
         self.control_at = np.searchsorted(control.polygon, np.arange(outline.polygon_count + 1))
         self.curve_of = np.full(len(outline.edge), -1, np.int64)
@@ -102,12 +101,10 @@ class Cutter:
 
     def with_rings(self, polygons: np.ndarray) -> np.ndarray:
         """These faces and the rings of faces around them, ascending."""
-        outline, found, front = self.outline, [polygons], polygons
+        found, front = [polygons], polygons
         self.reached[polygons] = True
         for _ in range(self.rings):
-            corners = outline.corners[ranges(outline.offsets[front], outline.offsets[front + 1])]
-            around = np.unique(corners)
-            near = np.unique(self.faces_at[ranges(self.at[around], self.at[around + 1])])
+            near = self.mesh.faces_at(np.unique(self.mesh.corners_at(front)))
             front = near[~self.reached[near]]
             if not len(front):
                 break
@@ -130,9 +127,8 @@ class Cutter:
     def piece(self, index: int) -> Piece:
         outline = self.outline
         polygon = self.with_rings(np.flatnonzero(self.labels == index))
-        starts, ends = outline.offsets[polygon], outline.offsets[polygon + 1]
-        corners = outline.corners[ranges(starts, ends)]
-        vertex_id = np.unique(corners)
+        part = self.mesh.part(polygon)
+        vertex_id = part.vertex_ids
         self.local[vertex_id] = np.arange(len(vertex_id))
         rows = ranges(self.control_at[polygon], self.control_at[polygon + 1])
         control = outline.control.take(rows)
@@ -140,10 +136,10 @@ class Cutter:
         of_edges, curves = self.edges_of(control.edge)
         return Piece(
             index=index,
-            vertices=outline.vertices[vertex_id],
+            vertices=part.points,
             shapes=np.ascontiguousarray(outline.shapes[:, vertex_id]),
-            corners=self.local[corners],
-            offsets=np.concatenate([[0], np.cumsum(ends - starts)]),
+            corners=part.corners,
+            offsets=part.offsets,
             settings=self.settings.of(vertex_id, polygon) | of_edges,
             of_whole={"units": list(outline.units), **curves},
             vertex_id=vertex_id,
