@@ -46,7 +46,8 @@ def whole(positions: np.ndarray, corners: np.ndarray, offsets: np.ndarray) -> Wh
     image = np.arange(len(half))
     sides = np.flatnonzero(~middle)
     image[sides] = len(half) + np.arange(len(sides))
-    turned = _turned(corners, offsets)
+    # from the same first corners, so that both sides are cut into triangles alike
+    turned = corners[module().arrays.backwards(offsets)]
     mirrored = half[sides] * [1.0, -1.0, 1.0]
     caps = [list(dict.fromkeys((w, v, image[v], image[w]))) for v, w in rim.tolist()]
     all_corners = [corners, image[turned], *(np.array(cap) for cap in caps)]
@@ -61,13 +62,6 @@ def whole(positions: np.ndarray, corners: np.ndarray, offsets: np.ndarray) -> Wh
         np.arange(len(all_sizes)) >= 2 * len(sizes),
         edges,
     )
-
-
-def _turned(corners: np.ndarray, offsets: np.ndarray) -> np.ndarray:
-    """The reversed faces with the same first corners, so that both sides are cut into triangles alike."""
-    sizes = np.repeat(np.diff(offsets), np.diff(offsets))
-    starts = np.repeat(offsets[:-1], np.diff(offsets))
-    return corners[starts + (starts - np.arange(len(corners))) % sizes]
 
 
 def _require_ends(rim: np.ndarray, middle: np.ndarray) -> None:

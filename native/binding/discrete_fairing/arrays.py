@@ -97,6 +97,19 @@ def polygon_list(faces: Sequence[Sequence[int]]) -> tuple[np.ndarray, np.ndarray
     return np.concatenate(parts) if parts else np.empty(0, np.int64), offsets
 
 
+def marked(ids: np.ndarray, count: int) -> np.ndarray:
+    """(count,) bool: the elements with these ids."""
+    found = np.zeros(count, bool)
+    found[ids] = True
+    return found
+
+
+def backwards(offsets: np.ndarray) -> np.ndarray:
+    """(c,) the corners of all faces in the opposite order, from the same first ones."""
+    starts, sizes = (np.repeat(of, np.diff(offsets)) for of in (offsets[:-1], np.diff(offsets)))
+    return starts + (starts - np.arange(int(offsets[-1]))) % sizes
+
+
 def following(offsets: np.ndarray) -> np.ndarray:
     """(c,) the next corner around the face, for each corner. No face may be empty."""
     after = np.arange(1, int(offsets[-1]) + 1)

@@ -9,7 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
-from .arrays import faces_by_vertex, fans, ranges
+from .arrays import faces_by_vertex, fans, marked, ranges
 
 
 @dataclass(frozen=True)
@@ -37,9 +37,7 @@ class MeshPart:
 
     def touching(self, vertices: np.ndarray) -> np.ndarray:
         """(f,) ids of the faces with one of these vertices."""
-        marked = np.zeros(len(self.points), bool)
-        marked[vertices] = True
-        at = np.flatnonzero(marked[self.corners])
+        at = np.flatnonzero(marked(vertices, len(self.points))[self.corners])
         return np.unique(np.searchsorted(self.offsets, at, side="right") - 1)
 
     def faces_at(self, vertices: np.ndarray) -> np.ndarray:

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .arrays import following
+from .arrays import following, marked
 
 _CORNER = 2 * np.sin(np.pi / 8)  # distance of two unit vectors that turn by 45°
 
@@ -24,8 +24,7 @@ class Stars:
         uses = np.diff(first, append=len(keys))
         edges = np.stack([keys[first] // count, keys[first] % count], axis=1)
         border = uses == 1
-        on_border = np.zeros(count, bool)
-        on_border[edges[border].ravel()] = True
+        on_border = marked(edges[border], count)
         start, end = np.concatenate([edges, edges[:, ::-1]]).T
         along = ~on_border[start] | np.tile(border, 2)
         start, end = start[along], end[along]

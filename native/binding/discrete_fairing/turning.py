@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from .arrays import marked
 from .borders import Border, Foot, across, dot
 
 # Steps of conjugate gradients, and the relative residual at which they end.
@@ -33,8 +34,7 @@ class Angles:
         where = np.full(len(own.slot), -1)
         where[ids] = np.arange(len(ids))
         self.count = len(own.point)
-        self.inside = np.zeros(self.count, bool)
-        self.inside[own.ends[1, own.links[:, 1] >= 0]] = True
+        self.inside = marked(own.ends[1, own.links[:, 1] >= 0], self.count)
         self.units = [1, reach][: len(profiles)]
         self.profiles = [profile / unit for profile, unit in zip(profiles, self.units)]
         self.rows, self.weights = shares[0], self._from_lines(*shares)

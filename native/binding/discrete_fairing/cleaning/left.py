@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import _native
-from ..arrays import face_arrays, vertex_array
+from ..arrays import face_arrays, marked, vertex_array
 from ..checking import Defect, check
 from .state import State
 
@@ -37,8 +37,7 @@ def _defects(state: State) -> list[Defect]:
     """The defects that check() finds. Coincident points count only at borders; elsewhere parts touch."""
     found = check(state.points, (state.corners, state.offsets))
     sides = state.sides
-    border = np.zeros(len(state.points), bool)
-    border[sides.ends[sides.at_border]] = True
+    border = marked(sides.ends[sides.at_border], len(state.points))
     return [
         d
         for d in found

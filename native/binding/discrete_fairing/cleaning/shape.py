@@ -5,8 +5,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..arrays import ranges
-from ..mesh_part import angles_between
+from ..arrays import marked, ranges
+from ..mesh_part import MeshPart, angles_between
 from .state import State
 
 # Times that vertices move to their neighbours' mean; spikes of several vertices need more.
@@ -24,16 +24,14 @@ def flattened(
     cone. Vertices `fixed`, (n,) bool, stay. `filled`: only the rims of filled holes are
     examined again, where folded faces need not agree around others.
     """
-    rim = np.zeros(len(state.points), bool)
     lone = state.sides.uses[state.sides.edge] != 2
-    rim[state.sides.ends[lone]] = True
+    rim = marked(state.sides.ends[lone], len(state.points))
+    mesh = MeshPart.of(state.points, state.corners, state.offsets)
     free = ~rim & ~fixed
     points = state.points.copy()
     near = np.arange(len(state.face_origin))
     if filled:
-        fresh = np.zeros(len(points), bool)
-        fresh[state.corners[np.repeat(state.face_origin < 0, np.diff(state.offsets))]] = True
-        near = _around(state, fresh)
+        near = _around(mesh, mesh.corners_at(np.flatnonzero(state.face_origin < 0)))
     tips = np.zeros(len(points), bool)
     folded: np.ndarray = np.empty(0, np.int64)
     for turn in range(ROUNDS):
@@ -52,7 +50,7 @@ def flattened(
         if not bad.any():
             break
         points = in_the_middle(state, points, bad)
-        near = _around(state, bad)
+        near = _around(mesh, bad)
     if (points == state.points).all():
         return state, 0, 0
     moved = (points != state.points).any(axis=1)
@@ -127,15 +125,9 @@ class _Fans:
         return self._corner[np.repeat(chosen, self._sizes)]
 
 
-def _around(state: State, vertices: np.ndarray) -> np.ndarray:
-    """Ids of the faces at the neighbours of `vertices`, (n,) bool."""
-    face_of = state.face_of
-    for _ in range(2):
-        faces = np.zeros(len(state.face_origin), bool)
-        faces[face_of[vertices[state.corners]]] = True
-        vertices = np.zeros(len(vertices), bool)
-        vertices[state.corners[faces[face_of]]] = True
-    return np.flatnonzero(faces)
+def _around(mesh: MeshPart, vertices: np.ndarray) -> np.ndarray:
+    """Ids of the faces at the neighbours of `vertices`, ids or (n,) bool."""
+    return mesh.touching(mesh.corners_at(mesh.touching(vertices)))
 
 
 def in_the_middle(

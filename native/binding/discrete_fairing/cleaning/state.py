@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..arrays import face_vectors, fans, following
+from ..arrays import backwards, face_vectors, fans, following, marked
 from ..patches import connected_parts
 
 
@@ -72,13 +72,8 @@ class State:
 
     def turned(self, faces: np.ndarray) -> State:
         """The state with these faces (ids) reversed; their first corners stay first."""
-        at = np.arange(len(self.corners))
-        chosen = np.zeros(len(self.face_origin), bool)
-        chosen[faces] = True
-        rows = np.flatnonzero(np.repeat(chosen, np.diff(self.offsets)))
-        face = self.face_of[rows]
-        first, last = self.offsets[face], self.offsets[face + 1]
-        at[rows] = np.where(rows == first, rows, first + last - rows)
+        chosen = marked(faces, len(self.face_origin))[self.face_of]
+        at = np.where(chosen, backwards(self.offsets), np.arange(len(self.corners)))
         return self.replaced(corners=self.corners[at], corner_origin=self.corner_origin[at])
 
     def replaced(self, **arrays: np.ndarray) -> State:
@@ -109,9 +104,7 @@ class State:
 
     def compact(self) -> tuple[State, np.ndarray]:
         """The state without vertices that have no face, new vertices last; and (n,) the new ids."""
-        used = np.zeros(len(self.points), bool)
-        used[self.corners] = True
-        order = np.flatnonzero(used)
+        order = np.flatnonzero(marked(self.corners, len(self.points)))
         order = order[np.argsort(self.vertex_origin[order] < 0, kind="stable")]
         number = np.full(len(self.points), -1)
         number[order] = np.arange(len(order))

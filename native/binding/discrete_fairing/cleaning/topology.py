@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from .. import _native
+from ..arrays import marked
 from ..edge_cuts import Cuts, cuts_for, pieces
 from .state import State, all_pairs, numbered_parts
 
@@ -42,9 +43,7 @@ def without_copies(state: State) -> tuple[State, int]:
     _, group = np.unique(triangles, axis=0, return_inverse=True)
     first = np.full(len(group), count)
     np.minimum.at(first, group.ravel(), owner)
-    new = np.zeros(count, bool)
-    new[owner[first[group.ravel()] == owner]] = True
-    gone = ~new[part]
+    gone = ~marked(owner[first[group.ravel()] == owner], count)[part]
     return (state.without(gone), int(gone.sum())) if gone.any() else (state, 0)
 
 
@@ -110,8 +109,7 @@ def without_fins(state: State) -> tuple[State, int]:
     part, count = numbered_parts(state, sides.pairs)
     of_side = part[state.face_of]
     area = np.bincount(part, np.linalg.norm(state.face_vectors, axis=1), count)
-    ends = np.zeros(count, bool)
-    ends[of_side[sides.at_border]] = True
+    ends = marked(of_side[sides.at_border], count)
     ends[np.argmax(area)] = False
     left = sides.uses.copy()
     crowded = sides.uses[sides.edge] > 2
@@ -246,12 +244,8 @@ def vertices_split(state: State, every: bool) -> tuple[State, int]:
 def _heals(state: State, pairs: np.ndarray, fan: np.ndarray, leads: np.ndarray) -> np.ndarray:
     """(n,) whether all fans at a vertex end in borders and belong to one part."""
     sides = state.sides
-    paired = np.zeros(len(fan), bool)
-    paired[pairs] = True
-    open_ = np.zeros(len(fan), bool)
-    lone = np.flatnonzero(~paired)
-    open_[fan[lone]] = True
-    open_[fan[sides.next[lone]]] = True
+    lone = np.flatnonzero(~marked(pairs, len(fan)))
+    open_ = marked(fan[np.concatenate([lone, sides.next[lone]])], len(fan))
     heals = np.ones(len(state.points), bool)
     heals[state.corners[leads[~open_[leads]]]] = False
     heals[sides.ends[sides.uses[sides.edge] > 2]] = False

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from .. import _native
+from ..arrays import marked
 from ..converters import whole
 from ..errors import fairing_error
 from ..options import ONE_A_VERTEX, SETTINGS, native_options
@@ -82,13 +83,12 @@ class PieceSettings:
         self.sharp_edges = np.asarray(edges, np.int64).reshape(-1, 2)
         self.sharpness = np.asarray(sharpness, float)
         self.local = np.full(count, -1, np.int64)  # scratch
-        self.corner = np.zeros(count, bool)
-        self.corner[np.asarray(options.corner_vertices, np.int64)] = True
+        self.corner = marked(np.asarray(options.corner_vertices, np.int64), count)
         self.of_faces: dict[str, np.ndarray] = {}
         for name in ("region", "flat_faces"):
             if settings.get(name) is not None:
-                self.of_faces[name] = np.zeros(outline.polygon_count, bool)
-                self.of_faces[name][np.asarray(getattr(options, name), np.int64)] = True
+                ids = np.asarray(getattr(options, name), np.int64)
+                self.of_faces[name] = marked(ids, outline.polygon_count)
 
     def of(self, vertex_id: np.ndarray, polygon: np.ndarray) -> dict[str, Any]:
         """Settings of the piece with these vertices and faces of the whole, without those of edges."""
