@@ -32,7 +32,7 @@ def summary(jobs: Sequence[PatchJob], unit: str, scale: float) -> str:
     farthest = max(jobs, key=lambda job: job.apart or 0.0)
     return (
         words.summary(
-            sum(len(job.patches) for job in jobs),
+            sum(len(job.patches.written) for job in jobs),
             max(job.from_surface for job in jobs) * factor,
             max(job.known_to for job in jobs) * factor,
             symbol,

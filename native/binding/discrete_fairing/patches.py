@@ -177,6 +177,12 @@ class SplinePatches:
         self.loop_forward = np.array([not forward for _, forward in steps], bool)
 
     @property
+    def written(self) -> np.ndarray:
+        """(k,) int64: the patches that are faces of a CAD file; of those in one plane the first."""
+        first = np.unique(self.patch_plane, return_index=True)[1]
+        return np.union1d(np.flatnonzero(self.patch_plane < 0), first)
+
+    @property
     def off(self) -> np.ndarray:
         """(P,) float64, mesh units: the largest distance of each patch from the fair surface."""
         return self._fit + self.refinement_error

@@ -147,8 +147,7 @@ class _Writer:
         outward = _outward(patches)
         shells: list[list[int]] = [[] for _ in patches.shell_closed]
         faces = []
-        written = _written(patches.patch_plane)
-        for p in written:
+        for p in patches.written.tolist():
             shell = patches.patch_shell[p]
             face = self._face if patches.patch_plane[p] < 0 else self._flat_face
             faces.append(face(patches, p, edges, bool(outward[shell])))
@@ -160,7 +159,7 @@ class _Writer:
         self._product(title, context, items, patches.shell_closed)
         if colours is not None:
             if colours.ndim > 1:
-                items, colours = faces, colours[written]
+                items, colours = faces, colours[patches.written]
             self._colour(context, items, np.broadcast_to(colours, (len(items), 3)))
 
     def _add(self, entity: str) -> int:
@@ -309,12 +308,6 @@ def _outward(patches: SplinePatches) -> np.ndarray:
         cells = np.cross(a, b) * c + np.cross(a, c) * d
         volume[patches.patch_shell[p]] += cells.sum()
     return ~patches.shell_closed | (volume >= 0)
-
-
-def _written(planes: np.ndarray) -> np.ndarray:
-    """The patches that are written: of those in one plane the first."""
-    _, first = np.unique(planes, return_index=True)
-    return np.flatnonzero((planes < 0) | np.isin(np.arange(len(planes)), first))
 
 
 def _multiplicities(spans: int) -> str:
