@@ -168,9 +168,8 @@ class Fitting {
     });
   }
 
-  // With `spans_u` and `spans_v` spans or, `to_tolerance`, with as many more as it needs. Only `in_all_ways`
-  // are the other ways to fit tried where it misses.
-  void fit_patch_to(std::size_t p, int spans_u, int spans_v, bool to_tolerance, bool in_all_ways) {
+  void fit_patch_to(std::size_t p, int spans_u, int spans_v, bool to_tolerance,
+                    bool all_ways = true) {
     const PatchPlace& place = topology_.patches[p];
     PatchData data = patch_data(lattice_, topology_, place, curves_);
     const FaceSurface surface(Sheet(lattice_, place.grid), topology_);
@@ -186,7 +185,7 @@ class Fitting {
               most_v = std::max(place.most_spans(lattice_, place.grid.rows), spans_v);
     const auto fit = [&](int u, int v, bool last) {
       choose_fitted(lattice_, place, u, v, data);
-      FittedPatch next = fit_patch(data, u, v, last && in_all_ways && !place.several());
+      FittedPatch next = fit_patch(data, u, v, last && all_ways && !place.several());
       // a patch that meets its neighbours better, but turns by more inside, oscillates between its
       // samples
       const bool swings = !to_tolerance && next.turned > std::max(folded / 4, fitted_[p].turned);
@@ -219,8 +218,7 @@ class Fitting {
       if (!which[p]) return;
       fitted_[p] = {};
       settled_[p] = 0;
-      fit_patch_to(p, topology_.patches[p].grid.columns, topology_.patches[p].grid.rows, true,
-                   true);
+      fit_patch_to(p, topology_.patches[p].grid.columns, topology_.patches[p].grid.rows, true);
     });
   }
 
@@ -291,13 +289,13 @@ class Fitting {
   }
 
   // Ends, since a patch has at most `most_spans` in each direction, and each number is tried once.
-  void refine_at_edges(bool in_all_ways) {
-    while (add_spans_at_edges(in_all_ways)) stop_if_cancelled();
+  void refine_at_edges(bool all_ways) {
+    while (add_spans_at_edges(all_ways)) stop_if_cancelled();
   }
 
   // Adds spans where neighbours meet at too large an angle: along their edge if that halves the
   // error, otherwise in both directions. False if nothing changed.
-  bool add_spans_at_edges(bool in_all_ways) {
+  bool add_spans_at_edges(bool all_ways) {
     const std::vector<Directions> wanted = patches_to_refine(
         {lattice_, topology_, curves_, fitted_, workers_}, options_.normal_tolerance);
     std::vector<std::uint8_t> changed(fitted_.size(), 0);
@@ -312,9 +310,9 @@ class Fitting {
       };
       const int more_u = more(spans_u, place.grid.columns), more_v = more(spans_v, place.grid.rows);
       const int u = wanted[p].u ? more_u : spans_u, v = wanted[p].v ? more_v : spans_v;
-      if (u != spans_u || v != spans_v) fit_patch_to(p, u, v, false, in_all_ways);
+      if (u != spans_u || v != spans_v) fit_patch_to(p, u, v, false, all_ways);
       if (fitted_[p].misses > Misses{before.folds, before.by / 2} && (u != more_u || v != more_v))
-        fit_patch_to(p, more_u, more_v, false, in_all_ways);
+        fit_patch_to(p, more_u, more_v, false, all_ways);
       changed[p] = fitted_[p].misses < before;
       settled_[p] = !changed[p];
     });
