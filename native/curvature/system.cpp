@@ -24,7 +24,7 @@ HierarchyOptions hierarchy_options(const Unknowns& unknowns, const GaussNewtonOp
   HierarchyOptions out;
   out.smoother_degree = options.solve.smoother_degree;
   out.always_factor = unknowns.any_vertex;
-  out.cheap_factor = direct_limit_of_steps;
+  out.factors_hard_levels = true;
   out.keeps_factors = keeps_factors;
   // As for the thin plate, the area's share of the diagonal falls from level to level.
   if (options.tension > 0) ++out.settled;

@@ -22,58 +22,28 @@ constexpr double most_rise_between_levels = 2;
 // After a level has become the coarsest, which removes the hardest part.
 constexpr int most_degree_over_factor = 12;
 
-// Most numbers a column in the factor of a narrow level; that of a plate has some 80.
-constexpr std::size_t most_numbers_of_narrow = 20;
-
-// Most numbers in the factor of a level above direct_limit_of_hard: half of those of a level of
-// this size on an even mesh.
-constexpr std::size_t most_factor_numbers = 50 * direct_limit_of_hard;
-
-// The smoother's degree from which factoring a level costs less than smoothing it. It grows with
-// the cost of the factor; from most_degree_of_hard on any factor costs less.
-constexpr int least_degree_of_hard = 8;
-constexpr std::size_t most_degree_of_hard = 60;  // for a factor of 52,000 unknowns
-int degree_of_hard(std::size_t unknowns, bool is_cheap) {
-  const std::size_t for_its_size = is_cheap ? unknowns / 5000 : unknowns / 1000;
-  return int(std::min<std::size_t>(least_degree_of_hard + for_its_size, most_degree_of_hard));
-}
+// The smoother's degree from which factoring a small level costs less than smoothing it.
+constexpr std::size_t least_degree_of_hard = 8;
+// A factor's time grows faster than the level: for so many more unknowns, one degree more.
+constexpr std::size_t unknowns_per_degree = 2500;
 
 }  // namespace
 
-// A narrow level, such as a disc of thin faces around one vertex, has a factor with few numbers at
-// any size; the factor of the level below shows it.
-bool Hierarchy::knows_factor_below(std::size_t index) const {
-  return index == cycle_.base + 1 && cycle_.coarse->direct();
-}
-
-bool Hierarchy::may_factor(std::size_t index, const PcgLimits& limits) const {
-  if (limits.may_end_early) return false;
-  if (unknowns(index) <= direct_limit_of_hard) return true;
-  if (!knows_factor_below(index)) return false;
-  const double growth =
-      double(unknowns(index)) / double(std::max<std::size_t>(unknowns(index - 1), 1));
-  return growth * double(cycle_.coarse->factor_numbers()) <= double(most_factor_numbers);
-}
-
-bool Hierarchy::factors_cheaply(std::size_t index) const {
-  return unknowns(index) <= options_.cheap_factor ||
-         (knows_factor_below(index) &&
-          cycle_.coarse->factor_numbers() <= most_numbers_of_narrow * unknowns(index - 1));
-}
-
 bool Hierarchy::continues(std::size_t index, const PcgResult& so_far, const PcgLimits& limits) {
   if (so_far.iterations % probe_interval == first_probe) raise_degree(so_far, limits);
-  return !is_too_hard(index, limits);
+  return limits.may_end_early || !is_too_hard(index);
 }
 
-bool Hierarchy::fits_factor(std::size_t index, const PcgLimits& limits) const {
-  return may_factor(index, limits) && MemoryLedger::fits(factor_bytes(unknowns(index)));
+bool Hierarchy::may_factor(std::size_t index) const {
+  const std::size_t bytes = factor_bytes(unknowns(index));
+  return options_.factors_hard_levels && unknowns(index) <= direct_limit_of_hard &&
+         MemoryLedger::fits(bytes) && is_expected_memory(3 * bytes / 2);  // with its matrix
 }
 
-// A factor only saves time here. Its matrix needs up to half as much memory again.
-bool Hierarchy::is_too_hard(std::size_t index, const PcgLimits& limits) const {
-  return fits_factor(index, limits) && is_expected_memory(3 * factor_bytes(unknowns(index)) / 2) &&
-         cycle_.degree >= degree_of_hard(unknowns(index), factors_cheaply(index));
+bool Hierarchy::is_too_hard(std::size_t index) const {
+  return std::size_t(cycle_.degree) >=
+             least_degree_of_hard + unknowns(index) / unknowns_per_degree &&
+         may_factor(index);
 }
 
 // Makes this level the coarsest, solved directly.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The operators of all levels, and linear solves on any of them: conjugate gradients around
 // V-cycles, with a direct solve where the cycle ends. It adapts: the smoother has lines where faces
-// are thin, its degree rises if iterations gain little, and a level that stays difficult is
-// factored.
+// are thin, its degree rises if iterations gain little, and under total curvature a level that stays
+// difficult is factored.
 #pragma once
 
 #include <functional>
@@ -28,8 +28,8 @@ struct HierarchyOptions {
   // Whether operators change step by step: a factor of the solved level then remains a
   // preconditioner for as long as it is effective.
   bool keeps_factors = false;
-  // Largest number of unknowns of a level whose factor costs little.
-  std::size_t cheap_factor = direct_limit_of_hard;
+  // Whether a level that stays difficult is factored, if it is not too large.
+  bool factors_hard_levels = false;
   // From this level on (coarsest: 0) the largest eigenvalue is that of the level below, whose edges
   // have eight pieces. (With four it still changes: the smoother then amplified vectors, and a rough
   // sphere took 14 iterations, with eight five.)
@@ -95,12 +95,9 @@ class Hierarchy {
   bool adapts(bool direct) const { return adapts_ && options_.smoother_degree == 0 && !direct; }
   // After each iteration: whether to continue unchanged. Raises the degree.
   bool continues(std::size_t index, const PcgResult& so_far, const PcgLimits& limits);
-  bool is_too_hard(std::size_t index, const PcgLimits& limits) const;
+  bool may_factor(std::size_t index) const;
+  bool is_too_hard(std::size_t index) const;
   void promote_to_coarsest(std::size_t index);
-  bool knows_factor_below(std::size_t index) const;
-  bool may_factor(std::size_t index, const PcgLimits& limits) const;
-  bool fits_factor(std::size_t index, const PcgLimits& limits) const;  // in memory too
-  bool factors_cheaply(std::size_t index) const;
   void raise_degree(const PcgResult& result, const PcgLimits& limits);
 
   Workers& workers_;

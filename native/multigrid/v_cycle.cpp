@@ -113,8 +113,8 @@ bool CoarseSolver::factors() {
   if (factor_->ldlt->info() != Eigen::Success ||
       (factor_->ldlt->vectorD().array() <= 0).count() > system.negative)
     return false;
-  factor_numbers_ = std::size_t(factor_->ldlt->matrixL().nestedExpression().nonZeros());
-  factor_bytes_ = factor_numbers_ * matrix_entry;
+  factor_bytes_ =
+      std::size_t(factor_->ldlt->matrixL().nestedExpression().nonZeros()) * matrix_entry;
   MemoryLedger::add(factor_bytes_);
   return true;
 }

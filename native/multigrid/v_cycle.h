@@ -32,7 +32,6 @@ class CoarseSolver {
 
   std::size_t size() const { return op_.size(); }  // of a vector
   bool direct() const { return factor_ != nullptr; }
-  std::size_t factor_numbers() const { return factor_numbers_; }  // off its diagonal; 0: no factor
 
   // state.x <- (approximately) K^-1 state.residual. The same linear map on every call.
   void solve(const LineJacobi* lines, double largest_eigenvalue, int degree, SmootherState& state);
@@ -50,15 +49,13 @@ class CoarseSolver {
   double trace_;  // added to the diagonal
   std::unique_ptr<Factor> factor_;
   OperatorVersion version_;
-  std::size_t factor_numbers_ = 0, factor_bytes_ = 0;
+  std::size_t factor_bytes_ = 0;
 };
 
 // Largest levels, in unknowns, that are factored: the coarsest; any other, if thin faces make
-// smoothing slow; and of these the ones whose factor is cheap even for one right-hand side. They
-// balance a factor's time, which grows faster than the unknowns, with that of smoothing; the first
-// is small because factoring has one thread.
+// smoothing slow. They balance a factor's time, which grows faster than the unknowns, with that of
+// smoothing; the first is small because factoring has one thread.
 constexpr std::size_t direct_limit = 6000, direct_limit_of_hard = 80000;
-constexpr std::size_t direct_limit_of_steps = 16000;  // 0.3 s a factor
 
 // Approximate size of a factor of so many unknowns of a plate. Minimum degree leaves some 40 + 4
 // log2 n entries a column.
