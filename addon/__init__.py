@@ -18,10 +18,10 @@ def _modules() -> tuple[Any, ...]:
     # isort: off
     from . import properties, memory, curve_cage, preferences
     from .inspection import settings as inspection_settings, overlay, viewport_shading
-    from .strain import settings as strain_settings, known, overlay as strain_overlay
+    from .strain import settings as strain_settings, cache, overlay as strain_overlay
     from .mesh import mesh_changes
     from . import freshness
-    from .live import switch, handlers, kept
+    from .live import switch, handlers, restored
     from .operators import (
         fair, fill_holes, modal, in_place, curves, marks, live, check, joints,
         clean, fit, inspect, offsets, hull, hydrostatics, sections, strain, ease, presets, purposes, step,

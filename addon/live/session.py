@@ -24,8 +24,8 @@ from ..mesh.write import has_faces_of, rebuild_mesh, write_positions
 from ..preferences import preferences
 from ..queue import progress_text
 from ..settings import Settings, halves, is_evaluated
+from .dependencies import Dependencies
 from .full_level import FullLevel, Schedule, is_dragging
-from .others import Others
 from .pace import Deadline, Pace
 from .registry import why_gone
 
@@ -67,7 +67,7 @@ class Session:
         self._arrays: Any = None
         self._settings: Any = None
         self._shape = WorldShape(None)
-        self._others = Others()
+        self._dependencies = Dependencies()
         self._region: np.ndarray | None = None
         self._values: dict[str, np.ndarray] = {}  # from vertex groups
         # of the mesh that the solver was made for, which a drag does not change
@@ -99,7 +99,7 @@ class Session:
         """
         source, target = self._present()
         its = {session_key(source), session_key(source.data)}
-        again = self._others.are_awaited(source, target, moved)
+        again = self._dependencies.are_awaited(source, target, moved)
         if self._stale or self._unseen or again or not its.isdisjoint(reshaped):
             return True
         return not self._has_settings_of(source, target)
@@ -142,9 +142,9 @@ class Session:
             self._settings = Settings.of(target.discrete_fairing)
             self._chosen = _chosen_level(target)
             self._shape = world_shape(source)
-            self._others.read(source, target, self._settings)
-        elif self._others.due and depsgraph is None:
-            self._others.read(source, target, self._settings)
+            self._dependencies.read(source, target, self._settings)
+        elif self._dependencies.due and depsgraph is None:
+            self._dependencies.read(source, target, self._settings)
         with self._mesh_now(source, depsgraph) as mesh:
             arrays = read_mesh(mesh)
             if not self._has_values_of(arrays):
@@ -211,7 +211,7 @@ class Session:
             "step_tolerance": _STEP,
         }
         arguments["energy"] = self._pace.energy(arguments["energy"])
-        arguments |= self._others.arguments
+        arguments |= self._dependencies.arguments
         if (
             self.solver is not None
             and core.are_equal(
@@ -260,7 +260,7 @@ class Session:
             self._settings == Settings.of(target.discrete_fairing)
             and self._chosen == _chosen_level(target)
             and self._shape == world_shape(source)
-            and self._others.are_of(target)
+            and self._dependencies.are_of(target)
         )
 
     def _has_values_of(self, arrays: ControlArrays) -> bool:
@@ -295,7 +295,7 @@ class Session:
 
     def follow_unseen(self) -> None:
         """Follows changes unseen by Blender's update, scans and neighbours; not within one."""
-        if self._unseen or self._others.due:
+        if self._unseen or self._dependencies.due:
             self.follow()
 
     def complete(self, context: Context) -> None:

@@ -19,7 +19,7 @@ from ..mesh.object import why_not_here
 from ..mesh.shape_keys import EASED, key_positions
 from ..mesh.world_shape import transformed, world_matrix
 from ..poll import Reason, of_meshes
-from ..strain import known, table, words
+from ..strain import cache, table, words
 from ..strain.measure import StrainJob
 from ..strain.strained import Strained
 from ..units import Units
@@ -44,13 +44,13 @@ class _Straining(WholeFairing):
     reasons: tuple[Reason, ...] = (can_fair, of_meshes(active_sources))
 
     def make_jobs(self, context: Context) -> list[Any]:
-        return [known.job_for(context, source) for source in active_sources(context)]
+        return [cache.job_for(context, source) for source in active_sources(context)]
 
     def finish(self, context: Context, jobs: Sequence[Any]) -> None:
         for job in jobs:
             if job.reference.find() is None:
                 raise JobError(f"Select once more: {job.name} was deleted during the run")
-            known.keep(job)
+            cache.keep(job)
         self.use(context, list(jobs))
 
     def use(self, context: Context, jobs: list[StrainJob]) -> None:
@@ -165,7 +165,7 @@ class OBJECT_OT_fairing_go_to_strained(Action, bpy.types.Operator):
         if not select_defects(context, source, "vertex", [self.vertex]):
             raise JobError(f"Choose another vertex: {source.name} has no vertex {self.vertex}")
         space = cast(Any, context.space_data)
-        strained = known.found_of(source)
+        strained = cache.found_of(source)
         if space is not None and space.type == "VIEW_3D" and strained is not None:
             place = Vector(strained.positions[self.vertex].tolist())
             space.region_3d.view_location = world_matrix(source) @ place

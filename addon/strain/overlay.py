@@ -21,7 +21,7 @@ from ..live.switch import surfaces_of
 from ..mesh.object import session_key
 from ..mesh.world_shape import world_matrix
 from ..units import Units
-from . import known
+from . import cache
 from .drawn import dots, labels, magnification, needles
 from .strained import Strained
 
@@ -80,9 +80,9 @@ def _seen(space: Any) -> list[tuple[Object, Strained]]:
     """Sources to draw in this viewport: they or surfaces made from them are visible."""
     return [
         (source, strained)
-        for source in known.shown_sources
+        for source in cache.shown_sources
         if source.mode in {"OBJECT", "EDIT"}
-        and (strained := known.found_of(source)) is not None
+        and (strained := cache.found_of(source)) is not None
         and any(o.visible_in_viewport_get(space) for o in (source, *surfaces_of(source)))
     ]
 
@@ -115,7 +115,7 @@ def _draw_source(source: Object, strained: Strained, length: float, view: Any) -
     projection = np.array(view.window_matrix)
     for _ in range(2):  # once more over section curves, one of which is offset towards the eye
         projection = pulled(projection, view.view_distance)
-    opacity = _FAINT if known.is_behind(source) else 1.0
+    opacity = _FAINT if cache.is_behind(source) else 1.0
     gpu.state.blend_set("ALPHA")
     try:
         for test, share in (("NONE", _BEHIND), ("LESS_EQUAL", 1.0)):

@@ -8,11 +8,11 @@ import bpy
 from ..blender import Context
 from ..fields import number, switch, whole
 from ..inspection import overlay
-from . import known
+from . import cache
 
 
 def _show_changed(_group: Any, _context: Context) -> None:
-    known.shown_changed()
+    cache.shown_changed()
     overlay.redraw()
 
 

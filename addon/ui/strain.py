@@ -7,7 +7,7 @@ import bpy
 
 from ..blender import Context, Object
 from ..memory import active_source
-from ..strain import known
+from ..strain import cache
 from ..strain.drawn import magnification
 from ..strain.strained import Strained
 from ..strain.words import looks_like_knuckle
@@ -25,13 +25,13 @@ class VIEW3D_PT_fairing_strain(Folded, bpy.types.Panel):
             layout.operator("object.fairing_strain")
             return
         layout.prop(source.discrete_fairing_strain, "show")
-        strained = known.found_of(source)
+        strained = cache.found_of(source)
         if source.discrete_fairing_strain.show:
             layout.prop(context.scene.discrete_fairing_strain, "needle_length")
             layout.prop(context.scene.discrete_fairing_strain, "label_count")
-        if known.trouble(source):
-            draw_notice(layout, known.trouble(source))
-        elif source.discrete_fairing_strain.show and known.is_behind(source):
+        if cache.trouble(source):
+            draw_notice(layout, cache.trouble(source))
+        elif source.discrete_fairing_strain.show and cache.is_behind(source):
             layout.label(text="Measuring …", icon="SORTTIME")
         if strained is not None:
             _draw_worst(layout, context, source, strained)

@@ -44,7 +44,7 @@ def sheet():
 
 
 def room():
-    return harness.module("strain.known")
+    return harness.module("strain.cache")
 
 
 def until_measured(target):

@@ -12,7 +12,7 @@ from scenes import CUBE, activate, add, fair, positions, recompute, reopen
 
 import addon
 from addon.freshness import UNFINISHED, why_stale
-from addon.live import handlers, kept, registry, switch
+from addon.live import handlers, registry, restored, switch
 from addon.live import session as session_module
 from addon.ui import main
 
@@ -52,7 +52,7 @@ def test_undo_takes_live_along():
     handlers.on_timer()
     assert box_as_it_is()[2] == off and registry.sessions() == []
     bpy.ops.ed.redo()
-    assert kept.resume() is None
+    assert restored.resume() is None
     source, target, again = box_as_it_is()
     assert again == on and target.discrete_fairing_live.on
     pull(source)
@@ -69,13 +69,13 @@ def test_undo_wakes_no_copy_and_no_surface_of_another_file(tmp_path):
     bpy.ops.ed.undo_push(message="copied")
     bpy.ops.ed.undo_push(message="more")
     bpy.ops.ed.undo()
-    kept.resume()
+    restored.resume()
     assert len(registry.sessions()) == 1
     reopen(tmp_path)
     bpy.ops.ed.undo_push(message="opened")
     bpy.ops.ed.undo_push(message="more")
     bpy.ops.ed.undo()
-    kept.resume()
+    restored.resume()
     assert registry.sessions() == []
 
 

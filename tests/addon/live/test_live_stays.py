@@ -6,7 +6,7 @@ import pytest
 from live_scenes import box, live, pull, session, through
 from scenes import CUBE, activate, add, again, positions, reopen
 
-from addon.live import kept
+from addon.live import restored
 
 FRAMES = (1, 11)
 
@@ -60,7 +60,7 @@ def test_files_keep_it_where_it_is_on_in_renders(tmp_path, on):
     target = bpy.data.objects["Box Fair"]
     target.discrete_fairing.source.display_type = "WIRE"
     target.discrete_fairing_live.cage_display = "TEXTURED"
-    kept._restore()
+    restored._restore()
     assert target.discrete_fairing_live.on == on
     assert (target.discrete_fairing.source.display_type == "WIRE") == on
     if on:

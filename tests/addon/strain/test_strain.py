@@ -13,7 +13,7 @@ from fake_layout import draw
 from scenes import CUBE, add, again, computed, fair, refused, settings, snapshot, to_object_mode
 
 from addon.mesh.shape_keys import EASED
-from addon.strain import known
+from addon.strain import cache
 from addon.strain.measure import StrainJob
 from addon.strain.strained import above
 from addon.ui.strain import VIEW3D_PT_fairing_strain
@@ -92,18 +92,18 @@ def test_borders_and_creases_are_those_of_the_surface():
 
 def test_nothing_is_computed_twice(monkeypatch):
     source = add_dune()
-    job = known.job_for(bpy.context, source)
+    job = cache.job_for(bpy.context, source)
     assert job.predicted_seconds > 0.0
     job.compute()
-    known.keep(job)
-    again = known.job_for(bpy.context, source)
+    cache.keep(job)
+    again = cache.job_for(bpy.context, source)
     assert again.result is job.result and again.predicted_seconds == 0.0
     source.location.x = 5.0
-    assert known.job_for(bpy.context, source).result is not None, "the place does not matter"
+    assert cache.job_for(bpy.context, source).result is not None, "the place does not matter"
     source.data.vertices[10].co.z += 0.1
-    assert known.job_for(bpy.context, source).result is None
+    assert cache.job_for(bpy.context, source).result is None
     bpy.context.scene.discrete_fairing.metric_exponent = 0.0
-    assert known.job_for(bpy.context, source).result is None
+    assert cache.job_for(bpy.context, source).result is None
 
 
 def test_selects_the_wrong_one_or_the_worst():
@@ -112,7 +112,7 @@ def test_selects_the_wrong_one_or_the_worst():
     assert bpy.ops.object.fairing_select_strained() == {"FINISHED"}
     assert selected(source) == [WRONG]
     assert bpy.ops.object.fairing_select_strained(by="COUNT", count=4) == {"FINISHED"}
-    found = known.found_of(source)
+    found = cache.found_of(source)
     assert selected(source) == sorted(found.worst(4).tolist())
     to_object_mode()
     after = snapshot(source)
@@ -158,11 +158,11 @@ def test_the_panel_lists_the_worst():
     for show in (True, False):
         assert bpy.ops.object.fairing_strain() == {"FINISHED"}
         assert source.discrete_fairing_strain.show is show
-        assert list(known.shown_sources) == ([source] if show else [])
+        assert list(cache.shown_sources) == ([source] if show else [])
     source.discrete_fairing_strain.show = True
     log = draw(VIEW3D_PT_fairing_strain)
     assert log.count("object.fairing_go_to_strained") == 10
-    assert f"Outliers: 1 of {len(known.found_of(source).held)}" in log
+    assert f"Outliers: 1 of {len(cache.found_of(source).held)}" in log
     assert any("inwards" in line for line in log)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a live surface depends on beside its source: scans and a neighbour."""
+"""The dependencies of a live surface beside its source: scans and a neighbour."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from ..settings import Settings
 from .full_level import is_dragging
 
 
-class Others:
+class Dependencies:
     """Scans and neighbour of one surface as they were read last; nothing until then."""
 
     def __init__(self) -> None:
