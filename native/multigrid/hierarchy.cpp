@@ -161,8 +161,7 @@ bool Hierarchy::solve_by_old_factor(const PcgLimits& limits, const LinearSystem&
   return out.converged;
 }
 
-// If the factor's added trace makes it inaccurate, it is computed again with less. A residual that
-// remains in spite of a factor may be rounding, which iterations do not reduce.
+// A residual that remains in spite of a factor may be rounding, which iterations do not reduce.
 void Hierarchy::solve_direct(CoarseSolver& solver, const PcgLimits& limits,
                              const LinearSystem& system, LevelSolve& out) {
   const std::size_t size = solver.size();
@@ -173,18 +172,14 @@ void Hierarchy::solve_direct(CoarseSolver& solver, const PcgLimits& limits,
   const double begun = norm(workers_, size, r);
   const double scale = limits.from_start ? begun : limits.residual_scale;
   out.converged = begun <= limits.noise;
-  const auto refine = [&] {
-    for (int k = 0; k < refinement_steps && !out.converged; ++k) {
-      solver.solve(r, step.data());
-      for_each_index(workers_, size, [&](std::size_t i) { x[i] += step[i]; });
-      system.residual(x, r);
-      const double now = norm(workers_, size, r);
-      out.residual = limits.relative(now, scale);
-      out.converged = out.residual <= limits.tolerance || now <= limits.noise;
-    }
-  };
-  refine();
-  if (!out.converged && solver.lessen_trace()) refine();
+  for (int k = 0; k < refinement_steps && !out.converged; ++k) {
+    solver.solve(r, step.data());
+    for_each_index(workers_, size, [&](std::size_t i) { x[i] += step[i]; });
+    system.residual(x, r);
+    const double now = norm(workers_, size, r);
+    out.residual = limits.relative(now, scale);
+    out.converged = out.residual <= limits.tolerance || now <= limits.noise;
+  }
   if (!out.converged)
     out.converged = norm(workers_, size, r) <= roundoff_of_terms * solver.norm_of_terms(x);
 }

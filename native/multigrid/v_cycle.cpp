@@ -37,12 +37,11 @@ struct CoarseSolver::Factor {
 
 namespace {
 
-// Traces added to the diagonal, relative to it. A vertex of valence three does not determine some
+// A trace added to the diagonal, relative to it. A vertex of valence three does not determine some
 // coarse waves; a trace well above rounding keeps the factor definite, and the preconditioner as
 // good. Large rings need it too. (More of it there makes the steps worse: thin faces make K
-// ill-conditioned.) Thousands of faces at a vertex are so thin that the usual trace exceeds K on
-// smooth vectors; the least trace is just above rounding.
-constexpr double usual_trace = 1e-12, least_trace = 1e-15;
+// ill-conditioned.)
+constexpr double trace = 1e-12;
 
 // x <- (L D L^T)^-1 x for C right-hand sides together: every number of the factor is read once.
 template <int C, class Ldlt>
@@ -66,7 +65,7 @@ void substitute(const Ldlt& ldlt, double* x) {
   }
 }
 
-void strengthen_diagonal(AssembledSystem& system, double trace) {
+void strengthen_diagonal(AssembledSystem& system) {
   const Eigen::VectorXd diagonal = system.diagonal();
   for (Eigen::Index i = 0; i < diagonal.size(); ++i)
     system.matrix.coeffRef(i, i) += trace * diagonal(i);
@@ -76,14 +75,14 @@ void strengthen_diagonal(AssembledSystem& system, double trace) {
 
 CoarseSolver::CoarseSolver(LevelOperator& op, Workers& workers, std::size_t unknowns,
                            bool always_direct)
-    : op_(op), workers_(workers), trace_(usual_trace) {
+    : op_(op), workers_(workers) {
   if (unknowns > direct_limit && !always_direct) return;
   factor_ = std::make_unique<Factor>();
   refactor();
 }
 
 void CoarseSolver::refactor() {
-  if (!factors() && !(std::exchange(trace_, usual_trace) < usual_trace && factors()))
+  if (!factors())
     throw FairingError(
         ErrorCode::underdetermined,
         {"The surface is not determined: a part of the mesh has too few fixed points.",
@@ -91,15 +90,9 @@ void CoarseSolver::refactor() {
   version_ = op_.version();
 }
 
-bool CoarseSolver::lessen_trace() {
-  if (std::exchange(trace_, least_trace) == least_trace) return false;
-  refactor();
-  return trace_ == least_trace;
-}
-
 bool CoarseSolver::factors() {
   AssembledSystem system = op_.assemble();
-  strengthen_diagonal(system, trace_);
+  strengthen_diagonal(system);
   factor_->points = std::move(system.unknown_points);
   if (factor_->points.empty()) return true;
   // the new factor takes the place of the last one

@@ -26,9 +26,6 @@ class CoarseSolver {
   const OperatorVersion& version() const { return version_; }
   bool is_old() const { return direct() && version_.numbers != op_.version().numbers; }
   void refactor();
-  // For a factor whose solves gain too little: factors again, closer to K. Returns whether it
-  // could.
-  bool lessen_trace();
 
   std::size_t size() const { return op_.size(); }  // of a vector
   bool direct() const { return factor_ != nullptr; }
@@ -46,7 +43,6 @@ class CoarseSolver {
 
   LevelOperator& op_;
   Workers& workers_;
-  double trace_;  // added to the diagonal
   std::unique_ptr<Factor> factor_;
   OperatorVersion version_;
   std::size_t factor_bytes_ = 0;
