@@ -36,7 +36,7 @@ double least_of_good(const std::vector<WeightTrial>& trials, std::size_t points,
       steps += way * (1 - worse[k]) / (worse[k + way] - worse[k]);
     return trials[best].weight * std::pow(ratio, -steps);
   };
-  // V sqrt(w) + B / w^bias is the same at both ends
+  // The error V sqrt(w) + B / w^bias is the same at both ends, which gives B / V.
   const double low = end(1), high = end(-1), rise = std::sqrt(high) - std::sqrt(low),
                fall = std::pow(low, -bias) - std::pow(high, -bias);
   if (!(fall > 0)) return high;
@@ -64,7 +64,8 @@ double WeightChoice::choose(Monitor& monitor, bool is_last) {
   return by_held_out(monitor, is_last);
 }
 
-// The variance grows with the root of the weight over the number of points.
+// Variance grows with the root of the weight over the number of points, so the best weight grows with
+// a power of that number.
 double WeightChoice::more_points(std::size_t points) const {
   if (!is_chosen_by_points_ || trained_points_ == 0) return 1;
   return std::pow(double(points) / double(trained_points_), 1 / (bias_ + 0.5));
@@ -144,12 +145,12 @@ double WeightChoice::by_held_out(Monitor& monitor, bool is_last) {
   const double weight = least_of_good(by_cells, cells.tests.size(), bias_);
   if (!is_last) return weight;
   Place fitted = place();
-  // from a calm surface, which has not seen what a disc hides, and from two weights above that of
-  // the cells on, so that the middle has weights to both sides
+  // From a calm surface, on which points hidden by a disc have not acted; from two weights above that
+  // of the cells on, so that trials lie on both sides of the least error.
   const std::vector<WeightTrial> by_discs = search(ratio * ratio * weight, discs, calm, monitor);
   put(std::move(fitted));
   const double wider = least_of_good(by_discs, tests_of(discs), bias_);
-  if (std::sqrt(ratio) * wider >= weight) return weight;  // as trials know it to half a step
+  if (std::sqrt(ratio) * wider >= weight) return weight;  // known to half a step
   shared_ = shared;
   std::vector<WeightTrial> by_shared = search(fit_.stiffest(), {&cells, 1}, calm, monitor);
   for (std::size_t best = by_shared.size(); best_of(by_shared) < best;) {

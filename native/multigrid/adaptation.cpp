@@ -31,19 +31,20 @@ constexpr std::size_t unknowns_per_degree = 2500;
 
 bool Hierarchy::continues(std::size_t index, const PcgResult& so_far, const PcgLimits& limits) {
   if (so_far.iterations % probe_interval == first_probe) raise_degree(so_far, limits);
-  return limits.may_end_early || !is_too_hard(index);
+  return !is_too_hard(index, limits);
 }
 
-bool Hierarchy::may_factor(std::size_t index) const {
+bool Hierarchy::may_factor(std::size_t index, const PcgLimits& limits) const {
   const std::size_t bytes = factor_bytes(unknowns(index));
-  return options_.factors_hard_levels && unknowns(index) <= direct_limit_of_hard &&
-         MemoryLedger::fits(bytes) && is_expected_memory(3 * bytes / 2);  // with its matrix
+  return options_.factors_hard_levels && !limits.may_end_early &&
+         unknowns(index) <= direct_limit_of_hard && MemoryLedger::fits(bytes) &&
+         is_expected_memory(3 * bytes / 2);  // with its matrix
 }
 
-bool Hierarchy::is_too_hard(std::size_t index) const {
+bool Hierarchy::is_too_hard(std::size_t index, const PcgLimits& limits) const {
   return std::size_t(cycle_.degree) >=
              least_degree_of_hard + unknowns(index) / unknowns_per_degree &&
-         may_factor(index);
+         may_factor(index, limits);
 }
 
 // Makes this level the coarsest, solved directly.

@@ -106,8 +106,8 @@ LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits,
     if (out.converged) return out;
   }
   PcgResult result = iterate(index, limits, system, out);
-  if (!result.converged && limits.may_adapt && !limits.may_end_early && adapts(out.direct) &&
-      (is_too_hard(index) || (result.broke_down && may_factor(index)))) {
+  if (!result.converged && limits.may_adapt && adapts(out.direct) &&
+      (is_too_hard(index, limits) || (result.broke_down && may_factor(index, limits)))) {
     promote_to_coarsest(index);
     solve_direct(*cycle_.coarse, limits, system, out);
     if (out.converged) return out;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The operators of all levels, and linear solves on any of them: conjugate gradients around
 // V-cycles, with a direct solve where the cycle ends. It adapts: the smoother has lines where faces
-// are thin, its degree rises if iterations gain little, and under total curvature a level that stays
+// are thin, its degree rises if iterations gain little, and if options say so, a level that stays
 // difficult is factored.
 #pragma once
 
@@ -95,8 +95,8 @@ class Hierarchy {
   bool adapts(bool direct) const { return adapts_ && options_.smoother_degree == 0 && !direct; }
   // After each iteration: whether to continue unchanged. Raises the degree.
   bool continues(std::size_t index, const PcgResult& so_far, const PcgLimits& limits);
-  bool may_factor(std::size_t index) const;
-  bool is_too_hard(std::size_t index) const;
+  bool may_factor(std::size_t index, const PcgLimits& limits) const;
+  bool is_too_hard(std::size_t index, const PcgLimits& limits) const;
   void promote_to_coarsest(std::size_t index);
   void raise_degree(const PcgResult& result, const PcgLimits& limits);
 

@@ -77,7 +77,9 @@ def _flat_ones(
 
 def _enclosed(found: dict[str, Any], flat: dict[int, _Flat]) -> dict[int, _Flat]:
     """Those between creases, borders and one another: at other edges patches on both sides are compared."""
-    for _ in range(len(flat)):
+    count = len(flat) + 1
+    while len(flat) < count:
+        count = len(flat)
         used = [found["loop_edges"][:0], *(own.outer for own in flat.values())]
         twice = np.bincount(np.concatenate(used), minlength=len(found["edge_kind"])) > 1
         fine = twice | (found["edge_kind"] != SMOOTH)
