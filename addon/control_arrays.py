@@ -8,9 +8,6 @@ import numpy as np
 
 from .choices import EDGE_BOUNDARIES
 
-# half: the cosine of a turn of 60°, above which a border has a corner
-_COSINE_OF_CORNER = 0.5
-
 
 @dataclass(frozen=True)
 class ControlArrays:
@@ -56,69 +53,11 @@ class ControlArrays:
         """(b, 2) int32: vertex pairs of the edges with one face."""
         return self.edges[self.edge_uses == 1]
 
-    @cached_property
-    def faces_of_edges(self) -> np.ndarray:
-        """(e, 2) int32: the two faces of each edge. Only meaningful if `edge_uses` is 2."""
-        pair = np.zeros((len(self.edges), 2), np.int32)
-        pair[self.corner_edges, 1] = self.face_of  # the last assignment wins
-        pair[self.corner_edges[::-1], 0] = self.face_of[::-1]
-        return pair
-
-    @cached_property
-    def edge_lengths(self) -> np.ndarray:
-        """(e,)"""
-        ends = self.positions[self.edges]
-        return np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
-
-    @cached_property
-    def face_vectors(self) -> np.ndarray:
-        """(m, 3) vectors along the normals, with twice the areas as lengths, by Newell's sum."""
-        sums, some = np.zeros((len(self.face_sizes), 3)), self.face_sizes > 0
-        starts = self.offsets[:-1][some]
-        if len(starts):
-            # relative to the first corner of each face, since the sum would lose digits far from the origin
-            points = self.positions[self.corners]
-            local = points - np.repeat(points[starts], self.face_sizes[some], axis=0)
-            sums[some] = np.add.reduceat(np.cross(local, local[self.following]), starts)
-        return sums
-
-    @property
-    def face_areas(self) -> np.ndarray:
-        """(m,)"""
-        return 0.5 * np.linalg.norm(self.face_vectors, axis=1)
-
-    @property
-    def face_normals(self) -> np.ndarray:
-        """(m, 3) unit normals; zero for faces without area."""
-        length = np.linalg.norm(self.face_vectors, axis=1)
-        return self.face_vectors / np.where(length > 0, length, 1.0)[:, None]
-
-    @cached_property
-    def fold_angles(self) -> tuple[np.ndarray, np.ndarray]:
-        """(e,) degrees between each edge's two faces as if oriented alike; (e,) bool: has two."""
-        normals, pair = self.face_normals, self.faces_of_edges
-        if not len(normals):
-            return np.zeros(len(pair)), np.zeros(len(pair), bool)
-        forward = self.edges[self.corner_edges, 0] == self.corners
-        same_way = np.bincount(self.corner_edges, forward, len(self.edges)) != 1
-        first, second = normals[pair[:, 0]], normals[pair[:, 1]]
-        second = np.where(same_way[:, None], -second, second)
-        # from the lengths of sum and difference, since arccos would lose half of its digits near 0°
-        apart = np.linalg.norm(first - second, axis=1)
-        together = np.linalg.norm(first + second, axis=1)
-        inside = (self.edge_uses == 2) & (normals != 0.0).any(axis=1)[pair].all(axis=1)
-        return np.degrees(2.0 * np.arctan2(apart, together)), inside
-
-    @property
-    def face_centres(self) -> np.ndarray:
-        """(m, 3): means of the faces' corners."""
-        sums = np.add.reduceat(self.positions[self.corners], self.offsets[:-1], axis=0)
-        return sums / self.face_sizes[:, None]
-
     @property
     def mean_edge_length(self) -> float:
         """Mean length of the edges with faces; 0 if there are none."""
-        lengths = self.edge_lengths[self.edge_uses > 0]
+        ends = self.positions[self.edges[self.edge_uses > 0]]
+        lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
         return float(lengths.mean()) if len(lengths) else 0.0
 
     def has_faces_of(self, other: "ControlArrays | None") -> bool:
@@ -195,32 +134,6 @@ class ControlArrays:
     def has_face(self) -> np.ndarray:
         """(n,) bool: which vertices belong to faces."""
         return np.bincount(self.corners, minlength=len(self.positions)) > 0
-
-    def border_corners(self) -> np.ndarray:
-        """Corners (c,) int32 of the border. Here the angle of the sheet, over all its faces, is so
-        small that the border turns by more than 60°, and neither border edge has a boundary of its own;
-        or the vertex has a single face and turns as much the other way.
-        """
-        count, corners = len(self.positions), self.corners
-        points = self.positions[corners]
-        ahead = points[self.following] - points
-        back = np.empty_like(ahead)
-        back[self.following] = -ahead
-        across = np.cross(ahead, back)
-        outwards = np.einsum("ij,ij->i", across, self.face_vectors[self.face_of])
-        sines = np.copysign(np.linalg.norm(across, axis=1), outwards)
-        angles = np.arctan2(sines, np.einsum("ij,ij->i", ahead, back))
-        single = np.bincount(corners, minlength=count)[corners] == 1
-        angles = np.where(single, np.abs(angles), angles % (2 * np.pi))
-        angle = np.bincount(corners, angles, minlength=count)
-        # at 120° exactly, rounding would decide
-        turns = (angle < np.arccos(-_COSINE_OF_CORNER) - 1e-9) & np.isin(
-            np.arange(count), self.border_edges
-        )
-        if self.boundary_edge is not None:
-            marked = (self.boundary_edge != 0) & (self.edge_uses == 1)
-            turns &= ~np.isin(np.arange(count), self.edges[marked])
-        return np.flatnonzero(turns).astype(np.int32)
 
 
 def _sharpness(creases: np.ndarray) -> np.ndarray:

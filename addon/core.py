@@ -42,6 +42,12 @@ def lattice(n: int, quad: bool) -> Any:
     return module().lattice.Lattice(n, quad)
 
 
+def measured(arrays: ControlArrays) -> Any:
+    """The package's ControlMesh of these arrays: lengths, areas, angles, and what follows from them."""
+    mesh = arrays.positions, arrays.corners, arrays.offsets, arrays.edges, arrays.corner_edges
+    return module().control_mesh.ControlMesh(*mesh)
+
+
 def why_missing() -> str:
     """Why the core cannot be used, in one sentence; empty if it can."""
     return _load()[1]
@@ -244,13 +250,20 @@ def _corners(
     found = arrays.corner_vertices(crease_threshold)
     if settings.boundary != "CORNERS":
         return found
-    ends = arrays.border_corners()
+    ends = border_corners(arrays)
     # the border does not end at the plane of symmetry
     if settings.symmetry_plane != "NONE" and len(ends):
         near = module().halves.SNAP * np.ptp(arrays.positions, axis=0).max()
         off = np.abs(arrays.positions[ends, "XYZ".index(settings.symmetry_plane)])
         ends = ends[off > near]
     return np.union1d(found, ends)
+
+
+def border_corners(arrays: ControlArrays) -> np.ndarray:
+    """Corners (c,) of the border, except those at edges with a boundary of their own."""
+    own = arrays.boundary_edge
+    marked = np.zeros(len(arrays.edges), bool) if own is None else own != 0
+    return np.asarray(measured(arrays).border_corners(marked))
 
 
 def without_vertices(arguments: dict[str, Any]) -> dict[str, Any]:

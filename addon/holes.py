@@ -94,7 +94,10 @@ class HoleJob(TimedRun):
         """
         if self._editing and self._options.replaces:
             return False
-        least, world = 0 if self._editing else _BY_CHANCE, self.shape.of_arrays(self.arrays)
+        least, world = (
+            0 if self._editing else _BY_CHANCE,
+            core.measured(self.shape.of_arrays(self.arrays)),
+        )
         return all(sum(map(len, hole)) > least and _is_cap(world, hole) for hole in self._holes)
 
     def flatten(self) -> None:
@@ -186,17 +189,17 @@ _BY_CHANCE = 6  # vertices of a rim that may be planar by chance: twice as many 
 _PLANAR = 1e-3  # largest distance of a rim's vertices from its plane, relative to its width
 
 
-def _is_cap(arrays: core.ControlArrays, hole: list[list[int]]) -> bool:
+def _is_cap(mesh: Any, hole: list[list[int]]) -> bool:
     """Whether the rim lies in a plane that the faces around cross at more than 45 degrees on average."""
     ids = [v for loop in hole for v in loop]
-    rim = arrays.positions[ids]
+    rim = mesh.positions[ids]
     away = rim - rim.mean(axis=0)
     _, sizes, ways = np.linalg.svd(away, full_matrices=False)
     if len(sizes) < 3 or np.abs(away @ ways[2]).max() > _PLANAR * np.ptp(away @ ways[0]):
         return False
-    on_rim = marked(ids, len(arrays.positions))
-    around = np.flatnonzero(np.add.reduceat(on_rim[arrays.corners], arrays.offsets[:-1]) >= 2)
-    normals = arrays.face_normals[around]
+    on_rim = marked(ids, len(mesh.positions))
+    around = np.flatnonzero(np.add.reduceat(on_rim[mesh.corners], mesh.offsets[:-1]) >= 2)
+    normals = mesh.face_normals[around]
     return bool(len(around)) and float(np.abs(normals @ ways[2]).mean()) < np.sqrt(0.5)
 
 

@@ -68,7 +68,7 @@ class InPlaceJob(TimedRun):
         self._arguments = self._arguments_of(part.arrays)
         # CORNERS means corners of the mesh; the selection's own do not count
         if settings.boundary == "CORNERS":
-            whole = self.shape.of_arrays(self.arrays).border_corners()
+            whole = core.border_corners(self.shape.of_arrays(self.arrays))
             corners = np.isin(part.vertices, whole)
             given = self._arguments["corner_vertices"]
             self._arguments["corner_vertices"] = np.union1d(given, np.flatnonzero(corners))

@@ -201,7 +201,7 @@ def blocks(
         if own.sum() <= most:
             yield part, own
             continue
-        centres = part.arrays.face_centres
+        centres = core.measured(part.arrays).face_centres
         rows = np.flatnonzero(own)
         axis = int(np.argmax(np.ptp(centres[rows], axis=0)))
         order = rows[np.argsort(centres[rows, axis], kind="stable")]

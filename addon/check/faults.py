@@ -12,7 +12,7 @@ import numpy as np
 from mathutils.bvhtree import BVHTree
 
 from ..blender import Mesh
-from ..core import ControlArrays, folds, module
+from ..core import ControlArrays, folds, measured, module
 from ..inspection.curvature import unit
 from ..mesh.layers import fill_layer, layer_values, make_layer
 from ..mesh.write import FAULTS
@@ -91,11 +91,11 @@ def _departure(
     """(N,) each vertex's distance from its place on the control mesh, along the normal there, in lengths of its
     edges: in flat faces with many corners a surface may slide by several.
     """
-    count = len(control.positions)
-    sums = np.bincount(control.edges.ravel(), np.repeat(control.edge_lengths, 2), count)
+    count, mesh = len(control.positions), measured(control)
+    sums = np.bincount(control.edges.ravel(), np.repeat(mesh.edge_lengths, 2), count)
     size = sums / np.maximum(np.bincount(control.edges.ravel(), minlength=count), 1)
     normals = np.zeros((count, 3))
-    np.add.at(normals, control.corners, control.face_vectors[control.face_of])
+    np.add.at(normals, control.corners, mesh.face_vectors[control.face_of])
     way = unit(transfer.point(normals))
     away = np.abs(((vertices - transfer.point(control.positions)) * way).sum(axis=1))
     around = transfer.point(size).ravel()

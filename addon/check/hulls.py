@@ -3,6 +3,7 @@
 
 import numpy as np
 
+from .. import core
 from ..control_arrays import ControlArrays
 from ..settings import Settings
 
@@ -38,9 +39,9 @@ def _longest(cage: ControlArrays, creases: np.ndarray) -> float:
     """The largest length of a smooth edge over the radius of the turn across it: its angle times its
     length over the mean width of its two faces.
     """
-    angles, inside = cage.fold_angles
-    keys = len(cage.positions), 1
-    smooth = inside & ~np.isin(cage.edges @ keys, creases @ keys)
-    both = cage.face_areas[cage.faces_of_edges[smooth]].mean(axis=1)
-    lengths = np.radians(angles[smooth]) * cage.edge_lengths[smooth] ** 2 / both
+    mesh = core.measured(cage)
+    angles, inside = mesh.fold_angles
+    smooth = inside & ~mesh.has_pair(creases)
+    both = mesh.face_areas[mesh.faces_of_edges[smooth]].mean(axis=1)
+    lengths = np.radians(angles[smooth]) * mesh.edge_lengths[smooth] ** 2 / both
     return float(lengths.max(initial=0.0))

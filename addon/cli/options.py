@@ -103,8 +103,6 @@ def settings_of(arguments: argparse.Namespace) -> Settings:
         settings["interpolation"] = "LIMIT"
     if getattr(arguments, "weld", None) is not None and settings["repair"] != "MEND":
         raise ValueError("--weld needs --repair mend")
-    if settings["interpolation"] == "AUTO":  # files have no modifiers
-        settings["interpolation"] = "EXACT"
     return Settings(**settings)
 
 

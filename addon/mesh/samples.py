@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from mathutils.bvhtree import BVHTree
 
-from ..core import ControlArrays, are_equal
+from ..core import ControlArrays, are_equal, measured
 from ..triangles import fans
 from .layers import STORAGE, Attribute
 
@@ -51,7 +51,7 @@ class Samples:
     def _find(self, domain: str) -> tuple[np.ndarray, np.ndarray]:
         """Old elements with weights (k, 3) for each new one; for faces only their ids (k,)."""
         new, (triangles, faces) = self._new, self._triangles
-        centres = new.face_centres
+        centres = measured(new).face_centres
         if domain == "FACE":
             return faces[self._nearest(centres)], np.empty(0)
         places = new.positions

@@ -6,8 +6,8 @@ from math import degrees, radians
 
 import bpy
 
+from .. import core
 from ..blender import Context, Object
-from ..check.flats import ANGLE, find_flats
 from ..choices import EDGE_BOUNDARIES
 from ..errors import JobError
 from ..fields import choice, number, switch
@@ -105,7 +105,7 @@ class OBJECT_OT_fairing_flat_faces(Shown, Action, bpy.types.Operator):
     angle: number(
         "Angle",
         "In Object Mode: faces that meet at a smaller angle are one flat, if they lie in a plane",
-        radians(ANGLE),
+        radians(1.0),
         min=0.0,
         max=radians(30.0),
         subtype="ANGLE",
@@ -145,6 +145,6 @@ def _targets(context: Context) -> list[Object]:
 def _mark_found(target: Object, angle: float) -> int:
     """Marks the flats of `target` (`angle` in degrees); returns their number of faces."""
     arrays = world_shape(target).of_arrays(read_mesh(target.data))
-    found = find_flats(arrays, angle)
+    found = core.module().flats.flats_of(core.measured(arrays), angle)
     flat_marks.mark(target.data, found)
     return int(found.sum())

@@ -10,7 +10,7 @@ from polygons import polygons
 from scenes import CUBE, add, set_edge_attribute, settings
 
 from addon.choices import TOLERANCE_UNITS
-from addon.core import fair_arguments
+from addon.core import border_corners, fair_arguments
 from addon.mesh.read import ControlArrays, read_mesh
 from addon.preferences import Defaults
 
@@ -125,7 +125,7 @@ def test_a_sheet_keeps_its_corners_whatever_its_faces(diagonal, columns):
             triangles += [[a, b, d], [b, c, d]] if turned else [[a, b, c], [a, c, d]]
         faces = triangles
     wanted = [0, 2, 3 * columns, 3 * columns + 2]
-    assert polygons(positions, faces).border_corners().tolist() == wanted
+    assert border_corners(polygons(positions, faces)).tolist() == wanted
 
 
 def ring(count):
@@ -145,15 +145,15 @@ CORNERLESS = {
 
 @pytest.mark.parametrize("name", CORNERLESS)
 def test_what_has_no_corners(name):
-    assert not len(polygons(*CORNERLESS[name]).border_corners())
+    assert not len(border_corners(polygons(*CORNERLESS[name])))
 
 
 def test_an_edge_with_a_boundary_of_its_own_rounds_its_corners():
     plain = polygons(*sheet())
-    assert plain.border_corners().tolist() == [0, 2, 9, 11]
+    assert border_corners(plain).tolist() == [0, 2, 9, 11]
     marks = np.zeros(len(plain.edges), np.int32)
     marks[plain.edges.tolist().index([0, 1])] = 1
-    assert polygons(*sheet(), boundary_edge=marks).border_corners().tolist() == [2, 9, 11]
+    assert border_corners(polygons(*sheet(), boundary_edge=marks)).tolist() == [2, 9, 11]
 
 
 def test_no_border_ends_in_the_symmetry_plane():

@@ -17,6 +17,7 @@ from .fairing import fair
 from .filled import Filled, FilledHole, SkippedHole
 from .filling import fill_holes, find_holes, with_islands
 from .fitting import fit_patches
+from .flats import find_flats
 from .joints import Joint, joint
 from .options import AllSettings, Settings
 from .patches import SplinePatches, spline_knots
@@ -55,6 +56,7 @@ __all__ = [
     "ease",
     "fair",
     "fill_holes",
+    "find_flats",
     "find_holes",
     "fit",
     "fit_patches",

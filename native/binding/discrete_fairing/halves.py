@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 from . import _native
 from ._native import FairingError
 from .arrays import face_arrays, vertex_array
+from .automatic import resolved
 from .converters import edges_with_values
 from .errors import about, fairing_error
 from .options import ONE_A_VERTEX, native_options
@@ -51,6 +52,8 @@ class Control:
             half = self.half = Half(*self.arrays, symmetry_plane, self.options.repair)
             self.points, self.settings = half.points(self.points), half.settings(settings)
             self.corners, self.offsets = half.faces(self.corners, self.offsets)
+        self.settings = resolved(self.settings, *self.arrays)
+        if self.settings is not settings:
             self.options = native_options(self.settings)
 
     @property

@@ -68,10 +68,12 @@ class CommonSettings(TypedDict, total=False):
     """Exponential map of the control metric, or projection to its tangent planes."""
 
     interpolation: Annotated[
-        Literal["exact", "approximate", "limit"] | None, choice(_native.Interpolation.__members__)
+        Literal["exact", "approximate", "limit", "auto"] | None,
+        choice({**_native.Interpolation.__members__, "auto": _native.Interpolation.exact}),
     ]
-    """None: approximate where there is a tolerance or weights, else exact. Exact: control vertices
-    stay, to the last bit. Approximate: they move, within `tolerance` or against `weights`; vertices
+    """None: approximate where there is a tolerance or weights, else exact. Auto: limit for closed meshes
+    with flat faces at tight rims or in hollows, such as cases and mugs, unless other settings exclude
+    it; else as None. Exact: control vertices stay, to the last bit. Approximate: they move, within `tolerance` or against `weights`; vertices
     on curves always stay. Limit: the surface passes exactly through the vertices' limit positions,
     where Catmull-Clark subdivision would take them, and charts are made of the surface through these:
     for cages drawn to look right under subdivision. The first n rows of `vertices` are then the limit

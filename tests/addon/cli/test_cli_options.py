@@ -27,8 +27,6 @@ def test_every_other_setting_can_be_said():
 def test_defaults_are_those_of_blender(blender):
     defaults = blender.context.scene.discrete_fairing
     for name, value in asdict(settings()).items():
-        if name == "interpolation":
-            value = {"EXACT": "AUTO"}[value]  # no file has modifiers
         assert value == pytest.approx(getattr(defaults, name)), name
 
 

@@ -8,7 +8,6 @@ import pytest
 from lattices import lattice_faces
 from polygons import polygons
 from scans import cube_sphere
-from scenes import CUBE
 
 from addon.inspection import curvature
 
@@ -92,14 +91,6 @@ def test_curvature_stops_at_sharp_edges():
     assert not bent.inner.any() and not bent.mean.any()
 
 
-def test_folds_of_a_box_are_right_angles():
-    box, faces = CUBE
-    angles, inside = polygons(box, faces).fold_angles
-    assert inside.all() and np.allclose(angles, 90)
-    turned = [faces[0][::-1], *faces[1:]]
-    assert np.allclose(polygons(box, turned).fold_angles[0], 90)
-
-
 DART = np.array([(0, 0), (2, -1), (0.5, 0), (2, 1)])
 ONCE = {"long": ([(0, 0), (3, -1), (6, 0), (3, 1)], {1, 3})}  # and its shorter diagonal
 ONCE |= {f"dent at {t}": (np.roll(DART, t, axis=0), {t % 4, (t + 2) % 4}) for t in range(4)}
@@ -131,4 +122,3 @@ def test_degenerate_faces_give_finite_numbers():
     mesh = polygons(positions, [(0, 1, 2), (0, 1, 3), (0, 4, 5), (2, 1, 3)])
     bent = curvature.curvature(mesh)
     assert np.isfinite(bent.mean).all() and np.isfinite(bent.gauss).all()
-    assert np.isfinite(mesh.fold_angles[0]).all()

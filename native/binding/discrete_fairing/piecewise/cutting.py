@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from .. import _native
 from ..arrays import face_arrays, ranges, shape_array, vertex_array
+from ..automatic import resolved
 from ..converters import whole
 from ..errors import fairing_error
 from ..mesh_part import MeshPart
@@ -66,9 +67,10 @@ def pieces(
         raise fairing_error("BAD_OPTION", f"count is {wanted}; it must be 1 or more.")
     points = vertex_array(vertices)
     others = shape_array(shapes, len(points))
+    flat = face_arrays(faces)
     asked = {**settings, "energy": energy, "symmetry_plane": symmetry_plane}
-    given, options = checked(asked, levels)
-    outline = Outline(points, *face_arrays(faces), others, options)
+    given, options = checked(resolved(asked, points, *flat), levels)
+    outline = Outline(points, *flat, others, options)
     control = outline.control
     weights = np.bincount(control.polygon, control.quad + 1.0, outline.polygon_count)
     labels = _labels(outline.middles(), weights, min(wanted, outline.polygon_count))

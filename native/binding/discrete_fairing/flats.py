@@ -1,10 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Finds the faces of a control mesh that are meant to be flat: large ones between tight rims."""
 
-import numpy as np
+from __future__ import annotations
 
-from .. import core
-from ..triangles import marked
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .arrays import face_arrays, marked, vertex_array
+from .control_mesh import ControlMesh
+from .patches import connected_parts
 
 # largest distance of a flat's corners from its plane, relative to its size; files have about six digits
 _IN_PLANE = 1e-3
@@ -12,7 +18,19 @@ ANGLE = 1.0  # degrees, within which faces are joined unless a user says otherwi
 
 
 def find_flats(
-    arrays: core.ControlArrays,
+    vertices: ArrayLike, faces: ArrayLike | Sequence[Sequence[int]], angle: float = ANGLE
+) -> np.ndarray:
+    """(k,) ids of the faces that are meant to be flat, as fair() takes them in `flat_faces`: those between
+    tight rims, such as the sides of a bevelled box. `vertices` (n, 3) and `faces` are those of fair(); faces
+    within `angle` (degrees) of each other are joined. Raises FairingError BAD_SHAPE.
+    """
+    return np.flatnonzero(
+        flats_of(ControlMesh.of(vertex_array(vertices), *face_arrays(faces)), angle)
+    )
+
+
+def flats_of(
+    mesh: ControlMesh,
     angle: float,
     sharp: np.ndarray | None = None,
     tight: bool = False,
@@ -28,21 +46,21 @@ def find_flats(
     edge turns half as much as the next, so flats at least as wide as the adjacent chords qualify; on
     spheres both turn alike.
     """
-    if not len(arrays.face_sizes):
+    if not len(mesh.face_sizes):
         return np.zeros(0, bool)
-    folds, inside = arrays.fold_angles
+    folds, inside = mesh.fold_angles
     if sharp is not None:
         inside = inside & ~sharp
-    part, plane = plane_parts(arrays, inside & (folds <= angle))
-    edge, face = arrays.corner_edges, arrays.face_of
+    part, plane = plane_parts(mesh, inside & (folds <= angle))
+    edge, face = mesh.corner_edges, mesh.face_of
     owner = part[face]
-    pair = part[arrays.faces_of_edges]
+    pair = part[mesh.faces_of_edges]
     borders = np.flatnonzero((pair[edge, 0] != pair[edge, 1]) | ~inside[edge])
     borders = borders[np.argsort(owner[borders], kind="stable")]
     edge, owner, face = edge[borders], owner[borders], face[borders]
     turn = np.where(inside[edge], folds[edge], 0.0)
-    width = _widths(arrays, part, edge, owner)[owner]
-    beyond = _turns_beyond(arrays, edge, owner, turn)
+    width = _widths(mesh, part, edge, owner)[owner]
+    beyond = _turns_beyond(mesh, edge, owner, turn)
     twin = _twins(edge)
     joined = twin >= 0
     if sharp is not None:
@@ -52,8 +70,8 @@ def find_flats(
     # turn / width <= 0.5 * beyond / width, without a division by zero
     turns &= 2.0 * turn[here] * width[there] <= beyond[there] * width[here]
     if tight:
-        length, area = arrays.edge_lengths[edge[there]], arrays.face_areas
-        quad = arrays.face_sizes == 4
+        length, area = mesh.edge_lengths[edge[there]], mesh.face_areas
+        quad = mesh.face_sizes == 4
         if other_half is not None:
             quad |= other_half >= 0
             area += np.where(other_half >= 0, area[other_half], 0.0)
@@ -63,45 +81,42 @@ def find_flats(
     return (some & plane)[part]
 
 
-def halves_of_quads(arrays: core.ControlArrays, flush: np.ndarray) -> np.ndarray:
+def halves_of_quads(mesh: ControlMesh, flush: np.ndarray) -> np.ndarray:
     """(m,) int: the triangle across the longest side of each triangle, if that is the longest of both and
     among the edges `flush` (e,) bool; elsewhere -1.
     """
-    corner_length = arrays.edge_lengths[arrays.corner_edges]
-    longest = np.maximum.reduceat(corner_length, arrays.offsets[:-1])
-    is_longest = (corner_length == np.repeat(longest, arrays.face_sizes)) & np.repeat(
-        arrays.face_sizes == 3, arrays.face_sizes
+    corner_length = mesh.edge_lengths[mesh.corner_edges]
+    longest = np.maximum.reduceat(corner_length, mesh.offsets[:-1])
+    is_longest = (corner_length == np.repeat(longest, mesh.face_sizes)) & np.repeat(
+        mesh.face_sizes == 3, mesh.face_sizes
     )
-    diagonal = flush & (
-        np.bincount(arrays.corner_edges[is_longest], minlength=len(arrays.edges)) == 2
-    )
-    pair = arrays.faces_of_edges[diagonal]
-    other = np.full(len(arrays.face_sizes), -1)
+    diagonal = flush & (np.bincount(mesh.corner_edges[is_longest], minlength=len(mesh.edges)) == 2)
+    pair = mesh.faces_of_edges[diagonal]
+    other = np.full(len(mesh.face_sizes), -1)
     other[pair] = pair[:, ::-1]
     return other
 
 
-def plane_parts(arrays: core.ControlArrays, joined: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def plane_parts(mesh: ControlMesh, joined: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """(m,) the part of each face, (parts,) bool: planar; `joined` (e,) bool: edges inside."""
-    count = len(arrays.face_sizes)
-    connected = core.module().patches.connected_parts
-    pair = arrays.faces_of_edges[joined]
-    part = connected(count, pair)
-    plane = _in_plane(arrays, part)[part]
-    part = connected(count, pair[plane[pair].all(axis=1)])
-    return part, _in_plane(arrays, part)
+    count = len(mesh.face_sizes)
+    pair = mesh.faces_of_edges[joined]
+    part = connected_parts(count, pair)
+    plane = _in_plane(mesh, part)[part]
+    part = connected_parts(count, pair[plane[pair].all(axis=1)])
+    return part, _in_plane(mesh, part)
 
 
-def _in_plane(arrays: core.ControlArrays, part: np.ndarray) -> np.ndarray:
+def _in_plane(mesh: ControlMesh, part: np.ndarray) -> np.ndarray:
     """(parts,) bool: whether all corners lie in the plane of the part's first face with an area."""
-    normals = arrays.face_normals
+    normals = mesh.face_normals
     has_area = np.flatnonzero((normals != 0.0).any(axis=1))
     count = int(part.max()) + 1
     normal = np.zeros((count, 3))
     # the last write is that of the first face
     normal[part[has_area[::-1]]] = normals[has_area[::-1]]
-    owner = np.repeat(part, arrays.face_sizes)
-    points = arrays.positions[arrays.corners]
+    owner = np.repeat(part, mesh.face_sizes)
+    points = mesh.positions[mesh.corners]
     origin = np.zeros((count, 3))
     origin[owner[::-1]] = points[::-1]
     away = points - origin[owner]
@@ -111,22 +126,20 @@ def _in_plane(arrays: core.ControlArrays, part: np.ndarray) -> np.ndarray:
     return (np.bincount(owner) > 3) & (normal != 0.0).any(axis=1) & (off <= _IN_PLANE * size)
 
 
-def _widths(
-    arrays: core.ControlArrays, part: np.ndarray, edge: np.ndarray, owner: np.ndarray
-) -> np.ndarray:
+def _widths(mesh: ControlMesh, part: np.ndarray, edge: np.ndarray, owner: np.ndarray) -> np.ndarray:
     """(parts,) twice the area over the length of the border, the edges `edge` (b,) of the parts
     `owner`: the width of a strip or ring, half the width of a square or disc.
     """
-    border = np.bincount(owner, arrays.edge_lengths[edge], len(part))
-    area = np.bincount(part, arrays.face_areas, len(part))
+    border = np.bincount(owner, mesh.edge_lengths[edge], len(part))
+    area = np.bincount(part, mesh.face_areas, len(part))
     return 2.0 * np.divide(area, border, out=np.zeros(len(part)), where=border > 0)
 
 
 def _turns_beyond(
-    arrays: core.ControlArrays, edge: np.ndarray, owner: np.ndarray, turn: np.ndarray
+    mesh: ControlMesh, edge: np.ndarray, owner: np.ndarray, turn: np.ndarray
 ) -> np.ndarray:
     """(b,) for each border edge, the largest `turn` at others of its part; `owner` ascends."""
-    ends = arrays.edges[edge]
+    ends = mesh.edges[edge]
     falling = np.lexsort((-turn, owner))
     begin = np.searchsorted(owner, owner)
     after = np.searchsorted(owner, owner, side="right")

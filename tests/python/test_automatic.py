@@ -1,0 +1,153 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""interpolation="auto": limit positions for closed meshes with flats at tight rims, and find_flats()."""
+
+import control_meshes
+import discrete_fairing as df
+import numpy as np
+import pytest
+from bevelled_boxes import bevelled_box
+from discrete_fairing.control_mesh import ControlMesh
+from lattices import lattice_faces
+from thin_walls import cup
+
+
+def chamfered_cylinder(cap_from_centre, around=32):
+    """Of triangles, radius 12.5, its wall one face high."""
+    turn = 2 * np.pi * np.arange(around) / around
+    profile = ((11.0, 0.0), (12.5, 1.5), (12.5, 48.5), (11.0, 50.0))
+    points = [[r * np.cos(t), r * np.sin(t), z] for r, z in profile for t in turn]
+    after = np.roll(np.arange(around), -1)
+    faces = []
+    for ring in range(3):
+        low, high = ring * around, (ring + 1) * around
+        for i, k in enumerate(after):
+            faces += [[low + i, low + k, high + k], [low + i, high + k, high + i]]
+    if cap_from_centre:
+        points += [[0.0, 0.0, 0.0], [0.0, 0.0, 50.0]]
+        for i, k in enumerate(after):
+            faces += [[4 * around, k, i], [4 * around + 1, 3 * around + i, 3 * around + k]]
+    else:
+        for i in range(1, around - 1):
+            faces += [[0, i + 1, i], [3 * around, 3 * around + i, 3 * around + i + 1]]
+    return np.array(points), faces
+
+
+@pytest.mark.parametrize("cap_from_centre", [True, False])
+def test_a_chamfered_cylinder_stays_one(cap_from_centre):
+    """Through its vertices it bulges by a tenth and more."""
+    result = df.fair(*chamfered_cylinder(cap_from_centre), interpolation="auto")
+    radius = np.linalg.norm(result.vertices[:, :2], axis=1).max() / 12.5
+    assert abs(radius - 1) < 0.02 and result.report["converged"]
+
+
+CAGES = {
+    "cup": cup()[:2],
+    "bevelled box": bevelled_box((4, 3, 1), 0.05),
+}
+
+
+@pytest.mark.parametrize("name", CAGES)
+def test_cages_pass_where_subdivision_surface_does(name):
+    auto, limit = (df.fair(*CAGES[name], 1, interpolation=i).vertices for i in ("auto", "limit"))
+    assert np.array_equal(auto, limit)
+
+
+@pytest.mark.parametrize(
+    "mesh",
+    [control_meshes.cube, control_meshes.torus, control_meshes.grid, control_meshes.creature],
+)
+def test_other_meshes_pass_through_their_vertices(mesh):
+    points, faces = mesh()
+    assert np.array_equal(
+        df.fair(points, faces, 1, interpolation="auto").vertices[: len(points)], points
+    )
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [
+        {"tolerance": 0.1},
+        {"flat_faces": [0]},
+        {"region": [0, 1, 2, 3]},
+        {"crease_angle": 0.6},
+    ],
+)
+def test_settings_that_limit_positions_exclude_decide(settings):
+    auto = df.fair(*CAGES["bevelled box"], 1, interpolation="auto", **settings)
+    assert np.array_equal(auto.vertices, df.fair(*CAGES["bevelled box"], 1, **settings).vertices)
+
+
+def test_sharp_rims_are_no_rims():
+    points, faces = CAGES["bevelled box"]
+    creases = {"crease_edges": ControlMesh.of(points, *_flat(faces)).edges}
+    auto = df.fair(points, faces, 1, interpolation="auto", **creases).vertices
+    assert np.array_equal(auto[: len(points)], points)
+
+
+def test_a_half_is_taken_as_the_whole():
+    points, faces = CAGES["bevelled box"]
+    faces = [face for face in faces if (points[face, 0] > 0).any()]
+    half = np.where(points[:, :1] < 0, points * [0.0, 1.0, 1.0], points)
+    auto, limit = (
+        df.fair(half, faces, 1, symmetry_plane="x", interpolation=i).vertices
+        for i in ("auto", "limit")
+    )
+    assert np.array_equal(auto, limit)
+
+
+def test_pieces_agree_with_the_whole():
+    points, faces = CAGES["cup"]
+    whole = df.fair(points, faces, 1, interpolation="auto").vertices
+    parts = [piece.fair() for piece in df.pieces(points, faces, 1, count=2, interpolation="auto")]
+    assert np.allclose(df.join(parts).vertices, whole, atol=1e-2)
+
+
+@pytest.mark.parametrize("energy", ["thin_plate", "total_curvature"])
+def test_a_solver_keeps_the_choice(energy):
+    points, faces = CAGES["bevelled box"]
+    solver = df.Solver(points, faces, 1, energy, interpolation="auto")
+    limit = df.fair(points, faces, 1, energy, interpolation="limit").vertices
+    assert np.allclose(solver.solve(points).vertices, limit, atol=1e-6)
+
+
+def test_defects_are_named_as_without_it():
+    points, faces = control_meshes.cube()
+    for broken in ([*np.asarray(faces).tolist(), [0, 1, 99]], [[0, 1]]):
+        with pytest.raises(df.FairingError) as plain:
+            df.fair(points, broken, 1)
+        with pytest.raises(df.FairingError) as auto:
+            df.fair(points, broken, 1, interpolation="auto")
+        assert auto.value.code == plain.value.code
+
+
+def test_flats_of_a_bevelled_box_are_its_sides():
+    points, faces = CAGES["bevelled box"]
+    assert df.find_flats(points, faces).tolist() == [0, 1, 2, 3, 4, 5]
+    assert not len(df.find_flats(*control_meshes.icosahedron()))
+    assert not len(df.find_flats(np.empty((0, 3)), []))
+
+
+def _flat(faces):
+    return np.concatenate(faces), np.cumsum([0, *map(len, faces)])
+
+
+def test_folds_of_a_box_are_right_angles():
+    box, faces = control_meshes.cube()
+    faces = np.asarray(faces).tolist()
+    for given in (faces, [faces[0][::-1], *faces[1:]]):
+        angles, inside = ControlMesh.of(box, *_flat(given)).fold_angles
+        assert inside.all() and np.allclose(angles, 90)
+
+
+def test_degenerate_faces_have_finite_folds():
+    points = np.array([(0, 0, 0), (1, 0, 0), (2, 0, 0), (0, 1, 0), (0, 0, 0), (0, 0, 0)], float)
+    mesh = ControlMesh.of(points, *_flat([(0, 1, 2), (0, 1, 3), (0, 4, 5), (2, 1, 3)]))
+    assert np.isfinite(mesh.fold_angles[0]).all()
+
+
+def test_a_lattice_has_the_corners_of_its_border():
+    points = np.array([(x, y, 0) for x in range(4) for y in range(3)], float)
+    mesh = ControlMesh.of(points, *_flat(lattice_faces(4, 3).tolist()))
+    none = np.zeros(len(mesh.edges), bool)
+    assert mesh.border_corners(none).tolist() == [0, 2, 9, 11]
+    assert mesh.border_corners(mesh.has_pair(np.array([[1, 0]]))).tolist() == [2, 9, 11]
