@@ -16,11 +16,12 @@ import bpy
 def _modules() -> tuple[Any, ...]:
     """In the order of registration, that of the imports; not names of the package itself."""
     # isort: off
-    from . import properties, memory, curve_cage, preferences
+    from . import properties, memory, preferences
+    from .surfaces import curve_cage
     from .inspection import settings as inspection_settings, overlay, viewport_shading
     from .strain import settings as strain_settings, cache, overlay as strain_overlay
     from .mesh import mesh_changes
-    from . import freshness
+    from .surfaces import freshness
     from .live import switch, handlers, restored
     from .operators import (
         fair, fill_holes, modal, in_place, curves, marks, live, check, joints,

@@ -10,12 +10,12 @@ import numpy as np
 Answer: TypeAlias = set[Any]  # returned by operators: {"FINISHED"} or {"CANCELLED"}
 
 if TYPE_CHECKING:
-    from .curve_cage import FAIRING_PG_curves
     from .inspection.settings import FAIRING_PG_display, FAIRING_PG_inspection
     from .live.switch import FAIRING_PG_live
     from .memory import FAIRING_PG_fit, FAIRING_PG_mesh, FAIRING_PG_surface
     from .properties import FAIRING_PG_settings
     from .strain.settings import FAIRING_PG_strain, FAIRING_PG_strain_drawing
+    from .surfaces.curve_cage import FAIRING_PG_curves
 
     class Mesh(bpy.types.Mesh):
         """A mesh with the properties stored beside its curvature colours."""

@@ -25,7 +25,7 @@ def made_over(scan: fit_shapes.Mesh, faces: int) -> fit_shapes.Mesh:
     """The cage that *Fair Surface on Scan* makes, with quads and some triangles."""
     import bpy
 
-    from addon.scan_cage import make_cage
+    from addon.jobs.scan_cage import make_cage
 
     points, triangles = scan
     mesh = bpy.data.meshes.new("Scan")

@@ -7,17 +7,18 @@ from typing import Any, cast
 
 import numpy as np
 
-from .. import core, errors, neighbours, prediction
+from .. import core, errors, prediction
 from ..blender import Context, Object
 from ..check.defects import entry, store_defects
 from ..errors import JobError
-from ..job import Job
+from ..jobs.fair import Job
+from ..jobs.fit import Fit, settings_of_fit
 from ..memory import source_of
 from ..mesh.object import Reference, new_object
 from ..mesh.shape_keys import ShapeKeys
 from ..mesh.world_shape import transformed, world_matrix
-from ..scan_fit import Fit, settings_of_fit
 from ..settings import PatchOptions, Settings, is_evaluated
+from ..surfaces import neighbours
 from ..units import Units
 from . import colours, words
 from .nurbs import surface_of

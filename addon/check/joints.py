@@ -11,7 +11,7 @@ from .. import core
 from ..blender import Context
 from ..mesh.object import Reference
 from ..mesh.read import source_objects
-from ..neighbours import shown
+from ..surfaces.neighbours import shown
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ import argparse
 from typing import Any
 
 from ..blender import Object, current_context
-from ..cleaning import STEPS, CleanJob, CleanOptions
+from ..jobs.clean import STEPS, CleanJob, CleanOptions
 from ..settings import NAMES
 from .places import is_cad
 from .rna import OfOperator, option

@@ -9,10 +9,10 @@ from typing import Any
 import bpy
 
 from ..blender import Object, current_context
+from ..jobs.fit import Fit
+from ..jobs.scan_cage import make_cage
 from ..mesh.read import read_mesh
 from ..mesh.scans import read_scans
-from ..scan_cage import make_cage
-from ..scan_fit import Fit
 from ..settings import Settings
 from .files import FileError, read_file
 from .places import require_format

@@ -14,9 +14,9 @@ from ..cad import words
 from ..cad.fit import PatchJob, refused
 from ..cad.step import summary, write_jobs
 from ..errors import JobError, repairs_text
-from ..job import Job
+from ..jobs.fair import Job
+from ..jobs.fit import Fit, FitJob
 from ..queue import ConsoleProgress
-from ..scan_fit import Fit, FitJob
 from ..settings import PatchOptions, Settings
 from . import clean, fit
 from .files import read_file, write_file, write_whole

@@ -6,13 +6,14 @@ from __future__ import annotations
 from collections.abc import Collection
 from typing import Any
 
-from .. import core, neighbours
+from .. import core
 from ..blender import Object, current_context
+from ..jobs.fit import live_scan
 from ..mesh import scans
 from ..mesh.object import session_key
 from ..mesh.world_shape import world_matrix
-from ..scan_fit import live_scan
 from ..settings import Settings
+from ..surfaces import neighbours
 from .full_level import is_dragging
 
 

@@ -8,8 +8,8 @@ import numpy as np
 
 from .. import core, errors
 from ..blender import Context, Object
+from ..jobs.fit import job_of
 from ..queue import Queue
-from ..scan_fit import job_of
 from ..settings import Settings
 
 PAUSE = 0.3  # seconds without an edit

@@ -13,11 +13,12 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 
-from .. import curve_cage, errors, events
+from .. import errors, events
 from ..blender import Context, Object, Scene, current_context
 from ..errors import JobError
 from ..mesh.object import changed_keys
 from ..redraw import Progress, tag_sidebars
+from ..surfaces import curve_cage
 from . import registry
 from .registry import session_key
 

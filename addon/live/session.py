@@ -9,7 +9,7 @@ from typing import Any, TypeAlias
 import bpy
 import numpy as np
 
-from .. import core, errors, joint_normals, memory, place, size
+from .. import core, errors, memory, size
 from ..blender import Context, Mesh, Object, current_context, scene_of
 from ..core import ControlArrays
 from ..errors import JobError
@@ -24,6 +24,7 @@ from ..mesh.write import has_faces_of, rebuild_mesh, write_positions
 from ..preferences import preferences
 from ..queue import progress_text
 from ..settings import Settings, halves, is_evaluated
+from ..surfaces import joint_normals, place
 from .dependencies import Dependencies
 from .full_level import FullLevel, Schedule, is_dragging
 from .pace import Deadline, Pace

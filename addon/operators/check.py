@@ -21,8 +21,8 @@ from ..check.defects import (
 )
 from ..check.faults import faulty_vertices
 from ..check.holes import edges_of
-from ..cleaning import repair, repair_label
 from ..fields import whole
+from ..jobs.clean import repair, repair_label
 from ..mesh.read import active_mesh, source_objects
 from ..mesh.write import FAULTS, NO_POINTS, faces_without_points
 from ..poll import IN_EITHER_MODE, needs, of_meshes

@@ -6,8 +6,8 @@ from collections.abc import Iterator, Sequence
 import bpy
 
 from ..blender import Context
-from ..cleaning import STEPS, CleanJob, CleanOptions
 from ..fields import factor, switch
+from ..jobs.clean import STEPS, CleanJob, CleanOptions
 from ..mesh.read import source_objects
 from ..poll import of_meshes
 from .fair import InMeshes, can_fair

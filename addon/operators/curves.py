@@ -7,16 +7,16 @@ from typing import Any, cast
 
 import bpy
 
-from .. import curve_cage
 from ..blender import Answer, Context, Object
 from ..choices import ENERGIES, ENERGY_MEANING
-from ..curve_cage import CageSettings
 from ..fields import choice, whole
-from ..job import Job
+from ..jobs.fair import Job
 from ..mesh.object import Reference
 from ..mesh.read_curves import has_curves
 from ..poll import in_mode, needs
 from ..settings import Settings
+from ..surfaces import curve_cage
+from ..surfaces.curve_cage import CageSettings
 from .fair import Fairing, can_fair
 from .mixins import Shown
 

@@ -6,11 +6,11 @@ from typing import Any, cast
 
 import bpy
 
-from .. import core, curve_cage, prediction
+from .. import core, prediction
 from ..blender import Answer, Context, Object
 from ..errors import JobCancelled, JobError
-from ..freshness import is_own, stale_surfaces
-from ..job import Job
+from ..jobs.fair import Job
+from ..jobs.fit import job_of
 from ..live import switch
 from ..live.pace import Deadline
 from ..memory import no_source_reason, scans_of, source_of
@@ -19,8 +19,9 @@ from ..mesh.read import control_meshes, source_objects
 from ..poll import IN_EITHER_MODE, LINKED_SURFACE, ExplainedPoll, in_mode, needs
 from ..properties import FairingSettings, copy_settings, fill_in, take_near
 from ..queue import ConsoleProgress, running
-from ..scan_fit import job_of
 from ..settings import Settings
+from ..surfaces import curve_cage
+from ..surfaces.freshness import is_own, stale_surfaces
 from ..ui.layout import draw_settings
 from ..words import counted
 from . import redo

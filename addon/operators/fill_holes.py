@@ -11,7 +11,7 @@ from ..blender import Answer, Context, Object
 from ..choices import ENERGIES, JOINTS
 from ..errors import JobError
 from ..fields import choice, length, number, switch
-from ..holes import FillOptions, HoleJob, fill_warnings
+from ..jobs.fill import FillOptions, HoleJob, fill_warnings
 from ..mesh.read import source_objects
 from ..poll import of_meshes
 from ..settings import values_of

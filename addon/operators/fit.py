@@ -9,13 +9,13 @@ from bpy.props import IntProperty
 
 from ..blender import Context, Object
 from ..errors import JobError
-from ..job import Job
+from ..jobs.fair import Job
+from ..jobs.fit import Fit, FitJob
+from ..jobs.scan_cage import LEAST_CAGE_FACES, MadeCage, make_cage
 from ..mesh.object import nothing_left_behind
 from ..mesh.scans import is_scan, read_scans
 from ..poll import in_mode
 from ..properties import FitAmount
-from ..scan_cage import LEAST_CAGE_FACES, MadeCage, make_cage
-from ..scan_fit import Fit, FitJob
 from ..settings import Settings
 from ..ui.layout import amount_names
 from ..words import counted

@@ -5,11 +5,11 @@ from collections.abc import Iterator, Sequence
 
 import bpy
 
-from .. import in_place
 from ..blender import Context, Object
 from ..choices import DEFAULT_ENERGY, ENERGIES, ENERGY_MEANING, JOINTS
 from ..errors import JobError
 from ..fields import choice, factor, length
+from ..jobs import in_place
 from ..mesh.read import source_objects
 from ..poll import IN_EITHER_MODE, of_meshes
 from ..settings import Settings, values_of

@@ -7,19 +7,20 @@ from typing import cast
 
 import bpy
 
-from .. import errors, neighbours
+from .. import errors
 from ..blender import Context, Object
 from ..check import joints
 from ..check.defects import bring_into_view, select_defects
 from ..choices import JOINTS
 from ..errors import JobError
 from ..fields import choice, switch, whole
-from ..freshness import is_own
-from ..job import Job
+from ..jobs.fair import Job
 from ..memory import source_of
 from ..mesh.read import source_objects
 from ..poll import LINKED_SURFACE, in_mode, needs
 from ..settings import Settings
+from ..surfaces import neighbours
+from ..surfaces.freshness import is_own
 from ..words import counted
 from .fair import Fairing, can_fair
 from .mixins import Action

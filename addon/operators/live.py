@@ -5,7 +5,7 @@ from typing import cast
 
 import bpy
 
-from .. import core, memory, place
+from .. import core, memory
 from ..blender import Context, Mesh, Object
 from ..check.cages import wants_limit
 from ..live import switch
@@ -15,6 +15,7 @@ from ..mesh.read import control_mesh, read_mesh
 from ..mesh.world_shape import world_shape
 from ..poll import in_mode
 from ..settings import Settings, is_evaluated, wants_modifiers
+from ..surfaces import place
 from .mixins import Action
 
 _MODES = {"OBJECT", "EDIT_MESH", "SCULPT"}

@@ -6,7 +6,7 @@ import bpy
 from .. import core
 from ..blender import Answer, Context, OperatorBase
 from ..errors import JobError
-from ..job import Job
+from ..jobs.fair import Job
 from ..live.full_level import is_dragging
 from ..mesh.object import session_key
 from ..poll import needs

@@ -13,7 +13,7 @@ import bpy
 
 from .. import prediction
 from ..blender import Context, current_context
-from ..job import Job
+from ..jobs.fair import Job
 from ..queue import TimedJob, running
 from ..settings import Settings
 

@@ -9,7 +9,7 @@ import numpy as np
 from .. import core, errors
 from ..blender import Context, Mesh, Object
 from ..errors import JobError
-from ..in_place import floats
+from ..jobs.in_place import floats
 from ..live.switch import look_again
 from ..mesh.edited import edited
 from ..mesh.shape_keys import EASED, key_positions, put_key

@@ -11,7 +11,7 @@ from ..blender import Context
 from ..check import joints
 from ..check.defects import recall_cleaned, recall_defects, recall_holes
 from ..check.holes import MOST
-from ..cleaning import repair_label
+from ..jobs.clean import repair_label
 from ..units import Text, Units
 from .layout import Folded, draw_notice
 

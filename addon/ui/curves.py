@@ -5,11 +5,11 @@ from typing import cast
 
 import bpy
 
-from .. import curve_cage
 from ..blender import Context, Object
-from ..curve_cage import CageSettings
 from ..memory import source_of
 from ..mesh.read_curves import has_curves
+from ..surfaces import curve_cage
+from ..surfaces.curve_cage import CageSettings
 from .layout import Sidebar, draw_notice
 
 

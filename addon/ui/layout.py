@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import bpy
 
 from ..choices import ENERGY_MEANINGS, ENERGY_NAMES, INTERPOLATION_NAMES
-from ..curve_cage import HOLD
 from ..properties import FairingSettings, FitAmount
 from ..purposes import name_of_purpose
 from ..settings import is_evaluated, is_limit, is_near
+from ..surfaces.curve_cage import HOLD
 from .pictures import draw_choices, draw_ends, icon, name_of
 
 WIDTH = 33  # characters that fit a sidebar of default width

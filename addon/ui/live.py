@@ -4,8 +4,8 @@
 import bpy
 
 from ..blender import Context, Object
-from ..freshness import stale_surfaces, why_stale
 from ..live import switch
+from ..surfaces.freshness import stale_surfaces, why_stale
 from .layout import draw_notice
 
 

@@ -6,7 +6,7 @@ from typing import Any, cast
 import bpy
 from bl_ui.utils import PresetPanel
 
-from .. import core, errors, neighbours, prediction, size, vertex_values
+from .. import core, errors, prediction, size, vertex_values
 from ..blender import Context, Mesh, Object
 from ..check.cages import REASON, shown_settings
 from ..core import keeps_marks, tolerance
@@ -23,6 +23,7 @@ from ..properties import FairingSettings
 from ..purposes import PRESET_FOLDER, is_shipped, job_of
 from ..queue import running, status_text
 from ..settings import Settings, halves, is_evaluated, is_limit, is_near, subdivision
+from ..surfaces import neighbours
 from ..units import length_text
 from .layout import (
     Remarks,

@@ -8,11 +8,11 @@ import pytest
 from fake_layout import draw
 from scenes import CUBE, activate, add, fair, to_object_mode
 
-from addon import freshness
 from addon.inspection import display
 from addon.live import handlers
 from addon.memory import keep, recall, unset_unsound_settings
 from addon.registration import classes_of
+from addon.surfaces import freshness
 from addon.ui import check, inspect, main
 
 PANELS = [panel for module in (main, check, inspect) for panel in classes_of(module)]

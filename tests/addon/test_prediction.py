@@ -9,11 +9,11 @@ from scenes import CUBE, activate, add, fair, positions, refused, settings
 
 from addon import prediction
 from addon.errors import JobCancelled
-from addon.freshness import UNFINISHED, why_stale
-from addon.job import Job
+from addon.jobs.fair import Job
 from addon.live.pace import Deadline
 from addon.operators import fair as fairing
 from addon.operators import redo as redoing
+from addon.surfaces.freshness import UNFINISHED, why_stale
 from addon.ui import main
 
 ENERGY = "TOTAL_CURVATURE"

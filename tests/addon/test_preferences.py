@@ -9,8 +9,8 @@ from scenes import CUBE, add, settings
 
 from addon import core, preferences
 from addon.core import fair_arguments
-from addon.in_place import InPlaceJob, InPlaceOptions
-from addon.job import Job
+from addon.jobs.fair import Job
+from addon.jobs.in_place import InPlaceJob, InPlaceOptions
 from addon.mesh.read import read_mesh
 from addon.queue import Queue
 from addon.strain.ease import EaseJob, EaseOptions

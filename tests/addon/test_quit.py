@@ -17,7 +17,7 @@ import sys, time
 import bpy
 import addon
 from addon import core, queue
-from addon.job import Job
+from addon.jobs.fair import Job
 from addon.settings import Settings
 from scenes import add_suzanne
 

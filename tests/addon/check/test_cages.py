@@ -19,7 +19,7 @@ from scenes import (
 )
 from shapes import lathe
 
-from addon.job import Job
+from addon.jobs.fair import Job
 from addon.ui import main
 
 SIZE, LOOP = np.array([75.0, 150.0, 9.0]), 1.5

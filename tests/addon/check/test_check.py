@@ -7,7 +7,7 @@ import pytest
 from scenes import CUBE, add, to_object_mode
 
 from addon.check.defects import recall_defects
-from addon.cleaning import repair_label
+from addon.jobs.clean import repair_label
 from addon.mesh import mesh_changes
 
 FAN = ([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1)], [(0, 1, 2), (1, 0, 3), (0, 1, 4)])

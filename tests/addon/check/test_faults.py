@@ -18,7 +18,7 @@ from scenes import (
 )
 from shapes import mug
 
-from addon.job import Job
+from addon.jobs.fair import Job
 from addon.mesh.write import FAULTS
 from addon.ui import main
 

@@ -9,10 +9,10 @@ from curve_objects import poly, scene, surface
 from mathutils import Matrix
 from scenes import activate, add, positions, recompute, refused, shown
 
-from addon import curve_cage, freshness
 from addon.curves.cubics import points_at
 from addon.live import registry, switch
 from addon.mesh.read_curves import read_curves
+from addon.surfaces import curve_cage, freshness
 
 
 def square():

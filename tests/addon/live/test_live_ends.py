@@ -11,9 +11,9 @@ from live_scenes import box, live, move, pull, session, through, tick_until
 from scenes import CUBE, activate, add, fair, positions, recompute, reopen
 
 import addon
-from addon.freshness import UNFINISHED, why_stale
 from addon.live import handlers, registry, restored, switch
 from addon.live import session as session_module
+from addon.surfaces.freshness import UNFINISHED, why_stale
 from addon.ui import main
 
 

@@ -8,7 +8,7 @@ from mathutils import Vector
 from scenes import computed, edit, fair, positions, settings, to_object_mode
 from test_boundary_marks import sheet
 
-from addon.job import Job
+from addon.jobs.fair import Job
 from addon.mesh.fixed_normals import NORMAL, read_normals
 from addon.mesh.read import read_mesh
 from addon.mesh.world_shape import world_shape

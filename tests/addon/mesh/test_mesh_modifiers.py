@@ -5,7 +5,7 @@ import bpy
 import pytest
 from scenes import CUBE, TRIANGLE, add, add_suzanne, settings
 
-from addon.job import Job
+from addon.jobs.fair import Job
 from addon.mesh.modifiers import copy_modifiers
 
 

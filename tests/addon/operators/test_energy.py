@@ -6,7 +6,7 @@ import numpy as np
 from scenes import CUBE, add, again, computed, fair, positions, settings
 
 from addon.choices import DEFAULT_ENERGY, ENERGIES
-from addon.job import Job
+from addon.jobs.fair import Job
 
 KEYS = [key for key, *_ in ENERGIES]
 STEP = {"decrement": 0.25}

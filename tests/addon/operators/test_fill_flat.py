@@ -9,7 +9,7 @@ import pytest
 from hole_scenes import ball, borders, without
 from scenes import edit, to_object_mode
 
-from addon.holes import FillOptions, HoleJob
+from addon.jobs.fill import FillOptions, HoleJob
 from addon.operators.hull import in_metres
 from addon.yard.hydrostatics import solid
 

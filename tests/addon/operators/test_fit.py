@@ -22,13 +22,13 @@ from scenes import (
 )
 
 from addon.check.defects import recall_defects
-from addon.freshness import SCAN_CHANGED, SCAN_MOVED, SOURCE_CHANGED, why_stale
 from addon.inspection import display
 from addon.inspection.colours import NEUTRAL, value_range
+from addon.jobs.fit import OUTLIERS, TOO_COARSE, UNCOVERED
 from addon.live import registry, switch
 from addon.mesh.layers import layer_values
 from addon.mesh.scans import read_scans
-from addon.scan_fit import OUTLIERS, TOO_COARSE, UNCOVERED
+from addon.surfaces.freshness import SCAN_CHANGED, SCAN_MOVED, SOURCE_CHANGED, why_stale
 from addon.ui.inspect import VIEW3D_PT_fairing_inspect
 from addon.ui.main import VIEW3D_PT_fairing
 

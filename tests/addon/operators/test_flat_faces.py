@@ -16,7 +16,7 @@ from scenes import (
     to_object_mode,
 )
 
-from addon.job import Job
+from addon.jobs.fair import Job
 from addon.mesh import flat_marks
 from addon.mesh.flat_marks import FLAT, count
 from addon.ui import main

@@ -10,7 +10,7 @@ from lattices import lattice_faces
 from scenes import CUBE, add, edit, positions, refused, settings, to_object_mode
 
 from addon import prediction
-from addon.in_place import InPlaceJob, InPlaceOptions
+from addon.jobs.in_place import InPlaceJob, InPlaceOptions
 from addon.mesh.edited import edited
 from addon.operators import redo
 from addon.operators.fair import Fairing

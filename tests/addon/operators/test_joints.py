@@ -10,12 +10,13 @@ from live_scenes import follow, pull
 from mathutils import Vector
 from scenes import activate, add, fair, positions, recompute, refused, to_object_mode
 
-from addon import core, neighbours
+from addon import core
 from addon.check import joints
-from addon.freshness import NEIGHBOUR_CHANGED, NEIGHBOUR_MOVED, UNFINISHED, why_stale
 from addon.live import registry
 from addon.operators import redo
 from addon.operators.fair import Fairing
+from addon.surfaces import neighbours
+from addon.surfaces.freshness import NEIGHBOUR_CHANGED, NEIGHBOUR_MOVED, UNFINISHED, why_stale
 from addon.ui import check as check_panel
 from addon.ui.main import VIEW3D_PT_fairing
 

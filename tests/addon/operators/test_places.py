@@ -6,10 +6,10 @@ import pytest
 from live_scenes import follow, move
 from scenes import CUBE, TRIANGLE, activate, add, computed, exclude, fair, refused, settings
 
-from addon.freshness import stale_surfaces
-from addon.job import Job
+from addon.jobs.fair import Job
 from addon.operators.fair import Fairing
 from addon.settings import Settings
+from addon.surfaces.freshness import stale_surfaces
 
 
 def counts():

@@ -9,7 +9,7 @@ from scenes import CUBE, add, add_attribute, add_group, again, fair, moved, posi
 
 from addon import vertex_values
 from addon.errors import JobError
-from addon.job import Job
+from addon.jobs.fair import Job
 
 
 def test_a_drag_does_not_change_what_the_tolerance_is_a_share_of(source, no_pause):

@@ -8,16 +8,16 @@ import bpy
 import numpy as np
 from bpy.props import CollectionProperty, PointerProperty, StringProperty
 
-from .blender import Context, Mesh, Object, column, current_context
-from .curves.cubics import Curve
-from .curves.settle import Covered, CoverOptions, covered
-from .errors import JobError
-from .fields import length, switch, whole
-from .mesh.layers import fill_layer, make_layer
-from .mesh.object import linked_object, session_key
-from .mesh.read_curves import read_curves
-from .settings import values_of
-from .units import Text, Units
+from ..blender import Context, Mesh, Object, column, current_context
+from ..curves.cubics import Curve
+from ..curves.settle import Covered, CoverOptions, covered
+from ..errors import JobError
+from ..fields import length, switch, whole
+from ..mesh.layers import fill_layer, make_layer
+from ..mesh.object import linked_object, session_key
+from ..mesh.read_curves import read_curves
+from ..settings import values_of
+from ..units import Text, Units
 
 HOLD = "On Curves"  # a vertex group: strength 1, which fixes vertices, on curves; 0 elsewhere
 

@@ -7,8 +7,8 @@ from fake_layout import draw
 from live_scenes import follow, live
 from scenes import CUBE, activate, add, fair, recompute
 
-from addon.freshness import SOURCE_CHANGED, SOURCE_MOVED, why_stale
 from addon.live import handlers
+from addon.surfaces.freshness import SOURCE_CHANGED, SOURCE_MOVED, why_stale
 from addon.ui import main
 
 

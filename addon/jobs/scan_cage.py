@@ -11,14 +11,14 @@ import numpy as np
 from mathutils import Matrix
 from mathutils.bvhtree import BVHTree
 
-from .blender import Context, Mesh, Object, column
-from .errors import JobError
-from .mesh import scans
-from .mesh.object import linked_object, new_object, select_only
-from .mesh.scans import Scan, read_scans
-from .mesh.world_shape import transformed, world_matrix
-from .mesh.write import write_faces
-from .words import counted
+from ..blender import Context, Mesh, Object, column
+from ..errors import JobError
+from ..mesh import scans
+from ..mesh.object import linked_object, new_object, select_only
+from ..mesh.scans import Scan, read_scans
+from ..mesh.world_shape import transformed, world_matrix
+from ..mesh.write import write_faces
+from ..words import counted
 
 # On a ball with noise of 0.3 % and 300 faces, 2,562 points give a surface that is 0.34 % off; with 100
 # faces 0.17 %.

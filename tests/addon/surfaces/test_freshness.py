@@ -19,9 +19,9 @@ from scenes import (
     to_object_mode,
 )
 
-from addon.freshness import SETTINGS_CHANGED, SOURCE_CHANGED, stale_surfaces, why_stale
 from addon.mesh.boundary_marks import BOUNDARY
 from addon.mesh.fixed_normals import NORMAL
+from addon.surfaces.freshness import SETTINGS_CHANGED, SOURCE_CHANGED, stale_surfaces, why_stale
 from addon.ui import main
 
 

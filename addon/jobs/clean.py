@@ -6,14 +6,14 @@ from typing import Any, cast
 
 import numpy as np
 
-from . import core, errors
-from .blender import Context, Object
-from .check.defects import as_dicts, store_defects
-from .check.holes import listed
-from .mesh.read import control_mesh, read_mesh
-from .mesh.timed_run import TimedRun
-from .mesh.write_cleaned import Cleaned, write_cleaned
-from .units import Units
+from .. import core, errors
+from ..blender import Context, Object
+from ..check.defects import as_dicts, store_defects
+from ..check.holes import listed
+from ..mesh.read import control_mesh, read_mesh
+from ..mesh.timed_run import TimedRun
+from ..mesh.write_cleaned import Cleaned, write_cleaned
+from ..units import Units
 
 # steps that can be turned off: name, label, description
 # fmt: off

@@ -12,10 +12,11 @@ from typing import Any
 import bpy
 import numpy as np
 
-from . import core, memory, neighbours
-from .blender import Context, Object, all_objects, column
-from .mesh.read import read_mesh
-from .mesh.world_shape import world_matrix
+from .. import core, memory
+from ..blender import Context, Object, all_objects, column
+from ..mesh.read import read_mesh
+from ..mesh.world_shape import world_matrix
+from . import neighbours
 
 
 def update(context: Context, target: Object, depsgraph: bpy.types.Depsgraph | None = None) -> None:

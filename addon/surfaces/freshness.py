@@ -14,18 +14,19 @@ from typing import Any
 import bpy
 import numpy as np
 
-from . import curve_cage, events, memory, neighbours, place
-from .blender import Context, Object, Scene, all_objects, current_context
-from .core import ControlArrays
-from .errors import JobError
-from .memory import FAIRING_PG_surface, source_of
-from .mesh import scans
-from .mesh.object import Reference, changed_keys, session_key
-from .mesh.read import control_mesh, group_values, read_mesh, shown_selection
-from .mesh.shape_keys import ShapeKeys, read_shape_keys
-from .mesh.world_shape import matrix_relative_to, world_matrix, world_shape
-from .redraw import tag_sidebars
-from .settings import NAMES, AnySettings, is_evaluated
+from .. import events, memory
+from ..blender import Context, Object, Scene, all_objects, current_context
+from ..core import ControlArrays
+from ..errors import JobError
+from ..memory import FAIRING_PG_surface, source_of
+from ..mesh import scans
+from ..mesh.object import Reference, changed_keys, session_key
+from ..mesh.read import control_mesh, group_values, read_mesh, shown_selection
+from ..mesh.shape_keys import ShapeKeys, read_shape_keys
+from ..mesh.world_shape import matrix_relative_to, world_matrix, world_shape
+from ..redraw import tag_sidebars
+from ..settings import NAMES, AnySettings, is_evaluated
+from . import curve_cage, neighbours, place
 
 SOURCE_CHANGED = "Source changed"
 SETTINGS_CHANGED = "Settings changed"

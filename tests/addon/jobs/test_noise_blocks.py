@@ -6,25 +6,25 @@ import pytest
 from lattices import lattice_faces
 from polygons import polygons
 
-from addon import measured
 from addon.core import module
+from addon.jobs import noise
 
 pytestmark = pytest.mark.plain
 
 df = pytest.importorskip("discrete_fairing")
 
 
-def sheet(count, noise=0.0):
+def sheet(count, off=0.0):
     at = np.linspace(-1, 1, count + 1)
     x, y = (values.ravel() for values in np.meshgrid(at, at, indexing="ij"))
-    z = 0.3 * np.cos(x) * np.cos(y) + noise * np.random.default_rng(0).standard_normal(len(x))
+    z = 0.3 * np.cos(x) * np.cos(y) + off * np.random.default_rng(0).standard_normal(len(x))
     return polygons(np.stack([x, y, z], axis=1), lattice_faces(count + 1, count + 1))
 
 
 @pytest.mark.parametrize("weight", [0.1, 0.003])
 def test_a_scan_in_blocks_is_smoothed_as_in_one(monkeypatch, weight):
-    noise = 0.004
-    arrays = sheet(60, noise)
+    off = 0.004
+    arrays = sheet(60, off)
     free = (np.abs(arrays.positions[:, :2]) < 0.99).all(axis=1)
 
     def arguments(part):
@@ -32,9 +32,9 @@ def test_a_scan_in_blocks_is_smoothed_as_in_one(monkeypatch, weight):
 
     found = []
     for size in (4000, 450):
-        monkeypatch.setattr(measured, "BLOCK", size)
+        monkeypatch.setattr(noise, "BLOCK", size)
         runs = module().watching.SeveralRuns(None, None, 1)
-        found.append(measured.smoothed(arrays, arguments, free, weight, runs).vertices)
+        found.append(noise.smoothed(arrays, arguments, free, weight, runs).vertices)
     moved = np.abs(found[0] - arrays.positions).max()
-    assert moved > noise and np.array_equal(found[0][~free], arrays.positions[~free])
-    assert np.abs(found[1] - found[0]).max() < 0.02 * noise
+    assert moved > off and np.array_equal(found[0][~free], arrays.positions[~free])
+    assert np.abs(found[1] - found[0]).max() < 0.02 * off

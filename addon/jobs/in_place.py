@@ -9,19 +9,20 @@ from typing import Any, cast
 
 import numpy as np
 
-from . import core, errors, measured, size
-from .blender import Context, Object, column
-from .check.faults import find_faults_in_place
-from .errors import JobError
-from .job import run_warnings
-from .mesh.edited import edited
-from .mesh.read import selected_faces
-from .mesh.timed_run import TimedRun
-from .preferences import of_runs
-from .settings import Settings
-from .transfer.attributes import AttributeTransfer
-from .transfer.cut_out import cut_out, grown, inside
-from .units import Units
+from .. import core, errors, size
+from ..blender import Context, Object, column
+from ..check.faults import find_faults_in_place
+from ..errors import JobError
+from ..mesh.edited import edited
+from ..mesh.read import selected_faces
+from ..mesh.timed_run import TimedRun
+from ..preferences import of_runs
+from ..settings import Settings
+from ..transfer.attributes import AttributeTransfer
+from ..transfer.cut_out import cut_out, grown, inside
+from ..units import Units
+from . import noise
+from .fair import run_warnings
 
 # levels of the surface if only its control vertices are needed
 _UNSEEN_LEVELS = 2
@@ -85,7 +86,7 @@ class InPlaceJob(TimedRun):
         """The measured vertices without noise, at level 0, and the noise, found on a part."""
         part, arguments = self._part.arrays, self._arguments
         theirs = self._chosen[self._part.faces]
-        tried = measured.sample(part, theirs)
+        tried = noise.sample(part, theirs)
         if tried.sum() < theirs.sum():
             small = cut_out(part, tried)
             own = self._arguments_of(small.arrays)
@@ -94,8 +95,8 @@ class InPlaceJob(TimedRun):
             own, free = arguments, self._free
         watched = watchers.get("progress"), watchers.get("monitor"), arguments["threads"]
         runs = core.module().watching.SeveralRuns(*watched)
-        found = measured.amount(own, free, self._options.noise, runs)
-        made = measured.smoothed(part, self._arguments_of, self._free, found.weight, runs)
+        found = noise.amount(own, free, self._options.noise, runs)
+        made = noise.smoothed(part, self._arguments_of, self._free, found.weight, runs)
         return made, found.noise
 
     def _compute(self, watchers: dict[str, Any]) -> None:

@@ -18,7 +18,7 @@ from scenes import (
 )
 
 from addon.choices import ENERGIES
-from addon.job import Job
+from addon.jobs.fair import Job
 from addon.mesh.modifiers import inspection_modifier
 
 

@@ -8,15 +8,15 @@ from typing import Any, cast
 import bmesh
 import numpy as np
 
-from . import core, errors
-from .blender import Context, Object, column
-from .check.defects import check_object, entry, store_defects
-from .errors import JobCancelled, JobError
-from .mesh.edited import edited, select_nothing
-from .mesh.timed_run import TimedRun
-from .mesh.write_filling import cut_sides, with_new, write_hole
-from .transfer.filling import Patch
-from .transfer.hole_loops import (
+from .. import core, errors
+from ..blender import Context, Object, column
+from ..check.defects import check_object, entry, store_defects
+from ..errors import JobCancelled, JobError
+from ..mesh.edited import edited, select_nothing
+from ..mesh.timed_run import TimedRun
+from ..mesh.write_filling import cut_sides, with_new, write_hole
+from ..transfer.filling import Patch
+from ..transfer.hole_loops import (
     Side,
     flat_faces,
     holes_in,
@@ -24,9 +24,9 @@ from .transfer.hole_loops import (
     unclear_edges,
     where_faces_were,
 )
-from .triangles import marked
-from .units import Units
-from .words import counted
+from ..triangles import marked
+from ..units import Units
+from ..words import counted
 
 
 @dataclass(frozen=True)

@@ -11,26 +11,27 @@ from typing import Any
 
 import numpy as np
 
-from . import core, errors, freshness, joint_normals, memory, neighbours, place, prediction, size
-from .blender import Context, Mesh, Object, scene_of
-from .check import cages
-from .check.faults import find_faults
-from .choices import ENERGY_NAMES
-from .errors import JobError
-from .inspection import display
-from .mesh.layers import read_data, write_data
-from .mesh.modifiers import copy_modifiers, left_out, without_inspection
-from .mesh.object import Reference, new_object
-from .mesh.own import OwnData, carried_names, read_own, write_own
-from .mesh.read import group_values, selected_faces, shown_selection
-from .mesh.shape_keys import write_shape_keys
-from .mesh.timed_run import TimedRun
-from .mesh.write import attributes_left_out, refill_mesh, write_mesh, write_pad_sizes
-from .preferences import preferences
-from .settings import Settings, halves, is_evaluated, subdivision, wants_modifiers
-from .transfer.attributes import AttributeTransfer
-from .transfer.lattice import edge_table, fine_edges
-from .transfer.seams import seam_pairs
+from .. import core, errors, memory, prediction, size
+from ..blender import Context, Mesh, Object, scene_of
+from ..check import cages
+from ..check.faults import find_faults
+from ..choices import ENERGY_NAMES
+from ..errors import JobError
+from ..inspection import display
+from ..mesh.layers import read_data, write_data
+from ..mesh.modifiers import copy_modifiers, left_out, without_inspection
+from ..mesh.object import Reference, new_object
+from ..mesh.own import OwnData, carried_names, read_own, write_own
+from ..mesh.read import group_values, selected_faces, shown_selection
+from ..mesh.shape_keys import write_shape_keys
+from ..mesh.timed_run import TimedRun
+from ..mesh.write import attributes_left_out, refill_mesh, write_mesh, write_pad_sizes
+from ..preferences import preferences
+from ..settings import Settings, halves, is_evaluated, subdivision, wants_modifiers
+from ..surfaces import freshness, joint_normals, neighbours, place
+from ..transfer.attributes import AttributeTransfer
+from ..transfer.lattice import edge_table, fine_edges
+from ..transfer.seams import seam_pairs
 
 NOTICED_MEMORY = 2**28  # bytes: less is negligible beside Blender itself
 

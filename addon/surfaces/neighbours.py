@@ -11,12 +11,12 @@ from typing import Any
 import bpy
 import numpy as np
 
-from . import core, memory
-from .blender import Context, Object
-from .mesh.read import control_mesh, group_values, read_mesh, selected_faces
-from .mesh.world_shape import transformed, world_matrix, world_shape
-from .preferences import preferences
-from .settings import AnySettings, Settings, is_evaluated
+from .. import core, memory
+from ..blender import Context, Object
+from ..mesh.read import control_mesh, group_values, read_mesh, selected_faces
+from ..mesh.world_shape import transformed, world_matrix, world_shape
+from ..preferences import preferences
+from ..settings import AnySettings, Settings, is_evaluated
 
 
 def neighbour_of(target: Object | None) -> Object | None:

@@ -8,9 +8,9 @@ the surface still has the stored value.
 from collections.abc import Mapping
 from typing import Any
 
-from . import memory
-from .blender import Context, Object
-from .mesh.object import PARENT, PLACE, TURN, copy_place
+from .. import memory
+from ..blender import Context, Object
+from ..mesh.object import PARENT, PLACE, TURN, copy_place
 
 _PARTS = (("location", "delta_location"), TURN, ("scale", "delta_scale"))
 

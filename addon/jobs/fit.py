@@ -7,20 +7,21 @@ from typing import Any, cast
 
 import numpy as np
 
-from . import core, freshness, memory, prediction
-from .blender import Context, Mesh, Object
-from .check.defects import entry, recall_defects, store_defects
-from .errors import OF_FITS, JobError
-from .job import Job
-from .mesh import scans
-from .mesh.layers import fill_layer, make_layer
-from .mesh.object import Reference
-from .mesh.scans import Scan, read_scans
-from .mesh.write import NO_POINTS
-from .settings import Settings
-from .triangles import fans
-from .units import Units
-from .words import counted
+from .. import core, memory, prediction
+from ..blender import Context, Mesh, Object
+from ..check.defects import entry, recall_defects, store_defects
+from ..errors import OF_FITS, JobError
+from ..mesh import scans
+from ..mesh.layers import fill_layer, make_layer
+from ..mesh.object import Reference
+from ..mesh.scans import Scan, read_scans
+from ..mesh.write import NO_POINTS
+from ..settings import Settings
+from ..surfaces import freshness
+from ..triangles import fans
+from ..units import Units
+from ..words import counted
+from .fair import Job
 
 TOO_COARSE, UNCOVERED, OUTLIERS = "FIT_TOO_COARSE", "FIT_NO_POINTS", "FIT_OUTLIERS"
 

@@ -12,9 +12,9 @@ from typing import Any
 
 import numpy as np
 
-from . import core
-from .transfer.cut_out import CutOut, cut_out, grown
-from .triangles import fans, marked, normals
+from .. import core
+from ..transfer.cut_out import CutOut, cut_out, grown
+from ..triangles import fans, marked, normals
 
 # Weights to try, from strong to weak: 10 hardly smooths, 1e-4 leaves a plate. Between neighbouring
 # weights the least error of a noisy sphere differs by at most a fifth.
