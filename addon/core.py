@@ -175,7 +175,9 @@ def of_fits(fairing: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def patches_on_scan(arguments: Mapping[str, Any], scan: Mapping[str, Any]) -> dict[str, Any]:
-    """`patch_arguments` for the surface near a scan; `scan` has arguments of `discrete_fairing.fit`."""
+    """`patch_arguments` for the surface near a scan; `scan` has arguments of `discrete_fairing.fit`, with
+    the levels of that surface.
+    """
     kept = ("tolerance",)  # the tolerance of the patches
     return of_fits(arguments) | {name: arguments[name] for name in kept} | {"scan": scan}
 

@@ -73,15 +73,15 @@ class PatchJob(Job):
         self.colours, self.slots = colours.of_faces(shown, source or shown, self.data)
         self.arguments = core.patch_arguments(self.arguments, options)
         if fit is not None:
-            scan = fit.arguments(source or shown)
+            scan = fit.arguments(source or shown) | {"levels": settings.levels}
             self.arguments = core.patches_on_scan(self.arguments, scan)
         if len(self.slots):  # a patch has one material
             self.arguments["groups"] = self.slots
         self._blend(shown)
         self._mesh = None if source is None else shown_mesh(context, shown)
         self._stands = np.array(world_matrix(shown), float)
-        # the control mesh of the mesh shown; None: it is the same
-        self.levels_shown = None if source is None else int(shown.discrete_fairing.levels)
+        # if more levels show more: not of a control mesh, nor of a fit, whose points CAD has
+        self.levels_shown = None if source is None or fit else int(shown.discrete_fairing.levels)
         self.apart: float | None = None  # as returned by `distance`, in Blender units of the world
         self.refused: list[int] = []  # faces that prevent the fit of patches
 

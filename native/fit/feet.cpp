@@ -106,10 +106,14 @@ void FeetFinder::set_surface(const double* x) {
 
 Vec3 FeetFinder::point_at_foot(const Foot& foot) const {
   const auto& corner = cells_.corners(foot.cell);
-  Vec3 sum = Vec3::Zero();
+  Vec3 flat = Vec3::Zero(), above = Vec3::Zero();
   for (std::size_t k = 0; k < 4; ++k)
-    if (corner[k] >= 0) sum += double(foot.shares[k]) * at(corner[k]);
-  return sum;
+    if (corner[k] >= 0) flat += double(foot.shares[k]) * at(corner[k]);
+  const std::array<Vec3, 4> normals = corner_normals(foot.cell);
+  for (std::size_t k = 0; k < 4; ++k)
+    if (corner[k] >= 0)
+      above += double(foot.shares[k]) * (at(corner[k]) - flat).dot(normals[k]) * normals[k];
+  return flat + above / 2;
 }
 
 std::array<Vec3, 4> FeetFinder::corner_normals(Index cell) const {

@@ -33,6 +33,8 @@ class FeetFinder {
   // The same with known normals of the cell's corners.
   static Vec3 normal_at(const Foot& foot, const std::array<Vec3, 4>& corners);
   std::array<Vec3, 4> corner_normals(Index cell) const;
+  // On a parabola over the cell: half way to the mean of its corners' tangent planes [Boubekeur, Alexa
+  // 2008]. (Through a flat cell noise would be the same, and surfaces too wide where they are round.)
   Vec3 point_at_foot(const Foot& foot) const;
   // Distance of a scan's point from its foot, positive on the side of the normal.
   double distance(std::size_t point, const Foot& foot) const {

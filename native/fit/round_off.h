@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Details of a scan that are finer than the control mesh can carry.
+// Details of a scan for which the surface would fold.
 #pragma once
 
 #include "fit/level_fit.h"
 
 namespace fairing {
 
-// A surface bends about no radius below a tenth of a control edge: a patch of one face cannot
-// follow that, and where points ask for less the surface folds. Points over such faces act less,
-// pass by pass; where they hardly act any more, the points around make the fold, and act less too.
+// Where points ask for more, a surface turns by over a right angle from cell to cell and folds. Points
+// over such faces act less, pass by pass; where they hardly act any more, the points around make the
+// fold, and act less too.
 void round_off(LevelFit& fit, double weight);
 
 }  // namespace fairing

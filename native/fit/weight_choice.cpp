@@ -143,7 +143,8 @@ double WeightChoice::by_held_out(Monitor& monitor, bool is_last) {
   use(by_cells, cells);
   if (cells.tests.empty()) return by_cells[0].weight;  // a tiny scan: no trial has an error
   const double weight = least_of_good(by_cells, cells.tests.size(), bias_);
-  if (!is_last) return weight;
+  // no noise that matters: what is left is shape
+  if (!is_last || spread_of(fit_.feet(), {}).rms <= least_noise * fit_.edge()) return weight;
   Place fitted = place();
   // From a calm surface, on which points hidden by a disc have not acted; from two weights above that
   // of the cells on, so that trials lie on both sides of the least error.

@@ -14,13 +14,14 @@ from .arrays import face_arrays, vertex_array
 from .checking import predicted_size
 from .converters import switch, whole
 from .fairing import fair
+from .finer_fits import FinerFits
 from .options import CommonSettings
 from .patch_distances import distances_from
 from .patch_fits import PatchFits
 from .patch_levels import at_level, at_own_level
 from .patches import SplinePatches
 from .result import Result
-from .scan_fitting import Fitted, fit
+from .scan_fitting import Fitted
 from .watching import Progress, SeveralRuns, check_watchers
 
 
@@ -75,8 +76,8 @@ def fit_patches(
     fair_tolerance : float or (n,) float, mesh units
         fair()'s own tolerance, with interpolation="approximate".
     scan : dict
-        Arguments of fit(), points at least: patches of the surface near that scan, and
-        patches.scan_distances. The weight of the first level counts for all.
+        Arguments of fit(), points at least, with its `levels`, 2 by default and 4 at most: patches of
+        the surface near that scan, which finer ones pass through, and patches.scan_distances.
     blend : callable (Result, level) -> (N, 3) float64
         What patches are fitted to in place of the result's vertices, such as a mix of them with its
         shapes. Called for each surface, at each level; patches.result has the outcome.
@@ -106,15 +107,14 @@ def fit_patches(
     polygons = face_arrays(faces)
     if groups is not None:
         fits.keep_apart(groups, len(polygons[1]) - 1)
-    given = None if scan is None else dict(scan)
+    near = None if scan is None else FinerFits(points, polygons, scan, options)
 
     def surface(level: int, **watchers: Any) -> Result:
-        if given is None:
+        if near is None:
             result = fair(points, polygons, level, **options, **watchers)
         else:
-            result = fit(points, polygons, levels=level, **given, **options, **watchers)
-            given.update(tolerance=None, weight=result.weight)
-            fits.allow_for(result, polygons)
+            result = near.at(level, **watchers)
+            fits.allow_for(near.fit, polygons)
         if blend is not None:
             result.vertices = np.ascontiguousarray(blend(result, level), np.float64)
         return result
@@ -124,15 +124,15 @@ def fit_patches(
         energy = options.get("energy", "thin_plate")
         return halves * predicted_size(len(points), polygons, level, energy=energy)["vertices"]
 
-    # near a scan the weight of its points is that of the first surface
-    coarser = 2 if given is None else 1
+    # the first surface is that of the fit itself, or finer
+    coarser = 2 if near is None else 1
     if levels is None:
         found = at_own_level(fits, surface, count, runs, coarser)
     else:
         found = at_level(fits, surface, whole("levels", levels), runs, coarser)
     runs.finish()
-    if given is not None and isinstance(found.result, Fitted):
-        off = _on_one_side(np.asarray(given["points"], np.float64), found.result, options)
+    if scan is not None and isinstance(found.result, Fitted):
+        off = _on_one_side(np.asarray(scan["points"], np.float64), found.result, options)
         found.scan_distances = distances_from(found, off, found.result.faces_of_points)
     return found
 

@@ -8,7 +8,7 @@ import numpy as np
 from .patches import SplinePatches
 
 _SAMPLES = 8  # least samples a side of a patch (two a span), from which Newton's steps start
-_STEPS = 5
+_STEPS = 8
 _AT_ONCE = 1 << 15  # points: 16 control points each
 
 
@@ -79,18 +79,36 @@ def _with(order: np.ndarray, values: np.ndarray, value: int) -> np.ndarray:
 def _along_normals(
     patches: SplinePatches, points: np.ndarray, patch: np.ndarray, places: np.ndarray
 ) -> np.ndarray:
+    best, step = places, np.zeros_like(places)
+    nearest, share = np.full(len(points), np.inf), np.ones(len(points))
     for _ in range(_STEPS):
         at, along, across = evaluate(patches, patch, places)
-        a, b, c = ((x * y).sum(1) for x, y in ((along, along), (along, across), (across, across)))
-        p, q = (((points - at) * x).sum(1) for x in (along, across))
-        determinant = a * c - b * b
-        determinant[determinant <= 0.0] = np.inf
-        step = np.stack([c * p - b * q, a * q - b * p], 1) / determinant[:, None]
-        places = np.clip(places + step, 0.0, 1.0)
+        square = ((points - at) ** 2).sum(1)
+        nearer = square < nearest
+        # a step that leads away is shortened: at corners patches may hardly grow along a side
+        share = np.where(nearer, 1.0, share / 4)
+        best, nearest = np.where(nearer[:, None], places, best), np.minimum(square, nearest)
+        step = np.where(nearer[:, None], _step(points - at, along, across, places), step)
+        places = np.clip(best + share[:, None] * step, 0.0, 1.0)
+    places = best
     at, along, across = evaluate(patches, patch, places)
     normal = np.cross(along, across)
     length = np.linalg.norm(normal, axis=1)
     return ((points - at) * normal).sum(1) / np.where(length > 0.0, length, np.inf)
+
+
+def _step(
+    rest: np.ndarray, along: np.ndarray, across: np.ndarray, places: np.ndarray
+) -> np.ndarray:
+    """(k, 2): Gauss-Newton steps; along a side where one would leave the patch."""
+    a, b, c = ((x * y).sum(1) for x, y in ((along, along), (along, across), (across, across)))
+    p, q = ((rest * x).sum(1) for x in (along, across))
+    a, c = (np.where(x > 0.0, x, 1.0) for x in (a, c))  # b, p or q are 0 there
+    determinant = a * c - b * b
+    determinant[~(determinant > 0.0)] = np.inf
+    du = np.clip((c * p - b * q) / determinant, -places[:, 0], 1.0 - places[:, 0])
+    dv = np.clip((q - b * du) / c, -places[:, 1], 1.0 - places[:, 1])
+    return np.stack([(p - b * dv) / a, dv], 1)
 
 
 def evaluate(

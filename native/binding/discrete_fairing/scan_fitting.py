@@ -77,8 +77,8 @@ def fit(
 
     Each point pulls along the normal of the surface where it is nearest. Where there are none, the
     surface is as fair as its surroundings let it be; gross errors pull less, and in the end not at
-    all. Details that bend about less than a tenth of a control edge are rounded off: points over
-    them pull less. Neither mesh is changed.
+    all. Distances are those from the smooth surface through the vertices, not from flat faces. Where
+    the surface would fold, points pull less. Neither mesh is changed.
 
     Parameters
     ----------
