@@ -200,8 +200,6 @@ class SolverFromStart:
 def solver(arguments: Mapping[str, Any]) -> Any:
     """A solver for moving vertices; may fit a `scan`, or meet a `neighbour`, of the arguments."""
     own = dict(arguments)
-    if "neighbour" in own:
-        return SolverFromStart(module().fair, own)
     scan = own.pop("scan", None)
     if scan is not None:
         return SolverFromStart(module().fit, {**of_fits(own), **scan})

@@ -68,6 +68,11 @@ def seam(first, other):
     return df.joint((first.vertices, first.faces), (other.vertices, other.faces))
 
 
+def seen_from(surface, points):
+    """(k, 3): from the nearest points on the border of a surface."""
+    return points - border_of(*mesh_arrays((surface.vertices, surface.faces))).at(points).point
+
+
 def kinks_at_ends(met, first):
     """Degrees, at the ends of joints, which `joint` leaves out: between the surfaces' fits there."""
     own, other = (mesh_arrays((part.vertices, part.faces)) for part in (met, first))
@@ -222,6 +227,43 @@ def test_both_meet_half_way_in_curvature_whichever_way_their_faces_turn():
     joint, before = seam(*met), seam(*free)
     assert np.degrees(joint.kink.max()) < 0.05 and joint.jump.max() < 0.03
     assert joint.bend[:, 0] == pytest.approx(before.bend.mean(axis=1), abs=0.03 * joint.largest)
+
+
+@pytest.mark.parametrize("levels", [3, 4])
+@pytest.mark.parametrize("halfway", [False, True])
+def test_ripples_beside_a_joint_are_told_or_avoided(levels, halfway):
+    """Curvatures that alternate along the border let a bonnet's faces fold by 26 degrees, by 116 half way."""
+    bonnet, fender = bonnet_and_fender()
+    first = fair(fender, levels)
+    goal = {"neighbour": (first.vertices, first.faces), "halfway": halfway}
+    smooth = largest_turn(fair(bonnet, levels, **goal))
+    met = fair(bonnet, levels, **goal, joint="curvature")
+    told = [w["code"] for w in met.report["warnings"]]
+    if levels == 3:
+        assert told == ["JOINT_JAGGED"]
+    else:
+        assert told == ["JOINT_NOT_MET"] and largest_turn(met) == pytest.approx(smooth)
+
+
+@pytest.mark.parametrize("joint", ["tangent", "curvature"])
+def test_a_solver_meets_the_neighbour_after_every_move(joint):
+    fixed, (points, faces) = hull_and_deck()
+    first = fair(fixed, 3)
+    goal = {"neighbour": (first.vertices, first.faces), "joint": joint, "corner_angle": CORNERS}
+    solver = df.Solver(points, faces, 3, **goal)
+    assert np.array_equal(solver.solve().vertices, df.fair(points, faces, 3, **goal).vertices)
+    moved = points.copy()
+    moved[np.argmin(np.linalg.norm(points - points.mean(axis=0), axis=1)), 2] += 0.03
+    met = solver.solve(moved)
+    seen = seam(met, first)
+    assert np.degrees(seen.kink.max()) < 0.05 and seen.gap.max() < 1e-12
+    assert joint == "tangent" or seen.jump.max() < 0.03
+    # a border vertex that leaves the neighbour takes its edges along
+    border = border_of(*mesh_arrays((points, faces))).vertex
+    on = border[np.linalg.norm(seen_from(first, points[border]), axis=1) < 1e-9]
+    moved[on[np.argmax(points[on, 0])], 2] += 0.3
+    left = seam(solver.solve(moved), first)
+    assert len(seen.kink) - 8 <= len(left.kink) < len(seen.kink)
 
 
 def curved(u, v):

@@ -229,9 +229,14 @@ class BorderFits:
         # fits of as many points at once
         self.groups = [np.flatnonzero(sizes == size) for size in np.unique(sizes)]
         self.up: np.ndarray | None = None
+        self.last: tuple[np.ndarray, Border] | None = None
 
     def of(self, points: np.ndarray) -> Border:
-        """The border with these points (N, 3), or more; its fits begin with the last normals."""
+        """The border with these points (N, 3), or more, not changed since the last call; its fits begin with
+        the last normals.
+        """
+        if self.last is not None and self.last[0] is points:
+            return self.last[1]
         vertex = self.curve.vertex
         curve = replace(self.curve, point=points[vertex])
         place = (curve.edge, curve.face, vertex, curve.point, curve.slot)
@@ -250,7 +255,8 @@ class BorderFits:
             for k, row in zip(at, rows):
                 fits[k] = self.ids[k], row
         self.up = normal
-        return Border(*place, normal, inward, bend, fits)
+        self.last = points, Border(*place, normal, inward, bend, fits)
+        return self.last[1]
 
 
 class _Around:

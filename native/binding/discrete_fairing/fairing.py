@@ -10,10 +10,9 @@ from numpy.typing import ArrayLike
 
 from . import _native
 from .arrays import shape_array
-from .borders import mesh_arrays
 from .errors import written_report
 from .halves import Control
-from .matching import match_border, require_matchable
+from .matching import MatchedBorder
 from .options import Settings, native_options
 from .result import Result
 from .strain import strain_of
@@ -95,22 +94,17 @@ def fair(
     check_watchers(progress, monitor)
     control = Control(vertices, faces, given, symmetry_plane)
     others = shape_array(shapes, control.count)
-    half = control.half
-    if half:
-        others = half.shapes(others)
+    if control.half:
+        others = control.half.shapes(others)
     watch = monitor or _native.Monitor()
-    beside = None
+    matched = None
     if neighbour is not None:
-        require_matchable(given, len(others))
-        beside = mesh_arrays(neighbour)
-        if half:
-            beside = half.beside(*beside)
-            border = None if border is None else half.with_images("border", "vertex", border)
+        matched = MatchedBorder(control, neighbour, border, halfway, len(others))
     strained = strain_of(control, _of_plate(control), watch).lengths if strain else None
     with control.named():
         found = _native.fair(*control.arrays, others, control.options, watch, progress)
-        if beside is not None:
-            match_border(found, control, beside, border, halfway)
+        if matched is not None:
+            matched.meet(found)
     result = Result(written_report(control.cut(found)))
     result.strain = strained
     return result

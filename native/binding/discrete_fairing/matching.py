@@ -16,7 +16,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .borders import Border, BorderFits, Foot, border_edges, border_of, mesh_arrays, unit_vectors
+from .arrays import face_vectors, following
+from .borders import (
+    Border,
+    BorderFits,
+    Foot,
+    border_edges,
+    border_of,
+    dot,
+    mesh_arrays,
+    unit_vectors,
+)
 from .converters import vertex_pairs
 from .errors import fairing_error
 from .halfway import Halfway
@@ -29,67 +39,88 @@ NEAR = 0.05
 # Most passes. With curvature, two halves of a bottle of 60 faces, which meet at 34 degrees before, need 16; a hull's
 # triangles need 16 or more, since rounding changes their number. Passes end once a change is this share of the first.
 PASSES = {"position": 1, "tangent": 4, "curvature": 24}
+RANKS = ("position", "tangent", "curvature")
 SETTLED = 1e-5
 # Radians: larger kinks that are left show that the passes diverge. With curvature a surface gets spikes before
 # that shows: two bonnets half way on level 4 kept 4e-4, those without spikes at most 8e-5.
 LEFT = {"tangent": float(np.radians(1)), "curvature": 2e-4}
+# Largest fold beside a border with curvature, over that with tangents, from which it counts as jagged. Of 36 joints it is
+# 0.6 to 2.3 but where curvatures alternate from vertex to vertex: 2.5 to 47.
+JAGGED = 2.4
 
 
-def require_matchable(settings: dict[str, Any], shapes: int) -> None:
-    """Refuses settings that exclude a neighbour."""
-    refused = {
-        "shapes": shapes > 0,
-        "region": settings.get("region") is not None,
-        "levels below 2": int(settings["levels"]) < 2,
-    }
-    for name, given in refused.items():
-        if given:
-            raise fairing_error("BAD_OPTION", f"neighbour does not go with {name}.")
+class MatchedBorder:
+    """A border that meets a neighbour's, of one control mesh or of the same with moved vertices."""
 
+    def __init__(
+        self,
+        control: Control,
+        neighbour: tuple[ArrayLike, Any],
+        border: ArrayLike | None = None,
+        halfway: bool = False,
+        shapes: int = 0,
+    ):
+        """`border`: (k, 2) vertex pairs, None: the edges whose ends lie on the neighbour's border. `halfway`:
+        towards the mean of both. Raises FairingError for settings that exclude a neighbour.
+        """
+        refused = {
+            "shapes": shapes > 0,
+            "region": control.settings.get("region") is not None,
+            "levels below 2": int(control.settings["levels"]) < 2,
+        }
+        for name, given in refused.items():
+            if given:
+                raise fairing_error("BAD_OPTION", f"neighbour does not go with {name}.")
+        beside, half = mesh_arrays(neighbour), control.half
+        if half:
+            beside = half.beside(*beside)
+            border = None if border is None else half.with_images("border", "vertex", border)
+        self.control, self.border, self.halfway = control, border, halfway
+        self.other = border_of(*beside)
+        self.joint = control.settings.get("joint", "tangent")
+        self.edges = border_edges(control.corners, control.offsets)[0]
+        self.chosen: np.ndarray | None = None  # of the edges, those that `strip` and `fits` are for
 
-def match_border(
-    found: dict[str, Any],
-    control: Control,
-    neighbour: tuple[np.ndarray, np.ndarray, np.ndarray],
-    border: ArrayLike | None,
-    halfway: bool = False,
-) -> None:
-    """Changes the points of the core's result `found`. `neighbour`: from mesh_arrays(). `border`: (k,
-    2) vertex pairs, None: the edges whose ends lie on the neighbour's border. `halfway`: towards the mean
-    of both.
-    """
-    other = border_of(*neighbour)
-    points = found["vertices"]
-    edge, _ = border_edges(control.corners, control.offsets)
-    edge = edge[_chosen(points[: len(control.points)], edge, other, border)]
-    joint = control.settings.get("joint", "tangent")
-    strip = _Strip(_closed_faces(found, 1 << control.options.levels), edge)
-    _, corners, offsets = mesh_arrays((points, (found["triangles"], found["quads"])))
-    own = BorderFits(corners, offsets, strip.on).of
-    goal = Halfway(own(points), other) if halfway else other
+    def meet(self, found: dict[str, Any]) -> None:
+        """Changes the points of the core's result `found`."""
+        points = found["vertices"]
+        now = points[: len(self.control.points)]
+        chosen = _chosen(now, self.edges, self.other, self.border)
+        if self.chosen is None or not np.array_equal(chosen, self.chosen):
+            self.strip = _Strip(
+                _closed_faces(found, 1 << self.control.options.levels), self.edges[chosen]
+            )
+            _, corners, offsets = mesh_arrays((points, (found["triangles"], found["quads"])))
+            self.fits = BorderFits(corners, offsets, self.strip.on)
+            self.chosen = chosen
+        own = self.fits.of
+        goal = Halfway(own(points), self.other) if self.halfway else self.other
 
-    def settled(at: np.ndarray, name: str) -> np.ndarray:
-        return _settled(at, strip.changes(at, own, goal, name), PASSES[name])
+        def settled(at: np.ndarray, name: str) -> np.ndarray:
+            return _settled(at, self.strip.changes(at, own, goal, name), PASSES[name])
 
-    def kink(at: np.ndarray) -> float:
-        now = own(at)
-        return float(np.abs(needed(now, goal.at(now.point))[0]).max())
+        def kink(at: np.ndarray) -> float:
+            now = own(at)
+            return float(np.abs(needed(now, goal.at(now.point))[0]).max())
 
-    found["vertices"] = points = settled(points, "position")
-    if joint == "position":
-        return
-    turn = kink(points)
-    for name in (joint, "tangent") if turn < np.pi / 2 else ():  # beyond, faces would turn back
-        met = settled(points, name)
-        if kink(met) < LEFT[name]:
-            found["vertices"] = met
-            break
-    else:
-        name = "position"
-    if name != joint:
-        on = np.isin(found["crease_edges"], strip.on)
-        creased = found["crease_edges"][on & ~on[:, ::-1]]
-        found["report"]["warnings"].append(_not_met(turn, name, creased))
+        joint = self.joint
+        found["vertices"] = points = settled(points, "position")
+        if joint == "position":
+            return
+        turn, name = kink(points), "position"
+        folds = {}  # by kind of joint, the largest beside the border
+        for better in RANKS[1 : RANKS.index(joint) + 1] if turn < np.pi / 2 else ():
+            met = settled(points, better)
+            folds[better] = self.strip.largest_fold(met)
+            if kink(met) > LEFT[better] or folds[better] > folds["tangent"] + np.pi / 2:
+                break
+            found["vertices"], name = met, better
+        if name != joint:
+            on = np.isin(found["crease_edges"], self.strip.on)
+            creased = found["crease_edges"][on & ~on[:, ::-1]]
+            found["report"]["warnings"].append(_not_met(turn, name, creased))
+        elif folds[joint] > JAGGED * folds["tangent"]:
+            found["report"]["warnings"].append(_jagged(folds[joint], folds["tangent"]))
 
 
 def _not_met(turn: float, name: str, creased: np.ndarray) -> dict[str, Any]:
@@ -113,6 +144,17 @@ def _not_met(turn: float, name: str, creased: np.ndarray) -> dict[str, Any]:
         "cause": f"The border turns by {np.degrees(turn):.0f} degrees from the neighbour's, too much for its faces: the two "
         f"meet, but {stays}.",
         "cure": "To change that, let both change, each by half, or use more levels.",
+    }
+
+
+def _jagged(fold: float, smooth: float) -> dict[str, Any]:
+    return {
+        "code": "JOINT_JAGGED",
+        "kind": "mesh",
+        "elements": [],
+        "cause": f"With the neighbour's curvature the surface has ripples beside the border: its faces fold by "
+        f"{np.degrees(fold):.0f} degrees, with its tangents by {np.degrees(smooth):.0f}.",
+        "cure": "Take the joint Tangent, or let both change, each by half.",
     }
 
 
@@ -166,6 +208,23 @@ class _Strip:
             if not joint & set(pair)
         }
         self.rim = list(rim.values())
+        cells = [face.ids[face.lattice.cells] for face in touching]
+        self.cell_corners = np.concatenate([part.ravel() for part in cells])
+        sizes = np.repeat([part.shape[1] for part in cells], [len(part) for part in cells])
+        self.cell_offsets = np.concatenate([[0], np.cumsum(sizes)])
+        ends = [self.cell_corners, self.cell_corners[following(self.cell_offsets)]]
+        _, edge_of, uses = np.unique(
+            np.sort(ends, axis=0), axis=1, return_inverse=True, return_counts=True
+        )
+        edge_of = edge_of.ravel()
+        order = np.argsort(edge_of, kind="stable")
+        cell = np.repeat(np.arange(len(sizes)), sizes)[order]
+        self.pairs = cell[uses[edge_of[order]] == 2].reshape(-1, 2)
+
+    def largest_fold(self, points: np.ndarray) -> float:
+        """Between cells that share an edge, radians."""
+        normal = unit_vectors(face_vectors(points, self.cell_corners, self.cell_offsets))
+        return float(np.arccos(np.clip(dot(*normal[self.pairs.T]), -1, 1)).max())
 
     def away(self, points: np.ndarray) -> np.ndarray:
         """Distance of each point from the sides that stay: zero there, smooth elsewhere, and the

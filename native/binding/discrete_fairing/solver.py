@@ -15,6 +15,7 @@ from . import _native
 from .arrays import vertex_array
 from .errors import fairing_error, written_report
 from .halves import Control
+from .matching import MatchedBorder
 from .options import Settings
 from .result import Result
 from .watching import Progress, check_watchers
@@ -27,8 +28,8 @@ class Solver:
 
     Parameters
     ----------
-    vertices, faces, levels, energy
-        As those of fair().
+    vertices, faces, levels, energy, symmetry_plane, neighbour, border, halfway
+        As those of fair(). The neighbour stays as it is at construction.
     **settings
         discrete_fairing.Settings. Without `measure` no energy is measured (NaN in the report).
         method="back_leg" is refused.
@@ -50,10 +51,15 @@ class Solver:
         energy: str = "thin_plate",
         *,
         symmetry_plane: str | None = None,
+        neighbour: tuple[ArrayLike, Any] | None = None,
+        border: ArrayLike | None = None,
+        halfway: bool = False,
         **settings: Unpack[Settings],
     ):
         given: dict[str, Any] = {**settings, "levels": levels, "energy": energy}
         control = self._control = Control(vertices, faces, given, symmetry_plane)
+        matched = MatchedBorder(control, neighbour, border, halfway) if neighbour else None
+        self._matched = matched
         with control.named():
             self._native = _native.Solver(*control.arrays, control.options)
         self._constants = self._native.constants()
@@ -107,6 +113,8 @@ class Solver:
         with self._alone(), self._control.named():
             solved = self._native.solve(points, monitor, progress)
             found = {**self._constants, "shapes": [], **solved}
+            if self._matched:
+                self._matched.meet(found)
             return Result(written_report(self._control.cut(found)))
 
     def rebase(self, vertices: ArrayLike) -> None:
