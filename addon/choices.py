@@ -29,8 +29,7 @@ ENERGY_MEANINGS = {
 # numbered like files from before the third option existed
 INTERPOLATIONS = (
     ("AUTO", "Auto",
-     "Limit where the source has a Subdivision Surface modifier, or is closed and has flat faces between tight rims, "
-     "such as a phone case; else Through", 3),
+     "Limit under a Subdivision Surface modifier, and for closed cages with tight rims, hollows or slits; else Through", 3),
     ("EXACT", "Through", "The surface passes exactly through every vertex of the source", 0),
     ("APPROXIMATE", "Near",
      "Bends as little as the tolerance of each vertex allows; for scattered or wrong points use Ease Control Mesh", 1),

@@ -11,7 +11,7 @@ from ..mesh.world_shape import world_shape
 from ..properties import FairingSettings
 from ..settings import Settings, is_evaluated, subdivision
 
-REASON = "flat faces at tight rims or in hollows"
+REASON = "tight rims, hollows or slits"
 
 
 def _is_auto(settings: Settings) -> bool:

@@ -40,6 +40,52 @@ def test_a_chamfered_cylinder_stays_one(cap_from_centre):
     assert abs(radius - 1) < 0.02 and result.report["converged"]
 
 
+def prongs(degrees, rows=3):
+    """(vertices, quads): two prongs side by side on a block, with a slit whose walls are `degrees` apart."""
+    z = np.arange(-1, rows) * 0.6
+    inner = np.maximum(z, 0.0) * np.tan(np.radians(degrees / 2))
+    columns = np.array([[-np.ones(rows + 1), -inner], [inner, np.ones(rows + 1)]])
+    index, faces = {}, []
+
+    def at(x, y, height):
+        key = round(x, 9), y, round(height, 9)
+        return index.setdefault(key, len(index))
+
+    for left, right in columns:
+        for k in range(rows):
+            low, high = z[k], z[k + 1]
+            ring = [(left, -0.5), (right, -0.5), (right, 0.5), (left, 0.5)]
+            for i, (a, y) in enumerate(ring):
+                b, after = ring[(i + 1) % 4]
+                if k or (i % 2 == 0 or abs(a[0]) == 1.0):  # the block has no wall in its middle
+                    faces.append(
+                        [
+                            at(a[k], y, low),
+                            at(b[k], after, low),
+                            at(b[k + 1], after, high),
+                            at(a[k + 1], y, high),
+                        ]
+                    )
+        faces.append([at(x[rows], y, z[rows]) for x, y in ring])
+        faces.append([at(x[0], y, z[0]) for x, y in ring[::-1]])
+    return np.array(list(index)), faces
+
+
+@pytest.mark.parametrize("degrees, slit", [(20, True), (40, False)])
+def test_walls_of_a_slit_do_not_cross(degrees, slit):
+    points, faces = prongs(degrees)
+    right = np.array([points[face, 0].mean() > 0 for face in faces])
+
+    def beyond(interpolation):
+        found = df.fair(points, faces, 3, interpolation=interpolation)
+        return found, -found.vertices[found.faces[1][right[found.quad_polygon]], 0].min()
+
+    auto, across = beyond("auto")
+    expected, _ = beyond("limit" if slit else "exact")
+    assert np.array_equal(auto.vertices, expected.vertices) and across < 1e-6
+    assert not slit or beyond("exact")[1] > 0.01
+
+
 CAGES = {
     "cup": cup()[:2],
     "bevelled box": bevelled_box((4, 3, 1), 0.05),

@@ -12,6 +12,9 @@ from .control_mesh import ControlMesh
 from .converters import vertex_pairs
 from .flats import ANGLE, flats_of, halves_of_quads, plane_parts
 
+# Degrees. Through the vertices, walls of a slit cross each other where they are less than 60, 45 or 20 apart, if the faces
+# at its bottom are 0.3, 0.6 or 1.2 times as deep as the prongs beside it are thick.
+SLIT = 30.0
 # settings that decide for "exact": limit positions exclude them, or they make a fold a crease
 _EXACT = ("normals", "flat_faces", "region", "crease_angle")
 
@@ -47,20 +50,28 @@ def resolved(
 
 def wants_limit(mesh: ControlMesh, sharp: np.ndarray) -> bool:
     """Whether limit positions suit a mesh, with the edges `sharp`, (e,) bool, better than its vertices: it
-    is closed, with flats between tight rims of quads or a flat floor in a hollow.
+    is closed, with flats between tight rims of quads, a flat floor in a hollow, or slits.
 
     Through its vertices such a mesh is quilted, and with stiff flats its rims bulge; the floor and the walls
-    of a hollow swing into what is behind them. Open meshes are measured sheets, hulls and terrain as often as
+    of a hollow swing into what is behind them, and those of a slit into each other. Open meshes are measured sheets, hulls and terrain as often as
     they are cages.
     """
     uses = mesh.edge_uses
     if not uses.any() or not np.isin(uses, (0, 2)).all():
         return False
     return (
-        _has_floor(mesh, sharp)
+        _has_slits(mesh, sharp)
+        or _has_floor(mesh, sharp)
         or _has_rims(mesh, flats_of(mesh, ANGLE, sharp, tight=True))
         or _has_chamfers_of_triangles(mesh, sharp)
     )
+
+
+def _has_slits(mesh: ControlMesh, sharp: np.ndarray) -> bool:
+    """Whether walls that are less than SLIT apart meet inwards, by no `sharp` edge, as between fingers."""
+    folds, inside = mesh.fold_angles
+    narrow = inside & ~sharp & (folds > 180.0 - SLIT)
+    return bool((narrow & (_rises(mesh, *mesh.faces_of_edges.T) > 0.0)).any())
 
 
 def _has_floor(mesh: ControlMesh, sharp: np.ndarray) -> bool:
@@ -68,13 +79,18 @@ def _has_floor(mesh: ControlMesh, sharp: np.ndarray) -> bool:
     folds, inside = mesh.fold_angles
     bent = inside & ~sharp & (folds > ANGLE)
     part, plane = plane_parts(mesh, inside & ~sharp & (folds <= ANGLE))
-    pair, vectors, middles = mesh.faces_of_edges, mesh.face_vectors, mesh.face_centres
-    outwards = np.sign((vectors * (middles - middles.mean(axis=0))).sum())
+    pair = mesh.faces_of_edges
     for here, there in (pair.T, pair.T[::-1]):
-        rise = (vectors[here] * (middles[there] - middles[here])).sum(axis=1)
         border = part[here] != part[there]
-        plane[part[here[border & ~(bent & (outwards * rise > 0.0))]]] = False
+        plane[part[here[border & ~(bent & (_rises(mesh, here, there) > 0.0))]]] = False
     return bool(plane.any())
+
+
+def _rises(mesh: ControlMesh, here: np.ndarray, there: np.ndarray) -> np.ndarray:
+    """(e,) how far the faces `there` rise above those `here` on the outside, times twice their areas."""
+    vectors, middles = mesh.face_vectors, mesh.face_centres
+    outwards = np.sign((vectors * (middles - middles.mean(axis=0))).sum())
+    return np.asarray(outwards * (vectors[here] * (middles[there] - middles[here])).sum(axis=1))
 
 
 def _has_rims(mesh: ControlMesh, flats: np.ndarray) -> bool:

@@ -72,7 +72,7 @@ class CommonSettings(TypedDict, total=False):
         choice({**_native.Interpolation.__members__, "auto": _native.Interpolation.exact}),
     ]
     """None: approximate where there is a tolerance or weights, else exact. Auto: limit for closed meshes
-    with flat faces at tight rims or in hollows, such as cases and mugs, unless other settings exclude
+    with flat faces at tight rims or in hollows, or slits, such as cases, mugs, hands, unless other settings exclude
     it; else as None. Exact: control vertices stay, to the last bit. Approximate: they move, within `tolerance` or against `weights`; vertices
     on curves always stay. Limit: the surface passes exactly through the vertices' limit positions,
     where Catmull-Clark subdivision would take them, and charts are made of the surface through these:
