@@ -32,7 +32,9 @@ Scan thinned(const Scan& scan, std::size_t step) {
 
 int search_level(const ControlMesh& mesh, int top, std::size_t points) {
   int level = std::min(level_of_search, top);
-  const auto cells = [&](int l) { return mesh.faces.size() << (2 * l); };
+  std::size_t halves = 0;  // two triangles have as many points as a quad
+  for (const Face& face : mesh.faces) halves += face.quad() ? 2 : 1;
+  const auto cells = [&](int l) { return halves << (2 * l) >> 1; };
   while (level < top && cells(level + 1) <= cells_of_search &&
          double(points) >= points_a_blob * double(cells(level + 1)))
     ++level;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fit/scan.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -10,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/points.h"
+#include "base/roundoff.h"
 #include "mesh/counting_sort.h"
 #include "parallel/cancel.h"
 #include "parallel/reductions.h"
@@ -127,6 +129,26 @@ Array<Index> in_order_of_place(const ScanInput& input) {
   return out;
 }
 
+// Points in one place or on one line, but for the rounding of single precision, are of no surface.
+void require_extent(const Scan& scan) {
+  Vec3 mean = Vec3::Zero();
+  double largest = 0;
+  for (const Vec3& p : scan.point) {
+    mean += p / double(scan.size());
+    largest = std::max(largest, p.lpNorm<Eigen::Infinity>());
+  }
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const Vec3& p : scan.point)
+    spread += (p - mean) * (p - mean).transpose() / double(scan.size());
+  const Vec3 squares = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvalues();
+  const double rounding = std::pow(largest * single_roundoff, 2);
+  if (squares[1] > rounding) return;
+  throw FairingError(ErrorCode::bad_shape,
+                     {squares[2] > rounding ? "All points of the scan lie on one line."
+                                            : "All points of the scan lie in one place.",
+                      "A surface needs points that are spread over it."});
+}
+
 }  // namespace
 
 std::string length_text(double length) {
@@ -153,6 +175,7 @@ void require_same_place(const Scan& scan, std::span<const Vec3> control, const F
   // Ratio of sizes from which units differ. A scan of a part, and a cage with a part that is not
   // scanned, have smaller ratios; metres, millimetres and inches have larger ones.
   constexpr double other_unit = 20;
+  require_extent(scan);
   const Eigen::AlignedBox3d cage = box_of(control), box = box_of(scan.point);
   const double ratio = box.diagonal().norm() / cage.diagonal().norm();
   if (ratio > other_unit || ratio * other_unit < 1)

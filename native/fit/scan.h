@@ -41,8 +41,9 @@ struct Scan {
 // Throws FairingError: bad_shape (also for too few points), index_out_of_range, non_finite.
 Scan make_scan(const ScanInput& input, const Frame& frame, Workers& workers);
 
-// Throws FairingError(bad_shape) if the sizes of scan and control mesh differ as those of different
-// units do, or if they are too far apart. Both in working coordinates.
+// Throws FairingError(bad_shape) if the points lie on one line or in one place, if the sizes of scan
+// and control mesh differ as those of different units do, or if they are too far apart. Both in working
+// coordinates.
 void require_same_place(const Scan& scan, std::span<const Vec3> control, const Frame& frame);
 
 // A length as a place in a message, with three digits.

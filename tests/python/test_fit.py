@@ -375,6 +375,15 @@ def test_a_cage_that_the_scan_hardly_covers_is_said(cage, scan, change):
     assert "nearer to the scan" in warning["message"]
 
 
+@pytest.mark.parametrize(
+    ("along", "said"), [((0.4, 0.1, 0.7), "on one line"), ((0, 0, 0), "in one place")]
+)
+def test_points_of_no_surface_are_refused(cage, along, said):
+    points = np.array([0.3, 0.2, 0.1]) + np.linspace(-1, 1, 500)[:, None] * along
+    error = refusal(df.fit, *cage, points.astype(np.float32))
+    assert error.code == "BAD_SHAPE" and said in str(error)
+
+
 def test_scan_of_a_plane_leaves_a_closed_cage_whole(cage):
     random = np.random.default_rng(2)
     plane = np.column_stack([random.uniform(-0.8, 0.8, (4000, 2)), np.full(4000, 0.75)])
