@@ -222,7 +222,7 @@ def _ordered(a: int, b: int) -> tuple[int, int]:
 def _parts(triangles: np.ndarray, faces: np.ndarray, count: int) -> np.ndarray:
     """(count,) numbers of control faces, equal within a connected part."""
     pairs = triangles[:, [[0, 1], [1, 2]]].reshape(-1, 2)
-    label = module().patches.connected_parts(int(triangles.max()) + 1, pairs)
+    label = module().arrays.connected_parts(int(triangles.max()) + 1, pairs)
     part = np.zeros(count, np.int64)
     part[faces] = label[triangles[:, 0]]
     return part

@@ -144,7 +144,7 @@ class _Stops:
                 self._new(i, 0.0)
             self._close(i, curve)
         pairs = np.array(self._joined, np.int64).reshape(-1, 2)
-        number = core.module().patches.connected_parts(self._count, pairs).tolist()
+        number = core.module().arrays.connected_parts(self._count, pairs).tolist()
         count = 1 + max(number, default=-1)
         sums, counts = np.zeros((count, 3)), np.zeros(count)
         visits: list[list[tuple[float, int]]] = []

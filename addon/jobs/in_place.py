@@ -176,7 +176,7 @@ def _refuse(
 
 def floats(arrays: Any, free: np.ndarray) -> bool:
     """Whether some connected part of the mesh `arrays` has only `free` vertices, (n,) bool."""
-    part = core.module().patches.connected_parts(len(free), arrays.edges)
+    part = core.module().arrays.connected_parts(len(free), arrays.edges)
     return bool((np.bincount(part, ~free) == 0).any())
 
 

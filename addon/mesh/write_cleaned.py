@@ -195,7 +195,7 @@ def _fillings(made: Cleaned) -> list[Patch]:
     same = np.flatnonzero(shared[order[1:]] == shared[order[:-1]])
     owners = np.concatenate([owner, owner[fresh]])[order]
     pairs = np.stack([owners[same], owners[same + 1]], axis=1)
-    part = module().patches.connected_parts(len(rows), pairs)
+    part = module().arrays.connected_parts(len(rows), pairs)
     by_part: dict[int, list[np.ndarray]] = {}
     for size in np.unique(sizes).tolist():
         faces, of = corners[sizes[owner] == size].reshape(-1, size), part[sizes == size]

@@ -68,13 +68,13 @@ def _met_by(target: Object) -> Iterator[Object]:
 
 def _normals(target: Object, others: list[Any]) -> np.ndarray | None:
     """(c, 3) by corner: the normals at joints with the `others`, elsewhere zero; None without a joint."""
-    borders, arrays = core.module().borders, read_mesh(target.data)
+    borders, arrays = core.module().joints.borders, read_mesh(target.data)
     points, offsets = arrays.positions, arrays.offsets.astype(np.int64)
     edge, _ = borders.border_edges(arrays.corners.astype(np.int64), offsets)
     length = np.linalg.norm(points[edge[:, 1]] - points[edge[:, 0]], axis=1)
     vertex = np.unique(edge)
     reach = np.zeros(len(points))
-    reach[edge] = core.module().matching.NEAR * length[:, None]
+    reach[edge] = core.module().joints.matching.NEAR * length[:, None]
     near = np.zeros(len(vertex), bool)
     for met, (corners, starts) in others:
         if len(borders.border_edges(corners, starts)[0]):
@@ -114,4 +114,4 @@ def _fans(arrays: core.ControlArrays) -> np.ndarray:
             np.stack([after[a], np.where(alike, after[b], b)], axis=1),
         ]
     )
-    return core.module().patches.connected_parts(len(arrays.corners), pairs).astype(np.int64)
+    return core.module().arrays.connected_parts(len(arrays.corners), pairs).astype(np.int64)

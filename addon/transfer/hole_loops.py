@@ -54,7 +54,7 @@ def where_faces_were(
     corners = corners[np.argsort(arrays.corner_edges[corners], kind="stable")]
     edge, face = arrays.corner_edges[corners], arrays.face_of[corners]
     pairs = np.stack([face[:-1], face[1:]], axis=1)[edge[:-1] == edge[1:]]
-    part = core.module().patches.connected_parts(len(gone), pairs)[face]
+    part = core.module().arrays.connected_parts(len(gone), pairs)[face]
     on_rim = (_uses(arrays, gone) > 0)[edge]
     rim = {_side(arrays, e): p for e, p in zip(edge[on_rim].tolist(), part[on_rim].tolist())}
     holes: dict[int, list[list[int]]] = {}

@@ -34,7 +34,7 @@ def seam_pairs(
     for axis in axes:
         flat = (np.abs(result.vertices[table[border], axis]) <= near).all(axis=1)
         pairs, along = table[border[flat]], normals[flat, axis]
-        part = core.module().patches.connected_parts(len(result.vertices), pairs)[pairs[:, 0]]
+        part = core.module().arrays.connected_parts(len(result.vertices), pairs)[pairs[:, 0]]
         # between the normals of a face and its image
         turns = np.arccos(np.clip(1.0 - 2.0 * along**2, -1.0, 1.0))
         found.append(pairs[np.isin(part, part[turns > settings.crease_angle])])

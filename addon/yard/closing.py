@@ -37,7 +37,7 @@ def whole(positions: np.ndarray, corners: np.ndarray, offsets: np.ndarray) -> Wh
     half[middle, 1] = 0.0
     if (half[:, 1] < 0.0).any() and (half[:, 1] > 0.0).any():
         raise NotHalf("it crosses the plane Y = 0: only one half may be there")
-    open_sides = module().borders.border_edges(corners, offsets)[0]
+    open_sides = module().joints.borders.border_edges(corners, offsets)[0]
     in_middle = middle[open_sides].all(axis=1)
     if not in_middle.any():
         raise NotHalf("no edge lies in the plane Y = 0: move the middle of the hull there")
@@ -66,7 +66,7 @@ def whole(positions: np.ndarray, corners: np.ndarray, offsets: np.ndarray) -> Wh
 
 def _require_ends(rim: np.ndarray, middle: np.ndarray) -> None:
     """Every chain of the rim must reach the middle; otherwise it is a hole in one side."""
-    part = module().patches.connected_parts(len(middle), rim)
+    part = module().arrays.connected_parts(len(middle), rim)
     apart = int((~np.isin(part[rim[:, 0]], part[middle])).sum())
     if apart:
         raise NotHalf(

@@ -94,7 +94,7 @@ def _between_sharp(
 ) -> set[frozenset[int]]:
     """The runs of `unknown` edges, beside triangles, that join `sharp` edges and no `smooth` one."""
     pairs = np.array([[*edge] for edge in unknown], np.int64).reshape(-1, 2)
-    run = core.module().patches.connected_parts(count, pairs).tolist()
+    run = core.module().arrays.connected_parts(count, pairs).tolist()
     at_sharp, at_smooth = ({run[v] for edge in of for v in edge} for of in (sharp, smooth))
     return {edge for edge in unknown if run[min(edge)] in at_sharp - at_smooth}
 

@@ -6,7 +6,7 @@ import random
 import discrete_fairing as df
 import numpy as np
 import pytest
-from discrete_fairing import crossings
+from discrete_fairing.holes import crossings
 from lattices import lattice_faces
 from ragged_holes import cut, ragged, smallest_angle, torus, uses
 

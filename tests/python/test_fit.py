@@ -5,7 +5,7 @@ import discrete_fairing as df
 import numpy as np
 import pytest
 from control_meshes import cut_quads
-from discrete_fairing import finer_fits
+from discrete_fairing.cad import finer_fits
 from discrete_fairing.level_change import change_between
 from lattices import lattice_faces
 from refusing import refusal

@@ -12,7 +12,7 @@ import half_hulls
 import numpy as np
 import pytest
 import thin_walls
-from discrete_fairing import fitting
+from discrete_fairing.cad import fitting
 from lattices import lattice_faces
 from refusing import refusal
 from spline_measures import basis, evaluate, radii, volume

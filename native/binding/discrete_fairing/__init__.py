@@ -9,23 +9,23 @@
 from . import lattice as lattice  # the add-on uses these two
 from . import whole_files as whole_files
 from ._native import FairingError, Monitor, __version__
+from .cad.fitting import fit_patches
+from .cad.patches import SplinePatches, spline_knots
+from .cad.step import write_step
 from .checking import Defect, check, predicted_size
 from .cleaning import Act, Cleaned, clean, hole_width, holes_to_fill
 from .denoising import Denoised, denoise
 from .easing import Eased, ease
 from .fairing import fair
-from .filled import Filled, FilledHole, SkippedHole
-from .filling import fill_holes, find_holes, with_islands
-from .fitting import fit_patches
 from .flats import find_flats
-from .joints import Joint, joint
+from .holes.filled import Filled, FilledHole, SkippedHole
+from .holes.filling import fill_holes, find_holes, with_islands
+from .joints.joint import Joint, joint
 from .options import AllSettings, Settings
-from .patches import SplinePatches, spline_knots
 from .piecewise import Part, Piece, join, pieces
 from .result import Result
 from .scan_fitting import Fitted, fit
 from .solver import Solver
-from .step import write_step
 from .strain import Strain, strain
 
 __all__ = [

@@ -13,6 +13,7 @@ from typing import cast
 import numpy as np
 from numpy.typing import ArrayLike
 
+from . import _native
 from .errors import fairing_error
 
 
@@ -203,3 +204,12 @@ def faces_by_vertex(
     faces = np.repeat(np.arange(len(offsets) - 1), np.diff(offsets))
     starts = np.cumsum(np.bincount(corners + 1, minlength=count + 1))
     return faces[np.argsort(corners, kind="stable")], starts
+
+
+def connected_parts(count: int, pairs: np.ndarray) -> np.ndarray:
+    """(count,) int32: the connected part of each of `count` nodes; `pairs` (k, 2) connect them.
+
+    Parts are numbered in the order of their first nodes.
+    """
+    leads = _native.joined(count, np.ascontiguousarray(pairs, np.int64).reshape(-1, 2))
+    return np.unique(leads, return_inverse=True)[1].reshape(-1).astype(np.int32)

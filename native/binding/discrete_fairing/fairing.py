@@ -12,7 +12,7 @@ from . import _native
 from .arrays import shape_array
 from .errors import written_report
 from .halves import Control
-from .matching import MatchedBorder
+from .joints.matching import MatchedBorder
 from .options import Settings, native_options
 from .result import Result
 from .strain import strain_of

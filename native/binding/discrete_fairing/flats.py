@@ -8,9 +8,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .arrays import face_arrays, marked, vertex_array
+from .arrays import connected_parts, face_arrays, marked, vertex_array
 from .control_mesh import ControlMesh
-from .patches import connected_parts
 
 # largest distance of a flat's corners from its plane, relative to its size; files have about six digits
 _IN_PLANE = 1e-3

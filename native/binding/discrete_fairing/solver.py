@@ -15,7 +15,7 @@ from . import _native
 from .arrays import vertex_array
 from .errors import fairing_error, written_report
 from .halves import Control
-from .matching import MatchedBorder
+from .joints.matching import MatchedBorder
 from .options import Settings
 from .result import Result
 from .watching import Progress, check_watchers

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from .. import _native
+from ..arrays import connected_parts
 from ..mesh_part import MeshPart
-from ..patches import connected_parts
 from .shape import ROUNDS, in_the_middle
 from .state import State
 

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ..filling import fill_holes
+from ..holes.filling import fill_holes
 from .state import State
 
 _FITS = 5  # of the plane, each to the vertices near the one before

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from .. import _native
 from ..arrays import face_arrays, vertex_array
 from ..converters import size
-from ..filling import asked_holes, fill_holes, with_islands
+from ..holes.filling import asked_holes, fill_holes, with_islands
 from ..watching import SeveralRuns
 from .flat_rims import stood_on
 from .state import State, diagonals, numbered_parts

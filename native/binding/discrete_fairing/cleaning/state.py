@@ -8,8 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..arrays import backwards, face_vectors, fans, following, marked
-from ..patches import connected_parts
+from ..arrays import backwards, connected_parts, face_vectors, fans, following, marked
 
 
 @dataclass(frozen=True)

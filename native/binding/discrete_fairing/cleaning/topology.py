@@ -11,7 +11,7 @@ import numpy as np
 
 from .. import _native
 from ..arrays import marked
-from ..edge_cuts import Cuts, cuts_for, pieces
+from ..holes.edge_cuts import Cuts, cuts_for, pieces
 from .state import State, all_pairs, numbered_parts
 
 

@@ -9,11 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from .converters import whole
-from .fairing import fair
-from .lattice import Lattice
-from .result import Result
-from .scan_fitting import Fitted, fit
+from ..converters import whole
+from ..fairing import fair
+from ..lattice import Lattice
+from ..result import Result
+from ..scan_fitting import Fitted, fit
 
 # settings of the control mesh's faces; and of its edges, or met by the fit
 _BY_FACE = {"flat_faces", "region"}

@@ -9,14 +9,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import _native
-from .arrays import following, numbers
-from .converters import positive
-from .errors import fairing_error
+from .. import _native
+from ..arrays import following, numbers
+from ..converters import positive
+from ..errors import fairing_error
+from ..result import Result
+from ..scan_fitting import Fitted
 from .flat_polygons import is_flat, mark_flat
 from .patches import SplinePatches, control_polygons
-from .result import Result
-from .scan_fitting import Fitted
 
 USUAL_TOLERANCE, USUAL_ANGLE = 1e-4, 8e-4  # share of the size; radians
 # The allowed distance of patches from a surface, as a share of the distance of 95 % of the scan from it.

@@ -9,10 +9,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import _native
-from .mesh_part import MeshPart, angles_between
+from .. import _native
+from ..mesh_part import MeshPart, angles_between
+from ..watching import SeveralRuns
 from .near_hole import Made, NearHole, Wanted
-from .watching import SeveralRuns
 
 # A filling is remeshed if fairing has enlarged its area by this factor. Below it the edges are within a
 # tenth of the wanted length, and a second round only doubles the cost.

@@ -9,20 +9,20 @@ from typing import Any, Unpack
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import _native
-from .arrays import face_arrays, vertex_array
-from .checking import predicted_size
-from .converters import switch, whole
-from .fairing import fair
+from .. import _native
+from ..arrays import face_arrays, vertex_array
+from ..checking import predicted_size
+from ..converters import switch, whole
+from ..fairing import fair
+from ..options import CommonSettings
+from ..result import Result
+from ..scan_fitting import Fitted
+from ..watching import Progress, SeveralRuns, check_watchers
+from .distances import distances_from
 from .finer_fits import FinerFits
-from .options import CommonSettings
-from .patch_distances import distances_from
-from .patch_fits import PatchFits
-from .patch_levels import at_level, at_own_level
+from .fits import PatchFits
+from .levels import at_level, at_own_level
 from .patches import SplinePatches
-from .result import Result
-from .scan_fitting import Fitted
-from .watching import Progress, SeveralRuns, check_watchers
 
 
 class PatchSettings(CommonSettings, total=False):

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .arrays import face_arrays, faces_by_vertex, following, ranges, vertex_array
-from .errors import fairing_error
+from ..arrays import face_arrays, faces_by_vertex, following, ranges, vertex_array
+from ..errors import fairing_error
 
 # (vertices, faces)
 Mesh = tuple[ArrayLike, Any]

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from .arrays import following
+from ..arrays import following
 from .rounds import SLIVER
 
 Cuts = dict[tuple[int, int], list[int]]  # by the ends of a face's side, in its direction

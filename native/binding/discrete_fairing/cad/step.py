@@ -12,12 +12,12 @@ from typing import IO
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import _native
-from .cad_files import UNITS, Part, cad_parts
-from .converters import choice
+from .. import _native
+from ..converters import choice
+from ..whole_files import file_name, whole_file
+from .files import UNITS, Part, cad_parts
 from .flat_polygons import Step, outline
 from .patches import SplinePatches
-from .whole_files import file_name, whole_file
 
 # Units as entities of the file.
 _WRITTEN = {"m": "$", "cm": ".CENTI.", "mm": ".MILLI.", "in": "INCH", "ft": "FOOT"}

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .arrays import marked
+from ..arrays import marked
 from .borders import Border, Foot, across, dot
 
 # Of a unit turn: what the fits see by less stays small.

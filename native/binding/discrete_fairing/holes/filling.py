@@ -9,17 +9,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import _native
-from .arrays import face_arrays, index_array, vertex_array
-from .converters import choice, size
+from .. import _native
+from ..arrays import face_arrays, index_array, vertex_array
+from ..converters import choice, size
+from ..mesh_part import MeshPart
+from ..options import native_options
+from ..watching import Progress, SeveralRuns, check_watchers
 from .crossings import in_whole, with_less_crossing
 from .edge_cuts import cuts_for, sides_of
 from .filled import Filled, FilledHole, SkippedHole
-from .mesh_part import MeshPart
 from .near_hole import NOISY_RINGS, RIMS, RINGS, NearHole, Wanted
-from .options import native_options
 from .rounds import Filling, faired_in_rounds, near_holes, without_folds
-from .watching import Progress, SeveralRuns, check_watchers
 
 
 def find_holes(vertices: ArrayLike, faces: ArrayLike | Sequence[Sequence[int]]) -> list[np.ndarray]:

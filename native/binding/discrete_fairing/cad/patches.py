@@ -10,10 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import _native
-from .arrays import numbers
-from .errors import fairing_error
-from .result import Result
+from ..arrays import connected_parts, numbers
+from ..errors import fairing_error
+from ..result import Result
 
 SMOOTH, CREASE, BOUNDARY = range(3)
 
@@ -279,15 +278,6 @@ def control_polygons(result: Result, levels: int) -> np.ndarray:
     """(F,) int32: the input face of each control face, triangles first."""
     cells = 4**levels
     return np.concatenate([result.triangle_polygon[::cells], result.quad_polygon[::cells]])
-
-
-def connected_parts(count: int, pairs: np.ndarray) -> np.ndarray:
-    """(count,) int32: the connected part of each of `count` nodes; `pairs` (k, 2) connect them.
-
-    Parts are numbered in the order of their first nodes.
-    """
-    leads = _native.joined(count, np.ascontiguousarray(pairs, np.int64).reshape(-1, 2))
-    return np.unique(leads, return_inverse=True)[1].reshape(-1).astype(np.int32)
 
 
 def _offsets(sizes: np.ndarray) -> np.ndarray:

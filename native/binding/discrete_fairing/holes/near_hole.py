@@ -10,10 +10,10 @@ from typing import Any
 
 import numpy as np
 
-from . import _native
-from .arrays import face_vectors, following
-from .fairing import fair
-from .mesh_part import MeshPart
+from .. import _native
+from ..arrays import face_vectors, following
+from ..fairing import fair
+from ..mesh_part import MeshPart
 
 # Rings of faces around a hole whose vertices determine how the surface continues.
 RINGS = {"position": 0, "tangent": 1, "curvature": 2}

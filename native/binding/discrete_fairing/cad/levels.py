@@ -9,12 +9,12 @@ from math import inf
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .errors import fairing_error
-from .level_change import change_between
-from .patch_fits import PatchFits
+from ..errors import fairing_error
+from ..level_change import change_between
+from ..result import Result
+from ..watching import SeveralRuns
+from .fits import PatchFits
 from .patches import SplinePatches
-from .result import Result
-from .watching import SeveralRuns
 
 FIRST_LEVEL, LAST_LEVEL, LEAST_LEVEL = 5, 8, 3
 # Largest numbers of points: of the first surface, of a finer one that converges better, and of one

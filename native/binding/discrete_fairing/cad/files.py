@@ -9,10 +9,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ._native import FairingError
-from .arrays import numbers
-from .converters import positive
-from .errors import fairing_error
+from .._native import FairingError
+from ..arrays import numbers
+from ..converters import positive
+from ..errors import fairing_error
 from .patches import SplinePatches
 
 # metres in each unit

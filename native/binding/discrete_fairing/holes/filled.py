@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from ._native import FairingError
+from .._native import FairingError
+from ..errors import about, fairing_error
+from ..mesh_part import MeshPart
 from .edge_cuts import Cuts, cut_faces
-from .errors import about, fairing_error
-from .mesh_part import MeshPart
 
 
 @dataclass(frozen=True, slots=True)

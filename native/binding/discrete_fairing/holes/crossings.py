@@ -7,11 +7,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from . import _native
-from .mesh_part import MeshPart
+from .. import _native
+from ..mesh_part import MeshPart
+from ..watching import SeveralRuns
 from .near_hole import NearHole, Wanted
 from .rounds import Filling, RimEdges, numbered_on
-from .watching import SeveralRuns
 
 
 def in_whole(whole: MeshPart, part: MeshPart, fillings: Sequence[Filling]) -> list[Filling]:

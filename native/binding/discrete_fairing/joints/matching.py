@@ -16,7 +16,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .arrays import face_vectors, following
+from ..arrays import face_vectors, following
+from ..converters import vertex_pairs
+from ..errors import fairing_error
+from ..halves import Control
+from ..lattice import Lattice
 from .borders import (
     Border,
     BorderFits,
@@ -27,11 +31,7 @@ from .borders import (
     mesh_arrays,
     unit_vectors,
 )
-from .converters import vertex_pairs
-from .errors import fairing_error
 from .halfway import Halfway
-from .halves import Control
-from .lattice import Lattice
 from .turning import Angles, needed, rotation
 
 # Ends nearer to the neighbour's border than this share of a border edge lie on it.
