@@ -5,14 +5,64 @@
 #include <cmath>
 #include <utility>
 
-#include "multigrid/ring_lines.h"
 #include "parallel/reductions.h"
 #include "sparse/unknown_points.h"
 
 namespace fairing {
+namespace {
+
+// The rows ring by ring, member by member, in the form that K is summed from
+// (sparse/ring_matrix.h).
+class JacobianRows {
+ public:
+  using Column = std::array<float, 3>;
+
+  // `tension`: the weights of AreaTerm, or null.
+  JacobianRows(const RingRows& rows, const RingRows* tension, const Unknowns& unknowns,
+               Workers& workers)
+      : rings_(rows.grid(), unknowns, workers) {
+    const RingTable::Ring& last = rings_.about(Index(rings_.points() - 1));
+    column_.resize(last.member + last.size);
+    if (tension) tension_.resize(column_.size());
+    for_each_run(rows.grid(), workers, [&](const Run& run) {
+      const RowRun<const float> own = rows.of(run);
+      std::size_t m = rings_.about(Index(run.first)).member;
+      for (std::size_t i = 0; i < run.count; ++i)
+        for (int s = 0; s < own.slots; ++s, ++m) {
+          column_[m] = {own.at(0, s, i), own.at(1, s, i), own.at(2, s, i)};
+          if (tension) tension_[m] = tension->of(run).at(0, s, i);
+        }
+    });
+  }
+
+  const RingTable& rings() const { return rings_; }
+  static bool has_rows(const RingTable::Ring&) { return true; }
+  const Column& column(const RingTable::Ring& ring, std::size_t slot) const {
+    return column_[ring.member + slot];
+  }
+  static double weight(Index) { return 1; }
+  void add_own(Index p, RowSum& sum) const {
+    const RingTable::Ring& ring = rings_.about(p);
+    for (std::size_t s = 1; s < ring.size && !tension_.empty(); ++s) {
+      const double weight = tension_[ring.member + s];
+      sum.add(p, weight);
+      if (const RingTable::Member q = rings_.members(ring)[s]; q >= 0) sum.add(q, -weight);
+    }
+  }
+
+ private:
+  const RingTable rings_;
+  Array<Column> column_;
+  Array<float> tension_;
+};
+
+}  // namespace
 
 CurvatureLevel::CurvatureLevel(CurvatureShared& shared, const GridLevel& grid)
-    : shared_(shared), grid_(grid), rows_(grid), square_{NormalMatrix::suits(rows_)} {}
+    : shared_(shared),
+      grid_(grid),
+      rows_(grid),
+      has_matrix_(RingMatrix<1>::suits(grid, most_pieces)) {}
 
 void CurvatureLevel::apply_rows(const double* x, double* y) {
   apply_square(rows_, shared_.unknowns, shared_.workers, shared_.double_slots, x, y);
@@ -25,8 +75,8 @@ void CurvatureLevel::apply_rows(const float* x, float* y) {
 }
 
 void CurvatureLevel::apply(const float* x, float* y) {
-  if (square_.suits)
-    square().apply(x, shared_.workers, y);
+  if (has_matrix_)
+    matrix().apply(x, shared_.workers, y);
   else
     apply_rows(x, y);
   if (!varies()) return add_to_product(x, y);
@@ -35,17 +85,12 @@ void CurvatureLevel::apply(const float* x, float* y) {
                    [&](std::size_t i) { y[i] += float(penalty_at(i, true)) * x[i]; });
 }
 
-// For the present rows.
-NormalMatrix& CurvatureLevel::square() const {
-  auto& matrix = square_.matrix;
-  if (!square_.is_old) return *matrix;
-  // The unknowns have changed.
-  if (square_.vertices != shared_.unknowns.vertex) matrix.reset();
-  if (!matrix) matrix = std::make_unique<NormalMatrix>(rows_, shared_.unknowns, shared_.workers);
-  square_.vertices = shared_.unknowns.vertex;
-  matrix->update(rows_, shared_.workers, is_tense() ? &area_->weights() : nullptr);
-  square_.is_old = false;
-  return *matrix;
+const RingMatrix<1>& CurvatureLevel::matrix() {
+  if (!matrix_)
+    matrix_.emplace(JacobianRows(rows_, is_tense() ? &area_->weights() : nullptr, shared_.unknowns,
+                                 shared_.workers),
+                    shared_.workers);
+  return *matrix_;
 }
 
 void CurvatureLevel::apply(const double* x, double* y) {
@@ -140,7 +185,15 @@ void CurvatureLevel::predict(const Array<float>& shape, const double* h, Array<f
 }
 
 void CurvatureLevel::write_lines(LineBand& band, Workers& workers) {
-  write_ring_lines(grid_, shared_.unknowns, inverse_diagonal_, workers, JacobianRows{rows_}, band);
+  if (has_matrix_)
+    return band.write(inverse_diagonal_, [&](const auto& wants, const auto& visit) {
+      matrix().visit_numbers(workers, wants, visit);
+    });
+  const JacobianRows rows(rows_, is_tense() ? &area_->weights() : nullptr, shared_.unknowns,
+                          workers);
+  band.write(inverse_diagonal_, [&](const auto& wants, const auto& visit) {
+    visit_numbers(rows, workers, wants, visit);
+  });
 }
 
 void CurvatureLevel::set_damping(const Array<float>& mu, double share) {

@@ -17,9 +17,9 @@
 #include "curvature/area.h"
 #include "curvature/connection.h"
 #include "curvature/distance_penalty.h"
-#include "curvature/normal_matrix.h"
 #include "curvature/point_curvature.h"
 #include "multigrid/level_operator.h"
+#include "sparse/ring_matrix.h"
 #include "sparse/ring_rows.h"
 #include "stencil/weights.h"
 
@@ -65,6 +65,9 @@ class PointValues;
 
 class CurvatureLevel final : public LevelOperator {
  public:
+  // Pieces of an edge up to which a matrix is faster than passes: twice as fast with few.
+  static constexpr int most_pieces = 16;
+
   CurvatureLevel(CurvatureShared& shared, const GridLevel& grid);
 
   // K about the surface x (3 numbers a point), without a share of total curvature. Returns the
@@ -126,7 +129,7 @@ class CurvatureLevel final : public LevelOperator {
   void find_between(const Array<double>& area);
   void update_diagonal();
   void invert_diagonal();
-  NormalMatrix& square() const;
+  const RingMatrix<1>& matrix();
   void apply_rows(const double* x, double* y);
   void apply_rows(const float* x, float* y);
   // Adds the part of weights, penalty and damping.
@@ -155,14 +158,8 @@ class CurvatureLevel final : public LevelOperator {
   double bending_ = 0, tension_ = 0, penalty_energy_ = 0;
   int linearizations_ = 0;
   RingRows rows_;  // sqrt(w) J
-  // R^T R, computed on first use.
-  struct Square {
-    bool suits;  // is it faster than passes over the rows?
-    bool is_old = true;
-    std::unique_ptr<NormalMatrix> matrix{};
-    std::vector<std::uint8_t> vertices{};  // the unknowns when it was computed
-  };
-  mutable Square square_;
+  const bool has_matrix_;
+  std::optional<RingMatrix<1>> matrix_;  // R^T R and tension, of the present rows on first use
   struct Variation {
     std::optional<Connection> connection;
     Array<float> root;               // of points' areas

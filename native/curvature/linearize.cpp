@@ -228,7 +228,7 @@ double CurvatureLevel::linearize(const double* x, const Functional& functional,
                            varies() ? &tensors : nullptr);
   std::optional<RingRows> cotangents = room_for_cotangents();
   ++linearizations_;
-  square_.is_old = true;
+  matrix_.reset();
   bending_ =
       linearize_points(x, force_rows, values, cotangents ? &*cotangents : nullptr, to.force.data());
   const double* const normal = to.normal.empty() ? nullptr : to.normal.data();

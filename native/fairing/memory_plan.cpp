@@ -7,11 +7,11 @@
 #include <string>
 
 #include "base/error.h"
-#include "curvature/normal_matrix.h"
+#include "curvature/level.h"
 #include "mesh/double_cover.h"
 #include "mesh/half_edges.h"
 #include "multigrid/hierarchy.h"
-#include "thin_plate/matrix.h"
+#include "thin_plate/level.h"
 
 namespace fairing {
 namespace {
@@ -41,14 +41,14 @@ struct Counts {
 };
 
 // Bounds of the peak, up to twice the peaks of tests/python/test_memory.py, in bytes: for a side of
-// the control mesh; by energy for a point of each level, for an unknown of a level with rows, and
+// the control mesh; by energy for a point of each level, for an unknown of a level with a matrix, and
 // for one of the largest level that is factored.
 constexpr double control_side = 1200;
 struct Costs {
   double point, row, factor;
 };
-constexpr Costs plate_costs{200, 190, 1100}, curvature_costs{520, 1200, 1500},
-    variation_costs{980, 500, 4000};
+constexpr Costs plate_costs{200, 190, 1100}, curvature_costs{520, 700, 1500},
+    variation_costs{980, 300, 4000};
 // In addition: for a point, with the limit surface beside the plate, or with the sweeps of the back
 // leg; for a factored unknown, with that surface or if control vertices move; for two neighbours of
 // a vertex of high valence.
@@ -81,11 +81,12 @@ double bytes_of(const Counts& c, std::size_t shapes, const FairOptions& options)
   double bytes = control_side * c.solved.sides() +
                  double(shapes * sizeof(Vec3)) * c.solved.points(options.levels) +
                  (costs.factor + (twice ? second_factor : 0)) * factored_unknowns(c, options);
-  const int pieces = is_plate ? PlateMatrix::most_pieces(on_surface) : NormalMatrix::most_pieces;
+  const int pieces =
+      is_plate ? ThinPlateLevel::most_pieces(on_surface) : CurvatureLevel::most_pieces;
   for (int l = 0; l <= options.levels; ++l) {
     const double points = c.solved.points(l);
     bytes += (costs.point + (beside ? surface_beside : 0)) * points;
-    if (has_rows(1 << l, std::size_t(points), pieces))
+    if (has_matrix(1 << l, std::size_t(points), pieces))
       bytes += costs.row * c.unknown.points(l) + pair_of_neighbours * c.in_large_rings;
   }
   return bytes;

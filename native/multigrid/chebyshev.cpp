@@ -7,17 +7,24 @@
 #include <cstring>
 #include <utility>
 
+#include "base/roundoff.h"
 #include "base/simd.h"
 #include "parallel/reductions.h"
 
 namespace fairing {
 namespace {
 
-// A block of points. The diagonal, one number a point, is first copied to all components, a few
-// points at a time, so that the rest uses whole packs.
-struct StepJob {
-  SmoothingStep step;
-  const float *inverse, *product;
+// One step for K x = b with the residual r = b - K x, and d the last change of x:
+//
+//   r -= K d,   next = momentum d + step D^-1 r,   x += next,
+//
+// and x += d too if that has not been added yet. D is the diagonal of K. It has one number a point,
+// and is first copied to all components, a few points at a time, so that the rest uses whole packs.
+struct Step {
+  const float *d, *product, *inverse;  // product: K d
+  float *next, *x, *r;
+  float momentum, step;
+  bool adds_d;
   std::size_t components;  // 1 or 3
 };
 
@@ -26,27 +33,25 @@ constexpr std::size_t spread_points = 64;  // at a time; they stay in the L1 cac
 // Lanczos comes from below, and the smoother amplifies vectors above its bound: hence the margin.
 constexpr int lanczos_steps = 10;
 constexpr double lanczos_margin = 1.1;  // factor of Lanczos' result
-// If the next Lanczos vector is this small, relative to the eigenvalue, the rest is rounding.
-constexpr double lanczos_end = 1e-5;
 
 template <class T, int Bytes>
 struct StepLoop {
   using P = Packs<T, Bytes>;
   using Pack = typename P::Pack;
 
-  DF_INLINE static void run(const StepJob* job, std::size_t count) {
-    const SmoothingStep s = job->step;
-    const std::size_t components = job->components;
+  DF_INLINE static void run(const Step* job, std::size_t begin, std::size_t end) {
+    const Step s = *job;
+    const std::size_t components = s.components;
     T weight[3 * spread_points + vector_room];
-    for (std::size_t first = 0; first < count; first += spread_points) {
-      const std::size_t points = count - first < spread_points ? count - first : spread_points;
+    for (std::size_t first = begin; first < end; first += spread_points) {
+      const std::size_t points = end - first < spread_points ? end - first : spread_points;
       if (components == 1)
-        std::memcpy(weight, job->inverse + first, points * sizeof(T));
+        std::memcpy(weight, s.inverse + first, points * sizeof(T));
       else
         for (std::size_t p = 0; p < points; ++p)
-          weight[3 * p] = weight[3 * p + 1] = weight[3 * p + 2] = job->inverse[first + p];
+          weight[3 * p] = weight[3 * p + 1] = weight[3 * p + 2] = s.inverse[first + p];
       const std::size_t at = components * first, size = components * points;
-      const T *d = s.d + at, *product = job->product + at;
+      const T *d = s.d + at, *product = s.product + at;
       T *next = s.next + at, *x = s.x + at, *residual = s.r + at;
       std::size_t i = 0;
       for (; i + P::size <= size; i += P::size) {
@@ -89,37 +94,24 @@ void divide_by_diagonal(const LevelOperator& op, Workers& workers, float step, c
 
 }  // namespace
 
-void finish_step(const SmoothingStep& step, std::size_t components, const float* inverse_diagonal,
-                 std::size_t first, std::size_t count, const float* product) {
-  const std::size_t at = components * first;
-  const StepJob job{{step.d + at, step.next + at, step.x + at, step.r + at, step.momentum,
-                     step.step, step.adds_d},
-                    inverse_diagonal + first,
-                    product,
-                    components};
-  run_loop<StepLoop, float>(&job, count);
-}
-
-void LevelOperator::relax(const SmoothingStep& step, Workers& workers) {
-  apply(step.d, step.next);
-  workers.for_parts(points(), vector_grain / 4, [&](std::size_t begin, std::size_t end) {
-    finish_step(step, components(), inverse_diagonal().data(), begin, end - begin,
-                step.next + components() * begin);
-  });
-}
-
-void LevelOperator::subtract_product(const float* x, float* room, float* y, Workers& workers) {
-  apply(x, room);
-  for_each_index(workers, size(), [=](std::size_t i) { y[i] -= room[i]; });
-}
-
 void smooth(LevelOperator& op, const LineJacobi* lines, Workers& workers, double largest_eigenvalue,
             int degree, SmoothFrom from, bool last_residual, SmootherState& s) {
   const auto first_step = float(4.0 / 3.0 / largest_eigenvalue);
-  const auto relax = [&](float momentum, float step, bool adds_d) {
-    const SmoothingStep now{s.step.data(), s.next.data(), s.x.data(), s.residual.data(),
-                            momentum,      step,          adds_d};
-    op.relax(now, workers);
+  const auto take_step = [&](float momentum, float step, bool adds_d) {
+    op.apply(s.step.data(), s.next.data());
+    const Step now{.d = s.step.data(),
+                   .product = s.next.data(),
+                   .inverse = op.inverse_diagonal().data(),
+                   .next = s.next.data(),
+                   .x = s.x.data(),
+                   .r = s.residual.data(),
+                   .momentum = momentum,
+                   .step = step,
+                   .adds_d = adds_d,
+                   .components = op.components()};
+    workers.for_parts(op.points(), vector_grain / 4, [&](std::size_t begin, std::size_t end) {
+      run_loop<StepLoop, float>(&now, begin, end);
+    });
     if (lines) lines->add(step, now.r, now.x, now.next);
     std::swap(s.step, s.next);
   };
@@ -127,12 +119,14 @@ void smooth(LevelOperator& op, const LineJacobi* lines, Workers& workers, double
     divide_by_diagonal(op, workers, first_step, s.residual.data(), s.x.data(), s.step.data());
     if (lines) lines->add(first_step, s.residual.data(), s.x.data(), s.step.data());
   } else {
-    relax(0, first_step, true);
+    take_step(0, first_step, true);
   }
   for (int k = 1; k < degree; ++k)
-    relax(float((2.0 * k - 1) / (2.0 * k + 3)),
-          float((8.0 * k + 4) / (2.0 * k + 3) / largest_eigenvalue), false);
-  if (last_residual) op.subtract_product(s.step.data(), s.next.data(), s.residual.data(), workers);
+    take_step(float((2.0 * k - 1) / (2.0 * k + 3)),
+              float((8.0 * k + 4) / (2.0 * k + 3) / largest_eigenvalue), false);
+  if (!last_residual) return;
+  op.apply(s.step.data(), s.next.data());
+  for_each_index(workers, op.size(), [&](std::size_t i) { s.residual[i] -= s.next[i]; });
 }
 
 double largest_eigenvalue(LevelOperator& op, const LineJacobi* lines, Workers& workers,
@@ -170,7 +164,7 @@ double largest_eigenvalue(LevelOperator& op, const LineJacobi* lines, Workers& w
     });
     beta = length(product);
     off(m) = beta;
-    if (!(beta > lanczos_end * alpha)) {
+    if (!(beta > single_roundoff * alpha)) {  // the rest is rounding
       ++m;
       break;
     }

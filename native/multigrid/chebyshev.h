@@ -34,11 +34,6 @@ enum class SmoothFrom {
 void smooth(LevelOperator& op, const LineJacobi* lines, Workers& workers, double largest_eigenvalue,
             int degree, SmoothFrom from, bool last_residual, SmootherState& state);
 
-// The vectors' part of a step, for `count` points from `first` on: product is K d there, the
-// vectors of `step` begin at point 0.
-void finish_step(const SmoothingStep& step, std::size_t components, const float* inverse_diagonal,
-                 std::size_t first, std::size_t count, const float* product);
-
 // The largest eigenvalue of D^-1 K, D extended by `lines`, by a few Lanczos steps from `start`
 // (with a safety margin). A start that moves with the mesh, such as a residual, makes the estimate
 // independent of numbering and position.

@@ -49,18 +49,6 @@ struct AssembledSystem {
   }
 };
 
-// One step of a smoother for K x = b with the residual r = b - K x, and d the last change of x:
-//
-//   r -= K d,   next = momentum d + step D^-1 r,   x += next,
-//
-// and x += d too if that has not been added yet. D is the diagonal of K.
-struct SmoothingStep {
-  const float* d;
-  float *next, *x, *r;
-  float momentum, step;
-  bool adds_d;
-};
-
 // Counts the changes of an operator; cached data are valid for one count.
 struct OperatorVersion {
   int numbers = 0;   // of K
@@ -84,16 +72,10 @@ class LevelOperator {
   virtual void apply(const float* x, float* y) = 0;
   virtual const Array<float>& inverse_diagonal() const = 0;
 
-  // A smoothing step, and y -= K x with a work vector `room`. Both may be overridden by something
-  // faster than one application followed by passes over the vectors.
-  virtual void relax(const SmoothingStep& step, Workers& workers);
-  virtual void subtract_product(const float* x, float* room, float* y, Workers& workers);
-
   const OperatorVersion& version() const { return version_; }
 
   virtual AssembledSystem assemble() const = 0;  // small levels only
-  // Offers K's couplings while lines are sought, and adds its numbers along them. Without offers
-  // the smoother has no lines.
+  // Calls LineBand::write(). Without that the smoother has no lines.
   virtual void write_lines(LineBand&, Workers&) {}
 
  protected:

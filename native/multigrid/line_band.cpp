@@ -20,8 +20,21 @@ void LineBand::link() {
     return q != none && strongest_[q].has(Index(p)) ? q : none;
   };
   std::vector<std::uint8_t> taken(points_, 0);
+  // A closed line begins and ends at its weakest link; of links that tie, at the first one.
+  const auto open = [&](std::size_t first) {
+    const auto link = [&](std::size_t i) {
+      const Strongest& own = strongest_[point_[i]];
+      const Index next = i + 1 < point_.size() ? point_[i + 1] : point_[first];
+      return own.coupling[own.point[0] == next ? 0 : 1];
+    };
+    std::size_t weakest = first;
+    for (std::size_t i = first + 1; i < point_.size(); ++i)
+      if (least_lead * link(i) < link(weakest)) weakest = i;
+    std::rotate(point_.begin() + std::ptrdiff_t(first),
+                point_.begin() + std::ptrdiff_t(weakest + 1), point_.end());
+  };
   // From one end, in pieces of about equal length.
-  const auto follow = [&](std::size_t p) {
+  const auto follow = [&](std::size_t p, bool closed) {
     const std::size_t first = point_.size();
     Index last = none;
     for (Index at = Index(p); at != none;) {
@@ -34,15 +47,16 @@ void LineBand::link() {
       last = at;
       at = next;
     }
+    if (closed) open(first);
     const std::size_t length = point_.size() - first;
     const std::size_t pieces = (length + longest_line - 1) / longest_line;
     for (std::size_t k = 1; k <= pieces; ++k) begin_.push_back(first + length * k / pieces);
   };
-  // Open lines from their ends, then closed ones from any point.
+  // Open lines from their ends, then closed ones.
   for (const bool closed : {false, true})
     for (const std::size_t p : Cancellable(points_)) {
       const int links = (linked(p, 0) != none) + (linked(p, 1) != none);
-      if (!taken[p] && links == (closed ? 2 : 1)) follow(p);
+      if (!taken[p] && links == (closed ? 2 : 1)) follow(p, closed);
     }
   Array<Strongest>().swap(strongest_);
   std::size_t longest = 0;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Lines of points that a matrix K couples strongly, and K's numbers along them, for the smoother
-// where faces are thin. An operator first offers its couplings, once; then it adds its numbers,
-// whenever they change. Data of a point are written for that point only, so operators may write in
-// parallel.
+// where faces are thin. An operator writes them whenever its numbers change; the first time, lines
+// are sought. Data of a point are written for that point only, so operators may write in parallel.
 #pragma once
 
 #include <array>
@@ -27,61 +26,46 @@ class LineBand {
 
   // Whether couplings are still expected.
   bool is_seeking() const { return !strongest_.empty(); }
-  // The coupling of p to q: |K_pq| over the root of K_pp K_qq.
-  void offer(Index p, Index q, float coupling) { strongest_[p].offer(q, coupling); }
 
   std::size_t lines() const { return begin_.size() - 1; }
   std::size_t length(std::size_t line) const { return begin_[line + 1] - begin_[line]; }
   const Index* points_of(std::size_t line) const { return point_.data() + begin_[line]; }
 
-  // An operator's use of a band: offer() makes all offers while they are expected; then add() adds
-  // all numbers if there are lines.
-  template <class Offer, class Add>
-  void write(const Offer& offer, const Add& add) {
+  // Seeks lines, if that has not been done; then, if there are any, sums K's numbers along them.
+  // visit_numbers(wants, visit) has to call visit(p, q, K_pq) for all numbers of the rows p with
+  // wants(p); each row on one thread.
+  template <class VisitNumbers>
+  void write(const Array<float>& inverse_diagonal, const VisitNumbers& visit_numbers) {
     if (is_seeking()) {
-      offer();
+      Array<float> root(points_);
+      for (std::size_t p = 0; p < points_; ++p) root[p] = std::sqrt(inverse_diagonal[p]);
+      visit_numbers([](Index) { return true; },
+                    [&](Index p, Index q, float number) {
+                      if (p != q) strongest_[p].offer(q, std::abs(number) * root[p] * root[q]);
+                    });
       link();
     }
     if (lines() == 0) return;
     number_.assign(3 * points_, 0.0f);
-    add();
+    visit_numbers([&](Index p) { return place_[p] >= 0; },
+                  [&](Index p, Index q, float number) { add(p, q, number); });
   }
   // Frees the numbers after they have been read.
   void clear() { Array<float>().swap(number_); }
-  // A point's place on all lines: places on one line differ by the distance in points; -1: on no
-  // line. One number a point.
-  const Array<double>& places() const { return place_; }
-  // Whether two places are on one line.
-  bool are_on_one(double place_p, double place_q) const {
-    return place_p >= 0 && place_q >= 0 && std::abs(place_p - place_q) < span_ &&
-           std::floor(place_p / span_) == std::floor(place_q / span_);
-  }
-  // For a part of K_pq = K_qp and the places of both points, on one line: calls visit(whether it is
-  // for q, which of numbers(), part).
-  template <class Visit>
-  void visit_pair(double place_p, double place_q, float number, Visit&& visit) const {
-    const double apart = place_q - place_p;
-    if (std::abs(apart) > 2) {
-      visit(true, 0, std::abs(number));
-      visit(false, 0, std::abs(number));
-    } else if (apart != 0) {
-      visit(apart > 0, int(std::abs(apart)), number);
-    }
-  }
-  // Adds K_pq of row p; K_qp has to be added as well.
-  void add(Index p, Index q, float number) {
-    const double here = place_[p], there = place_[q];
-    if (are_on_one(here, there))
-      visit_pair(here, there, number, [&](bool to_q, int beside, float part) {
-        if (!to_q) number_[3 * std::size_t(p) + std::size_t(beside)] += part;
-      });
-  }
   // Three numbers a point: the sum of absolute values off the band, where a line turns back on
   // itself; K's number with the point before it on the line, and with the one before that.
-  Array<float>& numbers() { return number_; }
   const Array<float>& numbers() const { return number_; }
 
  private:
+  // Adds K_pq of a point on a line.
+  void add(Index p, Index q, float number) {
+    const double here = place_[p], there = place_[q];
+    if (!(there >= 0 && std::floor(here / span_) == std::floor(there / span_))) return;
+    if (std::abs(here - there) > 2)
+      number_[3 * std::size_t(p)] += std::abs(number);
+    else if (here > there)
+      number_[3 * std::size_t(p) + std::size_t(here - there)] += number;
+  }
   // After the last offer. Two points are linked if each is among the two that the other is coupled
   // to most strongly. So lines follow the stiff direction: across thin faces, from one to the next.
   void link();
@@ -112,6 +96,8 @@ class LineBand {
   Array<Strongest> strongest_;  // until they are linked
   std::vector<Index> point_;
   std::vector<std::size_t> begin_ = {0};
+  // A point's place on all lines: places on one line differ by the distance in points, and lie
+  // between the same multiples of the span. -1: on no line.
   double span_ = 0;
   Array<double> place_;
   Array<float> number_;

@@ -166,21 +166,6 @@ void apply_square(const RingRows& rows, const Unknowns& unknowns, Workers& worke
 void square_diagonal(const RingRows& rows, const Unknowns& unknowns, Workers& workers,
                      ElementSlots<float, 1>& slots, const float* weight, float* out);
 
-// The rows in the form that multigrid/ring_lines.h reads.
-struct JacobianRows {
-  const RingRows& rows;
-  RowRun<const float> own{};
-
-  void read(const Run& run) { own = rows.of(run); }
-  int slots() const { return own.slots; }
-  float product(int s, int t, std::size_t i) const {
-    float sum = 0;
-    for (int c = 0; c < 3; ++c) sum += own.at(c, s, i) * own.at(c, t, i);
-    return sum;
-  }
-  static bool is_same_along_run() { return false; }
-};
-
 // Calls visit(p, rows, i, points) for every point p in order. It is point i of its run, with these
 // rows; points[s] is slot s.
 template <class Visit>

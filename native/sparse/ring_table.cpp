@@ -2,7 +2,6 @@
 #include "sparse/ring_table.h"
 
 #include "grid/runs.h"
-#include "parallel/cancel.h"
 
 namespace fairing {
 
@@ -41,21 +40,6 @@ void RingTable::write_members(Workers& workers) {
         for (std::size_t i = 0; i < run.count; ++i)
           for (std::size_t s = 0; s < size; ++s) *to++ = at[s][i];
       });
-}
-
-RingPlaces::RingPlaces(const RingTable& rings) : begin_(rings.points() + 1, 0) {
-  const auto visit = [&](auto&& use) {
-    for (const std::size_t c : Cancellable(rings.points())) {
-      const RingTable::Ring& ring = rings.about(Index(c));
-      for (std::uint32_t s = 0; s < ring.size; ++s)
-        if (const RingTable::Member p = rings.members(ring)[s]; p >= 0) use(p, Place{Index(c), s});
-    }
-  };
-  visit([&](Index p, const Place&) { ++begin_[std::size_t(p) + 1]; });
-  for (std::size_t p = 0; p < rings.points(); ++p) begin_[p + 1] += begin_[p];
-  place_.resize(begin_.back());
-  Array<std::size_t> next(begin_.begin(), begin_.end() - 1);
-  visit([&](Index p, const Place& place) { place_[next[p]++] = place; });
 }
 
 }  // namespace fairing

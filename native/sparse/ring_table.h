@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The one-rings of a level's points as lists of points, from which rows of sparse matrices are
-// summed. 4 bytes a neighbour and 16 a point, so only for levels of few points (has_rows()).
+// summed. 4 bytes a neighbour and 16 a point.
 #pragma once
-
-#include <span>
 
 #include "parallel/memory.h"
 #include "parallel/workers.h"
@@ -11,20 +9,6 @@
 #include "stencil/stencils.h"
 
 namespace fairing {
-
-// Whether rows are faster on a level of n subdivisions and so many points: where faces are small,
-// passes over faces and edges cost more than an index for each number; where they are large, rows
-// cost more memory and time to read it.
-constexpr bool has_rows(int n, std::size_t points, int most_pieces) {
-  return n > 1 && n <= most_pieces && points <= std::size_t(1) << 22;
-}
-
-// Whether rows summed from `products` terms, over all points, are worth their pattern: on average
-// the square of a point's ring, 49 or 81 for regular rings.
-constexpr bool worth_products(std::size_t products, std::size_t points) {
-  constexpr std::size_t most_products = 128;  // per point
-  return products < most_products * points;
-}
 
 class RingTable {
  public:
@@ -63,26 +47,6 @@ class RingTable {
   Array<Member> coded_;  // one a point
   Array<Ring> ring_;     // one a point
   Array<Member> member_;
-};
-
-// The rings that contain each unknown, in the order of their centres. 8 bytes a neighbour and 8 a
-// point.
-class RingPlaces {
- public:
-  struct Place {
-    Index centre;
-    std::uint32_t slot;  // of the unknown among the ring's members
-  };
-  // Throws where the run has been cancelled.
-  explicit RingPlaces(const RingTable& rings);
-
-  std::span<const Place> of(Index p) const {
-    return {place_.data() + begin_[p], place_.data() + begin_[std::size_t(p) + 1]};
-  }
-
- private:
-  Array<std::size_t> begin_;
-  Array<Place> place_;
 };
 
 }  // namespace fairing

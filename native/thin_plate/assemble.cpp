@@ -3,7 +3,6 @@
 #include "parallel/cancel.h"
 #include "sparse/unknown_points.h"
 #include "thin_plate/differences.h"
-#include "thin_plate/matrix.h"
 
 namespace fairing {
 namespace {
@@ -17,7 +16,7 @@ void visit_rows(const PlateDifferences& plate, const VisitRows& visit) {
     ring_points.clear();
     numbers.clear();
     const double root = std::sqrt(plate.weight(Index(p)));
-    for (std::size_t s = 0; s < ring.size && plate.has_fit(ring); ++s) {
+    for (std::size_t s = 0; s < ring.size && plate.has_rows(ring); ++s) {
       ring_points.push_back(RingTable::id_of(plate.rings().members(ring)[s]));
       for (const double number : plate.column(ring, s)) numbers.push_back(root * number);
     }
@@ -35,16 +34,14 @@ AssembledSystem assemble_thin_plate(const GridLevel& grid, const Stencils& stenc
   AssembledSystem system = assemble_square(
       grid, number, nullptr, [&](const VisitRows& visit) { visit_rows(plate, visit); });
   Triplets entries;
+  RowSum own(grid.size());
   for (Index i = 0; i < Index(system.unknown_points.size()); ++i) {
     const Index p = system.unknown_points[i];
-    const RingTable::Ring& ring = plate.rings().about(p);
-    const std::span<const double> tension = stencils.weights(ring.element);
-    for (std::size_t k = 0; k < tension.size(); ++k)
-      if (const RingTable::Member q = plate.rings().members(ring)[k + 1]; q >= 0)
-        entries.emplace_back(i, number[q], -tension[k]);
-    const double held = std::size_t(p) < weights.size() ? weights[p] : 0.0;
-    if (const double own = stencils.total_weight(ring.element) + held + plate.penalty(p); own != 0)
-      entries.emplace_back(i, i, own);
+    plate.add_own(p, own);
+    if (std::size_t(p) < weights.size()) own.add(p, weights[p]);
+    for (const auto& [q, entry] : own.entries())
+      if (entry != 0) entries.emplace_back(i, number[q], entry);
+    own.clear();
   }
   if (!entries.empty()) add_entries(entries, system);
   return system;

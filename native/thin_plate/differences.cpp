@@ -33,4 +33,14 @@ PlateDifferences::PlateDifferences(const GridLevel& grid, const Stencils& stenci
   }
 }
 
+void PlateDifferences::add_own(Index p, RowSum& sum) const {
+  const RingTable::Ring& ring = rings_.about(p);
+  const std::span<const double> tension = stencils_.weights(ring.element);
+  for (std::size_t k = 0; k < tension.size(); ++k)
+    if (const RingTable::Member q = rings_.members(ring)[k + 1]; q >= 0) sum.add(q, -tension[k]);
+  const double extra =
+      stencils_.total_weight(ring.element) + (surface_ ? double(surface_->penalty[p]) : 0);
+  if (extra != 0) sum.add(p, extra);
+}
+
 }  // namespace fairing

@@ -3,11 +3,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
-#include "multigrid/chebyshev.h"
-#include "multigrid/level_operator.h"
 #include "parallel/reductions.h"
-#include "thin_plate/matrix.h"
+#include "thin_plate/differences.h"
 #include "thin_plate/operator.h"
 
 namespace fairing {
@@ -36,10 +35,13 @@ struct ThinPlateShared {
 // always by passes; in single precision by a matrix if one suits the level.
 class ThinPlateLevel final : public LevelOperator {
  public:
+  // Pieces of an edge up to which a matrix is faster. Passes `on_surface` read a row for each point
+  // as well.
+  static constexpr int most_pieces(bool on_surface) { return on_surface ? 32 : 8; }
+
   ThinPlateLevel(ThinPlateShared& shared, const GridLevel& grid, const VertexWeights& weights)
-      : shared_(shared),
-        grid_(grid),
-        matrix_(PlateMatrix::make(grid, shared.stencils, shared.unknowns, shared.workers)) {
+      : shared_(shared), grid_(grid) {
+    measure_matrix();
     set_weights(weights);
   }
 
@@ -48,10 +50,9 @@ class ThinPlateLevel final : public LevelOperator {
     matrix_.reset();
     surface_ = std::make_unique<SurfaceRows>(grid_, shared_.stencils, metric, shared_.unknowns,
                                              shared_.workers);
-    matrix_ = PlateMatrix::make(grid_, shared_.stencils, shared_.unknowns, shared_.workers,
-                                surface_.get());
     ++version_.spectrum;
-    update();
+    measure_matrix();
+    invert_diagonal();
   }
   bool is_measured() const { return surface_ != nullptr; }
   // r += P reference, in the metric of a surface.
@@ -62,7 +63,7 @@ class ThinPlateLevel final : public LevelOperator {
 
   void set_weights(VertexWeights weights) {
     weights_ = std::move(weights);
-    update();
+    invert_diagonal();
   }
   // Of all points. Smaller weights make the spectrum larger.
   void set_point_weights(VertexWeights weights) {
@@ -89,32 +90,15 @@ class ThinPlateLevel final : public LevelOperator {
   }
   // Its diagonal.
   Array<float> diagonal_with(const Unknowns& unknowns) {
-    return thin_plate_diagonal(grid_, shared_.stencils, unknowns, {}, shared_.workers,
+    return thin_plate_diagonal(grid_, shared_.stencils, unknowns, shared_.workers,
                                shared_.double_slots, surface_.get());
   }
   void apply(const float* x, float* y) override {
-    if (matrix_)
-      return matrix_->visit_products(
-          x, shared_.workers, [=](std::size_t first, std::size_t count, const float* product) {
-            std::copy_n(product, 3 * count, y + 3 * first);
-          });
-    apply_thin_plate(grid_, shared_.float_rows, shared_.unknowns, weights_, shared_.workers,
-                     shared_.float_slots, x, y, surface_.get());
-  }
-  void relax(const SmoothingStep& step, Workers& workers) override {
-    if (!matrix_) return LevelOperator::relax(step, workers);
-    matrix_->visit_products(step.d, workers,
-                            [&](std::size_t first, std::size_t count, const float* product) {
-                              finish_step(step, 3, inverse_diagonal_.data(), first, count, product);
-                            });
-  }
-  void subtract_product(const float* x, float* room, float* y, Workers& workers) override {
-    if (!matrix_) return LevelOperator::subtract_product(x, room, y, workers);
-    matrix_->visit_products(x, workers,
-                            [=](std::size_t first, std::size_t count, const float* product) {
-                              for (std::size_t i = 0; i < 3 * count; ++i)
-                                y[3 * first + i] -= product[i];
-                            });
+    if (!matrix_)
+      return apply_thin_plate(grid_, shared_.float_rows, shared_.unknowns, weights_,
+                              shared_.workers, shared_.float_slots, x, y, surface_.get());
+    matrix_->apply(x, shared_.workers, y);
+    add_weighted(shared_.unknowns, weights_, shared_.workers, x, y);
   }
   const Array<float>& inverse_diagonal() const override { return inverse_diagonal_; }
   AssembledSystem assemble() const override {
@@ -123,32 +107,40 @@ class ThinPlateLevel final : public LevelOperator {
   }
   void write_lines(LineBand& band, Workers& workers) override {
     if (matrix_)
-      matrix_->write_lines(inverse_diagonal_, band, workers);
-    else
-      write_plate_lines(grid_, shared_.stencils, shared_.unknowns, inverse_diagonal_, workers, band,
-                        surface_.get());
+      return band.write(inverse_diagonal_, [&](const auto& wants, const auto& visit) {
+        matrix_->visit_numbers(workers, wants, visit);
+      });
+    const PlateDifferences rows = differences();
+    band.write(inverse_diagonal_, [&](const auto& wants, const auto& visit) {
+      visit_numbers(rows, workers, wants, visit);
+    });
   }
 
  private:
-  // Updates the diagonal of K and the current weights.
-  void update() {
+  PlateDifferences differences() const {
+    return {grid_, shared_.stencils, shared_.unknowns, shared_.workers, surface_.get()};
+  }
+  // Sets what belongs to the metric.
+  void measure_matrix() {
+    if (RingMatrix<3>::suits(grid_, most_pieces(surface_ != nullptr)))
+      matrix_.emplace(differences(), shared_.workers);
+    diagonal_ = diagonal_with(shared_.unknowns);
+  }
+  void invert_diagonal() {
     ++version_.numbers;
-    if (matrix_) {
-      matrix_->set_weights(weights_);
-      inverse_diagonal_ = matrix_->inverse_diagonal(shared_.workers);
-      return;
-    }
-    inverse_diagonal_ = thin_plate_diagonal(grid_, shared_.stencils, shared_.unknowns, weights_,
-                                            shared_.workers, shared_.double_slots, surface_.get());
-    for (float& d : inverse_diagonal_) d = 1 / d;
+    inverse_diagonal_ = diagonal_;
+    const std::vector<std::uint8_t>& moves = shared_.unknowns.vertex;
+    for (std::size_t p = 0; p < weights_.size(); ++p)
+      if (p >= moves.size() || moves[p]) inverse_diagonal_[p] += float(weights_[p]);
+    for (float& d : inverse_diagonal_) d = d > 0 ? 1 / d : 1.0f;
   }
 
   ThinPlateShared& shared_;
   const GridLevel& grid_;
   VertexWeights weights_;
-  std::unique_ptr<SurfaceRows> surface_;  // null: the control metric
-  std::unique_ptr<PlateMatrix> matrix_;   // null: passes are used
-  Array<float> inverse_diagonal_;
+  std::unique_ptr<SurfaceRows> surface_;      // null: the control metric
+  std::optional<RingMatrix<3>> matrix_;       // none: passes are used
+  Array<float> diagonal_, inverse_diagonal_;  // without weights, and with them
 };
 
 }  // namespace fairing

@@ -3,9 +3,7 @@
 
 #include <utility>
 
-#include "multigrid/ring_lines.h"
 #include "parallel/cancel.h"
-#include "parallel/reductions.h"
 #include "thin_plate/kernels.h"
 
 namespace fairing {
@@ -19,16 +17,6 @@ void face_weights(const EnergyWeight& factor, bool quad, int n, Index f, T* weig
   for (int j = 0; j <= n; ++j)
     for (int i = 0; i <= (quad ? n : n - j); ++i, weight += 3)
       std::fill(weight, weight + 3, T(factor.face_point(f, i, j)));
-}
-
-// y += W x on the unknowns.
-template <class T, class Weights>
-void add_weighted(const Unknowns& unknowns, const Weights& weights, Workers& workers, const T* x,
-                  T* y) {
-  for_each_index(workers, weights.size(), [&](std::size_t p) {
-    if (p < unknowns.vertex.size() && !unknowns.vertex[p]) return;
-    for (std::size_t a = 0; a < 3; ++a) y[3 * p + a] += T(weights[p]) * x[3 * p + a];
-  });
 }
 
 // Adds the transposed rows of the moments of a run's points, which have rows of their own.
@@ -49,7 +37,7 @@ void add_points(const RowRun<const float>& rows, const T* const* at, T* const* t
   }
 }
 
-// The energy's columns by the points of a ring, in the form that multigrid/ring_lines.h reads.
+// The energy's columns by the points of a ring.
 struct PlateRingRows {
   const GridLevel& grid;
   const Stencils& stencils;
@@ -83,8 +71,6 @@ struct PlateRingRows {
     return (factor.weighs(run) ? factor.point(run, i) : 1.0) * grid.n() * grid.n();
   }
   double number(int s, int t, std::size_t i) const { return weight(i) * at(s, i).dot(at(t, i)); }
-  float product(int s, int t, std::size_t i) const { return float(number(s, t, i)); }
-  bool is_same_along_run() const { return !surface && !factor.weighs(run); }
 };
 
 // A thread's passes over runs and faces.
@@ -235,15 +221,13 @@ template void apply_thin_plate<double>(const GridLevel&, const ThinPlateRows<dou
                                        const SurfaceRows*);
 
 Array<float> thin_plate_diagonal(const GridLevel& grid, const Stencils& stencils,
-                                 const Unknowns& unknowns, const VertexWeights& weights,
-                                 Workers& workers, ElementSlots<double>& slots,
-                                 const SurfaceRows* surface) {
+                                 const Unknowns& unknowns, Workers& workers,
+                                 ElementSlots<double>& slots, const SurfaceRows* surface) {
   // The sums of K with squared coefficients; all three coordinates have the same number.
   const auto body = [&](const Run& run, double* const* target, PlateRingRows& rows) {
     const auto put = [&](std::size_t slot, std::size_t i, double number) {
       for (std::size_t a = 0; a < 3; ++a) target[slot][3 * i + a] += number;
     };
-    if (run.kind == RunKind::vertex && !weights.empty()) put(0, 0, weights[run.element]);
     const double tension = stencils.total_weight(element_of(grid.mesh(), run));
     for (std::size_t i = 0; i < run.count; ++i) put(0, i, tension);
     rows.read(run);
@@ -255,20 +239,11 @@ Array<float> thin_plate_diagonal(const GridLevel& grid, const Stencils& stencils
       grid, workers, slots, &unknowns, sums.data(),
       [&] { return PlateRingRows{grid, stencils, surface}; }, body);
   Array<float> diagonal(grid.size());
-  const auto vertices = std::size_t(grid.mesh().vertex_count());
   for (std::size_t i = 0; i < diagonal.size(); ++i) {
-    if (i >= vertices && i < weights.size()) sums[3 * i] += weights[i];
     if (surface) sums[3 * i] += double(surface->penalty[i]);
-    diagonal[i] = sums[3 * i] > 0 ? float(sums[3 * i]) : 1.0f;
+    diagonal[i] = float(sums[3 * i]);
   }
   return diagonal;
-}
-
-void write_plate_lines(const GridLevel& grid, const Stencils& stencils, const Unknowns& unknowns,
-                       const Array<float>& inverse_diagonal, Workers& workers, LineBand& band,
-                       const SurfaceRows* surface) {
-  write_ring_lines(grid, unknowns, inverse_diagonal, workers,
-                   PlateRingRows{grid, stencils, surface}, band);
 }
 
 double thin_plate_energy(const GridLevel& grid, const Stencils& stencils, Workers& workers,

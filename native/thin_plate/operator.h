@@ -5,7 +5,7 @@
 #pragma once
 
 #include "grid/accumulate.h"
-#include "multigrid/line_band.h"
+#include "parallel/reductions.h"
 #include "stencil/stencils.h"
 #include "stencil/weights.h"
 #include "thin_plate/surface_rows.h"
@@ -34,16 +34,20 @@ void apply_thin_plate(const GridLevel& grid, const ThinPlateRows<T>& rows, const
                       const VertexWeights& weights, Workers& workers, ElementSlots<T>& slots,
                       const T* x, T* y, const SurfaceRows* surface = nullptr);
 
-// The diagonal of K + W: one number a point; 1 if the point is not an unknown.
-Array<float> thin_plate_diagonal(const GridLevel& grid, const Stencils& stencils,
-                                 const Unknowns& unknowns, const VertexWeights& weights,
-                                 Workers& workers, ElementSlots<double>& slots,
-                                 const SurfaceRows* surface = nullptr);
+// y += W x on the unknowns.
+template <class T, class Weights>
+void add_weighted(const Unknowns& unknowns, const Weights& weights, Workers& workers, const T* x,
+                  T* y) {
+  for_each_index(workers, weights.size(), [&](std::size_t p) {
+    if (p < unknowns.vertex.size() && !unknowns.vertex[p]) return;
+    for (std::size_t a = 0; a < 3; ++a) y[3 * p + a] += T(weights[p]) * x[3 * p + a];
+  });
+}
 
-// As LevelOperator::write_lines(), without the membrane.
-void write_plate_lines(const GridLevel& grid, const Stencils& stencils, const Unknowns& unknowns,
-                       const Array<float>& inverse_diagonal, Workers& workers, LineBand& band,
-                       const SurfaceRows* surface = nullptr);
+// The diagonal of K: one number a point; 0 if the point is not an unknown.
+Array<float> thin_plate_diagonal(const GridLevel& grid, const Stencils& stencils,
+                                 const Unknowns& unknowns, Workers& workers,
+                                 ElementSlots<double>& slots, const SurfaceRows* surface = nullptr);
 
 // E(x) over all points, without the control vertices' weights and the membrane.
 double thin_plate_energy(const GridLevel& grid, const Stencils& stencils, Workers& workers,

@@ -29,9 +29,10 @@ PlateSupports::PlateSupports(const ChartMaker& charts, const ThinPlateOptions& o
   if (!options.normals.empty() && levels.top() > 0)
     couples_ = std::make_unique<Couples>(shared.mesh, charts, options.normals, shared.workers);
   if (!unknowns.any_vertex) return;
-  const Array<float> diagonal = thin_plate_diagonal(levels.grid(0), shared.stencils, unknowns, {},
+  const Array<float> diagonal = thin_plate_diagonal(levels.grid(0), shared.stencils, unknowns,
                                                     shared.workers, shared.double_slots);
-  stiffness_.assign(diagonal.begin(), diagonal.begin() + shared.mesh.vertex_count());
+  for (Index v = 0; v < shared.mesh.vertex_count(); ++v)
+    stiffness_.push_back(diagonal[v] > 0 ? double(diagonal[v]) : 1.0);
 }
 
 PlateState PlateSupports::unloaded() const {

@@ -10,8 +10,8 @@
 #include "level_settings.h"
 #include "multigrid/line_jacobi.h"
 #include "polyhedron.h"
+#include "thin_plate/differences.h"
 #include "thin_plate/level.h"
-#include "thin_plate/matrix.h"
 #include "thin_plate/operator.h"
 
 namespace fairing::test {
@@ -73,16 +73,20 @@ TEST(Lines, OfAPlateAreItsMatrix) {
       const Dense k =
           over_points(assemble_thin_plate(grid, stencils, unknowns, {}, workers), grid.size());
       const Array<float> inverse = inverse_of(k);
+      const PlateDifferences rows(grid, stencils, unknowns, workers);
       LineBand band(grid.size());
-      write_plate_lines(grid, stencils, unknowns, inverse, workers, band);
+      band.write(inverse, [&](const auto& wants, const auto& visit) {
+        visit_numbers(rows, workers, wants, visit);
+      });
       EXPECT_FALSE(band.is_seeking());
       expect_numbers_of(k, band);
       for (std::size_t line = 0; line < band.lines(); ++line) points += band.length(line);
-      if (const auto matrix = PlateMatrix::make(grid, stencils, unknowns, workers)) {
-        LineBand of_rows(grid.size());
-        matrix->write_lines(inverse, of_rows, workers);
-        expect_numbers_of(k, of_rows);
-      }
+      const RingMatrix<3> matrix(rows, workers);
+      LineBand of_matrix(grid.size());
+      of_matrix.write(inverse, [&](const auto& wants, const auto& visit) {
+        matrix.visit_numbers(workers, wants, visit);
+      });
+      expect_numbers_of(k, of_matrix);
     }
   EXPECT_GT(points, 100u);
 }
@@ -122,18 +126,11 @@ class DenseOperator final : public LevelOperator {
   const Array<float>& inverse_diagonal() const override { return inverse_; }
   AssembledSystem assemble() const override { return {}; }
   void write_lines(LineBand& band, Workers&) override {
-    const auto visit = [&](auto&& each) {
+    band.write(inverse_, [&](const auto& wants, const auto& visit) {
       for (Eigen::Index p = 0; p < k_.rows(); ++p)
-        for (Eigen::Index q = 0; q < k_.cols(); ++q)
-          if (p != q && k_(p, q) != 0) each(Index(p), Index(q), float(k_(p, q)));
-    };
-    band.write(
-        [&] {
-          visit([&](Index p, Index q, float number) {
-            band.offer(p, q, float(std::abs(number) / std::sqrt(k_(p, p) * k_(q, q))));
-          });
-        },
-        [&] { visit([&](Index p, Index q, float number) { band.add(p, q, number); }); });
+        for (Eigen::Index q = 0; q < k_.cols() && wants(Index(p)); ++q)
+          if (k_(p, q) != 0) visit(Index(p), Index(q), float(k_(p, q)));
+    });
   }
 
  private:

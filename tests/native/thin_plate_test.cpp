@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "level_settings.h"
+#include "thin_plate/differences.h"
 #include "thin_plate/level.h"
-#include "thin_plate/matrix.h"
 #include "thin_plate/operator.h"
 
 namespace fairing::test {
@@ -78,21 +78,21 @@ TEST(ThinPlate, IsTheAssembledSystemOnItsUnknowns) {
         small.row(Eigen::Index(r)) = x.row(system.unknown_points[r]);
       const Points expected = k * small;
       const Array<float> diagonal =
-          thin_plate_diagonal(s.grid, s.stencils, unknowns, weights, workers, slots);
+          thin_plate_diagonal(s.grid, s.stencils, unknowns, workers, slots);
       ASSERT_EQ(diagonal.size(), s.grid.size());
       std::vector<std::uint8_t> known(s.grid.size(), 1);
       for (std::size_t r = 0; r < system.unknown_points.size(); ++r) {
         const Index p = system.unknown_points[r];
         known[std::size_t(p)] = 0;
         EXPECT_LT((y.row(p) - expected.row(Eigen::Index(r))).norm(), 1e-12 * k.norm() * x.norm());
-        const double entry = k(Eigen::Index(r), Eigen::Index(r));
-        EXPECT_NEAR(diagonal[std::size_t(p)], entry > 0 ? entry : 1.0, 1e-6 * std::max(entry, 1e-6))
-            << p;
+        const double weight = std::size_t(p) < weights.size() ? weights[std::size_t(p)] : 0.0,
+                     entry = k(Eigen::Index(r), Eigen::Index(r)) - weight;
+        EXPECT_NEAR(diagonal[std::size_t(p)], entry, 1e-6 * std::max(entry, 1e-6)) << p;
       }
       for (std::size_t p = 0; p < known.size(); ++p)
         if (known[p]) {
           EXPECT_EQ(y.row(Eigen::Index(p)).norm(), 0);
-          EXPECT_EQ(diagonal[p], 1.0f);
+          EXPECT_EQ(diagonal[p], 0.0f);
         }
     }
   });
@@ -109,15 +109,13 @@ Unknowns inside_region(const ControlMesh& mesh, Unknowns u) {
 
 // K in rows, weights of control vertices and the diagonal included, against the assembled system.
 void expect_rows_of(const Setting& s, const Unknowns& unknowns, Workers& workers) {
-  const std::unique_ptr<PlateMatrix> rows =
-      PlateMatrix::make(s.grid, s.stencils, unknowns, workers);
-  ASSERT_EQ(rows != nullptr, s.grid.n() > 1);
-  if (!rows) return;
+  ThinPlateShared shared(s.mesh, s.stencils, unknowns, workers);
+  ThinPlateLevel level(shared, s.grid, {});
   VertexWeights weights(std::size_t(s.mesh.vertex_count()), 0.0);
   for (const bool weighted : {true, false}) {
     for (std::size_t v = 0; v < weights.size(); v += 2)
       weights[v] = weighted ? 0.5 + double(v) : 0.0;
-    rows->set_weights(weights);
+    level.set_weights(weights);
     const AssembledSystem system =
         assemble_thin_plate(s.grid, s.stencils, unknowns, weights, workers);
     const Dense k(system.matrix);
@@ -134,12 +132,9 @@ void expect_rows_of(const Setting& s, const Unknowns& unknowns, Workers& workers
     }
     const FloatPoints xf = with_room(x);
     FloatPoints product = FloatPoints::Constant(x.rows(), 3, 1e30f);
-    rows->visit_products(xf.data(), workers,
-                         [&](std::size_t first, std::size_t count, const float* part) {
-                           std::copy_n(part, 3 * count, product.data() + 3 * first);
-                         });
+    level.apply(xf.data(), product.data());
     EXPECT_LT((product.cast<double>() - expected).norm(), 1e-6 * k.norm() * x.norm() + 1e-300);
-    const Array<float> inverse = rows->inverse_diagonal(workers);
+    const Array<float>& inverse = level.inverse_diagonal();
     for (std::size_t p = 0; p < diagonal.size(); ++p)
       EXPECT_NEAR(inverse[p], diagonal[p], 1e-5 * diagonal[p]);
   }
@@ -168,31 +163,6 @@ TEST(Rows, AreTheAssembledSystemBesideJoints) {
         expect_rows_of(s, inside_region(mesh, some_points(mesh, 1)), workers);
       }
     }
-}
-
-// Rows finished where they are computed, against one application and then the vectors.
-TEST(Rows, RelaxAsApplicationsDo) {
-  on_all(3, [](const Setting& s, Workers& workers) {
-    const Unknowns unknowns = some_points(s.mesh, 1);
-    ThinPlateShared shared(s.mesh, s.stencils, unknowns, workers);
-    ThinPlateLevel level(shared, s.grid, {});
-    const auto start = [&](unsigned seed) {
-      return with_room(masked(s.grid, unknowns, random_points(s.grid.size(), seed)));
-    };
-    for (const bool adds : {false, true}) {
-      FloatPoints d = start(1), x[2] = {start(2), start(2)}, r[2] = {start(3), start(3)},
-                  next[2] = {start(4), start(4)};
-      level.relax({d.data(), next[0].data(), x[0].data(), r[0].data(), 0.3f, 0.7f, adds}, workers);
-      level.LevelOperator::relax(
-          {d.data(), next[1].data(), x[1].data(), r[1].data(), 0.3f, 0.7f, adds}, workers);
-      EXPECT_EQ((x[0] - x[1]).topRows(Eigen::Index(s.grid.size())).norm(), 0);
-      EXPECT_EQ((r[0] - r[1]).topRows(Eigen::Index(s.grid.size())).norm(), 0);
-      EXPECT_EQ((next[0] - next[1]).topRows(Eigen::Index(s.grid.size())).norm(), 0);
-      level.subtract_product(d.data(), next[0].data(), x[0].data(), workers);
-      level.LevelOperator::subtract_product(d.data(), next[1].data(), x[1].data(), workers);
-      EXPECT_EQ((x[0] - x[1]).topRows(Eigen::Index(s.grid.size())).norm(), 0);
-    }
-  });
 }
 
 }  // namespace

@@ -159,7 +159,7 @@ def test_what_is_over_the_limit_by_shapes_alone_is_refused():
 def hard():
     """A run with a level that is factored on the way, which cannot be predicted."""
     points, faces = meshes.torus(10, 8)
-    rough = points + 0.15 * np.random.default_rng(1).normal(size=points.shape)
+    rough = points + 0.2 * np.random.default_rng(1).normal(size=points.shape)
     return rough, faces, 3, "total_curvature"
 
 
