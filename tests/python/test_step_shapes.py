@@ -111,7 +111,8 @@ def flat_comb(teeth=6):
 def test_flat_polygons_are_planes(tmp_path):
     points, faces, solid = flat_comb()
     patches = df.fit_patches(points, faces, levels=5, crease_angle=np.radians(30))
-    assert np.unique(patches.patch_plane).tolist() == [-1, 0, 1] and not len(patches.unmet)
+    assert np.array_equal(np.unique(patches.patch_plane), range(len(faces)))
+    assert not len(patches.unmet)
     colours = np.zeros((len(patches), 3))
     colours[patches.patch_polygon == 1] = 1, 0, 0
     name = tmp_path / "comb.step"
@@ -122,7 +123,27 @@ def test_flat_polygons_are_planes(tmp_path):
     assert len(patches.written) == len(faces)
     assert not read.free_edges
     assert read.volume == pytest.approx(2 * solid, rel=1e-9)
-    assert name.read_text().count("=PLANE(") == 4
+    text = name.read_text()
+    assert text.count("=PLANE(") == 2 * len(faces) and "B_SPLINE_SURFACE" not in text
+
+
+@pytest.mark.parametrize("rise, planes, others", [(0.0, 6, 0), (0.2, 5, 4)])
+def test_grids_of_flat_quads_between_creases_are_planes(tmp_path, rise, planes, others):
+    """The sides of a box, of 2 by 2 quads each; raised in its middle, one is none."""
+    index, faces = {}, []
+    for axis, end in np.ndindex(3, 2):
+        for i, j in np.ndindex(2, 2):
+            ring = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)][:: 1 if end else -1]
+            corners = [np.roll([2 * end, a, b], axis) for a, b in ring]
+            faces.append([index.setdefault(tuple(at), len(index)) for at in corners])
+    points = np.array(list(index), float)
+    points[(points == (1, 1, 2)).all(axis=1), 2] += rise
+    patches = df.fit_patches(points, faces, levels=3, crease_angle=np.radians(50))
+    assert len(patches.written) == planes + others and (others or not len(patches.unmet))
+    df.write_step(tmp_path / "a.step", patches, unit="mm")
+    read = step_files.read(tmp_path / "a.step")
+    assert read.valid and read.solids == 1 and not read.free_edges
+    assert (tmp_path / "a.step").read_text().count("=PLANE(") == planes
 
 
 def test_a_flat_polygon_whose_border_crosses_itself_is_no_plane():

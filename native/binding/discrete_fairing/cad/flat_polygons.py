@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Input polygons that are flat and lie between creases or borders. Triangles of their fans are often so
-narrow that patches fold; in CAD each is one face, on a plane.
+"""Patches that are flat and lie between creases or borders: in CAD each is a plane, and so is an input polygon
+that was split, whose triangles are often so narrow that patches fold.
 """
 
 from __future__ import annotations
@@ -11,6 +11,8 @@ from typing import Any
 
 import numpy as np
 
+from .arrays import ranges
+
 SMOOTH = 0  # of edge_kind
 FLAT = 1e-9  # of the size: the accuracy of CAD files
 
@@ -19,7 +21,7 @@ Step = tuple[int, bool]  # an edge, and whether it runs forward
 
 @dataclass
 class _Flat:
-    """A flat polygon: its patches, all their edges, and those around it."""
+    """A flat polygon or patch: its patches, all their edges, and those around it."""
 
     patches: np.ndarray
     edges: np.ndarray
@@ -29,18 +31,24 @@ class _Flat:
 def mark_flat(
     found: dict[str, Any], polygons: np.ndarray, points_of: Callable[[int], np.ndarray]
 ) -> None:
-    """Adds `patch_plane` to the core's arrays: (P,) int32, for patches of a flat polygon its number, of
-    `polygons` (F,) by control faces, otherwise -1. Only the edges of such a polygon are off.
+    """Adds `patch_plane` to the core's arrays: (P,) int32, for patches in a plane the number of its first
+    polygon, of `polygons` (F,) by control faces, otherwise -1. Only the edges of such a plane are off.
     `points_of` has the refined surface's points of a polygon, (k, 3).
     """
+    face_patch = np.repeat(
+        np.arange(len(found["patch_face_offsets"]) - 1), np.diff(found["patch_face_offsets"])
+    )
     own = polygons[found["patch_faces"][found["patch_face_offsets"][:-1]]]
     found["patch_plane"] = np.full(len(own), -1, np.int32)
     for polygon, flat in _enclosed(found, _flat_ones(found, polygons, own, points_of)).items():
         found["patch_plane"][flat.patches] = polygon
-        found["angles"][flat.edges] = found["jumps"][flat.edges] = np.nan
+        smooth = flat.edges[
+            found["edge_kind"][flat.edges] == SMOOTH
+        ]  # to patches in the same plane
+        found["angles"][smooth] = found["jumps"][smooth] = 0
         found["edge_error"][np.setdiff1d(flat.edges, flat.outer)] = 0
         found["residual"][flat.patches] = found["turned"][flat.patches] = 0
-        faces = polygons == polygon
+        faces = found["patch_faces"][np.isin(face_patch, flat.patches)]
         found["face_angle"][faces] = found["lattice_turn"][faces] = 0
         found["face_off"][faces] = found["edge_error"][flat.outer].max()
 
@@ -51,16 +59,16 @@ def _flat_ones(
     own: np.ndarray,
     points_of: Callable[[int], np.ndarray],
 ) -> dict[int, _Flat]:
-    """Flat polygons that were split, and those that meet them at smooth edges."""
-    alone = np.diff(found["patch_face_offsets"]) == 1
+    """Flat polygons of one or several patches, and flat patches of several polygons."""
+    offsets = found["patch_face_offsets"]
     of_steps = np.repeat(np.arange(len(own)), np.diff(found["loop_offsets"]))
     flat: dict[int, _Flat] = {}
-    waiting = np.flatnonzero(np.bincount(polygons) > 1).tolist()
-    known = set(waiting)
-    while waiting:
-        polygon = waiting.pop()
-        patches = np.flatnonzero(own == polygon)
-        if not (alone[patches].all() and is_flat(points_of(polygon), found["size"])):
+    for polygon, patches in _patches_by(own).items():
+        faces = found["patch_faces"][ranges(offsets[patches], offsets[patches + 1])]
+        parts = np.unique(polygons[faces]).tolist()
+        if len(patches) > 1 and len(parts) > 1:
+            continue
+        if not is_flat(np.concatenate([points_of(part) for part in parts]), found["size"]):
             continue
         steps = np.isin(of_steps, patches)
         edges = found["loop_edges"][steps]
@@ -69,10 +77,14 @@ def _flat_ones(
             continue
         outer = np.array([edge for edge, _ in around])
         flat[polygon] = _Flat(patches, edges, outer)
-        across = np.isin(found["loop_edges"], outer[found["edge_kind"][outer] == SMOOTH])
-        waiting += set(own[of_steps[across]].tolist()) - known
-        known.update(waiting)
     return flat
+
+
+def _patches_by(own: np.ndarray) -> dict[int, np.ndarray]:
+    """The patches of each polygon."""
+    order = np.argsort(own, kind="stable")
+    values, begin = np.unique(own[order], return_index=True)
+    return dict(zip(values.tolist(), np.split(order, begin[1:])))
 
 
 def _enclosed(found: dict[str, Any], flat: dict[int, _Flat]) -> dict[int, _Flat]:

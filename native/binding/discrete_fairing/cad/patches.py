@@ -37,8 +37,8 @@ class SplinePatches:
     patch_faces: (F,) or more int32; patch_face_offsets: (P + 1,) int64: the control faces of each
     patch, row by row; all triangles come first, then all quads.
     patch_polygon: (P,) int32, the first input face that each covers; polygons(p) has all.
-    patch_plane: (P,) int32, the input face where it is flat, between creases or borders, and was split
-    into triangles: its patches may fold within the plane, and are written as one face; otherwise -1.
+    patch_plane: (P,) int32, the (first) input face where it is flat between creases or borders, and is
+    written as one plane; patches of a polygon that was split may fold within it; otherwise -1.
     patch_shell: (P,) int32, the shell that each belongs to.
     shell_closed: (S,) bool, whether a shell has no free edge.
     edge_spans: (E,) int32; edge_points: (D, 3) float64; edge_offsets: (E + 1,) int64; as of patches.
