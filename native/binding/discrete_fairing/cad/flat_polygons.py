@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from .arrays import ranges
+from ..arrays import ranges
 
 SMOOTH = 0  # of edge_kind
 FLAT = 1e-9  # of the size: the accuracy of CAD files
