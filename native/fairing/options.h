@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every setting of fair() and FairSolver, with its default, unit and range. A new setting goes
 // here or into the options of its folder (`membrane`, `solve`, `paper`, `features`), into the table
-// in settings.h, and into the package's (discrete_fairing/options.py).
+// in settings.h, into the package's (discrete_fairing/options.py), and as a row into
+// docs/python/fair.md.
 #pragma once
 
 #include <cstdint>

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "base/error.h"
@@ -12,6 +13,7 @@
 #include "base/roundoff.h"
 #include "fairing/checked.h"
 #include "fairing/memory_plan.h"
+#include "fairing/settings.h"
 #include "fairing/warnings.h"
 #include "grid/accumulate.h"
 #include "mesh/validate/check.h"
@@ -106,7 +108,7 @@ MeshUnits units_in_working(const FairingProblem& problem) {
 // Stencils measure it in the mean edge of their own mesh.
 MembraneOptions membrane_of(const FairingProblem& problem) {
   MembraneOptions out = problem.options.membrane;
-  if (problem.options.whole.given && out.tension > 0)
+  if (problem.options.whole.given)
     out.edge_ratio = measure_units(problem.mesh, problem.exponent).edge / problem.units.edge;
   return out;
 }
@@ -135,13 +137,23 @@ bool mirrors_curves(const ControlMesh& mesh, const Mirror& mirror, const Feature
   return true;
 }
 
-bool mirrors_weights(const ControlMesh& mesh, const Mirror& mirror,
-                     const std::vector<double>& weights) {
-  for (std::size_t v = 0; v < weights.size(); ++v) {
+bool mirrors_values(const ControlMesh& mesh, const Mirror& mirror,
+                    const std::vector<double>& values) {
+  for (std::size_t v = 0; v < values.size(); ++v) {
     const Index image = mesh.original_vertex(mirror.vertex[v]);
-    if (!mesh.ring(Index(v)).empty() && weights[v] != weights[image]) return false;
+    if (!mesh.ring(Index(v)).empty() && values[v] != values[image]) return false;
   }
   return true;
+}
+
+// Whether images have equal numbers in all settings of one number a vertex.
+bool mirrors_settings(const ControlMesh& mesh, const Mirror& mirror, const FairOptions& options) {
+  bool out = options.tolerance.size() == 1 || mirrors_values(mesh, mirror, options.tolerance);
+  for_each_setting([&](const char*, auto range, auto... member) {
+    if constexpr (std::is_same_v<decltype(range), PerVertex>)
+      out = out && mirrors_values(mesh, mirror, (options.*....*member));
+  });
+  return out;
 }
 
 // `world`: one position a control vertex; `cage`: the caller's. Sets working coordinates.
@@ -156,7 +168,7 @@ void make_about(std::vector<Vec3> world, std::vector<Vec3> cage, Stopwatch& watc
   problem.basis.cage = std::move(cage);
 
   watch.enter(Phase::hierarchy, 0);
-  mesh.positions = problem.basis.working;
+  mesh.positions = problem.basis.working;  // the mesh is complete: stencils are made of it
   problem.normals = choose_normals(mesh, options);
   require_near(mesh, problem.normals.fixed);
   set_upright(mesh, problem.basis, problem.normals);
@@ -164,8 +176,7 @@ void make_about(std::vector<Vec3> world, std::vector<Vec3> cage, Stopwatch& watc
   problem.stencils =
       make_stencils(mesh, *problem.charts(), options.paper, *problem.workers, membrane_of(problem));
   problem.symmetry = find_symmetry(mesh, same_place(problem.frame), [&](const Mirror& mirror) {
-    return mirrors_weights(mesh, mirror, options.weights) &&
-           (options.tolerance.size() == 1 || mirrors_weights(mesh, mirror, options.tolerance)) &&
+    return mirrors_settings(mesh, mirror, options) &&
            mirrors_curves(mesh, mirror, problem.basis.working_curves, same_place(problem.frame));
   });
   problem.start_weights =

@@ -30,7 +30,8 @@ struct Stencils {
   // The last three rows of the fit (the Hessian) times the root of the chart's area. Opposite
   // neighbours of a point inside a face have the same.
   Array<Column> energy;
-  Array<double> tension;  // weights of the membrane (stencil/membrane.h); empty: none
+  // Weights of the membrane (stencil/membrane.h). Empty, not zeros, without one: levels differ.
+  Array<double> tension;
   // 5 a neighbour, of vertices and edges only: the fit, and the basis half-way to the neighbour.
   Array<float> rows, half;
 
