@@ -330,12 +330,14 @@ def test_finer_fits_of_concave_cells(monkeypatch):
     """They are cut into triangles on the way; the result has quads all the same."""
     mesh = cube_sphere(2)
     fitted = df.fair(*mesh, 1)
+    few = len(fitted.triangles)
     a, b, c, d = fitted.faces[1][0]
     fitted.vertices[b] = fitted.vertices[[a, b, c, d]].T @ [0.4, -0.05, 0.4, 0.25]
     monkeypatch.setattr(finer_fits, "fit", lambda *_, **__: fitted)
     polygons = mesh[1].ravel(), np.arange(0, mesh[1].size + 1, 4)
     finer = finer_fits.FinerFits(mesh[0], polygons, {"levels": 1}, {}).at(3)
     assert len(finer.faces[0]) == 0 and change_between(fitted, finer, 3, 2).max() < 1e-12
+    assert len(finer.triangles) == 16 * few
     sides = np.stack([finer.faces[1], np.roll(finer.faces[1], -1, axis=1)], 2).reshape(-1, 2)
     pairs = {tuple(side) for side in sides.tolist()}
     assert len(pairs) == len(sides) and all((b, a) in pairs for a, b in pairs)

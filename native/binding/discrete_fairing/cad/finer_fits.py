@@ -56,6 +56,7 @@ class FinerFits:
         cells = corners, np.concatenate([[0], np.cumsum(sizes)])
         made = fair(self.fit.vertices, cells, finer, **self._through, **watchers)
         out = copy(self.fit)
+        vars(out).pop("triangles", None)  # kept from an earlier use
         out.vertices, out.faces = made.vertices, self._in_order(made, finer)
         out.triangle_polygon, out.quad_polygon = (
             np.repeat(of, 4**finer) for of in (out.triangle_polygon, out.quad_polygon)
