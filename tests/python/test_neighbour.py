@@ -298,3 +298,17 @@ def test_joint_measures_a_fold_and_a_gap():
     found = df.joint(slope, flat)
     assert found.kink == pytest.approx(0.3) and found.gap == pytest.approx(0.01)
     assert len(df.joint(slope, (flat[0] - [0, 9, 0], flat[1])).vertex) == 0
+
+
+def test_a_long_border_of_a_narrow_strip_is_met():
+    """What the fits hardly see must not grow: by undamped least squares it kept a kink of 1.3 degrees."""
+
+    def strip(low, high, bend):
+        x, y = np.meshgrid(np.linspace(0, 1, 33), np.linspace(low, high, 4), indexing="ij")
+        points = np.stack([x, y, 0.1 * np.sin(5 * x) + bend * y**2], axis=-1).reshape(-1, 3)
+        return points, lattice_faces(33, 4)
+
+    other = df.fair(*strip(-0.2, 0, -0.3), 3)
+    met = df.fair(*strip(0, 0.2, 0.5), 3, neighbour=(other.vertices, other.faces))
+    joint = df.joint((met.vertices, met.faces), (other.vertices, other.faces))
+    assert not met.report["warnings"] and np.abs(joint.kink).max() < 2e-4

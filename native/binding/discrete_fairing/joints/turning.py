@@ -8,15 +8,15 @@ import numpy as np
 from ..arrays import marked
 from .borders import Border, Foot, across, dot
 
-# Of a unit turn: what the fits see by less stays small.
-UNSEEN = 1e-5
+# Steps of conjugate gradients, and the relative residual at which they end.
+STEPS, LEFT = 2000, 1e-4
 
 
 class Angles:
     """Rotations about a border: an angle at each vertex, times a profile for each kind of value.
 
-    The response of the fits at the border to the angles is a matrix: each fit covers several vertices,
-    so correcting each vertex by its own error would not converge near ends.
+    The response of the fits at the border to the angles is a sparse matrix: each fit covers several
+    vertices, so correcting each vertex by its own error would not converge near ends.
     """
 
     def __init__(
@@ -66,21 +66,28 @@ class Angles:
         return weights
 
     def for_(self, wanted: tuple[np.ndarray, np.ndarray]) -> np.ndarray:
-        """(p, 1): angles with the `wanted` turns and changes of curvature in the fits, by least squares;
-        components that the fits hardly see stay small.
+        """(p, 1): angles with the `wanted` turns and changes of curvature in the fits; by conjugate
+        gradients on the normal equations, stopped before insensitive components grow.
         """
         rows = (1, self.inside)
         left = np.concatenate([row * w * unit for row, w, unit in zip(rows, wanted, self.units)])
-        size = len(left)
-        seen = np.bincount(self.row * size + self.column, self.value, size * size)
-        seen = seen.reshape(size, size)
-        square = seen.T @ seen
-        square[np.diag_indices(size)] += UNSEEN**2 * np.trace(square) / size
-        found = np.linalg.solve(square, seen.T @ left)
+        found, enough = np.zeros(len(left)), LEFT * np.linalg.norm(left)
+        way = slope = self._back(left)
+        for _ in range(STEPS):
+            if np.linalg.norm(left) <= enough:
+                break
+            seen = np.bincount(self.row, self.value * way[self.column], len(left))
+            length = (slope @ slope) / max(seen @ seen, 1e-300)
+            found, left = found + length * way, left - length * seen
+            before, slope = slope @ slope, self._back(left)
+            way = slope + (slope @ slope) / max(before, 1e-300) * way
         angle = np.zeros(len(self.rows))
         for profile, part in zip(self.profiles, np.split(found, len(self.units))):
             angle += profile * np.einsum("ps,ps->p", self.weights, part[self.rows])
         return angle[:, None]
+
+    def _back(self, left: np.ndarray) -> np.ndarray:
+        return np.bincount(self.column, self.value * left[self.row], len(left))
 
 
 def needed(own: Border, foot: Foot) -> tuple[np.ndarray, np.ndarray]:
