@@ -53,8 +53,8 @@ def wants_limit(mesh: ControlMesh, sharp: np.ndarray) -> bool:
     is closed, with flats between tight rims of quads, a flat floor in a hollow, or slits.
 
     Through its vertices such a mesh is quilted, and with stiff flats its rims bulge; the floor and the walls
-    of a hollow swing into what is behind them, and those of a slit into each other. Open meshes are measured sheets, hulls and terrain as often as
-    they are cages.
+    of a hollow swing into what is behind them, and those of a slit into each other. Open meshes are measured
+    sheets, hulls and terrain as often as they are cages.
     """
     uses = mesh.edge_uses
     if not uses.any() or not np.isin(uses, (0, 2)).all():
