@@ -37,13 +37,6 @@ class ControlArrays:
         return np.repeat(np.arange(len(self.face_sizes), dtype=np.int32), self.face_sizes)
 
     @cached_property
-    def following(self) -> np.ndarray:
-        """(c,) int: the next corner around the face."""
-        after, some = np.arange(1, len(self.corners) + 1), self.face_sizes > 0
-        after[self.offsets[1:][some] - 1] = self.offsets[:-1][some]
-        return after
-
-    @cached_property
     def edge_uses(self) -> np.ndarray:
         """(e,) int: number of faces at each edge."""
         return np.bincount(self.corner_edges, minlength=len(self.edges))

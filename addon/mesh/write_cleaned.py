@@ -125,8 +125,8 @@ def _states(arrays: ControlArrays, made: Cleaned) -> np.ndarray:
     own = (made.corner_origin >= 0) & _in_place(made)[made.corners]
     own &= made.vertex_origin[made.corners] == arrays.corners[corner]
     own &= arrays.face_of[corner] == f.repeat(sizes)
-    after = corner[module().arrays.following(made.offsets)]
-    next_old = arrays.following
+    following = module().arrays.following
+    after, next_old = corner[following(made.offsets)], following(arrays.offsets)
 
     def all_of(flags: np.ndarray) -> np.ndarray:
         return fits & np.logical_and.reduceat(own & flags, made.offsets[:-1])

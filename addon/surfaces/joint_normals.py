@@ -102,7 +102,7 @@ def _fans(arrays: core.ControlArrays) -> np.ndarray:
     """(c,): the fan of faces that each corner is in, around its vertex between sharp edges."""
     if arrays.sharp_edge is None or not arrays.sharp_edge.any():
         return arrays.corners.astype(np.int64)
-    after = arrays.following
+    after = core.module().arrays.following(arrays.offsets)
     order = np.argsort(arrays.corner_edges, kind="stable")
     edge = arrays.corner_edges[order]
     same = np.flatnonzero((edge[1:] == edge[:-1]) & ~arrays.sharp_edge[edge[1:]])

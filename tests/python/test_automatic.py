@@ -174,7 +174,7 @@ def test_flats_of_a_bevelled_box_are_its_sides():
 
 
 def _flat(faces):
-    return np.concatenate(faces), np.cumsum([0, *map(len, faces)])
+    return np.concatenate(faces).astype(np.int64), np.cumsum([0, *map(len, faces)])
 
 
 def test_folds_of_a_box_are_right_angles():
@@ -197,3 +197,12 @@ def test_a_lattice_has_the_corners_of_its_border():
     none = np.zeros(len(mesh.edges), bool)
     assert mesh.border_corners(none).tolist() == [0, 2, 9, 11]
     assert mesh.border_corners(mesh.has_pair(np.array([[1, 0]]))).tolist() == [2, 9, 11]
+
+
+def test_a_face_without_corners_has_no_area_and_moves_no_other():
+    points, faces = control_meshes.cube()
+    faces = np.asarray(faces).tolist()
+    for k in (0, 3, len(faces)):
+        mesh = ControlMesh.of(points, *_flat([*faces[:k], [], *faces[k:]]))
+        areas = mesh.face_areas
+        assert areas[k] == 0 and np.allclose(np.delete(areas, k), areas.max())

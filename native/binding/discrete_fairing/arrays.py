@@ -112,9 +112,9 @@ def backwards(offsets: np.ndarray) -> np.ndarray:
 
 
 def following(offsets: np.ndarray) -> np.ndarray:
-    """(c,) the next corner around the face, for each corner. No face may be empty."""
-    after = np.arange(1, int(offsets[-1]) + 1)
-    after[offsets[1:] - 1] = offsets[:-1]
+    """(c,) the next corner around the face, for each corner."""
+    after, some = np.arange(1, int(offsets[-1]) + 1), offsets[1:] > offsets[:-1]
+    after[offsets[1:][some] - 1] = offsets[:-1][some]
     return after
 
 
@@ -133,11 +133,15 @@ def fans(starts: np.ndarray, ends: np.ndarray) -> np.ndarray:
 
 
 def face_vectors(points: np.ndarray, corners: np.ndarray, offsets: np.ndarray) -> np.ndarray:
-    """(m, 3) normals of faces, whose lengths are twice the areas."""
+    """(m, 3) normals of faces, whose lengths are twice the areas; zero for faces without corners."""
+    sums, some = np.zeros((len(offsets) - 1, 3)), offsets[1:] > offsets[:-1]
     # from the first corner, so that rounding is that of the face's size
     first = np.repeat(offsets[:-1], np.diff(offsets))
     away = points[corners] - points[corners[first]]
-    return np.add.reduceat(np.cross(away, away[following(offsets)]), offsets[:-1])
+    if some.any():
+        turns = np.cross(away, away[following(offsets)])
+        sums[some] = np.add.reduceat(turns, offsets[:-1][some])
+    return sums
 
 
 def index_array(values: ArrayLike, name: str) -> np.ndarray:

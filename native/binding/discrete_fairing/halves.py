@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from . import _native
 from ._native import FairingError
-from .arrays import face_arrays, vertex_array
+from .arrays import face_arrays, following, vertex_array
 from .automatic import resolved
 from .converters import edges_with_values
 from .errors import about, fairing_error
@@ -107,14 +107,11 @@ class Half:
     def _shared(self, points: np.ndarray, corners: np.ndarray, offsets: np.ndarray) -> np.ndarray:
         """Ids of the ends of border edges in the plane, without faces that mending drops."""
         flat = np.abs(points[:, self.axis]) <= self._reach(points)
-        following = np.roll(corners, -1)
-        last = offsets[1:][offsets[1:] > offsets[:-1]] - 1
-        following[last] = corners[offsets[:-1][offsets[1:] > offsets[:-1]]]
         sizes = np.diff(offsets)
         kept = _first_of_their_kind(corners, offsets)
         kept[np.repeat(np.arange(len(sizes)), sizes)[~self._known]] = False
         once = np.repeat(kept, sizes)
-        pairs = np.sort(np.stack([corners, following], axis=1)[once], axis=1)
+        pairs = np.sort(np.stack([corners, corners[following(offsets)]], axis=1)[once], axis=1)
         edges, uses = np.unique(pairs, axis=0, return_counts=True)
         edges = edges[uses == 1]
         found = np.unique(edges[flat[edges].all(axis=1)])

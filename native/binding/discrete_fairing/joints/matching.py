@@ -10,13 +10,13 @@ both are smooth, so no side between the faces folds.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import face_vectors, following
+from ..control_mesh import ControlMesh
 from ..converters import vertex_pairs
 from ..errors import fairing_error
 from ..halves import Control
@@ -27,7 +27,6 @@ from .borders import (
     Foot,
     border_edges,
     border_of,
-    dot,
     mesh_arrays,
     unit_vectors,
 )
@@ -209,22 +208,15 @@ class _Strip:
         }
         self.rim = list(rim.values())
         cells = [face.ids[face.lattice.cells] for face in touching]
-        self.cell_corners = np.concatenate([part.ravel() for part in cells])
+        corners = np.concatenate([part.ravel() for part in cells])
         sizes = np.repeat([part.shape[1] for part in cells], [len(part) for part in cells])
-        self.cell_offsets = np.concatenate([[0], np.cumsum(sizes)])
-        ends = [self.cell_corners, self.cell_corners[following(self.cell_offsets)]]
-        _, edge_of, uses = np.unique(
-            np.sort(ends, axis=0), axis=1, return_inverse=True, return_counts=True
-        )
-        edge_of = edge_of.ravel()
-        order = np.argsort(edge_of, kind="stable")
-        cell = np.repeat(np.arange(len(sizes)), sizes)[order]
-        self.pairs = cell[uses[edge_of[order]] == 2].reshape(-1, 2)
+        offsets = np.concatenate([[0], np.cumsum(sizes)])
+        self.cells = ControlMesh.of(np.empty((0, 3)), corners, offsets)
 
     def largest_fold(self, points: np.ndarray) -> float:
         """Between cells that share an edge, radians."""
-        normal = unit_vectors(face_vectors(points, self.cell_corners, self.cell_offsets))
-        return float(np.arccos(np.clip(dot(*normal[self.pairs.T]), -1, 1)).max())
+        folds, inside = replace(self.cells, positions=points).fold_angles
+        return float(np.radians(folds[inside].max()))
 
     def away(self, points: np.ndarray) -> np.ndarray:
         """Distance of each point from the sides that stay: zero there, smooth elsewhere, and the
