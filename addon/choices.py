@@ -58,7 +58,7 @@ BOUNDARIES = (
     ("FREE", "Free", "Open borders follow the surface and are fixed only at their vertices", 2),
 )
 
-# of single border edges, numbered like their attribute (mesh/boundary_marks.py)
+# of single border edges, numbered like their attribute (mesh/marks.py)
 EDGE_BOUNDARIES = (
     ("CURVE", "Smooth", "Part of a smooth curve through the vertices of the border", 1),
     ("LINEAR", "Straight", "The edge stays straight", 2),

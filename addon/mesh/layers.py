@@ -95,6 +95,12 @@ def layer_values(layer: Any) -> np.ndarray:
     return values.reshape(size, storage.width) if storage.width > 1 else values
 
 
+def values_of_layer(mesh: Mesh, name: str, data_type: str, domain: str) -> np.ndarray | None:
+    """The values of the named attribute; None without it."""
+    layer = find_layer(mesh, name, data_type, domain)
+    return None if layer is None else layer_values(layer)
+
+
 def fill_layer(layer: Any, values: np.ndarray) -> None:
     """Writes values in the format of `layer_values`."""
     storage = STORAGE[layer.data_type]

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..blender import Mesh
-from .layers import OFFSET_NAMES, fill_layer, find_layer, layer_values, make_layer
+from .layers import OFFSET_NAMES, fill_layer, make_layer, values_of_layer
 
 
 def write_names(mesh: Mesh, names: Sequence[str]) -> None:
@@ -17,10 +17,8 @@ def write_names(mesh: Mesh, names: Sequence[str]) -> None:
 
 def read_names(mesh: Mesh) -> list[str]:
     """(n,), or empty for meshes without a table. Not in Edit Mode."""
-    layer = find_layer(mesh, OFFSET_NAMES, "STRING", "POINT")
-    if layer is None:
-        return []
-    return [name.decode("utf-8", "replace") for name in layer_values(layer).tolist()]
+    names = values_of_layer(mesh, OFFSET_NAMES, "STRING", "POINT")
+    return [] if names is None else [name.decode("utf-8", "replace") for name in names.tolist()]
 
 
 def stations(names: Sequence[str], x: np.ndarray) -> list[tuple[str, float]]:

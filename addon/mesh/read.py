@@ -14,10 +14,9 @@ from ..core import ControlArrays
 from ..errors import JobError
 from ..memory import source_of
 from ..settings import AnySettings, is_near
-from .boundary_marks import BOUNDARY
-from .fixed_normals import read_normals
-from .flat_marks import FLAT
-from .layers import STORAGE, find_layer, layer_values
+from .layers import STORAGE, values_of_layer
+from .marks import BOUNDARY, FLAT, NORMAL
+from .marks import read as read_marked
 
 
 def source_objects(context: Context) -> list[Object]:
@@ -122,23 +121,18 @@ def read_mesh(mesh: Mesh) -> ControlArrays:
         corners=_required(mesh, ".corner_vert", "CORNER", "INT", corners),
         corner_edges=_required(mesh, ".corner_edge", "CORNER", "INT", corners),
         offsets=np.append(column(mesh.polygons, "loop_start", np.int32), np.int32(corners)),
-        edge_crease=_optional(mesh, "crease_edge", "EDGE", "FLOAT"),
-        vertex_crease=_optional(mesh, "crease_vert", "POINT", "FLOAT"),
-        sharp_edge=_optional(mesh, "sharp_edge", "EDGE", "BOOLEAN"),
-        boundary_edge=_optional(mesh, BOUNDARY, "EDGE", "INT"),
-        normals=read_normals(mesh),
-        flat_face=_optional(mesh, FLAT, "FACE", "BOOLEAN"),
+        edge_crease=values_of_layer(mesh, "crease_edge", "FLOAT", "EDGE"),
+        vertex_crease=values_of_layer(mesh, "crease_vert", "FLOAT", "POINT"),
+        sharp_edge=values_of_layer(mesh, "sharp_edge", "BOOLEAN", "EDGE"),
+        boundary_edge=read_marked(mesh, BOUNDARY),
+        normals=read_marked(mesh, NORMAL),
+        flat_face=read_marked(mesh, FLAT),
     )
-
-
-def _optional(mesh: Mesh, name: str, domain: str, data_type: str) -> np.ndarray | None:
-    layer = find_layer(mesh, name, data_type, domain)
-    return None if layer is None else layer_values(layer)
 
 
 def _required(mesh: Mesh, name: str, domain: str, data_type: str, size: int) -> np.ndarray:
     """An attribute that every mesh has, but that is not listed if empty."""
-    values = _optional(mesh, name, domain, data_type)
+    values = values_of_layer(mesh, name, data_type, domain)
     if values is None and size:
         raise RuntimeError(
             f"The mesh '{mesh.name}' has no attribute '{name}' ({data_type} on {domain})"

@@ -13,9 +13,15 @@ from ..settings import Settings
 from ..transfer.attributes import AttributeTransfer
 from ..transfer.lattice import fine_edges, mark_pairs
 from ..transfer.seams import seam_pairs
-from .boundary_marks import BOUNDARY
-from .fixed_normals import NORMAL
-from .layers import SurfaceData, fill_layer, find_layer, layer_values, make_layer, write_data
+from .layers import (
+    SurfaceData,
+    fill_layer,
+    layer_values,
+    make_layer,
+    values_of_layer,
+    write_data,
+)
+from .marks import BOUNDARY, NORMAL
 
 # (e, 2) vertices; the edge that leaves each corner
 Edges: TypeAlias = tuple[np.ndarray, np.ndarray]
@@ -88,7 +94,7 @@ def refill_mesh(
 
 def attributes_left_out(settings: Settings) -> tuple[str, ...]:
     """Names of the attributes that a surface does not take over from its source."""
-    made = (PAD_SIZES, NO_POINTS, BOUNDARY, NORMAL, *FAULTS.values())
+    made = (PAD_SIZES, NO_POINTS, *FAULTS.values(), BOUNDARY.name, NORMAL.name)
     return (*made, "sharp_face") if settings.shade_smooth else made
 
 
@@ -102,8 +108,8 @@ def write_pad_sizes(mesh: Mesh, result: Any, transfer: AttributeTransfer) -> Non
 
 def faces_without_points(mesh: Mesh) -> np.ndarray:
     """(f,) bool: faces that a fit has marked with `NO_POINTS`."""
-    layer = find_layer(mesh, NO_POINTS, "BOOLEAN", "FACE")
-    return np.zeros(len(mesh.polygons), bool) if layer is None else layer_values(layer)
+    values = values_of_layer(mesh, NO_POINTS, "BOOLEAN", "FACE")
+    return np.zeros(len(mesh.polygons), bool) if values is None else values
 
 
 def has_faces_of(mesh: Mesh, result: Any) -> bool:

@@ -1,19 +1,24 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a mesh says of single elements: the boundary of border edges, fixed normals, faces kept flat."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from math import degrees, radians
+from typing import Any
 
+import bmesh
 import bpy
+import numpy as np
 
 from .. import core
-from ..blender import Context, Object
+from ..blender import Context, Mesh, Object, column
 from ..choices import EDGE_BOUNDARIES
 from ..errors import JobError
 from ..fields import choice, number, switch
 from ..memory import source_of
-from ..mesh import boundary_marks, fixed_normals, flat_marks
-from ..mesh.read import control_mesh, read_mesh, source_objects
+from ..mesh import marks
+from ..mesh.marks import BOUNDARY, FLAT, NORMAL, border_edges, own_normals
+from ..mesh.read import read_mesh, source_objects
 from ..mesh.world_shape import world_shape
 from ..poll import IN_EITHER_MODE, in_edit_mode, of_meshes
 from ..words import counted
@@ -21,9 +26,45 @@ from .mixins import Action, Shown
 
 _OF_EDGES, _OF_VERTICES = in_edit_mode("border edges"), in_edit_mode("vertices")
 _NAMES = {key: name for key, name, *_ in EDGE_BOUNDARIES}
+_NUMBERS = {key: number for key, *_, number in EDGE_BOUNDARIES}
 
 
-class OBJECT_OT_fairing_boundary(Action, bpy.types.Operator):
+@contextmanager
+def _in_object_mode(context: Context) -> Iterator[None]:
+    """Object Mode, the only mode in which every version of Blender writes all marks."""
+    is_edited = context.mode == "EDIT_MESH"
+    if is_edited:
+        bpy.ops.object.mode_set(mode="OBJECT")
+    try:
+        yield
+    finally:
+        if is_edited:
+            bpy.ops.object.mode_set(mode="EDIT")
+
+
+def _selected(elements: Any) -> np.ndarray:
+    return column(elements, "select", bool)
+
+
+class _Marking(Action):
+    """The common part: marks selected elements of the meshes in Edit Mode."""
+
+    def mark(self, mesh: Mesh) -> int:
+        """Marks elements of `mesh`, in Object Mode; returns their number."""
+        raise NotImplementedError
+
+    def said(self, count: int) -> str:
+        """The report; raises JobError if nothing is selected."""
+        raise NotImplementedError
+
+    def act(self, context: Context) -> str:
+        meshes = [o.data for o in context.objects_in_mode_unique_data]
+        with _in_object_mode(context):
+            count = sum(map(self.mark, meshes))
+        return self.said(count)
+
+
+class OBJECT_OT_fairing_boundary(_Marking, bpy.types.Operator):
     """Make the selected edges of open borders smooth, straight or free, whatever the setting Boundary is"""
 
     bl_idname = "object.fairing_boundary"
@@ -33,9 +74,11 @@ class OBJECT_OT_fairing_boundary(Action, bpy.types.Operator):
 
     reasons = _OF_EDGES
 
-    def act(self, context: Context) -> str:
-        meshes = [o.data for o in context.objects_in_mode_unique_data]
-        count = sum(boundary_marks.mark_selected(mesh, self.boundary) for mesh in meshes)
+    def mark(self, mesh: Mesh) -> int:
+        chosen = _selected(mesh.edges) & border_edges(mesh)
+        return marks.put(mesh, BOUNDARY, chosen, _NUMBERS[self.boundary])
+
+    def said(self, count: int) -> str:
         if not count:
             raise JobError("Select edges at an open border: no edge with a single face is selected")
         return f"{counted(count, 'border edge')}: {_NAMES[self.boundary]}"
@@ -54,12 +97,23 @@ class OBJECT_OT_fairing_select_boundary(Action, bpy.types.Operator):
     reasons = _OF_EDGES
 
     def act(self, context: Context) -> str:
-        meshes = [o.data for o in context.objects_in_mode_unique_data]
-        count = sum(boundary_marks.select_marked(mesh, self.boundary) for mesh in meshes)
+        count = sum(self._select(o.data) for o in context.objects_in_mode_unique_data)
         return "" if count else f"No border edge is marked {_NAMES[self.boundary]}"
 
+    def _select(self, mesh: Mesh) -> int:
+        values, edit = marks.read(mesh, BOUNDARY), bmesh.from_edit_mesh(mesh)
+        if values is None:
+            return 0
+        are_chosen = (values == _NUMBERS[self.boundary]) & border_edges(mesh)
+        chosen = [e for e, is_chosen in zip(edit.edges, are_chosen) if is_chosen and not e.hide]
+        for edge in chosen:
+            edge.select = True
+        edit.select_flush_mode()
+        bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
+        return len(chosen)
 
-class OBJECT_OT_fairing_fix_normal(Action, bpy.types.Operator):
+
+class OBJECT_OT_fairing_fix_normal(_Marking, bpy.types.Operator):
     """Give the surface the normal that the mesh has, custom normals included, at the selected vertices"""
 
     bl_idname = "object.fairing_fix_normal"
@@ -67,14 +121,17 @@ class OBJECT_OT_fairing_fix_normal(Action, bpy.types.Operator):
 
     reasons = _OF_VERTICES
 
-    def act(self, context: Context) -> str:
-        count = sum(_fix_own(context, source) for source in context.objects_in_mode_unique_data)
+    def mark(self, mesh: Mesh) -> int:
+        normals = own_normals(mesh)
+        return marks.put(mesh, NORMAL, _selected(mesh.vertices) & normals.any(axis=1), normals)
+
+    def said(self, count: int) -> str:
         if not count:
             raise JobError("Select a vertex with faces first")
         return f"{counted(count, 'normal')} fixed"
 
 
-class OBJECT_OT_fairing_free_normal(Action, bpy.types.Operator):
+class OBJECT_OT_fairing_free_normal(_Marking, bpy.types.Operator):
     """Remove the fixed normal at the selected vertices"""
 
     bl_idname = "object.fairing_free_normal"
@@ -82,15 +139,11 @@ class OBJECT_OT_fairing_free_normal(Action, bpy.types.Operator):
 
     reasons = _OF_VERTICES
 
-    def act(self, context: Context) -> str:
-        count = sum(fixed_normals.free(o.data) for o in context.objects_in_mode_unique_data)
+    def mark(self, mesh: Mesh) -> int:
+        return marks.put(mesh, NORMAL, _selected(mesh.vertices) & marks.marked(mesh, NORMAL), 0)
+
+    def said(self, count: int) -> str:
         return "" if count else "No selected vertex has a fixed normal"
-
-
-def _fix_own(context: Context, source: Object) -> int:
-    with control_mesh(context, source) as mesh:
-        normals = fixed_normals.own_normals(mesh)
-    return fixed_normals.fix(source.data, normals)
 
 
 class OBJECT_OT_fairing_flat_faces(Shown, Action, bpy.types.Operator):
@@ -117,34 +170,28 @@ class OBJECT_OT_fairing_flat_faces(Shown, Action, bpy.types.Operator):
         return ("clear", "angle") if context.mode == "OBJECT" and not self.clear else ("clear",)
 
     def act(self, context: Context) -> str:
-        targets = _targets(context)
-        if context.mode == "EDIT_MESH":
-            # the only mode in which every version of Blender writes the marks
-            bpy.ops.object.mode_set(mode="OBJECT")
-            try:
-                count = sum(flat_marks.mark_selected(o.data, not self.clear) for o in targets)
-            finally:
-                bpy.ops.object.mode_set(mode="EDIT")
-            if not count:
-                raise JobError("Select faces first")
-        elif self.clear:
-            count = sum(flat_marks.clear(o.data) for o in targets)
-        else:
-            count = sum(_mark_found(o, degrees(self.angle)) for o in targets)
-            if not count:
-                return "No flat faces found: select faces in Edit Mode to keep them flat"
+        targets, is_edited = _targets(context), context.mode == "EDIT_MESH"
+        with _in_object_mode(context):
+            count = sum(self._mark(target, is_edited) for target in targets)
+        if not count and is_edited:
+            raise JobError("Select faces first")
+        if not count and not self.clear:
+            return "No flat faces found: select faces in Edit Mode to keep them flat"
         return f"{counted(count, 'face')} {'may curve' if self.clear else 'stay flat'}"
+
+    def _mark(self, target: Object, is_edited: bool) -> int:
+        mesh = target.data
+        if is_edited:
+            chosen = _selected(mesh.polygons)
+        elif self.clear:
+            chosen = marks.marked(mesh, FLAT)
+        else:
+            arrays = world_shape(target).of_arrays(read_mesh(mesh))
+            chosen = core.module().flats.flats_of(core.measured(arrays), degrees(self.angle))
+        return marks.put(mesh, FLAT, chosen, not self.clear)
 
 
 def _targets(context: Context) -> list[Object]:
     """Sources in place of surfaces; one of the objects that share a mesh."""
     sources = [source_of(o) or o for o in source_objects(context)]
     return list({o.data: o for o in sources}.values())
-
-
-def _mark_found(target: Object, angle: float) -> int:
-    """Marks the flats of `target` (`angle` in degrees); returns their number of faces."""
-    arrays = world_shape(target).of_arrays(read_mesh(target.data))
-    found = core.module().flats.flats_of(core.measured(arrays), angle)
-    flat_marks.mark(target.data, found)
-    return int(found.sum())

@@ -12,7 +12,7 @@ from ..check.cages import REASON, shown_settings
 from ..core import keeps_marks, tolerance
 from ..live import switch
 from ..memory import FAIRING_PG_fit, FAIRING_PG_surface, recall, source_of, source_problem
-from ..mesh import boundary_marks, fixed_normals, flat_marks
+from ..mesh import marks
 from ..mesh.mesh_changes import coarse_triangles, shown
 from ..mesh.object import session_key
 from ..mesh.read import control_meshes, read_mesh, source_objects
@@ -98,7 +98,7 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
             "levels": [_size_text(settings, sources, triangles)],
             "interpolation": [vertices_text(found, settings, sources)],
             "tolerance": [tolerance_text(context, settings, sources), _held_text(memory)],
-            "boundary": [boundary_marks.summary(filter(_is_small, sources))],
+            "boundary": [marks.boundaries_text(filter(_is_small, sources))],
             "symmetry_plane": [normals_text(settings, sources), flats],
             **missing_groups(settings, sources),
         }
@@ -250,7 +250,7 @@ def _held_text(memory: FAIRING_PG_surface | None) -> str:
 
 def normals_text(settings: FairingSettings, sources: list[Object]) -> str:
     """For example `Normals: 3 fixed`; empty if there are none."""
-    count = fixed_normals.count(filter(_is_small, sources))
+    count = marks.count(filter(_is_small, sources), marks.NORMAL)
     if not count:
         return ""
     return f"Normals: {count} fixed" + ("" if keeps_marks(settings) else ", by Bending only")
@@ -258,7 +258,7 @@ def normals_text(settings: FairingSettings, sources: list[Object]) -> str:
 
 def flats_text(settings: FairingSettings, sources: list[Object], limit: bool) -> str:
     """For example `Flat faces: 6`, or why they do not apply; empty if none is marked."""
-    count = flat_marks.count(filter(_is_small, sources))
+    count = marks.count(filter(_is_small, sources), marks.FLAT)
     if not count:
         return ""
     if not keeps_marks(settings):

@@ -7,7 +7,7 @@ import pytest
 from lattices import lattice_faces
 from scenes import add, edit, faces_at_edges, fair, positions, to_object_mode
 
-from addon.mesh.boundary_marks import BOUNDARY
+from addon.mesh.marks import BOUNDARY
 from addon.mesh.read import control_mesh, read_mesh
 from addon.transfer.cut_out import cut_out
 
@@ -36,7 +36,7 @@ def mark(target, boundary, *pairs):
 
 def marks(target):
     """{pair: number} of the edges that have one."""
-    layer = target.data.attributes.get(BOUNDARY)
+    layer = target.data.attributes.get(BOUNDARY.name)
     if layer is None:
         return {}
     pairs = (tuple(sorted(edge.vertices)) for edge in target.data.edges)
@@ -71,7 +71,7 @@ def test_without_a_border_edge_nothing_is_marked():
         mark(source, "FREE", (5, 6))
     assert bpy.ops.object.fairing_boundary.poll()
     to_object_mode()
-    assert BOUNDARY not in source.data.attributes
+    assert BOUNDARY.name not in source.data.attributes
     assert not bpy.ops.object.fairing_boundary.poll()
 
 
@@ -90,7 +90,7 @@ def test_the_surface_has_straight_edges_where_they_are_marked():
     mark(source, "LINEAR", *BOTTOM[:2])
     surface = fair(levels=3, boundary="CURVE")
     assert [straight(surface, source, a, b) for a, b in BOTTOM] == [7, 7, 0]
-    assert BOUNDARY not in surface.data.attributes
+    assert BOUNDARY.name not in surface.data.attributes
     plain = sheet("Plain")
     assert straight(fair(levels=3, boundary="CURVE"), plain, *BOTTOM[0]) == 0
 

@@ -9,7 +9,7 @@ from scenes import computed, edit, fair, positions, settings, to_object_mode
 from test_boundary_marks import sheet
 
 from addon.jobs.fair import Job
-from addon.mesh.fixed_normals import NORMAL, read_normals
+from addon.mesh.marks import NORMAL, read
 from addon.mesh.read import read_mesh
 from addon.mesh.world_shape import world_shape
 
@@ -26,14 +26,14 @@ def fix(target, *vertices):
 
 def set_normals(target, normals):
     """{vertex: vector} as the attribute."""
-    layer = target.data.attributes.new(NORMAL, "FLOAT_VECTOR", "POINT")
+    layer = target.data.attributes.new(NORMAL.name, "FLOAT_VECTOR", "POINT")
     for vertex, normal in normals.items():
         layer.data[vertex].vector = normal
 
 
 def marks(target):
     """{vertex: normal} of those that are fixed."""
-    normals = read_normals(target.data)
+    normals = read(target.data, NORMAL)
     return {} if normals is None else {int(v): normals[v] for v in np.flatnonzero(normals.any(1))}
 
 
@@ -70,7 +70,7 @@ def test_without_a_vertex_nothing_is_fixed():
         fix(source)
     assert bpy.ops.object.fairing_fix_normal.poll()
     to_object_mode()
-    assert NORMAL not in source.data.attributes
+    assert NORMAL.name not in source.data.attributes
     assert not bpy.ops.object.fairing_fix_normal.poll()
     assert not bpy.ops.object.fairing_free_normal.poll()
 
@@ -94,7 +94,7 @@ def test_the_surface_has_the_normal_in_the_world(scale):
     source.scale = (1, 1, scale)
     surface = fair(levels=4)
     assert slope(surface, source, INSIDE) == pytest.approx(wanted, abs=0.03)
-    assert NORMAL not in surface.data.attributes
+    assert NORMAL.name not in surface.data.attributes
     assert np.array_equal(positions(surface.data)[:16], positions(source.data))
     in_the_world = world_shape(source).of_arrays(read_mesh(source.data)).normals[INSIDE]
     assert np.allclose(in_the_world, [0.6, 0, 0.8 / scale])

@@ -17,8 +17,8 @@ from scenes import (
 )
 
 from addon.jobs.fair import Job
-from addon.mesh import flat_marks
-from addon.mesh.flat_marks import FLAT, count
+from addon.mesh import marks
+from addon.mesh.marks import FLAT
 from addon.ui import main
 
 RIM = 2.0
@@ -42,7 +42,7 @@ def triangulate(source):
 
 
 def marked(source):
-    layer = source.data.attributes.get(FLAT)
+    layer = source.data.attributes.get(FLAT.name)
     return [] if layer is None else [k for k, item in enumerate(layer.data) if item.value]
 
 
@@ -51,7 +51,7 @@ def test_the_six_flats_of_a_rounded_box_are_found(segments):
     source = box(segments=segments)
     assert bpy.ops.object.fairing_flat_faces() == {"FINISHED"}
     found = marked(source)
-    assert len(found) == 6 and count([source]) == 6
+    assert len(found) == 6 and marks.count([source], FLAT) == 6
     areas = [source.data.polygons[f].area for f in found]
     assert min(areas) > max(p.area for p in source.data.polygons if p.index not in found)
     triangulate(source)
@@ -87,15 +87,15 @@ def test_the_angle_joins_faces_that_are_not_quite_in_a_plane():
 def test_selected_faces_are_marked_and_cleared(old, monkeypatch):
     """`old`: in a Blender that shows no Boolean layers in Edit Mode; the panel is drawn there too."""
     if old:
-        monkeypatch.setattr(flat_marks, "_flags", lambda edit: None)
+        monkeypatch.setitem(marks._OF_BMESH, "BOOLEAN", "")
     source = box()
     edit(source, "FACE")
     refused("Select faces first", bpy.ops.object.fairing_flat_faces)
-    assert count([source]) == 0
+    assert marks.count([source], FLAT) == 0
     to_object_mode()
     edit(source, "FACE", (3, 7))
     bpy.ops.object.fairing_flat_faces()
-    assert bpy.context.mode == "EDIT_MESH" and count([source]) == (0 if old else 2)
+    assert bpy.context.mode == "EDIT_MESH" and marks.count([source], FLAT) == (0 if old else 2)
     to_object_mode()
     assert marked(source) == [3, 7]
     edit(source, "FACE", [7])

@@ -19,8 +19,7 @@ from scenes import (
     to_object_mode,
 )
 
-from addon.mesh.boundary_marks import BOUNDARY
-from addon.mesh.fixed_normals import NORMAL
+from addon.mesh.marks import BOUNDARY, NORMAL
 from addon.surfaces.freshness import SETTINGS_CHANGED, SOURCE_CHANGED, stale_surfaces, why_stale
 from addon.ui import main
 
@@ -53,12 +52,12 @@ def add_key(source):
 
 
 def mark_edge(source):
-    source.data.attributes.new(BOUNDARY, "INT", "EDGE").data[0].value = 2
+    source.data.attributes.new(BOUNDARY.name, "INT", "EDGE").data[0].value = 2
     source.data.update()
 
 
 def fix_normal(source):
-    source.data.attributes.new(NORMAL, "FLOAT_VECTOR", "POINT").data[0].vector = (0, 0, 1)
+    source.data.attributes.new(NORMAL.name, "FLOAT_VECTOR", "POINT").data[0].vector = (0, 0, 1)
     source.data.update()
 
 
