@@ -96,7 +96,7 @@ class InPlaceJob(TimedRun):
         watched = watchers.get("progress"), watchers.get("monitor"), arguments["threads"]
         runs = core.module().watching.SeveralRuns(*watched)
         found = noise.amount(own, free, self._options.noise, runs)
-        made = noise.smoothed(part, self._arguments_of, self._free, found.weight, runs)
+        made = noise.smoothed(arguments, self._free, found.weight, runs)
         return made, found.noise
 
     def _compute(self, watchers: dict[str, Any]) -> None:

@@ -6,14 +6,14 @@ A smoothing spline [Reinsch 1967] on the mesh itself, with its amount by general
 [Craven, Wahba 1979; Golub, Heath, Wahba 1979]. Plain arrays, no Blender.
 """
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from .. import core
-from ..transfer.cut_out import CutOut, cut_out, grown
+from ..transfer.cut_out import grown
 from ..triangles import fans, marked, normals
 
 # Weights to try, from strong to weak: 10 hardly smooths, 1e-4 leaves a plate. Between neighbouring
@@ -24,12 +24,11 @@ _FIRST = 10.0**-0.5
 # faces on which the amount is found; more give the same amount
 SAMPLE = 8_000
 # Faces that are smoothed at a time. One solve is direct, and its time grows with the power 1.5:
-# processor time a vertex is 16 µs for 4,000 of them, 25 for 23,000 and 68 for 90,000; smaller blocks
+# processor time a vertex is 16 µs for 4,000 of them, 25 for 23,000 and 68 for 90,000; smaller pieces
 # consist mostly of borders.
-BLOCK = 10_000
-# Width of the overlap around a block in mean edges, times the weight to the power -¼, which is the
-# reach of the fit in edges. At six times the reach the block's border changes a vertex by at most 0.017
-# of the noise, 0.002 rms.
+PIECE = 10_000
+# Rings around a piece, times the weight to the power -¼, which is the reach of the fit in edges. At six
+# times the reach the piece's border changes a vertex by at most 0.017 of the noise, 0.002 rms.
 _AROUND = 6.0
 _SOUGHT = 0.2  # share of the progress until the amount is known
 
@@ -66,42 +65,22 @@ def amount(arguments: Mapping[str, Any], free: np.ndarray, noise: float, runs: A
     return Amount(weight, trial.noise(weight))
 
 
-def smoothed(
-    arrays: core.ControlArrays,
-    arguments_of: Callable[[core.ControlArrays], Mapping[str, Any]],
-    free: np.ndarray,
-    weight: float,
-    runs: Any,
-) -> Any:
-    """The Result at level 0 for `arrays`, whose `free` vertices, (n,) bool, move along the normals to
-    the surface attracted with `weight`. Vertices on creases stay.
+def smoothed(arguments: Mapping[str, Any], free: np.ndarray, weight: float, runs: Any) -> Any:
+    """The Result at level 0 for `arguments`, those of discrete_fairing.fair, whose `free` vertices, (n,) bool, move
+    along the normals to the surface attracted with `weight`. Vertices on creases stay.
 
-    Computed in blocks, since the surface near a vertex depends on the data around it only.
-    `arguments_of`: makes the arguments of discrete_fairing.fair for a part; `runs`: SeveralRuns of the
+    Computed in pieces, since the surface near a vertex depends on the data around it only. `runs`: SeveralRuns of the
     package.
     """
-    whole = dict(arguments_of(arrays)) | {"levels": 0, "interpolation": "exact"}
-    for name in ("region", "joint", "shapes", "normals", "weights"):
-        whole.pop(name, None)
-    result = core.module().fair(**whole | runs.run(_SOUGHT, _SOUGHT))
-    points = np.asarray(whole["vertices"], float)
-    faces = free[arrays.corners]
-    faces = np.logical_or.reduceat(faces, arrays.offsets[:-1]) if len(faces) else np.zeros(0, bool)
-    around = _AROUND * weight**-0.25 * arrays.mean_edge_length
-    done, count = 0, max(int(faces.sum()), 1)
-    for part, own in blocks(arrays, faces, BLOCK, around):
-        begin, done = done, done + int(own.sum())
-        span = [_SOUGHT + (1 - _SOUGHT) * share / count for share in (begin, done)]
-        fit = _Fit(arguments_of(part.arrays), free[part.vertices], runs.run(*span))
-        surface = fit.own(fit.run(weight).vertices)
-        along = fit.normals(surface)
-        off = np.einsum("ij,ij->i", surface - fit.points, along)[:, None] * along
-        mine = marked(
-            part.arrays.corners[np.repeat(own, part.arrays.face_sizes)], len(part.vertices)
-        )
-        mine &= free[part.vertices]
-        rows = part.vertices[mine]
-        result.vertices[rows] = points[rows] + off[mine]
+    fit = _Fit(arguments, free, {})
+    parts = fit.pieces(weight)
+    spans = np.linspace(_SOUGHT, 1.0, len(parts) + 1)
+    made = [part.fair(**runs.run(*span)) for part, span in zip(parts, zip(spans, spans[1:]))]
+    result = core.module().join(made)
+    surface = fit.own(result.vertices)
+    along = fit.normals(surface)
+    off = np.einsum("ij,ij->i", surface - fit.points, along)[:, None] * along
+    surface[:] = np.where(free[:, None], fit.points + off, fit.points)
     return result
 
 
@@ -119,8 +98,19 @@ class _Fit:
         self._triangles = corners[fans(offsets[:-1], np.diff(offsets))[0]]
 
     def run(self, weight: float, **more: Any) -> Any:
-        weights = np.where(self._free, weight, np.inf)
-        return core.module().fair(**self._arguments | more | self._watchers, weights=weights)
+        given = self._arguments | more | self._watchers
+        return core.module().fair(**given, weights=self._weights(weight))
+
+    def pieces(self, weight: float) -> list[Any]:
+        """Pieces of at most PIECE faces, with as many rings around as the fit reaches."""
+        given = {k: v for k, v in self._arguments.items() if k not in ("threads", "memory_limit")}
+        count = -(-(len(given["faces"][1]) - 1) // PIECE)
+        rings = int(np.ceil(_AROUND * weight**-0.25))
+        weights = self._weights(weight)
+        return core.module().pieces(**given, weights=weights, count=count, rings=rings)
+
+    def _weights(self, weight: float) -> np.ndarray:
+        return np.where(self._free, weight, np.inf)
 
     def own(self, points: np.ndarray) -> np.ndarray:
         """The points of the vertices, without the centres of polygons that the core has split."""
@@ -183,38 +173,3 @@ class _Trial:
             middle = float(np.sqrt(low * high))
             low, high = (middle, high) if self._off(middle) >= noise else (low, middle)
         return low
-
-
-def blocks(
-    arrays: core.ControlArrays, chosen: np.ndarray, most: int, around: float
-) -> Iterator[tuple[CutOut, np.ndarray]]:
-    """(cut-out, (f,) bool: whether a face is the block's own): together the own faces are the faces
-    `chosen` (m,) bool, at most `most` a block. A cut-out also has all faces whose centres are within
-    `around`, a length, of the bounding box of its own.
-
-    Blocks are halved across the longest axis, recursively, so that no step reads more than it divides.
-    """
-    whole = CutOut(arrays, np.arange(len(arrays.positions)), np.arange(len(chosen)))
-    waiting = [(whole, chosen)] if chosen.any() else []
-    while waiting:
-        part, own = waiting.pop()
-        if own.sum() <= most:
-            yield part, own
-            continue
-        centres = core.measured(part.arrays).face_centres
-        rows = np.flatnonzero(own)
-        axis = int(np.argmax(np.ptp(centres[rows], axis=0)))
-        order = rows[np.argsort(centres[rows, axis], kind="stable")]
-        for half in (order[len(order) // 2 :], order[: len(order) // 2]):
-            waiting.append(_cut(part, centres, half, around))
-
-
-def _cut(
-    part: CutOut, centres: np.ndarray, rows: np.ndarray, around: float
-) -> tuple[CutOut, np.ndarray]:
-    low, high = centres[rows].min(axis=0) - around, centres[rows].max(axis=0) + around
-    near = ((centres >= low) & (centres <= high)).all(axis=1)
-    found = cut_out(part.arrays, near)
-    own = marked(rows, len(near))
-    whole = CutOut(found.arrays, part.vertices[found.vertices], part.faces[found.faces])
-    return whole, own[found.faces]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Large meshes in blocks give what they give as a whole."""
+"""Large meshes in pieces give what they give as a whole."""
 
 import numpy as np
 import pytest
@@ -22,19 +22,17 @@ def sheet(count, off=0.0):
 
 
 @pytest.mark.parametrize("weight", [0.1, 0.003])
-def test_a_scan_in_blocks_is_smoothed_as_in_one(monkeypatch, weight):
+def test_a_scan_in_pieces_is_smoothed_as_in_one(monkeypatch, weight):
     off = 0.004
     arrays = sheet(60, off)
     free = (np.abs(arrays.positions[:, :2]) < 0.99).all(axis=1)
 
-    def arguments(part):
-        return {"vertices": part.positions, "faces": (part.corners, part.offsets)}
-
+    given = {"vertices": arrays.positions, "faces": (arrays.corners, arrays.offsets)}
     found = []
     for size in (4000, 450):
-        monkeypatch.setattr(noise, "BLOCK", size)
+        monkeypatch.setattr(noise, "PIECE", size)
         runs = module().watching.SeveralRuns(None, None, 1)
-        found.append(noise.smoothed(arrays, arguments, free, weight, runs).vertices)
+        found.append(noise.smoothed(given, free, weight, runs).vertices)
     moved = np.abs(found[0] - arrays.positions).max()
     assert moved > off and np.array_equal(found[0][~free], arrays.positions[~free])
     assert np.abs(found[1] - found[0]).max() < 0.02 * off
