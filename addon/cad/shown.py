@@ -35,7 +35,7 @@ def shares_of(
     its = read_shape_keys(shown, len(shown.data.vertices))
     if its is None:
         return {}
-    dense = {group.name: group.dense(vertex_count) for group in groups}
+    dense = {group.name: group.dense for group in groups}
     found = influences(its, lambda name: dense.get(name, np.ones(vertex_count, np.float32)))
     places = {key.name: place for place, key in enumerate(keys.keys)}
     names = {place: its.keys[place].name for place in found}

@@ -18,7 +18,7 @@ from ..check.faults import find_faults
 from ..choices import ENERGY_NAMES
 from ..errors import JobError
 from ..inspection import display
-from ..mesh.layers import read_data, write_data
+from ..mesh.layers import Refined, read_data, write_data
 from ..mesh.modifiers import copy_modifiers, left_out, without_inspection
 from ..mesh.object import Reference, new_object
 from ..mesh.own import OwnData, carried_names, read_own, write_own
@@ -228,7 +228,8 @@ class Job(TimedRun):
             target = old
             own = own or read_own(target, carried, memory.recall(target, "carried") or {})
             refill_mesh(target, result, sharp_pairs, self._edges)
-        write_data(target, self.data, self.transfer, attributes_left_out(settings))
+        carrier = Refined(self.transfer, target.data)
+        write_data(target, self.data, carrier, attributes_left_out(settings))
         write_pad_sizes(target.data, result, self.transfer)
         if self.keys:
             write_shape_keys(target, self.keys, result.shapes, source)

@@ -12,7 +12,6 @@ import bpy
 import numpy as np
 
 from ..blender import Mesh, Object
-from ..transfer.attributes import AttributeTransfer
 
 _PASSING = "discrete_fairing_weight"
 
@@ -25,10 +24,12 @@ class VertexGroup:
     lock_weight: bool
     vertices: np.ndarray  # (g,) int32
     weights: np.ndarray  # (g,) float32
+    count: int  # of all vertices
 
-    def dense(self, count: int) -> np.ndarray:
+    @property
+    def dense(self) -> np.ndarray:
         """(count,) float32: the weight of every vertex, 0 outside the group."""
-        weights = np.zeros(count, np.float32)
+        weights = np.zeros(self.count, np.float32)
         weights[self.vertices] = self.weights
         return weights
 
@@ -50,39 +51,23 @@ def read_groups(source: Object, mesh: Mesh) -> list[VertexGroup]:
             g.lock_weight,
             vertex[order[begin:end]].astype(np.int32),
             weight[order[begin:end]].astype(np.float32),
+            len(mesh.vertices),
         )
         for g, begin, end in zip(groups, starts, starts[1:])
     ]
 
 
-def write_groups(
-    target: Object,
-    groups: list[VertexGroup],
-    active: int,
-    transfer: AttributeTransfer,
-    operators: bool = True,
-) -> None:
-    """Gives `target`, in Object Mode, the `groups`; `operators`: not within handlers."""
-    target.vertex_groups.clear()
-    for group in groups:
-        weights = transfer.point(group.dense(transfer.control_count)).ravel()
-        write_group(target, group, weights, group.vertices[group.weights == 0.0], operators)
-    if groups:
-        target.vertex_groups.active_index = active
-
-
 def write_group(
-    target: Object,
-    group: VertexGroup,
-    weights: np.ndarray,
-    zero: np.ndarray,
-    operators: bool = True,
+    target: Object, group: VertexGroup, weights: np.ndarray, keeps_ids: bool, operators: bool = True
 ) -> None:
-    """Gives `target` a copy of `group` with `weights` (N,), and `zero` (k,) members of weight 0."""
+    """Gives `target`, in Object Mode, a copy of `group` with `weights` (N,). `keeps_ids`: whether members have the same
+    ids there; `operators`: not within handlers.
+    """
     make = _convert if operators and weights.any() else _add
     made = make(target, weights)
     made.name = group.name
-    if len(zero):  # the operator drops them, but they are members
+    zero = group.vertices[group.weights == 0.0]
+    if keeps_ids and len(zero):  # the operator drops them, but they are members
         made.add(zero.tolist(), 0.0, "REPLACE")
     made.lock_weight = group.lock_weight
 

@@ -1,20 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The data of a mesh besides shape and topology: read as arrays, written to the refined mesh."""
+"""The data of a mesh besides shape and topology: read as arrays, written to another mesh."""
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
 from ..blender import Mesh, Object, column
 from ..transfer.attributes import AttributeTransfer
-from .groups import VertexGroup, read_groups, write_groups
+from .groups import VertexGroup, read_groups, write_group
 from .shape_keys import ShapeKeys, read_shape_keys
 
-# properties, since the names of their attributes differ by version
-EDGE_MARKS = ("use_seam", "use_freestyle_mark")
-FACE_MARKS = ("use_freestyle_mark",)
+# by domain; properties, since the names of their attributes differ by version
+_MARKS = {"EDGE": ("use_seam", "use_freestyle_mark"), "FACE": ("use_freestyle_mark",)}
 # A crease or bevel weight applies to one vertex; interpolated over the faces around it, it would apply
 # everywhere.
 OWN_VERTICES_ONLY = {"crease_vert", "bevel_weight_vert"}
@@ -130,53 +129,104 @@ def _is_carried(name: str) -> bool:
     return name not in _NOT_CARRIED and (not name.startswith(".") or name in _INTERNAL_CARRIED)
 
 
+class Carrier(Protocol):
+    """Carries values from one mesh over to another."""
+
+    keeps_ids: bool  # whether vertices of the first mesh have the same ids in the other
+
+    def of(self, attribute: Attribute) -> np.ndarray | None:
+        """The values on the other mesh; None if its elements do not correspond to those of the first."""
+
+
+class Refined:
+    """Carries values of a control mesh over to the refined `mesh`."""
+
+    keeps_ids = True
+
+    def __init__(self, transfer: AttributeTransfer, mesh: Mesh) -> None:
+        # an attribute is written as a block, and is not listed if missing
+        corners = mesh.attributes.get(".corner_edge")
+        edges = np.empty(0, np.int32) if corners is None else layer_values(corners)
+        self._transfer = transfer
+        self._origin = transfer.edge_origin(edges, len(mesh.edges))
+
+    def of(self, attribute: Attribute) -> np.ndarray:
+        transfer, values = self._transfer, attribute.values
+        mixable = STORAGE[attribute.data_type].mixable
+        if attribute.domain == "EDGE":  # of the pieces of control edges; 0 or False on all others
+            found = self._origin >= 0
+            out = np.zeros((len(found), *values.shape[1:]), values.dtype)
+            out[found] = values[self._origin[found]]
+            return out
+        if attribute.domain == "FACE":
+            return transfer.face(values)
+        if attribute.domain == "CORNER":
+            return transfer.corner(values) if mixable else transfer.pick_corner(values)
+        if attribute.name in OWN_VERTICES_ONLY:
+            return transfer.own_point(values)
+        return transfer.point(values) if mixable else transfer.pick_point(values)
+
+
+Names = Mapping[str, Collection[str]]  # names by kind: attributes, groups, marks, keys
+_NONE: Names = {}
+
+
 @dataclass(frozen=True)
 class SurfaceData:
-    """The transferable data of a control mesh with n vertices, e edges, m faces and c corners."""
+    """The transferable data of a mesh with n vertices, e edges, m faces and c corners."""
 
     attributes: list[Attribute]
-    edge_marks: dict[str, np.ndarray]  # property → (e,) bool; only properties that mark an edge
-    face_marks: dict[str, np.ndarray]  # property → (m,) bool
+    marks: list[Attribute]  # properties of edges and faces that mark some
     active_uv: str  # names; empty: none
     render_uv: str
     active_color: str
     default_color: str
     groups: list[VertexGroup]
-    active_group: int
+    active_group: str
     shape_keys: ShapeKeys | None
-    notes: list[str]  # what is lost, a sentence each
+    unknown: list[str]  # names of attributes of unknown types, which are lost
+    notes: list[str]  # what a refined surface loses, a sentence each
 
 
-def read_data(source: Object, mesh: Mesh, evaluated: bool = False) -> SurfaceData:
+def read_data(
+    source: Object, mesh: Mesh, evaluated: bool = False, taken: Names = _NONE
+) -> SurfaceData:
     """SurfaceData of `mesh` (bpy.types.Mesh): the mesh of the object `source`, a copy of it from Edit
-    Mode, or, `evaluated`, the result of its modifiers, whose shape contains the shape keys already.
+    Mode, or, `evaluated`, the result of its modifiers, whose shape contains the shape keys already. Without data
+    with names that are `taken`.
     """
     attributes, unknown = read_attributes(mesh)
     shape_keys = None if evaluated else read_shape_keys(source, len(mesh.vertices))
+    groups = [g.name for g in source.vertex_groups if g.name not in taken.get("groups", ())]
     return SurfaceData(
-        attributes=attributes,
-        edge_marks=read_marks(mesh.edges, EDGE_MARKS),
-        face_marks=read_marks(mesh.polygons, FACE_MARKS),
+        attributes=[a for a in attributes if a.name not in taken.get("attributes", ())],
+        marks=[mark for mark in _read_marks(mesh) if mark.name not in taken.get("marks", ())],
         active_uv=mesh.uv_layers.active.name if mesh.uv_layers.active else "",
         render_uv=next((layer.name for layer in mesh.uv_layers if layer.active_render), ""),
         active_color=mesh.attributes.active_color_name,
         default_color=mesh.attributes.default_color_name,
-        groups=read_groups(source, mesh),
-        active_group=source.vertex_groups.active_index or 0,
+        groups=[g for g in read_groups(source, mesh) if g.name in groups] if groups else [],
+        active_group=source.vertex_groups.active.name if source.vertex_groups.active else "",
         shape_keys=shape_keys,
+        unknown=unknown,
         notes=_losses(source, mesh, unknown, evaluated, shape_keys),
     )
 
 
-def read_marks(elements: Any, names: tuple[str, ...]) -> dict[str, np.ndarray]:
-    """(size,) bool for the properties `names` of `elements` of a mesh, without those that mark none."""
-    found = {}
-    for name in names:
-        # Blender may be built without Freestyle
-        if len(elements) and name in elements[0].bl_rna.properties:
-            values = column(elements, name, bool)
-            if values.any():
-                found[name] = values
+def _elements(mesh: Mesh, domain: str) -> Any:
+    return mesh.edges if domain == "EDGE" else mesh.polygons
+
+
+def _read_marks(mesh: Mesh) -> list[Attribute]:
+    found = []
+    for domain, names in _MARKS.items():
+        elements = _elements(mesh, domain)
+        for name in names:
+            # Blender may be built without Freestyle
+            if len(elements) and name in elements[0].bl_rna.properties:
+                values = column(elements, name, bool)
+                if values.any():
+                    found.append(Attribute(name, "BOOLEAN", domain, values))
     return found
 
 
@@ -202,38 +252,39 @@ def _losses(
     return notes
 
 
-def write_attributes(
-    mesh: Mesh,
-    attributes: list[Attribute],
-    transfer: AttributeTransfer,
-    origin: np.ndarray,
+def write_data(
+    target: Object,
+    data: SurfaceData,
+    carrier: Carrier,
     leave_out: Collection[str] = (),
-) -> None:
-    """Writes `attributes` not in `leave_out`; `origin`: the control edge of refined ones, or -1."""
-    for attribute in attributes:
-        if attribute.name not in leave_out:
-            _write_attribute(mesh, attribute, _carried(attribute, transfer, origin))
+    operators: bool = True,
+) -> list[str]:
+    """Gives the object `target`, in Object Mode, the `data` of another mesh; returns the names of data that are lost.
 
-
-def inherit(values: np.ndarray, origin: np.ndarray) -> np.ndarray:
-    """(e, …) values of control edges → values of their pieces; 0 or False on all other refined edges."""
-    found = origin >= 0
-    out = np.zeros((len(origin), *values.shape[1:]), values.dtype)
-    out[found] = values[origin[found]]
-    return out
-
-
-def _carried(attribute: Attribute, transfer: AttributeTransfer, origin: np.ndarray) -> np.ndarray:
-    values, mixable = attribute.values, STORAGE[attribute.data_type].mixable
-    if attribute.domain == "EDGE":
-        return inherit(values, origin)
-    if attribute.domain == "FACE":
-        return transfer.face(values)
-    if attribute.domain == "CORNER":
-        return transfer.corner(values) if mixable else transfer.pick_corner(values)
-    if attribute.name in OWN_VERTICES_ONLY:
-        return transfer.own_point(values)
-    return transfer.point(values) if mixable else transfer.pick_point(values)
+    `operators`: see groups.py. Attributes named in `leave_out` are not written. Sharp edges are added
+    to existing ones. Shape keys: see shape_keys.py; they come last, since attributes of a mesh with
+    shape keys are harder to change.
+    """
+    mesh, lost = target.data, []
+    for attribute in data.attributes:
+        values = None if attribute.name in leave_out else carrier.of(attribute)
+        if values is not None:
+            _write_attribute(mesh, attribute, values)
+        elif attribute.name not in leave_out:
+            lost.append(attribute.name)
+    for mark in data.marks:
+        values = carrier.of(mark)
+        if values is not None:
+            _elements(mesh, mark.domain).foreach_set(mark.name, values)
+        else:
+            lost.append(mark.name.removeprefix("use_"))
+    for group in data.groups:
+        weights = carrier.of(Attribute(group.name, "FLOAT", "POINT", group.dense))
+        assert weights is not None  # of vertices
+        write_group(target, group, weights.ravel(), carrier.keeps_ids, operators)
+    _choose_active(target, data)
+    mesh.update()
+    return lost
 
 
 def _write_attribute(mesh: Mesh, attribute: Attribute, values: np.ndarray) -> None:
@@ -243,39 +294,17 @@ def _write_attribute(mesh: Mesh, attribute: Attribute, values: np.ndarray) -> No
     fill_layer(layer, values)
 
 
-def write_data(
-    target: Object,
-    data: SurfaceData,
-    transfer: AttributeTransfer,
-    leave_out: Collection[str] = (),
-    operators: bool = True,
-) -> None:
-    """Gives the object `target`, in Object Mode with the refined mesh, the `data`.
-
-    `operators`: see groups.py. Attributes named in `leave_out` are not written. Sharp edges are added
-    to existing ones. Shape keys: see shape_keys.py; they come last, since attributes of a mesh with
-    shape keys are harder to change.
-    """
-    mesh = target.data
-    # an attribute is written as a block, and is not listed if missing
-    corners = len(mesh.loops)
-    edges = layer_values(mesh.attributes[".corner_edge"]) if corners else np.empty(0, np.int32)
-    origin = transfer.edge_origin(edges, len(mesh.edges))
-    write_attributes(mesh, data.attributes, transfer, origin, leave_out)
-    for name, values in data.edge_marks.items():
-        mesh.edges.foreach_set(name, inherit(values, origin))
-    for name, values in data.face_marks.items():
-        mesh.polygons.foreach_set(name, transfer.face(values))
-    write_groups(target, data.groups, data.active_group, transfer, operators)
-    _choose_active(mesh, data)
-    mesh.update()
-
-
-def _choose_active(mesh: Mesh, data: SurfaceData) -> None:
-    """Sets the UV map and colours for display and rendering; last, since new ones become active."""
-    if data.active_uv in mesh.uv_layers:
+def _choose_active(target: Object, data: SurfaceData) -> None:
+    """What was active in the `data` is active again; last, since new ones become active."""
+    mesh, names = target.data, {attribute.name for attribute in data.attributes}
+    maps = names & set(mesh.uv_layers.keys())  # without faces there is none
+    if data.active_uv in maps:
         mesh.uv_layers.active = mesh.uv_layers[data.active_uv]
-    if data.render_uv in mesh.uv_layers:
+    if data.render_uv in maps:
         mesh.uv_layers[data.render_uv].active_render = True
-    mesh.attributes.active_color_name = data.active_color
-    mesh.attributes.default_color_name = data.default_color
+    if data.active_color in names:
+        mesh.attributes.active_color_name = data.active_color
+    if data.default_color in names:
+        mesh.attributes.default_color_name = data.default_color
+    if data.active_group in {group.name for group in data.groups}:
+        target.vertex_groups.active_index = target.vertex_groups[data.active_group].index

@@ -21,19 +21,20 @@ class Samples:
     """From the elements of `old` to those of `new`, two meshes of nearly the same shape."""
 
     def __init__(self, old: ControlArrays, new: ControlArrays) -> None:
-        self.same = len(old.positions) == len(new.positions) and are_equal(
+        self.keeps_ids = len(old.positions) == len(new.positions) and are_equal(
             (old.corners, old.offsets, old.edges), (new.corners, new.offsets, new.edges)
         )
         self._old, self._new = old, new
         self._known: dict[str, tuple[np.ndarray, np.ndarray]] = {}  # by domain
 
-    def of(self, attribute: Attribute) -> np.ndarray:
-        """The values of an attribute of the old mesh on the new one. On edges only if `same`."""
+    def of(self, attribute: Attribute) -> np.ndarray | None:
+        if attribute.domain == "EDGE" and not self.keeps_ids:
+            return None
         return self.values(attribute.values, attribute.domain, STORAGE[attribute.data_type].mixable)
 
     def values(self, values: np.ndarray, domain: str, mixable: bool) -> np.ndarray:
         """(size, …) values of old elements of `domain` → of new ones; interpolated if `mixable`."""
-        if self.same:
+        if self.keeps_ids:
             return values
         if not len(self._triangles[0]):
             new = self._new

@@ -14,6 +14,7 @@ from ..transfer.attributes import AttributeTransfer
 from ..transfer.lattice import fine_edges, mark_pairs
 from ..transfer.seams import seam_pairs
 from .layers import (
+    Refined,
     SurfaceData,
     fill_layer,
     layer_values,
@@ -78,7 +79,8 @@ def rebuild_mesh(
     creases = fine_edges(result.faces, result.crease_edges, level)
     refill_mesh(target, result, np.concatenate([creases, seam_pairs(result, arrays, settings)]))
     transfer = AttributeTransfer(result, arrays, level)
-    write_data(target, data, transfer, attributes_left_out(settings), operators=False)
+    carrier = Refined(transfer, target.data)
+    write_data(target, data, carrier, attributes_left_out(settings), operators=False)
     write_pad_sizes(target.data, result, transfer)
 
 
@@ -89,6 +91,7 @@ def refill_mesh(
     if target.data.shape_keys is not None:
         target.shape_key_clear()
     target.data.clear_geometry()
+    target.vertex_groups.clear()
     fill_mesh(target.data, result, sharp_pairs, edges)
 
 

@@ -7,7 +7,7 @@ import bpy
 import discrete_fairing
 import numpy as np
 
-from addon.mesh.layers import read_data, write_data
+from addon.mesh.layers import Refined, read_data, write_data
 from addon.mesh.read import read_mesh
 from addon.mesh.write import write_mesh
 from addon.transfer.attributes import AttributeTransfer
@@ -21,7 +21,7 @@ def refine(source, levels=2, leave_out=(), sharp_pairs=NO_PAIRS, **settings):
     result, transfer = core_run(arrays, levels, **settings)
     target = bpy.data.objects.new("Refined", write_mesh("Refined", result, sharp_pairs))
     bpy.context.collection.objects.link(target)
-    write_data(target, data, transfer, leave_out)
+    write_data(target, data, Refined(transfer, target.data), leave_out)
     return SimpleNamespace(
         target=target, mesh=target.data, data=data, arrays=arrays, result=result, transfer=transfer
     )
