@@ -26,7 +26,7 @@ ENERGY_MEANINGS = {
     "MINIMUM_VARIATION": "Most even reflections",
 }
 
-# numbered like files from before the third option existed
+# numbered, because files keep the number
 INTERPOLATIONS = (
     ("AUTO", "Auto",
      "Limit under a Subdivision Surface modifier, and for closed cages with tight rims, hollows or slits; else Through", 3),
@@ -49,7 +49,7 @@ REPAIRS = (
     ("REFUSE", "Refuse", "Fairs no mesh that has such defects, and says where they are"),
 )
 
-# numbered like files from before the first option existed
+# numbered, because files keep the number
 BOUNDARIES = (
     ("CORNERS", "Keep Corners",
      "Borders become smooth curves through their vertices, with corners where the sheet turns by over 60°", 3),

@@ -4,7 +4,7 @@
 from math import pi
 from typing import Any
 
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
 
 def switch(name: str, description: str, default: bool = False, **more: Any) -> Any:
@@ -32,6 +32,15 @@ def length(name: str, description: str, default: float = 0.0, **more: Any) -> An
 def angle(name: str, description: str, default: float, **more: Any) -> Any:
     """From 0 to 180°, in radians."""
     return number(name, description, default, min=0.0, max=pi, subtype="ANGLE", **more)
+
+
+def text(name: str, description: str, **more: Any) -> Any:
+    return StringProperty(name=name, description=description, **more)
+
+
+def hidden(name: str, description: str) -> Any:
+    """A text that no panel shows."""
+    return text(name, description, options={"HIDDEN"})
 
 
 def choice(name: str, description: str, items: Any, default: Any = None, **more: Any) -> Any:

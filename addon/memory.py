@@ -11,11 +11,11 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, cast
 
 import bpy
-from bpy.props import CollectionProperty, FloatVectorProperty, PointerProperty, StringProperty
+from bpy.props import CollectionProperty, FloatVectorProperty, PointerProperty
 
 from . import events, records
 from .blender import Context, Object, all_objects, all_scenes
-from .fields import number, switch
+from .fields import hidden, number, switch
 from .properties import FairingSettings, FitAmount, copy_settings
 from .settings import Settings
 
@@ -36,10 +36,6 @@ def why_unfit(target: Object, source: Object) -> str:
     return ""
 
 
-def _hidden(name: str, description: str) -> Any:
-    return StringProperty(name=name, description=description, options={"HIDDEN"})
-
-
 class FAIRING_PG_surface(FairingSettings, bpy.types.PropertyGroup):
     """The source of a faired object, and how it was made."""
 
@@ -58,10 +54,10 @@ class FAIRING_PG_surface(FairingSettings, bpy.types.PropertyGroup):
             other.type == "MESH" and other not in {group.id_data, group.source}
         ),
     )
-    report: _hidden("Report", "What the core has reported, as JSON")
-    carried: _hidden("Carried", "What came from the source, by name, as JSON")
-    made: _hidden("Made of", "Settings and source as they were when the surface was made, as JSON")
-    stood: _hidden("Stood", "Where the source stood when the surface followed it last, as JSON")
+    report: hidden("Report", "What the core has reported, as JSON")
+    carried: hidden("Carried", "What came from the source, by name, as JSON")
+    made: hidden("Made of", "Settings and source as they were when the surface was made, as JSON")
+    stood: hidden("Stood", "Where the source stood when the surface followed it last, as JSON")
     follow_transform: switch(
         "Follow Transform",
         "Moves, turns and scales with its source, until you transform the surface yourself",
@@ -72,7 +68,7 @@ class FAIRING_PG_surface(FairingSettings, bpy.types.PropertyGroup):
         "The mesh has fewer levels than the settings say: Recompute makes the whole surface",
         options={"HIDDEN"},
     )
-    defects: _hidden("Defects", "What Check Mesh has found, as JSON")
+    defects: hidden("Defects", "What Check Mesh has found, as JSON")
 
 
 class FAIRING_PG_scan(bpy.types.PropertyGroup):
@@ -88,7 +84,7 @@ class FAIRING_PG_fit(FitAmount, bpy.types.PropertyGroup):
 
     scans: CollectionProperty(type=FAIRING_PG_scan)
     weight: number("Weight", "How strongly points pull", options={"HIDDEN"})
-    said: _hidden("Fit", "How near the surface is")
+    said: hidden("Fit", "How near the surface is")
 
 
 class FAIRING_PG_mesh(bpy.types.PropertyGroup):
@@ -223,12 +219,7 @@ def _is_sound(known: Any, value: Any) -> bool:
     return all(known.hard_min <= number <= known.hard_max for number in numbers)
 
 
-# linking and appending has a handler since Blender 4.3
-HANDLERS = {
-    name: unset_unsound_settings
-    for name in ("load_post", "blend_import_post")
-    if hasattr(bpy.app.handlers, name)
-}
+HANDLERS = dict.fromkeys(("load_post", "blend_import_post"), unset_unsound_settings)
 
 
 ATTACHED = (

@@ -5,10 +5,9 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 import bpy
-from bpy.props import StringProperty
 
 from .blender import Context, current_context
-from .fields import whole
+from .fields import text, whole
 
 
 class Defaults:
@@ -37,9 +36,9 @@ class DiscreteFairingPreferences(bpy.types.AddonPreferences):
         max=1024,
     )
 
-    speeds: StringProperty(
-        name="Speeds",
-        description="Seconds a triangle of this machine's last runs, by fairness, as JSON",
+    speeds: text(
+        "Speeds",
+        "Seconds a triangle of this machine's last runs, by fairness, as JSON",
         default=Defaults.speeds,
         options={"HIDDEN"},
     )

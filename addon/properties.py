@@ -9,7 +9,6 @@ from math import radians
 from typing import Any
 
 import bpy
-from bpy.props import StringProperty
 
 from . import vertex_values
 from .blender import Context, Object
@@ -25,7 +24,7 @@ from .choices import (
     SYMMETRY_PLANES,
     TOLERANCE_UNITS,
 )
-from .fields import angle, choice, factor, length, number, switch, whole
+from .fields import angle, choice, factor, length, number, switch, text, whole
 from .settings import NAMES, OF_NEAR, Settings
 
 
@@ -85,15 +84,15 @@ class FairingSettings:
         "Whether the tolerance is a share of the mean edge length or a length in the scene",
         TOLERANCE_UNITS,
     )
-    tolerance_group: StringProperty(
-        name="Tolerance Group",
-        description="Vertex group or float attribute that multiplies the tolerance: where it is 0, the surface passes through the vertex",
+    tolerance_group: text(
+        "Tolerance Group",
+        "Vertex group or float attribute that multiplies the tolerance: where it is 0, the surface passes through the vertex",
         search=_vertex_values,
         search_options={"SUGGESTION"},  # modifiers may create groups that do not exist yet
     )
-    pull_group: StringProperty(
-        name="Pull Group",
-        description="Vertex group or float attribute: how strongly each vertex attracts the surface, from 0 to 1 in a group",
+    pull_group: text(
+        "Pull Group",
+        "Vertex group or float attribute: how strongly each vertex attracts the surface, from 0 to 1 in a group",
         search=_vertex_values,
         search_options={"SUGGESTION"},
     )

@@ -88,7 +88,7 @@ _FORMS: dict[str, Any] = {
     "defects": {
         "defects": [_defect],
         "counts": [int],
-        "holes?": [{"edges": _id, "at": _pair}],
-        "cleaned?": [str],
+        "holes": [{"edges": _id, "at": _pair, "width": _NUMBER}],
+        "cleaned": [str],
     },
 }

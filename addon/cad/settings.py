@@ -4,9 +4,8 @@
 from math import radians
 from typing import Any
 
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
-
 from ..blender import Scene
+from ..fields import choice, number, switch, whole
 
 UNITS = (
     ("MM", "Millimetres", "Lengths in the file are in millimetres"),
@@ -22,42 +21,36 @@ METRES = {"MM": 0.001, "CM": 0.01, "M": 1.0, "IN": 0.0254, "FT": 0.3048}
 class PatchSettings:
     """Mix-in of annotations for operators."""
 
-    fit_tolerance: FloatProperty(
-        name="Tolerance",
-        description="Largest distance of a patch from the fair surface, as a share of its size; 0: 0.0001, "
-        "near a scan half of the distance of 95 % of its points from the surface if that is more",
-        default=0.0,
+    fit_tolerance: number(
+        "Tolerance",
+        "Largest distance of a patch from the fair surface, as a share of its size; 0: 0.0001, near a scan half of the"
+        " distance of 95 % of its points from the surface if that is more",
         min=0.0,
         max=0.1,
         precision=6,
     )
-    fit_angle: FloatProperty(
-        name="Angle",
-        description="Largest angle between two patches where there is no crease; 0: 0.05°, near a scan the angle "
-        "of the tolerance over a mean edge of the cage if that is more",
-        default=0.0,
+    fit_angle: number(
+        "Angle",
+        "Largest angle between two patches where there is no crease; 0: 0.05°, near a scan the angle of the tolerance"
+        " over a mean edge of the cage if that is more",
         min=0.0,
         max=radians(10.0),
         precision=3,
         subtype="ANGLE",
     )
-    fit_levels: IntProperty(
-        name="Levels",
-        description="Levels before patches are fitted; 0: as many as the tolerance needs",
-        default=0,
+    fit_levels: whole(
+        "Levels",
+        "Levels before patches are fitted; 0: as many as the tolerance needs",
         min=0,
         max=8,
     )
 
 
 class StepSettings(PatchSettings):
-    unit: EnumProperty(
-        name="Unit", description="The unit of lengths in the file", items=UNITS, default="MM"
-    )
-    force: BoolProperty(
-        name="Write Faulty Faces",
-        description="Also writes surfaces that fold or turn too sharply for patches; those patches are red",
-        default=False,
+    unit: choice("Unit", "The unit of lengths in the file", UNITS)
+    force: switch(
+        "Write Faulty Faces",
+        "Also writes surfaces that fold or turn too sharply for patches; those patches are red",
     )
 
 

@@ -57,12 +57,12 @@ def store_defects(
 
 def recall_holes(target: Object) -> list[dict[str, Any]]:
     """The holes of the last check: `width`, the number of `edges`, and one edge, `at`."""
-    return (memory.recall(target, "defects") or {}).get("holes", [])
+    return (memory.recall(target, "defects") or {"holes": []})["holes"]
 
 
 def recall_cleaned(target: Object) -> list[str]:
     """Sentences on what Clean Scan has done since the last check."""
-    return (memory.recall(target, "defects") or {}).get("cleaned", [])
+    return (memory.recall(target, "defects") or {"cleaned": []})["cleaned"]
 
 
 def recall_defects(target: Object) -> tuple[list[dict[str, Any]], bool] | None:

@@ -17,9 +17,8 @@ def _command(argv: list[str]) -> int:
 
 
 def register() -> None:
-    if hasattr(bpy.utils, "register_cli_command"):  # Blender 4.2 and later
-        tell: Any = bpy.utils.register_cli_command  # its stub returns None
-        _handles.append(tell(NAME, _command))
+    tell: Any = bpy.utils.register_cli_command  # its stub returns None
+    _handles.append(tell(NAME, _command))
 
 
 def unregister() -> None:

@@ -9,7 +9,7 @@ import bpy
 from ..blender import all_scenes
 from ..mesh.modifiers import INSPECTION_TAG
 
-# the scene whose settings zebra and smooth it has; none: the first one's, and in older files
+# the key of the scene whose settings it has; none: that of the first scene, 0
 SCENE_TAG = "fairing_inspection_scene"
 
 # the colour attribute that the curvature material reads

@@ -33,7 +33,7 @@ class _Entry:
     lines: dict[tuple[Any, ...], list[tuple[Any, tuple[float, ...]]]] = field(default_factory=dict)
 
 
-_entries: dict[int | str, _Entry] = {}
+_entries: dict[int, _Entry] = {}
 _shown = Showing(lambda target: bool(target.discrete_fairing_inspection.sections))
 _handle: Any = None
 

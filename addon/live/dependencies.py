@@ -23,8 +23,8 @@ class Dependencies:
     def __init__(self) -> None:
         self.arguments: dict[str, Any] = {}  # for core.solver
         self.due = False  # whether they may have changed since
-        self._neighbour: int | str | None = None  # its key
-        self._blocks: set[int | str] = set()  # keys of the data-blocks that they were read from
+        self._neighbour: int | None = None  # its key
+        self._blocks: set[int] = set()  # keys of the data-blocks that they were read from
         self._seen: Any = None  # the transforms of source and surface then
 
     def read(self, source: Object, target: Object, settings: Settings) -> None:
@@ -47,7 +47,7 @@ class Dependencies:
         """Whether the surface still meets the neighbour that was read."""
         return self._neighbour == _key_of(neighbours.neighbour_of(target))
 
-    def are_awaited(self, source: Object, target: Object, moved: Collection[int | str]) -> bool:
+    def are_awaited(self, source: Object, target: Object, moved: Collection[int]) -> bool:
         """Whether they are to be read again: once nothing is dragged, since they may be large."""
         self.due |= not self._blocks.isdisjoint(moved)
         self.due |= bool(self._blocks) and self._seen != _places(source, target)
@@ -58,5 +58,5 @@ def _places(source: Object, target: Object) -> Any:
     return world_matrix(source).copy(), world_matrix(target).copy()
 
 
-def _key_of(neighbour: Object | None) -> int | str | None:
+def _key_of(neighbour: Object | None) -> int | None:
     return None if neighbour is None else session_key(neighbour)

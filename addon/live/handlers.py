@@ -168,9 +168,9 @@ def _end_all(*_: Any) -> None:
     events.stop_timer(on_timer)
 
 
-def _refreshed(sessions: Iterable[Session], changed: Collection[int | str]) -> set[int | str]:
+def _refreshed(sessions: Iterable[Session], changed: Collection[int]) -> set[int]:
     """Keys of the control meshes updated because one of their curves is among `changed`."""
-    found: dict[int | str, str] = {}  # control mesh: why it could not be updated
+    found: dict[int, str] = {}  # control mesh: why it could not be updated
     for session in sessions:
         source = session.objects()[0]
         if source is None or not curve_cage.is_cage(source):

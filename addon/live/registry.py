@@ -18,9 +18,9 @@ if TYPE_CHECKING:
     from .session import Session
 
 
-_sessions: dict[int | str, Session] = {}  # target key: Session
-_endings: dict[int | str, str] = {}  # target key: why it ended by itself, a sentence
-_known: dict[int | str, Reference] = {}  # surfaces that are or were live since the file was opened
+_sessions: dict[int, Session] = {}  # target key: Session
+_endings: dict[int, str] = {}  # target key: why it ended by itself, a sentence
+_known: dict[int, Reference] = {}  # surfaces that are or were live since the file was opened
 _ignoring = 0
 
 

@@ -56,7 +56,7 @@ class Session:
         self._stale = True  # whether the mesh may differ from the one written
         # whether the timer must check, because Blender's update did not show a change
         self._unseen = False
-        self._mesh: int | str | None = None  # key of the mesh for which the solver was built
+        self._mesh: int | None = None  # key of the mesh for which the solver was built
         self._schedule = Schedule()  # of the full level
         self._own: OwnData | None = None  # the surface's own data, for its full level
         self._forget()
@@ -91,9 +91,7 @@ class Session:
         """Why the surface can no longer be followed, a sentence; empty if it can."""
         return why_gone(*self.objects())
 
-    def needs_look(
-        self, reshaped: Collection[int | str] = (), moved: Collection[int | str] = ()
-    ) -> bool:
+    def needs_look(self, reshaped: Collection[int] = (), moved: Collection[int] = ()) -> bool:
         """Whether the surface may be out of date; `reshaped`: keys of the data-blocks with changed
         geometry, `moved`: with a changed transform. The timer reads scans and neighbours again, once
         nothing is dragged, since they may be large.

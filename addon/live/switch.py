@@ -4,12 +4,12 @@
 from typing import Any
 
 import bpy
-from bpy.props import StringProperty
 
 from .. import core
 from ..blender import Context, Object, all_objects, current_context
-from ..fields import switch, whole
+from ..fields import hidden, switch, text, whole
 from ..memory import no_source_reason, source_of
+from ..mesh.object import session_key
 from ..poll import LINKED_SURFACE
 from ..size import count_text
 from . import cage, handlers, registry
@@ -96,7 +96,7 @@ def surfaces_of(source: Object) -> list[Object]:
     """Surfaces made from `source` that can be recomputed, the newest last."""
     made = [o for o in all_objects() if o.type == "MESH" and o.discrete_fairing.source == source]
     made = [o for o in made if not why_not(o) and is_in_a_scene(o)]
-    return sorted(made, key=lambda o: getattr(o, "session_uid", 0))  # which grow with time
+    return sorted(made, key=session_key)  # which grow with time
 
 
 def lines(target: Object) -> list[str]:
@@ -178,14 +178,8 @@ class FAIRING_PG_live(bpy.types.PropertyGroup):
         update=_cage_changed,
     )
     was_on: switch("Was On", "Live was on in this file, or this step of undo", options={"HIDDEN"})
-    cage_display: StringProperty(
-        name="Cage Display",
-        description="How the source was shown before Live was switched on",
-        options={"HIDDEN"},
-    )
-    status: StringProperty(
-        name="Status", description="What Live is doing, or why it has ended", get=_status
-    )
+    cage_display: hidden("Cage Display", "How the source was shown before Live was switched on")
+    status: text("Status", "What Live is doing, or why it has ended", get=_status)
 
 
 ATTACHED = ((bpy.types.Object, "discrete_fairing_live", FAIRING_PG_live),)

@@ -13,13 +13,11 @@ from ..blender import Context, Mesh, Scene, column, current_context
 from ..redraw import INTERVAL, tag_sidebars
 from .object import session_key
 
-_watched: dict[
-    int | str, int | None
-] = {}  # mesh key: checksum of its positions when it was measured
-_triangles: dict[int | str, tuple[tuple[int, int], int]] = {}  # mesh key: its size, and triangles
-_changed: set[int | str] = set()  # keys of meshes that have changed since
-_seen: dict[int | str, dict[Hashable, Any]] = {}  # mesh key: the values that panels show, by name
-_unseen: dict[tuple[int | str, Hashable], Callable[[Mesh], Any]] = {}  # values still to be measured
+_watched: dict[int, int | None] = {}  # mesh key: checksum of its positions when it was measured
+_triangles: dict[int, tuple[tuple[int, int], int]] = {}  # mesh key: its size, and triangles
+_changed: set[int] = set()  # keys of meshes that have changed since
+_seen: dict[int, dict[Hashable, Any]] = {}  # mesh key: the values that panels show, by name
+_unseen: dict[tuple[int, Hashable], Callable[[Mesh], Any]] = {}  # values still to be measured
 
 # edges; values of larger meshes are measured once changes pause
 MEASURED_WHILE_DRAWING = 10_000

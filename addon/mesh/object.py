@@ -21,12 +21,12 @@ PLACE = (*TURN, "location", "delta_location", "scale", "delta_scale")
 PARENT = ("parent", "parent_type", "parent_bone", "parent_vertices", "matrix_parent_inverse")
 
 
-def session_key(block: bpy.types.ID) -> int | str:
+def session_key(block: bpy.types.ID) -> int:
     """A key of a data-block that stays valid through undo until its file is closed."""
-    return getattr(block, "session_uid", None) or block.name_full
+    return block.session_uid
 
 
-def changed_keys(depsgraph: bpy.types.Depsgraph, *, moved: bool) -> set[int | str]:
+def changed_keys(depsgraph: bpy.types.Depsgraph, *, moved: bool) -> set[int]:
     """Keys of the data-blocks that an update has reshaped or, with `moved`, also moved."""
     return {
         session_key(cast(Any, update.id).original)

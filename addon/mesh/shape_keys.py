@@ -193,7 +193,7 @@ def put_key(target: Object, name: str, positions: np.ndarray) -> None:
 class KeyAnimation:
     """The animation of a mesh's shape keys, kept while the keys are replaced."""
 
-    spare: int | str  # key of a copy of the mesh, with its keys and their drivers
+    spare: int  # key of a copy of the mesh, with its keys and their drivers
 
     @classmethod
     def of(cls, mesh: Mesh) -> "KeyAnimation | None":

@@ -5,10 +5,10 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 import bpy
-from bpy.props import IntProperty
 
 from ..blender import Context, Object
 from ..errors import JobError
+from ..fields import whole
 from ..jobs.fair import Job
 from ..jobs.fit import Fit, FitJob
 from ..jobs.scan_cage import LEAST_CAGE_FACES, MadeCage, make_cage
@@ -65,17 +65,11 @@ class OBJECT_OT_fairing_fit(Shown, WholeFairing, FitAmount, bpy.types.Operator):
     bl_label = "Fair Surface on Scan"
     cancelled_text = "The fit was cancelled: nothing has changed but a cage that was made"
 
-    levels: IntProperty(
-        name="Levels",
-        description="How often each face of the cage is split into four",
-        default=2,
-        min=0,
-        max=6,
-    )
-    cage_faces: IntProperty(
-        name="Faces of Cage",
-        description="Faces of the cage that is made where scans alone are selected; at most one for 25 of its points",
-        default=300,
+    levels: whole("Levels", "How often each face of the cage is split into four", 2, min=0, max=6)
+    cage_faces: whole(
+        "Faces of Cage",
+        "Faces of the cage that is made where scans alone are selected; at most one for 25 of its points",
+        300,
         min=LEAST_CAGE_FACES,
         max=20000,
         soft_max=2000,

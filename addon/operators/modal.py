@@ -31,7 +31,7 @@ class ModalRun(OperatorBase):
         self._queue = Queue(jobs, core.module().Monitor)
         set_running(self._queue)
         self._progress = Progress()
-        self._told: set[int | str] = set()  # the workspaces whose status bars show the progress
+        self._told: set[int] = set()  # the workspaces whose status bars show the progress
         manager = context.window_manager
         self._timer = manager.event_timer_add(_INTERVAL, window=context.window)
         manager.modal_handler_add(self)

@@ -10,9 +10,9 @@ from typing import Any, cast
 
 import bpy
 from bl_operators.presets import AddPresetBase
-from bpy.props import StringProperty
 
 from ..blender import Answer, Context
+from ..fields import text
 from ..purposes import FOLDER, PRESET_FOLDER
 from ..settings import NAMES
 from ..ui.main import active_settings
@@ -33,9 +33,7 @@ class OBJECT_OT_fairing_preset_apply(bpy.types.Operator):
     bl_label = "Apply Fairing Preset"
     bl_options = {"INTERNAL"}
 
-    filepath: StringProperty(
-        name="File", description="The preset", subtype="FILE_PATH", options={"SKIP_SAVE"}
-    )
+    filepath: text("File", "The preset", subtype="FILE_PATH", options={"SKIP_SAVE"})
 
     def execute(self, context: Context) -> Answer:
         with _settings_as_operator(context):

@@ -12,14 +12,14 @@ from bpy.props import StringProperty
 from ..blender import Context, Object
 from ..cad.settings import METRES
 from ..errors import JobError
-from ..fields import choice, length, number
+from ..fields import choice, length, number, text
 from ..inspection.sections import Drawn, cut
 from ..memory import active_source
 from ..mesh.object import linked_object, select_only
 from ..mesh.offset_names import read_names, stations
 from ..mesh.scans import of_mesh, with_faces
 from ..mesh.world_shape import world_matrix
-from ..yard.dxf import text
+from ..yard import dxf
 from ..yard.plan import Cut, Plane, opened, places, sheet
 from .hull import ACTIVE_MESH
 from .mixins import Action, Shown
@@ -100,9 +100,9 @@ class OBJECT_OT_fairing_section_curves(Shown, _Spaced, Action, bpy.types.Operato
             ("OBJECT", "Plane of an Object", "Across the Z axis of the other selected object"),
         ),
     )
-    places: StringProperty(
-        name="Places",
-        description="Where planes cut, such as 0, 1.5, 3, in scene units; empty: by Spacing and Start",
+    places: text(
+        "Places",
+        "Where planes cut, such as 0, 1.5, 3, in scene units; empty: by Spacing and Start",
     )
     angle: number(
         "Angle",
@@ -185,9 +185,9 @@ class EXPORT_SCENE_OT_fairing_lines(_Spaced, WritesText, bpy.types.Operator):
     filename_ext = ".dxf"
 
     filter_glob: StringProperty(default="*.dxf", options={"HIDDEN"})
-    stations: StringProperty(
-        name="Stations",
-        description="Where stations are, such as 0, 1.5, 3; empty: those of the imported table, else by Spacing",
+    stations: text(
+        "Stations",
+        "Where stations are, such as 0, 1.5, 3; empty: those of the imported table, else by Spacing",
     )
     scale: number(
         "Scale 1 :",
@@ -224,6 +224,6 @@ class EXPORT_SCENE_OT_fairing_lines(_Spaced, WritesText, bpy.types.Operator):
         if not any(found.values()):
             raise JobError("Select the surface of a hull: no plane cuts this mesh")
         title = f"{target.name}   1 : {self.scale:g}   {self.unit.lower()}"
-        write_text_file(self.filepath, text(sheet(title, *found.values())))
+        write_text_file(self.filepath, dxf.text(sheet(title, *found.values())))
         count = ", ".join(f"{len(cuts)} {kind.lower()}" for kind, cuts in found.items())
         return f"{count} written to {bpy.path.abspath(self.filepath)}"

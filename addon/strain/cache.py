@@ -102,7 +102,7 @@ class _Watch:
             self._queue = None
 
 
-_watches: dict[int | str, _Watch] = {}
+_watches: dict[int, _Watch] = {}
 shown_sources = Showing(lambda target: bool(target.discrete_fairing_strain.show))
 _reading = False  # whether changes reported by Blender are caused by our own reading
 

@@ -66,7 +66,7 @@ class _Entry:
     needles: Any = None
 
 
-_entries: dict[int | str, _Entry] = {}
+_entries: dict[int, _Entry] = {}
 _shader: Any = None
 _handles: list[Any] = []
 

@@ -6,13 +6,13 @@ from typing import Any, cast
 
 import bpy
 import numpy as np
-from bpy.props import CollectionProperty, PointerProperty, StringProperty
+from bpy.props import CollectionProperty, PointerProperty
 
 from ..blender import Context, Mesh, Object, column, current_context
 from ..curves.cubics import Curve
 from ..curves.settle import Covered, CoverOptions, covered
 from ..errors import JobError
-from ..fields import length, switch, whole
+from ..fields import hidden, length, switch, whole
 from ..mesh.layers import fill_layer, make_layer
 from ..mesh.object import linked_object, session_key
 from ..mesh.read_curves import read_curves
@@ -62,16 +62,8 @@ class FAIRING_PG_curves(CageSettings, bpy.types.PropertyGroup):
     """For a control mesh: the curves that it is made from. For a curve: how surfaces cross it."""
 
     curves: CollectionProperty(type=FAIRING_PG_curve)
-    remarks: StringProperty(
-        name="Remarks",
-        description="Which curves were not used, and where, one a line",
-        options={"HIDDEN"},
-    )
-    counts: StringProperty(
-        name="Counts",
-        description="Edges on each arc of the network, numbers with spaces between",
-        options={"HIDDEN"},
-    )
+    remarks: hidden("Remarks", "Which curves were not used, and where, one a line")
+    counts: hidden("Counts", "Edges on each arc of the network, numbers with spaces between")
     sharp: switch(
         "Sharp",
         "The surface has a sharp edge along this curve, and is smooth across all others",
@@ -186,7 +178,7 @@ def _has_faces(mesh: Mesh, faces: np.ndarray) -> bool:
     return np.array_equal(column(mesh.loops, "vertex_index", np.int32), faces.ravel())
 
 
-def keys(blocks: Sequence[Any]) -> set[int | str]:
+def keys(blocks: Sequence[Any]) -> set[int]:
     return {session_key(block) for block in blocks}
 
 

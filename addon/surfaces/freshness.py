@@ -40,11 +40,11 @@ UNFINISHED = "Shown with fewer levels"
 _ELSEWHERE = {"hide_source", "copy_modifiers"}
 _SOON = 0.3  # seconds
 
-_surfaces: dict[int | str, Reference] = {}  # known surfaces
+_surfaces: dict[int, Reference] = {}  # known surfaces
 # surface: its state when last read, as far as another object can change it
-_seen: dict[int | str, dict[str, Any]] = {}
-_unread: set[int | str] = set()  # surfaces whose sources may have changed since
-_watched: dict[int | str, set[int | str]] = {}  # source or its mesh: surfaces made from it
+_seen: dict[int, dict[str, Any]] = {}
+_unread: set[int] = set()  # surfaces whose sources may have changed since
+_watched: dict[int, set[int]] = {}  # source or its mesh: surfaces made from it
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from ..check import joints
 from ..check.defects import recall_cleaned, recall_defects, recall_holes
 from ..check.holes import MOST
 from ..jobs.clean import repair_label
-from ..units import Text, Units
+from ..units import Units
 from .layout import Folded, draw_notice
 
 _SHOWN = 8  # rows; more kinds of defects are unlikely
@@ -76,12 +76,6 @@ def _draw_defect(
         row.operator("object.fairing_repair", text=label, icon="TOOL_SETTINGS").index = index
 
 
-def _hole_text(hole: dict[str, Any], text: Text) -> str:
-    """For example `12 mm wide, 34 edges`."""
-    edges = f"{hole['edges']:,} edges"
-    return f"{text(hole['width'])} wide, {edges}" if "width" in hole else edges
-
-
 def _draw_holes(
     layout: bpy.types.UILayout, context: Context, holes: list[dict[str, Any]], stale: bool
 ) -> None:
@@ -90,11 +84,10 @@ def _draw_holes(
     column = layout.column(align=True)
     column.active = not stale
     column.label(text="Holes")
-    # records in older files have no width
-    text = Units.of(context.scene).lengths(holes[0].get("width", 0.0))
+    text = Units.of(context.scene).lengths(holes[0]["width"])
     for hole in holes[:_SHOWN]:
         row = column.row(align=True)
-        row.label(text=_hole_text(hole, text), icon="MESH_CIRCLE")
+        row.label(text=f"{text(hole['width'])} wide, {hole['edges']:,} edges", icon="MESH_CIRCLE")
         show = row.operator("object.fairing_select_hole", text="", icon="RESTRICT_SELECT_OFF")
         show.edge = hole["at"]
         row.operator("object.fairing_fill", text="Fill").edge = hole["at"]
