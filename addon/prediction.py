@@ -67,14 +67,4 @@ def text(predicted: float) -> str:
 
 
 def _speeds() -> dict[str, list[float]]:
-    try:
-        found = json.loads(preferences().speeds)
-    except ValueError:
-        return {}
-    if not isinstance(found, dict):
-        return {}
-    return {
-        energy: [float(speed) for speed in found[energy]]
-        for energy in _AT_FIRST
-        if isinstance(found.get(energy), list)
-    }
+    return json.loads(preferences().speeds)

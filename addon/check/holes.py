@@ -7,7 +7,7 @@ from .. import core
 from ..blender import Context, Object
 from ..mesh.read import control_mesh, read_mesh
 from ..mesh.world_shape import WorldShape
-from ..transfer.hole_loops import flat_faces, holes_in, sides_of
+from ..transfer.hole_loops import holes_in, sides_of
 
 MOST = 50  # the widest holes, which are kept; longer lists are of no use
 
@@ -17,7 +17,7 @@ def loops_of(arrays: core.ControlArrays) -> list[list[int]]:
     if not (arrays.edge_uses == 1).any():
         return []
     try:
-        holes = holes_in(arrays.positions, flat_faces(arrays))
+        holes = holes_in(arrays.positions, (arrays.corners, arrays.offsets))
     except core.module().FairingError:
         return []
     return [loop for hole in holes for loop in hole]

@@ -2,13 +2,13 @@
 """`--fit` on the command line: its options, and reading of scans and cages."""
 
 import argparse
-from dataclasses import dataclass
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import bpy
 
 from ..blender import Object, current_context
+from ..core import tolerance
 from ..jobs.fit import Fit
 from ..jobs.scan_cage import make_cage
 from ..mesh.read import read_mesh
@@ -21,21 +21,6 @@ from .rna import number, option
 _CAGE_FACES = 300
 # options that a fit decides itself, or that have another meaning there
 _NOT_HERE = ("energy", "interpolation", "limit", "tolerance_group", "pull_group", "pad_size")
-
-
-@dataclass(frozen=True)
-class FitOptions:
-    cage: Path | None  # None: a cage is made
-    cage_faces: int
-    tolerance: float | None
-    is_share: bool  # relative to the mean edge of the cage
-
-    def fit(self, cage: Object, scan: Any) -> Fit:
-        """The Fit for a cage that has been read."""
-        tolerance = self.tolerance
-        if tolerance is not None and self.is_share:
-            tolerance *= read_mesh(cage.data).mean_edge_length
-        return Fit(scan, tolerance)
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -60,13 +45,13 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def options_of(arguments: argparse.Namespace, settings: Settings) -> FitOptions | None:
-    """From the arguments; None without `--fit`. Raises ValueError for contradictory options."""
+def check(arguments: argparse.Namespace, settings: Settings) -> None:
+    """Raises ValueError for contradictory options."""
     if not arguments.fit:
         for name in ("cage", "cage_faces"):
             if getattr(arguments, name) is not None:
                 raise ValueError(f"{option(name)} needs --fit")
-        return None
+        return
     for name in _NOT_HERE:
         if name in vars(arguments):
             raise ValueError(f"{option(name)} is not for --fit, which moves all vertices by itself")
@@ -76,31 +61,31 @@ def options_of(arguments: argparse.Namespace, settings: Settings) -> FitOptions 
         raise ValueError("give one of --cage and --cage-faces: a cage has its own faces")
     if arguments.cage is not None:
         require_format(arguments.cage)
-    is_said = "tolerance" in vars(arguments)
-    if is_said and not settings.tolerance > 0:
+    if "tolerance" in vars(arguments) and not settings.tolerance > 0:
         raise ValueError("--tolerance of --fit must be over 0")
-    return FitOptions(
-        arguments.cage,
-        arguments.cage_faces or _CAGE_FACES,
-        settings.tolerance if is_said else None,
-        settings.tolerance_unit == "RELATIVE",
-    )
 
 
-def read(source: Path, options: FitOptions) -> tuple[list[Object], Fit]:
+def read(arguments: argparse.Namespace, settings: Settings) -> tuple[list[Object], Fit]:
     """The cage, alone in the scene, and its Fit."""
-    scans, context = read_file(source), current_context()
+    scans, context = read_file(arguments.input), current_context()
     scan = read_scans(context, scans)
-    if options.cage is not None:
-        cages = read_file(options.cage)
+    if arguments.cage is not None:
+        cages = read_file(arguments.cage)
         if len(cages) > 1:
-            raise FileError(f"{options.cage} has {len(cages)} meshes: join them, a cage is one.")
+            raise FileError(f"{arguments.cage} has {len(cages)} meshes: join them, a cage is one.")
     elif not len(scan.triangles):
-        raise FileError(f"{source} has points without faces: draw a cage, and give it as --cage.")
+        raise FileError(
+            f"{arguments.input} has points without faces: draw a cage, and give it as --cage."
+        )
     else:
         name = scans[0].name
-        cages = [make_cage(context, scans, options.cage_faces).object]
+        cages = [make_cage(context, scans, arguments.cage_faces or _CAGE_FACES).object]
         for one in scans:
             bpy.data.objects.remove(one)
         cages[0].name = name
-    return cages, options.fit(cages[0], scan)
+    if "tolerance" not in vars(arguments):
+        return cages, Fit(scan)
+    length = tolerance(
+        replace(settings, interpolation="APPROXIMATE"), read_mesh(cages[0].data).mean_edge_length
+    )
+    return cages, Fit(scan, length)

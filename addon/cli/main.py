@@ -43,7 +43,7 @@ def _understand(argv: list[str]) -> tuple[argparse.Namespace, Settings]:
         check_places(arguments.input, arguments.output)
         arguments.patches = step.options_of(arguments, settings)
         arguments.cleaning = clean.options_of(arguments)
-        arguments.drawn = fit.options_of(arguments, settings)
+        fit.check(arguments, settings)
         return arguments, settings
     except ValueError as error:
         made.error(str(error))

@@ -50,10 +50,10 @@ def run_file(arguments: argparse.Namespace, settings: Settings) -> None:
 
 def _fair(arguments: argparse.Namespace, settings: Settings, told: _Told) -> tuple[int, str]:
     near: Fit | None = None
-    if arguments.drawn is None:
-        sources = read_file(arguments.input)
+    if arguments.fit:
+        sources, near = fit.read(arguments, settings)
     else:
-        sources, near = fit.read(arguments.input, arguments.drawn)
+        sources = read_file(arguments.input)
     patches = arguments.patches
     asked = {name: value for name in ("weld", "threads") if (value := getattr(arguments, name)) is not None}  # fmt: skip
     jobs = [_job(source, settings, patches, near) for source in sources]

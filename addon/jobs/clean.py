@@ -58,7 +58,7 @@ class CleanJob(TimedRun):
         with errors.explained(self.name, errors.WITHOUT_MENDING):
             self.result = core.module().clean(
                 self.shape.of(arrays.positions),
-                (arrays.corners.astype(np.int64), arrays.offsets.astype(np.int64)),
+                (arrays.corners, arrays.offsets),
                 islands=self._options.islands,
                 largest=self._options.largest,
                 fixed=_marked(arrays),

@@ -18,7 +18,7 @@ from ..mesh.write_filling import cut_sides, with_new, write_hole
 from ..transfer.filling import Patch
 from ..transfer.hole_loops import (
     Side,
-    flat_faces,
+    faces_left,
     holes_in,
     sides_of,
     unclear_edges,
@@ -60,7 +60,7 @@ class HoleJob(TimedRun):
             edges = column(mesh.edges, "select", bool) & selects
         self._gone = gone
         self._points = self.shape.of(arrays.positions)
-        self._faces = flat_faces(arrays, ~gone if gone.any() else None)
+        self._faces = faces_left(arrays, gone)
         with errors.explained(self.name, errors.OF_HOLES):
             holes = holes_in(self._points, self._faces)
         loops = [loop for hole in holes for loop in hole]

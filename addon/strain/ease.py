@@ -48,17 +48,13 @@ class _Moving(PlateRun):
 
     def _compute(self, watchers: dict[str, Any]) -> None:
         with errors.explained(self.name):
-            self.result = self._run(watchers)
+            places = self._run(watchers)
         sent = self._world.positions
-        places = self._places()
         self.moves = np.linalg.norm(places - sent, axis=1)  # (n,) in scene units
         self.positions = self.shape.back(places, sent, self.positions)
 
-    def _run(self, watchers: dict[str, Any]) -> Any:
-        raise NotImplementedError
-
-    def _places(self) -> np.ndarray:
-        """(n, 3) in the world's shape, after the run."""
+    def _run(self, watchers: dict[str, Any]) -> np.ndarray:
+        """The new positions, (n, 3) in the world's shape; sets the result."""
         raise NotImplementedError
 
     @property
@@ -85,13 +81,13 @@ class EaseJob(_Moving):
                 f"{self.name}: Ease a copy. It has absolute shape keys, which are not mixed."
             )
 
-    def _run(self, watchers: dict[str, Any]) -> Any:
+    def _run(self, watchers: dict[str, Any]) -> np.ndarray:
         options, fixed = self._options, None
         if options.use_selection:
             fixed = ~self.selected
         elif options.amount == "WORST":
             fixed = self._on_knuckle(watchers)
-        return core.module().ease(
+        self.result = core.module().ease(
             **core.plate_arguments(self.arguments),
             tolerance=options.tolerance if options.amount == "TOLERANCE" else None,
             most=options.count if options.amount == "WORST" else None,
@@ -99,6 +95,7 @@ class EaseJob(_Moving):
             fixed=fixed,
             **watchers,
         )
+        return self.result.vertices
 
     def _on_knuckle(self, watchers: dict[str, Any]) -> np.ndarray:
         """(n,) bool: vertices in a row that look like a knuckle. They stay until the user selects them."""
@@ -107,9 +104,6 @@ class EaseJob(_Moving):
         found = core.module().strain(**arguments, **watch)
         self.knuckle = knuckle_of(found.excess, self.arrays, self._world.positions)
         return marked(self.knuckle, len(self.positions))
-
-    def _places(self) -> np.ndarray:
-        return self.result.vertices
 
     def said(self, text: words.Text) -> str:
         eased, options = self.result, self._options
@@ -153,11 +147,9 @@ class EaseSelectedJob(_Moving):
                 f"{self.name}: Leave out some vertices of each part. One is selected whole, so nothing holds it."
             )
 
-    def _run(self, watchers: dict[str, Any]) -> Any:
-        return core.module().fair(**core.released_arguments(self.arguments, self._free), **watchers)
-
-    def _places(self) -> np.ndarray:
-        sent = self._world.positions
+    def _run(self, watchers: dict[str, Any]) -> np.ndarray:
+        given = core.released_arguments(self.arguments, self._free)
+        self.result, sent = core.module().fair(**given, **watchers), self._world.positions
         found = self.result.vertices[: len(sent)]
         return np.where(self._free[:, None], sent + self._factor * (found - sent), sent)
 

@@ -43,11 +43,5 @@ class Strained:
 
     def worst(self, count: int) -> np.ndarray:
         """(k,) ids, the largest strain first; at most `count`."""
-        return above(self.lengths, -1.0)[:count]
-
-
-def above(lengths: np.ndarray, threshold: float) -> np.ndarray:
-    """(k,) ids of vertices with a larger strain, without NaN, the largest `lengths` first."""
-    sizes = np.where(np.isnan(lengths), -np.inf, np.abs(lengths))
-    order = np.argsort(-sizes, kind="stable")
-    return order[sizes[order] > threshold]
+        order = np.argsort(-np.abs(self.lengths[self.held]), kind="stable")
+        return self.held[order][:count]

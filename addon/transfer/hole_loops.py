@@ -12,8 +12,11 @@ from ..triangles import marked
 Side: TypeAlias = frozenset[int]  # the two vertices of an edge
 
 
-def holes_in(points: np.ndarray, faces: tuple[np.ndarray, np.ndarray]) -> list[list[list[int]]]:
-    """For each hole of a mesh with these flat `faces`: its rim, and the rims of its islands."""
+Faces: TypeAlias = tuple[np.ndarray, np.ndarray]  # corners and offsets
+
+
+def holes_in(points: np.ndarray, faces: Faces) -> list[list[list[int]]]:
+    """For each hole of a mesh with these `faces`: its rim, and the rims of its islands."""
     found = core.module().with_islands(points, faces) if len(faces[0]) else []
     return [[loop.tolist() for loop in hole] for hole in found]
 
@@ -65,10 +68,7 @@ def where_faces_were(
     return [sorted(hole, key=len, reverse=True) for _, hole in sorted(holes.items())]
 
 
-def flat_faces(
-    arrays: core.ControlArrays, kept: np.ndarray | None = None
-) -> tuple[np.ndarray, np.ndarray]:
-    """Corners and offsets of the faces `kept` (m,) bool, or of all, for the core."""
-    sizes = arrays.face_sizes if kept is None else arrays.face_sizes[kept]
-    corners = arrays.corners if kept is None else arrays.corners[np.repeat(kept, arrays.face_sizes)]
-    return corners.astype(np.int64), np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64)
+def faces_left(arrays: core.ControlArrays, gone: np.ndarray) -> Faces:
+    """The faces that are not `gone`, (m,) bool."""
+    corners = arrays.corners[~gone[arrays.face_of]]
+    return corners, np.concatenate([[0], np.cumsum(arrays.face_sizes[~gone])])

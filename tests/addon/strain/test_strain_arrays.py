@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from addon.strain import drawn
-from addon.strain.strained import Strained, above
+from addon.strain.strained import Strained
 
 pytestmark = pytest.mark.plain
 
@@ -17,7 +17,7 @@ def strained(lengths=(0.01, -0.04, NAN, 0.02), edge=1.0):
     positions = np.arange(3.0 * len(lengths)).reshape(-1, 3)
     ways = np.zeros_like(positions)
     ways[:, 2] = np.nan_to_num(lengths)
-    return Strained(positions, ways, lengths, 0.025, edge, above(lengths, 0.025))
+    return Strained(positions, ways, lengths, 0.025, edge, np.array([1]))
 
 
 @pytest.mark.parametrize(
