@@ -26,6 +26,7 @@ class CurveFit {
   struct MoveEquations {
     Eigen::Matrix3d square = Eigen::Matrix3d::Zero();
     Vec3 rest = Vec3::Zero();
+    double of_border = 0;  // the weight of the scan's border points
     void add(const Eigen::Matrix3d& rows, const Vec3& offset, double weight) {
       square += weight * rows;
       rest += weight * rows * offset;
@@ -45,11 +46,14 @@ class CurveFit {
   void find_borders(const Scan& scan);
   // From a border to the scan's.
   double reach() const { return problem_.units.edge_in_space / 2; }
-  std::vector<Vec3> moves(const std::vector<MoveEquations>& equations, double weight,
+  Eigen::Matrix3d stiffness(const LevelFit& fit, double weight, const Bend& bend,
+                            const MoveEquations& points, std::span<const Vec3> place) const;
+  std::vector<Vec3> moves(const LevelFit& fit, double weight,
+                          const std::vector<MoveEquations>& equations,
                           std::span<const Vec3> place) const;
   // All add to one set of equations for each control vertex of the input.
   void add(Index e, double along, double weight, const Eigen::Matrix3d& rows, const Vec3& offset,
-           std::vector<MoveEquations>& equations) const;
+           std::vector<MoveEquations>& equations, bool is_of_border = false) const;
   void add_points(const LevelFit& fit, double weight, std::vector<MoveEquations>& equations) const;
   void add_borders(const LevelFit& fit, std::vector<MoveEquations>& equations) const;
 

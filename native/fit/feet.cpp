@@ -104,12 +104,11 @@ void FeetFinder::set_surface(const double* x) {
                     [&](std::size_t c) { cell_normal_[c] = unit_or_zero(cell_normal_[c]); });
 }
 
-Vec3 FeetFinder::point_at_foot(const Foot& foot) const {
+Vec3 FeetFinder::point_at_foot(const Foot& foot, const std::array<Vec3, 4>& normals) const {
   const auto& corner = cells_.corners(foot.cell);
   Vec3 flat = Vec3::Zero(), above = Vec3::Zero();
   for (std::size_t k = 0; k < 4; ++k)
     if (corner[k] >= 0) flat += double(foot.shares[k]) * at(corner[k]);
-  const std::array<Vec3, 4> normals = corner_normals(foot.cell);
   for (std::size_t k = 0; k < 4; ++k)
     if (corner[k] >= 0)
       above += double(foot.shares[k]) * (at(corner[k]) - flat).dot(normals[k]) * normals[k];
@@ -195,7 +194,9 @@ bool FeetFinder::is_on_border(const Foot& foot) const {
 
 void FeetFinder::finish(std::size_t point, Foot& foot) const {
   if (foot.cell < 0) return;
-  foot.offset = float((scan_.point[point] - point_at_foot(foot)).dot(normal_at(foot)));
+  const std::array<Vec3, 4> normals = corner_normals(foot.cell);
+  foot.offset =
+      float((scan_.point[point] - point_at_foot(foot, normals)).dot(normal_at(foot, normals)));
   foot.outside = is_on_border(foot);
 }
 

@@ -35,7 +35,9 @@ class FeetFinder {
   std::array<Vec3, 4> corner_normals(Index cell) const;
   // On a parabola over the cell: half way to the mean of its corners' tangent planes [Boubekeur, Alexa
   // 2008]. (Through a flat cell noise would be the same, and surfaces too wide where they are round.)
-  Vec3 point_at_foot(const Foot& foot) const;
+  Vec3 point_at_foot(const Foot& foot) const {
+    return point_at_foot(foot, corner_normals(foot.cell));
+  }
   // Distance of a scan's point from its foot, positive on the side of the normal.
   double distance(std::size_t point, const Foot& foot) const {
     const double far = (scan_.point[point] - point_at_foot(foot)).norm();
@@ -58,6 +60,7 @@ class FeetFinder {
     CornerShares shares;
     double square;  // of the distance
   };
+  Vec3 point_at_foot(const Foot& foot, const std::array<Vec3, 4>& normals) const;
   Vec3 at(Index p) const { return Eigen::Map<const Vec3>(x_ + 3 * std::size_t(p)); }
   Nearest nearest_on(Index cell, const Vec3& point) const;
   bool agrees(Index cell, std::size_t point) const;

@@ -225,6 +225,22 @@ def test_curves_follow_no_noise_where_edges_are_short(corners):
         assert (np.diff(fitted.vertices[curve, 0]) > 0.8 * np.diff(along)).all()
 
 
+def test_borders_are_as_exact_as_the_scans_own_under_noise_along_its_normals():
+    """A wave of four control edges in the border is kept by a weight that halves waves of five."""
+    even = np.linspace(-1, 1, 13)
+    (vertices, faces), (points, triangles) = sheet(even, even, dome), sheet_scan(dome, 4 * NOISE)
+
+    def edge(x: np.ndarray) -> np.ndarray:
+        return 1 + 0.1 * np.cos(3 * np.pi * x)
+
+    for each in (vertices, points):
+        each[:, 1] *= edge(each[:, 0])
+    options = {"weight": 0.002, "corner_vertices": [0, 12, 156, 168]}
+    fitted = df.fit(vertices, faces, points, triangles=triangles, **options)
+    x, y = fitted.vertices[12:168:13, :2].T
+    assert rms(y - edge(x)) < 3 * NOISE
+
+
 def test_normals_tell_the_sides_of_a_thin_wall_apart():
     side = np.linspace(-1, 1, 7)
     grid = np.stack(np.meshgrid(side, side, indexing="ij"), -1).reshape(-1, 2)
