@@ -85,3 +85,67 @@ JOINTS = (
     ("CURVATURE", "Curvature",
      "As Tangent, and the surface begins to bend gently, so that reflections flow across (like G2)"),
 )
+
+# by operator
+FILL_JOINTS = (
+    *JOINTS,
+    ("FLAT", "Flat", "Flat faces without new vertices, and a sharp rim: for caps and transoms"),
+)
+
+EASE_AMOUNTS = (
+    ("AUTOMATIC", "Automatic", "Removes the scatter and keeps the shape: the amount is estimated from the vertices"),
+    ("TOLERANCE", "Within Tolerance", "As fair as possible, with no vertex moved farther than the tolerance"),
+    ("STIFFNESS", "Stiffness",
+     "Like a batten: the stiffer, the more all vertices move, scatter first and then the shape"),
+    ("WORST", "Worst Vertices", "Only the most strained, each to the surface through the others"),
+)
+
+STRAINED = (
+    ("FLOOR", "Outliers", "Vertices whose strain exceeds the scatter and that of their neighbours"),
+    ("COUNT", "The Worst", "So many"),
+)
+
+FIT_AMOUNTS = (
+    ("AUTO", "Automatic", "As closely as the noise of the scan allows"),
+    ("TOLERANCE", "Within Tolerance", "The calmest surface with 95 % of the scan within it"),
+)
+
+VERTICES_IN_PLACE = (
+    ("FREE", "Free", "They move to the fairest surface, wherever they were: for bumps and holes"),
+    ("MEASURED", "Measured", "They are noisy data: they move to a surface near them, except at edges marked sharp"),
+)
+
+JOINTS_IN_PLACE = (
+    ("POSITION", "Touching", "Only the rim of the selection is held: any angle there (G0)"),
+    ("TANGENT", "Tangent", "The selection continues the direction of the faces around it (G1)"),
+    ("CURVATURE", "Curvature", "The selection continues the curvature of the faces around it (like G2)"),
+)
+
+SECTION_PLANES = (
+    ("STATIONS", "Stations", "Across X: at the stations of the imported table, else evenly spaced"),
+    ("BUTTOCKS", "Buttocks", "Across Y"),
+    ("WATERLINES", "Waterlines", "Across Z"),
+    ("DIAGONALS", "Diagonals", "Along X, tilted outwards and down from the middle"),
+    ("OBJECT", "Plane of an Object", "Across the Z axis of the other selected object"),
+)
+
+OFFSET_UNITS = (
+    ("AUTO", "As in the File", "The unit that the file names"),
+    ("mm", "Millimetres", "All numbers are in millimetres"),
+    ("cm", "Centimetres", "All numbers are in centimetres"),
+    ("m", "Metres", "All numbers are in metres"),
+    ("in", "Inches", "All numbers are in inches"),
+    ("ft", "Feet", "All numbers are in feet; 3-4-5 are feet, inches and eighths"),
+)
+
+# of the display of objects
+STRIPES_FIXED_TO = (
+    ("VIEW", "View", "The tubes stand around you: turn the view, and the stripes run over the surface"),
+    ("OBJECT", "Object", "The tubes stand around the object, like lamps in a showroom, and turn with it"),
+)
+
+SECTION_AXES = (
+    ("X", "X", "Planes across the object's x axis"),
+    ("Y", "Y", "Planes across the object's y axis"),
+    ("Z", "Z", "Planes across the object's z axis"),
+)

@@ -149,36 +149,24 @@ def explained(object_name: str, remedies: Mapping[str, str] = REMEDIES) -> Itera
 
 
 # For surfaces that are usable but not exact, by the core's code: what to do, and the cause.
+# fmt: off
 _UNFINISHED = {
-    "NOT_CONVERGED": (
-        "Use fewer levels, or set Fairness to Bending, for an exact answer",
-        "The surface can be used, but could be a little fairer",
-    ),
-    "NOT_CONVERGED_TOLERANCE": (
-        "Lower the tolerance for an exact answer",
-        "The tolerance is kept, but the surface could be a little fairer",
-    ),
-    "NOT_CONVERGED_TURNED_OVER": (
-        "Turn the fixed normals towards the faces around them, or free them",
-        "At one of them the surface is flipped",
-    ),
-    "NOT_CONVERGED_NORMALS": (
-        "Fix fewer normals, or turn them towards the faces around",
-        "The surface does not have all of them exactly",
-    ),
-    "NOT_CONVERGED_PADS": (
-        "Lower Hold Softly for an exact answer",
-        "The surface can be used, but could be a little fairer around its vertices",
-    ),
-    "NOT_CONVERGED_SWOLLEN": (
-        "Set Fairness to Bending: most of the surface would swell to a bubble",
-        "This is the surface of Bending",
-    ),
-    "NOT_CONVERGED_START": (
-        "Use fewer levels, or set Fairness to Bending",
-        "No fairer surface was found than the initial one, which you have now",
-    ),
+    "NOT_CONVERGED": ("Use fewer levels, or set Fairness to Bending, for an exact answer",
+                      "The surface can be used, but could be a little fairer"),
+    "NOT_CONVERGED_TOLERANCE": ("Lower the tolerance for an exact answer",
+                                "The tolerance is kept, but the surface could be a little fairer"),
+    "NOT_CONVERGED_TURNED_OVER": ("Turn the fixed normals towards the faces around them, or free them",
+                                  "At one of them the surface is flipped"),
+    "NOT_CONVERGED_NORMALS": ("Fix fewer normals, or turn them towards the faces around",
+                              "The surface does not have all of them exactly"),
+    "NOT_CONVERGED_PADS": ("Lower Hold Softly for an exact answer",
+                           "The surface can be used, but could be a little fairer around its vertices"),
+    "NOT_CONVERGED_SWOLLEN": ("Set Fairness to Bending: most of the surface would swell to a bubble",
+                              "This is the surface of Bending"),
+    "NOT_CONVERGED_START": ("Use fewer levels, or set Fairness to Bending",
+                            "No fairer surface was found than the initial one, which you have now"),
 }
+# fmt: on
 
 
 def is_unfinished(warning: Mapping[str, Any]) -> bool:

@@ -17,6 +17,7 @@ from .choices import (
     DEFAULT_ENERGY,
     ENERGIES,
     ENERGY_MEANING,
+    FIT_AMOUNTS,
     INTERPOLATIONS,
     JOINTS,
     MESH_SOURCES,
@@ -183,15 +184,7 @@ class FitAmount:
     amount: choice(
         "Amount",
         "How closely the surface follows the scan",
-        (
-            ("AUTO", "Automatic", "As closely as the noise of the scan allows"),
-            (
-                "TOLERANCE",
-                "Within Tolerance",
-                "The calmest surface with 95 % of the scan within it",
-            ),
-        ),
-        "AUTO",
+        FIT_AMOUNTS,
     )
     tolerance: number(
         "Tolerance",

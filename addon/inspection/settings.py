@@ -9,6 +9,7 @@ import bpy
 from bpy.props import PointerProperty
 
 from ..blender import Context, Mesh, Object, scene_of
+from ..choices import SECTION_AXES, STRIPES_FIXED_TO
 from ..fields import choice, factor, number, switch, whole
 from . import display, overlay
 
@@ -116,18 +117,7 @@ class FAIRING_PG_inspection(bpy.types.PropertyGroup):
     fixed_to: choice(
         "Fixed to",
         "Where the light tubes stand",
-        (
-            (
-                "VIEW",
-                "View",
-                "The tubes stand around you: turn the view, and the stripes run over the surface",
-            ),
-            (
-                "OBJECT",
-                "Object",
-                "The tubes stand around the object, like lamps in a showroom, and turn with it",
-            ),
-        ),
+        STRIPES_FIXED_TO,
         update=_drawing_changed,
     )
     smooth: switch(
@@ -171,11 +161,7 @@ class FAIRING_PG_inspection(bpy.types.PropertyGroup):
     section_axes: choice(
         "Planes across",
         "The axes of the object across which the planes cut, several with Shift",
-        (
-            ("X", "X", "Planes across the object's x axis"),
-            ("Y", "Y", "Planes across the object's y axis"),
-            ("Z", "Z", "Planes across the object's z axis"),
-        ),
+        SECTION_AXES,
         {"X"},
         options={"ENUM_FLAG"},
         update=lambda _group, _context: overlay.redraw(),

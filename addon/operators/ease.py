@@ -7,6 +7,7 @@ from typing import Any
 import bpy
 
 from ..blender import Context
+from ..choices import EASE_AMOUNTS
 from ..fields import choice, length, number, switch, whole
 from ..mesh.read import source_objects
 from ..poll import in_edit_mode, in_mode, of_meshes
@@ -43,32 +44,7 @@ class OBJECT_OT_fairing_ease(Shown, _Easing, bpy.types.Operator):
     bl_label = "Ease Control Mesh"
     bl_options = {"REGISTER", "UNDO", "PRESET"}
 
-    amount: choice(
-        "Amount",
-        "How far vertices are moved",
-        (
-            (
-                "AUTOMATIC",
-                "Automatic",
-                "Removes the scatter and keeps the shape: the amount is estimated from the vertices",
-            ),
-            (
-                "TOLERANCE",
-                "Within Tolerance",
-                "As fair as possible, with no vertex moved farther than the tolerance",
-            ),
-            (
-                "STIFFNESS",
-                "Stiffness",
-                "Like a batten: the stiffer, the more all vertices move, scatter first and then the shape",
-            ),
-            (
-                "WORST",
-                "Worst Vertices",
-                "Only the most strained, each to the surface through the others",
-            ),
-        ),
-    )
+    amount: choice("Amount", "How far vertices are moved", EASE_AMOUNTS)
     tolerance: length(
         "Tolerance",
         "How far a vertex may be moved, in scene units",

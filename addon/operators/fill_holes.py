@@ -8,7 +8,7 @@ import bpy
 from bpy.props import IntVectorProperty
 
 from ..blender import Answer, Context, Object
-from ..choices import ENERGIES, JOINTS
+from ..choices import ENERGIES, FILL_JOINTS
 from ..errors import JobError
 from ..fields import choice, length, number, switch
 from ..jobs.fill import FillOptions, HoleJob, fill_warnings
@@ -34,19 +34,7 @@ class OBJECT_OT_fairing_fill(Shown, LargestHole, WholeFairing, bpy.types.Operato
     bl_label = "Fill Hole Fair"
     cancelled_text = "Filling was cancelled: nothing has changed"
 
-    joint: choice(
-        "Joint",
-        "How the filling meets the faces around",
-        (
-            *JOINTS,
-            (
-                "FLAT",
-                "Flat",
-                "Flat faces without new vertices, and a sharp rim: for caps and transoms",
-            ),
-        ),
-        "CURVATURE",
-    )
+    joint: choice("Joint", "How the filling meets the faces around", FILL_JOINTS, "CURVATURE")
     energy: choice(
         "Fairness",
         "What the filling minimizes: Curvature restores half a sphere",

@@ -6,7 +6,13 @@ from collections.abc import Iterator, Sequence
 import bpy
 
 from ..blender import Context, Object
-from ..choices import DEFAULT_ENERGY, ENERGIES, ENERGY_MEANING, JOINTS
+from ..choices import (
+    DEFAULT_ENERGY,
+    ENERGIES,
+    ENERGY_MEANING,
+    JOINTS_IN_PLACE,
+    VERTICES_IN_PLACE,
+)
 from ..errors import JobError
 from ..fields import choice, factor, length
 from ..jobs import in_place
@@ -17,32 +23,19 @@ from .fair import InMeshes, can_fair
 from .mixins import Shown
 
 
-def _joints() -> tuple[tuple[str, str, str], ...]:
-    meanings = {
-        "POSITION": "Only the rim of the selection is held: any angle there (G0)",
-        "TANGENT": "The selection continues the direction of the faces around it (G1)",
-        "CURVATURE": "The selection continues the curvature of the faces around it (like G2)",
-    }
-    return tuple((key, name, meanings[key]) for key, name, _ in JOINTS)
-
-
-# fmt: off
-VERTICES = (
-    ("FREE", "Free", "They move to the fairest surface, wherever they were: for bumps and holes"),
-    ("MEASURED", "Measured", "They are noisy data: they move to a surface near them, except at edges marked sharp"),
-)
-# fmt: on
-
-
 class OBJECT_OT_fairing_in_place(Shown, InMeshes, bpy.types.Operator):
     """Fair the selected faces of this mesh itself, the rest is unchanged; in Object Mode remove the noise of whole meshes"""
 
     bl_idname = "object.fairing_in_place"
     bl_label = "Fair in Place"
 
-    joint: choice("Joint", "How the selection meets the faces around it", _joints(), "TANGENT")
+    joint: choice(
+        "Joint", "How the selection meets the faces around it", JOINTS_IN_PLACE, "TANGENT"
+    )
     factor: factor("Factor", "How far the vertices move towards the fairest surface", 1.0)
-    vertices: choice("Vertices", "How the vertices inside the selection are treated", VERTICES)
+    vertices: choice(
+        "Vertices", "How the vertices inside the selection are treated", VERTICES_IN_PLACE
+    )
     noise: length(
         "Noise",
         "Noise of measured vertices in scene units, root mean square; 0: estimated from them",

@@ -9,6 +9,7 @@ from bpy.props import StringProperty
 from bpy_extras.io_utils import ImportHelper
 
 from ..blender import Answer, Context, Mesh, Object
+from ..choices import OFFSET_UNITS
 from ..errors import JobError
 from ..fields import choice, switch
 from ..mesh.layers import write_creases
@@ -19,15 +20,6 @@ from ..yard.offsets import read
 from ..yard.sheet import UNITS, OffsetsError
 from .mixins import Action
 from .purposes import set_job
-
-_UNITS = (
-    ("AUTO", "As in the File", "The unit that the file names"),
-    ("mm", "Millimetres", "All numbers are in millimetres"),
-    ("cm", "Centimetres", "All numbers are in centimetres"),
-    ("m", "Metres", "All numbers are in metres"),
-    ("in", "Inches", "All numbers are in inches"),
-    ("ft", "Feet", "All numbers are in feet; 3-4-5 are feet, inches and eighths"),
-)
 
 _CROWDED = (
     "If the stations' names are no places, give places in a column x, or a row 'spacing, 1200' above the head. "
@@ -46,7 +38,7 @@ class IMPORT_MESH_OT_fairing_offsets(ImportHelper, Action, bpy.types.Operator):
     # without the path of the last import: a given file was dropped
     filepath: StringProperty(subtype="FILE_PATH", options={"SKIP_SAVE"})
     filter_glob: StringProperty(default="*.csv;*.tsv;*.txt", options={"HIDDEN"})
-    unit: choice("Unit", "The unit of the table's numbers", _UNITS)
+    unit: choice("Unit", "The unit of the table's numbers", OFFSET_UNITS)
     symmetry: switch(
         "Symmetry Plane",
         "Sets Symmetry Plane to Y where the half hull ends in it: keel and stem are round unless creased",

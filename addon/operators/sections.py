@@ -11,6 +11,7 @@ from bpy.props import StringProperty
 
 from ..blender import Context, Object
 from ..cad.settings import METRES
+from ..choices import SECTION_PLANES
 from ..errors import JobError
 from ..fields import choice, length, number, text
 from ..inspection.sections import Drawn, cut
@@ -85,21 +86,7 @@ class OBJECT_OT_fairing_section_curves(Shown, _Spaced, Action, bpy.types.Operato
     bl_idname = "object.fairing_section_curves"
     bl_label = "Section Curves"
 
-    kind: choice(
-        "Planes",
-        "Which planes cut the mesh",
-        (
-            (
-                "STATIONS",
-                "Stations",
-                "Across X: at the stations of the imported table, else evenly spaced",
-            ),
-            ("BUTTOCKS", "Buttocks", "Across Y"),
-            ("WATERLINES", "Waterlines", "Across Z"),
-            ("DIAGONALS", "Diagonals", "Along X, tilted outwards and down from the middle"),
-            ("OBJECT", "Plane of an Object", "Across the Z axis of the other selected object"),
-        ),
-    )
+    kind: choice("Planes", "Which planes cut the mesh", SECTION_PLANES)
     places: text(
         "Places",
         "Where planes cut, such as 0, 1.5, 3, in scene units; empty: by Spacing and Start",

@@ -11,6 +11,7 @@ from mathutils import Vector
 
 from ..blender import Context, Object
 from ..check.defects import select_defects, select_in_all
+from ..choices import STRAINED
 from ..errors import JobError
 from ..fields import choice, whole
 from ..memory import active_source
@@ -83,18 +84,7 @@ class OBJECT_OT_fairing_select_strained(Shown, _Straining, bpy.types.Operator):
 
     reasons = _TO_SELECT
 
-    by: choice(
-        "Which",
-        "Which vertices are selected",
-        (
-            (
-                "FLOOR",
-                "Outliers",
-                "Vertices whose strain exceeds the scatter and that of their neighbours",
-            ),
-            ("COUNT", "The Worst", "So many"),
-        ),
-    )
+    by: choice("Which", "Which vertices are selected", STRAINED)
     count: whole("Number", "How many vertices", 3, min=1, soft_max=30)
 
     def shown(self, _context: Context) -> Iterable[str]:
