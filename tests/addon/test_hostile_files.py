@@ -67,7 +67,9 @@ def test_nothing_is_in_the_panel_custom_properties():
 def test_records_that_nobody_can_have_written(name):
     target = surface()
     if name == "defects":
-        keep(target, name, {"defects": DEFECTS, "counts": [1, 2, 3]})
+        holes = [{"edges": 4, "at": [0, 1], "width": 1.5}]
+        record = {"defects": DEFECTS, "holes": holes, "cleaned": ["Done"], "counts": [1, 2, 3]}
+        keep(target, name, record)
     record = json.loads(getattr(target.discrete_fairing, name))
     assert recall(target, name) == record
     texts = ("", "no JSON", "[1]", "5", "[]", "{}", "NaN", "\\")
