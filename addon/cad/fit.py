@@ -7,7 +7,7 @@ from typing import Any, cast
 
 import numpy as np
 
-from .. import core, errors, prediction
+from .. import core, errors
 from ..blender import Context, Object
 from ..check.defects import entry, store_defects
 from ..errors import JobError
@@ -115,9 +115,8 @@ class PatchJob(Job):
             shown = replace(self._mesh, positions=transformed(self._mesh.positions, self._stands))
             self.apart = distance(self.result, self.patches.levels, vertices, shown)
 
-    def predict(self, energy: str, levels: int) -> float:
-        finest = max(levels, self.arguments["levels"] or _USUAL_LEVELS)
-        return prediction.seconds(energy, self._work(finest), self._key)
+    def _work(self, levels: int | None = None) -> int:
+        return super()._work(levels or self.arguments["levels"] or _USUAL_LEVELS)
 
     def is_writable(self) -> bool:
         return super().is_writable() and self._shown.find() is not None

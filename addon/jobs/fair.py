@@ -18,20 +18,20 @@ from ..check.faults import find_faults
 from ..choices import ENERGY_NAMES
 from ..errors import JobError
 from ..inspection import display
-from ..mesh.layers import Refined, read_data, write_data
+from ..mesh.layers import read_data
 from ..mesh.modifiers import copy_modifiers, left_out, without_inspection
-from ..mesh.object import Reference, new_object
+from ..mesh.object import Reference, new_surface
 from ..mesh.own import OwnData, carried_names, read_own, write_own
 from ..mesh.read import group_values, selected_faces, shown_selection
 from ..mesh.shape_keys import write_shape_keys
 from ..mesh.timed_run import TimedRun
-from ..mesh.write import attributes_left_out, refill_mesh, write_mesh, write_pad_sizes
+from ..mesh.write import write_surface
 from ..preferences import preferences
 from ..settings import Settings, halves, is_evaluated, subdivision, wants_modifiers
 from ..surfaces import freshness, joint_normals, neighbours, place
 from ..transfer.attributes import AttributeTransfer
-from ..transfer.lattice import edge_table, fine_edges
-from ..transfer.seams import seam_pairs
+from ..transfer.lattice import edge_table
+from ..transfer.seams import sharp_pairs
 
 NOTICED_MEMORY = 2**28  # bytes: less is negligible beside Blender itself
 
@@ -158,7 +158,8 @@ class Job(TimedRun):
         given_way = errors.pads_text(self.result.report["pads"])
         if given_way:
             self.notes.append(given_way)
-        self._seams = seam_pairs(self.result, self.arrays, self.settings, self._edges)
+        its = self.result, self.arrays, self.settings, self.settings.levels
+        self._sharp_pairs = sharp_pairs(*its, self._edges)
 
     def surface(self, **watchers: Any) -> Any:
         return core.faired(self.arguments, **watchers)
@@ -216,21 +217,14 @@ class Job(TimedRun):
         result, settings, source = self.result, self.settings, self.source
         old = self.target
         assert source is not None  # is_writable has checked it
-        creases = fine_edges(result.faces, result.crease_edges, settings.levels)
-        sharp_pairs = np.concatenate([creases, self._seams])
         carried = carried_names(self.data, self.keys)
         if old is None:
-            materials = source.data.materials
-            name = f"{self.name} {self.made_name}"
-            mesh = write_mesh(name, result, sharp_pairs, materials, self._edges)
-            target = new_object(context, source, mesh)
+            target = new_surface(context, source, f"{self.name} {self.made_name}")
         else:
             target = old
             own = own or read_own(target, carried, memory.recall(target, "carried") or {})
-            refill_mesh(target, result, sharp_pairs, self._edges)
-        carrier = Refined(self.transfer, target.data)
-        write_data(target, self.data, carrier, attributes_left_out(settings))
-        write_pad_sizes(target.data, result, self.transfer)
+        its = result, self._sharp_pairs, self.data, self.transfer, settings, self._edges
+        write_surface(target, *its)
         if self.keys:
             write_shape_keys(target, self.keys, result.shapes, source)
         if own is not None:

@@ -7,7 +7,7 @@ from typing import Any, cast
 
 import numpy as np
 
-from .. import core, memory, prediction
+from .. import core, memory
 from ..blender import Context, Mesh, Object
 from ..check.defects import entry, recall_defects, store_defects
 from ..errors import OF_FITS, JobError
@@ -149,9 +149,6 @@ class FitJob(Job):
         world = super().control()
         moved = np.array(self.result.vertices[: len(world.positions)])
         return replace(world, positions=moved)
-
-    def predict(self, _energy: str, levels: int) -> float:
-        return prediction.seconds(self.kind, self._work(levels), self._key)
 
     def _work(self, levels: int | None = None) -> int:
         return super()._work(levels) + self._points

@@ -20,11 +20,13 @@ from ..mesh.object import Reference, session_key
 from ..mesh.own import OwnData, carried_names, read_own, write_own
 from ..mesh.read import control_mesh, group_values, read_mesh, selected_faces
 from ..mesh.world_shape import WorldShape, world_shape
-from ..mesh.write import has_faces_of, rebuild_mesh, write_positions
+from ..mesh.write import has_faces_of, write_positions, write_surface
 from ..preferences import preferences
 from ..queue import progress_text
 from ..settings import Settings, halves, is_evaluated
 from ..surfaces import joint_normals, place
+from ..transfer.attributes import AttributeTransfer
+from ..transfer.seams import sharp_pairs
 from .dependencies import Dependencies
 from .full_level import FullLevel, Schedule, is_dragging
 from .pace import Deadline, Pace
@@ -231,7 +233,10 @@ class Session:
             if self._own is None:
                 carried = memory.recall(target, "carried") or {}
                 self._own = read_own(target, carried_names(data, data.shape_keys), carried)
-            rebuild_mesh(target, result, self._arrays, data, self._settings, self._level)
+            pairs = sharp_pairs(result, self._arrays, self._settings, self._level)
+            transfer = AttributeTransfer(result, self._arrays, self._level)
+            its = result, pairs, data, transfer, self._settings
+            write_surface(target, *its, operators=False)
             if self._own is not None:
                 write_own(target, self._own, in_handler=True)
             self._mesh = session_key(target.data)

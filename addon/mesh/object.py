@@ -80,6 +80,14 @@ def new_object(context: Context, source: Object, mesh: Mesh) -> Object:
     return target
 
 
+def new_surface(context: Context, source: Object, name: str) -> Object:
+    """Links a new object beside `source`, with an empty mesh of the same materials, and returns it."""
+    mesh = cast(Mesh, bpy.data.meshes.new(name))
+    for material in source.data.materials:
+        mesh.materials.append(material)
+    return new_object(context, source, mesh)
+
+
 def linked_object(context: Context, data: Any, source: Object | None = None) -> Object:
     """A new object with `data`, linked where its `source` is, or in the current collection."""
     target = cast(Object, bpy.data.objects.new(data.name, data))

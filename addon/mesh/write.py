@@ -1,18 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes a result of the core as a new Blender mesh, in bulk."""
+"""Writes a result of the core as a Blender mesh, in bulk."""
 
-from collections.abc import Iterable
-from typing import Any, TypeAlias, cast
+from typing import Any, TypeAlias
 
-import bpy
 import numpy as np
 
 from ..blender import Mesh, Object
-from ..core import ControlArrays
 from ..settings import Settings
 from ..transfer.attributes import AttributeTransfer
-from ..transfer.lattice import fine_edges, mark_pairs
-from ..transfer.seams import seam_pairs
+from ..transfer.lattice import mark_pairs
 from .layers import (
     Refined,
     SurfaceData,
@@ -34,27 +30,36 @@ NO_POINTS = "fair_no_points"
 FAULTS = {"crossing": "fair_crosses_itself", "far": "fair_far_from_mesh", "folded": "fair_folded"}
 
 
-def write_mesh(
-    name: str,
+def write_surface(
+    target: Object,
     result: Any,
     sharp_pairs: np.ndarray,
-    materials: Iterable[bpy.types.Material | None] = (),
+    data: SurfaceData,
+    transfer: AttributeTransfer,
+    settings: Settings,
     edges: Edges | None = None,
-) -> Mesh:
-    """A new bpy.types.Mesh. Faces: the triangles of `result`, then its quads; the control vertices come
-    first.
+    operators: bool = True,
+) -> None:
+    """Gives the mesh of `target`, in Object Mode, the geometry of `result` and the data of the control mesh, except
+    shape keys. The mesh, its materials and the object's modifiers stay; data on the old geometry are lost.
 
-    The refined edges `sharp_pairs` (k, 2) are marked sharp, so that smooth shading stops there.
+    `operators`: not within handlers.
     """
-    mesh = cast(Mesh, bpy.data.meshes.new(name))
-    for material in materials:
-        mesh.materials.append(material)
-    fill_mesh(mesh, result, sharp_pairs, edges)
-    return mesh
+    if target.data.shape_keys is not None:
+        target.shape_key_clear()
+    target.data.clear_geometry()
+    target.vertex_groups.clear()
+    fill_mesh(target.data, result, sharp_pairs, edges)
+    carrier = Refined(transfer, target.data)
+    write_data(target, data, carrier, attributes_left_out(settings), operators)
+    _write_pad_sizes(target.data, result, transfer)
 
 
 def fill_mesh(mesh: Mesh, result: Any, sharp_pairs: np.ndarray, edges: Edges | None = None) -> None:
-    """The same for an empty `mesh` with materials; `edges`: of `edge_table`, None: found here."""
+    """Gives an empty `mesh` the triangles of `result`, then its quads; the control vertices come first. The refined
+    edges `sharp_pairs` (k, 2) are marked sharp, so that smooth shading stops there. `edges`: of `edge_table`, None:
+    found here.
+    """
     write_faces(mesh, result.vertices, *result.faces)
     if edges is not None:
         _write_edges(mesh, *edges)
@@ -63,45 +68,13 @@ def fill_mesh(mesh: Mesh, result: Any, sharp_pairs: np.ndarray, edges: Edges | N
         _mark_sharp(mesh, sharp_pairs)
 
 
-def rebuild_mesh(
-    target: Object,
-    result: Any,
-    arrays: ControlArrays,
-    data: SurfaceData,
-    settings: Settings,
-    level: int,
-) -> None:
-    """Gives the mesh of `target` the geometry of `result` and the data of the control mesh, except
-    shape keys. For handlers: calls no operator.
-
-    The mesh, its materials and the object's modifiers stay.
-    """
-    creases = fine_edges(result.faces, result.crease_edges, level)
-    refill_mesh(target, result, np.concatenate([creases, seam_pairs(result, arrays, settings)]))
-    transfer = AttributeTransfer(result, arrays, level)
-    carrier = Refined(transfer, target.data)
-    write_data(target, data, carrier, attributes_left_out(settings), operators=False)
-    write_pad_sizes(target.data, result, transfer)
-
-
-def refill_mesh(
-    target: Object, result: Any, sharp_pairs: np.ndarray, edges: Edges | None = None
-) -> None:
-    """Gives the mesh of `target` the geometry of `result`; data on the old geometry are lost."""
-    if target.data.shape_keys is not None:
-        target.shape_key_clear()
-    target.data.clear_geometry()
-    target.vertex_groups.clear()
-    fill_mesh(target.data, result, sharp_pairs, edges)
-
-
 def attributes_left_out(settings: Settings) -> tuple[str, ...]:
     """Names of the attributes that a surface does not take over from its source."""
     made = (PAD_SIZES, NO_POINTS, *FAULTS.values(), BOUNDARY.name, NORMAL.name)
     return (*made, "sharp_face") if settings.shade_smooth else made
 
 
-def write_pad_sizes(mesh: Mesh, result: Any, transfer: AttributeTransfer) -> None:
+def _write_pad_sizes(mesh: Mesh, result: Any, transfer: AttributeTransfer) -> None:
     """Writes the sizes of the pads that hold its control vertices, if any is reduced."""
     pads = result.report["pads"]
     if pads["gone"]:

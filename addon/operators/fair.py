@@ -224,7 +224,7 @@ def _again(context: Context, target: Object) -> Job:
     return job
 
 
-class OBJECT_OT_fairing_recompute(Fairing, bpy.types.Operator):
+class OBJECT_OT_fairing_recompute(WholeFairing, bpy.types.Operator):
     """Make this surface again from its source as it is now, and keep its own materials and modifiers"""
 
     bl_idname = "object.fairing_recompute"
@@ -240,7 +240,7 @@ class OBJECT_OT_fairing_recompute(Fairing, bpy.types.Operator):
         return [_again(context, target) for target in faired_objects(context)]
 
 
-class OBJECT_OT_fairing_recompute_stale(Fairing, bpy.types.Operator):
+class OBJECT_OT_fairing_recompute_stale(WholeFairing, bpy.types.Operator):
     """Compute all surfaces again whose source or settings have changed since they were made"""
 
     bl_idname = "object.fairing_recompute_stale"

@@ -6,11 +6,11 @@ from typing import cast
 import bpy
 
 from .. import core, memory
-from ..blender import Context, Mesh, Object
+from ..blender import Context, Object
 from ..check.cages import wants_limit
 from ..live import switch
 from ..mesh.modifiers import copy_modifiers
-from ..mesh.object import is_in_view_layer, new_object, nothing_left_behind
+from ..mesh.object import is_in_view_layer, new_surface, nothing_left_behind
 from ..mesh.read import control_mesh, read_mesh
 from ..mesh.world_shape import world_shape
 from ..poll import in_mode
@@ -63,10 +63,7 @@ class OBJECT_OT_fairing_live(Action, bpy.types.Operator):
         with control_mesh(context, source, is_evaluated(settings)) as edited:
             cage = world_shape(source).of_arrays(read_mesh(edited))
         settings = settings.for_source(source, wants_limit(settings, cage))
-        mesh = cast(Mesh, bpy.data.meshes.new(f"{source.name} Fair"))
-        for material in source.data.materials:
-            mesh.materials.append(material)
-        target = new_object(context, source, mesh)
+        target = new_surface(context, source, f"{source.name} Fair")
         memory.remember(target, source, settings, {})
         place.note(source, target)
         if wants_modifiers(settings):

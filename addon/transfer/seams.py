@@ -8,9 +8,21 @@ import numpy as np
 from .. import core
 from ..core import ControlArrays
 from ..settings import Settings
-from .lattice import edge_table
+from .lattice import edge_table, fine_edges
 
 AXES = "XYZ"
+
+
+def sharp_pairs(
+    result: Any,
+    arrays: ControlArrays,
+    settings: Settings,
+    levels: int,
+    edges: tuple[np.ndarray, np.ndarray] | None = None,
+) -> np.ndarray:
+    """(k, 2) refined edges of `result` at which the surface is sharp: on creases, and on seams that fold."""
+    creases = fine_edges(result.faces, result.crease_edges, levels)
+    return np.concatenate([creases, seam_pairs(result, arrays, settings, edges)])
 
 
 def seam_pairs(

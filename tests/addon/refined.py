@@ -9,7 +9,7 @@ import numpy as np
 
 from addon.mesh.layers import Refined, read_data, write_data
 from addon.mesh.read import read_mesh
-from addon.mesh.write import write_mesh
+from addon.mesh.write import fill_mesh
 from addon.transfer.attributes import AttributeTransfer
 
 NO_PAIRS = np.empty((0, 2), np.int32)
@@ -19,7 +19,8 @@ def refine(source, levels=2, leave_out=(), sharp_pairs=NO_PAIRS, **settings):
     """The refined object `target` of `source`, and all that went into it."""
     arrays, data = read_mesh(source.data), read_data(source, source.data)
     result, transfer = core_run(arrays, levels, **settings)
-    target = bpy.data.objects.new("Refined", write_mesh("Refined", result, sharp_pairs))
+    target = bpy.data.objects.new("Refined", bpy.data.meshes.new("Refined"))
+    fill_mesh(target.data, result, sharp_pairs)
     bpy.context.collection.objects.link(target)
     write_data(target, data, Refined(transfer, target.data), leave_out)
     return SimpleNamespace(

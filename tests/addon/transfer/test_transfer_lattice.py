@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The lattice of a refined face and the control edges in it, against faces by hand."""
 
+import bpy
 import discrete_fairing as df
 import numpy as np
 import pytest
 
-from addon.mesh.write import write_mesh
+from addon.mesh.write import fill_mesh
 from addon.transfer.lattice import edge_table
 
 
@@ -14,8 +15,9 @@ def test_the_edges_of_a_surface_are_those_that_blender_finds(levels):
     points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (2, 0.5, 0), (0, 0, 1)]
     found = df.fair(points, [(0, 1, 2, 3), (1, 4, 2), (0, 5, 1)], levels)
     nothing = np.empty((0, 2), np.int32)
-    theirs = write_mesh("Theirs", found, nothing)
-    ours = write_mesh("Ours", found, nothing, (), edge_table(found.faces))
+    theirs, ours = (bpy.data.meshes.new(name) for name in ("Theirs", "Ours"))
+    fill_mesh(theirs, found, nothing)
+    fill_mesh(ours, found, nothing, edge_table(found.faces))
     assert not ours.validate(), "nothing to be mended"
     pairs = [{frozenset(edge.vertices) for edge in mesh.edges} for mesh in (ours, theirs)]
     assert pairs[0] == pairs[1] and len(ours.edges) == len(theirs.edges)
