@@ -66,5 +66,5 @@ def _crossing(state: State, watchers: tuple[Any, Any]) -> list[Defect]:
         return []
     faces = np.unique(state.face_of[rows[found, 0]]).tolist()
     begin = "1 face passes" if len(faces) == 1 else f"{len(faces):,} faces pass"
-    text = f"{begin} through others. Delete them, and fill the hole."
+    text = f"{begin} through others. If the mesh has noise, take it off; else delete them, and fill the hole."
     return [Defect("CROSSING_FACES", text, faces, "face", "warning", False)]
