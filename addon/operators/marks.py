@@ -187,7 +187,7 @@ class OBJECT_OT_fairing_flat_faces(Shown, Action, bpy.types.Operator):
             chosen = marks.marked(mesh, FLAT)
         else:
             arrays = world_shape(target).of_arrays(read_mesh(mesh))
-            chosen = core.module().flats.flats_of(core.measured(arrays), degrees(self.angle))
+            chosen = core.module().flats.kept_faces(core.measured(arrays), degrees(self.angle))
         return marks.put(mesh, FLAT, chosen, not self.clear)
 
 

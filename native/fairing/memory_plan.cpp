@@ -48,24 +48,29 @@ struct Costs {
   double point, row, factor;
 };
 constexpr Costs plate_costs{200, 190, 1100}, curvature_costs{520, 700, 1500},
-    variation_costs{980, 300, 4000};
+    variation_costs{980, 300, 4000}, flats_costs{200, 190, 3000};
 // In addition: for a point, with the limit surface beside the plate, or with the sweeps of the back
 // leg; for a factored unknown, with that surface or if control vertices move; for two neighbours of
 // a vertex of high valence.
 constexpr double surface_beside = 470, second_factor = 1200, pair_of_neighbours = 6;
 
-const Costs& costs_of(Energy energy) {
-  if (energy == Energy::thin_plate) return plate_costs;
-  return energy == Energy::total_curvature ? curvature_costs : variation_costs;
+const Costs& costs_of(const FairOptions& options) {
+  if (options.energy == Energy::thin_plate)
+    return options.features.flat_faces.empty() ? plate_costs : flats_costs;
+  return options.energy == Energy::total_curvature ? curvature_costs : variation_costs;
 }
 
 // The hierarchy ends on its first level, if that is small, or on the finest tiny one. Steps to total
-// curvature factor small levels that prove hard.
+// curvature, and plates with flat faces, factor levels that prove hard.
+std::size_t most_factored(const FairOptions& options) {
+  if (options.energy == Energy::total_curvature) return direct_limit;
+  return options.features.flat_faces.empty() ? tiny_level : direct_limit_of_hard;
+}
+
 double factored_unknowns(const Counts& c, const FairOptions& options) {
   const bool any_vertex = c.unknown.vertices > 0;
   const double first = c.unknown.points(any_vertex ? 0 : std::min(options.levels, 1)),
-               small =
-                   double(options.energy == Energy::total_curvature ? direct_limit : tiny_level);
+               small = double(most_factored(options));
   double out = any_vertex || first <= double(direct_limit) ? first : 0;
   for (int l = 0; l <= options.levels && c.unknown.points(l) <= small; ++l)
     out = std::max(out, c.unknown.points(l));
@@ -73,7 +78,7 @@ double factored_unknowns(const Counts& c, const FairOptions& options) {
 }
 
 double bytes_of(const Counts& c, std::size_t shapes, const FairOptions& options) {
-  const Costs& costs = costs_of(options.energy);
+  const Costs& costs = costs_of(options);
   const bool is_plate = options.energy == Energy::thin_plate;
   const bool on_surface = options.interpolation == Interpolation::limit;
   const bool beside = on_surface || options.paper.method == Method::back_leg;

@@ -131,9 +131,16 @@ struct SoftCreases {
   bool any() const { return !edge.empty(); }
 };
 
-// Flat faces, and edges and vertices with flat faces only. Empty: none.
+// Flat faces. All empty: none.
 struct FlatFaces {
+  // Those that stay plane, and edges and vertices with such faces only.
   std::vector<std::uint8_t> vertex, edge, face;
+  // One a face: the direction in which it stays straight, in the mesh's coordinates, as one of a
+  // strip that turns about it; zero: none. Such a face is not in `face`.
+  std::vector<Vec3> along;
+
+  bool is_straight(Index f) const { return !along.empty() && along[f] != Vec3::Zero(); }
+  bool is_kept(Index f) const { return !face.empty() && (face[f] || is_straight(f)); }
 };
 
 struct ControlMesh {

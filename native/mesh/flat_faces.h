@@ -8,8 +8,11 @@
 
 namespace fairing {
 
-// Fills `flat` of a mesh with complete rings. Throws FairingError(index_out_of_range) for missing
-// faces.
+// Fills `flat` of a mesh with complete rings. Chosen faces in one plane are a part. Where it meets
+// others at folds that are not sharp, as around a cylinder or a cone, it is straight along them: if
+// they are about parallel, and it is at most twice as wide as a part beside it. So the sides of a
+// rounded box stay plane, and its rims straight.
+// Throws FairingError(index_out_of_range) for missing faces.
 void mark_flat_faces(std::span<const std::int64_t> faces, ControlMesh& control);
 
 // A vertex is flat if all faces around it lie in one plane. A face is `amid` flats if all its

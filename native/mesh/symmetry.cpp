@@ -273,7 +273,14 @@ class MirrorFinder {
            same(region.vertex, mirror.vertex) && same(region.edge, mirror.edge) &&
            same(region.face, mirror.face) && same(region.clamped_vertex, mirror.vertex) &&
            same(region.clamped_edge, mirror.edge) && same(mesh_.soft.edge, mirror.edge) &&
-           same(mesh_.flat.face, mirror.face);
+           same(mesh_.flat.face, mirror.face) && same_directions(mirror);
+  }
+
+  // Whether the image of every straight face is straight: then it is so in the image's direction.
+  bool same_directions(const Mirror& mirror) const {
+    for (std::size_t f = 0; f < mesh_.flat.along.size(); ++f)
+      if (mesh_.flat.is_straight(Index(f)) != mesh_.flat.is_straight(mirror.face[f])) return false;
+    return true;
   }
 
   const ControlMesh& mesh_;

@@ -215,6 +215,66 @@ FlatFace flat_quad(const std::array<Vec3, 4>& p, const std::array<double, 2>& sh
   return flat;
 }
 
+FlatFace flat_face(const ControlMesh& mesh, const Face& face, const std::array<double, 2>& shares,
+                   double exponent) {
+  const auto at = [&](std::size_t c) -> const Vec3& { return mesh.positions[face.vertex[c]]; };
+  return face.quad() ? flat_quad({at(0), at(1), at(2), at(3)}, shares, exponent)
+                     : flat_triangle({at(0), at(1), at(2)}, exponent);
+}
+
+// Gives parts of several flat faces their own shape, at the scale that keeps the length of their
+// outline. With another exponent the angles around a vertex inside are no full turn, so that a stiff
+// plate would bend, or push its rim away.
+class FlatShapes {
+ public:
+  FlatShapes(const ControlMesh& mesh, std::vector<FlatFace>& flat)
+      : mesh_(mesh), flat_(flat), lead_(mesh.faces.size()), part_(mesh.faces.size()) {}
+
+  void keep() {
+    for (std::size_t e = 0; e < mesh_.edges.size(); ++e)
+      if (inside(Index(e)))
+        lead_.unite(mesh_.sides[mesh_.edges[e].side[0]].face,
+                    mesh_.sides[mesh_.edges[e].side[1]].face);
+    for (Index f = 0; f < Index(mesh_.faces.size()); ++f) measure(f);
+    for (Index f = 0; f < Index(mesh_.faces.size()); ++f) {
+      const Part& part = part_[lead_.lead(f)];
+      if (mesh_.flat.face[f] && part.faces > 1) set(f, part.in_metric / part.in_space);
+    }
+  }
+
+ private:
+  struct Part {
+    double in_metric = 0, in_space = 0;  // lengths of its outline
+    int faces = 0;
+  };
+
+  bool inside(Index e) const { return mesh_.flat.edge[e] && !mesh_.edges[e].boundary(); }
+
+  void measure(Index f) {
+    const Face& face = mesh_.faces[f];
+    Part& part = part_[lead_.lead(f)];
+    ++part.faces;
+    for (int s = 0; s < face.size; ++s) {
+      if (inside(mesh_.sides[std::size_t(face.first_side + s)].edge)) continue;
+      part.in_metric += flat_[f].length[s];
+      part.in_space +=
+          (mesh_.positions[face.vertex[(s + 1) % face.size]] - mesh_.positions[face.vertex[s]])
+              .norm();
+    }
+  }
+
+  void set(Index f, double scale) {
+    flat_[f] = flat_face(mesh_, mesh_.faces[f], {1.0, 1.0}, 1);
+    for (double& length : flat_[f].length) length *= scale;
+    flat_[f].area *= scale * scale;
+  }
+
+  const ControlMesh& mesh_;
+  std::vector<FlatFace>& flat_;
+  UnionFind lead_;
+  std::vector<Part> part_;  // by their first faces
+};
+
 }  // namespace
 
 std::vector<FlatFace> flatten(const ControlMesh& mesh, double exponent) {
@@ -223,11 +283,9 @@ std::vector<FlatFace> flatten(const ControlMesh& mesh, double exponent) {
   const std::vector<std::array<double, 2>> shares = ridge_shares(mesh, exponent);
   for (const Face& face : mesh.faces) {
     stop_if_cancelled(flat.size());
-    const auto at = [&](std::size_t c) -> const Vec3& { return mesh.positions[face.vertex[c]]; };
-    flat.push_back(face.quad()
-                       ? flat_quad({at(0), at(1), at(2), at(3)}, shares[flat.size()], exponent)
-                       : flat_triangle({at(0), at(1), at(2)}, exponent));
+    flat.push_back(flat_face(mesh, face, shares[flat.size()], exponent));
   }
+  if (!mesh.flat.face.empty()) FlatShapes(mesh, flat).keep();
   return flat;
 }
 

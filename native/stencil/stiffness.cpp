@@ -10,11 +10,6 @@ namespace {
 // with 3, 18 % with 10 and 38 % with 100, for weights from 0.2 to 0.9; the overshoot next to it is
 // half of the plate's with 0.4.
 constexpr double hinge = 3;
-// Stiffness of flat faces, relative to all others. Measured: a beam over supports at distances 70,
-// 2, 2 and 70, which turns by 90 degrees over the middle two, deviates from the long ones by 1.07
-// with 1, 0.26 with 100 and 0.003 with 10,000; the faces of a phone shell by 2e-2, and with 10,000
-// by 7e-4 of its size.
-constexpr double flat_stiffness = 1e5;
 
 // Integral of the bump from 0 to t.
 double below(double t) {

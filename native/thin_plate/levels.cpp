@@ -20,10 +20,11 @@ constexpr std::size_t settled_under_tension = 2;  // in levels
 
 // The levels of the hierarchy start at `base`, the coarsest level with a solve.
 HierarchyOptions hierarchy_options(const Unknowns& unknowns, const ThinPlateOptions& options,
-                                   int base, bool tense) {
+                                   int base, bool tense, bool has_flats) {
   HierarchyOptions out;
   out.smoother_degree = options.solve.smoother_degree;
   out.always_factor = unknowns.any_vertex;
+  out.factors_hard_levels = has_flats;
   out.settled -= std::size_t(base);
   if (tense) out.settled += settled_under_tension;
   return out;
@@ -71,7 +72,10 @@ ThinPlateLevels::ThinPlateLevels(const ControlMesh& mesh, const Stencils& stenci
         {*operators_.back(), l > base_ ? transfers_.back().get() : nullptr, unknowns_of(l)});
   }
   hierarchy_ = std::make_unique<Hierarchy>(
-      workers, hierarchy_options(shared_.unknowns, options, base_, !stencils.tension.empty()), all);
+      workers,
+      hierarchy_options(shared_.unknowns, options, base_, !stencils.tension.empty(),
+                        !mesh.flat.face.empty()),
+      all);
 }
 
 void ThinPlateLevels::set_weights(const VertexWeights& weights, int level) {

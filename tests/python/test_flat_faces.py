@@ -73,3 +73,86 @@ def test_other_calls_know_flat_faces():
     )
     with pytest.raises(df.FairingError, match="flat_faces"):
         df.fair(points, faces, flat_faces=[len(faces)])
+
+
+def chamfered_cylinder(sides, triangles):
+    """Radius 12.5, height 50, chamfers of 1.5; the wall is one face high, its faces the first ones.
+
+    With triangles the caps are fans from a vertex of their rims."""
+    profile = [(12.5, 1.5), (12.5, 48.5), (11.0, 50.0), (11.0, 0.0)]
+    angle = 2 * np.pi * np.arange(sides) / sides
+    points = [(r * np.cos(a), r * np.sin(a), z) for r, z in profile for a in angle]
+    ring = np.arange(sides)
+    rings = [np.stack([low + ring, low + (ring + 1) % sides]) for low in sides * np.arange(4)]
+    bands = [(rings[0], rings[1]), (rings[1], rings[2]), (rings[3], rings[0])]
+    quads = np.concatenate([np.stack([*low, *high[::-1]], axis=1) for low, high in bands])
+    if not triangles:
+        return np.array(points), [*quads.tolist(), rings[2][0].tolist(), rings[3][0][::-1].tolist()]
+    fan = np.stack([np.zeros(sides - 2, int), ring[1:-1], ring[2:]], axis=1)
+    halves = np.concatenate([quads[:, :3], quads[:, [0, 2, 3]]])
+    return np.array(points), np.concatenate([halves, fan + 2 * sides, fan[:, ::-1] + 3 * sides])
+
+
+@pytest.mark.parametrize("triangles", [False, True])
+@pytest.mark.parametrize("sides", [16, 44])
+def test_walls_around_a_cylinder_stay_straight_and_bend_across(sides, triangles):
+    points, faces = chamfered_cylinder(sides, triangles)
+    kept = df.find_flats(points, faces)
+    assert len(kept) == sides + 2 if not triangles else len(kept) == 2 * sides + 2 * (sides - 2)
+    found = df.fair(points, faces, LEVEL, flat_faces=kept, metric_exponent=0.75).vertices
+    radius = np.hypot(*found[:, :2].T)
+    on_wall = (found[:, 2] > 1.5) & (found[:, 2] < 48.5)
+    assert np.abs(radius[on_wall] - 12.5).max() < 0.004 * 12.5 and radius.max() < 1.004 * 12.5
+    assert np.abs(found[:, 2] - 25.0).max() < 25.001
+    plain = df.fair(points, faces, LEVEL, metric_exponent=0.75).vertices
+    assert np.hypot(*plain[:, :2].T).max() > 1.1 * 12.5
+
+
+def test_a_cap_of_many_faces_stays_plane():
+    """At this exponent the angles at its middle would be one and a half turns."""
+    points, faces, flat, _ = flat_parts.turned(
+        [
+            (0, 0.0, "flat"),
+            (18.5, 0.0, ""),
+            (20.0, 1.5, ""),
+            (20.0, 4.5, ""),
+            (18.5, 6.0, "flat"),
+            (0, 6.0, ""),
+        ],
+        32,
+    )
+    found = df.fair(points, faces, LEVEL, flat_faces=flat, metric_exponent=0.75)
+    assert found.report["converged"]
+    height = found.vertices[:, 2]
+    assert height.min() > -1e-3 and height.max() < 6.001
+    assert np.hypot(*found.vertices[:, :2].T).max() < 1.02 * 20
+
+
+def bar(sides, start):
+    """Half a bar of flats around its axis, one face long, between rounded ends; its walls come last."""
+    angle = start + np.pi * np.arange(sides + 1) / sides
+    profile = [(4.0, 0.0), (4.7, 0.3), (5.0, 1.0), (4.0, 21.0), (3.7, 21.7), (3.0, 22.0)]
+    points = np.array([(r * np.cos(a), r * np.sin(a), z) for r, z in profile for a in angle])
+    k = np.arange(sides)
+    bands = [
+        np.stack([k, k + 1, k + sides + 2, k + sides + 1], axis=1) + b * (sides + 1)
+        for b in (0, 1, 3, 4, 2)
+    ]
+    return points, np.concatenate(bands)
+
+
+@pytest.mark.parametrize("sides", [4, 9])
+def test_walls_of_an_open_cone_are_straight(sides):
+    """The first and the last wall have one neighbour each; borders are straight anyway."""
+    points, faces = bar(sides, 0.3)
+    walls = np.flatnonzero(np.arange(len(faces)) >= 4 * sides)
+    assert df.find_flats(points, faces).tolist() == walls.tolist()
+
+    def bend(**settings):
+        found = df.fair(points, faces, LEVEL, metric_exponent=0.75, boundary="linear", **settings)
+        own = found.vertices[(found.vertices[:, 2] > 1.1) & (found.vertices[:, 2] < 20.9)]
+        cone = 5.0 - (own[:, 2] - 1.0) / 20.0
+        return np.abs(np.hypot(*own[:, :2].T) - cone)
+
+    assert bend(flat_faces=walls).max() < 1.05 * (1 - np.cos(np.pi / sides / 2)) * 5
+    assert bend().max() > 0.3

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Finds the faces of a control mesh that are meant to be flat: large ones between tight rims."""
+"""Finds the faces of a control mesh that are meant to be flat, or straight: large ones between tight rims."""
 
 from __future__ import annotations
 
@@ -13,19 +13,25 @@ from .control_mesh import ControlMesh
 
 # largest distance of a flat's corners from its plane, relative to its size; files have about six digits
 _IN_PLANE = 1e-3
+_ROUND = 60.0  # degrees, the largest turn of a strip that is meant to be round
 ANGLE = 1.0  # degrees, within which faces are joined unless a user says otherwise
 
 
 def find_flats(
     vertices: ArrayLike, faces: ArrayLike | Sequence[Sequence[int]], angle: float = ANGLE
 ) -> np.ndarray:
-    """(k,) ids of the faces that are meant to be flat, as fair() takes them in `flat_faces`: those between
-    tight rims, such as the sides of a bevelled box. `vertices` (n, 3) and `faces` are those of fair(); faces
-    within `angle` (degrees) of each other are joined. Raises FairingError BAD_SHAPE.
+    """(k,) ids of the faces that are meant to be flat, or straight in one direction, as fair() takes them in
+    `flat_faces`: those between tight rims, such as the sides of a bevelled box or the wall of a can.
+    `vertices` (n, 3) and `faces` are those of fair(); faces within `angle` (degrees) of each other are joined.
+    Raises FairingError BAD_SHAPE.
     """
-    return np.flatnonzero(
-        flats_of(ControlMesh.of(vertex_array(vertices), *face_arrays(faces)), angle)
-    )
+    mesh = ControlMesh.of(vertex_array(vertices), *face_arrays(faces))
+    return np.flatnonzero(kept_faces(mesh, angle))
+
+
+def kept_faces(mesh: ControlMesh, angle: float, sharp: np.ndarray | None = None) -> np.ndarray:
+    """(m,) bool: the faces of flats_of() and straights_of()."""
+    return flats_of(mesh, angle, sharp) | straights_of(mesh, angle, sharp)
 
 
 def flats_of(
@@ -51,12 +57,8 @@ def flats_of(
     if sharp is not None:
         inside = inside & ~sharp
     part, plane = plane_parts(mesh, inside & (folds <= angle))
-    edge, face = mesh.corner_edges, mesh.face_of
+    edge, face = _borders(mesh, part, inside)
     owner = part[face]
-    pair = part[mesh.faces_of_edges]
-    borders = np.flatnonzero((pair[edge, 0] != pair[edge, 1]) | ~inside[edge])
-    borders = borders[np.argsort(owner[borders], kind="stable")]
-    edge, owner, face = edge[borders], owner[borders], face[borders]
     turn = np.where(inside[edge], folds[edge], 0.0)
     width = _widths(mesh, part, edge, owner)[owner]
     beyond = _turns_beyond(mesh, edge, owner, turn)
@@ -78,6 +80,53 @@ def flats_of(
     some = marked(owner[here], len(plane))
     some[owner[here[~turns]]] = False
     return (some & plane)[part]
+
+
+def straights_of(mesh: ControlMesh, angle: float, sharp: np.ndarray | None = None) -> np.ndarray:
+    """(m,) bool: the faces of strips that turn about the direction of their rulings, as walls of cylinders and
+    cones and rims of boxes do, and are meant to be straight in it. `sharp`: as in flats_of().
+
+    A part as there, with four borders, is straight between two opposite ones if the mesh turns away at both,
+    the part is at least as deep as the part beside it, and it turns at most half as much per depth; one of them
+    may be open. At its other two borders, unless these are open, the mesh turns by at most 60 degrees to
+    another such part.
+    """
+    if not len(mesh.face_sizes):
+        return np.zeros(0, bool)
+    folds, inside = mesh.fold_angles
+    if sharp is not None:
+        inside = inside & ~sharp
+    part, plane = plane_parts(mesh, inside & (folds <= angle))
+    edge, face = _borders(mesh, part, inside)
+    owner = part[face]
+    turn = np.where(inside[edge], folds[edge], 0.0)
+    depth = np.bincount(part, mesh.face_areas)[owner] / mesh.edge_lengths[edge]
+    twin = np.where(inside[edge], _twins(edge), -1)
+    open_, across = twin < 0, depth[twin]
+    rim = ~open_ & (turn > angle) & (depth >= across)
+    rim &= 2.0 * turn * across <= _turns_beyond(mesh, edge, owner, turn)[twin] * depth
+    of_four = plane & (np.bincount(owner, minlength=len(plane)) == 4)
+    pairs = _opposite(mesh.edges[edge], np.flatnonzero(of_four[owner]).reshape(-1, 4))
+    ends = (rim | open_)[pairs].all(axis=2) & rim[pairs].any(axis=2)
+    while True:
+        straight = marked(owner[pairs[ends.any(axis=1), 0, 0]], len(plane))
+        side = open_ | (straight[owner[twin]] & (turn <= _ROUND))
+        kept = ends & side[pairs[:, ::-1]].all(axis=2)
+        if (kept == ends).all():
+            return straight[part]
+        ends = kept
+
+
+def _opposite(ends: np.ndarray, rows: np.ndarray) -> np.ndarray:
+    """(p, 2, 2) the border rows of parts, (q, 4), as two pairs that share no vertex, `ends` (b, 2); parts
+    without such pairs are left out.
+    """
+    corners = ends[rows]
+    apart = (corners[:, :1, :, None] != corners[:, :, None, :]).all(axis=(2, 3))
+    one = apart.sum(axis=1) == 1
+    apart, rows = apart[one], rows[one]
+    order = np.argsort(np.where(apart, 1, [0, 2, 2, 2]), axis=1, kind="stable")
+    return np.take_along_axis(rows, order, axis=1).reshape(-1, 2, 2)
 
 
 def halves_of_quads(mesh: ControlMesh, flush: np.ndarray) -> np.ndarray:
@@ -123,6 +172,17 @@ def _in_plane(mesh: ControlMesh, part: np.ndarray) -> np.ndarray:
     np.maximum.at(off, owner, np.abs((away * normal[owner]).sum(axis=1)))
     np.maximum.at(size, owner, np.linalg.norm(away, axis=1))
     return (np.bincount(owner) > 3) & (normal != 0.0).any(axis=1) & (off <= _IN_PLANE * size)
+
+
+def _borders(
+    mesh: ControlMesh, part: np.ndarray, inside: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """(b,) border edges of the parts, and the face of each in its part; by ascending part."""
+    pair = part[mesh.faces_of_edges]
+    border = (pair[:, 0] != pair[:, 1]) | ~inside
+    corners = np.flatnonzero(border[mesh.corner_edges])
+    corners = corners[np.argsort(part[mesh.face_of[corners]], kind="stable")]
+    return mesh.corner_edges[corners], mesh.face_of[corners]
 
 
 def _widths(mesh: ControlMesh, part: np.ndarray, edge: np.ndarray, owner: np.ndarray) -> np.ndarray:

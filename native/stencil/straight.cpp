@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stencil/straight.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "stencil/stiffness.h"
+
+namespace fairing {
+namespace {
+
+// A direction in space, as a sum of two vectors a and b in its plane, whose places in the chart are
+// u and v: its place there.
+Vec2 in_chart(const Vec3& direction, const Vec3& a, const Vec3& b, const Vec2& u, const Vec2& v) {
+  const double aa = a.dot(a), ab = a.dot(b), bb = b.dot(b), da = direction.dot(a),
+               db = direction.dot(b);
+  return (da * bb - db * ab) * u + (db * aa - da * ab) * v;  // times a positive factor
+}
+
+// Zero if the element is not straight.
+class StraightDirection {
+ public:
+  StraightDirection(const ControlMesh& mesh, const Chart& chart) : mesh_(mesh), chart_(chart) {}
+
+  Vec2 face(Index f) const {
+    if (!mesh_.flat.is_straight(f)) return Vec2::Zero();
+    const Face& face = mesh_.faces[f];
+    const Vec3 a = at(face, 1) - at(face, 0), b = at(face, face.size - 1) - at(face, 0);
+    if (!face.quad()) return in_chart(mesh_.flat.along[f], a, b, chart_.ring[0], chart_.ring[1]);
+    const Vec3 c = at(face, 2) - at(face, 3), d = at(face, 2) - at(face, 1);
+    return in_chart(mesh_.flat.along[f], a + c, b + d, chart_.ring[0], chart_.ring[2]);
+  }
+
+  Vec2 edge(Index e) const {
+    const Edge& edge = mesh_.edges[e];
+    if (edge.boundary()) return Vec2::Zero();
+    const Side &left = mesh_.sides[edge.side[0]], &right = mesh_.sides[edge.side[1]];
+    if (!all_kept(left.face, right.face)) return Vec2::Zero();
+    // faces of one part have one direction
+    if (mesh_.flat.along[left.face] != mesh_.flat.along[right.face]) return chart_.ring[0];
+    const Face& face = mesh_.faces[left.face];
+    const int s = left.local, size = face.size;
+    const Vec3 a = at(face, (s + 1) % size) - at(face, s),
+               b = at(face, (s + size - 1) % size) - at(face, s);
+    return in_chart(mesh_.flat.along[left.face], a, b, chart_.ring[0],
+                    chart_.ring[face.quad() ? 2 : 1]);
+  }
+
+  Vec2 vertex(Index v) const {
+    const auto ring = mesh_.ring(v);
+    const auto kept = [&](const Spoke& s) { return s.face >= 0 && mesh_.flat.is_kept(s.face); };
+    if (!std::ranges::all_of(ring, kept)) return Vec2::Zero();
+    std::size_t place = 0;
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      const bool quad = mesh_.faces[ring[k].face].quad();
+      const std::size_t next = place + (quad ? 2 : 1);
+      if (mesh_.flat.is_straight(ring[k].face))
+        return in_chart(mesh_.flat.along[ring[k].face], spoke(v, ring[k]),
+                        spoke(v, ring[(k + 1) % ring.size()]), chart_.ring[place],
+                        chart_.ring[next % chart_.ring.size()]);
+      place = next;
+    }
+    return Vec2::Zero();
+  }
+
+ private:
+  const Vec3& at(const Face& face, int corner) const {
+    return mesh_.positions[face.vertex[corner]];
+  }
+  Vec3 spoke(Index v, const Spoke& spoke) const {
+    const auto& ends = mesh_.edges[spoke.edge].vertex;
+    return mesh_.positions[ends[spoke.outward ? 1 : 0]] - mesh_.positions[v];
+  }
+  bool all_kept(Index f, Index g) const {
+    return mesh_.flat.is_kept(f) && mesh_.flat.is_kept(g) &&
+           (mesh_.flat.is_straight(f) || mesh_.flat.is_straight(g));
+  }
+
+  const ControlMesh& mesh_;
+  const Chart& chart_;
+};
+
+Vec2 direction_of(const ControlMesh& mesh, const Element& element, const Chart& chart) {
+  const StraightDirection straight(mesh, chart);
+  switch (element.kind) {
+    case RunKind::vertex: return straight.vertex(element.element);
+    case RunKind::edge: return straight.edge(element.element);
+    default: return straight.face(element.element);
+  }
+}
+
+}  // namespace
+
+void stiffen_straight(const ControlMesh& mesh, const Element& element, const Chart& chart,
+                      FitRows& rows) {
+  if (mesh.flat.along.empty()) return;
+  const Vec2 direction = direction_of(mesh, element, chart);
+  const double square = direction.squaredNorm();
+  if (!(square > 0)) return;
+  // f_dd in the fit's coefficients
+  const double x = direction.x(), y = direction.y();
+  const Vec3 second = root_half * Vec3(1, (x * x - y * y) / square, 2 * x * y / square);
+  const Eigen::RowVectorXd row = second.transpose() * rows.bottomRows(3);
+  rows.bottomRows(3) += (std::sqrt(flat_stiffness) - 1) * second * row;
+}
+
+}  // namespace fairing
