@@ -13,7 +13,6 @@ from .rna import OfOperator, option
 _NAMES = [name for name, *_ in STEPS if name != "noise"]
 _OPTIONS = OfOperator(
     "object.fairing_clean",
-    {"clean_without": ()},
     clean_islands="islands",
     clean_noise="noise",
     largest_hole="largest",
@@ -41,9 +40,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def options_of(arguments: argparse.Namespace) -> CleanOptions | None:
     """None if meshes are faired. Raises ValueError for contradictory options."""
     if not arguments.clean:
-        for given in _OPTIONS.names:
-            if getattr(arguments, given) is not None:
-                raise ValueError(f"{option(given)} needs --clean")
+        _OPTIONS.refuse(arguments, "--clean", "clean_without")
         return None
     found = [name for name in NAMES if getattr(arguments, name, None) is not None]
     if found:
@@ -53,7 +50,7 @@ def options_of(arguments: argparse.Namespace) -> CleanOptions | None:
     if is_cad(arguments.output):
         raise ValueError("--clean writes meshes: OUT cannot be a STEP file")
     said = _OPTIONS.said(arguments)
-    steps = {name: name not in said["clean_without"] for name in _NAMES}
+    steps = {name: name not in (arguments.clean_without or ()) for name in _NAMES}
     steps["noise"] = said["clean_noise"]
     return CleanOptions(steps, said["clean_islands"], said["largest_hole"])
 

@@ -16,7 +16,7 @@ from ..mesh.scans import read_scans
 from ..settings import Settings
 from .files import FileError, read_file
 from .places import require_format
-from .rna import number, option
+from .rna import number, option, refuse
 
 _CAGE_FACES = 300
 # options that a fit decides itself, or that have another meaning there
@@ -48,9 +48,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def check(arguments: argparse.Namespace, settings: Settings) -> None:
     """Raises ValueError for contradictory options."""
     if not arguments.fit:
-        for name in ("cage", "cage_faces"):
-            if getattr(arguments, name) is not None:
-                raise ValueError(f"{option(name)} needs --fit")
+        refuse(arguments, "--fit", "cage", "cage_faces")
         return
     for name in _NOT_HERE:
         if name in vars(arguments):

@@ -50,11 +50,10 @@ def add(
 
 
 class OfOperator:
-    """Options from an operator's properties, by their names here, and `others` with defaults."""
+    """Options from an operator's properties, by their names here."""
 
-    def __init__(self, operator: str, others: dict[str, Any], **properties: str) -> None:
-        self._operator, self._others, self._properties = operator, others, properties
-        self.names = (*properties, *others)
+    def __init__(self, operator: str, **properties: str) -> None:
+        self._operator, self._properties = operator, properties
 
     def _all(self) -> dict[str, Any]:
         """All properties; available once the add-on is registered."""
@@ -67,9 +66,20 @@ class OfOperator:
             add(group, name, prop)
 
     def said(self, arguments: argparse.Namespace) -> dict[str, Any]:
-        values = {name: default(prop) for name, prop in self._all().items()} | self._others
-        given = {name: getattr(arguments, name) for name in self.names}
+        values = {name: default(prop) for name, prop in self._all().items()}
+        given = {name: getattr(arguments, name) for name in values}
         return values | {name: value for name, value in given.items() if value is not None}
+
+    def refuse(self, arguments: argparse.Namespace, needed: str, *more: str) -> None:
+        """Raises ValueError if one of the options is given, or of `more`, without what is `needed`."""
+        refuse(arguments, needed, *self._properties, *more)
+
+
+def refuse(arguments: argparse.Namespace, needed: str, *names: str) -> None:
+    """Raises ValueError if one of these options is given without what is `needed`."""
+    for name in names:
+        if getattr(arguments, name) is not None:
+            raise ValueError(f"{option(name)} needs {needed}")
 
 
 def _boolean(prop: Any, _is_off: bool) -> dict[str, Any]:

@@ -5,11 +5,10 @@ import argparse
 
 from ..settings import PatchOptions, Settings
 from .places import is_cad
-from .rna import OfOperator, option
+from .rna import OfOperator
 
 _OPTIONS = OfOperator(
     "export_scene.fairing_step",
-    {},
     fit_tolerance="fit_tolerance",
     fit_angle="fit_angle",
     unit="unit",
@@ -25,9 +24,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def options_of(arguments: argparse.Namespace, settings: Settings) -> PatchOptions | None:
     """The options for CAD files; None if none is written. Raises ValueError for options that need one."""
     if not is_cad(arguments.output):
-        for name in _OPTIONS.names:
-            if getattr(arguments, name) is not None:
-                raise ValueError(f"{option(name)} needs an output that ends in .step")
+        _OPTIONS.refuse(arguments, "an output that ends in .step")
         return None
     levels = settings.levels if "levels" in vars(arguments) else 0
     return PatchOptions(fit_levels=levels, **_OPTIONS.said(arguments))

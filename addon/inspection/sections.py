@@ -114,16 +114,18 @@ def _usual_curvature(found: list[Section]) -> float:
 
 def segments(lines: list[np.ndarray]) -> np.ndarray:
     """(s, 3) float32 points, two for each segment of the polylines (k, 3), for drawing lines."""
-    pieces = [np.stack([line[:-1], line[1:]], axis=1).reshape(-1, 3) for line in lines]
-    return np.concatenate(pieces).astype(np.float32) if pieces else np.empty((0, 3), np.float32)
+    return _pairs([line[:-1] for line in lines], [line[1:] for line in lines])
 
 
 def teeth(found: list[Section], ends: list[np.ndarray]) -> np.ndarray:
     """(s, 3) float32 points, two for each tooth, for drawing lines."""
-    pieces = [
-        np.stack([s.points, end], axis=1).reshape(-1, 3) for s, end in zip(found, ends, strict=True)
-    ]
-    return np.concatenate(pieces).astype(np.float32) if pieces else np.empty((0, 3), np.float32)
+    return _pairs([section.points for section in found], ends)
+
+
+def _pairs(begins: list[np.ndarray], ends: list[np.ndarray]) -> np.ndarray:
+    none = [np.empty((0, 3))]
+    pairs = np.stack([np.concatenate(none + begins), np.concatenate(none + ends)], axis=1)
+    return pairs.reshape(-1, 3).astype(np.float32)
 
 
 def _mean_edge(surface: Drawn) -> float:

@@ -89,15 +89,12 @@ class HoleJob(TimedRun):
     @property
     def closes_caps(self) -> bool:
         """Whether each hole lies in a plane and the faces around stand across it, as at caps and
-        transoms. Only in Edit Mode, where the user has chosen the holes: small rims may be planar by
-        chance.
+        transoms. Small rims may be planar by chance, unless the user has chosen them in Edit Mode.
         """
         if self._editing and self._options.replaces:
             return False
-        least, world = (
-            0 if self._editing else _BY_CHANCE,
-            core.measured(self.shape.of_arrays(self.arrays)),
-        )
+        least = 0 if self._editing else _BY_CHANCE
+        world = core.measured(self.shape.of_arrays(self.arrays))
         return all(sum(map(len, hole)) > least and _is_cap(world, hole) for hole in self._holes)
 
     def flatten(self) -> None:

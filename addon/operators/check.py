@@ -156,11 +156,8 @@ class OBJECT_OT_fairing_select_faults(Action, bpy.types.Operator):
 
     def act(self, context: Context) -> None:
         target = cast(Object, context.active_object)
-        faulty, bare = (
-            faulty_vertices(target.data),
-            np.flatnonzero(faces_without_points(target.data)),
-        )
-        groups = (("vertex", faulty.tolist()), ("face", bare.tolist()))
+        bare = np.flatnonzero(faces_without_points(target.data))
+        groups = (("vertex", faulty_vertices(target.data).tolist()), ("face", bare.tolist()))
         select_in_all(context, [(target, [group for group in groups if group[1]])])
 
 
