@@ -28,7 +28,7 @@ REMEDIES = {
     "COINCIDENT_VERTICES": "Merge them with Mesh > Merge > By Distance, unless the surface is meant to be open there",
     "ISOLATED_VERTICES": "Leave them, or run Mesh > Clean Up > Delete Loose",
     "OPEN_HOLE": "Fill them with Fill Hole Fair, unless the surface is meant to be open there",
-    "CROSSING_FACES": "Select these and the faces around (Ctrl Numpad +), and replace them with Fill Hole Fair",
+    "CROSSING_FACES": "Run Clean Scan with Noise if they come from noise, or select these and the faces around (Ctrl Numpad +), and use Fill Hole Fair",
     VERTEX_ON_EDGE: "Cut the edges there, and merge the new vertices with these, or fill by hand",
     "UNDERDETERMINED": "Set Vertices to Through, or a smaller tolerance",
     "TOO_EXTREME": "Move far vertices back to the others or delete them, and even out very thin faces",
@@ -39,7 +39,7 @@ REMEDIES = {
     "NO_THREAD": "Close other programs",
     "UNRESOLVED": "Move or add vertices there, crease the edges where it turns, or export with Write Faulty Faces",
     "PATCH_TOLERANCE": "Raise Levels, Tolerance or Angle of the export, or add vertices there",
-    "SURFACE_TOLERANCE": "Raise Tolerance, or set Fairness to Curvature where there is no scan: it settles sooner",
+    "SURFACE_TOLERANCE": "Raise Tolerance, or set Fairness to Curvature: it settles sooner",
     "FIT_TOO_COARSE": "Add edges to these faces of the cage (Loop Cut, Subdivide), and press Recompute",
     "FIT_NO_POINTS": "Leave them: the surface is as fair there as its surroundings allow; or scan that place again",
     "FIT_OUTLIERS": "Leave them: they have no effect; or delete them",
@@ -50,6 +50,7 @@ _UNRESOLVED_TAUTER = "Move or add vertices there, crease the edges where it turn
 WITHOUT_MENDING = {code: text.removesuffix(_OR_MEND) for code, text in REMEDIES.items()}
 OF_FITS = REMEDIES | {
     "INCONSISTENT_ORIENTATION": "Recalculate the normals of cage and scan (Shift N in Edit Mode), or flip those of an open one (Alt N)",
+    "SURFACE_TOLERANCE": "Raise Tolerance, or add edges there to the cage, and press Recompute",
 }
 OF_HOLES = WITHOUT_MENDING | {
     "BAD_OPTION": "Select the hole without its islands, or fill it by hand",
@@ -113,12 +114,14 @@ def what(defect: dict[str, Any]) -> str:
     return _sentence(_WHOLE.get(code, defect["message"]))
 
 
-def remedy(code: str, settings: AnySettings | None = None) -> str:
+def remedy(
+    code: str, settings: AnySettings | None = None, remedies: Mapping[str, str] = REMEDIES
+) -> str:
     """What to do about an error, in one sentence; empty if nothing is known."""
-    if code not in REMEDIES:
+    if code not in remedies:
         return ""
     more = code == "UNRESOLVED" and settings is not None and _may_be_tauter(settings)
-    return _sentence(_UNRESOLVED_TAUTER if more else REMEDIES[code])
+    return _sentence(_UNRESOLVED_TAUTER if more else remedies[code])
 
 
 def _may_be_tauter(settings: AnySettings) -> bool:

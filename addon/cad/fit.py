@@ -73,6 +73,7 @@ class PatchJob(Job):
         self.colours, self.slots = colours.of_faces(shown, source or shown, self.data)
         self.arguments = core.patch_arguments(self.arguments, options)
         if fit is not None:
+            self.remedies = errors.OF_FITS
             scan = fit.arguments(source or shown) | {"levels": settings.levels}
             self.arguments = core.patches_on_scan(self.arguments, scan)
         if len(self.slots):  # a patch has one material
@@ -184,7 +185,7 @@ class PatchJob(Job):
         return [
             words.together(
                 (
-                    f"{self.name}: {errors.remedy(defect['code'], self.settings)}",
+                    f"{self.name}: {errors.remedy(defect['code'], self.settings, self.remedies)}",
                     errors.what(defect),
                     self._miss_text(defect["elements"]) if defect["code"] != "UNRESOLVED" else "",
                     f"{words.faces_text(defect['elements'])}.",

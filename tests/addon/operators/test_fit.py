@@ -21,6 +21,8 @@ from scenes import (
     to_object_mode,
 )
 
+from addon import errors
+from addon.cad.fit import PatchJob
 from addon.check.defects import recall_defects
 from addon.inspection import display
 from addon.inspection.colours import NEUTRAL, value_range
@@ -28,6 +30,7 @@ from addon.jobs.fit import OUTLIERS, TOO_COARSE, UNCOVERED
 from addon.live import registry, switch
 from addon.mesh.layers import layer_values
 from addon.mesh.scans import read_scans
+from addon.settings import PatchOptions
 from addon.surfaces.freshness import SCAN_CHANGED, SCAN_MOVED, SOURCE_CHANGED, why_stale
 from addon.ui.inspect import VIEW3D_PT_fairing_inspect
 from addon.ui.main import VIEW3D_PT_fairing
@@ -202,6 +205,13 @@ def test_the_surface_alone_is_shown_and_show_source_shows_what_it_was_made_from(
     bpy.context.scene.discrete_fairing.hide_source = False
     fit(scan, cage, levels=1)
     assert scan.visible_get() and cage.visible_get()
+
+
+def test_patches_near_a_scan_are_mended_at_the_cage():
+    """Curvature, which settles sooner elsewhere, is not for scans."""
+    job = PatchJob(bpy.context, fitted()[2], PatchOptions(1e-4, 1e-3, 4))
+    said = errors.remedy("SURFACE_TOLERANCE", job.settings, job.remedies)
+    assert "cage" in said and "Curvature" not in said
 
 
 def off(target, centre=(0, 0, 0)):
