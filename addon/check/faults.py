@@ -18,7 +18,7 @@ from ..mesh.layers import fill_layer, layer_values, make_layer
 from ..mesh.write import FAULTS
 from ..transfer.attributes import AttributeTransfer, coarse_triangles
 from ..triangles import marked
-from .folds import folded, folded_in_place
+from .folds import folded, folded_in_place, outward_folds
 
 # triangles that are searched for crossings at a time, about 0.3 seconds; of a finer surface fewer
 # points are tested first
@@ -183,7 +183,8 @@ def _pierced(triangles: np.ndarray, others: np.ndarray) -> np.ndarray:
 
 class _Excused:
     """Places where a surface may cross itself, because the control mesh crosses itself, folds sharply,
-    or is open between coincident vertices: eyes in a head, the rim of a nostril.
+    or is open between coincident vertices: eyes in a head, the rim of a nostril. But walls that meet at a
+    fold outwards, such as those of a fin, may not cross.
     """
 
     def __init__(self, vertices: np.ndarray, triangles: np.ndarray, faces: np.ndarray) -> None:
@@ -198,6 +199,8 @@ class _Excused:
         own = crossing[self._part[crossing[:, 0]] == self._part[crossing[:, 1]]]
         at[triangles[np.isin(faces, own) | at[triangles].any(axis=1)]] = True
         self._near[faces[at[triangles].any(axis=1)]] = True
+        walls = faces[outward_folds(vertices, triangles, _SHARP)]
+        self._walls = {_ordered(a, b) for a, b in walls.tolist()}
 
     def leave_out(self, pairs: np.ndarray, faces: np.ndarray) -> np.ndarray:
         """The `pairs` (p, 2) of triangles, of control `faces` (t,), that count as faults."""
@@ -205,7 +208,9 @@ class _Excused:
         parts = self._part[ends]
         crossing = [_ordered(a, b) not in self._parts for a, b in parts.tolist()]
         same = parts[:, 0] == parts[:, 1]
-        return pairs[np.array(crossing, bool) & ~(same & self._near[ends].all(axis=1))]
+        excused = same & self._near[ends].all(axis=1)
+        excused &= [_ordered(a, b) not in self._walls for a, b in ends.tolist()]
+        return pairs[np.array(crossing, bool) & ~excused]
 
 
 def _on_others(vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:

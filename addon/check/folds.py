@@ -16,6 +16,17 @@ def folded(vertices: np.ndarray, triangles: np.ndarray, cosine: float = 0.0) -> 
     return marked(_folds(vertices, triangles, cosine)[0], len(vertices))
 
 
+def outward_folds(vertices: np.ndarray, triangles: np.ndarray, cosine: float) -> np.ndarray:
+    """(k, 2) the triangles at edges folded so, with the surface's inside between them."""
+    _, sides = _folds(vertices, triangles, cosine)
+    corners = vertices[triangles]
+    ways = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    outside = np.sign((corners[:, 0] * ways).sum())  # of a closed mesh
+    middles = corners.mean(axis=1)
+    apart = middles[sides[:, 1]] - middles[sides[:, 0]]
+    return sides[outside * (apart * ways[sides[:, 0]]).sum(axis=1) < 0.0]
+
+
 def folded_in_place(
     result: Any,
     vertices: np.ndarray,

@@ -16,7 +16,7 @@ from scenes import (
     settings,
     to_object_mode,
 )
-from shapes import mug
+from shapes import fish, mug
 
 from addon.jobs.fair import Job
 from addon.mesh.write import FAULTS
@@ -68,3 +68,8 @@ def test_limit_cures_an_inner_wall_that_breaks_through(capfd):
     add("Mug", *mug(wall=0.1, around=12))
     fair(levels=2, energy="TOTAL_CURVATURE", interpolation="LIMIT")
     assert "crosses itself" not in capfd.readouterr().out
+
+
+def test_walls_of_a_fin_that_cross_are_told_though_a_sharp_valley_is_near():
+    job = job_of(add("Fish", *fish()), interpolation="EXACT")
+    assert job.faults.counts["crossing"] > 10
