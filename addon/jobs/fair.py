@@ -13,7 +13,7 @@ import numpy as np
 
 from .. import core, errors, memory, prediction, size
 from ..blender import Context, Mesh, Object, scene_of
-from ..check import cages
+from ..check import cages, prisms
 from ..check.faults import find_faults
 from ..choices import ENERGY_NAMES
 from ..errors import JobError
@@ -101,6 +101,8 @@ class Job(TimedRun):
         self.notes = [*self.data.notes, *self._not_done()]
         if target is None and not (evaluated or settings.copy_modifiers):
             self.notes += left_out(source)
+        if said := prisms.prisms_text(world, self.settings):
+            self.notes.append(said)
         if by_shape and subdivision(source) is None:
             self.notes.append(
                 f"Passes where Subdivision Surface would (Limit), for its {cages.REASON}. To pass through every "
