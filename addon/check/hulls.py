@@ -10,11 +10,28 @@ from ..settings import Settings
 # length of an edge over the radius of the turn across it, above which sections relax between their
 # stations: Bending is nearer to sampled hulls from about 2 on (docs/developers/notes/figures.md)
 _LONG = 3.0
+SHARP = np.radians(60)  # folds around the flat ends of a closed body, which are meant sharp
 _NEAR = 1e-6  # of the size: distance of vertices that count as in the symmetry plane
+
+
+def has_flat_ends(cage: ControlArrays) -> bool:
+    """Whether a closed body has flat parts with sharp edges all around, such as the caps of a rudder."""
+    mesh, flats = core.measured(cage), core.module().flats
+    if (mesh.edge_uses != 2).any():
+        return False
+    folds, _ = mesh.fold_angles
+    part, plane = flats.plane_parts(mesh, folds <= flats.ANGLE)
+    ends = part[mesh.faces_of_edges]
+    bent = ends[:, 0] != ends[:, 1]
+    soft = bent & (folds <= np.degrees(SHARP))
+    plane[ends[soft]] = False
+    return bool(plane.any() and (bent & ~soft).any())
 
 
 def why_bending(cage: ControlArrays, settings: Settings) -> str:
     """Why Flow Lines would swing on this hull, as half a sentence; empty if it would not."""
+    if has_flat_ends(cage):
+        return "it is closed, with flat ends"
     threshold = settings.crease_threshold if settings.use_crease_attribute else None
     creases = cage.crease_edges(threshold, settings.use_sharp_edges)
     if _ends_inside(cage, creases, settings.symmetry_plane):

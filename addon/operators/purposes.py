@@ -6,10 +6,12 @@ from dataclasses import asdict
 from typing import Any, cast
 
 import bpy
+import numpy as np
 from bpy.props import EnumProperty
 
 from ..blender import Answer, Context, Object
-from ..check.hulls import why_bending
+from ..check.hulls import SHARP, has_flat_ends, why_bending
+from ..control_arrays import ControlArrays
 from ..memory import source_of
 from ..mesh.read import control_mesh, control_meshes, read_mesh, source_objects
 from ..mesh.world_shape import world_shape
@@ -35,11 +37,15 @@ def set_job(context: Context, purpose: str, sources: Iterable[Object]) -> str:
         panel.mesh_source = "EVALUATED"
         said.append("The whole mesh is faired, with its Mirror modifier")
     if purpose == "HULL":
-        reasons = ((source.name, _why_bending(context, source)) for source in found)
-        name, reason = next((one for one in reasons if one[1]), ("", ""))
-        if reason:
-            panel.energy = "THIN_PLATE"
-            said.append(f"Bending in place of Flow Lines for {name}: {reason}")
+        for source in found:
+            cage = _cage(context, source)
+            if reason := why_bending(cage, Settings.of(panel)):
+                panel.energy = "THIN_PLATE"
+                said.append(f"Bending in place of Flow Lines for {source.name}: {reason}")
+                if has_flat_ends(cage):
+                    panel.use_crease_angle, panel.crease_angle = True, SHARP
+                    said.append(f"Edges folded by {np.degrees(SHARP):.0f}° and more are sharp")
+                break
     return ". ".join(said)
 
 
@@ -59,10 +65,9 @@ def _is_half(context: Context, source: Object, axis: str) -> bool:
         return "XYZ".index(axis) in half_axes(read_mesh(mesh))
 
 
-def _why_bending(context: Context, source: Object) -> str:
+def _cage(context: Context, source: Object) -> ControlArrays:
     with control_mesh(context, source) as mesh:
-        cage = world_shape(source).of_arrays(read_mesh(mesh))
-    return why_bending(cage, Settings.of(active_settings(context)))
+        return world_shape(source).of_arrays(read_mesh(mesh))
 
 
 class OBJECT_OT_fairing_for(ExplainedPoll, bpy.types.Operator):
