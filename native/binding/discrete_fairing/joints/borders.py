@@ -225,9 +225,15 @@ class BorderFits:
         vertex = self.curve.vertex
         rings = self.around.rings(vertex, RINGS)
         self.ids = [found[found != v] for found, v in zip(rings, vertex)]
-        sizes = np.array([len(found) for found in self.ids])
-        # fits of as many points at once
-        self.groups = [np.flatnonzero(sizes == size) for size in np.unique(sizes)]
+        degree = np.array([_degree(len(found)) for found in self.ids])
+        # fits of one degree at once, with as many points: the vertex itself, once more, has no weight
+        self.groups: list[tuple[int, np.ndarray, np.ndarray]] = []
+        for of in np.unique(degree):
+            at = np.flatnonzero(degree == of)
+            near = np.repeat(vertex[at, None], max(len(self.ids[k]) for k in at), axis=1)
+            for own, k in zip(near, at):
+                own[: len(self.ids[k])] = self.ids[k]
+            self.groups.append((int(of), at, near))
         self.up: np.ndarray | None = None
         self.last: tuple[np.ndarray, Border] | None = None
 
@@ -249,11 +255,11 @@ class BorderFits:
         normal, inward = np.empty((len(vertex), 3)), np.empty((len(vertex), 3))
         bend = np.empty((len(vertex), 3, 3))
         fits = [(found, np.empty((2, 0))) for found in self.ids]
-        for at in self.groups:
-            away = points[np.stack([self.ids[k] for k in at])] - points[vertex[at], None]
-            normal[at], inward[at], bend[at], rows = _fitted(away, along[at], up[at])
+        for degree, at, near in self.groups:
+            away = points[near] - points[vertex[at], None]
+            normal[at], inward[at], bend[at], rows = _fitted(away, along[at], up[at], degree)
             for k, row in zip(at, rows):
-                fits[k] = self.ids[k], row
+                fits[k] = self.ids[k], row[:, : len(self.ids[k])]
         self.up = normal
         self.last = points, Border(*place, normal, inward, bend, fits)
         return self.last[1]
@@ -299,16 +305,20 @@ def _ranges(begin: np.ndarray, end: np.ndarray) -> tuple[np.ndarray, np.ndarray]
     return np.repeat(np.arange(len(begin)), end - begin), ranges(begin, end)
 
 
-def _fitted(near: np.ndarray, along: np.ndarray, up: np.ndarray) -> tuple[np.ndarray, ...]:
+def _degree(points: int) -> int:
+    """Of the polynomial through so many points. Ends of joints between triangles have few, where a polynomial
+    of lower degree would have another curvature than those beside.
+    """
+    return max(d for d in range(2, DEGREE + 1) if d == 2 or (d + 1) * (d + 2) // 2 + 2 <= points)
+
+
+def _fitted(
+    near: np.ndarray, along: np.ndarray, up: np.ndarray, degree: int
+) -> tuple[np.ndarray, ...]:
     """Normals, inward directions and second fundamental forms, at the origin, of polynomials fitted to the
     points `near` (g, n, 3); and rows of Border.fits (g, 2, n).
     """
     size = np.linalg.norm(near, axis=2).max(axis=1)
-    # Ends of joints between triangles have few points, where a polynomial of lower degree would
-    # have another curvature than those beside.
-    degree = max(
-        d for d in range(2, DEGREE + 1) if d == 2 or (d + 1) * (d + 2) // 2 + 2 <= near.shape[1]
-    )
     for _ in range(3):
         up = unit_vectors(up - dot(up, along)[:, None] * along)
         inward = np.cross(up, along)
@@ -350,11 +360,22 @@ def _inverse(matrix: np.ndarray) -> np.ndarray:
     least, largest = (f(np.abs(np.diagonal(r, 0, 1, 2)), axis=1) for f in (np.min, np.max))
     full = least > FULL_RANK * largest
     out = np.empty((len(matrix), 5, matrix.shape[1]))
-    first = np.broadcast_to(np.eye(matrix.shape[2], 5), (int(full.sum()), matrix.shape[2], 5))
-    rows = np.linalg.solve(r[full].transpose(0, 2, 1), first)
-    out[full] = (q[full] @ rows).transpose(0, 2, 1)
+    out[full] = (q[full] @ _inverse_rows(r[full])).transpose(0, 2, 1)
     if not full.all():
         out[~full] = np.linalg.pinv(matrix[~full])[:, :5]
+    return out
+
+
+def _inverse_rows(r: np.ndarray) -> np.ndarray:
+    """(g, t, 5): the first rows of the inverses of upper triangles (g, t, t), as columns. A row of all at once,
+    since a solver for each takes many times as long.
+    """
+    out = np.zeros((*r.shape[:2], 5))
+    for i in range(r.shape[1]):
+        row = -np.einsum("gj,gjk->gk", r[:, :i, i], out[:, :i])
+        if i < 5:
+            row[:, i] += 1
+        out[:, i] = row / r[:, i, i, None]
     return out
 
 

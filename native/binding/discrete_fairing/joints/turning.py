@@ -10,6 +10,8 @@ from .borders import Border, Foot, across, dot
 
 # Steps of conjugate gradients, and the relative residual at which they end.
 STEPS, LEFT = 2000, 1e-4
+# A number of a full matrix takes a product so many times less long than one of a sparse.
+FULL = 16
 
 
 class Angles:
@@ -38,21 +40,29 @@ class Angles:
         self.units = [1, reach][: len(profiles)]
         self.profiles = [profile / unit for profile, unit in zip(profiles, self.units)]
         self.rows, self.weights = shares[0], self._from_lines(*shares)
+        of = np.repeat(np.arange(self.count), [len(near) for near, _ in own.fits])
+        point = where[np.concatenate([near for near, _ in own.fits])]
+        fits = np.concatenate([fit for _, fit in own.fits], axis=1)[:, point >= 0]
+        of, p = of[point >= 0], point[point >= 0]
+        moves = dot(lift[p], own.normal[of])
+        cells = (of[:, None] * self.count + self.rows[p]).ravel()
         entries = []
-        for k in range(self.count):
-            near, fit = own.fits[k]
-            on = np.flatnonzero(where[near] >= 0)
-            p = where[near[on]]
-            # at ends no curvature: between triangles the fits hardly see it
-            for row, unit in enumerate(self.units[: 1 + self.inside[k]]):
-                seen = unit * fit[row, on] * (lift[p] @ own.normal[k])
-                for column, profile in enumerate(self.profiles):
-                    values = (seen * profile[p])[:, None] * self.weights[p]
-                    sums = np.bincount(self.rows[p].ravel(), values.ravel())
-                    at = np.flatnonzero(sums)
-                    whole = np.full(len(at), row * self.count + k)
-                    entries.append((whole, column * self.count + at, sums[at]))
+        # at ends no curvature: between triangles the fits hardly see it
+        for row, (unit, seen) in enumerate(
+            zip(self.units, (np.ones(len(of), bool), self.inside[of]))
+        ):
+            for column, profile in enumerate(self.profiles):
+                values = (unit * seen * fits[row] * moves * profile[p])[:, None] * self.weights[p]
+                sums = np.bincount(cells, values.ravel())
+                at = np.flatnonzero(sums)
+                place = row * self.count + at // self.count, column * self.count + at % self.count
+                entries.append((*place, sums[at]))
         self.row, self.column, self.value = map(np.concatenate, zip(*entries))
+        self.size = len(self.units) * self.count
+        self.full: np.ndarray | None = None
+        if self.size**2 <= FULL * len(self.value):
+            self.full = np.zeros((self.size, self.size))
+            np.add.at(self.full, (self.row, self.column), self.value)
 
     def _from_lines(self, rows: np.ndarray, weights: np.ndarray) -> np.ndarray:
         """At ends the differences of the angles from the line through the two adjacent vertices: with
@@ -71,12 +81,12 @@ class Angles:
         """
         rows = (1, self.inside)
         left = np.concatenate([row * w * unit for row, w, unit in zip(rows, wanted, self.units)])
-        found, enough = np.zeros(len(left)), LEFT * np.linalg.norm(left)
+        found, enough = np.zeros(len(left)), LEFT**2 * (left @ left)
         way = slope = self._back(left)
         for _ in range(STEPS):
-            if np.linalg.norm(left) <= enough:
+            if left @ left <= enough:
                 break
-            seen = np.bincount(self.row, self.value * way[self.column], len(left))
+            seen = self._seen(way)
             length = (slope @ slope) / max(seen @ seen, 1e-300)
             found, left = found + length * way, left - length * seen
             before, slope = slope @ slope, self._back(left)
@@ -86,8 +96,15 @@ class Angles:
             angle += profile * np.einsum("ps,ps->p", self.weights, part[self.rows])
         return angle[:, None]
 
+    def _seen(self, way: np.ndarray) -> np.ndarray:
+        if self.full is not None:
+            return np.asarray(np.einsum("ij,j->i", self.full, way))
+        return np.bincount(self.row, self.value * way[self.column], self.size)
+
     def _back(self, left: np.ndarray) -> np.ndarray:
-        return np.bincount(self.column, self.value * left[self.row], len(left))
+        if self.full is not None:
+            return np.asarray(np.einsum("ij,i->j", self.full, left))
+        return np.bincount(self.column, self.value * left[self.row], self.size)
 
 
 def needed(own: Border, foot: Foot) -> tuple[np.ndarray, np.ndarray]:
