@@ -19,7 +19,7 @@ namespace {
 // Sweeps that smooth the requested lengths along a ragged rim.
 constexpr int length_sweeps = 2;
 
-// One hole with its own numbers: the vertices of its loops, one loop after another.
+// The first triangles of one hole. It numbers the vertices of its loops, one loop after another.
 class OneHole {
  public:
   OneHole(const Hole& hole, Rims& rims) : rims_(rims) {
@@ -32,7 +32,7 @@ class OneHole {
 
   const std::vector<std::int64_t>& ids() const { return ids_; }
 
-  // The rim of the patch without triangles.
+  // A patch with the points of all loops, and without triangles.
   Patch rim(double density) const {
     Patch patch;
     patch.rim = Index(ids_.size());
@@ -51,11 +51,11 @@ class OneHole {
     return patch;
   }
 
-  // Returns how to relax the triangles: a ring would close if they were taut.
+  // Returns how refine() may move new points: between two rims taut triangles would shrink to a waist.
   Relaxation triangulate_into(Patch& patch, bool bends) {
     const auto may_join = [&](std::size_t a, std::size_t b) { return !joined(Index(a), Index(b)); };
-    if (begin_.size() == 3 && fill_ring(patch, begin_[1], bends, may_join))
-      return Relaxation::sliding;
+    const bool has_two_rims = begin_.size() == 3;
+    if (has_two_rims && fill_ring(patch, begin_[1], bends, may_join)) return Relaxation::sliding;
     triangulate_walk_into(patch);
     return Relaxation::taut;
   }
@@ -63,18 +63,21 @@ class OneHole {
   bool joined(Index a, Index b) const { return rims_.are_joined(ids_[a], ids_[b]); }
 
  private:
+  // Two places of the walk, the lower one first.
+  using Chord = std::pair<std::size_t, std::size_t>;
+
+  // The walk passes some vertices more than once if there are islands. So a triangulation of its
+  // places may join two vertices by two edges; then the second one is forbidden, and the walk is
+  // triangulated again, at most once for each place.
   void triangulate_walk_into(Patch& patch) {
     walk_all(patch.points);
-    // repeats without the doubled edges, at most once for each corner
-    std::set<std::pair<std::size_t, std::size_t>> forbidden;
     for (std::size_t tries = 0; tries < walk_.size(); ++tries) {
-      const std::vector<Triangle> found = triangulate(polygon(patch.points, forbidden));
+      const std::vector<Triangle> found = triangulate(polygon(patch.points));
       if (found.empty()) break;
-      if (!forbid_twins(found, forbidden)) {
-        for (const Triangle& t : found)
-          patch.triangles.push_back({walk_[t[0]], walk_[t[1]], walk_[t[2]]});
-        return;
-      }
+      if (forbids_second_edges(found)) continue;
+      for (const Triangle& t : found)
+        patch.triangles.push_back({walk_[t[0]], walk_[t[1]], walk_[t[2]]});
+      return;
     }
     fan_into(patch);
   }
@@ -93,7 +96,8 @@ class OneHole {
     std::copy(even.begin(), even.end(), lengths.begin() + begin_[l]);
   }
 
-  // One walk around the hole and, by bridges, around its islands, the nearest first.
+  // Makes one walk around the outer loop and all islands. A bridge leads to each island and back, from
+  // the nearest vertex of the walk so far; the nearest island comes first.
   void walk_all(const std::vector<Vec3>& points) {
     walk_.clear();
     for (std::size_t i = 0; i < begin_[1]; ++i) walk_.push_back(Index(i));
@@ -118,6 +122,7 @@ class OneHole {
     }
   }
 
+  // Inserts behind a place: the island from its vertex `shore` all around, and the way back.
   void bridge(std::size_t place, std::size_t shore, std::size_t island) {
     std::vector<Index> detour;
     std::size_t i = shore;
@@ -131,8 +136,7 @@ class OneHole {
     walk_.insert(walk_.begin() + std::ptrdiff_t(place) + 1, detour.begin(), detour.end());
   }
 
-  SpacePolygon polygon(const std::vector<Vec3>& points,
-                       const std::set<std::pair<std::size_t, std::size_t>>& forbidden) const {
+  SpacePolygon polygon(const std::vector<Vec3>& points) const {
     SpacePolygon found;
     for (std::size_t p = 0; p < walk_.size(); ++p) {
       const Index a = walk_[p], b = walk_[(p + 1) % walk_.size()];
@@ -141,30 +145,27 @@ class OneHole {
       found.normals.push_back(is_bridge ? Vec3(Vec3::Zero())
                                         : rims_.normal_beside(ids_[b], ids_[a]));
     }
-    found.may_join = [this, &forbidden](std::size_t low, std::size_t high) {
+    found.may_join = [this](std::size_t low, std::size_t high) {
       const Index a = walk_[low], b = walk_[high];
       return a != b && !joined(a, b) && !bridges_.contains(std::minmax(a, b)) &&
-             (forbidden.empty() || !forbidden.contains({low, high}));
+             !forbidden_.contains({low, high});
     };
     return found;
   }
 
-  // Around islands a triangulation may join two vertices twice. Returns whether it does, and
-  // forbids the second edge.
-  bool forbid_twins(const std::vector<Triangle>& triangles,
-                    std::set<std::pair<std::size_t, std::size_t>>& forbidden) const {
-    std::map<std::pair<Index, Index>, std::pair<std::size_t, std::size_t>> first;
-    const std::size_t before = forbidden.size();
+  // Forbids the second chord between two vertices. Returns whether there is any.
+  bool forbids_second_edges(const std::vector<Triangle>& triangles) {
+    std::map<std::pair<Index, Index>, Chord> first;  // by its vertices
+    const std::size_t before = forbidden_.size();
     for (const Triangle& t : triangles)
       for (const auto& [low, high] : {std::pair(t[0], t[1]), {t[1], t[2]}, {t[0], t[2]}}) {
-        const std::pair<std::size_t, std::size_t> places{low, high};
-        const bool side = high == low + 1 || (low == 0 && high + 1 == Index(walk_.size()));
-        if (side) continue;
-        const auto ends = std::minmax(walk_[places.first], walk_[places.second]);
-        const auto [at, is_new] = first.try_emplace({ends.first, ends.second}, places);
-        if (!is_new && at->second != places) forbidden.insert(places);
+        const bool is_side = high == low + 1 || (low == 0 && high + 1 == Index(walk_.size()));
+        if (is_side) continue;
+        const Chord chord(low, high);
+        const auto [known, is_new] = first.try_emplace(std::minmax(walk_[low], walk_[high]), chord);
+        if (!is_new && known->second != chord) forbidden_.insert(chord);
       }
-    return forbidden.size() > before;
+    return forbidden_.size() > before;
   }
 
   // If every triangulation would double an edge of the mesh: a fan around a central vertex.
@@ -192,14 +193,16 @@ class OneHole {
 
   Rims& rims_;
   std::vector<std::int64_t> ids_;
-  std::vector<std::size_t> begin_;  // by loop, and the end
-  std::vector<Index> walk_;
-  std::set<std::pair<Index, Index>> bridges_;
+  std::vector<std::size_t> begin_;             // by loop, and the end
+  std::vector<Index> walk_;                    // vertices, place by place
+  std::set<std::pair<Index, Index>> bridges_;  // between vertices
+  std::set<Chord> forbidden_;
 };
 
-// The edges of `triangles` between two ids below `end`, once for each triangle.
+// Calls use(a, b) for the sides of `triangles` between two vertices of the mesh, whose ids are below
+// `end`.
 template <class Use>
-void between(const std::vector<Triangle>& triangles, std::int64_t end, const Use& use) {
+void for_sides_in_mesh(const std::vector<Triangle>& triangles, std::int64_t end, const Use& use) {
   for (const Triangle& t : triangles)
     for (std::size_t i = 0; i < 3; ++i)
       if (t[i] < end && t[(i + 1) % 3] < end) use(t[i], t[(i + 1) % 3]);
@@ -285,7 +288,8 @@ std::vector<FilledHole> fill(const PolygonMesh& mesh, const HalfEdges& half_edge
       refusals[h] = error;
       continue;
     }
-    between(filled.back().triangles, mesh.vertex_count(), [&](auto a, auto b) { rims.join(a, b); });
+    for_sides_in_mesh(filled.back().triangles, mesh.vertex_count(),
+                      [&](auto a, auto b) { rims.join(a, b); });
     next += std::int64_t(filled.back().points.size());
   }
   return filled;
@@ -297,7 +301,7 @@ void refine_again(const PolygonMesh& mesh, const HalfEdges& half_edges, std::spa
   Rims rims(mesh, half_edges, holes);
   const std::int64_t count = mesh.vertex_count();
   for (const FilledHole& hole : filled)
-    between(hole.triangles, count, [&](auto a, auto b) { rims.join(a, b); });
+    for_sides_in_mesh(hole.triangles, count, [&](auto a, auto b) { rims.join(a, b); });
   std::int64_t before = count, next = count;
   for (std::size_t h = 0; h < holes.size(); ++h) {
     OneHole one(holes[h], rims);
@@ -314,11 +318,11 @@ void refine_again(const PolygonMesh& mesh, const HalfEdges& half_edges, std::spa
     }
     before += std::int64_t(filled[h].points.size());
     if (chosen[h]) {
-      between(filled[h].triangles, count, [&](auto a, auto b) { rims.part(a, b); });
+      for_sides_in_mesh(filled[h].triangles, count, [&](auto a, auto b) { rims.part(a, b); });
       refine_patch(patch, one, options, fair[h] ? Relaxation::curved : Relaxation::sliding);
     }
     filled[h] = numbered(patch, one, next);
-    between(filled[h].triangles, count, [&](auto a, auto b) { rims.join(a, b); });
+    for_sides_in_mesh(filled[h].triangles, count, [&](auto a, auto b) { rims.join(a, b); });
     next += std::int64_t(filled[h].points.size());
   }
 }

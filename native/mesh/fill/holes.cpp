@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::int32_t none = -1;
 
+// Steps along the border of the mesh, against its half-edges: so a hole is on the left.
 class Walks {
  public:
   Walks(const PolygonMesh& mesh, const HalfEdges& half_edges)
@@ -28,30 +29,31 @@ class Walks {
     pair_across_gaps(mesh);
   }
 
-  // An edge of one face. At the ends of edges with more faces a hole is not defined.
+  // Whether the half-edge has no other face, and bounds a hole: where an edge of more than two faces
+  // ends, holes are not defined.
   bool is_border(std::int32_t k) const { return half_edges_.twin(k) < 0 && !is_torn(k); }
 
-  // Whether an end of this border edge is an end of an edge with more than two faces.
+  // Whether an edge of more than two faces ends at an end of this half-edge.
   bool is_torn(std::int32_t k) const {
     return torn_[half_edges_.from(k)] || torn_[half_edges_.from(half_edges_.next(k))];
   }
 
-  // The same for one without another face.
+  // The same, and the half-edge has no other face.
   bool is_torn_border(std::int32_t k) const {
     return half_edges_.twin(k) < 0 && is_torn(k) &&
            !crowded_.contains(
                std::minmax(half_edges_.from(k), half_edges_.from(half_edges_.next(k))));
   }
 
-  // The border's half-edge that ends where k begins, on the other side of the gap there; none if
-  // the faces around have different orientations, or the border ends.
+  // The half-edge of the border that follows in a walk: it ends where k begins, on the other side of
+  // the gap there. None if the faces around have different orientations, or the border ends.
   std::int32_t onward(std::int32_t k) const {
     const auto across = across_.find(k);
     return across == across_.end() ? last_of_fan(k) : across->second;
   }
 
  private:
-  // The border's half-edge that ends where k begins, at the other end of the fan.
+  // The half-edge of the border that ends where k begins, at the other end of the fan of faces.
   std::int32_t last_of_fan(std::int32_t k) const {
     std::int32_t at = half_edges_.previous(k);
     while (half_edges_.twin(at) >= 0) {
@@ -61,7 +63,7 @@ class Walks {
     return is_border(at) ? at : none;
   }
 
-  // Where several fans meet at a vertex, a gap is between one and the next around it.
+  // If several fans of faces meet at a vertex, a gap leads from each to the next one around it.
   void pair_across_gaps(const PolygonMesh& mesh) {
     std::vector<std::uint8_t> fans(std::size_t(mesh.vertex_count()), 0);
     const auto count_at = [&](std::int32_t k) -> std::uint8_t& {
@@ -75,7 +77,8 @@ class Walks {
     for (const auto& [v, fans_there] : firsts) pair_at(mesh, v, fans_there);
   }
 
-  // In the order of the angles at which fans begin; not if their orientations differ.
+  // Takes the fans in the order of the angles at which they begin. Does nothing if their orientations
+  // differ.
   void pair_at(const PolygonMesh& mesh, std::int64_t v, const std::vector<std::int32_t>& firsts) {
     std::vector<Vec3> normals, ways;
     Vec3 sum = Vec3::Zero();
@@ -106,8 +109,8 @@ class Walks {
   }
 
   const HalfEdges& half_edges_;
-  std::map<std::int32_t, std::int32_t> across_;
-  std::vector<std::uint8_t> torn_;
+  std::map<std::int32_t, std::int32_t> across_;  // the next half-edge where several fans meet
+  std::vector<std::uint8_t> torn_;  // vertices where an edge of more than two faces ends
   std::set<std::pair<std::int64_t, std::int64_t>> crowded_;  // edges of more than two faces
 };
 
@@ -131,7 +134,7 @@ FairingError why_unclear(bool torn, std::vector<std::int64_t> edges) {
           ElementKind::edge};
 }
 
-// Errors for border edges (half-edges), one for those that share vertices.
+// Why these half-edges bound no hole: one error for those that are connected.
 std::vector<FairingError> unclear(const std::vector<std::int32_t>& left, const Walks& walks,
                                   const HalfEdges& half_edges) {
   UnionFind groups(left.size());

@@ -10,9 +10,10 @@
 
 namespace fairing {
 
+// Which vertices of rims an edge joins, and the faces behind the sides of rims.
 class Rims {
  public:
-  // Reads the surroundings of all vertices in these loops; the mesh must outlive this.
+  // Of all vertices in these loops; the mesh must outlive this.
   Rims(const PolygonMesh& mesh, const HalfEdges& half_edges, std::span<const Hole> holes);
 
   Vec3 point(std::int64_t v) const;
