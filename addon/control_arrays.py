@@ -26,6 +26,11 @@ class ControlArrays:
     normals: np.ndarray | None = None  # (n, 3) fixed normals of the surface; zero: none
     flat_face: np.ndarray | None = None  # (m,) bool: faces to keep flat
 
+    @property
+    def has_flats(self) -> bool:
+        """Whether faces are to be kept flat."""
+        return self.flat_face is not None and bool(self.flat_face.any())
+
     @cached_property
     def face_sizes(self) -> np.ndarray:
         """(m,) int32: number of corners of each face."""

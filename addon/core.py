@@ -17,6 +17,8 @@ from .settings import AnySettings, PatchOptions, Settings, is_limit, is_near
 MISSING = "The native module 'discrete_fairing' could not be loaded: reinstall the extension for this Blender version"
 
 _OF_LIMIT = ("limit", "edge_sharpness", "vertex_sharpness")
+# least spacing beside flat faces: with less, rims swing beyond them and turn by up to 70 degrees
+SPACING_OF_FLATS = 0.75
 _AT = 0.99  # share of its tolerance from which a vertex counts as at the tolerance
 
 
@@ -73,12 +75,13 @@ def fair_arguments(
     """
     threshold = settings.crease_threshold if settings.use_crease_attribute else None
     allowed = tolerance(settings, edge_length)
+    flats = arrays.has_flats and keeps_flats(settings)
     arguments = {
         "vertices": arrays.positions,
         "faces": (arrays.corners, arrays.offsets),
         "levels": settings.levels,
         "energy": settings.energy.lower(),
-        "metric_exponent": settings.metric_exponent,
+        "metric_exponent": max(settings.metric_exponent, SPACING_OF_FLATS if flats else 0.0),
         # AUTO is resolved where the source is known
         "interpolation": settings.interpolation.lower().replace("auto", "exact"),
         "tolerance": allowed if tolerance_factors is None else allowed * tolerance_factors,
@@ -98,7 +101,7 @@ def fair_arguments(
     }
     if arrays.normals is not None and keeps_marks(settings):
         arguments["normals"] = arrays.normals
-    if arrays.flat_face is not None and keeps_flats(settings):
+    if flats:
         arguments["flat_faces"] = np.flatnonzero(arrays.flat_face)
     if is_limit(settings):
         arguments |= _limit(arrays, settings)

@@ -23,8 +23,7 @@ def _is_auto(settings: Settings) -> bool:
 
 def wants_limit(settings: Settings, cage: core.ControlArrays) -> bool:
     """Whether AUTO is LIMIT for the shape of `cage` in the world, none of whose faces are kept flat."""
-    kept_flat = cage.flat_face is not None and cage.flat_face.any()
-    if not _is_auto(settings) or kept_flat:
+    if not _is_auto(settings) or cage.has_flats:
         return False
     sharp = np.zeros(len(cage.edges), bool)
     if settings.use_crease_attribute and cage.edge_crease is not None:

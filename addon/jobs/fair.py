@@ -140,7 +140,7 @@ class Job(TimedRun):
             yield "Each shape key is faired separately. Mixtures of them are fair with Bending only."
         if self.arrays.normals is not None and not core.keeps_marks(self.settings):
             yield "Fixed normals are not used: only Bending supports them."
-        marked = self.arrays.flat_face is not None and self.arrays.flat_face.any()
+        marked = self.arrays.has_flats
         if marked and not core.keeps_marks(self.settings):
             yield "Flat faces are not kept: only Bending keeps them. Choose Bending."
         elif marked and not core.keeps_flats(self.settings):

@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Flat faces are found by shape, selected and cleared; only Bending keeps them flat."""
 
+import bmesh
 import bpy
 import numpy as np
 import pytest
 from fake_layout import draw
 from scenes import (
     add_rounded_box,
+    bmesh_of,
     add_suzanne,
     edit,
     fair,
@@ -125,6 +127,19 @@ def test_the_surface_keeps_them_flat_until_they_are_cleared():
     assert marked(source) == []
     bpy.ops.object.fairing_recompute()
     assert flatness(surface) > 0.1
+
+
+def test_a_can_is_round_and_its_ends_are_plane():
+    bpy.ops.mesh.primitive_cylinder_add(vertices=24, radius=33.0, depth=115.0)
+    source = bpy.context.object
+    with bmesh_of(source.data) as mesh:
+        ends = [e for e in mesh.edges if abs(e.verts[0].co.z - e.verts[1].co.z) < 1e-3]
+        bmesh.ops.bevel(mesh, geom=ends, offset=5.0, segments=2, profile=0.5, affect="EDGES")
+    assert bpy.ops.object.fairing_flat_faces() == {"FINISHED"}
+    points = positions(fair(levels=3).data)
+    radius, height = np.hypot(*points[:, :2].T), np.abs(points[:, 2])
+    assert radius.max() < 33.0 * 1.001 and height.max() < 57.5 * 1.0001
+    assert radius[height < 52.0].min() > 33.0 * 0.999
 
 
 def test_what_cannot_keep_them_says_so():
