@@ -19,13 +19,11 @@ constexpr int most_of_variation = 24;
 
 constexpr double progress_begin = 0.3, progress_end = 0.85;  // shares of the whole run
 
-HierarchyOptions hierarchy_options(const Unknowns& unknowns, const GaussNewtonOptions& options,
-                                   bool keeps_factors) {
+HierarchyOptions hierarchy_options(const Unknowns& unknowns, const GaussNewtonOptions& options) {
   HierarchyOptions out;
   out.smoother_degree = options.solve.smoother_degree;
   out.always_factor = unknowns.any_vertex;
   out.factors_hard_levels = true;
-  out.keeps_factors = keeps_factors;
   // As for the thin plate, the area's share of the diagonal falls from level to level.
   if (options.tension > 0) ++out.settled;
   return out;
@@ -58,8 +56,7 @@ GaussNewtonSystem::GaussNewtonSystem(const ControlMesh& mesh, const GridLevels& 
     all.push_back({*operators_.back(), l > base ? transfers_.back().get() : nullptr,
                    count_unknowns(grid(l), unknowns)});
   }
-  hierarchy_ =
-      std::make_unique<Hierarchy>(workers, hierarchy_options(unknowns, options, !constraints), all);
+  hierarchy_ = std::make_unique<Hierarchy>(workers, hierarchy_options(unknowns, options), all);
 }
 
 GaussNewtonSystem::~GaussNewtonSystem() = default;

@@ -13,11 +13,6 @@ namespace {
 // Solves with a factor, each on the residual of the previous one.
 constexpr int refinement_steps = 3;
 
-// Iterations after which a factor of an earlier K is computed again.
-constexpr int most_with_old_factor = 20;
-// Number of unknowns up to which a level is factored for every new K: iterations cost as much.
-constexpr std::size_t most_refactored = 4 * tiny_level;
-
 // Margin of a largest eigenvalue from the level below, where Lanczos' margin is included.
 constexpr double settled_margin = 1.03;
 
@@ -72,13 +67,6 @@ void Hierarchy::update(std::size_t top) {
   }
 }
 
-bool Hierarchy::may_keep_factor() const {
-  const OperatorVersion& now = cycle_.levels[cycle_.base].op->version();
-  const OperatorVersion& factored = cycle_.coarse->version();
-  return options_.keeps_factors && now.unknowns == factored.unknowns &&
-         (now.spectrum == factored.spectrum || unknowns(cycle_.base) > most_refactored);
-}
-
 LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits,
                             const LinearSystem& system) {
   LevelSolve out;
@@ -88,20 +76,11 @@ LevelSolve Hierarchy::solve(std::size_t index, const PcgLimits& limits,
     return out;
   }
   update(index);
-  const bool solves = cycle_.solves(index);
   if (cycle_.coarse->is_old()) {
-    // The first K of the variation is stiffer than that of total curvature by waves of all lengths:
-    // with a factor of that, residuals fall and the solution is far away.
-    const bool is_of_other_energy =
-        system.between &&
-        cycle_.levels[cycle_.base].op->version().spectrum != cycle_.coarse->version().spectrum;
-    if (solves && !is_of_other_energy && may_keep_factor() &&
-        solve_by_old_factor(limits, system, out))
-      return out;
     cycle_.coarse->refactor();
     ++factors_;
   }
-  if (solves) {
+  if (cycle_.solves(index)) {
     solve_direct(*cycle_.coarse, limits, system, out);
     if (out.converged) return out;
   }
@@ -145,20 +124,6 @@ void Hierarchy::seek_lines(std::size_t index) {
   CycleLevel& level = cycle_.levels[index];
   if (!level.lines && !cycle_.solves(index))
     level.lines = std::make_unique<LineJacobi>(*level.op, workers_);
-}
-
-bool Hierarchy::solve_by_old_factor(const PcgLimits& limits, const LinearSystem& system,
-                                    LevelSolve& out) {
-  PcgLimits few = limits;
-  few.max_iterations = std::min(limits.max_iterations, most_with_old_factor);
-  const PcgResult result = conjugate_gradients(cycle_, cycle_.base, workers_, few, system, pcg_,
-                                               [](const PcgResult&) { return true; });
-  out.direct = true;
-  out.smoother_degree = 0;
-  out.iterations = result.iterations;
-  out.residual = result.residual;
-  out.converged = result.converged;
-  return out.converged;
 }
 
 // A residual that remains in spite of a factor may be rounding, which iterations do not reduce.

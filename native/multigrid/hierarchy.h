@@ -25,9 +25,6 @@ constexpr int usual_degree = 3;
 struct HierarchyOptions {
   int smoother_degree = 0;     // 0: chosen by the solves, from the usual one on
   bool always_factor = false;  // the coarsest level is ill-conditioned, whatever its size
-  // Whether operators change step by step: a factor of the solved level then remains a
-  // preconditioner for as long as it is effective.
-  bool keeps_factors = false;
   // Whether a level that stays difficult is factored, if it is not too large.
   bool factors_hard_levels = false;
   // From this level on (coarsest: 0) the largest eigenvalue is that of the level below, whose edges
@@ -80,11 +77,9 @@ class Hierarchy {
  private:
   // Updates the cached data of the operators to their versions, except the factor.
   void update(std::size_t top);
-  bool may_keep_factor() const;
   std::size_t unknowns(std::size_t index) const { return cycle_.levels[index].unknowns; }
   PcgResult iterate(std::size_t index, const PcgLimits& limits, const LinearSystem& system,
                     LevelSolve& out);
-  bool solve_by_old_factor(const PcgLimits& limits, const LinearSystem& system, LevelSolve& out);
   void solve_direct(CoarseSolver& solver, const PcgLimits& limits, const LinearSystem& system,
                     LevelSolve& out);
   void seek_lines(std::size_t index);

@@ -87,7 +87,7 @@ void CoarseSolver::refactor() {
         ErrorCode::underdetermined,
         {"The surface is not determined: a part of the mesh has too few fixed points.",
          "Interpolate more control vertices, or give them weights."});
-  version_ = op_.version();
+  factored_ = op_.version().numbers;
 }
 
 bool CoarseSolver::factors() {

@@ -22,9 +22,8 @@ class CoarseSolver {
   CoarseSolver(LevelOperator& op, Workers& workers, std::size_t unknowns, bool always_direct);
   ~CoarseSolver();
 
-  // The factor is that of this version of K; is_old() if K has changed since.
-  const OperatorVersion& version() const { return version_; }
-  bool is_old() const { return direct() && version_.numbers != op_.version().numbers; }
+  // Whether K has changed since it was factored.
+  bool is_old() const { return direct() && factored_ != op_.version().numbers; }
   void refactor();
 
   std::size_t size() const { return op_.size(); }  // of a vector
@@ -44,7 +43,7 @@ class CoarseSolver {
   LevelOperator& op_;
   Workers& workers_;
   std::unique_ptr<Factor> factor_;
-  OperatorVersion version_;
+  int factored_ = 0;  // the version of its numbers
   std::size_t factor_bytes_ = 0;
 };
 
