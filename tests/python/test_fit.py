@@ -376,9 +376,9 @@ def test_patches_near_a_scan_may_be_off_by_half_of_what_it_is(
 
 
 def test_what_would_fold_is_rounded_off():
-    """A ridge that is two fifths of the cage's edges wide and 1.4 of one high; else its foot folds by 171°."""
+    """A ridge that is two fifths of the cage's edges wide and 1.4 of one high; else its foot folds by 173°."""
     fine = np.linspace(-1, 1, 241)
-    ridge = sheet(fine, fine, lambda x, y: 0.7 * np.clip(1 - np.abs(x - 0.1) / 0.1, 0, None))
+    ridge = sheet(fine, fine, lambda x, y: 0.7 * np.clip(1 - np.abs(x - 0.2) / 0.1, 0, None))
     points, triangles = cut_quads(ridge)
     coarse = np.linspace(-1, 1, 5)
     cage = sheet(coarse, coarse, lambda x, y: 0 * x)
