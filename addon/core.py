@@ -75,13 +75,15 @@ def fair_arguments(
     """
     threshold = settings.crease_threshold if settings.use_crease_attribute else None
     allowed = tolerance(settings, edge_length)
-    flats = arrays.has_flats and keeps_flats(settings)
+    flats = arrays.flat_face if arrays.has_flats and keeps_flats(settings) else None
     arguments = {
         "vertices": arrays.positions,
         "faces": (arrays.corners, arrays.offsets),
         "levels": settings.levels,
         "energy": settings.energy.lower(),
-        "metric_exponent": max(settings.metric_exponent, SPACING_OF_FLATS if flats else 0.0),
+        "metric_exponent": max(
+            settings.metric_exponent, 0.0 if flats is None else SPACING_OF_FLATS
+        ),
         # AUTO is resolved where the source is known
         "interpolation": settings.interpolation.lower().replace("auto", "exact"),
         "tolerance": allowed if tolerance_factors is None else allowed * tolerance_factors,
@@ -101,8 +103,8 @@ def fair_arguments(
     }
     if arrays.normals is not None and keeps_marks(settings):
         arguments["normals"] = arrays.normals
-    if flats:
-        arguments["flat_faces"] = np.flatnonzero(arrays.flat_face)
+    if flats is not None:
+        arguments["flat_faces"] = np.flatnonzero(flats)
     if is_limit(settings):
         arguments |= _limit(arrays, settings)
     elif threshold is not None:

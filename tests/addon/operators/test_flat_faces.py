@@ -8,8 +8,8 @@ import pytest
 from fake_layout import draw
 from scenes import (
     add_rounded_box,
-    bmesh_of,
     add_suzanne,
+    bmesh_of,
     edit,
     fair,
     positions,
