@@ -23,7 +23,8 @@ struct FlatFace {
 //
 // A quad becomes the parallelogram of its bilinear map's centre: sides |u|^b and |v|^b, and the
 // mean of the angles that fit its two diagonals. Along ridges it counts as shorter,
-// except at the exponent 1. Parts of several flat faces keep their shape. Throws FairingError(cancelled).
+// except at the exponent 1. Parts of several flat faces keep their shape. Throws
+// FairingError(cancelled).
 std::vector<FlatFace> flatten(const ControlMesh& mesh, double exponent);
 
 // Length of an edge: the mean over its faces.

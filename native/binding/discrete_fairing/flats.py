@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -53,33 +54,22 @@ def flats_of(
     """
     if not len(mesh.face_sizes):
         return np.zeros(0, bool)
-    folds, inside = mesh.fold_angles
-    if sharp is not None:
-        inside = inside & ~sharp
-    part, plane = plane_parts(mesh, inside & (folds <= angle))
-    edge, face = _borders(mesh, part, inside)
-    owner = part[face]
-    turn = np.where(inside[edge], folds[edge], 0.0)
-    width = _widths(mesh, part, edge, owner)[owner]
-    beyond = _turns_beyond(mesh, edge, owner, turn)
-    twin = _twins(edge)
-    joined = twin >= 0
-    if sharp is not None:
-        joined &= ~sharp[edge]
-    here, there = np.flatnonzero(joined), twin[joined]
-    turns = (turn[here] > angle) & (width[here] >= width[there])
-    # turn / width <= 0.5 * beyond / width, without a division by zero
-    turns &= 2.0 * turn[here] * width[there] <= beyond[there] * width[here]
+    parts = _Parts.of(mesh, angle, sharp)
+    owner, face = parts.owner, parts.face
+    width = _widths(mesh, parts.part, parts.edge, owner)[owner]
+    joined = parts.twin >= 0
+    here, there = np.flatnonzero(joined), parts.twin[joined]
+    turns = parts.turns_beyond(width, angle)[here]
     if tight:
-        length, area = mesh.edge_lengths[edge[there]], mesh.face_areas
+        length, area = mesh.edge_lengths[parts.edge[there]], mesh.face_areas
         quad = mesh.face_sizes == 4
         if other_half is not None:
             quad |= other_half >= 0
             area += np.where(other_half >= 0, area[other_half], 0.0)
         turns &= quad[face[there]] & (area[face[there]] <= length * width[here])
-    some = marked(owner[here], len(plane))
+    some = marked(owner[here], len(parts.plane))
     some[owner[here[~turns]]] = False
-    return (some & plane)[part]
+    return (some & parts.plane)[parts.part]
 
 
 def straights_of(mesh: ControlMesh, angle: float, sharp: np.ndarray | None = None) -> np.ndarray:
@@ -93,27 +83,19 @@ def straights_of(mesh: ControlMesh, angle: float, sharp: np.ndarray | None = Non
     """
     if not len(mesh.face_sizes):
         return np.zeros(0, bool)
-    folds, inside = mesh.fold_angles
-    if sharp is not None:
-        inside = inside & ~sharp
-    part, plane = plane_parts(mesh, inside & (folds <= angle))
-    edge, face = _borders(mesh, part, inside)
-    owner = part[face]
-    turn = np.where(inside[edge], folds[edge], 0.0)
-    depth = np.bincount(part, mesh.face_areas)[owner] / mesh.edge_lengths[edge]
-    twin = np.where(inside[edge], _twins(edge), -1)
-    open_, across = twin < 0, depth[twin]
-    rim = ~open_ & (turn > angle) & (depth >= across)
-    rim &= 2.0 * turn * across <= _turns_beyond(mesh, edge, owner, turn)[twin] * depth
-    of_four = plane & (np.bincount(owner, minlength=len(plane)) == 4)
-    pairs = _opposite(mesh.edges[edge], np.flatnonzero(of_four[owner]).reshape(-1, 4))
+    parts = _Parts.of(mesh, angle, sharp)
+    owner, open_ = parts.owner, parts.twin < 0
+    depth = np.bincount(parts.part, mesh.face_areas)[owner] / mesh.edge_lengths[parts.edge]
+    rim = ~open_ & parts.turns_beyond(depth, angle)
+    of_four = parts.plane & (np.bincount(owner, minlength=len(parts.plane)) == 4)
+    pairs = _opposite(mesh.edges[parts.edge], np.flatnonzero(of_four[owner]).reshape(-1, 4))
     ends = (rim | open_)[pairs].all(axis=2) & rim[pairs].any(axis=2)
     while True:
-        straight = marked(owner[pairs[ends.any(axis=1), 0, 0]], len(plane))
-        side = open_ | (straight[owner[twin]] & (turn <= _ROUND))
+        straight = marked(owner[pairs[ends.any(axis=1), 0, 0]], len(parts.plane))
+        side = open_ | (straight[owner[parts.twin]] & (parts.turn <= _ROUND))
         kept = ends & side[pairs[:, ::-1]].all(axis=2)
         if (kept == ends).all():
-            return straight[part]
+            return straight[parts.part]
         ends = kept
 
 
@@ -174,15 +156,46 @@ def _in_plane(mesh: ControlMesh, part: np.ndarray) -> np.ndarray:
     return (np.bincount(owner) > 3) & (normal != 0.0).any(axis=1) & (off <= _IN_PLANE * size)
 
 
-def _borders(
-    mesh: ControlMesh, part: np.ndarray, inside: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """(b,) border edges of the parts, and the face of each in its part; by ascending part."""
-    pair = part[mesh.faces_of_edges]
-    border = (pair[:, 0] != pair[:, 1]) | ~inside
-    corners = np.flatnonzero(border[mesh.corner_edges])
-    corners = corners[np.argsort(part[mesh.face_of[corners]], kind="stable")]
-    return mesh.corner_edges[corners], mesh.face_of[corners]
+@dataclass(frozen=True)
+class _Parts:
+    """The plane parts of a mesh, and their b border edges, by ascending part."""
+
+    part: np.ndarray  # (m,) of each face
+    plane: np.ndarray  # (parts,) bool
+    edge: np.ndarray  # (b,)
+    face: np.ndarray  # (b,) the edge's face in the part
+    owner: np.ndarray  # (b,) the part
+    turn: np.ndarray  # (b,) degrees, 0 at open borders
+    beyond: np.ndarray  # (b,) the largest turn at others of the part's borders
+    twin: np.ndarray  # (b,) the row of the same edge in the other part; -1: open
+
+    @classmethod
+    def of(cls, mesh: ControlMesh, angle: float, sharp: np.ndarray | None) -> _Parts:
+        """Joined within `angle` (degrees), across edges that are not `sharp` (e,) bool."""
+        folds, inside = mesh.fold_angles
+        if sharp is not None:
+            inside = inside & ~sharp
+        part, plane = plane_parts(mesh, inside & (folds <= angle))
+        pair = part[mesh.faces_of_edges]
+        border = (pair[:, 0] != pair[:, 1]) | ~inside
+        corners = np.flatnonzero(border[mesh.corner_edges])
+        corners = corners[np.argsort(part[mesh.face_of[corners]], kind="stable")]
+        edge, face = mesh.corner_edges[corners], mesh.face_of[corners]
+        turn = np.where(inside[edge], folds[edge], 0.0)
+        beyond = _turns_beyond(mesh, edge, part[face], turn)
+        twin = _twins(edge)
+        if sharp is not None:
+            twin = np.where(sharp[edge], -1, twin)
+        return cls(part, plane, edge, face, part[face], turn, beyond, twin)
+
+    def turns_beyond(self, size: np.ndarray, angle: float) -> np.ndarray:
+        """(b,) bool: the mesh turns there by more than `angle`, the part is at least as large as the part
+        beside it, by its `size` (b,), and it turns at most half as much for that. Not at open borders.
+        """
+        beside = size[self.twin]
+        # turn / size <= 0.5 * beyond / size, without a division by zero
+        half = 2.0 * self.turn * beside <= self.beyond[self.twin] * size
+        return (self.turn > angle) & (size >= beside) & half
 
 
 def _widths(mesh: ControlMesh, part: np.ndarray, edge: np.ndarray, owner: np.ndarray) -> np.ndarray:
