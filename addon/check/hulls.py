@@ -22,10 +22,9 @@ def has_flat_ends(cage: ControlArrays) -> bool:
     folds, _ = mesh.fold_angles
     part, plane = flats.plane_parts(mesh, folds <= flats.ANGLE)
     ends = part[mesh.faces_of_edges]
-    bent = ends[:, 0] != ends[:, 1]
-    soft = bent & (folds <= np.degrees(SHARP))
+    soft = (ends[:, 0] != ends[:, 1]) & (folds <= np.degrees(SHARP))
     plane[ends[soft]] = False
-    return bool(plane.any() and (bent & ~soft).any())
+    return bool(plane.any() and not plane[part].all())  # a box is no hull with ends
 
 
 def why_bending(cage: ControlArrays, settings: Settings) -> str:
