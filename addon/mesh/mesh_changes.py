@@ -14,6 +14,7 @@ from ..redraw import INTERVAL, tag_sidebars
 from .object import session_key
 
 _watched: dict[int, int | None] = {}  # mesh key: checksum of its positions when it was measured
+_triangles: dict[int, tuple[tuple[int, int], int]] = {}  # mesh key: its size, and triangles
 _changed: set[int] = set()  # keys of meshes that have changed since
 _seen: dict[int, dict[Hashable, Any]] = {}  # mesh key: the values that panels show, by name
 _unseen: dict[tuple[int, Hashable], Callable[[Mesh], Any]] = {}  # values still to be measured
@@ -32,7 +33,12 @@ def watch(context: Context, mesh: Mesh) -> list[int]:
 
 def coarse_triangles(mesh: Mesh) -> int:
     """Triangles equivalent to `mesh`, for drawing; in Edit Mode as at the last update."""
-    return size.coarse_triangles(column(mesh.polygons, "loop_total", np.int32))
+    now = (len(mesh.loops), len(mesh.polygons))
+    known = _triangles.get(session_key(mesh))
+    if known is None or known[0] != now:
+        count = size.coarse_triangles(column(mesh.polygons, "loop_total", np.int32))
+        known = _triangles[session_key(mesh)] = (now, count)
+    return known[1]
 
 
 def shown(mesh: Mesh, name: Hashable, measure: Callable[[Mesh], Any], nothing: Any) -> Any:
@@ -92,6 +98,7 @@ def _note_changes(_scene: Scene, depsgraph: bpy.types.Depsgraph) -> None:
 
 def _forget(*_: Any) -> None:
     _watched.clear()
+    _triangles.clear()
     _changed.clear()
     _look_again()
 

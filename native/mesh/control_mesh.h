@@ -138,6 +138,7 @@ struct FlatFaces {
   // One a face: the direction in which it stays straight, in the mesh's coordinates, as one of a
   // strip that turns about it; zero: none. Such a face is not in `face`.
   std::vector<Vec3> along;
+  std::vector<Index> part;  // one a face: the first face of its plane part
 
   bool is_straight(Index f) const { return !along.empty() && along[f] != Vec3::Zero(); }
   bool is_kept(Index f) const { return !face.empty() && (face[f] || is_straight(f)); }

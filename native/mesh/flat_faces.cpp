@@ -29,6 +29,8 @@ class FlatParts {
     for_each_fold([](Part& part, const Part& other, const Vec3& fold) { part.add(fold, other); });
   }
 
+  // The first face of a face's part.
+  Index first(Index face) { return lead_.lead(face); }
   // The direction in which the face stays straight; zero: it stays plane.
   Vec3 along(Index face) {
     const Part& part = part_[lead_.lead(face)];
@@ -112,6 +114,7 @@ void mark_flat_faces(std::span<const std::int64_t> faces, ControlMesh& control) 
     const bool kept = chosen[std::size_t(control.faces[f].polygon)];
     flat.along.push_back(kept ? parts.along(f) : Vec3(Vec3::Zero()));
     flat.face.push_back(kept && !flat.is_straight(f));
+    flat.part.push_back(parts.first(f));
   }
   for (const Edge& edge : control.edges)
     flat.edge.push_back(std::all_of(edge.side.begin(), edge.side.end(), [&](Index s) {

@@ -228,16 +228,12 @@ FlatFace flat_face(const ControlMesh& mesh, const Face& face, const std::array<d
 class FlatShapes {
  public:
   FlatShapes(const ControlMesh& mesh, std::vector<FlatFace>& flat)
-      : mesh_(mesh), flat_(flat), lead_(mesh.faces.size()), part_(mesh.faces.size()) {}
+      : mesh_(mesh), flat_(flat), part_(mesh.faces.size()) {}
 
   void keep() {
-    for (std::size_t e = 0; e < mesh_.edges.size(); ++e)
-      if (inside(Index(e)))
-        lead_.unite(mesh_.sides[mesh_.edges[e].side[0]].face,
-                    mesh_.sides[mesh_.edges[e].side[1]].face);
     for (Index f = 0; f < Index(mesh_.faces.size()); ++f) measure(f);
     for (Index f = 0; f < Index(mesh_.faces.size()); ++f) {
-      const Part& part = part_[lead_.lead(f)];
+      const Part& part = part_[mesh_.flat.part[f]];
       if (mesh_.flat.face[f] && part.faces > 1) set(f, part.in_metric / part.in_space);
     }
   }
@@ -248,11 +244,17 @@ class FlatShapes {
     int faces = 0;
   };
 
-  bool inside(Index e) const { return mesh_.flat.edge[e] && !mesh_.edges[e].boundary(); }
+  // Whether both faces of an edge are in one part.
+  bool inside(Index e) const {
+    const auto part = [&](int k) {
+      return mesh_.flat.part[mesh_.sides[mesh_.edges[e].side[k]].face];
+    };
+    return !mesh_.edges[e].boundary() && part(0) == part(1);
+  }
 
   void measure(Index f) {
     const Face& face = mesh_.faces[f];
-    Part& part = part_[lead_.lead(f)];
+    Part& part = part_[mesh_.flat.part[f]];
     ++part.faces;
     for (int s = 0; s < face.size; ++s) {
       if (inside(mesh_.sides[std::size_t(face.first_side + s)].edge)) continue;
@@ -271,7 +273,6 @@ class FlatShapes {
 
   const ControlMesh& mesh_;
   std::vector<FlatFace>& flat_;
-  UnionFind lead_;
   std::vector<Part> part_;  // by their first faces
 };
 

@@ -35,15 +35,13 @@ void fill(const ControlMesh& mesh, const ChartMaker& charts, std::size_t e, Sten
   if (!s.has_fit[e]) return;
   const Chart chart = chart_of(charts, element);
   const FitRows rows = fit(chart);
-  FitRows energy = rows;
-  stiffen_straight(mesh, element, chart, energy);
   const double root_weight = std::sqrt(chart.area);
   for (std::size_t j = 0; j < size; ++j) {
     const auto own = Eigen::Index(j), opposite = Eigen::Index((j + size / 2) % size);
     for (Eigen::Index c = 0; c < 3; ++c)
       s.energy[first + j][c] =
           root_weight *
-          (in_face ? 0.5 * (energy(c + 2, own) + energy(c + 2, opposite)) : energy(c + 2, own));
+          (in_face ? 0.5 * (rows(c + 2, own) + rows(c + 2, opposite)) : rows(c + 2, own));
     if (in_face) continue;
     const Coefficients half = basis(0.5 * chart.ring[j]);
     for (std::size_t c = 0; c < 5; ++c) {
@@ -51,6 +49,7 @@ void fill(const ControlMesh& mesh, const ChartMaker& charts, std::size_t e, Sten
       s.half[5 * (first + j) + c] = float(half(Eigen::Index(c)));
     }
   }
+  stiffen_straight(mesh, element, chart, {s.energy.data() + first, size});
 }
 
 }  // namespace

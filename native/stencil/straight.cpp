@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stencil/fit.h"
 #include "stencil/stiffness.h"
 
 namespace fairing {
@@ -36,8 +37,7 @@ class StraightDirection {
     if (edge.boundary()) return Vec2::Zero();
     const Side &left = mesh_.sides[edge.side[0]], &right = mesh_.sides[edge.side[1]];
     if (!all_kept(left.face, right.face)) return Vec2::Zero();
-    // faces of one part have one direction
-    if (mesh_.flat.along[left.face] != mesh_.flat.along[right.face]) return chart_.ring[0];
+    if (mesh_.flat.part[left.face] != mesh_.flat.part[right.face]) return chart_.ring[0];
     const Face& face = mesh_.faces[left.face];
     const int s = left.local, size = face.size;
     const Vec3 a = at(face, (s + 1) % size) - at(face, s),
@@ -92,7 +92,7 @@ Vec2 direction_of(const ControlMesh& mesh, const Element& element, const Chart& 
 }  // namespace
 
 void stiffen_straight(const ControlMesh& mesh, const Element& element, const Chart& chart,
-                      FitRows& rows) {
+                      std::span<std::array<double, 3>> hessians) {
   if (mesh.flat.along.empty()) return;
   const Vec2 direction = direction_of(mesh, element, chart);
   const double square = direction.squaredNorm();
@@ -100,8 +100,10 @@ void stiffen_straight(const ControlMesh& mesh, const Element& element, const Cha
   // f_dd in the fit's coefficients
   const double x = direction.x(), y = direction.y();
   const Vec3 second = root_half * Vec3(1, (x * x - y * y) / square, 2 * x * y / square);
-  const Eigen::RowVectorXd row = second.transpose() * rows.bottomRows(3);
-  rows.bottomRows(3) += (std::sqrt(flat_stiffness) - 1) * second * row;
+  for (auto& numbers : hessians) {
+    Eigen::Map<Vec3> hessian(numbers.data());
+    hessian += (std::sqrt(flat_stiffness) - 1) * second.dot(hessian) * second;
+  }
 }
 
 }  // namespace fairing

@@ -3,15 +3,18 @@
 // second difference in that direction counts as much as on flat faces.
 #pragma once
 
+#include <array>
+#include <span>
+
 #include "grid/runs.h"
 #include "stencil/chart.h"
-#include "stencil/fit.h"
 
 namespace fairing {
 
-// Multiplies the second difference of an element's fit in the direction in which its faces are
-// straight; of none if not all of them are flat. An edge between two of them is straight itself.
+// Multiplies the second difference in the direction in which an element's faces are straight; none
+// if not all of them are flat. An edge between two of them is straight itself. `hessians`: the last
+// three of fit()'s coefficients (stencil/fit.h), one set a neighbour.
 void stiffen_straight(const ControlMesh& mesh, const Element& element, const Chart& chart,
-                      FitRows& rows);
+                      std::span<std::array<double, 3>> hessians);
 
 }  // namespace fairing

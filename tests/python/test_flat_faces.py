@@ -141,6 +141,14 @@ def bar(sides, start):
     return points, np.concatenate(bands)
 
 
+def test_a_box_may_be_flat_all_around():
+    """Its faces meet at sharp folds: each is a part of its own."""
+    cube = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
+    sides = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+    found = df.fair(cube, sides, LEVEL, flat_faces=range(6), metric_exponent=0.75).vertices
+    assert np.array_equal(found[:8], cube) and np.abs(found).max() < 2.0
+
+
 @pytest.mark.parametrize("sides", [4, 9])
 def test_walls_of_an_open_cone_are_straight(sides):
     """The first and the last wall have one neighbour each; borders are straight anyway."""
