@@ -29,8 +29,10 @@ ENERGY_MEANINGS = {
 # numbered, because files keep the number
 INTERPOLATIONS = (
     ("AUTO", "Auto",
-     "Limit under a Subdivision Surface modifier, and for closed cages with tight rims, hollows or slits; else Through", 3),
+     "Limit under a Subdivision Surface modifier, and for hollows or slits; Flats for bevelled bodies; else Through", 3),
     ("EXACT", "Through", "The surface passes exactly through every vertex of the source", 0),
+    ("FLATS", "Flats",
+     "Through every vertex, and large flat faces and walls between tight rims stay flat, as those of a phone or a can", 4),
     ("APPROXIMATE", "Near",
      "Bends as little as the tolerance of each vertex allows; for scattered or wrong points use Ease Control Mesh", 1),
     ("LIMIT", "Limit",

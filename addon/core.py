@@ -17,8 +17,8 @@ from .settings import AnySettings, PatchOptions, Settings, is_limit, is_near
 MISSING = "The native module 'discrete_fairing' could not be loaded: reinstall the extension for this Blender version"
 
 _OF_LIMIT = ("limit", "edge_sharpness", "vertex_sharpness")
-# least spacing beside flat faces: with less, rims swing beyond them and turn by up to 70 degrees
-SPACING_OF_FLATS = 0.75
+# FLATS is exact, and AUTO is resolved where the source is known
+_CORE_INTERPOLATION = {"APPROXIMATE": "approximate", "LIMIT": "limit"}
 _AT = 0.99  # share of its tolerance from which a vertex counts as at the tolerance
 
 
@@ -75,17 +75,16 @@ def fair_arguments(
     """
     threshold = settings.crease_threshold if settings.use_crease_attribute else None
     allowed = tolerance(settings, edge_length)
-    flats = arrays.flat_face if arrays.has_flats and keeps_flats(settings) else None
+    flats = flat_faces(arrays, settings)
     arguments = {
         "vertices": arrays.positions,
         "faces": (arrays.corners, arrays.offsets),
         "levels": settings.levels,
         "energy": settings.energy.lower(),
         "metric_exponent": max(
-            settings.metric_exponent, 0.0 if flats is None else SPACING_OF_FLATS
+            settings.metric_exponent, 0.0 if flats is None else module().flats.SPACING
         ),
-        # AUTO is resolved where the source is known
-        "interpolation": settings.interpolation.lower().replace("auto", "exact"),
+        "interpolation": _CORE_INTERPOLATION.get(settings.interpolation, "exact"),
         "tolerance": allowed if tolerance_factors is None else allowed * tolerance_factors,
         "pad_size": settings.pad_size,
         # the steps of minimum variation fail under it
@@ -104,7 +103,7 @@ def fair_arguments(
     if arrays.normals is not None and keeps_marks(settings):
         arguments["normals"] = arrays.normals
     if flats is not None:
-        arguments["flat_faces"] = np.flatnonzero(flats)
+        arguments["flat_faces"] = flats
     if is_limit(settings):
         arguments |= _limit(arrays, settings)
     elif threshold is not None:
@@ -143,6 +142,31 @@ def keeps_marks(settings: AnySettings) -> bool:
 def keeps_flats(settings: AnySettings) -> bool:
     """Whether flat faces apply: limit positions are not in the planes of the faces."""
     return keeps_marks(settings) and not is_limit(settings)
+
+
+def flat_faces(arrays: ControlArrays, settings: Settings) -> np.ndarray | None:
+    """(f,) ids of the faces that stay flat, marked or found by FLATS; None if there are none."""
+    if not keeps_flats(settings):
+        return None
+    kept = np.zeros(len(arrays.face_sizes), bool)
+    if arrays.has_flats:
+        kept |= arrays.flat_face
+    if settings.interpolation == "FLATS":
+        flats, mesh = module().flats, measured(arrays)
+        kept |= flats.kept_faces(mesh, flats.ANGLE, sharp_edges(arrays, settings))
+    return np.flatnonzero(kept) if kept.any() else None
+
+
+def sharp_edges(arrays: ControlArrays, settings: Settings) -> np.ndarray:
+    """(e,) bool: edges at which the settings let the surface turn."""
+    sharp = np.zeros(len(arrays.edges), bool)
+    if settings.use_crease_attribute and arrays.edge_crease is not None:
+        sharp |= arrays.edge_crease > 0
+    if settings.use_sharp_edges and arrays.sharp_edge is not None:
+        sharp |= arrays.sharp_edge
+    if settings.use_crease_angle:
+        sharp |= measured(arrays).fold_angles[0] > np.degrees(settings.crease_angle)
+    return sharp
 
 
 def with_partner(arguments: Mapping[str, Any]) -> dict[str, Any]:

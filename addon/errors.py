@@ -247,7 +247,7 @@ def faults_remedy(settings: AnySettings, is_fit: bool = False) -> str:
         help_by.insert(0, "raise Tension")
     if is_fit:
         help_by.append("draw the cage nearer to the scan")
-    elif settings.interpolation == "EXACT":
+    elif settings.interpolation in ("EXACT", "FLATS"):
         help_by.append("set Vertices to Limit or Near")
     help_by.append("add vertices there")
     words = listed(help_by, "or")

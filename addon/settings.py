@@ -65,16 +65,15 @@ class Settings:
         """The present settings of an operator or a property group."""
         return values_of(cls, properties)
 
-    def for_source(self, source: Object, wants_limit: bool = False) -> Settings:
-        """The same with AUTO resolved for `source`, whose shape `wants_limit` or not (check/cages.py); a
+    def for_source(self, source: Object, by_shape: str = "EXACT") -> Settings:
+        """The same with AUTO resolved for `source`, where no modifier decides `by_shape` (check/cages.py); a
         modifier is not followed a second time.
         """
         subdivided = subdivision(source) is not None
         if subdivided and is_evaluated(self) and self.interpolation in ("AUTO", "LIMIT"):
             return replace(self, interpolation="EXACT")
         if self.interpolation == "AUTO":
-            follows = subdivided or wants_limit
-            return replace(self, interpolation="LIMIT" if follows else "EXACT")
+            return replace(self, interpolation="LIMIT" if subdivided else by_shape)
         return self
 
 

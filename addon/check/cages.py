@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cages that Subdivision Surface serves better than their own vertices, known by their shape."""
-
-import numpy as np
+"""Cages that are better served with flats kept, or by Subdivision Surface, known by their shape."""
 
 from .. import core
 from ..blender import Mesh, Object
@@ -11,7 +9,12 @@ from ..mesh.world_shape import world_shape
 from ..properties import FairingSettings
 from ..settings import Settings, is_evaluated, subdivision
 
-REASON = "tight rims, hollows or slits"
+# the shape that decides, by what AUTO is
+REASONS = {"LIMIT": "tight rims, hollows or slits", "FLATS": "flats and walls between tight rims"}
+NOTES = {
+    "LIMIT": f"Passes where Subdivision Surface would (Limit), for its {REASONS['LIMIT']}.",
+    "FLATS": f"Keeps its {REASONS['FLATS']} as they are (Flats).",
+}
 
 
 def _is_auto(settings: Settings) -> bool:
@@ -21,16 +24,13 @@ def _is_auto(settings: Settings) -> bool:
     )
 
 
-def wants_limit(settings: Settings, cage: core.ControlArrays) -> bool:
-    """Whether AUTO is LIMIT for the shape of `cage` in the world, none of whose faces are kept flat."""
+def choice(settings: Settings, cage: core.ControlArrays) -> str:
+    """What AUTO is for the shape of `cage` in the world: EXACT, FLATS or LIMIT. Marked flats decide for EXACT."""
     if not _is_auto(settings) or cage.has_flats:
-        return False
-    sharp = np.zeros(len(cage.edges), bool)
-    if settings.use_crease_attribute and cage.edge_crease is not None:
-        sharp |= cage.edge_crease > 0
-    if settings.use_sharp_edges and cage.sharp_edge is not None:
-        sharp |= cage.sharp_edge
-    return bool(core.module().automatic.wants_limit(core.measured(cage), sharp))
+        return "EXACT"
+    mesh, sharp = core.measured(cage), core.sharp_edges(cage, settings)
+    found = core.module().automatic.choice(mesh, sharp, core.keeps_marks(settings))
+    return str(found).upper()
 
 
 def shown_settings(properties: FairingSettings, source: Object) -> Settings | None:
@@ -44,8 +44,9 @@ def shown_settings(properties: FairingSettings, source: Object) -> Settings | No
         return None
     shape = world_shape(source)
 
-    def measure(mesh: Mesh) -> bool:
-        return wants_limit(settings, shape.of_arrays(read_mesh(mesh)))
+    def measure(mesh: Mesh) -> str:
+        return choice(settings, shape.of_arrays(read_mesh(mesh)))
 
-    name = "cage", shape.rows, settings.use_crease_attribute, settings.use_sharp_edges
-    return settings.for_source(source, shown(source.data, name, measure, False))
+    marks = settings.use_crease_attribute, settings.use_sharp_edges, core.keeps_marks(settings)
+    name = "cage", shape.rows, *marks
+    return settings.for_source(source, shown(source.data, name, measure, "EXACT"))

@@ -94,11 +94,14 @@ def settings_of(arguments: argparse.Namespace) -> Settings:
             settings["use_" + name] = True
     for name in OF_NEAR:
         if name in given:
-            if given.get("interpolation") in ("EXACT", "LIMIT") or "limit" in given:
+            if (
+                given.get("interpolation", "AUTO") not in ("AUTO", "APPROXIMATE")
+                or "limit" in given
+            ):
                 raise ValueError(f"{option(name)} needs --interpolation approximate")
             settings["interpolation"] = "APPROXIMATE"
     if "limit" in given:
-        if given.get("interpolation") in ("EXACT", "APPROXIMATE"):
+        if given.get("interpolation", "AUTO") not in ("AUTO", "LIMIT"):
             raise ValueError("--limit needs --interpolation limit")
         settings["interpolation"] = "LIMIT"
     if getattr(arguments, "weld", None) is not None and settings["repair"] != "MEND":

@@ -68,7 +68,7 @@ class Job(TimedRun):
         ):
             self.data = read_data(source, mesh, evaluated)
             world = self.shape.of_arrays(self.arrays)
-            by_shape = cages.wants_limit(settings, world)
+            by_shape = cages.choice(settings, world)
             self.settings = settings.for_source(source, by_shape)
             values = group_values(source, mesh, self.settings)
             selection = shown_selection(mesh.polygons) if self.settings.use_selection else None
@@ -103,10 +103,9 @@ class Job(TimedRun):
             self.notes += left_out(source)
         if said := prisms.prisms_text(world, self.settings):
             self.notes.append(said)
-        if by_shape and subdivision(source) is None:
+        if by_shape != "EXACT" and subdivision(source) is None:
             self.notes.append(
-                f"Passes where Subdivision Surface would (Limit), for its {cages.REASON}. To pass through every "
-                "vertex, set Vertices to Through."
+                f"{cages.NOTES[by_shape]} To bend everywhere, set Vertices to Through."
             )
 
     @property

@@ -7,7 +7,7 @@ import bpy
 
 from .. import core, memory
 from ..blender import Context, Object
-from ..check.cages import wants_limit
+from ..check.cages import choice
 from ..live import switch
 from ..mesh.modifiers import copy_modifiers
 from ..mesh.object import is_in_view_layer, new_surface, nothing_left_behind
@@ -62,7 +62,7 @@ class OBJECT_OT_fairing_live(Action, bpy.types.Operator):
         settings = Settings.of(context.scene.discrete_fairing)
         with control_mesh(context, source, is_evaluated(settings)) as edited:
             cage = world_shape(source).of_arrays(read_mesh(edited))
-        settings = settings.for_source(source, wants_limit(settings, cage))
+        settings = settings.for_source(source, choice(settings, cage))
         target = new_surface(context, source, f"{source.name} Fair")
         memory.remember(target, source, settings, {})
         place.note(source, target)

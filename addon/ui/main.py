@@ -8,7 +8,8 @@ from bl_ui.utils import PresetPanel
 
 from .. import core, errors, prediction, size, vertex_values
 from ..blender import Context, Mesh, Object
-from ..check.cages import REASON, shown_settings
+from ..check.cages import REASONS, shown_settings
+from ..choices import INTERPOLATION_NAMES
 from ..core import keeps_marks, tolerance
 from ..live import switch
 from ..memory import FAIRING_PG_fit, FAIRING_PG_surface, recall, source_of, source_problem
@@ -25,6 +26,7 @@ from ..queue import running, status_text
 from ..settings import Settings, halves, is_evaluated, is_limit, is_near, subdivision
 from ..surfaces import neighbours
 from ..units import length_text
+from ..words import listed
 from .layout import (
     Remarks,
     Sidebar,
@@ -272,15 +274,22 @@ def vertices_text(
     """The meaning of Auto, or that an applied modifier is not followed; else empty. `found`: shown_settings."""
     if None in found or not sources or settings.interpolation not in ("AUTO", "LIMIT"):
         return ""
-    limit = [own is not None and is_limit(own) for own in found]
+    ways = {own.interpolation for own in found if own is not None}
     subdivided = any(subdivision(source) is not None for source in sources)
-    if is_evaluated(settings) and subdivided and not any(limit):
+    if is_evaluated(settings) and subdivided and "LIMIT" not in ways:
         return "Through: subdivided already"
     if settings.interpolation == "LIMIT":
         return ""
-    if all(limit):
-        return "Limit: has Subdivision Surface" if subdivided else f"Limit: {REASON}"
-    return "Limit for some of them" if any(limit) else "Through every vertex"
+    if len(ways) > 1:
+        return f"{listed(sorted(INTERPOLATION_NAMES[way] for way in ways))}, by their shapes"
+    (way,) = ways
+    if way == "EXACT":
+        return "Through every vertex"
+    return (
+        "Limit: has Subdivision Surface"
+        if subdivided
+        else f"{INTERPOLATION_NAMES[way]}: {REASONS[way]}"
+    )
 
 
 def missing_groups(settings: FairingSettings, sources: list[Object]) -> Remarks:

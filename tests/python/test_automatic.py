@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""interpolation="auto": limit positions for closed meshes with flats at tight rims, and find_flats()."""
+"""interpolation="auto": kept flats for bevelled bodies, limit positions for cages with hollows, and find_flats()."""
 
 import control_meshes
 import discrete_fairing as df
@@ -92,10 +92,44 @@ CAGES = {
 }
 
 
-@pytest.mark.parametrize("name", CAGES)
-def test_cages_pass_where_subdivision_surface_does(name):
-    auto, limit = (df.fair(*CAGES[name], 1, interpolation=i).vertices for i in ("auto", "limit"))
+@pytest.mark.parametrize(
+    "name, settings", [("cup", {}), ("bevelled box", {"energy": "total_curvature"})]
+)
+def test_cages_pass_where_subdivision_surface_does(name, settings):
+    auto, limit = (
+        df.fair(*CAGES[name], 1, interpolation=i, **settings).vertices for i in ("auto", "limit")
+    )
     assert np.array_equal(auto, limit)
+
+
+def flats_kept(name, levels=1, **settings):
+    """The surface with the flats of the cage `name` kept."""
+    kept = {"flat_faces": df.find_flats(*CAGES[name]), "metric_exponent": 0.75}
+    return df.fair(*CAGES[name], levels, **kept, **settings).vertices
+
+
+def test_bevelled_bodies_keep_their_flats():
+    auto = df.fair(*CAGES["bevelled box"], 1, interpolation="auto").vertices
+    assert np.array_equal(auto, flats_kept("bevelled box"))
+
+
+def test_concave_faces_are_not_subdivided():
+    """With curved energies too: subdivision folds a face where one of its sides cannot be seen from its middle."""
+    outline = np.array([(0, 0), (6, 0), (6, 2), (2, 2), (2, 5), (0, 5)], float)
+    middle = outline.mean(axis=0)
+    rings = [(0.9, 0.0), (1.0, 0.3), (1.0, 2.7), (0.9, 3.0)]
+    points = [(*(middle + s * (p - middle)), z) for s, z in rings for p in outline]
+    bands = [
+        [6 * r + k, 6 * r + (k + 1) % 6, 6 * r + 6 + (k + 1) % 6, 6 * r + 6 + k]
+        for r in range(3)
+        for k in range(6)
+    ]
+    faces = [[5, 4, 3, 2, 1, 0], *bands, list(range(18, 24))]
+    auto, exact = (
+        df.fair(points, faces, 1, "total_curvature", interpolation=i).vertices
+        for i in ("auto", "exact")
+    )
+    assert np.array_equal(auto, exact)
 
 
 @pytest.mark.parametrize(
@@ -135,10 +169,12 @@ def test_a_half_is_taken_as_the_whole():
     faces = [face for face in faces if (points[face, 0] > 0).any()]
     half = np.where(points[:, :1] < 0, points * [0.0, 1.0, 1.0], points)
     auto, limit = (
-        df.fair(half, faces, 1, symmetry_plane="x", interpolation=i).vertices
+        df.fair(half, faces, 1, "total_curvature", symmetry_plane="x", interpolation=i).vertices
         for i in ("auto", "limit")
     )
     assert np.array_equal(auto, limit)
+    kept = df.fair(half, faces, 1, symmetry_plane="x", interpolation="auto").vertices
+    assert np.array_equal(kept[: len(half)], half)
 
 
 def test_pieces_agree_with_the_whole():
@@ -152,8 +188,8 @@ def test_pieces_agree_with_the_whole():
 def test_a_solver_keeps_the_choice(energy):
     points, faces = CAGES["bevelled box"]
     solver = df.Solver(points, faces, 1, energy, interpolation="auto")
-    limit = df.fair(points, faces, 1, energy, interpolation="limit").vertices
-    assert np.allclose(solver.solve(points).vertices, limit, atol=1e-6)
+    chosen = df.fair(points, faces, 1, energy, interpolation="auto").vertices
+    assert np.allclose(solver.solve(points).vertices, chosen, atol=1e-6)
 
 
 def test_defects_are_named_as_without_it():
@@ -172,6 +208,21 @@ def test_flats_of_a_bevelled_box_are_its_sides():
     assert len(df.find_flats(points, faces)) == 18  # and the twelve strips between them
     assert not len(df.find_flats(*control_meshes.icosahedron()))
     assert not len(df.find_flats(np.empty((0, 3)), []))
+
+
+def test_strips_may_be_cut_across():
+    """A side of a strip is all of its border to one other part."""
+    points, faces = CAGES["bevelled box"]
+    right = [f for f in faces if (points[f, 0] > 0).any()]
+    half = np.where(points[:, :1] < 0, points * [0.0, 1.0, 1.0], points)
+    mirrored = [[v + len(points) for v in f[::-1]] for f in right]
+    welded, origin = np.unique(
+        np.concatenate([half, half * [-1.0, 1.0, 1.0]]) + 0.0, axis=0, return_inverse=True
+    )
+    cut = [origin.ravel()[f].tolist() for f in [*right, *mirrored]]
+    assert (
+        len(df.find_flats(welded, cut)) == 18 + 4 + 4
+    )  # four sides and four strips are two faces each
 
 
 def _flat(faces):

@@ -1,29 +1,35 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Control meshes that Subdivision Surface serves better than their own vertices, known by their shape."""
+"""Control meshes that are better served with flats kept, or by Subdivision Surface, known by their shape."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
-from .arrays import marked
+from .arrays import following, marked
 from .control_mesh import ControlMesh
 from .converters import vertex_pairs
-from .flats import ANGLE, flats_of, halves_of_quads, plane_parts
+from .flats import ANGLE, SPACING, flats_of, halves_of_quads, kept_faces, plane_parts, straights_of
+
+# through the vertices; the same with the faces of find_flats() kept flat; limit positions
+Choice: TypeAlias = Literal["exact", "flats", "limit"]
 
 # Degrees. Through the vertices, walls of a slit cross each other where they are less than 60, 45 or 20 apart, if the faces
 # at its bottom are 0.3, 0.6 or 1.2 times as deep as the prongs beside it are thick.
 SLIT = 30.0
+# Degrees. With flats kept, walls that lean to each other or edges between bevels that turn by more bulge.
+_BEVEL = 75.0
 # settings that decide for "exact": limit positions exclude them, or they make a fold a crease
 _EXACT = ("normals", "flat_faces", "region", "crease_angle")
+_OF_LIMIT = ("limit", "edge_sharpness", "vertex_sharpness")
 
 
 def resolved(
     settings: dict[str, Any], points: np.ndarray, corners: np.ndarray, offsets: np.ndarray
 ) -> dict[str, Any]:
-    """The settings with interpolation "auto" replaced: None, so that a tolerance or weights make it
-    "approximate", or "limit".
+    """The settings with interpolation "auto" replaced: "limit", or None, so that a tolerance or weights make it
+    "approximate"; with `flat_faces` and their spacing where flats are kept.
     """
     if settings.get("interpolation") != "auto":
         return settings
@@ -45,26 +51,48 @@ def resolved(
         if given is not None:
             pairs = vertex_pairs(name, given[0] if name == "edge_sharpness" else given)
             sharp |= mesh.has_pair(pairs)
-    return {**settings, "interpolation": "limit"} if wants_limit(mesh, sharp) else taken
+    may_keep = settings.get("energy") in (None, "thin_plate") and not any(
+        settings.get(name) is not None for name in _OF_LIMIT
+    )
+    found = choice(mesh, sharp, may_keep)
+    if found == "flats":
+        taken["flat_faces"] = np.flatnonzero(kept_faces(mesh, ANGLE, sharp))
+        taken["metric_exponent"] = max(settings.get("metric_exponent") or 0.0, SPACING)
+    return {**settings, "interpolation": "limit"} if found == "limit" else taken
 
 
-def wants_limit(mesh: ControlMesh, sharp: np.ndarray) -> bool:
-    """Whether limit positions suit a mesh, with the edges `sharp`, (e,) bool, better than its vertices: it
-    is closed, with flats between tight rims of quads, a flat floor in a hollow, or slits.
+def choice(mesh: ControlMesh, sharp: np.ndarray, may_keep: bool = True) -> Choice:
+    """What suits a mesh best, with the edges `sharp`, (e,) bool. `may_keep`: whether flats can be kept.
 
-    Through its vertices such a mesh is quilted, and with stiff flats its rims bulge; the floor and the walls
-    of a hollow swing into what is behind them, and those of a slit into each other. Open meshes are measured
-    sheets, hulls and terrain as often as they are cages.
+    "limit": it is closed, with flats between tight rims of quads, a flat floor in a hollow, or slits. Through its
+    vertices such a mesh is quilted; the floor and the walls of a hollow swing into what is behind them, and
+    those of a slit into each other. "flats": it is closed and bevelled all around, with walls that are straight,
+    as a phone, a can or a box; limit positions make it smaller. "exact": all others. Open meshes are measured
+    sheets, hulls and terrain as often as they are cages, and subdivision folds faces that are not star-shaped.
     """
     uses = mesh.edge_uses
     if not uses.any() or not np.isin(uses, (0, 2)).all():
-        return False
-    return (
-        _has_slits(mesh, sharp)
-        or _has_floor(mesh, sharp)
-        or _has_rims(mesh, flats_of(mesh, ANGLE, sharp, tight=True))
-        or _has_chamfers_of_triangles(mesh, sharp)
-    )
+        return "exact"
+    hollow = _has_slits(mesh, sharp) or _has_floor(mesh, sharp)
+    if may_keep and not hollow and _is_bevelled(mesh, sharp):
+        return "flats"
+    suits = hollow or _has_rims(mesh, flats_of(mesh, ANGLE, sharp, tight=True))
+    suits = suits or _has_chamfers_of_triangles(mesh, sharp)
+    return "limit" if suits and _are_star_shaped(mesh) else "exact"
+
+
+def _is_bevelled(mesh: ControlMesh, sharp: np.ndarray) -> bool:
+    folds, inside = mesh.fold_angles
+    mild = (folds[inside & ~sharp] <= _BEVEL).all()
+    return bool(mild and straights_of(mesh, ANGLE, sharp).any())
+
+
+def _are_star_shaped(mesh: ControlMesh) -> bool:
+    """Whether all sides of each face are seen from the mean of its corners, where subdivision splits it."""
+    spokes = mesh.positions[mesh.corners] - mesh.face_centres[mesh.face_of]
+    after = spokes[following(mesh.offsets)]
+    turned = (np.cross(spokes, after) * mesh.face_vectors[mesh.face_of]).sum(axis=1)
+    return bool((turned[mesh.face_sizes[mesh.face_of] > 4] > 0.0).all())
 
 
 def _has_slits(mesh: ControlMesh, sharp: np.ndarray) -> bool:

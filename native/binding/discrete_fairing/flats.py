@@ -16,6 +16,8 @@ from .control_mesh import ControlMesh
 _IN_PLANE = 1e-3
 _ROUND = 60.0  # degrees, the largest turn of a strip that is meant to be round
 ANGLE = 1.0  # degrees, within which faces are joined unless a user says otherwise
+# least metric exponent beside flat faces: with less, rims swing beyond them and turn by up to 70 degrees
+SPACING = 0.75
 
 
 def find_flats(
@@ -76,39 +78,56 @@ def straights_of(mesh: ControlMesh, angle: float, sharp: np.ndarray | None = Non
     """(m,) bool: the faces of strips that turn about the direction of their rulings, as walls of cylinders and
     cones and rims of boxes do, and are meant to be straight in it. `sharp`: as in flats_of().
 
-    A part as there, with four borders, is straight between two opposite ones if the mesh turns away at both,
+    A part as there, with four sides, is straight between two opposite ones if the mesh turns away at both,
     the part is at least as deep as the part beside it, and it turns at most half as much per depth; one of them
-    may be open. At its other two borders, unless these are open, the mesh turns by at most 60 degrees to
-    another such part.
+    may be open. At its other two sides, unless these are open, the mesh turns by at most 60 degrees to another
+    such part. A side is all of the border to one other part.
     """
     if not len(mesh.face_sizes):
         return np.zeros(0, bool)
     parts = _Parts.of(mesh, angle, sharp)
-    owner, open_ = parts.owner, parts.twin < 0
-    depth = np.bincount(parts.part, mesh.face_areas)[owner] / mesh.edge_lengths[parts.edge]
-    rim = ~open_ & parts.turns_beyond(depth, angle)
+    open_rows = parts.twin < 0
+    beside = np.where(open_rows, -1 - np.arange(len(parts.edge)), parts.owner[parts.twin])
+    (owner, beside), side = np.unique(np.stack([parts.owner, beside]), axis=1, return_inverse=True)
+    side = side.ravel()
+    open_, turn = beside < 0, np.zeros(len(owner))
+    np.maximum.at(turn, side, parts.turn)
+    length = np.bincount(side, mesh.edge_lengths[parts.edge])
+    depth = np.bincount(parts.part, mesh.face_areas)[owner] / length
+    flush = open_rows | ~parts.turns_beyond(depth[side], angle)
+    rim = np.bincount(side, flush) == 0
     of_four = parts.plane & (np.bincount(owner, minlength=len(parts.plane)) == 4)
-    pairs = _opposite(mesh.edges[parts.edge], np.flatnonzero(of_four[owner]).reshape(-1, 4))
+    fours = np.flatnonzero(of_four[owner]).reshape(-1, 4)
+    pairs = _opposite(np.repeat(side, 2), mesh.edges[parts.edge].ravel(), owner, fours)
     ends = (rim | open_)[pairs].all(axis=2) & rim[pairs].any(axis=2)
     while True:
         straight = marked(owner[pairs[ends.any(axis=1), 0, 0]], len(parts.plane))
-        side = open_ | (straight[owner[parts.twin]] & (parts.turn <= _ROUND))
-        kept = ends & side[pairs[:, ::-1]].all(axis=2)
+        kept = ends & (open_ | (straight[np.maximum(beside, 0)] & (turn <= _ROUND)))[
+            pairs[:, ::-1]
+        ].all(axis=2)
         if (kept == ends).all():
             return straight[parts.part]
         ends = kept
 
 
-def _opposite(ends: np.ndarray, rows: np.ndarray) -> np.ndarray:
-    """(p, 2, 2) the border rows of parts, (q, 4), as two pairs that share no vertex, `ends` (b, 2); parts
-    without such pairs are left out.
+def _opposite(
+    side: np.ndarray, vertex: np.ndarray, owner: np.ndarray, fours: np.ndarray
+) -> np.ndarray:
+    """(p, 2, 2) the sides of parts, (q, 4), as two pairs that share no vertex; parts without such pairs are
+    left out. Each `side` (i,) has the `vertex` (i,); `owner`: the part of each side.
     """
-    corners = ends[rows]
-    apart = (corners[:, :1, :, None] != corners[:, :, None, :]).all(axis=(2, 3))
+    side, vertex = np.unique(np.stack([side, vertex]), axis=1)
+    order = np.lexsort((vertex, owner[side]))
+    side, vertex = side[order], vertex[order]
+    meet = (vertex[1:] == vertex[:-1]) & (owner[side[1:]] == owner[side[:-1]])
+    touching = np.sort(np.stack([side[:-1][meet], side[1:][meet]], axis=1), axis=1)
+    codes = touching @ [len(owner), 1]
+    apart = ~np.isin(fours[:, :1] * len(owner) + fours, codes)
+    apart[:, 0] = False
     one = apart.sum(axis=1) == 1
-    apart, rows = apart[one], rows[one]
+    apart, fours = apart[one], fours[one]
     order = np.argsort(np.where(apart, 1, [0, 2, 2, 2]), axis=1, kind="stable")
-    return np.take_along_axis(rows, order, axis=1).reshape(-1, 2, 2)
+    return np.take_along_axis(fours, order, axis=1).reshape(-1, 2, 2)
 
 
 def halves_of_quads(mesh: ControlMesh, flush: np.ndarray) -> np.ndarray:
