@@ -14,7 +14,7 @@ namespace {
 
 // Bounds of the eigenvalues of M over its diagonal, element by element [Wathen 1987]: triangles
 // have 1/2 … 2, quads 1/4 … 9/4; hats narrower than the faces are within these.
-constexpr double least_eigenvalue = 0.25, largest_eigenvalue = 2.25;
+constexpr double least_mass_eigenvalue = 0.25, largest_mass_eigenvalue = 2.25;
 constexpr int mass_steps = 12;  // each halves the error
 
 }  // namespace
@@ -278,8 +278,9 @@ void Hats::multiply_mass(const LoadsOf<N>& loads, LoadsOf<N>& forces) const {
 template <int N>
 void Hats::divide_by_mass(const LoadsOf<N>& forces, LoadsOf<N>& loads,
                           const std::vector<double>& compliance_ratio) const {
-  constexpr double middle = 0.5 * (largest_eigenvalue + least_eigenvalue),
-                   half = 0.5 * (largest_eigenvalue - least_eigenvalue), shape = middle / half;
+  constexpr double middle = 0.5 * (largest_mass_eigenvalue + least_mass_eigenvalue),
+                   half = 0.5 * (largest_mass_eigenvalue - least_mass_eigenvalue),
+                   shape = middle / half;
   LoadsOf<N> step(forces.size(), LoadsOf<N>::value_type::Zero()), product;
   loads.assign(forces.size(), LoadsOf<N>::value_type::Zero());
   double rho = 1 / shape;

@@ -37,7 +37,7 @@ FACTS = """
     too_long too_short deviation_over_median in_a_row always_sharp largest_mesh
     avx both_halves system_saves most one_call one_end one_first page megabyte
     vector_bytes float_vector_bytes index_bytes
-    least_eigenvalue largest_eigenvalue change_left_by_level share_of_coarser
+    least_mass_eigenvalue largest_mass_eigenvalue change_left_by_level share_of_coarser
     boundary_modes angles_an_edge corner_of directions order triangle
     lane_block lane_count local_stride most_slots stride sums vector_room
     in_plane none several centripetal width bytes_a_point bytes_a_cell vectors

@@ -160,7 +160,7 @@ std::vector<FairingError> unclear(const std::vector<std::int32_t>& left, const W
   return found;
 }
 
-FairingError too_long(const HoleLoop& loop) {
+FairingError too_long_loop(const HoleLoop& loop) {
   std::vector<std::int64_t> edges;
   for (std::size_t i = 0; i < loop.size(); ++i)
     edges.insert(edges.end(), {loop[i], loop[(i + 1) % loop.size()]});
@@ -197,7 +197,7 @@ FoundHoles find_holes(const PolygonMesh& mesh, const HalfEdges& half_edges) {
     for (const Loop& loop : simple_loops(walk)) {
       HoleLoop ids = from_least(loop);
       if (ids.size() > longest_hole)
-        found.unclear.push_back(too_long(ids));
+        found.unclear.push_back(too_long_loop(ids));
       else
         found.loops.push_back(std::move(ids));
     }
