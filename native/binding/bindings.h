@@ -20,6 +20,9 @@ void bind_fill(pybind11::module_& m);
 // Adds mended(), to_flip() and joined(), which the package's clean() uses.
 void bind_clean(pybind11::module_& m);
 
+// Adds border_fits() and damped_solution(), which the package's joints/ use.
+void bind_joints(pybind11::module_& m);
+
 // Adds strain() and ease(), which the package wraps.
 void bind_strain(pybind11::module_& m);
 

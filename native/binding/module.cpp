@@ -177,6 +177,7 @@ PYBIND11_MODULE(_native, m) {
   bind_splines(m);
   bind_fill(m);
   bind_clean(m);
+  bind_joints(m);
   bind_end();
 #ifdef DF_VERSION
   m.attr("__version__") = DF_VERSION;

@@ -5,7 +5,6 @@ import discrete_fairing as df
 import numpy as np
 import pytest
 from control_meshes import cut_quads as triangles
-from discrete_fairing.joints import turning
 from discrete_fairing.joints.borders import border_curve, border_of, mesh_arrays
 from discrete_fairing.joints.turning import needed
 from lattices import lattice_faces
@@ -313,13 +312,3 @@ def test_a_long_border_of_a_narrow_strip_is_met():
     met = df.fair(*strip(0, 0.2, 0.5), 3, neighbour=(other.vertices, other.faces))
     joint = df.joint((met.vertices, met.faces), (other.vertices, other.faces))
     assert not met.report["warnings"] and np.abs(joint.kink).max() < 2e-4
-
-
-def test_a_full_matrix_and_a_sparse_one_turn_a_border_alike(monkeypatch):
-    first, other = bonnet_and_fender()
-    beside = fair(other, 2)
-    met = []
-    for full in (1000, 0):
-        monkeypatch.setattr(turning, "FULL", full)
-        met.append(fair(first, 2, neighbour=(beside.vertices, beside.faces)).vertices)
-    assert np.abs(met[0] - met[1]).max() < 1e-9

@@ -213,6 +213,27 @@ def to_flip(
     progress: _Progress,
 ) -> np.ndarray: ...
 def joined(count: int, pairs: np.ndarray) -> np.ndarray: ...
+def border_fits(
+    points: np.ndarray,
+    vertex: np.ndarray,
+    begin: np.ndarray,
+    near: np.ndarray,
+    degree: np.ndarray,
+    along: np.ndarray,
+    up: np.ndarray,
+    soft: float,
+    level: float,
+    full_rank: float,
+) -> tuple[np.ndarray, np.ndarray]: ...
+def damped_solution(
+    row: np.ndarray,
+    column: np.ndarray,
+    value: np.ndarray,
+    columns: int,
+    right: np.ndarray,
+    steps: int,
+    share: float,
+) -> np.ndarray: ...
 def _crossings(
     points: np.ndarray, triangles: np.ndarray, first: int, monitor: Monitor, progress: _Progress
 ) -> np.ndarray: ...

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .. import _native
 from ..arrays import face_arrays, faces_by_vertex, following, ranges, vertex_array
 from ..errors import fairing_error
 
@@ -20,13 +21,16 @@ Mesh = tuple[ArrayLike, Any]
 # an analytic sheet with 16 faces a side the measured kink is 0.001 degrees (triangles 0.007); with three
 # rings and cubics it is 0.03.
 RINGS, DEGREE = 5, 5
-# The cosine of the turn at a corner of a border, and iterations for the nearest point on its curve.
+# Squared distance, of the farthest point's, at which the weight in that fit is halved.
+SOFT = 0.1
+# The cosine of the turn at a corner of a border, and iterations for the nearest point on its curve, which end at a
+# step of rounding's size.
 STRAIGHT = float(np.cos(np.radians(30)))
-NEWTON = 6
+NEWTON, EXACT = 6, 1e-14
 # A fit's frame is settled when the polynomial rises by less: its normal is then exact to the square.
 LEVEL = 1e-4
-# A factor R whose diagonal spans more has no full rank.
-FULL_RANK = 1e-10
+# The least sine of the angle between a term's column and those before: normal equations have 1e-8 of noise.
+FULL_RANK = 1e-6
 
 
 @dataclass(frozen=True)
@@ -139,12 +143,15 @@ class BorderCurve:
             away -= (share[:, None] - t) * first
             speed2 = dot(first, first)
             bend = dot(away, second)
-            share = share + dot(away, first) / np.maximum(speed2 - bend, speed2 / 4)
+            step = dot(away, first) / np.maximum(speed2 - bend, speed2 / 4)
+            share = share + step
             for side, over in enumerate((-share, share - 1)):
                 moved = (over > 0) & (self.links[edge, side] >= 0)
                 edge = np.where(moved, self.links[edge, side], edge)
                 over = np.minimum(over, 1)
                 share = np.where(moved, 1 - over if side == 0 else over, share)
+            if np.abs(step).max(initial=0) < EXACT:
+                break
         return edge, share, points - away
 
 
@@ -159,17 +166,17 @@ class Border(BorderCurve):
     normal: np.ndarray
     inward: np.ndarray
     bend: np.ndarray
-    # By vertex: (m,) points, and (2, m) the changes of the slope and of the curvature across the border
-    # per move of each point along the normal.
-    fits: list[tuple[np.ndarray, np.ndarray]]
+    # Of e pairs, a vertex's row and a point near; and (e, 2) the changes of the slope and of the curvature
+    # across the border per move of each point along the normal.
+    pairs: tuple[np.ndarray, np.ndarray]
+    fits: np.ndarray
 
     def at(self, points: np.ndarray) -> Foot:
         """The nearest points on the border curve, which lie between its vertices too."""
-        edge, share, _ = self.feet(points)
-        place = [
-            self.between(v, edge, share) for v in (self.point, self.normal, self.inward, self.bend)
-        ]
-        return Foot(place[0], unit_vectors(place[1]), unit_vectors(place[2]), place[3])
+        rows, weights = self.shares(*self.feet(points)[:2])
+        every = (self.point, self.normal, self.inward, self.bend, self.along)
+        place = [np.einsum("ps,ps...->p...", weights, values[rows]) for values in every]
+        return Foot(place[0], *map(unit_vectors, place[1:3]), place[3], unit_vectors(place[4]))
 
 
 @dataclass(frozen=True)
@@ -180,6 +187,7 @@ class Foot:
     normal: np.ndarray
     inward: np.ndarray
     bend: np.ndarray
+    along: np.ndarray
 
 
 def border_edges(corners: np.ndarray, offsets: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -224,18 +232,23 @@ class BorderFits:
         self.around = _Around(corners, offsets)
         vertex = self.curve.vertex
         rings = self.around.rings(vertex, RINGS)
-        self.ids = [found[found != v] for found, v in zip(rings, vertex)]
-        degree = np.array([_degree(len(found)) for found in self.ids])
-        # fits of one degree at once, with as many points: the vertex itself, once more, has no weight
-        self.groups: list[tuple[int, np.ndarray, np.ndarray]] = []
-        for of in np.unique(degree):
-            at = np.flatnonzero(degree == of)
-            near = np.repeat(vertex[at, None], max(len(self.ids[k]) for k in at), axis=1)
-            for own, k in zip(near, at):
-                own[: len(self.ids[k])] = self.ids[k]
-            self.groups.append((int(of), at, near))
+        near = [found[found != v] for found, v in zip(rings, vertex)]
+        sizes = [len(found) for found in near]
+        self.degree = np.array([_degree(size) for size in sizes], np.int64)
+        self.begin = np.cumsum([0, *sizes])
+        self.pairs = (
+            np.repeat(np.arange(len(vertex)), sizes),
+            np.concatenate([np.empty(0, np.int64), *near]),
+        )
         self.up: np.ndarray | None = None
         self.last: tuple[np.ndarray, Border] | None = None
+
+    def curve_of(self, points: np.ndarray) -> BorderCurve:
+        """Its curve with these points (N, 3), or more."""
+        place = points[self.curve.vertex]
+        if not np.array_equal(place, self.curve.point):
+            self.curve = replace(self.curve, point=place)
+        return self.curve
 
     def of(self, points: np.ndarray) -> Border:
         """The border with these points (N, 3), or more, not changed since the last call; its fits begin with
@@ -243,26 +256,33 @@ class BorderFits:
         """
         if self.last is not None and self.last[0] is points:
             return self.last[1]
-        vertex = self.curve.vertex
-        curve = replace(self.curve, point=points[vertex])
-        place = (curve.edge, curve.face, vertex, curve.point, curve.slot)
+        curve = self.curve_of(points)
         along = curve.along
         if self.up is None:
-            up = self.around.normals(points, vertex)
+            up = self.around.normals(points, curve.vertex)
         else:  # in its plane lies the surface's tangent, which differs a little from the curve's
             up = self.up
             along = unit_vectors(along - dot(along, up)[:, None] * up)
-        normal, inward = np.empty((len(vertex), 3)), np.empty((len(vertex), 3))
-        bend = np.empty((len(vertex), 3, 3))
-        fits = [(found, np.empty((2, 0))) for found in self.ids]
-        for degree, at, near in self.groups:
-            away = points[near] - points[vertex[at], None]
-            normal[at], inward[at], bend[at], rows = _fitted(away, along[at], up[at], degree)
-            for k, row in zip(at, rows):
-                fits[k] = self.ids[k], row[:, : len(self.ids[k])]
+        found, fits = _native.border_fits(
+            points,
+            curve.vertex,
+            self.begin,
+            self.pairs[1],
+            self.degree,
+            along,
+            up,
+            SOFT,
+            LEVEL,
+            FULL_RANK,
+        )
+        normal, inward = np.ascontiguousarray(found[:, :3]), found[:, 3:6]
+        bend = found[:, 6:].reshape(-1, 3, 3)
+        place = (curve.edge, curve.face, curve.vertex, curve.point, curve.slot)
+        border = Border(*place, normal, inward, bend, self.pairs, fits)
+        vars(border).update(vars(curve))  # with the curve's tables
         self.up = normal
-        self.last = points, Border(*place, normal, inward, bend, fits)
-        return self.last[1]
+        self.last = points, border
+        return border
 
 
 class _Around:
@@ -310,73 +330,6 @@ def _degree(points: int) -> int:
     of lower degree would have another curvature than those beside.
     """
     return max(d for d in range(2, DEGREE + 1) if d == 2 or (d + 1) * (d + 2) // 2 + 2 <= points)
-
-
-def _fitted(
-    near: np.ndarray, along: np.ndarray, up: np.ndarray, degree: int
-) -> tuple[np.ndarray, ...]:
-    """Normals, inward directions and second fundamental forms, at the origin, of polynomials fitted to the
-    points `near` (g, n, 3); and rows of Border.fits (g, 2, n).
-    """
-    size = np.linalg.norm(near, axis=2).max(axis=1)
-    for _ in range(3):
-        up = unit_vectors(up - dot(up, along)[:, None] * along)
-        inward = np.cross(up, along)
-        x, y, z = (
-            np.einsum("gni,gi->gn", near, axis) / size[:, None] for axis in (along, inward, up)
-        )
-        weight = 1 / (0.1 + x * x + y * y)
-        inverse = _inverse(weight[..., None] * _monomials(x, y, degree)) * weight[:, None]
-        solved = np.einsum("gtn,gn->gt", inverse, z)
-        slopes = solved[:, :2]
-        along = unit_vectors(along + slopes[:, :1] * up)
-        up = up - slopes[:, :1] * along - slopes[:, 1:] * inward
-        if np.abs(slopes).max() < LEVEL:
-            break
-    up = unit_vectors(up - dot(up, along)[:, None] * along)
-    axes = np.stack([along, np.cross(up, along)], 1)
-    bend = solved[:, [[2, 3], [3, 4]]] / size[:, None, None]
-    rows = inverse[:, [1, 4]] / np.stack([size, size * size], 1)[..., None]
-    return up, axes[:, 1], np.einsum("gai,gab,gbj->gij", axes, bend, axes), rows
-
-
-def _monomials(x: np.ndarray, y: np.ndarray, degree: int) -> np.ndarray:
-    """(g, n, t): x, y, x²/2, x y, y²/2, then those of third and higher degree."""
-    one = np.ones_like(x)
-    powers = [[one, x], [one, y]]
-    for of in powers:
-        for _ in range(degree - 1):
-            of.append(of[-1] * of[1])
-    terms = [x, y, powers[0][2] / 2, x * y, powers[1][2] / 2]
-    terms += [powers[0][d - k] * powers[1][k] for d in range(3, degree + 1) for k in range(d + 1)]
-    return np.stack(terms, 2)
-
-
-def _inverse(matrix: np.ndarray) -> np.ndarray:
-    """(g, 5, n): the first rows of the pseudoinverses of (g, n, t). Borders of two or three faces have no
-    full rank.
-    """
-    q, r = np.linalg.qr(matrix)
-    least, largest = (f(np.abs(np.diagonal(r, 0, 1, 2)), axis=1) for f in (np.min, np.max))
-    full = least > FULL_RANK * largest
-    out = np.empty((len(matrix), 5, matrix.shape[1]))
-    out[full] = (q[full] @ _inverse_rows(r[full])).transpose(0, 2, 1)
-    if not full.all():
-        out[~full] = np.linalg.pinv(matrix[~full])[:, :5]
-    return out
-
-
-def _inverse_rows(r: np.ndarray) -> np.ndarray:
-    """(g, t, 5): the first rows of the inverses of upper triangles (g, t, t), as columns. A row of all at once,
-    since a solver for each takes many times as long.
-    """
-    out = np.zeros((*r.shape[:2], 5))
-    for i in range(r.shape[1]):
-        row = -np.einsum("gj,gjk->gk", r[:, :i, i], out[:, :i])
-        if i < 5:
-            row[:, i] += 1
-        out[:, i] = row / r[:, i, i, None]
-    return out
 
 
 def across(surface: Border | Foot, along: np.ndarray) -> np.ndarray:

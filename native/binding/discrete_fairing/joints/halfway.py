@@ -20,9 +20,7 @@ class Halfway:
     def at(self, points: np.ndarray) -> Foot:
         """As Border.at() of the other: `inward` is the other's way."""
         own, other = self.own.at(points), self.other.at(points)
-        edge, share, _ = self.own.feet(points)
-        curve = unit_vectors(self.own.between(self.own.along, edge, share))
-        ways = [across(foot, curve) for foot in (own, other)]
+        ways = [across(foot, own.along) for foot in (own, other)]
         along = np.cross(ways[1], other.normal)
         # the borders run in opposite directions, unless the faces of one are flipped
         same = -np.sign(dot(np.cross(ways[0], own.normal), along))
@@ -37,4 +35,5 @@ class Halfway:
             ((bends[1] + same * bends[0]) / 2)[:, None, None]
             * inward[:, :, None]
             * inward[:, None, :],
+            own.along,
         )

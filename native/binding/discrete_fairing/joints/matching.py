@@ -23,21 +23,21 @@ from ..halves import Control
 from ..lattice import Lattice
 from .borders import (
     Border,
+    BorderCurve,
     BorderFits,
     Foot,
     border_edges,
     border_of,
     mesh_arrays,
-    unit_vectors,
 )
 from .halfway import Halfway
-from .turning import Angles, needed, rotation
+from .turning import Turning, needed
 
 # Ends nearer to the neighbour's border than this share of a border edge lie on it.
 NEAR = 0.05
 # Most passes. With curvature, two halves of a bottle of 60 faces, which meet at 34 degrees before, need 16; a hull's
-# triangles need 16 or more, since rounding changes their number. Passes end once a change is this share of the first.
-PASSES = {"position": 1, "tangent": 4, "curvature": 24}
+# triangles need 16 or more, since rounding changes their number. Passes end once a change is this share of all.
+PASSES = {"tangent": 4, "curvature": 24}
 RANKS = ("position", "tangent", "curvature")
 SETTLED = 1e-5
 # Radians: larger kinks that are left show that the passes diverge. With curvature a surface gets spikes before
@@ -79,47 +79,79 @@ class MatchedBorder:
         self.joint = control.settings.get("joint", "tangent")
         self.edges = border_edges(control.corners, control.offsets)[0]
         self.chosen: np.ndarray | None = None  # of the edges, those that `strip` and `fits` are for
+        self.ends: np.ndarray | None = None  # of the edges, in the last surface
+        # by kind of joint, the last surface's angles and normals, from which the next begins
+        self.last: dict[str, tuple[np.ndarray, np.ndarray]] = {}
 
     def meet(self, found: dict[str, Any]) -> None:
         """Changes the points of the core's result `found`."""
         points = found["vertices"]
-        now = points[: len(self.control.points)]
-        chosen = _chosen(now, self.edges, self.other, self.border)
-        if self.chosen is None or not np.array_equal(chosen, self.chosen):
-            self.strip = _Strip(
-                _closed_faces(found, 1 << self.control.options.levels), self.edges[chosen]
-            )
-            _, corners, offsets = mesh_arrays((points, (found["triangles"], found["quads"])))
-            self.fits = BorderFits(corners, offsets, self.strip.on)
-            self.chosen = chosen
-        own = self.fits.of
+        now = points[: len(self.control.points)][self.edges]
+        if self.ends is None or not np.array_equal(now, self.ends):
+            self.ends, chosen = now, _chosen(now, self.edges, self.other, self.border)
+            if self.chosen is None or not np.array_equal(chosen, self.chosen):
+                self.strip = _Strip(
+                    _closed_faces(found, 1 << self.control.options.levels), self.edges[chosen]
+                )
+                _, corners, offsets = mesh_arrays((points, (found["triangles"], found["quads"])))
+                self.fits = BorderFits(corners, offsets, self.strip.on)
+                self.chosen, self.last = chosen, {}
+        own, joint = self.fits.of, self.joint
         goal = Halfway(own(points), self.other) if self.halfway else self.other
-
-        def settled(at: np.ndarray, name: str) -> np.ndarray:
-            return _settled(at, self.strip.changes(at, own, goal, name), PASSES[name])
-
-        def kink(at: np.ndarray) -> float:
-            now = own(at)
-            return float(np.abs(needed(now, goal.at(now.point))[0]).max())
-
-        joint = self.joint
-        found["vertices"] = points = settled(points, "position")
+        found["vertices"] = points = self.strip.placed(points, self.fits.curve_of(points), goal)
         if joint == "position":
             return
-        turn, name = kink(points), "position"
+        start = own(points)
+        foot = goal.at(start.point)
+        turn, name = _kink(needed(start, foot)), "position"
         folds = {}  # by kind of joint, the largest beside the border
+        last, self.last = self.last, {}
         for better in RANKS[1 : RANKS.index(joint) + 1] if turn < np.pi / 2 else ():
-            met = settled(points, better)
+            turning = self.strip.turning(points, start, better)
+            none = np.zeros(turning.size), start.normal
+            for first in [last[better], none] if better in last else [none]:
+                angles, kink, settled = self._turned(turning, foot, *first, PASSES[better])
+                if kink <= LEFT[better]:
+                    break
+            met = turning.points(angles)
             folds[better] = self.strip.largest_fold(met)
-            if kink(met) > LEFT[better] or folds[better] > folds["tangent"] + np.pi / 2:
+            if kink > LEFT[better] or folds[better] > folds["tangent"] + np.pi / 2:
+                self.fits.up = start.normal
                 break
             found["vertices"], name = met, better
+            if settled:
+                self.last[better] = angles, self.fits.up
         if name != joint:
             on = np.isin(found["crease_edges"], self.strip.on)
             creased = found["crease_edges"][on & ~on[:, ::-1]]
             found["report"]["warnings"].append(_not_met(turn, name, creased))
         elif folds[joint] > JAGGED * folds["tangent"]:
             found["report"]["warnings"].append(_jagged(folds[joint], folds["tangent"]))
+
+    def _turned(
+        self, turning: Turning, foot: Foot, angles: np.ndarray, up: np.ndarray, passes: int
+    ) -> tuple[np.ndarray, float, bool]:
+        """The angles to the neighbour, from given ones with normals `up`; the largest kink, radians; and whether
+        they have settled.
+        """
+        self.fits.up = up
+        kinks = []
+
+        def change(at: np.ndarray) -> np.ndarray:
+            own = self.fits.of(turning.points(at))
+            wanted = needed(own, foot)
+            kinks.append(_kink(wanted))
+            return turning.change(at, own, wanted)
+
+        angles, settled = _settled(angles, change, turning.moves, passes)
+        if not settled:
+            kinks.append(_kink(needed(self.fits.of(turning.points(angles)), foot)))
+        return angles, kinks[-1], settled
+
+
+def _kink(wanted: tuple[np.ndarray, np.ndarray]) -> float:
+    """The largest of turns from needed(), radians."""
+    return float(np.abs(wanted[0]).max())
 
 
 def _not_met(turn: float, name: str, creased: np.ndarray) -> dict[str, Any]:
@@ -158,28 +190,33 @@ def _jagged(fold: float, smooth: float) -> dict[str, Any]:
 
 
 def _settled(
-    points: np.ndarray, change: Callable[[np.ndarray], np.ndarray], passes: int
-) -> np.ndarray:
-    """The points at which `change` vanishes, by Anderson's acceleration; without convergence, those
-    with the least change.
+    at: np.ndarray,
+    change: Callable[[np.ndarray], np.ndarray],
+    size: Callable[[np.ndarray], np.ndarray],
+    passes: int,
+) -> tuple[np.ndarray, bool]:
+    """The vector at which `change` vanishes, by Anderson's acceleration, and True; without convergence that
+    with the least change. `size`, linear: a change's size is the norm of its.
     """
-    seen: list[tuple[np.ndarray, np.ndarray]] = []
+    seen: list[tuple[np.ndarray, np.ndarray, np.ndarray]] = []
     found = []
     for _ in range(passes):
-        step = change(points)
-        seen.append((points, step))
-        after = points + step
-        turns = [(b[0] - a[0], b[1] - a[1]) for a, b in zip(seen, seen[1:])]
+        step = change(at)
+        seen.append((at, step, size(step)))
+        after = at + step
+        turns = [[v - u for u, v in zip(a, b)] for a, b in zip(seen, seen[1:])]
         if turns:
-            normal = [[np.sum(a * b) for _, b in turns] for _, a in turns]
-            right = [np.sum(a * step) for _, a in turns]
+            normal = [[np.sum(a[2] * b[2]) for b in turns] for a in turns]
+            right = [np.sum(a[2] * seen[-1][2]) for a in turns]
             weights = np.linalg.lstsq(normal, right, rcond=1e-12)[0]
-            after = after - sum(w * (moved + turned) for w, (moved, turned) in zip(weights, turns))
-        points = after
-        found.append((float(np.sum(step * step)), after))
-        if found[-1][0] <= SETTLED**2 * found[0][0]:
-            break
-    return min(found, key=lambda one: one[0])[1]
+            after = after - sum(
+                w * (moved + turned) for w, (moved, turned, _) in zip(weights, turns)
+            )
+        at = after
+        found.append((float(np.sum(seen[-1][2] ** 2)), after))
+        if found[-1][0] <= SETTLED**2 * np.sum(size(after) ** 2):
+            return after, True
+    return min(found, key=lambda one: one[0])[1], False
 
 
 class _Strip:
@@ -198,8 +235,8 @@ class _Strip:
         touching = [face for face in faces if joint & set(face.corners)]
         self.joint = np.array([sides[a, b] for a, b in edge.tolist()])
         self.on = np.unique(self.joint)
-        self.corners = np.unique([corner for face in touching for corner in face.corners])
         self.ids = np.unique(np.concatenate([face.ids for face in touching]))
+        self.is_corner = np.isin(self.ids, np.concatenate([face.corners for face in touching]))
         rim = {
             tuple(sorted(pair)): sides[pair]
             for face in touching
@@ -236,7 +273,7 @@ class _Strip:
                 out[part] = np.sqrt(2 / np.sum(weight[rim] / gap**3, axis=1))
         return out
 
-    def inner_gap(self, own: Border, foot: Foot) -> np.ndarray:
+    def inner_gap(self, own: BorderCurve, foot: Foot) -> np.ndarray:
         """(k, 3): difference from the neighbour's border, minus the linear part along each side, since
         ends stay.
         """
@@ -247,46 +284,31 @@ class _Strip:
             out[rows] = gap[rows] - (1 - share) * gap[rows[0]] - share * gap[rows[-1]]
         return out
 
-    def changes(
-        self,
-        points: np.ndarray,
-        own: Callable[[np.ndarray], Border],
-        goal: Border | Halfway,
-        joint: str,
-    ) -> Callable[[np.ndarray], np.ndarray]:
-        """(N, 3) → (N, 3): changes that move points near `points` to the `goal`."""
-        start = own(points)
-        edge, share, place = start.feet(points[self.ids])
-        offset = points[self.ids] - place
-        t = np.linalg.norm(offset, axis=1)
-        v = t / (t + self.away(points))
-        fade = (1 - v) ** 3
+    def placed(self, points: np.ndarray, own: BorderCurve, goal: Border | Halfway) -> np.ndarray:
+        """(N, 3): with the border on the goal's."""
+        place, _, v = self.places(points, own)
+        gap = self.inner_gap(own, goal.at(own.point))
+        fade = (1 - v) ** 3 * (1 + 3 * v + 6 * v * v) * ~self.is_corner
+        out = points.copy()
+        out[self.ids] += fade[:, None] * own.between(gap, *place)
+        return out
 
+    def places(
+        self, points: np.ndarray, own: BorderCurve
+    ) -> tuple[tuple[np.ndarray, np.ndarray], np.ndarray, np.ndarray]:
+        """(p,) of the strip: feet on the border, edge and parameter; distances; and v."""
+        edge, share, foot = own.feet(points[self.ids])
+        t = np.linalg.norm(points[self.ids] - foot, axis=1)
+        return (edge, share), t, t / (t + self.away(points))
+
+    def turning(self, points: np.ndarray, own: BorderCurve, joint: str) -> Turning:
+        place, t, v = self.places(points, own)
+        fade = (1 - v) ** 3 * ~(self.is_corner | np.isin(self.ids, self.on))
         profiles = {
-            "position": [fade * (1 + 3 * v + 6 * v * v)],
             "tangent": [fade * (1 + 7 / 6 * v)],  # with the curvature of least bending
             "curvature": [fade * (1 + 3 * v), fade * t / 2],
         }[joint]
-
-        def change(at: np.ndarray) -> np.ndarray:
-            out = np.zeros_like(at)
-            now = own(at)
-            foot = goal.at(now.point)
-            if joint == "position":
-                gap = now.between(self.inner_gap(now, foot), edge, share)
-                out[self.ids] = profiles[0][:, None] * gap
-                out[self.corners] = 0
-                return out
-            axis = unit_vectors(now.between(now.along, edge, share))
-            arm = at[self.ids] - now.between(now.point, edge, share)
-            shares = now.shares(edge, share)
-            lift = np.cross(axis, arm)
-            angles = Angles(now, self.ids, lift, profiles, shares, float(t.mean()))
-            out[self.ids] = rotation(arm, axis, angles.for_(needed(now, foot)))
-            out[self.corners] = 0  # removes rounding
-            return out
-
-        return change
+        return Turning(points, self.ids, own, place, profiles, float(t.mean()))
 
 
 @dataclass(frozen=True)
@@ -319,15 +341,16 @@ def _closed_faces(found: dict[str, Any], n: int) -> list[_Face]:
 
 
 def _chosen(
-    points: np.ndarray, edge: np.ndarray, other: Border, border: ArrayLike | None
+    ends: np.ndarray, edge: np.ndarray, other: Border, border: ArrayLike | None
 ) -> np.ndarray:
-    """The border edges that meet the neighbour: the given ones, or all whose ends lie on its border."""
+    """(b,) the border edges with `ends` (b, 2, 3) that meet the neighbour: the given ones, or all whose ends
+    lie on its border.
+    """
     if border is not None:
         pairs = np.sort(vertex_pairs("border", border), axis=1)
-        size = len(points)
+        size = max(int(edge.max()), int(pairs.max(initial=0))) + 1
         named = np.isin(np.sort(edge, axis=1) @ [size, 1], pairs @ [size, 1])
     else:
-        ends = points[edge]
         middle = other.at(ends.mean(axis=1)).point
         gap = np.linalg.norm(other.at(ends.reshape(-1, 3)).point - ends.reshape(-1, 3), axis=1)
         length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)

@@ -5,17 +5,16 @@ from __future__ import annotations
 
 import numpy as np
 
+from .. import _native
 from ..arrays import marked
-from .borders import Border, Foot, across, dot
+from .borders import Border, BorderCurve, Foot, across, dot, unit_vectors
 
 # Steps of conjugate gradients, and the relative residual at which they end.
 STEPS, LEFT = 2000, 1e-4
-# A number of a full matrix takes a product so many times less long than one of a sparse.
-FULL = 16
 
 
-class Angles:
-    """Rotations about a border: an angle at each vertex, times a profile for each kind of value.
+class Turning:
+    """Points that turn about a border by angles: one at each vertex, times a profile for each kind of value.
 
     The response of the fits at the border to the angles is a sparse matrix: each fit covers several
     vertices, so correcting each vertex by its own error would not converge near ends.
@@ -23,88 +22,81 @@ class Angles:
 
     def __init__(
         self,
-        own: Border,
+        points: np.ndarray,
         ids: np.ndarray,
-        lift: np.ndarray,
+        curve: BorderCurve,
+        place: tuple[np.ndarray, np.ndarray],
         profiles: list[np.ndarray],
-        shares: tuple[np.ndarray, np.ndarray],
         reach: float,
     ):
-        """ids: (p,) points; lift: (p, 3) their moves for a unit angle; profiles: (p,) each; shares:
-        from Border.shares; reach: the length that converts curvatures to angles.
+        """points: (N, 3), of which `ids` (p,) turn; place: (p,) their feet on the curve, edge and parameter;
+        profiles: (p,) each; reach: the length that converts curvatures to angles.
         """
-        where = np.full(len(own.slot), -1)
-        where[ids] = np.arange(len(ids))
-        self.count = len(own.point)
-        self.inside = marked(own.ends[1, own.links[:, 1] >= 0], self.count)
+        self.start, self.ids, self.count = points, ids, len(curve.point)
+        self.axis = unit_vectors(curve.between(curve.along, *place))
+        self.arm = points[ids] - curve.between(curve.point, *place)
+        self.inside = marked(curve.ends[1, curve.links[:, 1] >= 0], self.count)
         self.units = [1, reach][: len(profiles)]
+        self.size = len(profiles) * self.count  # of the vectors of angles
         self.profiles = [profile / unit for profile, unit in zip(profiles, self.units)]
-        self.rows, self.weights = shares[0], self._from_lines(*shares)
-        of = np.repeat(np.arange(self.count), [len(near) for near, _ in own.fits])
-        point = where[np.concatenate([near for near, _ in own.fits])]
-        fits = np.concatenate([fit for _, fit in own.fits], axis=1)[:, point >= 0]
-        of, p = of[point >= 0], point[point >= 0]
-        moves = dot(lift[p], own.normal[of])
-        cells = (of[:, None] * self.count + self.rows[p]).ravel()
-        entries = []
-        # at ends no curvature: between triangles the fits hardly see it
-        for row, (unit, seen) in enumerate(
-            zip(self.units, (np.ones(len(of), bool), self.inside[of]))
-        ):
-            for column, profile in enumerate(self.profiles):
-                values = (unit * seen * fits[row] * moves * profile[p])[:, None] * self.weights[p]
-                sums = np.bincount(cells, values.ravel())
-                at = np.flatnonzero(sums)
-                place = row * self.count + at // self.count, column * self.count + at % self.count
-                entries.append((*place, sums[at]))
-        self.row, self.column, self.value = map(np.concatenate, zip(*entries))
-        self.size = len(self.units) * self.count
-        self.full: np.ndarray | None = None
-        if self.size**2 <= FULL * len(self.value):
-            self.full = np.zeros((self.size, self.size))
-            np.add.at(self.full, (self.row, self.column), self.value)
+        self.rows, weights = curve.shares(*place)
+        self.weights = self._from_lines(weights)
 
-    def _from_lines(self, rows: np.ndarray, weights: np.ndarray) -> np.ndarray:
+    def _from_lines(self, weights: np.ndarray) -> np.ndarray:
         """At ends the differences of the angles from the line through the two adjacent vertices: with
         zero angles beyond the end a joint would fold.
         """
-        weights = weights.copy()
         for column, way in ((0, 1), (1, 1), (3, -1), (2, -1)):
-            part = np.where(self.inside[rows[:, column]], 0, weights[:, column])
+            part = np.where(self.inside[self.rows[:, column]], 0, weights[:, column])
             weights[:, column + way] += 2 * part
             weights[:, column + 2 * way] -= part
         return weights
 
-    def for_(self, wanted: tuple[np.ndarray, np.ndarray]) -> np.ndarray:
-        """(p, 1): angles with the `wanted` turns and changes of curvature in the fits; by conjugate
-        gradients on the normal equations, stopped before insensitive components grow.
+    def turns(self, angles: np.ndarray) -> np.ndarray:
+        """(p,): by `angles`, those at vertices for each profile."""
+        out = np.zeros(len(self.ids))
+        for profile, part in zip(self.profiles, np.split(angles, len(self.units))):
+            out += profile * np.einsum("ps,ps->p", self.weights, part[self.rows])
+        return out
+
+    def moves(self, angles: np.ndarray) -> np.ndarray:
+        """(p,): lengths with signs, of small turns."""
+        return self.turns(angles) * np.linalg.norm(self.arm, axis=1)
+
+    def arms(self, angles: np.ndarray) -> np.ndarray:
+        """(p, 3): from the feet, after the turns."""
+        return self.arm + rotation(self.arm, self.axis, self.turns(angles)[:, None])
+
+    def points(self, angles: np.ndarray) -> np.ndarray:
+        """(N, 3): all points after the turns."""
+        out = self.start.copy()
+        out[self.ids] += self.arms(angles) - self.arm
+        return out
+
+    def change(
+        self, angles: np.ndarray, own: Border, wanted: tuple[np.ndarray, np.ndarray]
+    ) -> np.ndarray:
+        """Of the angles: with the `wanted` turns and changes of curvature in the fits, by least squares
+        that end before insensitive components grow.
         """
-        rows = (1, self.inside)
-        left = np.concatenate([row * w * unit for row, w, unit in zip(rows, wanted, self.units)])
-        found, enough = np.zeros(len(left)), LEFT**2 * (left @ left)
-        way = slope = self._back(left)
-        for _ in range(STEPS):
-            if left @ left <= enough:
-                break
-            seen = self._seen(way)
-            length = (slope @ slope) / max(seen @ seen, 1e-300)
-            found, left = found + length * way, left - length * seen
-            before, slope = slope @ slope, self._back(left)
-            way = slope + (slope @ slope) / max(before, 1e-300) * way
-        angle = np.zeros(len(self.rows))
-        for profile, part in zip(self.profiles, np.split(found, len(self.units))):
-            angle += profile * np.einsum("ps,ps->p", self.weights, part[self.rows])
-        return angle[:, None]
-
-    def _seen(self, way: np.ndarray) -> np.ndarray:
-        if self.full is not None:
-            return np.asarray(np.einsum("ij,j->i", self.full, way))
-        return np.bincount(self.row, self.value * way[self.column], self.size)
-
-    def _back(self, left: np.ndarray) -> np.ndarray:
-        if self.full is not None:
-            return np.asarray(np.einsum("ij,i->j", self.full, left))
-        return np.bincount(self.column, self.value * left[self.row], self.size)
+        where = np.full(len(self.start), -1)
+        where[self.ids] = np.arange(len(self.ids))
+        on = np.flatnonzero(where[own.pairs[1]] >= 0)
+        of, p = own.pairs[0][on], where[own.pairs[1][on]]
+        lift = np.cross(self.axis, self.arms(angles))
+        moves = own.fits[on] * dot(lift[p], own.normal[of])[:, None]
+        moves[:, 1] *= self.inside[
+            of
+        ]  # at ends no curvature: between triangles the fits hardly see it
+        entries, right = [], []
+        for row, (unit, value) in enumerate(zip(self.units, wanted)):
+            right.append(unit * value * (self.inside if row else 1))
+            for column, profile in enumerate(self.profiles):
+                values = (unit * moves[:, row] * profile[p])[:, None] * self.weights[p]
+                place = np.repeat(row * self.count + of, 4), column * self.count + self.rows[p]
+                entries.append((place[0], place[1].ravel(), values.ravel()))
+        found = map(np.concatenate, zip(*entries))
+        return _native.damped_solution(*found, self.size, np.concatenate(right), STEPS, LEFT)
 
 
 def needed(own: Border, foot: Foot) -> tuple[np.ndarray, np.ndarray]:
