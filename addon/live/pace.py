@@ -18,16 +18,17 @@ class Pace:
     """The live level and energy of one surface."""
 
     def __init__(self) -> None:
+        self.least = 1  # the lowest level that the surface allows
         self._too_slow: int | None = None  # the lowest level that was too slow
         self._slow_ones = 0  # consecutive slow updates
         self.is_plain = False  # whether the fastest energy replaces the chosen one
 
     def level(self, chosen: int, coarse_triangles: int) -> int:
-        """The highest level up to `chosen` that is fast enough; at least 1."""
+        """The highest level up to `chosen` that is fast enough; at least `least`."""
         level = chosen
-        while level > 1 and coarse_triangles * 4**level > MAX_TRIANGLES:
+        while level > self.least and coarse_triangles * 4**level > MAX_TRIANGLES:
             level -= 1
-        return level if self._too_slow is None else max(1, min(level, self._too_slow - 1))
+        return level if self._too_slow is None else max(self.least, min(level, self._too_slow - 1))
 
     def energy(self, chosen: str) -> str:
         """`chosen`, or the fastest energy if it has been too slow."""
@@ -41,11 +42,11 @@ class Pace:
 
     def slow_down(self, level: int, energy: str, hopeless: bool) -> bool:
         """Reduces to the fastest energy if levels will not help, else by a level, if it can."""
-        if energy != FAST and (hopeless or level == 1):
+        if energy != FAST and (hopeless or level == self.least):
             self.is_plain, self._too_slow = True, None
             return True
         self._too_slow = level
-        return level > 1
+        return level > self.least
 
 
 class Deadline:

@@ -194,6 +194,7 @@ class Session:
             with self._mesh_now(source, depsgraph) as mesh:
                 self._region = selected_faces(mesh, source.name)
         computed = size.coarse_triangles(arrays.face_sizes) * halves(self._settings)
+        self._pace.least = 2 if "neighbour" in self._dependencies.arguments else 1
         self._level = self._pace.level(self._chosen, computed)
         world = self._shape.of_arrays(arrays)
         if not (self._edge_length and arrays.has_faces_of(self._arrays)):

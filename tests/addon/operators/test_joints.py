@@ -12,7 +12,7 @@ from scenes import activate, add, fair, positions, recompute, refused, to_object
 
 from addon import core
 from addon.check import joints
-from addon.live import registry
+from addon.live import pace, registry
 from addon.operators import redo
 from addon.operators.fair import Fairing
 from addon.surfaces import neighbours
@@ -97,6 +97,15 @@ def test_live_follows_the_neighbour(panels):
     assert np.degrees(check(*panels).kink) < 0.1
     bpy.ops.object.fairing_live()
     assert why_stale(fender) == ""
+
+
+def test_live_is_not_lowered_to_a_level_that_meets_no_neighbour(panels, monkeypatch):
+    """Level 1 was refused, and Live stopped following where updates were slow."""
+    session = matched_live(*panels)
+    monkeypatch.setattr(pace, "SLOW", 0.0)
+    for _ in range(3 * pace.IN_A_ROW):
+        pull(panels[1].discrete_fairing.source, 10, 0.01)
+    assert not session.trouble and session.level == 2
 
 
 def rotated(bonnet, angle):
