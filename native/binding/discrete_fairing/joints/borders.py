@@ -176,7 +176,8 @@ class Border(BorderCurve):
         rows, weights = self.shares(*self.feet(points)[:2])
         every = (self.point, self.normal, self.inward, self.bend, self.along)
         place = [np.einsum("ps,ps...->p...", weights, values[rows]) for values in every]
-        return Foot(place[0], *map(unit_vectors, place[1:3]), place[3], unit_vectors(place[4]))
+        normal, inward, along = (unit_vectors(place[k]) for k in (1, 2, 4))
+        return Foot(place[0], normal, inward, place[3], along)
 
 
 @dataclass(frozen=True)
@@ -240,7 +241,7 @@ class BorderFits:
             np.repeat(np.arange(len(vertex)), sizes),
             np.concatenate([np.empty(0, np.int64), *near]),
         )
-        self.up: np.ndarray | None = None
+        self.up = np.empty((0, 3))  # normals to begin with; none at first
         self.last: tuple[np.ndarray, Border] | None = None
 
     def curve_of(self, points: np.ndarray) -> BorderCurve:
@@ -258,7 +259,7 @@ class BorderFits:
             return self.last[1]
         curve = self.curve_of(points)
         along = curve.along
-        if self.up is None:
+        if not len(self.up):
             up = self.around.normals(points, curve.vertex)
         else:  # in its plane lies the surface's tangent, which differs a little from the curve's
             up = self.up

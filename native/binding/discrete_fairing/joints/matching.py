@@ -110,7 +110,7 @@ class MatchedBorder:
             turning = self.strip.turning(points, start, better)
             none = np.zeros(turning.size), start.normal
             for first in [last[better], none] if better in last else [none]:
-                angles, kink, settled = self._turned(turning, foot, *first, PASSES[better])
+                angles, kink, settled = self._turned(turning, foot, first, PASSES[better])
                 if kink <= LEFT[better]:
                     break
             met = turning.points(angles)
@@ -129,13 +129,13 @@ class MatchedBorder:
             found["report"]["warnings"].append(_jagged(folds[joint], folds["tangent"]))
 
     def _turned(
-        self, turning: Turning, foot: Foot, angles: np.ndarray, up: np.ndarray, passes: int
+        self, turning: Turning, foot: Foot, first: tuple[np.ndarray, np.ndarray], passes: int
     ) -> tuple[np.ndarray, float, bool]:
-        """The angles to the neighbour, from given ones with normals `up`; the largest kink, radians; and whether
-        they have settled.
+        """The angles to the neighbour, from the `first`, given with normals; the largest kink, radians; and
+        whether they have settled.
         """
-        self.fits.up = up
-        kinks = []
+        angles, self.fits.up = first
+        kinks: list[float] = []
 
         def change(at: np.ndarray) -> np.ndarray:
             own = self.fits.of(turning.points(at))

@@ -85,18 +85,20 @@ class Turning:
         of, p = own.pairs[0][on], where[own.pairs[1][on]]
         lift = np.cross(self.axis, self.arms(angles))
         moves = own.fits[on] * dot(lift[p], own.normal[of])[:, None]
-        moves[:, 1] *= self.inside[
-            of
-        ]  # at ends no curvature: between triangles the fits hardly see it
-        entries, right = [], []
-        for row, (unit, value) in enumerate(zip(self.units, wanted)):
-            right.append(unit * value * (self.inside if row else 1))
-            for column, profile in enumerate(self.profiles):
-                values = (unit * moves[:, row] * profile[p])[:, None] * self.weights[p]
-                place = np.repeat(row * self.count + of, 4), column * self.count + self.rows[p]
+        # at ends no curvature: between triangles the fits hardly see it
+        moves[:, 1] *= self.inside[of]
+        entries: list[tuple[np.ndarray, ...]] = []
+        right: list[np.ndarray] = []
+        for kind, (unit, want) in enumerate(zip(self.units, wanted)):
+            right.append(unit * want * (self.inside if kind else 1))
+            for index, profile in enumerate(self.profiles):
+                values = (unit * moves[:, kind] * profile[p])[:, None] * self.weights[p]
+                place = np.repeat(kind * self.count + of, 4), index * self.count + self.rows[p]
                 entries.append((place[0], place[1].ravel(), values.ravel()))
-        found = map(np.concatenate, zip(*entries))
-        return _native.damped_solution(*found, self.size, np.concatenate(right), STEPS, LEFT)
+        row, column, value = map(np.concatenate, zip(*entries))
+        return _native.damped_solution(
+            row, column, value, self.size, np.concatenate(right), STEPS, LEFT
+        )
 
 
 def needed(own: Border, foot: Foot) -> tuple[np.ndarray, np.ndarray]:
