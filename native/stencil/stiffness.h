@@ -19,9 +19,9 @@ namespace fairing {
 
 // Stiffness of flat faces, relative to all others. Measured: a beam over supports at distances 70,
 // 2, 2 and 70, which turns by 90 degrees over the middle two, deviates from the long ones by 1.07
-// with 1, 0.26 with 100 and 0.003 with 10,000; the faces of a phone shell by 2e-2, and with 10,000
-// by 7e-4 of its size.
-constexpr double flat_stiffness = 1e5;
+// with 1, 0.26 with 100 and 0.003 with 10,000; the faces of a phone shell by 2e-2, with 100,000 by
+// 1.2e-4 and with a million by 1.2e-5 of its size.
+constexpr double flat_stiffness = 1e6;
 
 // The distances of the point (i, j) inside a face from its sides and corners, in grid steps: calls
 // visit(s, row, before, corner) with those from side s, from the side before, and from corner s

@@ -89,21 +89,49 @@ Vec2 direction_of(const ControlMesh& mesh, const Element& element, const Chart& 
   }
 }
 
+// The stiffness across an edge of a stiff face and another: the harmonic mean by their widths, as a
+// moment there bends the other one alone.
+double across_edge(const ControlMesh& mesh, Index e, const Chart& chart) {
+  const Edge& edge = mesh.edges[e];
+  if (edge.boundary()) return 1;
+  const Index left = mesh.sides[edge.side[0]].face, right = mesh.sides[edge.side[1]].face;
+  const auto stiff = [&](Index f, Index other) {
+    return mesh.flat.face[f] || (mesh.flat.is_straight(f) && !mesh.flat.is_kept(other));
+  };
+  const bool is_left = stiff(left, right);
+  if (is_left == stiff(right, left)) return 1;
+  const Vec2 on = chart.ring[0];
+  double most_left = 0, most_right = 0;
+  for (const Vec2& at : chart.ring) {
+    const double off = on.x() * at.y() - on.y() * at.x();
+    most_left = std::max(most_left, off);
+    most_right = std::max(most_right, -off);
+  }
+  const double other = is_left ? most_right : most_left, own = is_left ? most_left : most_right;
+  return (own + other) / (own / flat_stiffness + other);
+}
+
+// Multiplies the stiffness in one direction, by its second difference f_dd in the fit's coefficients.
+void multiply(double stiffness, const Vec2& direction, std::span<std::array<double, 3>> hessians) {
+  const double square = direction.squaredNorm();
+  if (!(square > 0)) return;
+  const double x = direction.x(), y = direction.y();
+  const Vec3 second = root_half * Vec3(1, (x * x - y * y) / square, 2 * x * y / square);
+  for (auto& numbers : hessians) {
+    Eigen::Map<Vec3> hessian(numbers.data());
+    hessian += (std::sqrt(stiffness) - 1) * second.dot(hessian) * second;
+  }
+}
+
 }  // namespace
 
 void stiffen_straight(const ControlMesh& mesh, const Element& element, const Chart& chart,
                       std::span<std::array<double, 3>> hessians) {
   if (mesh.flat.along.empty()) return;
-  const Vec2 direction = direction_of(mesh, element, chart);
-  const double square = direction.squaredNorm();
-  if (!(square > 0)) return;
-  // f_dd in the fit's coefficients
-  const double x = direction.x(), y = direction.y();
-  const Vec3 second = root_half * Vec3(1, (x * x - y * y) / square, 2 * x * y / square);
-  for (auto& numbers : hessians) {
-    Eigen::Map<Vec3> hessian(numbers.data());
-    hessian += (std::sqrt(flat_stiffness) - 1) * second.dot(hessian) * second;
-  }
+  multiply(flat_stiffness, direction_of(mesh, element, chart), hessians);
+  if (element.kind != RunKind::edge) return;
+  const Vec2 on = chart.ring[0];
+  multiply(across_edge(mesh, element.element, chart), {-on.y(), on.x()}, hessians);
 }
 
 }  // namespace fairing

@@ -104,7 +104,7 @@ def test_cages_pass_where_subdivision_surface_does(name, settings):
 
 def flats_kept(name, levels=1, **settings):
     """The surface with the flats of the cage `name` kept."""
-    kept = {"flat_faces": df.find_flats(*CAGES[name]), "metric_exponent": 0.75}
+    kept = {"flat_faces": df.find_flats(*CAGES[name]), "metric_exponent": 0.85}
     return df.fair(*CAGES[name], levels, **kept, **settings).vertices
 
 

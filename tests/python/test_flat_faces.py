@@ -6,6 +6,8 @@ import flat_parts
 import numpy as np
 import pytest
 from catmull_clark import subdivide
+from discrete_fairing.flats import SPACING
+from surface_measures import turns
 
 LEVEL = 3
 
@@ -99,12 +101,12 @@ def test_walls_around_a_cylinder_stay_straight_and_bend_across(sides, triangles)
     points, faces = chamfered_cylinder(sides, triangles)
     kept = df.find_flats(points, faces)
     assert len(kept) == sides + 2 if not triangles else len(kept) == 2 * sides + 2 * (sides - 2)
-    found = df.fair(points, faces, LEVEL, flat_faces=kept, metric_exponent=0.75).vertices
+    found = df.fair(points, faces, LEVEL, flat_faces=kept, metric_exponent=SPACING).vertices
     radius = np.hypot(*found[:, :2].T)
     on_wall = (found[:, 2] > 1.5) & (found[:, 2] < 48.5)
     assert np.abs(radius[on_wall] - 12.5).max() < 0.004 * 12.5 and radius.max() < 1.004 * 12.5
     assert np.abs(found[:, 2] - 25.0).max() < 25.001
-    plain = df.fair(points, faces, LEVEL, metric_exponent=0.75).vertices
+    plain = df.fair(points, faces, LEVEL, metric_exponent=SPACING).vertices
     assert np.hypot(*plain[:, :2].T).max() > 1.1 * 12.5
 
 
@@ -121,7 +123,7 @@ def test_a_cap_of_many_faces_stays_plane():
         ],
         32,
     )
-    found = df.fair(points, faces, LEVEL, flat_faces=flat, metric_exponent=0.75)
+    found = df.fair(points, faces, LEVEL, flat_faces=flat, metric_exponent=SPACING)
     assert found.report["converged"]
     height = found.vertices[:, 2]
     assert height.min() > -1e-3 and height.max() < 6.001
@@ -145,7 +147,7 @@ def test_a_box_may_be_flat_all_around():
     """Its faces meet at sharp folds: each is a part of its own."""
     cube = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
     sides = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
-    found = df.fair(cube, sides, LEVEL, flat_faces=range(6), metric_exponent=0.75).vertices
+    found = df.fair(cube, sides, LEVEL, flat_faces=range(6), metric_exponent=SPACING).vertices
     assert np.array_equal(found[:8], cube) and np.abs(found).max() < 2.0
 
 
@@ -157,10 +159,28 @@ def test_walls_of_an_open_cone_are_straight(sides):
     assert df.find_flats(points, faces).tolist() == walls.tolist()
 
     def bend(**settings):
-        found = df.fair(points, faces, LEVEL, metric_exponent=0.75, boundary="linear", **settings)
+        found = df.fair(
+            points, faces, LEVEL, metric_exponent=SPACING, boundary="linear", **settings
+        )
         own = found.vertices[(found.vertices[:, 2] > 1.1) & (found.vertices[:, 2] < 20.9)]
         cone = 5.0 - (own[:, 2] - 1.0) / 20.0
         return np.abs(np.hypot(*own[:, :2].T) - cone)
 
     assert bend(flat_faces=walls).max() < 1.05 * (1 - np.cos(np.pi / sides / 2)) * 5
     assert bend().max() > 0.3
+
+
+@pytest.mark.parametrize("size", [(40, 30, 20, 2), (150, 75, 9, 2.5)])
+def test_rims_turn_by_half_on_a_finer_level_and_are_round(size):
+    """An edge between a flat face and its rim was a hinge, as wide as a cell of the flat."""
+    points, faces, *_ = flat_parts.rounded_box(*size)
+    kept = df.find_flats(points, faces)
+    sharpest, off = [], []
+    for level in (LEVEL, LEVEL + 1):
+        found = df.fair(points, faces, level, flat_faces=kept, metric_exponent=SPACING)
+        sharpest.append(turns(found.vertices, found.faces[1])[2].max())
+        out = np.abs(found.vertices) - (np.array(size[:3]) / 2 - size[3])
+        far = np.linalg.norm(np.maximum(out, 0), axis=1) + np.minimum(out.max(axis=1), 0)
+        off.append(np.abs(far - size[3]).max() / max(size[:3]))
+    assert sharpest[1] < 0.6 * sharpest[0]
+    assert max(off) < 1.2e-3
