@@ -90,7 +90,7 @@ def beside(name, result):
 
 # a setting of each job's surface
 SURFACES = {
-    "hull": ("energy", "MINIMUM_VARIATION"),
+    "hull": ("energy", "THIN_PLATE"),  # this one is closed, with flat ends
     "panel": ("interpolation", "LIMIT"),
     "mechanical": ("energy", "THIN_PLATE"),
     "character": ("interpolation", "LIMIT"),
