@@ -220,9 +220,8 @@ def test_strips_may_be_cut_across():
         np.concatenate([half, half * [-1.0, 1.0, 1.0]]) + 0.0, axis=0, return_inverse=True
     )
     cut = [origin.ravel()[f].tolist() for f in [*right, *mirrored]]
-    assert (
-        len(df.find_flats(welded, cut)) == 18 + 4 + 4
-    )  # four sides and four strips are two faces each
+    # four sides and four strips are two faces each
+    assert len(df.find_flats(welded, cut)) == 18 + 4 + 4
 
 
 def _flat(faces):

@@ -18,7 +18,7 @@ Choice: TypeAlias = Literal["exact", "flats", "limit"]
 # Degrees. Through the vertices, walls of a slit cross each other where they are less than 60, 45 or 20 apart, if the faces
 # at its bottom are 0.3, 0.6 or 1.2 times as deep as the prongs beside it are thick.
 SLIT = 30.0
-# Degrees. With flats kept, walls that lean to each other or edges between bevels that turn by more bulge.
+# Degrees. Faces beside an edge that turns by more bulge or fold if flats are kept: wedges, corners of hollows.
 _BEVEL = 75.0
 # settings that decide for "exact": limit positions exclude them, or they make a fold a crease
 _EXACT = ("normals", "flat_faces", "region", "crease_angle")

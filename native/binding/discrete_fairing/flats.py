@@ -16,7 +16,8 @@ from .control_mesh import ControlMesh
 _IN_PLANE = 1e-3
 _ROUND = 60.0  # degrees, the largest turn of a strip that is meant to be round
 ANGLE = 1.0  # degrees, within which faces are joined unless a user says otherwise
-# least metric exponent beside flat faces: with 0.75 rims swing beyond them, by 2 thousandths of the size; with 1 inside
+# Least metric exponent beside flat faces. Rims leave a rounded box by 2 thousandths of its size with 0.75, and cut
+# into it by 3 with 1.
 SPACING = 0.85
 
 
