@@ -35,7 +35,10 @@ def find_flats(
 
 def kept_faces(mesh: ControlMesh, angle: float, sharp: np.ndarray | None = None) -> np.ndarray:
     """(m,) bool: the faces of flats_of() and straights_of()."""
-    return flats_of(mesh, angle, sharp) | straights_of(mesh, angle, sharp)
+    if not len(mesh.face_sizes):
+        return np.zeros(0, bool)
+    parts = _Parts.of(mesh, angle, sharp)
+    return _flats_among(parts, mesh, angle) | _straights_among(parts, mesh, angle)
 
 
 def flats_of(
@@ -57,7 +60,16 @@ def flats_of(
     """
     if not len(mesh.face_sizes):
         return np.zeros(0, bool)
-    parts = _Parts.of(mesh, angle, sharp)
+    return _flats_among(_Parts.of(mesh, angle, sharp), mesh, angle, tight, other_half)
+
+
+def _flats_among(
+    parts: _Parts,
+    mesh: ControlMesh,
+    angle: float,
+    tight: bool = False,
+    other_half: np.ndarray | None = None,
+) -> np.ndarray:
     owner, face = parts.owner, parts.face
     width = _widths(mesh, parts.part, parts.edge, owner)[owner]
     joined = parts.twin >= 0
@@ -86,26 +98,29 @@ def straights_of(mesh: ControlMesh, angle: float, sharp: np.ndarray | None = Non
     """
     if not len(mesh.face_sizes):
         return np.zeros(0, bool)
-    parts = _Parts.of(mesh, angle, sharp)
-    open_rows = parts.twin < 0
-    beside = np.where(open_rows, -1 - np.arange(len(parts.edge)), parts.owner[parts.twin])
-    (owner, beside), side = np.unique(np.stack([parts.owner, beside]), axis=1, return_inverse=True)
-    side = side.ravel()
-    open_, turn = beside < 0, np.zeros(len(owner))
+    return _straights_among(_Parts.of(mesh, angle, sharp), mesh, angle)
+
+
+def _straights_among(parts: _Parts, mesh: ControlMesh, angle: float) -> np.ndarray:
+    open_rows, count = parts.twin < 0, len(parts.plane)
+    beside = np.where(open_rows, count + np.arange(len(parts.edge)), parts.owner[parts.twin])
+    span = count + len(parts.edge)
+    codes, side = np.unique(parts.owner * span + beside, return_inverse=True)
+    owner, beside = np.divmod(codes, span)
+    open_, turn = beside >= count, np.zeros(len(owner))
     np.maximum.at(turn, side, parts.turn)
     length = np.bincount(side, mesh.edge_lengths[parts.edge])
     depth = np.bincount(parts.part, mesh.face_areas)[owner] / length
     flush = open_rows | ~parts.turns_beyond(depth[side], angle)
     rim = np.bincount(side, flush) == 0
-    of_four = parts.plane & (np.bincount(owner, minlength=len(parts.plane)) == 4)
+    of_four = parts.plane & (np.bincount(owner, minlength=count) == 4)
     fours = np.flatnonzero(of_four[owner]).reshape(-1, 4)
     pairs = _opposite(np.repeat(side, 2), mesh.edges[parts.edge].ravel(), owner, fours)
     ends = (rim | open_)[pairs].all(axis=2) & rim[pairs].any(axis=2)
     while True:
-        straight = marked(owner[pairs[ends.any(axis=1), 0, 0]], len(parts.plane))
-        kept = ends & (open_ | (straight[np.maximum(beside, 0)] & (turn <= _ROUND)))[
-            pairs[:, ::-1]
-        ].all(axis=2)
+        straight = marked(owner[pairs[ends.any(axis=1), 0, 0]], count)
+        goes_on = open_ | (straight[np.where(open_, owner, beside)] & (turn <= _ROUND))
+        kept = ends & goes_on[pairs[:, ::-1]].all(axis=2)
         if (kept == ends).all():
             return straight[parts.part]
         ends = kept
@@ -117,7 +132,8 @@ def _opposite(
     """(p, 2, 2) the sides of parts, (q, 4), as two pairs that share no vertex; parts without such pairs are
     left out. Each `side` (i,) has the `vertex` (i,); `owner`: the part of each side.
     """
-    side, vertex = np.unique(np.stack([side, vertex]), axis=1)
+    points = int(vertex.max(initial=0)) + 1
+    side, vertex = np.divmod(np.unique(side * points + vertex), points)
     order = np.lexsort((vertex, owner[side]))
     side, vertex = side[order], vertex[order]
     meet = (vertex[1:] == vertex[:-1]) & (owner[side[1:]] == owner[side[:-1]])
