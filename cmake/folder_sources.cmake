@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # folder_sources(OUT SOURCES...): for each folder of the sources one file that includes all of them. Most of a compiler's
-# time goes into the headers that they share: the core then takes less than half of it. For work on one file
-# DF_WHOLE_FOLDERS=OFF compiles each by itself.
+# time goes into the headers that they share: `curvature` takes 66 seconds for 158. For work on one file
+# DF_WHOLE_FOLDERS=OFF compiles each by itself, which also shows where an include is missing.
 option(DF_WHOLE_FOLDERS "Compile all sources of a folder together" ON)
 
 function(folder_sources out)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sparse/least_squares.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace fairing {
