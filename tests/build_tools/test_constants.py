@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The core's tuning constants: how many there are, that none stands twice, and that they are explained.
+"""The core's tuning constants: how many there are, and that they are explained.
 
 A tuning constant is a number that somebody chose: a threshold, a gain, a tolerance, a limit. Counted are
 `constexpr` numbers, each name of a list by itself, and numbers that stand bare in the code where neither arithmetic
@@ -17,10 +17,6 @@ NATIVE = Path(__file__).resolve().parents[2] / "native"
 
 # What there is today. Lower these with every constant that goes or is explained.
 MOST = 186
-# Names that two files have. Each of them that becomes one leaves this list.
-TWINS = """
-    grain
-"""
 
 SETTINGS = {
     "fairing/options.h",
@@ -126,23 +122,9 @@ def constants() -> list[Constant]:
     ]
 
 
-def twins(found: list[Constant]) -> dict[str, list[str]]:
-    """By name, the places of those that several files have."""
-    places: dict[str, list[str]] = {}
-    for constant in found:
-        if constant.name:
-            places.setdefault(constant.name, []).append(f"{constant.place} = {constant.value}")
-    return {name: at for name, at in places.items() if len(at) > 1}
-
-
 def test_there_are_no_more_than_there_were():
     rooms = Counter(constant.room for constant in constants())
     assert rooms.total() <= MOST, f"{rooms.total()} tuning constants, by rooms: {dict(rooms)}"
-
-
-def test_none_stands_twice():
-    found = twins(constants())
-    assert not {name: at for name, at in found.items() if name not in TWINS.split()}
 
 
 def test_they_are_explained():

@@ -176,6 +176,10 @@ def test_a_box_with_creases_stays_a_box():
     result = tight.fair(vertices @ rotation.T, faces, 3, crease_edges=creases)
     assert np.abs(np.abs(result.vertices @ rotation).max(1) - 1).max() < 1e-9
     assert result.report["energy"]["result"]["thin_plate"] < 1e-9
+    finest = result.report["levels"][-1]
+    assert finest["converged"] and finest["residual"] <= 1e-8, (
+        "2.7 where the polyhedron is the solution"
+    )
 
 
 def test_crease_angle_finds_the_same_creases():

@@ -196,34 +196,3 @@ def test_outside_a_region_and_on_its_rim_nothing_moves():
     np.testing.assert_array_equal(
         result.vertices[: len(vertices)][inner], limits(vertices, faces)[inner]
     )
-
-
-def test_the_smoother_allows_for_longer_lines():
-    """A coin with narrow chamfers: by the levels below the largest eigenvalue is a fifth too small, and it takes 55."""
-    turn = np.pi / 4 * np.arange(8)
-    profile = ((0.995, 0), (1, 0.005), (1, 0.095), (0.995, 0.1))
-    vertices = [(r * np.cos(t), r * np.sin(t), z) for r, z in profile for t in turn]
-    faces = [
-        [8 * k + i, 8 * k + (i + 1) % 8, 8 * k + 8 + (i + 1) % 8, 8 * k + 8 + i]
-        for k, i in np.ndindex(3, 8)
-    ]
-    faces += [[*range(7, -1, -1)], [*range(24, 32)]]
-    finest = df.fair(vertices, faces, 5, interpolation="limit").report["levels"][-1]
-    assert finest["lines"] and finest["iterations"] <= 30
-
-
-def test_thin_faces_are_smoothed_along_lines_on_the_finest_level_too():
-    """There K is not stored. Without lines the smoother takes degree 48."""
-    radius, height = np.array([(0.6, 0), (0.9, 0), (0.95, 0.02), (1, 0.08), (1, 1)]).T
-    around = np.array([(1, 0), (0, 1), (-1, 0), (0, -1)])
-    vertices = np.concatenate(
-        [np.c_[r * around, np.full(4, z)] for r, z in zip(radius, height, strict=True)]
-    )
-    faces = [
-        [4 * k + i, 4 * k + (i + 1) % 4, 4 * k + 4 + (i + 1) % 4, 4 * k + 4 + i]
-        for k, i in np.ndindex(4, 4)
-    ]
-    faces += [[3, 2, 1, 0], [16, 17, 18, 19]]
-    result = df.fair(vertices, faces, 6, interpolation="limit", pad_size=0.7, metric_exponent=0.45)
-    finest = result.report["levels"][-1]
-    assert finest["lines"] and finest["smoother_degree"] <= 6

@@ -138,5 +138,4 @@ def test_stiff_rows_at_a_free_border_do_not_mislead_loads():
         for residual in (1e-4, 1e-11)
     )
     assert usual.report["converged"] and exact.report["converged"]
-    assert usual.report["iterations"][-1] <= 30  # measured: 26
     assert np.abs(usual.vertices - exact.vertices).max() < 1e-4

@@ -27,9 +27,3 @@ def test_a_large_ring_is_solved_as_a_small_one():
     assert few.vertices[0] == pytest.approx(many.vertices[0])
     energy = [r.report["energy"]["result"]["thin_plate"] for r in (few, many)]
     assert energy[1] == pytest.approx(energy[0], rel=0.05)
-
-
-def test_thin_faces_about_one_vertex_are_smoothed_along_lines():
-    last = df.fair(*fan(2000), 3).report["levels"][-1]
-    assert last["converged"] and last["lines"] and not last["direct"]
-    assert last["iterations"] <= 60
