@@ -45,6 +45,13 @@ def write_obj(name, names=("Box",), materials=(), shared=True):
     return points
 
 
+def write_faces(name, points, faces):
+    """An OBJ of one object."""
+    lines = ["v {} {} {}".format(*point) for point in points]
+    lines += ["f " + " ".join(str(corner + 1) for corner in face) for face in faces]
+    Path(name).write_text("\n".join(["o Scan", *lines]) + "\n")
+
+
 def write_ply(name, colours=None):
     """As text, with a colour (r, g, b), 0 to 255, for each vertex if given. Returns vertices."""
     points = lopsided()

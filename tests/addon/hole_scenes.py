@@ -3,17 +3,12 @@
 
 import bmesh
 import numpy as np
-from scenes import activate, add, bmesh_of, faces_at_edges, positions
+from scenes import activate, add_ball, bmesh_of, faces_at_edges, positions
 
 
 def ball(name="Ball"):
     """A unit sphere of 1,280 triangles."""
-    bm = bmesh.new()
-    bmesh.ops.create_icosphere(bm, subdivisions=4, radius=1.0)
-    points = [tuple(v.co) for v in bm.verts]
-    faces = [[v.index for v in f.verts] for f in bm.faces]
-    bm.free()
-    return add(name, points, faces)
+    return add_ball(name, 4)
 
 
 def without(target, chosen):

@@ -8,6 +8,7 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
+from scans import sheet
 
 from addon.settings import Settings
 
@@ -28,6 +29,24 @@ def add(name, vertices, faces, edges=()):
     bpy.context.collection.objects.link(source)
     activate(source)
     return source
+
+
+def add_sheet(name, along, across, height):
+    """The graph of a function over a grid, in quads."""
+    points, faces = sheet(along, across, height)
+    return add(name, points.tolist(), faces.tolist())
+
+
+def add_ball(name, subdivisions, radius=1.0, noise=0.0):
+    """An icosphere, its vertices off the sphere by noise, rms as a share of the radius."""
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=subdivisions, radius=radius, calc_uvs=False)
+    made = bpy.context.object
+    made.name = name
+    points = positions(made.data)
+    length = np.random.default_rng(1).normal(1, noise, (len(points), 1))
+    made.data.vertices.foreach_set("co", np.float32(points * length).ravel())
+    made.data.update()
+    return made
 
 
 def add_suzanne():

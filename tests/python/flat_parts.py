@@ -77,6 +77,28 @@ def can(radius, height, size=2.0):
     return turned([(0, 0.0, "flat"), *ring, (0, height, "")])
 
 
+def chamfered_cylinder(sides, fans=""):
+    """(vertices, faces): radius 12.5, height 50, chamfers of 1.5; the wall is one face high, its faces the first ones.
+
+    With `fans` all faces are triangles, those of the caps about a vertex of their "rims", or about their "middles"."""
+    profile = [(12.5, 1.5), (12.5, 48.5), (11.0, 50.0), (11.0, 0.0)]
+    angle = 2 * np.pi * np.arange(sides) / sides
+    points = [(r * np.cos(a), r * np.sin(a), z) for r, z in profile for a in angle]
+    ring = np.stack([np.arange(sides), (np.arange(sides) + 1) % sides], axis=1)
+    bands = [sides * np.array([low, high]) for low, high in ((0, 1), (1, 2), (3, 0))]
+    quads = np.concatenate([np.hstack([ring + low, ring[:, ::-1] + high]) for low, high in bands])
+    if not fans:
+        caps = [ring[:, 0] + 2 * sides, ring[::-1, 0] + 3 * sides]
+        return np.array(points), [*quads.tolist(), *map(np.ndarray.tolist, caps)]
+    apex = [2 * sides, 3 * sides] if fans == "rims" else [4 * sides, 4 * sides + 1]
+    ring = ring[1:-1] if fans == "rims" else ring
+    caps = [np.insert(ring + (2 + k) * sides, 0, apex[k], axis=1) for k in (0, 1)]
+    points += [(0.0, 0.0, 50.0), (0.0, 0.0, 0.0)] if fans == "middles" else []
+    return np.array(points), np.concatenate(
+        [quads[:, :3], quads[:, [0, 2, 3]], caps[0], caps[1][:, ::-1]]
+    )
+
+
 PARTS = {
     "phone shell": (rounded_box, [(140, 70, 9, 3), (120, 70, 7, 2), (160, 75, 12, 4)]),
     "remote control": (rounded_box, [(160, 40, 18, 4), (200, 45, 15, 3), (120, 40, 22, 5)]),

@@ -5,6 +5,7 @@ import control_meshes
 import discrete_fairing as df
 import numpy as np
 import pytest
+import scans
 from lattices import lattice_faces
 from test_strain import SHAPES, bump
 
@@ -216,9 +217,7 @@ def dome_of_triangles(alternating, across=27):
     """Triangles with one diagonal or of 4 and 8 a vertex in turn, parameter lines drawn together; 2 wide."""
     at = np.linspace(-1, 1, across)
     at = at + 0.3 * np.sin(np.pi * at) / np.pi
-    x, y = np.meshgrid(at, at, indexing="ij")
-    points = np.stack([x, y, 0.6 * (1 - x**2) * (1 - y**2)], -1).reshape(-1, 3)
-    quads = lattice_faces(across, across)
+    points, quads = scans.sheet(at, at, lambda x, y: 0.6 * (1 - x**2) * (1 - y**2))
     odd = (alternating * np.indices((across - 1, across - 1)).sum(axis=0) % 2 == 1).ravel()[:, None]
     first = np.where(odd, quads[:, [0, 1, 3]], quads[:, [0, 1, 2]])
     second = np.where(odd, quads[:, [1, 2, 3]], quads[:, [0, 2, 3]])

@@ -77,28 +77,10 @@ def test_other_calls_know_flat_faces():
         df.fair(points, faces, flat_faces=[len(faces)])
 
 
-def chamfered_cylinder(sides, triangles):
-    """Radius 12.5, height 50, chamfers of 1.5; the wall is one face high, its faces the first ones.
-
-    With triangles the caps are fans from a vertex of their rims."""
-    profile = [(12.5, 1.5), (12.5, 48.5), (11.0, 50.0), (11.0, 0.0)]
-    angle = 2 * np.pi * np.arange(sides) / sides
-    points = [(r * np.cos(a), r * np.sin(a), z) for r, z in profile for a in angle]
-    ring = np.arange(sides)
-    rings = [np.stack([low + ring, low + (ring + 1) % sides]) for low in sides * np.arange(4)]
-    bands = [(rings[0], rings[1]), (rings[1], rings[2]), (rings[3], rings[0])]
-    quads = np.concatenate([np.stack([*low, *high[::-1]], axis=1) for low, high in bands])
-    if not triangles:
-        return np.array(points), [*quads.tolist(), rings[2][0].tolist(), rings[3][0][::-1].tolist()]
-    fan = np.stack([np.zeros(sides - 2, int), ring[1:-1], ring[2:]], axis=1)
-    halves = np.concatenate([quads[:, :3], quads[:, [0, 2, 3]]])
-    return np.array(points), np.concatenate([halves, fan + 2 * sides, fan[:, ::-1] + 3 * sides])
-
-
 @pytest.mark.parametrize("triangles", [False, True])
 @pytest.mark.parametrize("sides", [16, 44])
 def test_walls_around_a_cylinder_stay_straight_and_bend_across(sides, triangles):
-    points, faces = chamfered_cylinder(sides, triangles)
+    points, faces = flat_parts.chamfered_cylinder(sides, "rims" if triangles else "")
     kept = df.find_flats(points, faces)
     assert len(kept) == sides + 2 if not triangles else len(kept) == 2 * sides + 2 * (sides - 2)
     found = df.fair(points, faces, LEVEL, flat_faces=kept, metric_exponent=SPACING).vertices

@@ -10,7 +10,7 @@ import folding_meshes as folding
 import numpy as np
 import pytest
 import tight
-from lattices import lattice_faces
+from scans import sheet
 from surface_measures import turns
 from surfaces import comes_near
 
@@ -57,10 +57,8 @@ def test_a_rough_ball_is_unfolded(seed, levels):
 def test_steps_to_less_variation_that_fold_give_their_start_back(triangles):
     """Sharp pleats: these steps do not converge, and left over 700 folds."""
     line = np.linspace(-1, 1, 21)
-    x, y = np.meshgrid(line, line, indexing="ij")
     rise = 0.1 * np.tan(np.radians(78 / 2)) * (np.arange(21) % 2)
-    points = np.stack([x, y, np.broadcast_to(rise[:, None], x.shape)], -1).reshape(-1, 3)
-    mesh = points, lattice_faces(21, 21)
+    mesh = sheet(line, line, lambda x, y: np.broadcast_to(rise[:, None], x.shape))
     mesh = meshes.cut_quads(mesh) if triangles else mesh
     result = df.fair(*mesh, 2, energy="minimum_variation")
     assert own_folds(result, mesh) == 0

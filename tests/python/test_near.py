@@ -6,6 +6,7 @@ import discrete_fairing as df
 import numpy as np
 import pytest
 import tight
+from moving import icosphere
 from refusing import refusal
 from surfaces import boundary_vertices, output_faces
 
@@ -221,10 +222,7 @@ def test_no_force_is_left_at_a_point(option):
 def test_a_sphere_shrinks_as_a_whole(refined, tolerance):
     """All vertices move together, in waves that the surface hardly resists; soft springs overshoot there. One
     allowed surface is that through the vertices, scaled to the inner ends of the balls."""
-    points, faces = meshes.icosahedron()
-    for _ in range(refined):
-        points, faces = meshes.refine_triangles(points, faces)
-    points = points / np.linalg.norm(points, axis=1)[:, None]
+    points, faces = icosphere(refined)
     through = tight.fair(points, faces, 2, **PADS)
     result = near((points, faces), tolerance=tolerance, **PADS)
     assert result.report["converged"]

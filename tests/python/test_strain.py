@@ -5,17 +5,20 @@ import control_meshes
 import discrete_fairing as df
 import numpy as np
 import pytest
-from lattices import lattice_faces
+from scans import sheet
+from surfaces import as_lists, boundary_vertices
 
 
 def bump(across=9, along=7, seed=1, noise=0.0):
     """Quads on a smooth bump, 1 long; (vertices, faces, inner vertices)."""
-    x, y = np.meshgrid(np.linspace(0, 1, across), np.linspace(0, 0.75, along), indexing="ij")
-    z = 0.2 * np.exp(-12 * ((x - 0.5) ** 2 + (y - 0.375) ** 2))
-    points = np.stack([x, y, z], -1).reshape(-1, 3)
+    points, faces = sheet(
+        np.linspace(0, 1, across),
+        np.linspace(0, 0.75, along),
+        lambda x, y: 0.2 * np.exp(-12 * ((x - 0.5) ** 2 + (y - 0.375) ** 2)),
+    )
     points[:, 2] += noise * np.random.default_rng(seed).normal(size=len(points))
     inner = np.arange(across * along).reshape(across, along)[1:-1, 1:-1].ravel()
-    return points, lattice_faces(across, along), inner
+    return points, faces, inner
 
 
 def rough(mesh, size, seed):
@@ -36,13 +39,6 @@ def let_go(points, faces, vertex):
         relative_residual=1e-6,
     )
     return result.vertices[vertex] - points[vertex]
-
-
-def on_border(faces):
-    """Ids of border vertices of polygons."""
-    sides = [(int(u), int(v)) for f in faces for u, v in zip(f, [*f[1:], f[0]])]
-    edges, uses = np.unique(np.sort(sides, axis=1), axis=0, return_counts=True)
-    return np.unique(edges[uses == 1])
 
 
 MESHES = {
@@ -70,7 +66,7 @@ def mixed(mesh):
 def test_strain_is_the_way_of_a_vertex_let_go(name):
     points, faces = MESHES[name]()
     found = df.strain(points, faces, relative_residual=1e-6)
-    inside = np.setdiff1d(np.arange(len(points)), on_border(faces))
+    inside = np.setdiff1d(np.arange(len(points)), boundary_vertices(as_lists(faces)))
     held = inside[~np.isnan(found.lengths[inside])]
     ids = np.random.default_rng(6).permutation(held)[:6]
     largest = np.linalg.norm(found.ways[held], axis=1).max()

@@ -192,13 +192,10 @@ def rounded_case():
 @pytest.mark.parametrize("level", [2, 3])
 def test_at_limits_the_thickness_is_that_of_the_subdivided_mesh(level):
     """Beside that of a polyhedron through the limits it seemed to be halved."""
-    report = df.fair(*rounded_case(), level, interpolation="limit").report
-    assert "THICKNESS_CHANGED" not in [warning["code"] for warning in report["warnings"]]
+    assert not told(df.fair(*rounded_case(), level, interpolation="limit"))
 
 
 def test_at_limits_swelling_is_told():
-    report = df.fair(
-        *rounded_case(), 2, "total_curvature", interpolation="limit", limit=1e-6
-    ).report
-    told = [w for w in report["warnings"] if w["code"] == "THICKNESS_CHANGED"]
-    assert "passed through the opposite side" in told[0]["cause"]
+    settings = {"interpolation": "limit", "limit": 1e-6}
+    (warning,) = told(df.fair(*rounded_case(), 2, "total_curvature", **settings))
+    assert "passed through the opposite side" in warning["cause"]

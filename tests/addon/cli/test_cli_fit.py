@@ -7,17 +7,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 import step_files
-from cli_files import read_obj, write_obj
+from cli_files import read_obj, write_faces, write_obj
 from cli_runs import run
 from scans import blob_cage, blob_scan, cube_sphere, distance_to_blob, rms
 
 NOISE = 0.004
-
-
-def write(name, points, faces=()):
-    lines = ["v {} {} {}".format(*point) for point in points]
-    lines += ["f " + " ".join(str(corner + 1) for corner in face) for face in faces]
-    Path(name).write_text("\n".join(["o Scan", *lines]) + "\n")
 
 
 def write_points(name, points):
@@ -30,7 +24,7 @@ def write_points(name, points):
 def blob():
     """A cloud of points, and a cage for it."""
     write_points("scan.ply", blob_scan(8000, NOISE))
-    write("cage.obj", *blob_cage(4, 0.02))
+    write_faces("cage.obj", *blob_cage(4, 0.02))
 
 
 def within(said):
@@ -62,7 +56,7 @@ def test_a_tolerance_is_a_length_or_a_share_of_the_cages_edge(blob, capsys):
 def test_a_scan_alone_gets_a_cage(capsys):
     sphere, quads = cube_sphere(20)
     noise = 1 + 0.003 * np.random.default_rng(1).standard_normal((len(sphere), 1))
-    write("scan.obj", sphere * noise, quads)
+    write_faces("scan.obj", sphere * noise, quads)
     assert run("--fit", "scan.obj", "--cage-faces", 60, "out.obj", "--levels", 2) == 0
     said = capsys.readouterr().err
     cage, made = map(

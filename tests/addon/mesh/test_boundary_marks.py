@@ -4,8 +4,7 @@
 import bpy
 import numpy as np
 import pytest
-from lattices import lattice_faces
-from scenes import add, edit, faces_at_edges, fair, positions, to_object_mode
+from scenes import add_sheet, edit, faces_at_edges, fair, positions, to_object_mode
 
 from addon.mesh.marks import BOUNDARY
 from addon.mesh.read import control_mesh, read_mesh
@@ -16,9 +15,7 @@ BOTTOM = [(0, 1), (1, 2), (2, 3)]
 
 
 def sheet(name="Sheet"):
-    i, j = (ids.ravel() for ids in np.meshgrid(np.arange(4), np.arange(4), indexing="ij"))
-    points = np.stack([i, j, 0.4 * np.sin(1.7 * i + j)], axis=1)
-    return add(name, points.tolist(), lattice_faces(4, 4).tolist())
+    return add_sheet(name, range(4), range(4), lambda i, j: 0.4 * np.sin(1.7 * i + j))
 
 
 def edges(target, *pairs):

@@ -13,6 +13,7 @@ from scenes import (
     CUBE,
     activate,
     add,
+    add_ball,
     bmesh_of,
     faces_at_edges,
     positions,
@@ -34,19 +35,6 @@ from addon.settings import PatchOptions
 from addon.surfaces.freshness import SCAN_CHANGED, SCAN_MOVED, SOURCE_CHANGED, why_stale
 from addon.ui.inspect import VIEW3D_PT_fairing_inspect
 from addon.ui.main import VIEW3D_PT_fairing
-
-
-def ball(name, segments, radius=1.0, noise=0.0):
-    """An icosphere, subdivided so often, its vertices off the sphere by noise."""
-    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=segments, radius=radius)
-    made = bpy.context.object
-    made.name = name
-    if noise:
-        points = positions(made.data)
-        length = np.random.default_rng(1).normal(1, noise, (len(points), 1))
-        made.data.vertices.foreach_set("co", (points * length).ravel())
-        made.data.update()
-    return made
 
 
 def cage_of_cube():
@@ -83,7 +71,7 @@ def test_the_border_near_a_cloud_stays_as_far_as_the_cage(capsys):
 )
 def test_a_cage_reaches_into_every_part_of_a_scan(faces, said, off, capsys):
     """A ball with a rod, which quads leave out, or few quads do."""
-    scan = ball("Scan", 5)
+    scan = add_ball("Scan", 5)
     bpy.ops.mesh.primitive_cylinder_add(radius=0.15, depth=3, location=(0, 0, 1.5))
     activate(bpy.context.object, scan)
     bpy.ops.object.join()
@@ -99,7 +87,7 @@ def test_a_cage_reaches_into_every_part_of_a_scan(faces, said, off, capsys):
 @pytest.mark.parametrize("size", [1.0, 1e-3])
 def test_scans_of_any_size_get_a_cage_of_quads(size):
     """QuadriFlow refuses edges shorter than 1e-4: of a scan in metres those are a tenth of a millimetre."""
-    scan = ball("Scan", 6, radius=size)
+    scan = add_ball("Scan", 6, radius=size)
     scan.data.vertices[0].co = scan.data.vertices[scan.data.edges[0].vertices[1]].co * 0.99999
     made = fit(scan, levels=1, cage_faces=60)
     cage = bpy.data.objects["Scan Cage"]
@@ -109,7 +97,7 @@ def test_scans_of_any_size_get_a_cage_of_quads(size):
 
 def part(name, keep, **place):
     """A ball's vertices that `keep` takes, in an object that stands and is scaled somehow."""
-    made = ball(name, 5, noise=0.003)
+    made = add_ball(name, 5, noise=0.003)
     for key, value in place.items():
         setattr(made, key, value)
     follow()
@@ -138,7 +126,7 @@ def test_scans_alone_get_one_cage():
 
 
 def test_what_cannot_be_fitted_is_said():
-    scan, cage = ball("Scan", 3), cage_of_cube()
+    scan, cage = add_ball("Scan", 3), cage_of_cube()
     count = len(bpy.data.objects)
     activate(scan, cage)
     cage.scale.x = 0
@@ -155,7 +143,7 @@ def test_what_cannot_be_fitted_is_said():
     cloud = add("Cloud", positions(scan.data).tolist(), [])
     activate(cloud)
     refused("Cloud: Draw a cage over it", bpy.ops.object.fairing_fit)
-    ball("Lost", 3).data.vertices[3].co.x = np.nan
+    add_ball("Lost", 3).data.vertices[3].co.x = np.nan
     refused("Lost: Delete", bpy.ops.object.fairing_fit)
     line = [(i, i + 1, i + 2) for i in range(40)]
     activate(add("Line", [(float(i), 0.0, 0.0) for i in range(42)], line))
@@ -179,7 +167,7 @@ def test_a_surface_that_crosses_itself_near_a_scan_asks_for_a_nearer_cage(capsys
 
 
 def test_a_scan_that_is_inside_out_is_said(capsys):
-    scan = ball("Scan", 4)
+    scan = add_ball("Scan", 4)
     scan.scale = (1, -1, 1)  # which turns nothing inside out
     follow()
     fit(scan, levels=1, cage_faces=40)
@@ -192,7 +180,7 @@ def test_a_scan_that_is_inside_out_is_said(capsys):
 
 
 def fitted():
-    scan, cage = ball("Scan", 5, noise=0.01), cage_of_cube()
+    scan, cage = add_ball("Scan", 5, noise=0.01), cage_of_cube()
     return scan, cage, fit(scan, cage, levels=3)
 
 
@@ -358,7 +346,7 @@ def test_faces_without_points_are_grey_and_can_be_selected():
 
 
 def test_instances_and_point_clouds_count():
-    part = ball("Part", 4)
+    part = add_ball("Part", 4)
     bpy.context.collection.objects.unlink(part)
     shared = bpy.data.collections.new("Shared")
     shared.objects.link(part)

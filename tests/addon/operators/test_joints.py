@@ -5,10 +5,9 @@ import bpy
 import numpy as np
 import pytest
 from fake_layout import draw
-from lattices import lattice_faces
 from live_scenes import follow, pull
 from mathutils import Vector
-from scenes import activate, add, fair, positions, recompute, refused, to_object_mode
+from scenes import activate, add_sheet, fair, positions, recompute, refused, to_object_mode
 
 from addon import core
 from addon.check import joints
@@ -23,11 +22,8 @@ from addon.ui.main import VIEW3D_PT_fairing
 
 def strip(name, first, last, height):
     """A sheet of 4 x 3 faces between y = first and y = last."""
-    x, y = np.meshgrid(np.linspace(0, 1.4, 5), np.linspace(first, last, 4), indexing="ij")
-    z = height(y) + 0.1 * np.sin(2 * x)
-    return add(
-        name, np.stack([x, y, z], axis=-1).reshape(-1, 3).tolist(), lattice_faces(5, 4).tolist()
-    )
+    along, across = np.linspace(0, 1.4, 5), np.linspace(first, last, 4)
+    return add_sheet(name, along, across, lambda x, y: height(y) + 0.1 * np.sin(2 * x))
 
 
 @pytest.fixture

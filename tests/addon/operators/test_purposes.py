@@ -6,13 +6,14 @@ import numpy as np
 import panel_meshes
 import pytest
 from fake_layout import draw
-from lattices import lattice_faces
 from mathutils import Matrix
 from scenes import (
     CUBE,
     TRIANGLE,
     activate,
     add,
+    add_ball,
+    add_sheet,
     add_suzanne,
     fair,
     positions,
@@ -57,10 +58,9 @@ def dome(x, y):
 @pytest.mark.parametrize("seed", range(3))
 def test_measured_points_lose_their_scatter(seed):
     even = np.linspace(-1, 1, 9)
-    x, y = np.meshgrid(even, even, indexing="ij")
-    z = dome(x, y) + np.random.default_rng(seed).normal(0, 0.012, x.shape)
-    points = np.stack([x, y, z], axis=2).reshape(-1, 3)
-    source = add("Dome", points.tolist(), lattice_faces(9, 9).tolist())
+    scatter = np.random.default_rng(seed).normal(0, 0.012, (9, 9))
+    source = add_sheet("Dome", even, even, lambda x, y: dome(x, y) + scatter)
+    points = positions(source.data)
 
     def off(surface):
         places = shown(surface)
@@ -72,19 +72,8 @@ def test_measured_points_lose_their_scatter(seed):
     activate(source)
     assert bpy.ops.object.fairing_for(purpose="POINTS") == {"FINISHED"}
     assert off(bpy.context.active_object) < 0.7 * near
-    np.testing.assert_allclose(positions(source.data), points, atol=1e-7)
+    np.testing.assert_array_equal(positions(source.data), points)
     assert source.data.shape_keys.key_blocks["Eased"].value == 1
-
-
-def noisy_sphere(noise=0.004, subdivisions=5):
-    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=subdivisions)
-    scan = bpy.context.object
-    points = positions(scan.data).astype(float)
-    points /= np.linalg.norm(points, axis=1)[:, None]
-    points *= 1 + noise * np.random.default_rng(2).standard_normal((len(points), 1))
-    scan.data.vertices.foreach_set("co", points.astype(np.float32).ravel())
-    scan.data.update()
-    return scan
 
 
 def off(scan):
@@ -92,7 +81,7 @@ def off(scan):
 
 
 def test_a_whole_scan_loses_its_noise_in_place():
-    scan = noisy_sphere()
+    scan = add_ball("Scan", 5, noise=0.004)
     faces = len(scan.data.polygons)
     before = off(scan)
     chosen = [face.index for face in scan.data.polygons][:9]
@@ -175,9 +164,7 @@ def test_a_closed_body_with_flat_ends_keeps_its_thickness(capfd):
 
 def test_half_a_panel_with_a_mirror_modifier_gives_the_whole(capfd):
     rows = np.linspace(0.0, 1.0, 5)
-    x, y = np.meshgrid(rows, rows, indexing="ij")
-    points = np.stack([x, y, 0.2 - 0.1 * x**2 - 0.2 * y**2], axis=2).reshape(-1, 3)
-    half = add("Bonnet", points.tolist(), lattice_faces(5, 5).tolist())
+    half = add_sheet("Bonnet", rows, rows, lambda x, y: 0.2 - 0.1 * x**2 - 0.2 * y**2)
     half.modifiers.new("Mirror", "MIRROR").use_axis = (False, True, False)
     assert bpy.ops.object.fairing_for(purpose="PANEL") == {"FINISHED"}
     surface = bpy.context.active_object
@@ -197,9 +184,8 @@ def test_half_a_panel_with_a_mirror_modifier_gives_the_whole(capfd):
 
 def test_half_a_cage_under_mirror_and_subdivision_surface_gives_the_whole():
     """The commonest stack: the surface takes the place of Subdivision Surface, and gets the Mirror modifier."""
-    x, y = np.meshgrid(np.linspace(0.0, 1.0, 4), np.linspace(-1.0, 1.0, 5), indexing="ij")
-    points = np.stack([x, y, 0.5 - 0.3 * x**2 - 0.2 * y**2], axis=2).reshape(-1, 3)
-    half = add("Half", points.tolist(), lattice_faces(4, 5).tolist())
+    along, across = np.linspace(0.0, 1.0, 4), np.linspace(-1.0, 1.0, 5)
+    half = add_sheet("Half", along, across, lambda x, y: 0.5 - 0.3 * x**2 - 0.2 * y**2)
     half.modifiers.new("Mirror", "MIRROR")
     half.modifiers.new("Subdivision", "SUBSURF")
     assert bpy.ops.object.fairing_for(purpose="CHARACTER") == {"FINISHED"}
@@ -224,7 +210,7 @@ def test_a_mirror_beside_the_mesh_is_left_out(capfd):
 
 
 def test_a_scan_with_shape_keys_is_refused_in_object_mode():
-    scan = noisy_sphere(subdivisions=3)
+    scan = add_ball("Scan", 3, noise=0.004)
     scan.shape_key_add(name="Basis")
     before = positions(scan.data)
     refused("Press Tab, select all", bpy.ops.object.fairing_in_place)
@@ -251,7 +237,7 @@ def test_a_job_takes_selected_meshes_beside_another_active_object():
 def test_undo_takes_the_surface_and_nothing_before_it(purpose, how):
     """The operator is called as by a button, with a step of undo of its own."""
     bpy.context.preferences.edit.use_global_undo = True
-    scan = noisy_sphere(subdivisions=3)
+    scan = add_ball("Scan", 3, noise=0.004)
     bpy.ops.ed.undo_push(message="there")
     scan.location.x = 5.0
     bpy.ops.ed.undo_push(message="moved")

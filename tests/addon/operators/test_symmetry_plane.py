@@ -5,7 +5,7 @@ import bpy
 import numpy as np
 from lattices import lattice_faces
 from live_scenes import pull
-from scenes import add, again, faces_at_edges, positions, recompute
+from scenes import add, add_sheet, again, faces_at_edges, positions, recompute
 
 
 def half_bowl():
@@ -68,9 +68,6 @@ def test_stem_and_keel_of_half_a_hull_are_sharp():
 
 def test_a_seam_that_was_faired_across_is_not_sharp_and_none_that_is_tangent():
     assert seam(again(half_bowl(), levels=3, symmetry_plane="X"), 0) == (0, 48)
-    x, y = np.meshgrid(np.linspace(0, 1, 5), np.linspace(-1, 1, 5), indexing="ij")
-    points = np.stack([x, y, 0.3 * (x**2 + y**2)], axis=-1).reshape(-1, 3)
-    assert seam(again(add("Dish", points.tolist(), lattice_faces(5, 5).tolist()), levels=3), 0) == (
-        0,
-        32,
-    )
+    along, across = np.linspace(0, 1, 5), np.linspace(-1, 1, 5)
+    dish = add_sheet("Dish", along, across, lambda x, y: 0.3 * (x**2 + y**2))
+    assert seam(again(dish, levels=3), 0) == (0, 32)
