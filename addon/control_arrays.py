@@ -66,7 +66,7 @@ class ControlArrays:
             and np.array_equal(self.offsets, other.offsets)
         )
 
-    def crease_edges(self, threshold: float | None = None, use_sharp: bool = False) -> np.ndarray:
+    def crease_edges(self, threshold: float | None, use_sharp: bool) -> np.ndarray:
         """Vertex pairs (k, 2) int32 of edges with a crease of at least `threshold` or, with
         `use_sharp`, marked sharp.
 
@@ -121,7 +121,7 @@ class ControlArrays:
         }
         return {name: edges for name, edges in marked.items() if len(edges)}
 
-    def corner_vertices(self, threshold: float | None = None) -> np.ndarray:
+    def corner_vertices(self, threshold: float | None) -> np.ndarray:
         """Vertices (c,) int32 with faces and a crease of at least `threshold`, None for none."""
         if threshold is None or self.vertex_crease is None:
             return np.empty(0, np.int32)

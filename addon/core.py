@@ -39,11 +39,6 @@ def module() -> Any:
     return found
 
 
-def lattice(n: int, quad: bool) -> Any:
-    """The points and cells of a control face whose edges are split into `n`."""
-    return module().lattice.Lattice(n, quad)
-
-
 def measured(arrays: ControlArrays) -> Any:
     """The package's ControlMesh of these arrays: lengths, areas, angles, and what follows from them."""
     mesh = arrays.positions, arrays.corners, arrays.offsets, arrays.edges, arrays.corner_edges
@@ -73,7 +68,7 @@ def fair_arguments(
 
     Nothing is measured; callers that show a measured number request it.
     """
-    threshold = settings.crease_threshold if settings.use_crease_attribute else None
+    threshold = _threshold(settings)
     allowed = tolerance(settings, edge_length)
     flats = flat_faces(arrays, settings)
     arguments = {
@@ -89,8 +84,8 @@ def fair_arguments(
         "pad_size": settings.pad_size,
         # the steps of minimum variation fail under it
         "tension": 0.0 if settings.energy == "MINIMUM_VARIATION" else settings.tension,
-        "crease_edges": arrays.crease_edges(threshold, settings.use_sharp_edges),
-        "corner_vertices": _corners(arrays, settings, threshold),
+        "crease_edges": crease_edges(arrays, settings),
+        "corner_vertices": _corners(arrays, settings),
         "crease_angle": settings.crease_angle if settings.use_crease_angle else None,
         "corner_angle": settings.corner_angle if settings.use_corner_angle else None,
         "boundary": "curve" if settings.boundary == "CORNERS" else settings.boundary.lower(),
@@ -119,6 +114,16 @@ def fair_arguments(
     if shapes is not None and len(shapes):
         arguments["shapes"] = shapes
     return arguments
+
+
+def _threshold(settings: Settings) -> float | None:
+    """The least weight of a crease; None: no weight makes one."""
+    return settings.crease_threshold if settings.use_crease_attribute else None
+
+
+def crease_edges(arrays: ControlArrays, settings: Settings) -> np.ndarray:
+    """(k, 2) int32 vertex pairs of the edges that are creases by their weights, or marked sharp."""
+    return arrays.crease_edges(_threshold(settings), settings.use_sharp_edges)
 
 
 def _limit(arrays: ControlArrays, settings: Settings) -> dict[str, Any]:
@@ -152,9 +157,16 @@ def flat_faces(arrays: ControlArrays, settings: Settings) -> np.ndarray | None:
     if arrays.has_flats:
         kept |= arrays.flat_face
     if settings.interpolation == "FLATS":
-        flats, mesh = module().flats, measured(arrays)
-        kept |= flats.kept_faces(mesh, flats.ANGLE, sharp_edges(arrays, settings))
+        kept |= found_flats(arrays, settings, module().flats.ANGLE)
     return np.flatnonzero(kept) if kept.any() else None
+
+
+def found_flats(arrays: ControlArrays, settings: Settings, angle: float) -> np.ndarray:
+    """(m,) bool: large flat faces between tight rims, of faces that meet at less than `angle` (degrees). They may
+    end at edges where the settings let the surface turn.
+    """
+    sharp = sharp_edges(arrays, settings)
+    return np.asarray(module().flats.kept_faces(measured(arrays), angle, sharp))
 
 
 def sharp_edges(arrays: ControlArrays, settings: Settings) -> np.ndarray:
@@ -207,8 +219,11 @@ def patches_on_scan(arguments: Mapping[str, Any], scan: Mapping[str, Any]) -> di
     """`patch_arguments` for the surface near a scan; `scan` has arguments of `discrete_fairing.fit`, with
     the levels of that surface.
     """
-    kept = ("tolerance",)  # the tolerance of the patches
-    return of_fits(arguments) | {name: arguments[name] for name in kept} | {"scan": scan}
+    own = {
+        "tolerance": arguments["tolerance"],
+        "scan": scan,
+    }  # the tolerance is that of the patches
+    return of_fits(arguments) | own
 
 
 class SolverFromStart:
@@ -272,11 +287,9 @@ def at_tolerance(arguments: Mapping[str, Any], surface: np.ndarray) -> list[int]
     return [int((off[may] >= _AT * allowed[may]).sum()), int(may.sum())]
 
 
-def _corners(
-    arrays: ControlArrays, settings: Settings, crease_threshold: float | None
-) -> np.ndarray:
+def _corners(arrays: ControlArrays, settings: Settings) -> np.ndarray:
     """All vertices at which the settings let curves end."""
-    found = arrays.corner_vertices(crease_threshold)
+    found = arrays.corner_vertices(_threshold(settings))
     if settings.boundary != "CORNERS":
         return found
     ends = border_corners(arrays)

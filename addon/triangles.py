@@ -27,3 +27,9 @@ def normals(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
     across = np.repeat(np.cross(b - a, c - a), 3, axis=0)
     at = triangles.ravel()
     return np.stack([np.bincount(at, across[:, k], len(points)) for k in range(3)], axis=1)
+
+
+def unit(vectors: np.ndarray) -> np.ndarray:
+    """Rows of length 1; zero rows stay zero."""
+    length = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
+    return vectors / np.where(length > 0, length, 1.0)[:, None]

@@ -13,11 +13,10 @@ from mathutils.bvhtree import BVHTree
 
 from ..blender import Mesh
 from ..core import ControlArrays, folds, measured, module
-from ..inspection.curvature import unit
 from ..mesh.layers import fill_layer, layer_values, make_layer
 from ..mesh.write import FAULTS
 from ..transfer.attributes import AttributeTransfer, coarse_triangles
-from ..triangles import marked
+from ..triangles import marked, unit
 from .folds import folded, folded_in_place, outward_folds
 
 # triangles that are searched for crossings at a time, about 0.3 seconds; of a finer surface fewer

@@ -5,10 +5,10 @@ from typing import Any
 
 import numpy as np
 
-from ..inspection.curvature import unit
+from ..core import module
 from ..transfer.attributes import AttributeTransfer, coarse_triangles
-from ..transfer.lattice import pair_keys
-from ..triangles import marked
+from ..transfer.edges import mark_pairs
+from ..triangles import marked, unit
 
 
 def folded(vertices: np.ndarray, triangles: np.ndarray, cosine: float = 0.0) -> np.ndarray:
@@ -53,8 +53,7 @@ def folded_in_place(
     counted = inside.all(axis=1) & ~excused[owner[sides]].any(axis=1)
     if joined:
         counted |= inside.any(axis=1) & ~inside.all(axis=1)
-    creases = pair_keys(result.crease_edges)
-    return marked(edges[counted & ~np.isin(pair_keys(edges), creases)], len(vertices))
+    return marked(edges[counted & ~mark_pairs(edges, result.crease_edges)], len(vertices))
 
 
 def _folds(
@@ -64,7 +63,7 @@ def _folds(
     a, b, c = (vertices[triangles[:, i]] for i in range(3))
     normals = unit(np.cross(b - a, c - a))
     edges = triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
-    keys = pair_keys(edges)
+    keys = module().arrays.pair_keys(edges)
     order = np.argsort(keys, kind="stable")
     pairs = np.flatnonzero(keys[order][1:] == keys[order][:-1])
     first, second = order[pairs], order[pairs + 1]

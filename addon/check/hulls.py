@@ -31,8 +31,7 @@ def why_bending(cage: ControlArrays, settings: Settings) -> str:
     """Why Flow Lines would swing on this hull, as half a sentence; empty if it would not."""
     if has_flat_ends(cage):
         return "it is closed, with flat ends"
-    threshold = settings.crease_threshold if settings.use_crease_attribute else None
-    creases = cage.crease_edges(threshold, settings.use_sharp_edges)
+    creases = core.crease_edges(cage, settings)
     if _ends_inside(cage, creases, settings.symmetry_plane):
         return "a crease ends inside"
     length = _longest(cage, creases)

@@ -15,10 +15,9 @@ def prisms_text(cage: ControlArrays, settings: Settings) -> str:
     """What to do about regular turns whose sides stay flat, in one sentence; empty if there are none."""
     if not settings.use_crease_angle:
         return ""
-    threshold = settings.crease_threshold if settings.use_crease_attribute else None
     mesh = core.measured(cage)
     folds, inside = mesh.fold_angles
-    marked = mesh.has_pair(cage.crease_edges(threshold, settings.use_sharp_edges))
+    marked = mesh.has_pair(core.crease_edges(cage, settings))
     sharp = inside & ~marked & (folds > np.degrees(settings.crease_angle))
     quads = cage.offsets[:-1][cage.face_sizes == 4]
     first = cage.corner_edges[np.concatenate([quads, quads + 1])]

@@ -75,13 +75,14 @@ def write_file(path: Path) -> None:
     """Writes the scene to a file and an OBJ's materials to another, or leaves all as it was."""
     with _explained(path):
         path.parent.mkdir(parents=True, exist_ok=True)
-        target = _whole_files().real_place(path)
-        with _whole_files().whole_file(path, path.suffix) as part:
+        files = core.module().whole_files
+        target = files.real_place(path)
+        with files.whole_file(path, path.suffix) as part:
             part.write_bytes(b"")  # its error is clearer than those of the exporters
             _export(part)
             materials = part.with_suffix(".mtl")
             if materials.exists():
-                _whole_files().put(materials, target.with_name(materials.name))
+                files.put(materials, target.with_name(materials.name))
 
 
 def write_whole(path: Path, write: Callable[[str], None]) -> None:
@@ -105,10 +106,6 @@ def _explained(path: Path) -> Iterator[None]:
         raise FileError(f"{path} cannot be written: {reason}.") from error
     except core.module().FairingError as error:
         raise FileError(f"{path} cannot be written: {error}") from error
-
-
-def _whole_files() -> Any:
-    return core.module().whole_files
 
 
 def _export(path: Path) -> None:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..core import ControlArrays
-from ..triangles import fans, marked
+from ..triangles import fans, marked, unit
 
 
 @dataclass(frozen=True)
@@ -139,12 +139,6 @@ def rim_edges(arrays: ControlArrays) -> np.ndarray:
     count = arrays.edge_uses
     rim = (count == 1) | (count > 2)
     return rim if arrays.sharp_edge is None else rim | arrays.sharp_edge
-
-
-def unit(vectors: np.ndarray) -> np.ndarray:
-    """Rows of length 1; zero rows stay zero."""
-    length = np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
-    return vectors / np.where(length > 0, length, 1.0)[:, None]
 
 
 def _halve(positions: np.ndarray, quads: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -30,7 +30,7 @@ from ..preferences import preferences
 from ..settings import Settings, halves, is_evaluated, subdivision, wants_modifiers
 from ..surfaces import freshness, joint_normals, neighbours, place
 from ..transfer.attributes import AttributeTransfer
-from ..transfer.lattice import edge_table
+from ..transfer.edges import edge_table
 from ..transfer.seams import sharp_pairs
 
 NOTICED_MEMORY = 2**28  # bytes: less is negligible beside Blender itself

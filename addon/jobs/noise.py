@@ -14,7 +14,7 @@ import numpy as np
 
 from .. import core
 from ..transfer.cut_out import grown
-from ..triangles import fans, marked, normals
+from ..triangles import fans, marked, normals, unit
 
 # Weights to try, from strong to weak: 10 hardly smooths, 1e-4 leaves a plate. Between neighbouring
 # weights the least error of a noisy sphere differs by at most a fifth.
@@ -117,8 +117,7 @@ class _Fit:
         return points[: len(self.points)]
 
     def normals(self, points: np.ndarray) -> np.ndarray:
-        total = normals(points, self._triangles)
-        return total / np.maximum(np.linalg.norm(total, axis=1), 1e-300)[:, None]
+        return unit(normals(points, self._triangles))
 
 
 class _Trial:

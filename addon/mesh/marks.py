@@ -12,6 +12,7 @@ import numpy as np
 
 from ..blender import Mesh, Object, column
 from ..choices import EDGE_BOUNDARIES
+from ..triangles import unit
 from .layers import fill_layer, layer_values, make_layer, values_of_layer
 from .mesh_changes import shown
 
@@ -121,5 +122,4 @@ def own_normals(mesh: Mesh) -> np.ndarray:
         normals = column(mesh.vertex_normals, "vector", width=3)[corners]
     sums = np.zeros((len(mesh.vertices), 3))
     np.add.at(sums, corners, normals)
-    length = np.linalg.norm(sums, axis=1, keepdims=True)
-    return np.divide(sums, length, out=np.zeros_like(sums), where=length > 0)
+    return unit(sums)

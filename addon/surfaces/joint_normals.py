@@ -87,7 +87,8 @@ def _normals(target: Object, others: list[Any]) -> np.ndarray | None:
     corner = np.flatnonzero(np.isin(arrays.corners, vertex[near]))
     place = np.empty((fan.max() + 1, 3))
     place[fan] = points[arrays.corners]
-    border = borders.border_of(place, fan, offsets, only=np.unique(fan[corner]))
+    only = np.unique(fan[corner])
+    border = core.module().joints.border_fits.border_of(place, fan, offsets, only)
     out = np.zeros((len(fan), 3), np.float32)
     row = border.slot[fan]
     # both sides of a joint have the same curve, and their fits see it differently

@@ -7,9 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from ..core import ControlArrays
+from ..core import ControlArrays, module
 from .control_faces import Centres, ControlFaces, find_control_faces
-from .lattice import Cells, make_cells, pair_keys, sides
 
 CHUNK = 1 << 18  # values at a time, which fit in a processor's cache
 
@@ -18,7 +17,7 @@ CHUNK = 1 << 18  # values at a time, which fit in a processor's cache
 class Patch:
     """The refined faces `fine` (F n², k) of control `faces`; `start`: their first corner."""
 
-    cells: Cells
+    lattice: Any  # of the core, n times n cells
     faces: ControlFaces
     fine: np.ndarray
     start: int
@@ -28,7 +27,7 @@ class Patch:
         own = self.own(out)
         for part, values in self._mixed(known, self.faces.corners):
             for w, lattice in enumerate(values):
-                own[part, :, w] = np.take(lattice, self.cells.corner_point, axis=1)
+                own[part, :, w] = np.take(lattice, self.lattice.cells.ravel(), axis=1)
 
     def mix_points(self, known: np.ndarray, out: np.ndarray) -> None:
         """The same at refined vertices: `known` (vertices and centres, w) → `out` (vertices, w)."""
@@ -37,13 +36,13 @@ class Patch:
 
     def points(self, part: slice = slice(None)) -> np.ndarray:
         """(F, P): the refined vertices of the control faces, or of a part of them."""
-        return self.fine.reshape(len(self.faces.polygon), -1)[part][:, self.cells.first_corner]
+        return self.fine.reshape(len(self.faces.polygon), -1)[part][:, self.lattice.first_corner]
 
     def nearest(self, ids: np.ndarray, count: int) -> np.ndarray:
         """(F, P): for each point that of the `ids` (F, k) of the corners which is nearest, the first of
         several; `count`: of control vertices, since the centre of a fan has no value.
         """
-        weights = self.cells.weights
+        weights = self.lattice.weights
         plain, of_fan = ids[:, weights.argmax(axis=1)], ids[:, weights[:, :-1].argmax(axis=1)]
         return np.where(self.faces.vertices[:, -1:] >= count, of_fan, plain)
 
@@ -54,17 +53,17 @@ class Patch:
 
     def _chunks(self, width: int) -> Iterator[slice]:
         faces = len(self.faces.polygon)
-        step = max(1, CHUNK // (len(self.cells.points) * width))
+        step = max(1, CHUNK // (len(self.lattice.i) * width))
         return (slice(begin, min(begin + step, faces)) for begin in range(0, faces, step))
 
     def _mixed(self, known: np.ndarray, ids: np.ndarray) -> Iterator[tuple[slice, np.ndarray]]:
         """Chunks of faces, with their values (w, faces, P) float32 at all points."""
         width, size = known.shape[1], self.faces.size
-        spread = np.ascontiguousarray(self.cells.weights.T)
+        spread = np.ascontiguousarray(self.lattice.weights.T)
         for part in self._chunks(width):
             corners = np.moveaxis(known[ids[part]].astype(np.float64, copy=False), 2, 0)
             mixed = np.ascontiguousarray(corners).reshape(-1, size) @ spread
-            yield part, mixed.astype(np.float32).reshape(width, -1, len(self.cells.points))
+            yield part, mixed.astype(np.float32).reshape(width, -1, len(self.lattice.i))
 
 
 class AttributeTransfer:
@@ -85,12 +84,12 @@ class AttributeTransfer:
         self.patches: list[Patch] = []
         start = 0
         for fine, polygon in zip(result.faces, self._faired.polygons, strict=True):
-            cells = make_cells(fine.shape[1], levels)
-            faces = find_control_faces(fine, polygon, cells, own)
+            lattice = module().lattice.Lattice(2**levels, fine.shape[1] == 4)
+            faces = find_control_faces(fine, polygon, lattice, own)
             if faces.size == 3:
                 self._centres = Centres(faces, own)
             if len(fine):
-                self.patches.append(Patch(cells, faces, fine, start))
+                self.patches.append(Patch(lattice, faces, fine, start))
             start += fine.size
         self.corner_count = start
         self._polygon = np.concatenate([result.triangle_polygon, result.quad_polygon])
@@ -148,7 +147,7 @@ class AttributeTransfer:
         out = np.empty((self.corner_count, *values.shape[1:]), values.dtype)
         for patch in self.patches:
             nearest = patch.nearest(patch.faces.corners, self.control_count)
-            patch.own(out)[:] = values[nearest[:, patch.cells.corner_point]]
+            patch.own(out)[:] = values[nearest[:, patch.lattice.cells.ravel()]]
         return out
 
     def pick_point(self, values: np.ndarray) -> np.ndarray:
@@ -179,12 +178,12 @@ def _edge_origin(
     vertices, size = patch.faces.vertices, patch.faces.size
     if not len(vertices) or not len(control_edges):
         return
+    pair_keys, lattice = module().arrays.pair_keys, patch.lattice
     keys = pair_keys(control_edges)
     order = np.argsort(keys, kind="stable")  # mending may have merged two edges: the first counts
     leaving = corner_edge[patch.start : patch.start + patch.fine.size].reshape(len(vertices), -1)
-    n = int(np.sqrt(leaving.shape[1] // size))
-    for side, (run, start, _) in enumerate(sides(size, n)):
-        wanted = pair_keys(np.stack([vertices[:, side], vertices[:, (side + 1) % size]], axis=1))
+    for run, start, end in lattice.cell_sides:
+        wanted = pair_keys(vertices[:, [start, end]])
         place = np.minimum(np.searchsorted(keys, wanted, sorter=order), len(keys) - 1)
         edge = order[place]
         is_edge = keys[edge] == wanted  # a cut through a polygon is no control edge
@@ -210,11 +209,11 @@ def coarse_triangles(transfer: AttributeTransfer, levels: int) -> tuple[np.ndarr
 def _coarse_faces(patch: Patch, levels: int) -> np.ndarray:
     """(F, 4^levels, k) refined vertices."""
     size = patch.faces.size
-    cells, coarse = patch.cells, make_cells(size, levels)
-    i, j = (coarse.points * (cells.lattice.n >> levels)).T
-    corner = cells.first_corner[cells.lattice.at(i, j)][coarse.corner_point]
+    lattice, coarse = patch.lattice, module().lattice.Lattice(2**levels, size == 4)
+    step = lattice.n >> levels
+    corner = lattice.first_corner[lattice.at(coarse.i * step, coarse.j * step)][coarse.cells]
     fine = patch.fine.reshape(len(patch.faces.polygon), -1)
-    return fine[:, corner].reshape(len(fine), -1, size)
+    return fine[:, corner]
 
 
 @dataclass(frozen=True)

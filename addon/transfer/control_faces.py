@@ -5,11 +5,11 @@ An input polygon may be split into several control faces; all triangles of a fan
 """
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from ..core import ControlArrays
-from .lattice import Cells
 
 
 @dataclass(frozen=True)
@@ -28,12 +28,12 @@ class ControlFaces:
 
 
 def find_control_faces(
-    fine: np.ndarray, fine_polygon: np.ndarray, cells: Cells, arrays: ControlArrays
+    fine: np.ndarray, fine_polygon: np.ndarray, lattice: Any, arrays: ControlArrays
 ) -> ControlFaces:
-    """ControlFaces of the refined faces `fine` (f, k); `fine_polygon` (f,): their input faces."""
-    own = cells.first_corner[cells.lattice.corners]
-    vertices = fine.reshape(-1, len(cells.corner_point))[:, own]
-    polygon = fine_polygon[:: len(cells.corner_point) // fine.shape[1]]
+    """ControlFaces of the refined faces `fine` (f, k); `fine_polygon` (f,): their input faces; the core's `lattice`."""
+    own = lattice.first_corner[lattice.corners]
+    vertices = fine.reshape(-1, lattice.cells.size)[:, own]
+    polygon = fine_polygon[:: len(lattice.cells)]
     return ControlFaces(vertices, _corners(vertices, polygon, arrays), polygon)
 
 

@@ -8,7 +8,8 @@ import numpy as np
 from .. import core
 from ..core import ControlArrays
 from ..settings import Settings
-from .lattice import edge_table, fine_edges
+from ..triangles import unit
+from .edges import edge_table
 
 AXES = "XYZ"
 
@@ -21,7 +22,7 @@ def sharp_pairs(
     edges: tuple[np.ndarray, np.ndarray] | None = None,
 ) -> np.ndarray:
     """(k, 2) refined edges of `result` at which the surface is sharp: on creases, and on seams that fold."""
-    creases = fine_edges(result.faces, result.crease_edges, levels)
+    creases = core.module().lattice.fine_edges(result.faces, result.crease_edges, levels)
     return np.concatenate([creases, seam_pairs(result, arrays, settings, edges)])
 
 
@@ -82,5 +83,4 @@ def _normals_beside(result: Any, border: np.ndarray, corner_edges: np.ndarray) -
         points = result.vertices[faces[(corner[chosen] - first) // size]]
         # the diagonals of a quad, two sides of a triangle
         out[chosen] = np.cross(points[:, 2] - points[:, 0], points[:, -1] - points[:, 1])
-    length = np.linalg.norm(out, axis=1, keepdims=True)
-    return out / np.where(length > 0.0, length, 1.0)
+    return unit(out)

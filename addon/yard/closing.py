@@ -23,7 +23,6 @@ class Whole:
     positions: np.ndarray  # (n, 3)
     corners: np.ndarray  # (c,)
     offsets: np.ndarray  # (m + 1,)
-    caps: np.ndarray  # (m,) bool: faces of deck and transom
     rim: np.ndarray  # (k, 2) edges between hull and caps, and between deck and transom
 
 
@@ -59,7 +58,6 @@ def whole(positions: np.ndarray, corners: np.ndarray, offsets: np.ndarray) -> Wh
         np.concatenate([half, mirrored]),
         np.concatenate(all_corners).astype(int),
         np.concatenate([[0], np.cumsum(all_sizes)]).astype(int),
-        np.arange(len(all_sizes)) >= 2 * len(sizes),
         edges,
     )
 

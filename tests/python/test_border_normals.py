@@ -5,7 +5,8 @@ import control_meshes as meshes
 import discrete_fairing as df
 import numpy as np
 import pytest
-from discrete_fairing.joints.borders import border_of, mesh_arrays
+from discrete_fairing.joints.border_fits import border_of
+from discrete_fairing.joints.borders import mesh_arrays
 from test_neighbour import PAIRS, fair, quads, seam, triangles
 from test_normals import LARGEST, SIDE, angle, none, tilted
 

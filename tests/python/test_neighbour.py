@@ -5,7 +5,8 @@ import discrete_fairing as df
 import numpy as np
 import pytest
 from control_meshes import cut_quads as triangles
-from discrete_fairing.joints.borders import border_curve, border_of, mesh_arrays
+from discrete_fairing.joints.border_fits import border_of
+from discrete_fairing.joints.borders import border_curve, mesh_arrays
 from discrete_fairing.joints.turning import needed
 from lattices import lattice_faces
 from surface_measures import dihedrals

@@ -98,11 +98,24 @@ def polygon_list(faces: Sequence[Sequence[int]]) -> tuple[np.ndarray, np.ndarray
     return np.concatenate(parts) if parts else np.empty(0, np.int64), offsets
 
 
+def joined_faces(parts: Sequence[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+    """Corners and offsets of faces, each of the `parts` (m, k) of another size."""
+    sizes = np.repeat([part.shape[1] for part in parts], [len(part) for part in parts])
+    corners = np.concatenate([part.ravel() for part in parts])
+    return corners, np.concatenate([[0], np.cumsum(sizes)])
+
+
 def marked(ids: np.ndarray, count: int) -> np.ndarray:
     """(count,) bool: the elements with these ids."""
     found = np.zeros(count, bool)
     found[ids] = True
     return found
+
+
+def pair_keys(pairs: np.ndarray) -> np.ndarray:
+    """One number for each vertex pair, in either direction: (…, 2) integers → (k,) int64."""
+    pairs = np.sort(pairs.astype(np.int64).reshape(-1, 2), axis=1)
+    return pairs[:, 0] << 32 | pairs[:, 1]
 
 
 def backwards(offsets: np.ndarray) -> np.ndarray:
@@ -116,6 +129,13 @@ def following(offsets: np.ndarray) -> np.ndarray:
     after, some = np.arange(1, int(offsets[-1]) + 1), offsets[1:] > offsets[:-1]
     after[offsets[1:][some] - 1] = offsets[:-1][some]
     return after
+
+
+def edges_of(corners: np.ndarray, offsets: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """(e, 2) the edges of faces, as ascending vertex pairs, and (c,) the edge that leaves each corner."""
+    sides = np.stack([corners, corners[following(offsets)]], axis=1)
+    keys, corner_edges = np.unique(pair_keys(sides), return_inverse=True)
+    return np.stack([keys >> 32, keys & 0xFFFFFFFF], axis=1), corner_edges.ravel()
 
 
 def ranges(starts: np.ndarray, ends: np.ndarray) -> np.ndarray:

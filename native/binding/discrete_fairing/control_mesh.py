@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from .arrays import face_vectors, following, marked
+from .arrays import edges_of, face_vectors, following, marked, pair_keys
 
 # half: the cosine of a turn of 60°, above which a border has a corner
 _COSINE_OF_CORNER = 0.5
@@ -27,14 +27,11 @@ class ControlMesh:
     @classmethod
     def of(cls, positions: np.ndarray, corners: np.ndarray, offsets: np.ndarray) -> ControlMesh:
         """The mesh of these faces, none of them empty."""
-        pairs = np.sort(np.stack([corners, corners[following(offsets)]], axis=1), axis=1)
-        edges, corner_edges = np.unique(pairs, axis=0, return_inverse=True)
-        return cls(positions, corners, offsets, edges, corner_edges.ravel())
+        return cls(positions, corners, offsets, *edges_of(corners, offsets))
 
     def has_pair(self, pairs: np.ndarray) -> np.ndarray:
         """(e,) bool: the edges that are among the vertex pairs (k, 2)."""
-        own, given = (np.sort(p, axis=1) @ [len(self.positions), 1] for p in (self.edges, pairs))
-        return np.isin(own, given)
+        return np.isin(pair_keys(self.edges), pair_keys(pairs))
 
     @cached_property
     def face_sizes(self) -> np.ndarray:

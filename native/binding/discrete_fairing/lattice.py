@@ -2,14 +2,22 @@
 """Numbers the points of a refined surface in the order of native/grid/grid_level.h.
 
 [control vertices | edge interiors, edge by edge | face interiors, face by face, row by row]
+
+The n² cells of a control face follow one another, row by row from the face's first side to the opposite
+corner or side; in a triangle's row upward and downward cells alternate.
 """
 
 from __future__ import annotations
 
 from functools import cached_property
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
+
+from .arrays import pair_keys
+
+# the cells along a side of a face, and the two of their corners on it
+CellSide: TypeAlias = tuple[np.ndarray, int, int]
 
 
 class Lattice:
@@ -48,6 +56,17 @@ class Lattice:
         return np.array([self.at(i, j) for i, j in places])
 
     @cached_property
+    def cell_sides(self) -> list[CellSide]:
+        """For each side its n cells in order, and the two of their corners on it."""
+        n, run = self.n, np.arange(self.n)
+        if self.quad:
+            cells = [run, run * n + n - 1, n * (n - 1) + run[::-1], run[::-1] * n]
+        else:
+            row = n * n - (n - run) ** 2  # the first cell of each row
+            cells = [2 * run, row + 2 * (n - run - 1), row[::-1]]
+        return [(along, side, (side + 1) % self.size) for side, along in enumerate(cells)]
+
+    @cached_property
     def interior(self) -> np.ndarray:
         last = self.n - self.j * (not self.quad)
         inside = (self.i > 0) & (self.j > 0) & (self.i < last) & (self.j < self.n)
@@ -71,9 +90,41 @@ class Lattice:
             out.append(row)
         return np.concatenate(out)
 
+    def closed(self, faces: np.ndarray) -> np.ndarray:
+        """(F, closed): all points of F control faces, of the small `faces` in the order of the result."""
+        points = np.empty((len(faces) // len(self.cells), len(self.i)), faces.dtype)
+        points[:, self.cells.ravel()] = faces.reshape(len(points), self.cells.size)
+        return points
+
+    @cached_property
+    def first_corner(self) -> np.ndarray:
+        """(closed,): the first corner of a cell that lies at each point."""
+        return np.unique(self.cells, return_index=True)[1]
+
+    @cached_property
     def weights(self) -> np.ndarray:
         """(closed, corners): weights of the corners that interpolate linearly on the face."""
         n, i, j = self.n, self.i, self.j
         if self.quad:
             return np.stack([(n - i) * (n - j), i * (n - j), i * j, (n - i) * j], 1) / n**2
         return np.stack([n - i - j, i, j], 1) / n
+
+
+def fine_edges(
+    faces: tuple[np.ndarray, np.ndarray], control_pairs: np.ndarray, levels: int
+) -> np.ndarray:
+    """Vertex pairs (k, 2) of the refined edges into which the control edges `control_pairs` (c, 2) were
+    split.
+
+    `faces`: (triangles (T, 3), quads (Q, 4)). An edge between two faces occurs twice.
+    """
+    wanted = pair_keys(control_pairs)
+    found = [np.empty((0, 2), np.int32)]
+    for fine in faces:
+        lattice = Lattice(2**levels, fine.shape[1] == 4)
+        cells = fine.reshape(-1, lattice.n**2, lattice.size)  # by control face
+        for run, start, end in lattice.cell_sides:
+            ends = np.stack([cells[:, run[0], start], cells[:, run[-1], end]], axis=1)
+            chosen = cells[np.isin(pair_keys(ends), wanted)][:, run]
+            found.append(chosen[:, :, [start, end]].reshape(-1, 2))
+    return np.concatenate(found)

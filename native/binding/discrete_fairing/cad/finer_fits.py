@@ -3,15 +3,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from copy import copy
 from typing import Any
 
 import numpy as np
 
+from ..arrays import joined_faces
 from ..converters import whole
 from ..fairing import fair
-from ..lattice import Lattice
+from ..lattice import Lattice, fine_edges
 from ..result import Result
 from ..scan_fitting import Fitted, fit
 
@@ -50,11 +51,9 @@ class FinerFits:
         finer = levels - self._levels
         if not finer:
             return self.fit
-        triangles, quads = self.fit.faces
-        corners = np.concatenate([triangles.ravel(), quads.ravel()])
-        sizes = np.repeat([3, 4], [len(triangles), len(quads)])
-        cells = corners, np.concatenate([[0], np.cumsum(sizes)])
-        made = fair(self.fit.vertices, cells, finer, **self._through, **watchers)
+        made = fair(
+            self.fit.vertices, joined_faces(self.fit.faces), finer, **self._through, **watchers
+        )
         out = copy(self.fit)
         vars(out).pop("triangles", None)  # kept from an earlier use
         out.vertices, out.faces = made.vertices, self._in_order(made, finer)
@@ -88,22 +87,8 @@ class FinerFits:
 
     def _divided(self, edges: Any) -> np.ndarray:
         """(k, 2): control edges, as pairs of vertices, divided."""
-        wanted = np.sort(np.asarray(edges, np.int64).reshape(-1, 2), axis=1)
-        found = [np.empty((0, 2), np.int64)]
-        for line in self._sides():
-            ends = np.sort(line[:, [0, -1]], axis=1)
-            line = line[(ends[:, None] == wanted).all(2).any(1)]
-            found.append(np.stack([line[:, :-1], line[:, 1:]], 2).reshape(-1, 2))
-        return np.unique(np.sort(np.concatenate(found), axis=1), axis=0)
-
-    def _sides(self) -> Iterator[np.ndarray]:
-        """(F, 2**levels + 1): the points of all first sides of the control faces, of the second ones …"""
-        for faces in self.fit.faces:
-            lattice = Lattice(2**self._levels, faces.shape[1] == 4)
-            points = _closed(faces, lattice, lattice.cells)
-            for k, side in enumerate(lattice.sides):
-                ends = lattice.corners[[k, (k + 1) % lattice.size]]
-                yield points[:, [ends[0], *side, ends[1]]]
+        found = fine_edges(self.fit.faces, np.asarray(edges, np.int64), self._levels)
+        return np.unique(np.sort(found, axis=1), axis=0)
 
 
 class _Refined:
@@ -113,7 +98,7 @@ class _Refined:
 
     def __init__(self, faces: np.ndarray, of: np.ndarray, levels: int):
         self.of, self.lattice = of, Lattice(2**levels, faces.shape[1] == 4)
-        self.points = _closed(faces, self.lattice, self.lattice.cells)
+        self.points = self.lattice.closed(faces)
         self.corners = self.points[:, self.lattice.corners]
 
 
@@ -131,13 +116,6 @@ def _joined(faces: np.ndarray, first: int, levels: int, refined: list[_Refined])
         face, cell = np.divmod(part.of[own] - first, len(coarse.cells))
         given = faces[part.of[own] - first]
         which = (given[:, None] == part.corners[own][:, :, None]).argmax(2)
-        places = np.rint(part.lattice.weights() @ corners[cell[:, None], which]).astype(np.int64)
+        places = np.rint(part.lattice.weights @ corners[cell[:, None], which]).astype(np.int64)
         points[face[:, None], both.at(*np.moveaxis(places, 2, 0))] = part.points[own]
     return points[:, both.cells].reshape(-1, coarse.size)
-
-
-def _closed(faces: np.ndarray, lattice: Lattice, places: np.ndarray) -> np.ndarray:
-    """(F, closed): the points of control faces, of whose small ones the corners have these places."""
-    points = np.empty((len(faces) // len(lattice.cells), len(lattice.i)), faces.dtype)
-    points[:, places.ravel()] = faces.reshape(len(points), places.size)
-    return points

@@ -14,8 +14,6 @@ from ..arrays import connected_parts, numbers
 from ..errors import fairing_error
 from ..result import Result
 
-SMOOTH, CREASE, BOUNDARY = range(3)
-
 
 def spline_knots(spans: int) -> np.ndarray:
     """(spans + 7,) float64: the knots of a cubic, uniform on [0, 1] and clamped at both ends."""

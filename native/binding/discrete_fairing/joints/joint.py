@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .borders import Border, Mesh, border_of, mesh_arrays, unit_vectors
+from .border_fits import border_of
+from .borders import Border, Mesh, mesh_arrays, unit_vectors
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from .. import _native
+from ..arrays import pair_keys
 from ..errors import written_report
 from .numbering import ControlFaces, Numbering
 
@@ -91,11 +92,9 @@ class Outline:
 
     def on_edges(self, pairs: Any, values: Any) -> np.ndarray:
         """(E,): `values` on the edges `pairs` (k, 2), zero on all other edges."""
-        named = np.sort(np.asarray(pairs, np.int64).reshape(-1, 2), axis=1)
-        size = int(self.edge.max(initial=0)) + 1
-        keys = np.sort(self.edge.astype(np.int64), axis=1) @ [size, 1]
+        keys = pair_keys(self.edge)
         order = np.argsort(keys)
-        place = np.searchsorted(keys[order], named @ [size, 1])
+        place = np.searchsorted(keys[order], pair_keys(np.asarray(pairs, np.int64)))
         out = np.zeros(len(keys))
         out[order[place]] = values
         return out

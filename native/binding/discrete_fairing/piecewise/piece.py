@@ -156,7 +156,7 @@ def linear_surface(own: Outline, control: np.ndarray) -> np.ndarray:
     """(N, 3): a piece's linear surface outside the region; `control`: its vertices and centres."""
     points = np.empty((own.numbering.size, 3))
     for quad in (False, True):
-        weights = own.numbering.lattice(quad).weights()
+        weights = own.numbering.lattice(quad).weights
         corner = own.control.vertex[own.control.quad == quad, : weights.shape[1]]
         ids = own.control.points(own.numbering, quad)
         points[ids] = np.einsum("pc,fca->fpa", weights, control[corner])
