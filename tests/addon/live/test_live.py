@@ -184,4 +184,4 @@ def test_thin_plate_stands_in_where_another_energy_is_hopeless():
     handlers.on_timer()
     assert "Bending while editing" in target.discrete_fairing_live.status
     assert target.discrete_fairing.energy == "TOTAL_CURVATURE" and not session(target).trouble
-    assert session(target).solver.energy == "thin_plate"
+    assert session(target).made.solver.energy == "thin_plate"

@@ -11,8 +11,7 @@ from live_scenes import box, live, move, pull, session, through, tick_until
 from scenes import CUBE, activate, add, fair, positions, recompute, reopen
 
 import addon
-from addon.live import handlers, registry, restored, switch
-from addon.live import session as session_module
+from addon.live import handlers, live_solver, registry, restored, switch
 from addon.surfaces.freshness import UNFINISHED, why_stale
 from addon.ui import main
 
@@ -130,7 +129,7 @@ def test_an_unexpected_error_ends_it_and_is_told(monkeypatch):
     def fail(*_):
         raise ZeroDivisionError
 
-    monkeypatch.setattr(session_module, "read_mesh", fail)
+    monkeypatch.setattr(live_solver, "read_mesh", fail)
     move(source)
     with pytest.raises(ZeroDivisionError):
         handlers.guarded(

@@ -24,12 +24,12 @@ def test_the_next_edit_starts_from_the_shape_that_is_there(no_pause):
     """A fresh solver comes with the full level, with charts of the new shape and its surface as the start."""
     source, target = box()
     pull(source)
-    before = session(target).solver
+    before = session(target).made.solver
     whole(target)
-    fresh = session(target).solver
+    fresh = session(target).made.solver
     assert fresh is not before and fresh.solve().report["warm"]
     pull(source)
-    assert session(target).solver is fresh, "one for the whole edit"
+    assert session(target).made.solver is fresh, "one for the whole edit"
 
 
 def test_not_before_the_pause_and_not_while_the_mouse_drags(monkeypatch):

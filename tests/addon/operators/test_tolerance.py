@@ -18,14 +18,14 @@ def test_a_drag_does_not_change_what_the_tolerance_is_a_share_of(source, no_paus
     target.discrete_fairing_live.levels = 1
     live(target)
     pull(source)
-    solver = session(target).solver
+    solver = session(target).made.solver
     pull(source)
-    assert session(target).solver is solver
+    assert session(target).made.solver is solver
     whole(target)
-    fresh = session(target).solver
+    fresh = session(target).made.solver
     assert fresh is not solver
     pull(source)
-    assert session(target).solver is fresh
+    assert session(target).made.solver is fresh
 
 
 # --- a group
