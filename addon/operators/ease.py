@@ -13,7 +13,7 @@ from ..mesh.read import source_objects
 from ..poll import in_edit_mode, in_mode, of_meshes
 from ..settings import values_of
 from ..strain.ease import EaseJob, EaseOptions, EaseSelectedJob
-from ..ui.main import fairing_operator
+from ..ui.active import fairing_operator
 from ..units import Units
 from . import redo
 from .fair import InMeshes, can_fair

@@ -21,6 +21,8 @@ from ..mesh.marks import BOUNDARY, FLAT, NORMAL, border_edges, own_normals
 from ..mesh.read import read_mesh, source_objects
 from ..mesh.world_shape import world_shape
 from ..poll import IN_EITHER_MODE, in_edit_mode, of_meshes
+from ..settings import Settings
+from ..ui.active import active_settings
 from ..words import counted
 from .mixins import Action, Shown
 
@@ -172,14 +174,15 @@ class OBJECT_OT_fairing_flat_faces(Shown, Action, bpy.types.Operator):
     def act(self, context: Context) -> str:
         targets, is_edited = _targets(context), context.mode == "EDIT_MESH"
         with _in_object_mode(context):
-            count = sum(self._mark(target, is_edited) for target in targets)
+            settings = Settings.of(active_settings(context))
+            count = sum(self._mark(target, is_edited, settings) for target in targets)
         if not count and is_edited:
             raise JobError("Select faces first")
         if not count and not self.clear:
             return "No flat faces found: select faces in Edit Mode to keep them flat"
         return f"{counted(count, 'face')} {'may curve' if self.clear else 'stay flat'}"
 
-    def _mark(self, target: Object, is_edited: bool) -> int:
+    def _mark(self, target: Object, is_edited: bool, settings: Settings) -> int:
         mesh = target.data
         if is_edited:
             chosen = _selected(mesh.polygons)
@@ -187,7 +190,7 @@ class OBJECT_OT_fairing_flat_faces(Shown, Action, bpy.types.Operator):
             chosen = marks.marked(mesh, FLAT)
         else:
             arrays = world_shape(target).of_arrays(read_mesh(mesh))
-            chosen = core.module().flats.kept_faces(core.measured(arrays), degrees(self.angle))
+            chosen = core.found_flats(arrays, settings, degrees(self.angle))
         return marks.put(mesh, FLAT, chosen, not self.clear)
 
 

@@ -15,7 +15,7 @@ from ..blender import Answer, Context
 from ..fields import text
 from ..purposes import FOLDER, PRESET_FOLDER
 from ..settings import NAMES
-from ..ui.main import active_settings
+from ..ui.active import active_settings
 
 _FOLDER = str(FOLDER.parent)  # contains presets/
 # settings of the present work, not of a kind of object

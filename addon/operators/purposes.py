@@ -19,7 +19,7 @@ from ..poll import ExplainedPoll, needs
 from ..purposes import EASED_FIRST, OPERATORS, PURPOSES, preset_file
 from ..settings import Settings, are_mirrored, mirror_axis
 from ..transfer.seams import half_axes
-from ..ui.main import active_settings, fairing_operator, remembered
+from ..ui.active import active_settings, fairing_operator, remembered
 from .fair import can_fair
 
 # an operator called by another one makes no undo step by itself; one called by a script makes none at

@@ -11,12 +11,11 @@ from ..blender import Context, Mesh, Object
 from ..check.cages import REASONS, shown_settings
 from ..choices import INTERPOLATION_NAMES
 from ..core import keeps_marks, tolerance
-from ..live import switch
-from ..memory import FAIRING_PG_fit, FAIRING_PG_surface, recall, source_of, source_problem
+from ..memory import FAIRING_PG_surface, recall, source_problem
 from ..mesh import marks
 from ..mesh.mesh_changes import coarse_triangles, shown
 from ..mesh.object import session_key
-from ..mesh.read import control_meshes, read_mesh, source_objects
+from ..mesh.read import read_mesh, source_objects
 from ..mesh.read_curves import has_curves
 from ..mesh.world_shape import world_shape
 from ..mesh.write import FAULTS, NO_POINTS
@@ -27,6 +26,7 @@ from ..settings import Settings, halves, is_evaluated, is_limit, is_near, subdiv
 from ..surfaces import neighbours
 from ..units import length_text
 from ..words import listed
+from .active import active_settings, live_surface, near_scans, remembered, sources_of
 from .layout import (
     Remarks,
     Sidebar,
@@ -89,9 +89,9 @@ class VIEW3D_PT_fairing(Sidebar, bpy.types.Panel):
         settings = active_settings(context)
         if memory is None and followed is None:
             _draw_purposes(layout)
-        near = _near_scans(context) if memory is not None else None
+        near = near_scans(context) if memory is not None else None
         job = "SCAN_SURFACE" if near is not None else job_of(settings)
-        sources = _sources(context, memory)
+        sources = sources_of(context, memory)
         triangles = sum(coarse_triangles(o.data) for o in sources) * 4**settings.levels
         found = [shown_settings(settings, source) for source in sources]
         limit = any(own is not None and is_limit(own) for own in found)
@@ -154,27 +154,6 @@ def _draw_surface(
     draw_stale_surfaces(layout, context.active_object)
 
 
-def remembered(context: Context) -> FAIRING_PG_surface | None:
-    """The stored settings of the active object; None if it is no faired surface, or its source is gone."""
-    active = context.active_object
-    if active is None or active.type != "MESH" or active.discrete_fairing.source is None:
-        return None
-    return active.discrete_fairing
-
-
-def _near_scans(context: Context) -> FAIRING_PG_fit | None:
-    """The stored fit of the active surface; None for other surfaces."""
-    near = cast(Object, context.active_object).discrete_fairing_fit
-    return near if len(near.scans) else None
-
-
-def fairing_operator(context: Context) -> Any:
-    """The operator of the button: Recompute for a stored surface, else Fair Surface."""
-    operators: Any = bpy.ops.object
-    again = remembered(context) is not None
-    return operators.fairing_recompute if again else operators.fairing_surface
-
-
 def _size_text(settings: FairingSettings, sources: list[Object], triangles: int) -> str:
     """For example `61,952 triangles, about 12 s`; empty without sources."""
     mesh = session_key(sources[0]) if len(sources) == 1 else None
@@ -195,31 +174,6 @@ def _draw_places(layout: bpy.types.UILayout, memory: FAIRING_PG_surface) -> None
         draw_notice(layout, f"T{summary[1:]}. {errors.faults_remedy(memory, is_fit)}")
     if is_faulty or NO_POINTS in attributes:
         layout.operator("object.fairing_select_faults", icon="RESTRICT_SELECT_OFF")
-
-
-def live_surface(context: Context) -> Object | None:
-    """The surface that follows the active object; None if there is none."""
-    active = context.active_object
-    followers = switch.live_surfaces_of(active) if active is not None else []
-    return followers[0] if followers else None
-
-
-def active_settings(context: Context) -> FairingSettings:
-    """Settings of the active surface, or the live one of its source; else of the next one."""
-    followed = live_surface(context)
-    return (
-        remembered(context)
-        or (followed.discrete_fairing if followed is not None else None)
-        or context.scene.discrete_fairing
-    )
-
-
-def _sources(context: Context, memory: FAIRING_PG_surface | None) -> list[Object]:
-    """The sources of the surface with the panel's settings."""
-    if memory is None:
-        return control_meshes(context)
-    source = source_of(cast(Object, memory.id_data))
-    return [] if source is None else [source]
 
 
 def tolerance_text(context: Context, settings: FairingSettings, sources: list[Object]) -> str:

@@ -14,6 +14,7 @@ from scenes import (
     fair,
     positions,
     refused,
+    set_edge_attribute,
     settings,
     to_object_mode,
 )
@@ -85,6 +86,25 @@ def test_the_angle_joins_faces_that_are_not_quite_in_a_plane():
     assert len(poked) == 4 and not poked & set(marked(source))
     bpy.ops.object.fairing_flat_faces()
     assert poked < set(marked(source))
+
+
+def test_flats_may_end_at_creases_as_those_that_auto_keeps():
+    source = box()
+    with bmesh_of(source.data) as mesh:
+        everything = [*mesh.verts, *mesh.edges, *mesh.faces]
+        plane = {"plane_co": (5.0, 0.0, 0.0), "plane_no": (1.0, 0.0, 0.0)}
+        bmesh.ops.bisect_plane(mesh, geom=everything, clear_outer=True, **plane)
+        rim = [edge for edge in mesh.edges if edge.is_boundary]
+        bmesh.ops.contextual_create(mesh, geom=rim)
+    bpy.ops.object.fairing_flat_faces()
+    before = marked(source)
+    cut = {v.index for v in source.data.vertices if v.co.x == 5.0}
+    ends = [e.vertices[:] for e in source.data.edges if cut.issuperset(e.vertices)]
+    set_edge_attribute(source.data, "crease_edge", "FLOAT", ends, 1.0)
+    bpy.ops.object.fairing_flat_faces(clear=True)
+    kept = Job(bpy.context, source, settings(interpolation="FLATS")).arguments["flat_faces"]
+    bpy.ops.object.fairing_flat_faces()
+    assert len(before) < len(kept) and marked(source) == kept.tolist()
 
 
 @pytest.mark.parametrize("old", [False, True])
