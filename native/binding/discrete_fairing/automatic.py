@@ -10,7 +10,7 @@ import numpy as np
 from .arrays import following, marked
 from .control_mesh import ControlMesh
 from .converters import vertex_pairs
-from .flats import ANGLE, SPACING, flats_of, halves_of_quads, kept_faces, plane_parts, straights_of
+from .flats import ANGLE, SPACING, Parts, flats_of, halves_of_quads, kept_faces, straights_of
 
 # through the vertices; the same with the faces of find_flats() kept flat; limit positions
 Choice: TypeAlias = Literal["exact", "flats", "limit"]
@@ -73,18 +73,19 @@ def choice(mesh: ControlMesh, sharp: np.ndarray, may_keep: bool = True) -> Choic
     uses = mesh.edge_uses
     if not uses.any() or not np.isin(uses, (0, 2)).all():
         return "exact"
-    hollow = _has_slits(mesh, sharp) or _has_floor(mesh, sharp)
-    if may_keep and not hollow and _is_bevelled(mesh, sharp):
+    parts = Parts.of(mesh, ANGLE, sharp)
+    hollow = _has_slits(mesh, sharp) or _has_floor(parts, sharp)
+    if may_keep and not hollow and _is_bevelled(parts, sharp):
         return "flats"
-    suits = hollow or _has_rims(mesh, flats_of(mesh, ANGLE, sharp, tight=True))
-    suits = suits or _has_chamfers_of_triangles(mesh, sharp)
+    suits = hollow or _has_rims(mesh, flats_of(parts, tight=True))
+    suits = suits or _has_chamfers_of_triangles(parts, sharp)
     return "limit" if suits and _are_star_shaped(mesh) else "exact"
 
 
-def _is_bevelled(mesh: ControlMesh, sharp: np.ndarray) -> bool:
-    folds, inside = mesh.fold_angles
+def _is_bevelled(parts: Parts, sharp: np.ndarray) -> bool:
+    folds, inside = parts.mesh.fold_angles
     mild = (folds[inside & ~sharp] <= _BEVEL).all()
-    return bool(mild and straights_of(mesh, ANGLE, sharp).any())
+    return bool(mild and straights_of(parts).any())
 
 
 def _are_star_shaped(mesh: ControlMesh) -> bool:
@@ -102,12 +103,11 @@ def _has_slits(mesh: ControlMesh, sharp: np.ndarray) -> bool:
     return bool((narrow & (_rises(mesh, *mesh.faces_of_edges.T) > 0.0)).any())
 
 
-def _has_floor(mesh: ControlMesh, sharp: np.ndarray) -> bool:
+def _has_floor(parts: Parts, sharp: np.ndarray) -> bool:
     """Whether the mesh turns inwards along the whole border of a plane part, by no `sharp` edge."""
+    mesh, part, plane = parts.mesh, parts.part, parts.plane.copy()
     folds, inside = mesh.fold_angles
-    bent = inside & ~sharp & (folds > ANGLE)
-    part, plane = plane_parts(mesh, inside & ~sharp & (folds <= ANGLE))
-    pair = mesh.faces_of_edges
+    bent, pair = inside & ~sharp & (folds > ANGLE), mesh.faces_of_edges
     for here, there in (pair.T, pair.T[::-1]):
         border = part[here] != part[there]
         plane[part[here[border & ~(bent & (_rises(mesh, here, there) > 0.0))]]] = False
@@ -133,13 +133,14 @@ def _has_rims(mesh: ControlMesh, flats: np.ndarray) -> bool:
     return _turns_beyond(mesh, flats | _beside(mesh, flats))
 
 
-def _has_chamfers_of_triangles(mesh: ControlMesh, sharp: np.ndarray) -> bool:
+def _has_chamfers_of_triangles(parts: Parts, sharp: np.ndarray) -> bool:
     """The same of faces that are two triangles each: how many meet at a vertex tells nothing then."""
+    mesh = parts.mesh
     if not (mesh.face_sizes == 3).any():
         return False
     folds, inside = mesh.fold_angles
     other = halves_of_quads(mesh, inside & ~sharp & (folds <= ANGLE))
-    flats = flats_of(mesh, ANGLE, sharp, tight=True, other_half=other)
+    flats = flats_of(parts, tight=True, other_half=other)
     known = flats | _beside(mesh, flats)
     known |= (other >= 0) & known[other]
     return _turns_beyond(mesh, known)

@@ -34,47 +34,27 @@ def find_flats(
 
 
 def kept_faces(mesh: ControlMesh, angle: float, sharp: np.ndarray | None = None) -> np.ndarray:
-    """(m,) bool: the faces of flats_of() and straights_of()."""
+    """(m,) bool: the faces of flats_of() and straights_of(). `sharp`: (e,) bool, edges that count as open borders."""
     if not len(mesh.face_sizes):
         return np.zeros(0, bool)
-    parts = _Parts.of(mesh, angle, sharp)
-    return _flats_among(parts, mesh, angle) | _straights_among(parts, mesh, angle)
+    parts = Parts.of(mesh, angle, sharp)
+    return flats_of(parts) | straights_of(parts)
 
 
-def flats_of(
-    mesh: ControlMesh,
-    angle: float,
-    sharp: np.ndarray | None = None,
-    tight: bool = False,
-    other_half: np.ndarray | None = None,
-) -> np.ndarray:
-    """(m,) bool: the faces of flats. `sharp`: (e,) bool, edges that count as open borders. `tight`: only
-    flats with quads all around that are no deeper, from the flat's border on, than the flat is wide;
-    `other_half`: of `halves_of_quads`, which count as quads too.
+def flats_of(parts: Parts, tight: bool = False, other_half: np.ndarray | None = None) -> np.ndarray:
+    """(m,) bool: the faces of flats. `tight`: only flats with quads all around that are no deeper, from the flat's
+    border on, than the flat is wide; `other_half`: of `halves_of_quads`, which count as quads too.
 
-    Faces that are joined within `angle` (degrees) and lie in one plane form a part. A part is a flat if
-    at each of its borders, except open ones, the mesh turns away, the part is at least as wide as the
-    part beside it, and it turns at most half as much per width. Where an arc joins a plane, the first
+    A part is a flat if at each of its borders, except open ones, the mesh turns away, the part is at least as
+    wide as the part beside it, and it turns at most half as much per width. Where an arc joins a plane, the first
     edge turns half as much as the next, so flats at least as wide as the adjacent chords qualify; on
     spheres both turn alike.
     """
-    if not len(mesh.face_sizes):
-        return np.zeros(0, bool)
-    return _flats_among(_Parts.of(mesh, angle, sharp), mesh, angle, tight, other_half)
-
-
-def _flats_among(
-    parts: _Parts,
-    mesh: ControlMesh,
-    angle: float,
-    tight: bool = False,
-    other_half: np.ndarray | None = None,
-) -> np.ndarray:
-    owner, face = parts.owner, parts.face
+    mesh, owner, face = parts.mesh, parts.owner, parts.face
     width = _widths(mesh, parts.part, parts.edge, owner)[owner]
     joined = parts.twin >= 0
     here, there = np.flatnonzero(joined), parts.twin[joined]
-    turns = parts.turns_beyond(width, angle)[here]
+    turns = parts.turns_beyond(width)[here]
     if tight:
         length, area = mesh.edge_lengths[parts.edge[there]], mesh.face_areas
         quad = mesh.face_sizes == 4
@@ -87,21 +67,16 @@ def _flats_among(
     return (some & parts.plane)[parts.part]
 
 
-def straights_of(mesh: ControlMesh, angle: float, sharp: np.ndarray | None = None) -> np.ndarray:
+def straights_of(parts: Parts) -> np.ndarray:
     """(m,) bool: the faces of strips that turn about the direction of their rulings, as walls of cylinders and
-    cones and rims of boxes do, and are meant to be straight in it. `sharp`: as in flats_of().
+    cones and rims of boxes do, and are meant to be straight in it.
 
-    A part as there, with four sides, is straight between two opposite ones if the mesh turns away at both,
+    A part with four sides is straight between two opposite ones if the mesh turns away at both,
     the part is at least as deep as the part beside it, and it turns at most half as much per depth; one of them
     may be open. At its other two sides, unless these are open, the mesh turns by at most 60 degrees to another
     such part. A side is all of the border to one other part.
     """
-    if not len(mesh.face_sizes):
-        return np.zeros(0, bool)
-    return _straights_among(_Parts.of(mesh, angle, sharp), mesh, angle)
-
-
-def _straights_among(parts: _Parts, mesh: ControlMesh, angle: float) -> np.ndarray:
+    mesh = parts.mesh
     open_rows, count = parts.twin < 0, len(parts.plane)
     beside = np.where(open_rows, count + np.arange(len(parts.edge)), parts.owner[parts.twin])
     span = count + len(parts.edge)
@@ -111,7 +86,7 @@ def _straights_among(parts: _Parts, mesh: ControlMesh, angle: float) -> np.ndarr
     np.maximum.at(turn, side, parts.turn)
     length = np.bincount(side, mesh.edge_lengths[parts.edge])
     depth = np.bincount(parts.part, mesh.face_areas)[owner] / length
-    flush = open_rows | ~parts.turns_beyond(depth[side], angle)
+    flush = open_rows | ~parts.turns_beyond(depth[side])
     rim = np.bincount(side, flush) == 0
     of_four = parts.plane & (np.bincount(owner, minlength=count) == 4)
     fours = np.flatnonzero(of_four[owner]).reshape(-1, 4)
@@ -193,9 +168,13 @@ def _in_plane(mesh: ControlMesh, part: np.ndarray) -> np.ndarray:
 
 
 @dataclass(frozen=True)
-class _Parts:
-    """The plane parts of a mesh, and their b border edges, by ascending part."""
+class Parts:
+    """The plane parts of a mesh, of faces that are joined within `angle` (degrees) and lie in one plane; and their b
+    border edges, by ascending part.
+    """
 
+    mesh: ControlMesh
+    angle: float
     part: np.ndarray  # (m,) of each face
     plane: np.ndarray  # (parts,) bool
     edge: np.ndarray  # (b,)
@@ -206,8 +185,8 @@ class _Parts:
     twin: np.ndarray  # (b,) the row of the same edge in the other part; -1: open
 
     @classmethod
-    def of(cls, mesh: ControlMesh, angle: float, sharp: np.ndarray | None) -> _Parts:
-        """Joined within `angle` (degrees), across edges that are not `sharp` (e,) bool."""
+    def of(cls, mesh: ControlMesh, angle: float, sharp: np.ndarray | None) -> Parts:
+        """Joined across edges that are not `sharp` (e,) bool; of one face at least."""
         folds, inside = mesh.fold_angles
         if sharp is not None:
             inside = inside & ~sharp
@@ -222,16 +201,16 @@ class _Parts:
         twin = _twins(edge)
         if sharp is not None:
             twin = np.where(sharp[edge], -1, twin)
-        return cls(part, plane, edge, face, part[face], turn, beyond, twin)
+        return cls(mesh, angle, part, plane, edge, face, part[face], turn, beyond, twin)
 
-    def turns_beyond(self, size: np.ndarray, angle: float) -> np.ndarray:
-        """(b,) bool: the mesh turns there by more than `angle`, the part is at least as large as the part
+    def turns_beyond(self, size: np.ndarray) -> np.ndarray:
+        """(b,) bool: the mesh turns there by more than the angle, the part is at least as large as the part
         beside it, by its `size` (b,), and it turns at most half as much for that. Not at open borders.
         """
         beside = size[self.twin]
         # turn / size <= 0.5 * beyond / size, without a division by zero
         half = 2.0 * self.turn * beside <= self.beyond[self.twin] * size
-        return (self.turn > angle) & (size >= beside) & half
+        return (self.turn > self.angle) & (size >= beside) & half
 
 
 def _widths(mesh: ControlMesh, part: np.ndarray, edge: np.ndarray, owner: np.ndarray) -> np.ndarray:
