@@ -203,6 +203,18 @@ def test_strips_may_be_cut_across():
     assert len(df.find_flats(welded, cut)) == 18 + 4 + 4
 
 
+def test_flats_may_end_at_creases_as_those_that_auto_keeps():
+    points, faces = CAGES["bevelled box"]
+    half = np.where(points[:, :1] < 0, points * [0.0, 1.0, 1.0], points)
+    edges = ControlMesh.of(half, *_flat(faces)).edges
+    rim = edges[(half[edges, 0] == 0).all(axis=1)]
+    plain, kept = (df.find_flats(half, faces, crease_edges=rim[:k]) for k in (0, len(rim)))
+    assert set(plain) < set(kept)
+    auto = df.fair(half, faces, 1, interpolation="auto", crease_edges=rim)
+    given = df.fair(half, faces, 1, flat_faces=kept, metric_exponent=0.85, crease_edges=rim)
+    assert np.array_equal(auto.vertices, given.vertices)
+
+
 def _flat(faces):
     return np.concatenate(faces).astype(np.int64), np.cumsum([0, *map(len, faces)])
 

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from .arrays import connected_parts, face_arrays, marked, vertex_array
 from .control_mesh import ControlMesh
+from .converters import vertex_pairs
 
 # largest distance of a flat's corners from its plane, relative to its size; files have about six digits
 _IN_PLANE = 1e-3
@@ -22,18 +23,22 @@ SPACING = 0.85
 
 
 def find_flats(
-    vertices: ArrayLike, faces: ArrayLike | Sequence[Sequence[int]], angle: float = ANGLE
+    vertices: ArrayLike,
+    faces: ArrayLike | Sequence[Sequence[int]],
+    angle: float = ANGLE,
+    crease_edges: ArrayLike = (),
 ) -> np.ndarray:
     """(k,) ids of the faces that are meant to be flat, or straight in one direction, as fair() takes them in
     `flat_faces`: those between tight rims, such as the sides of a bevelled box or the wall of a can.
-    `vertices` (n, 3) and `faces` are those of fair(); faces within `angle` (degrees) of each other are joined.
-    Raises FairingError BAD_SHAPE.
+    `vertices` (n, 3), `faces` and `crease_edges`, where flats may end, are those of fair(); faces within `angle`
+    (degrees) of each other are joined. Raises FairingError BAD_SHAPE.
     """
     mesh = ControlMesh.of(vertex_array(vertices), *face_arrays(faces))
-    return np.flatnonzero(kept_faces(mesh, angle))
+    sharp = mesh.has_pair(vertex_pairs("crease_edges", crease_edges))
+    return np.flatnonzero(kept_faces(mesh, angle, sharp))
 
 
-def kept_faces(mesh: ControlMesh, angle: float, sharp: np.ndarray | None = None) -> np.ndarray:
+def kept_faces(mesh: ControlMesh, angle: float, sharp: np.ndarray) -> np.ndarray:
     """(m,) bool: the faces of flats_of() and straights_of(). `sharp`: (e,) bool, edges that count as open borders."""
     if not len(mesh.face_sizes):
         return np.zeros(0, bool)
@@ -185,11 +190,10 @@ class Parts:
     twin: np.ndarray  # (b,) the row of the same edge in the other part; -1: open
 
     @classmethod
-    def of(cls, mesh: ControlMesh, angle: float, sharp: np.ndarray | None) -> Parts:
+    def of(cls, mesh: ControlMesh, angle: float, sharp: np.ndarray) -> Parts:
         """Joined across edges that are not `sharp` (e,) bool; of one face at least."""
         folds, inside = mesh.fold_angles
-        if sharp is not None:
-            inside = inside & ~sharp
+        inside = inside & ~sharp
         part, plane = plane_parts(mesh, inside & (folds <= angle))
         pair = part[mesh.faces_of_edges]
         border = (pair[:, 0] != pair[:, 1]) | ~inside
@@ -198,9 +202,7 @@ class Parts:
         edge, face = mesh.corner_edges[corners], mesh.face_of[corners]
         turn = np.where(inside[edge], folds[edge], 0.0)
         beyond = _turns_beyond(mesh, edge, part[face], turn)
-        twin = _twins(edge)
-        if sharp is not None:
-            twin = np.where(sharp[edge], -1, twin)
+        twin = np.where(sharp[edge], -1, _twins(edge))
         return cls(mesh, angle, part, plane, edge, face, part[face], turn, beyond, twin)
 
     def turns_beyond(self, size: np.ndarray) -> np.ndarray:
