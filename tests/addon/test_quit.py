@@ -19,11 +19,10 @@ import addon
 from addon import core, queue
 from addon.jobs.fair import Job
 from addon.settings import Settings
-from scenes import add_suzanne
 
 bpy.ops.wm.read_factory_settings(use_empty=True)
 addon.register()
-add_suzanne()
+bpy.ops.mesh.primitive_monkey_add()
 settings = bpy.context.scene.discrete_fairing
 settings.levels, settings.energy = 6, "TOTAL_CURVATURE"
 work = queue.Queue([Job(bpy.context, bpy.context.object, Settings.of(settings))], core.module().Monitor)
@@ -34,7 +33,7 @@ while work.fraction == 0:
 
 
 def run(script):
-    paths = [str(HERE.parents[1]), str(HERE), str(Path(discrete_fairing.__file__).parents[1])]
+    paths = [str(HERE.parents[1]), str(Path(discrete_fairing.__file__).parents[1])]
     code = f"import sys; sys.path[:0] = {paths!r}\n" + BEGIN + textwrap.dedent(script)
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120)
     assert done.returncode == 0 and "Traceback" not in done.stderr, done.stderr
