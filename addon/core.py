@@ -308,11 +308,6 @@ def border_corners(arrays: ControlArrays) -> np.ndarray:
     return np.asarray(measured(arrays).border_corners(marked))
 
 
-def without_vertices(arguments: dict[str, Any]) -> dict[str, Any]:
-    """The arguments without vertices; one solver serves while they are equal."""
-    return {name: value for name, value in arguments.items() if name != "vertices"}
-
-
 def are_equal(a: Any, b: Any) -> bool:
     """Whether two values are equal: dictionaries and tuples by their parts, arrays by their elements."""
     if isinstance(a, dict) and isinstance(b, dict):
@@ -322,15 +317,6 @@ def are_equal(a: Any, b: Any) -> bool:
     if isinstance(a, np.ndarray) and isinstance(b, np.ndarray):
         return np.array_equal(a, b)
     return type(a) is type(b) and a == b
-
-
-def are_together(positions: np.ndarray, origin: np.ndarray | None) -> bool:
-    """Whether vertices (n, 3) that a solver has merged into their `origin` (n,) coincide."""
-    if origin is None:
-        return True
-    rows = np.flatnonzero(origin != np.arange(len(origin)))
-    here, there = positions[rows], positions[origin[rows]]
-    return bool(((here == there) | ~np.isfinite(here)).all())
 
 
 def _finest_level(report: Mapping[str, Any]) -> dict[str, Any] | None:

@@ -120,10 +120,8 @@ class LiveSolver:
         arguments |= self.dependencies.arguments
         if (
             self.solver is not None
-            and core.are_equal(
-                core.without_vertices(arguments), core.without_vertices(self.arguments)
-            )
-            and core.are_together(arrays.positions, self.solver.vertex_origin)
+            and core.are_equal(_without_vertices(arguments), _without_vertices(self.arguments))
+            and _are_together(arrays.positions, self.solver.vertex_origin)
         ):
             return False
         self.solver = self.mesh = None
@@ -142,3 +140,17 @@ class LiveSolver:
 
 def _chosen_level(target: Object) -> int:
     return min(target.discrete_fairing_live.levels, target.discrete_fairing.levels)
+
+
+def _without_vertices(arguments: dict[str, Any]) -> dict[str, Any]:
+    """The arguments without vertices; one solver serves while they are equal."""
+    return {name: value for name, value in arguments.items() if name != "vertices"}
+
+
+def _are_together(positions: np.ndarray, origin: np.ndarray | None) -> bool:
+    """Whether vertices (n, 3) that a solver has merged into their `origin` (n,) coincide."""
+    if origin is None:
+        return True
+    rows = np.flatnonzero(origin != np.arange(len(origin)))
+    here, there = positions[rows], positions[origin[rows]]
+    return bool(((here == there) | ~np.isfinite(here)).all())
