@@ -16,6 +16,7 @@
 #include "fairing/settings.h"
 #include "fairing/warnings.h"
 #include "grid/accumulate.h"
+#include "mesh/flat_faces.h"
 #include "mesh/validate/check.h"
 #include "parallel/cancel.h"
 #include "stencil/weights.h"
@@ -215,6 +216,7 @@ std::unique_ptr<const FairingProblem> make_problem(const PolygonMesh& input,
                      options.curve_scheme().exponent,
                      {},
                      {}});
+  if (options.interpolation == Interpolation::exact) hold_flat_parts(problem->mesh);
   report.sheets = sheets_of(problem->mesh);
   problem->unknowns = choose_unknowns(problem->mesh, options);
   const auto& given = problem->mesh.positions;

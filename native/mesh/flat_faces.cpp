@@ -129,6 +129,17 @@ void mark_flat_faces(std::span<const std::int64_t> faces, ControlMesh& control) 
   }
 }
 
+void hold_flat_parts(ControlMesh& control) {
+  const FlatFaces& flat = control.flat;
+  if (flat.face.empty()) return;
+  std::vector<std::uint8_t> beside_curve(control.faces.size(), 0), held;
+  for (const Side& side : control.sides)
+    if (control.feature_edge[side.edge]) beside_curve[flat.part[side.face]] = 1;
+  for (std::size_t f = 0; f < control.faces.size(); ++f)
+    held.push_back(flat.face[f] && !beside_curve[flat.part[f]]);
+  if (std::ranges::find(held, 1) != held.end()) put_outside(held, control);
+}
+
 std::vector<Flatness> flatness(const ControlMesh& control) {
   std::vector<FacePlane> planes;
   for (const Face& face : control.faces) planes.push_back(plane_of(face, control.positions));

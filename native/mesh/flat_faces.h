@@ -15,6 +15,10 @@ namespace fairing {
 // Throws FairingError(index_out_of_range) for missing faces.
 void mark_flat_faces(std::span<const std::int64_t> faces, ControlMesh& control);
 
+// Takes plane parts out of the region, whose vertices do not move: their points are given then, and
+// what is around them is tangent to them. Parts beside curves, with which their points move, stay.
+void hold_flat_parts(ControlMesh& control);
+
 // A vertex is flat if all faces around it lie in one plane. A face is `amid` flats if all its
 // corners are flat, so that the limit surface of subdivision is flat there. It is `beside` them if a
 // corner and a neighbour of that by an edge are flat, off borders: a single flat vertex, as in a fan

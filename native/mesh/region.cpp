@@ -51,6 +51,20 @@ void join_sheets(ControlMesh& control) {
   for (Index v = 0; v < control.vertex_count(); ++v) region.vertex[v] = first(v);
 }
 
+// Of edges and vertices, from those of the faces.
+void set_parts(ControlMesh& control) {
+  Region& region = control.region;
+  region.edge.clear();
+  region.vertex.clear();
+  for (const Edge& edge : control.edges) {
+    stop_if_cancelled(region.edge.size());
+    region.edge.push_back(edge_part(control, edge));
+  }
+  for (const Index v : Cancellable(control.vertex_count()))
+    region.vertex.push_back(vertex_part(control, v));
+  join_sheets(control);
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> flags_of_faces(std::span<const std::int64_t> faces, std::int64_t count,
@@ -83,18 +97,18 @@ void find_region(const RegionOptions& options, ControlMesh& control) {
   if (!options.given) return;
   const std::vector<std::uint8_t> chosen = chosen_faces(options, control.input_faces);
   if (std::find(chosen.begin(), chosen.end(), 0) == chosen.end()) return;
-  Region& region = control.region;
-  region.joint = options.joint;
+  control.region.joint = options.joint;
   for (const Face& face : control.faces)
-    region.face.push_back(chosen[face.polygon] ? RegionPart::inside : RegionPart::outside);
-  for (const Edge& edge : control.edges) {
-    stop_if_cancelled(region.edge.size());
-    region.edge.push_back(edge_part(control, edge));
-  }
-  for (const Index v : Cancellable(control.vertex_count())) {
-    region.vertex.push_back(vertex_part(control, v));
-  }
-  join_sheets(control);
+    control.region.face.push_back(chosen[face.polygon] ? RegionPart::inside : RegionPart::outside);
+  set_parts(control);
+}
+
+void put_outside(std::span<const std::uint8_t> faces, ControlMesh& control) {
+  Region& region = control.region;
+  if (region.whole()) region.face.assign(control.faces.size(), RegionPart::inside);
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    if (faces[f]) region.face[f] = RegionPart::outside;
+  set_parts(control);
 }
 
 void mark_clamped_joint(ControlMesh& control) {

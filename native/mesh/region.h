@@ -14,6 +14,9 @@ namespace fairing {
 // whole mesh. Throws FairingError: index_out_of_range for missing faces, bad_option for no faces.
 void find_region(const RegionOptions& options, ControlMesh& control);
 
+// Takes the flagged faces out of the region.
+void put_outside(std::span<const std::uint8_t> faces, ControlMesh& control);
+
 // One flag for each of `count` input faces; throws as find_region(). Also for other settings that
 // name faces.
 std::vector<std::uint8_t> chosen_faces(const RegionOptions& options, std::int64_t count);

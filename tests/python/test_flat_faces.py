@@ -55,8 +55,30 @@ def test_flat_faces_are_flat_and_nearer_than_subdivision_surface(name, size):
     assert np.array_equal(found.vertices[: len(part[0])], part[0])
     off, turn = of_result(part, found)
     beside = of_subdivision(part)
-    assert off < 1e-4 and turn < 0.1 * beside[1]
+    assert off < 1e-12 and turn < 0.1 * beside[1]
     assert of_result(part, df.fair(part[0], part[1], LEVEL))[0] > 2e-3
+
+
+def test_flat_faces_move_where_their_vertices_do():
+    points, faces, flat, _ = flat_parts.rounded_box(90, 60, 30, 4)
+    found = df.fair(points, faces, 2, flat_faces=flat, tolerance=0.5)
+    corners = np.unique(np.concatenate([faces[f] for f in flat]))
+    assert np.abs(found.vertices[corners] - points[corners]).max(axis=1).min() > 0.05
+
+
+def test_a_flat_cap_in_a_crease_follows_its_curve():
+    points, faces = flat_parts.chamfered_cylinder(16, "")
+    caps = [f for f, face in enumerate(faces) if len(face) == 16]
+    rims = [pair for f in caps for pair in zip(faces[f], np.roll(faces[f], -1))]
+    found = df.fair(points, faces, LEVEL, flat_faces=caps, crease_edges=rims)
+    rim = np.intersect1d(
+        found.faces[0], found.faces[1]
+    )  # caps are split into triangles, walls are quads
+    radius = np.hypot(*found.vertices[rim, :2].T)
+    assert len(rim) == 2 * 16 * 2**LEVEL
+    assert radius.min() > 0.998 * radius.max()  # chords have 0.981
+    off = of_result((points, faces, caps, None), found)[0]
+    assert off < 1e-4
 
 
 def test_other_calls_know_flat_faces():
