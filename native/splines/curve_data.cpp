@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "base/angle.h"
+#include "base/roundoff.h"
 
 namespace fairing {
 namespace {
@@ -15,6 +17,9 @@ constexpr int reach = 3;
 // Sine of the angle from which creases are not in the fitted tangent plane: the surface has a kink
 // at their vertex, as where straight boundary edges meet at a corner.
 constexpr double off_plane = 2 * collinear;
+// Radians: a line of the lattice that turns by less from step to step is straight. Half of the usual
+// tolerance.
+constexpr double straight = 4e-4;
 
 // Lagrange's weights at x of `count` nodes at unit distances from `first` on.
 std::vector<double> interpolation(double x, int first, int count) {
@@ -30,6 +35,43 @@ void append(std::vector<Vec3> more, bool backwards, std::vector<Vec3>& to) {
   if (backwards) std::reverse(more.begin(), more.end());
   to.insert(to.end(), more.begin() + (to.empty() ? 0 : 1), more.end());
 }
+
+// Whether all points are in the plane through `centre`, but for rounding.
+bool in_plane(const Vec3& centre, std::span<const Vec3> points, const Vec3& normal) {
+  return !normal.isZero() && std::ranges::all_of(points, [&](const Vec3& p) {
+    const Vec3 arm = p - centre;
+    return std::abs(arm.dot(normal)) <= single_roundoff * arm.norm();
+  });
+}
+
+// Beside flats and straight strips curvature jumps, and a cubic through both sides is off. The
+// straight lines that start at a point are exactly in its tangent plane.
+class StraightLines {
+ public:
+  // The line from a point of the lattice along a side of a face, or into it.
+  void add(const Lattice& lattice, Index f, int s, int k, int step_along, int step_inside) {
+    const auto at = [&](int m) {
+      return lattice.position(lattice.point(f, s, k + m * step_along, m * step_inside));
+    };
+    const Vec3 first = at(1) - at(0);
+    for (int m = 1; m < reach; ++m)
+      if (!(angle_between(first, at(m + 1) - at(m)) < straight)) return;
+    Vec3 direction = first.normalized();
+    if (count_ == 1) direction -= direction.dot(line_[0]) * line_[0];
+    if (count_ < 2 && direction.norm() > straight) line_[count_++] = direction.normalized();
+  }
+  bool any() const { return count_ > 0; }
+  // The unit vector across them that is nearest to a normal.
+  Vec3 across(const Vec3& normal) const {
+    Vec3 out = normal;
+    for (std::size_t k = 0; k < count_; ++k) out -= out.dot(line_[k]) * line_[k];
+    return out.norm() > off_plane ? Vec3(out.normalized()) : normal;
+  }
+
+ private:
+  std::array<Vec3, 2> line_;  // unit vectors, across each other
+  std::size_t count_ = 0;
+};
 
 }  // namespace
 
@@ -71,18 +113,29 @@ Vec3 CurveSource::tangent_at(const EdgeChain& chain, int vertex) const {
 
 Vec3 CurveSource::edge_normal(const ControlEdge& edge, int k) const {
   const int n = lattice_.n();
-  std::vector<Vec3> nearby;
-  Vec3 guess = Vec3::Zero(), centre = Vec3::Zero();
+  NearbyPoints nearby;
+  StraightLines lines;
+  Vec3 guess = Vec3::Zero(), along = Vec3::Zero();
   for (const SideUse& use : edge.uses) {
     const int from = use.reversed ? n - k : k;
     const bool quad = lattice_.quad(use.face);
-    centre = lattice_.position(lattice_.point(use.face, use.side, from, 0));
-    guess += lattice_normal(lattice_, use.face, closed_point(quad, n, use.side, from, 0));
-    for (int r = &use == &edge.uses.front() ? 0 : 1; r <= reach; ++r)
-      for (int at = std::max(0, from - reach); at <= std::min(quad ? n : n - r, from + reach); ++at)
-        nearby.push_back(lattice_.position(lattice_.point(use.face, use.side, at, r)));
+    const auto at = [&](int place, int r) {
+      return lattice_.position(lattice_.point(use.face, use.side, place, r));
+    };
+    nearby.centre = at(from, 0);
+    along = at(from + 1, 0) - at(from - 1, 0);
+    for (int r = nearby.points.empty() ? 0 : 1; r <= reach; ++r)
+      for (int place = std::max(0, from - reach); place <= std::min(quad ? n : n - r, from + reach);
+           ++place)
+        nearby.points.push_back(at(place, r));
+    nearby.end_face();
+    const Vec3 own = lattice_normal(lattice_, use.face, closed_point(quad, n, use.side, from, 0));
+    if (in_plane(nearby.centre, nearby.last_face(), own)) return own;
+    guess += own;
+    if (quad || from + reach <= n) lines.add(lattice_, use.face, use.side, from, 0, 1);
   }
-  return fitted_normal(centre, nearby, guess.normalized());
+  const CurvatureJump jump{lines.any(), along.normalized()};
+  return lines.across(fitted_normal(nearby, guess.normalized(), jump));
 }
 
 std::vector<Vec3> CurveSource::edge_normals(Index e,
@@ -181,19 +234,28 @@ std::vector<Vec3> CurveSource::crease_tangents(Index sector,
 }
 
 Vec3 CurveSource::sector_normal(Index sector, const std::vector<FittedCurve>* curves) const {
-  std::vector<Vec3> nearby;
-  Vec3 guess = Vec3::Zero(), centre = Vec3::Zero();
+  NearbyPoints nearby;
+  StraightLines lines;
+  Vec3 guess = Vec3::Zero(), flat = Vec3::Zero();
   const int n = lattice_.n();
   for (const auto& [f, c] : topology_.sectors[sector]) {
     const bool quad = lattice_.quad(f);
     const int rows = quad ? reach : reach + 1;
     for (int r = 0; r <= rows; ++r)
       for (int k = 0; k <= (quad ? rows : rows - r); ++k)
-        if (k + r > 0) nearby.push_back(lattice_.position(lattice_.point(f, c, k, r)));
-    centre = lattice_.position(lattice_.point(f, c, 0, 0));
-    guess += lattice_normal(lattice_, f, closed_point(quad, n, c, 0, 0));
+        if (k + r > 0) nearby.points.push_back(lattice_.position(lattice_.point(f, c, k, r)));
+    nearby.end_face();
+    nearby.centre = lattice_.position(lattice_.point(f, c, 0, 0));
+    const Vec3 own = lattice_normal(lattice_, f, closed_point(quad, n, c, 0, 0));
+    if (in_plane(nearby.centre, nearby.last_face(), own)) flat = own;
+    guess += own;
+    lines.add(lattice_, f, c, 0, 1, 0);
+    lines.add(lattice_, f, c, 0, 0, 1);
   }
-  const Vec3 normal = fitted_normal(centre, nearby, guess.normalized());
+  const auto fitted = [&] {
+    return lines.across(fitted_normal(nearby, guess.normalized(), {.jumps = lines.any()}));
+  };
+  const Vec3 normal = flat.isZero() ? fitted() : flat;
   const std::vector<Vec3> tangents = crease_tangents(sector, curves);
   if (tangents.empty()) return normal;
   if (tangents.size() == 2) {
@@ -229,13 +291,14 @@ Vec3 CurveSource::centroid(Index f) const {
 Vec3 CurveSource::normal_inside(Index f, double i, double j, const Vec3& at) const {
   const int n = lattice_.n(), low_i = std::max(0, int(std::ceil(i)) - reach),
             low_j = std::max(0, int(std::ceil(j)) - reach);
-  std::vector<Vec3> nearby;
+  NearbyPoints nearby{at, {}, {}};
   for (int b = low_j; b <= std::min(n, int(j) + reach); ++b)
     for (int a = low_i; a <= std::min(n - b, int(i) + reach); ++a)
-      nearby.push_back(lattice_.position(f, {a, b}));
+      nearby.points.push_back(lattice_.position(f, {a, b}));
+  nearby.end_face();
   const int near_i = std::min(int(std::lround(i)), n);
   return fitted_normal(
-      at, nearby, lattice_normal(lattice_, f, {near_i, std::min(int(std::lround(j)), n - near_i)}));
+      nearby, lattice_normal(lattice_, f, {near_i, std::min(int(std::lround(j)), n - near_i)}));
 }
 
 CurveData CurveSource::inner(Index f, int s, const std::vector<FittedCurve>& curves) const {

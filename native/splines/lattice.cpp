@@ -106,27 +106,78 @@ Slide slide_to(const Vec3& rest, const Vec3& u, const Vec3& v) {
   return {(vv * ru - uv * rv) / det, (uu * rv - uv * ru) / det};
 }
 
-Vec3 fitted_normal(const Vec3& centre, const std::vector<Vec3>& nearby, const Vec3& guess) {
-  double reach = 0;
-  for (const Vec3& p : nearby) reach = std::max(reach, (p - centre).norm());
-  Vec3 normal = guess;
-  if (!(reach > 0)) return normal;
-  for (int round = 0; round < 2; ++round) {
+std::span<const Vec3> NearbyPoints::last_face() const {
+  const std::size_t before = ends.size() > 1 ? ends[ends.size() - 2] : 0;
+  return std::span(points).subspan(before, ends.back() - before);
+}
+
+namespace {
+
+// The least squares of fitted_normal().
+class NormalFit {
+ public:
+  NormalFit(const NearbyPoints& nearby, double reach, const CurvatureJump& jump)
+      : nearby_(nearby),
+        reach_(reach),
+        edge_(jump.edge),
+        at_edge_(jump.jumps && !jump.edge.isZero()),
+        by_face_(jump.jumps && !at_edge_) {
+    const auto parts = by_face_ ? Eigen::Index(nearby.ends.size()) : 1;
+    rows_.resize(Eigen::Index(nearby.points.size()), 2 + own * parts + (at_edge_ ? beyond : 0));
+    heights_.resize(rows_.rows());
+  }
+
+  // One refit.
+  Vec3 next(const Vec3& normal) {
     const Eigen::Matrix<double, 3, 2> frame = tangents_of(normal);
-    Eigen::MatrixXd rows(Eigen::Index(nearby.size()), 9);
-    Eigen::VectorXd heights(Eigen::Index(nearby.size()));
-    for (std::size_t k = 0; k < nearby.size(); ++k) {
-      const Vec3 arm = (nearby[k] - centre) / reach;
-      const double x = arm.dot(frame.col(0)), y = arm.dot(frame.col(1));
-      rows.row(Eigen::Index(k)) << x, y, x * x, x * y, y * y, x * x * x, x * x * y, x * y * y,
-          y * y * y;
-      heights[k] = arm.dot(normal);
+    const Vec3 across = normal.cross(edge_);
+    rows_.setZero();
+    std::size_t face = 0;
+    for (Eigen::Index k = 0; k < rows_.rows(); ++k) {
+      while (std::size_t(k) == nearby_.ends[face]) ++face;
+      const Vec3 arm = (nearby_.points[std::size_t(k)] - nearby_.centre) / reach_;
+      set_row(k, face, arm.dot(frame.col(0)), arm.dot(frame.col(1)));
+      if (at_edge_ && face > 0) set_jump(k, arm.dot(across), arm.dot(edge_));
+      heights_[k] = arm.dot(normal);
     }
     Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
     qr.setThreshold(single_roundoff);
-    qr.compute(rows);
-    const Eigen::VectorXd fit = qr.solve(heights);
-    const Vec3 next = normal - frame * fit.head<2>();
+    qr.compute(rows_);
+    return normal - frame * qr.solve(heights_).head<2>();
+  }
+
+ private:
+  // Numbers of terms: quadratic and cubic ones; those beyond an edge.
+  static constexpr Eigen::Index own = 7, beyond = 3;
+
+  void set_row(Eigen::Index k, std::size_t face, double x, double y) {
+    rows_.row(k).head<2>() << x, y;
+    rows_.row(k).segment<own>(2 + (by_face_ ? own * Eigen::Index(face) : 0)) << x * x, x * y, y * y,
+        x * x * x, x * x * y, x * y * y, y * y * y;
+  }
+  // s: from the edge; t: along it.
+  void set_jump(Eigen::Index k, double s, double t) {
+    rows_.row(k).tail<beyond>() << s * s, s * s * t, s * s * s;
+  }
+
+  const NearbyPoints& nearby_;
+  double reach_;
+  Vec3 edge_;
+  bool at_edge_, by_face_;
+  Eigen::MatrixXd rows_;
+  Eigen::VectorXd heights_;
+};
+
+}  // namespace
+
+Vec3 fitted_normal(const NearbyPoints& nearby, const Vec3& guess, const CurvatureJump& jump) {
+  double reach = 0;
+  for (const Vec3& p : nearby.points) reach = std::max(reach, (p - nearby.centre).norm());
+  if (!(reach > 0)) return guess;
+  NormalFit fit(nearby, reach, jump);
+  Vec3 normal = guess;
+  for (int round = 0; round < 2; ++round) {
+    const Vec3 next = fit.next(normal);
     if (!next.allFinite()) return normal;
     normal = next.normalized();
   }

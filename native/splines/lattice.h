@@ -130,9 +130,28 @@ struct Slide {
 };
 Slide slide_to(const Vec3& rest, const Vec3& u, const Vec3& v);
 
-// The normal at `centre` of the surface through nearby points: that of a height function over the
-// plane of `guess`, up to cubic if there are enough points. Refitted once.
-Vec3 fitted_normal(const Vec3& centre, const std::vector<Vec3>& nearby, const Vec3& guess);
+// The points near one point of the lattice, face by face.
+struct NearbyPoints {
+  Vec3 centre = Vec3::Zero();
+  std::vector<Vec3> points;
+  std::vector<std::size_t> ends;  // of each face's points
+
+  void end_face() { ends.push_back(points.size()); }
+  // Of the last face.
+  std::span<const Vec3> last_face() const;
+};
+
+// Where curvature may jump: nowhere; across an edge; between all faces.
+struct CurvatureJump {
+  bool jumps = false;
+  Vec3 edge = Vec3::Zero();  // its direction, a unit vector; zero: between all
+};
+
+// The normal at the centre of the surface through the other points: that of a height function over
+// the plane of `guess`, up to cubic if there are enough points; refitted once. Beyond an edge across
+// which curvature jumps there are terms of its own; with jumps between all faces each has its own
+// quadratic and cubic terms.
+Vec3 fitted_normal(const NearbyPoints& nearby, const Vec3& guess, const CurvatureJump& jump = {});
 
 // The area-weighted normal at a point of the lattice, from its neighbours.
 Vec3 area_normal(const Sheet& sheet, GridPoint p);

@@ -7,6 +7,7 @@ from pathlib import Path
 import control_meshes
 import discrete_fairing as df
 import example_meshes
+import flat_parts
 import folding_meshes
 import half_hulls
 import numpy as np
@@ -322,6 +323,17 @@ def test_a_flat_sheet_with_lines_beside_its_straight_borders_is_one_patch(margin
     patches = df.fit_patches(points, lattice_faces(4, 4), boundary="linear")
     assert len(patches.patch_spans) == 1
     assert patches.largest_off < 1e-9
+
+
+def test_flats_between_smooth_rims_are_planes_and_walls_between_them_are_met():
+    """Curvature jumps beside flats and straight walls; normals there were off by up to 2.3 degrees."""
+    points, faces = flat_parts.chamfered_cylinder(16, "")
+    patches = df.fit_patches(points, faces, interpolation="auto", levels=4)
+    assert len(patches.written) == len(faces)
+    caps = np.unique(patches.patch_plane[patches.patch_plane >= 0])
+    assert [len(faces[cap]) for cap in caps] == [16, 16]
+    assert np.degrees(patches.largest_angle) < 0.1
+    assert patches.largest_residual < 1e-4 * patches.size
 
 
 def test_rows_of_quads_are_one_patch_whose_curvature_does_not_jump():

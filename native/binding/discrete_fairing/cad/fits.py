@@ -71,7 +71,9 @@ class PatchFits:
         if watched["progress"](0.0, "patches") is False:
             watched["monitor"].cancel()
         polygons = control_polygons(result, level)
-        arrays, bad = self._fit(_arrays(result), polygons, level, watched)
+        size = float(np.ptp(result.vertices, axis=0).max(initial=0))
+        used = lattice_error.max(initial=0) / (self.tolerance * size) if size else 0.0
+        arrays, bad = self._fit(_arrays(result), polygons, level, watched, used)
         arrays.update(
             tolerance=self.tolerance,
             normal_tolerance=self.normal_tolerance,
@@ -81,13 +83,22 @@ class PatchFits:
         return SplinePatches(arrays, result, level)
 
     def _fit(
-        self, arrays: Arrays, polygons: np.ndarray, level: int, watched: dict[str, Any]
+        self,
+        arrays: Arrays,
+        polygons: np.ndarray,
+        level: int,
+        watched: dict[str, Any],
+        used: float = 0.0,
     ) -> tuple[dict[str, Any], np.ndarray]:
-        """The core's arrays, and (F,) bool: control faces whose patches or surface fold."""
+        """The core's arrays, and (F,) bool: control faces whose patches or surface fold. `used`: the share of the
+        tolerance that the surface's own error takes. Patches have a half, or what is left of it, but a quarter.
+        """
         groups = self._groups[polygons] if len(self._groups) else self._groups
-        allowed = self.tolerance, self.normal_tolerance
+        left = min(max(2.0 * (1.0 - used), 0.5), 1.0) if used < 1.0 else 1.0
+        allowed = left * self.tolerance, self.normal_tolerance
         found = _native.fit_splines(*arrays, groups, level, *allowed, **watched)
-        mark_flat(found, polygons, partial(_points, arrays, polygons))
+        points = partial(_points, arrays, polygons)
+        mark_flat(found, polygons, points, self.normal_tolerance)
         bad = (found["lattice_turn"] > TURN_LIMIT) | (found["face_angle"] > TURN_LIMIT)
         folded = np.repeat(~(found["turned"] <= FOLD_LIMIT), np.diff(found["patch_face_offsets"]))
         bad[found["patch_faces"][folded]] = True

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Patches that are flat and lie between creases or borders: in CAD each is a plane, and so is an input polygon
-that was split, whose triangles are often so narrow that patches fold.
+"""Patches that are flat: in CAD each is a plane, and so is an input polygon that was split, whose triangles are
+often so narrow that patches fold.
 """
 
 from __future__ import annotations
@@ -29,24 +29,27 @@ class _Flat:
 
 
 def mark_flat(
-    found: dict[str, Any], polygons: np.ndarray, points_of: Callable[[int], np.ndarray]
+    found: dict[str, Any],
+    polygons: np.ndarray,
+    points_of: Callable[[int], np.ndarray],
+    normal_tolerance: float,
 ) -> None:
     """Adds `patch_plane` to the core's arrays: (P,) int32, for patches in a plane the number of its first
     polygon, of `polygons` (F,) by control faces, otherwise -1. Only the edges of such a plane are off.
-    `points_of` has the refined surface's points of a polygon, (k, 3).
+    `points_of` has the refined surface's points of a polygon, (k, 3). Where it is smooth around a plane, the
+    patches beside it meet the plane within `normal_tolerance`, radians.
     """
     face_patch = np.repeat(
         np.arange(len(found["patch_face_offsets"]) - 1), np.diff(found["patch_face_offsets"])
     )
     own = polygons[found["patch_faces"][found["patch_face_offsets"][:-1]]]
     found["patch_plane"] = np.full(len(own), -1, np.int32)
-    for polygon, flat in _enclosed(found, _flat_ones(found, polygons, own, points_of)).items():
+    meets = np.nan_to_num(found["angles"]).max(axis=1, initial=0) <= normal_tolerance
+    flats = _flat_ones(found, polygons, own, points_of)
+    for polygon, flat in _enclosed(found, flats, meets).items():
         found["patch_plane"][flat.patches] = polygon
-        smooth = flat.edges[
-            found["edge_kind"][flat.edges] == SMOOTH
-        ]  # to patches in the same plane
-        found["angles"][smooth] = found["jumps"][smooth] = 0
-        found["edge_error"][np.setdiff1d(flat.edges, flat.outer)] = 0
+        inner = np.setdiff1d(flat.edges, flat.outer)
+        found["angles"][inner] = found["jumps"][inner] = found["edge_error"][inner] = 0
         found["residual"][flat.patches] = found["turned"][flat.patches] = 0
         faces = found["patch_faces"][np.isin(face_patch, flat.patches)]
         found["face_angle"][faces] = found["lattice_turn"][faces] = 0
@@ -87,14 +90,14 @@ def _patches_by(own: np.ndarray) -> dict[int, np.ndarray]:
     return dict(zip(values.tolist(), np.split(order, begin[1:])))
 
 
-def _enclosed(found: dict[str, Any], flat: dict[int, _Flat]) -> dict[int, _Flat]:
-    """Those between creases, borders and one another: at other edges patches on both sides are compared."""
+def _enclosed(found: dict[str, Any], flat: dict[int, _Flat], meets: np.ndarray) -> dict[int, _Flat]:
+    """Those between creases, borders, one another, and edges where both sides meet, (E,) bool."""
     count = len(flat) + 1
     while len(flat) < count:
         count = len(flat)
         used = [found["loop_edges"][:0], *(own.outer for own in flat.values())]
         twice = np.bincount(np.concatenate(used), minlength=len(found["edge_kind"])) > 1
-        fine = twice | (found["edge_kind"] != SMOOTH)
+        fine = twice | meets | (found["edge_kind"] != SMOOTH)
         flat = {polygon: own for polygon, own in flat.items() if fine[own.outer].all()}
     return flat
 
