@@ -129,7 +129,8 @@ py::array turns_array(const Numbers& vertices, const ShortIds& triangles, const 
     Workers workers(threads);
     Topology topology = make_topology(lattice);
     // slight turns count
-    topology.kinks = CurveSource(lattice, topology).kinks(std::numeric_limits<double>::infinity());
+    topology.kinks =
+        CurveSource(lattice, topology, 0).kinks(std::numeric_limits<double>::infinity());
     turns = lattice_turns(lattice, topology, least, workers);
   });
   return to_numpy(turns);

@@ -17,9 +17,6 @@ constexpr int reach = 3;
 // Sine of the angle from which creases are not in the fitted tangent plane: the surface has a kink
 // at their vertex, as where straight boundary edges meet at a corner.
 constexpr double off_plane = 2 * collinear;
-// Radians: a line of the lattice that turns by less from step to step is straight. Half of the usual
-// tolerance.
-constexpr double straight = 4e-4;
 
 // Lagrange's weights at x of `count` nodes at unit distances from `first` on.
 std::vector<double> interpolation(double x, int first, int count) {
@@ -48,6 +45,8 @@ bool in_plane(const Vec3& centre, std::span<const Vec3> points, const Vec3& norm
 // straight lines that start at a point are exactly in its tangent plane.
 class StraightLines {
  public:
+  // Lines that turn by less than this angle from step to step are straight.
+  explicit StraightLines(double straight) : straight_(straight) {}
   // The line from a point of the lattice along a side of a face, or into it.
   void add(const Lattice& lattice, Index f, int s, int k, int step_along, int step_inside) {
     const auto at = [&](int m) {
@@ -55,10 +54,10 @@ class StraightLines {
     };
     const Vec3 first = at(1) - at(0);
     for (int m = 1; m < reach; ++m)
-      if (!(angle_between(first, at(m + 1) - at(m)) < straight)) return;
+      if (!(angle_between(first, at(m + 1) - at(m)) < straight_)) return;
     Vec3 direction = first.normalized();
     if (count_ == 1) direction -= direction.dot(line_[0]) * line_[0];
-    if (count_ < 2 && direction.norm() > straight) line_[count_++] = direction.normalized();
+    if (count_ < 2 && direction.norm() > straight_) line_[count_++] = direction.normalized();
   }
   bool any() const { return count_ > 0; }
   // The unit vector across them that is nearest to a normal.
@@ -69,6 +68,7 @@ class StraightLines {
   }
 
  private:
+  double straight_;
   std::array<Vec3, 2> line_;  // unit vectors, across each other
   std::size_t count_ = 0;
 };
@@ -114,7 +114,7 @@ Vec3 CurveSource::tangent_at(const EdgeChain& chain, int vertex) const {
 Vec3 CurveSource::edge_normal(const ControlEdge& edge, int k) const {
   const int n = lattice_.n();
   NearbyPoints nearby;
-  StraightLines lines;
+  StraightLines lines(straight_);
   Vec3 guess = Vec3::Zero(), along = Vec3::Zero();
   for (const SideUse& use : edge.uses) {
     const int from = use.reversed ? n - k : k;
@@ -235,7 +235,7 @@ std::vector<Vec3> CurveSource::crease_tangents(Index sector,
 
 Vec3 CurveSource::sector_normal(Index sector, const std::vector<FittedCurve>* curves) const {
   NearbyPoints nearby;
-  StraightLines lines;
+  StraightLines lines(straight_);
   Vec3 guess = Vec3::Zero(), flat = Vec3::Zero();
   const int n = lattice_.n();
   for (const auto& [f, c] : topology_.sectors[sector]) {

@@ -9,8 +9,10 @@ namespace fairing {
 
 class CurveSource {
  public:
-  CurveSource(const Lattice& lattice, const Topology& topology)
-      : lattice_(lattice), topology_(topology) {}
+  // Lines of the lattice that turn by less than half of `normal_tolerance`, radians, from step to
+  // step are straight.
+  CurveSource(const Lattice& lattice, const Topology& topology, double normal_tolerance)
+      : lattice_(lattice), topology_(topology), straight_(normal_tolerance / 2) {}
 
   // The data of a chain that is a crease or a boundary.
   CurveData sharp_chain(Index c) const;
@@ -47,6 +49,7 @@ class CurveSource {
 
   const Lattice& lattice_;
   const Topology& topology_;
+  double straight_;
 };
 
 }  // namespace fairing

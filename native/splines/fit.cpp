@@ -29,7 +29,8 @@ class Fitting {
   SplineSurface run() {
     SplineSurface out;
     monitor_.report(Phase::patches, 0);
-    topology_.kinks = CurveSource(lattice_, topology_).kinks(options_.normal_tolerance);
+    topology_.kinks = CurveSource(lattice_, topology_, options_.normal_tolerance)
+                          .kinks(options_.normal_tolerance);
     out.lattice_turn = lattice_turns(lattice_, topology_, tolerance(), workers_);
     turns_ = out.lattice_turn;
     const Walls walls = find_walls(lattice_, topology_, options_.groups, options_.normal_tolerance);
@@ -136,7 +137,7 @@ class Fitting {
 
   // The flagged curves.
   void fit_curves(const std::vector<std::uint8_t>& which) {
-    const CurveSource source(lattice_, topology_);
+    const CurveSource source(lattice_, topology_, options_.normal_tolerance);
     const std::size_t chains = topology_.chains.size();
     const auto limits = [&](std::size_t c) {
       const EdgeChain& chain = topology_.chains[c];

@@ -123,7 +123,8 @@ class NormalFit {
         at_edge_(jump.jumps && !jump.edge.isZero()),
         by_face_(jump.jumps && !at_edge_) {
     const auto parts = by_face_ ? Eigen::Index(nearby.ends.size()) : 1;
-    rows_.resize(Eigen::Index(nearby.points.size()), 2 + own * parts + (at_edge_ ? beyond : 0));
+    rows_.resize(Eigen::Index(nearby.points.size()),
+                 2 + higher_terms * parts + (at_edge_ ? terms_beyond : 0));
     heights_.resize(rows_.rows());
   }
 
@@ -148,16 +149,17 @@ class NormalFit {
 
  private:
   // Numbers of terms: quadratic and cubic ones; those beyond an edge.
-  static constexpr Eigen::Index own = 7, beyond = 3;
+  static constexpr Eigen::Index higher_terms = 7, terms_beyond = 3;
 
   void set_row(Eigen::Index k, std::size_t face, double x, double y) {
     rows_.row(k).head<2>() << x, y;
-    rows_.row(k).segment<own>(2 + (by_face_ ? own * Eigen::Index(face) : 0)) << x * x, x * y, y * y,
-        x * x * x, x * x * y, x * y * y, y * y * y;
+    rows_.row(k).segment<higher_terms>(2 + (by_face_ ? higher_terms * Eigen::Index(face) : 0))
+        << x * x,
+        x * y, y * y, x * x * x, x * x * y, x * y * y, y * y * y;
   }
   // s: from the edge; t: along it.
   void set_jump(Eigen::Index k, double s, double t) {
-    rows_.row(k).tail<beyond>() << s * s, s * s * t, s * s * s;
+    rows_.row(k).tail<terms_beyond>() << s * s, s * s * t, s * s * s;
   }
 
   const NearbyPoints& nearby_;

@@ -37,6 +37,7 @@ FACTS = """
     boundary_modes angles_an_edge corner_of directions order triangle
     lane_block lane_count local_stride most_slots stride sums vector_room
     in_plane none several centripetal width bytes_a_point bytes_a_cell vectors
+    higher_terms terms_beyond
 """
 
 NUMBER_TYPE = r"(?:double|float|int|u?int(?:\d+|ptr)_t|size_t|Index|chrono::\w+)"

@@ -70,10 +70,26 @@ class PatchFits:
         # reported even if the fit is quick
         if watched["progress"](0.0, "patches") is False:
             watched["monitor"].cancel()
-        polygons = control_polygons(result, level)
         size = float(np.ptp(result.vertices, axis=0).max(initial=0))
         used = lattice_error.max(initial=0) / (self.tolerance * size) if size else 0.0
-        arrays, bad = self._fit(_arrays(result), polygons, level, watched, used)
+        left = max(2.0 * (1.0 - used), 0.5) if used < 1.0 else 1.0
+        fit = partial(self._patches, result, level, lattice_error, watched)
+        found = fit(min(left, 1.0))
+        # a closer fit costs less than a finer surface
+        if left > 0.5 and 1.0 < found.largest_miss <= 2.0 and found.all_meet:
+            found = min(found, fit(0.5), key=lambda patches: patches.largest_miss)
+        return found
+
+    def _patches(
+        self,
+        result: Result,
+        level: int,
+        lattice_error: np.ndarray,
+        watched: dict[str, Any],
+        share: float,
+    ) -> SplinePatches:
+        polygons = control_polygons(result, level)
+        arrays, bad = self._fit(_arrays(result), polygons, level, watched, share)
         arrays.update(
             tolerance=self.tolerance,
             normal_tolerance=self.normal_tolerance,
@@ -88,14 +104,13 @@ class PatchFits:
         polygons: np.ndarray,
         level: int,
         watched: dict[str, Any],
-        used: float = 0.0,
+        share: float = 1.0,
     ) -> tuple[dict[str, Any], np.ndarray]:
-        """The core's arrays, and (F,) bool: control faces whose patches or surface fold. `used`: the share of the
-        tolerance that the surface's own error takes. Patches have a half, or what is left of it, but a quarter.
+        """The core's arrays, and (F,) bool: control faces whose patches or surface fold. `share`: of the tolerance;
+        of that, patches have a half.
         """
         groups = self._groups[polygons] if len(self._groups) else self._groups
-        left = min(max(2.0 * (1.0 - used), 0.5), 1.0) if used < 1.0 else 1.0
-        allowed = left * self.tolerance, self.normal_tolerance
+        allowed = share * self.tolerance, self.normal_tolerance
         found = _native.fit_splines(*arrays, groups, level, *allowed, **watched)
         points = partial(_points, arrays, polygons)
         mark_flat(found, polygons, points, self.normal_tolerance)

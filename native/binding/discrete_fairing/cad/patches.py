@@ -195,6 +195,11 @@ class SplinePatches:
         return float(self._misses(self.face_off + self._lattice_error).max(initial=0))
 
     @property
+    def all_meet(self) -> bool:
+        """Whether no angle at a side misses the tolerance."""
+        return not (self.face_angle > self.normal_tolerance).any()
+
+    @property
     def unmet_by_fit(self) -> np.ndarray:
         """(k,) int64: faces of `unmet` whose patches miss the tolerance from the refined surface too."""
         return self._missing(self.face_off)
