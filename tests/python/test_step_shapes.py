@@ -7,6 +7,7 @@ from functools import cache
 import control_meshes as meshes
 import discrete_fairing as df
 import example_meshes
+import flat_parts
 import numpy as np
 import pytest
 import step_colours
@@ -125,6 +126,15 @@ def test_flat_polygons_are_planes(tmp_path):
     assert read.volume == pytest.approx(2 * solid, rel=1e-9)
     text = name.read_text()
     assert text.count("=PLANE(") == 2 * len(faces) and "B_SPLINE_SURFACE" not in text
+
+
+def test_flat_polygons_with_smooth_rims_are_planes(tmp_path):
+    patches = df.fit_patches(*flat_parts.chamfered_cylinder(16, ""), interpolation="auto", levels=4)
+    name = tmp_path / "can.step"
+    df.write_step(name, patches, unit="mm")
+    read = step_files.read(name)
+    assert read.valid and read.solids == 1 and not read.free_edges and read.tolerance == 1e-7
+    assert read.faces == 50 and name.read_text().count("=PLANE(") == 2
 
 
 @pytest.mark.parametrize("rise, planes, others", [(0.0, 6, 0), (0.2, 5, 4)])
