@@ -219,11 +219,8 @@ def patches_on_scan(arguments: Mapping[str, Any], scan: Mapping[str, Any]) -> di
     """`patch_arguments` for the surface near a scan; `scan` has arguments of `discrete_fairing.fit`, with
     the levels of that surface.
     """
-    own = {
-        "tolerance": arguments["tolerance"],
-        "scan": scan,
-    }  # the tolerance is that of the patches
-    return of_fits(arguments) | own
+    # the tolerance is that of the patches
+    return of_fits(arguments) | {"tolerance": arguments["tolerance"], "scan": scan}
 
 
 class SolverFromStart:

@@ -131,7 +131,8 @@ void mark_flat_faces(std::span<const std::int64_t> faces, ControlMesh& control) 
 
 void hold_flat_parts(ControlMesh& control) {
   const FlatFaces& flat = control.flat;
-  if (flat.face.empty()) return;
+  // where a region may fold at its joint, it would fold around flats too
+  if (flat.face.empty() || control.region.joint == RegionContinuity::position) return;
   std::vector<std::uint8_t> beside_curve(control.faces.size(), 0), held;
   for (const Side& side : control.sides)
     if (control.feature_edge[side.edge]) beside_curve[flat.part[side.face]] = 1;

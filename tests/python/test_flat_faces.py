@@ -66,6 +66,23 @@ def test_flat_faces_move_where_their_vertices_do():
     assert np.abs(found.vertices[corners] - points[corners]).max(axis=1).min() > 0.05
 
 
+def test_a_region_that_only_touches_is_tangent_to_flats_inside():
+    points, faces, flat, _ = flat_parts.rounded_box(90, 60, 30, 4)
+    region = np.setdiff1d(np.arange(len(faces)), flat[:1])
+    found = df.fair(
+        points,
+        faces,
+        LEVEL,
+        region=region,
+        joint="position",
+        flat_faces=flat[1:],
+        metric_exponent=SPACING,
+    )
+    _, pairs, angles = turns(found.vertices, found.faces[1])
+    rim = (found.quad_polygon[pairs] == flat[-1]).sum(axis=1) == 1
+    assert np.degrees(angles[rim].max()) < 5
+
+
 def test_a_flat_cap_in_a_crease_follows_its_curve():
     points, faces = flat_parts.chamfered_cylinder(16, "")
     caps = [f for f, face in enumerate(faces) if len(face) == 16]
