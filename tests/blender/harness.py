@@ -22,7 +22,7 @@ import numpy as np
 
 EXTENSION = "bl_ext.user_default.discrete_fairing"
 _BUTTON = 12  # pixels: less than a button is high
-DRAWN = 60.0  # seconds until the viewport must have been drawn: on a busy machine it takes its time
+DRAWN = 120.0  # seconds until an area must have been drawn: on a busy machine it takes its time
 
 
 def module(name):
@@ -106,22 +106,24 @@ def run_in_window(namespace):
     bpy.app.timers.register(lambda: next(walk, None), first_interval=0.5, persistent=True)
 
 
-def drawn():
-    """Waits until the viewport has been drawn: operators that turn it ask for sizes and matrices. A generator. At
-    first there is no window: it opens after the scripts have been read."""
+def drawn(space=bpy.types.SpaceView3D):
+    """Waits until an area of this kind has been drawn: operators that turn a viewport ask for sizes and matrices, and
+    Blender crashes if a file browser runs before that. A generator. At first there is no window: it opens after the
+    scripts have been read."""
     begun, seen = perf_counter(), []
-    add = bpy.types.SpaceView3D.draw_handler_add
-    handle = add(lambda: seen.append(True), (), "WINDOW", "POST_PIXEL")
+    handle = space.draw_handler_add(lambda: seen.append(True), (), "WINDOW", "POST_PIXEL")
     while not seen and perf_counter() - begun < DRAWN:
         yield 0.1
         for window in bpy.context.window_manager.windows:
             for area in window.screen.areas:
                 area.tag_redraw()
-    bpy.types.SpaceView3D.draw_handler_remove(handle, "WINDOW")
+    space.draw_handler_remove(handle, "WINDOW")
+    assert seen, f"no {space.__name__} was drawn within {DRAWN:.0f} s"
 
 
 def _walk_in_window(tests):
-    yield from drawn()
+    with contextlib.suppress(AssertionError):
+        yield from drawn()
     for name, test in tests.items():
         start = perf_counter()
         try:
@@ -250,18 +252,20 @@ def colours(path):
 
 
 def execute_browser(path=None):
-    """Presses the button of the file browser, with this file if it is given. Returns whether there is a browser."""
-    for window in bpy.context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "FILE_BROWSER":
-                region = next(region for region in area.regions if region.type == "WINDOW")
-                if path:
-                    area.spaces.active.params.directory = str(path.parent).encode()
-                    area.spaces.active.params.filename = path.name
-                with bpy.context.temp_override(window=window, area=area, region=region):
-                    bpy.ops.file.execute()
-                return True
-    return False
+    """Presses the button of the file browser, with this file if it is given; a generator."""
+    yield from drawn(bpy.types.SpaceFileBrowser)
+    window, area = next(
+        (window, area)
+        for window in bpy.context.window_manager.windows
+        for area in window.screen.areas
+        if area.type == "FILE_BROWSER"
+    )
+    region = next(region for region in area.regions if region.type == "WINDOW")
+    if path:
+        area.spaces.active.params.directory = str(path.parent).encode()
+        area.spaces.active.params.filename = path.name
+    with bpy.context.temp_override(window=window, area=area, region=region):
+        bpy.ops.file.execute()
 
 
 def xdotool(*words):

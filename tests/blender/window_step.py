@@ -41,9 +41,9 @@ def browse(path, **settings):
     harness.call(
         bpy.ops.export_scene.fairing_step, "INVOKE_DEFAULT", filepath=str(path), **settings
     )
-    yield 2.0
+    yield from harness.drawn(bpy.types.SpaceFileBrowser)
     harness.photograph("step_browser")
-    harness.execute_browser()
+    yield from harness.execute_browser()
     yield 0.3
 
 
