@@ -178,8 +178,10 @@ class Fitting {
     data.faces = place.grid.faces.size();
     data.corner = place.corner;
     data.tolerance = tolerance() / 2;
-    data.normal_tolerance = options_.normal_tolerance / 2;    // two patches meet
-    data.may_fold = place.several() || turns_sharply(place);  // several are cut in two
+    data.normal_tolerance = options_.normal_tolerance / 2;  // two patches meet
+    // several are cut in two, and before curves are sharper only what does not fold is wanted
+    data.may_fold =
+        place.several() || turns_sharply(place) || (!all_ways && !fitted_[p].misses.folds);
     for (const int s : {0, 2}) spans_u = std::max(spans_u, data.side[s].spans);
     for (const int s : {1, 3}) spans_v = std::max(spans_v, data.side[s].spans);
     const int most_u = std::max(place.most_spans(lattice_, place.grid.columns), spans_u),
