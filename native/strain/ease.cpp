@@ -14,6 +14,7 @@
 #include "fairing/systems.h"
 #include "parallel/cancel.h"
 #include "strain/ease_system.h"
+#include "strain/scatter.h"
 #include "strain/strain.h"
 
 namespace fairing {
@@ -75,25 +76,6 @@ LoadMatrix part_of(const LoadMatrix& all, const std::vector<Index>& row_of,
   return out;
 }
 
-// Differences of rows from the mean of those like them. `number`: of the rows that count.
-LoadMatrix differences_of(const std::vector<std::vector<Index>>& alike,
-                          const std::vector<Index>& number, Eigen::Index count) {
-  LoadMatrix out(count, count);
-  std::vector<Eigen::Triplet<double, Index>> entries;
-  for (std::size_t i = 0; i < alike.size(); ++i) {
-    if (number[i] < 0) continue;
-    std::vector<Index> others;
-    for (const Index row : alike[i])
-      if (number[row] >= 0) others.push_back(number[row]);
-    if (others.empty()) continue;
-    entries.emplace_back(number[i], number[i], 1);
-    for (const Index other : others)
-      entries.emplace_back(number[i], other, -1 / double(others.size()));
-  }
-  out.setFromTriplets(entries.begin(), entries.end());
-  return out;
-}
-
 // Square roots of shares whose mean is one.
 std::vector<double> roots(std::vector<double> shares) {
   double sum = 0;
@@ -107,12 +89,13 @@ struct Movable {
   std::vector<Index> vertices;
   std::vector<double> root;  // roots of the vertices' shares of area or length
   LoadMatrix g;              // scaled by the roots
-  // Differences of each load from the mean of nearby ones with similar stars. On a regular pattern,
-  // as triangles with alternating diagonals, loads alternate without any scatter, but those of
-  // similar stars differ little.
-  LoadMatrix differences;
+};
 
-  EaseSystem system(Columns loads) const { return {g, std::move(loads)}; }
+// The requested amount, or that from the estimated scatter; 0: none. Curves and inner vertices may
+// scatter differently, so each kind has its own.
+struct Reading {
+  EaseSystem system;
+  double s = 0;
 };
 
 class Easing {
@@ -142,20 +125,18 @@ class Easing {
       find_movable();
       // Scatter also causes moments on borders, which cannot be distinguished from those of the
       // shape: with them, results for few vertices with faint scatter are up to a tenth worse.
-      Loads loads = std::move(plate.free);
       // A curve has too few vertices to estimate scatter: that of inner vertices is a bound, and if
       // they have an estimate, a curve without one stays.
-      const EaseSystem inner = inner_system(loads, control), curve = curve_system(control);
-      const double read = estimated_amount(inner_, inner);
-      double s = read > 0 ? estimated_amount(curve_, curve) : amount(curve_, curve);
-      if (wanted_.amount < 0 && inner.unknowns() > 0)
-        s = with_noise_up_to(curve, s, inner.noise(read > 0 ? read : amount(inner_, inner)));
-      if (apply(curve_, curve, s)) {
+      Reading inner = read_inner(plate.free, control);
+      const Reading curve = read_curve(control);
+      double s = inner.s > 0 ? curve.s : amount(curve_, curve);
+      if (wanted_.amount < 0 && inner.system.unknowns() > 0)
+        s = with_noise_up_to(curve.system, s, inner.system.noise(amount(inner_, inner)));
+      if (apply(curve_, curve.system, s)) {
         control = problem_->control_positions(at_);
-        loads = loads_of(control).free;
+        inner = read_inner(loads_of(control).free, control);
       }
-      const EaseSystem again = inner_system(loads, control);
-      apply(inner_, again, amount(inner_, again));
+      apply(inner_, inner.system, amount(inner_, inner));
     }
     const ControlPositions after = problem_->control_positions(at_);
     out_.after = gauge_->excess(loads_of(after).turned, after);
@@ -192,7 +173,6 @@ class Easing {
     }
     inner_.root = roots(std::move(shares));
     inner_.g = part_of(gauge_->matrix(), rows, rows, inner_.root, inner_.root);
-    inner_.differences = differences_of(gauge_->of_same_star(), rows, inner_.g.rows());
 
     const CurveLoads& curves = gauge_->curves();
     for (std::size_t i = 0; i < curves.vertices().size(); ++i) {
@@ -209,16 +189,29 @@ class Easing {
                        curve_.root);
   }
 
-  EaseSystem inner_system(const Loads& loads, const ControlPositions& control) const {
+  Reading read_inner(const Loads& loads, const ControlPositions& control) const {
     const Columns all = gauge_->loads(loads, control);
     Columns own(Eigen::Index(inner_rows_.size()), 3);
     for (std::size_t i = 0; i < inner_rows_.size(); ++i)
       own.row(Eigen::Index(i)) = inner_.root[i] * all.row(inner_rows_[i]);
-    return inner_.system(std::move(own));
+    Reading out = read({inner_.g, std::move(own)});
+    if (wanted_.amount >= 0 || !(out.s > 0)) return out;
+    const Scatter scatter =
+        scatter_of(mesh_, control.working, inner_.vertices, inner_.root, out.system);
+    const bool any = least_score(out.system.with_loads(scatter.loads)) > 0;
+    out.s = any ? with_noise_up_to(out.system, out.s, scatter.most) : 0;
+    return out;
   }
 
-  EaseSystem curve_system(const ControlPositions& control) const {
-    return curve_.system(gauge_->curves().differences() * columns_of(control.working));
+  Reading read_curve(const ControlPositions& control) const {
+    return read({curve_.g, gauge_->curves().differences() * columns_of(control.working)});
+  }
+
+  Reading read(EaseSystem system) const {
+    double s = 0;
+    if (system.mean() > 0)
+      s = wanted_.amount >= 0 ? wanted_.amount / system.mean() : cross_validated(system);
+    return {std::move(system), s};
   }
 
   Eigen::VectorXd bounds_of(const Movable& movable) const {
@@ -230,22 +223,10 @@ class Easing {
     return bounds;
   }
 
-  // The requested amount, or that from the estimated scatter. Curves and inner vertices may scatter
-  // differently, so each kind has its own.
-  double estimated_amount(const Movable& movable, const EaseSystem& system) const {
-    if (!(system.mean() > 0)) return 0;
-    if (wanted_.amount >= 0) return wanted_.amount / system.mean();
-    const double s = cross_validated(system);
-    if (movable.differences.rows() == 0) return s;
-    // at most the difference between similar stars
-    return with_noise_up_to(system, s, system.noise_of(movable.differences));
-  }
-
   // Without an estimate the largest amount within the bounds.
-  double amount(const Movable& movable, const EaseSystem& system) const {
-    const double s = estimated_amount(movable, system);
-    if (s > 0 || wanted_.tolerance.empty()) return s;
-    return with_moves_within(system, bounds_of(movable));
+  double amount(const Movable& movable, const Reading& reading) const {
+    if (reading.s > 0 || wanted_.tolerance.empty()) return reading.s;
+    return with_moves_within(reading.system, bounds_of(movable));
   }
 
   // Moves them. Returns whether any moves.

@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 
-#include "base/median.h"
 #include "base/mixed.h"
 #include "base/roundoff.h"
 #include "parallel/cancel.h"
@@ -61,45 +59,54 @@ Columns bounded(Columns rows, const VectorXd& bounds) {
 }  // namespace
 
 EaseSystem::EaseSystem(LoadMatrix g, Columns loads)
-    : g_(std::move(g)), transposed_(g_.transpose()), loads_(std::move(loads)) {
-  gradient_ = transposed_ * loads_;
+    : g_(std::move(g)), transposed_(g_.transpose()) {
   diagonal_ = VectorXd::Zero(unknowns());
   for (Eigen::Index j = 0; j < unknowns(); ++j) diagonal_[j] = transposed_.row(j).squaredNorm();
-  if (unknowns() == 0) return;
-  mean_ = std::sqrt(diagonal_.mean());
-  if (!(mean_ > 0)) return;
-  if (unknowns() <= most_dense)
-    find_eigenvalues();
-  else
-    probe_eigenvalues();
+  if (unknowns() > 0) mean_ = std::sqrt(diagonal_.mean());
+  if (mean_ > 0) find_eigenvalues();
+  set_loads(std::move(loads));
+}
+
+EaseSystem EaseSystem::with_loads(Columns loads) const {
+  EaseSystem out = *this;
+  out.set_loads(std::move(loads));
+  return out;
 }
 
 void EaseSystem::find_eigenvalues() {
+  if (unknowns() > most_dense) {
+    // The trace is estimated by vectors of random signs (Hutchinson 1990). With three and over
+    // `most_dense` unknowns the error is within 5 per cent.
+    for (const std::uint64_t seed : {1, 2, 3})
+      add(lanczos(random_signs(unknowns(), seed)), 1.0 / 3, of_trace_);
+    return;
+  }
   const MatrixXd dense = g_;
   const Eigen::SelfAdjointEigenSolver<MatrixXd> found(MatrixXd(dense.transpose() * dense));
   values_ = found.eigenvalues().cwiseMax(0.0);
   vectors_ = found.eigenvectors();
-  const Columns parts = vectors_.transpose() * gradient_;
-  for (Eigen::Index k = 0; k < unknowns(); ++k) {
-    of_gradient_.node.push_back(values_[k]);
-    of_gradient_.weight.push_back(parts.row(k).squaredNorm());
-    of_trace_.weight.push_back(1);
-  }
-  of_trace_.node = of_gradient_.node;
+  of_trace_.node.assign(values_.begin(), values_.end());
+  of_trace_.weight.assign(std::size_t(unknowns()), 1);
 }
 
-void EaseSystem::probe_eigenvalues() {
-  const auto add = [](const Quadrature& more, double share, Quadrature& all) {
-    all.node.insert(all.node.end(), more.node.begin(), more.node.end());
-    for (const double weight : more.weight) all.weight.push_back(share * weight);
-  };
-  // The trace is estimated by vectors of random signs (Hutchinson 1990). With one a coordinate and
-  // over `most_dense` unknowns the error is within 5 per cent.
-  for (Eigen::Index a = 0; a < gradient_.cols(); ++a) {
-    add(lanczos(gradient_.col(a)), 1, of_gradient_);
-    add(lanczos(random_signs(unknowns(), std::uint64_t(a + 1))), 1.0 / double(gradient_.cols()),
-        of_trace_);
+void EaseSystem::set_loads(Columns loads) {
+  loads_ = std::move(loads);
+  gradient_ = transposed_ * loads_;
+  of_gradient_ = {};
+  if (!(mean_ > 0)) return;
+  if (values_.size() == 0) {
+    for (Eigen::Index a = 0; a < gradient_.cols(); ++a)
+      add(lanczos(gradient_.col(a)), 1, of_gradient_);
+    return;
   }
+  const VectorXd weights = (vectors_.transpose() * gradient_).rowwise().squaredNorm();
+  of_gradient_.node = of_trace_.node;
+  of_gradient_.weight.assign(weights.begin(), weights.end());
+}
+
+void EaseSystem::add(const Quadrature& more, double share, Quadrature& all) {
+  all.node.insert(all.node.end(), more.node.begin(), more.node.end());
+  for (const double weight : more.weight) all.weight.push_back(share * weight);
 }
 
 // Without a second orthogonalization: repeated eigenvalues do not change the sum.
@@ -153,17 +160,6 @@ double EaseSystem::trace(double s) const {
 double EaseSystem::noise(double s) const {
   const double all = trace(s);
   return all > 0 ? std::sqrt(squared_moves(s) / all) : 0;
-}
-
-double EaseSystem::noise_of(const LoadMatrix& differences) const {
-  const LoadMatrix of_moves = differences * g_;
-  const Columns of_loads = differences * loads_;
-  std::vector<double> noise;
-  for (Eigen::Index i = 0; i < of_loads.rows(); ++i)
-    if (const double own = of_moves.row(i).norm(); own > 0)
-      noise.push_back(of_loads.row(i).norm() / own);
-  return noise.empty() ? std::numeric_limits<double>::infinity()
-                       : deviation_over_median * median(std::move(noise));
 }
 
 double EaseSystem::squared_trace(double s) const {
@@ -273,7 +269,7 @@ std::vector<double> ladder(const EaseSystem& system) {
 
 }  // namespace
 
-double cross_validated(const EaseSystem& system) {
+double least_score(const EaseSystem& system) {
   const std::vector<double> amount = ladder(system);
   if (amount.empty()) return 0;
   std::vector<double> score;
@@ -289,8 +285,12 @@ double cross_validated(const EaseSystem& system) {
                           ? best
                           : std::find_if(score.begin(), score.end(),
                                          [&](double of) { return of <= leeway * *best; });
-  const double s = amount[std::size_t(chosen - score.begin())];
-  return chosen != score.begin() && system.may_be_scatter(s) ? s : 0;
+  return chosen == score.begin() ? 0 : amount[std::size_t(chosen - score.begin())];
+}
+
+double cross_validated(const EaseSystem& system) {
+  const double s = least_score(system);
+  return system.may_be_scatter(s) ? s : 0;
 }
 
 // Moves grow with the amount, so bisection finds it.

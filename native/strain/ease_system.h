@@ -26,6 +26,10 @@ class EaseSystem {
  public:
   // g: one row for each load, one column for each unknown.
   EaseSystem(LoadMatrix g, Columns loads);
+  // The same system with other loads.
+  EaseSystem with_loads(Columns loads) const;
+  const LoadMatrix& matrix() const { return g_; }
+  const Columns& loads() const { return loads_; }
 
   Eigen::Index unknowns() const { return g_.cols(); }
   // The root mean square of G's eigenvalues, if it is symmetric; its inverse is the unit of s.
@@ -43,9 +47,6 @@ class EaseSystem {
   double squared_trace(double s) const;
   // Root mean square of the scatter that an amount removes.
   double noise(double s) const;
-  // Root mean square of the scatter, from the median of these differences of loads; infinite without
-  // any. All vertices scatter, but a shape strains few much, such as those beside corners.
-  double noise_of(const LoadMatrix& differences) const;
   // Whether the part that an amount removes may be scatter: scatter has all eigenvectors alike,
   // designed shapes have few. True if the eigenvectors are not computed.
   bool may_be_scatter(double s) const;
@@ -56,7 +57,8 @@ class EaseSystem {
     std::vector<double> node, weight;
   };
   void find_eigenvalues();
-  void probe_eigenvalues();
+  void set_loads(Columns loads);
+  static void add(const Quadrature& more, double share, Quadrature& all);
   Quadrature lanczos(const Eigen::VectorXd& from) const;
   // (shift + 1 + s^2 G'G)^-1 wanted, iterated from `start`.
   Columns solve(double s, double shift, const Columns& wanted, const Columns& start) const;
@@ -73,7 +75,9 @@ class EaseSystem {
 // The amount chosen by robust generalized cross-validation (Lukas 2006): the score of Golub, Heath
 // and Wahba (1979) with a weight on what F keeps, since with few unknowns the plain score sometimes
 // takes scatter for shape. If scatter is faint, the smallest amount with about the least score. 0
-// if scatter cannot be distinguished from the shape, or if the removed part cannot be scatter.
+// if scatter cannot be distinguished from the shape.
+double least_score(const EaseSystem& system);
+// The same, and 0 if the removed part cannot be scatter.
 double cross_validated(const EaseSystem& system);
 
 // The largest amount whose free moves are within the bounds; a bound of 0 is ignored.

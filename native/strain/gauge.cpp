@@ -15,9 +15,6 @@ namespace {
 
 // The floor, in standard deviations: of a thousand strains of pure scatter three are larger.
 constexpr double deviations_out = 3;
-// Number of rings around a vertex whose strains show the shape itself. Of 1,681 vertices of an
-// exact terrain 0 are wrong with two rings, 1 with three, 3 with four.
-constexpr int rings_around = 2;
 
 }  // namespace
 
@@ -132,9 +129,8 @@ std::vector<double> StrainGauge::lengths_of(const Columns& ways) const {
   return out;
 }
 
-// On a curve, next to one, or inside: next to a curve shapes have more strain than inside
-// (strain/border_moments.h). If requested, also the number of neighbours.
-StrainGauge::Kinds StrainGauge::kinds(bool by_neighbours) const {
+// Next to a curve shapes have more strain than inside (strain/border_moments.h).
+std::vector<std::vector<Index>> StrainGauge::rows_of_same_kind() const {
   const ControlMesh& mesh = problem_.mesh;
   const std::vector<Index> row = row_of_vertices();
   // a polygon's centre has no pad and is not on a curve
@@ -142,36 +138,25 @@ StrainGauge::Kinds StrainGauge::kinds(bool by_neighbours) const {
     const Index r = row[u];
     return u < mesh.input_vertices && (r < 0 || r >= Index(on_pads_));
   };
-  enum Kind : std::size_t { inside, beside_curve, on_curve, count };
-  Kinds out(vertices_.size());
+  enum Kind { inside, beside_curve, on_curve };
+  std::vector<Kind> kinds(vertices_.size());
   visit_around(mesh, vertices_, 1, [&](std::size_t i, const std::vector<Index>& around) {
     const bool beside = std::any_of(around.begin(), around.end(), off_pads);
-    out[i] = i >= on_pads_ ? on_curve : beside ? beside_curve : inside;
-    if (by_neighbours) out[i] += count * around.size();
+    kinds[i] = i >= on_pads_ ? on_curve : beside ? beside_curve : inside;
+  });
+  std::vector<std::vector<Index>> out(vertices_.size());
+  visit_around(mesh, vertices_, rings_around, [&](std::size_t i, const std::vector<Index>& around) {
+    for (const Index u : around)
+      if (const Index r = row[u]; r >= 0 && std::size_t(r) != i && kinds[r] == kinds[i])
+        out[i].push_back(r);
   });
   return out;
-}
-
-std::vector<std::vector<Index>> StrainGauge::rows_of_same_kind(const Kinds& kinds) const {
-  const std::vector<Index> row = row_of_vertices();
-  std::vector<std::vector<Index>> out(vertices_.size());
-  visit_around(
-      problem_.mesh, vertices_, rings_around, [&](std::size_t i, const std::vector<Index>& around) {
-        for (const Index u : around)
-          if (const Index r = row[u]; r >= 0 && std::size_t(r) != i && kinds[r] == kinds[i])
-            out[i].push_back(r);
-      });
-  return out;
-}
-
-std::vector<std::vector<Index>> StrainGauge::of_same_star() const {
-  return rows_of_same_kind(kinds(true));
 }
 
 // The floor of each row, from nearby rows of the same kind.
 std::vector<double> StrainGauge::floors_of(const std::vector<double>& lengths, double floor) const {
   std::vector<double> out(vertices_.size(), floor);
-  const std::vector<std::vector<Index>> rows = rows_of_same_kind(kinds(false));
+  const std::vector<std::vector<Index>> rows = rows_of_same_kind();
   for (std::size_t i = 0; i < rows.size(); ++i) {
     std::vector<double> known;
     for (const Index r : rows[i])

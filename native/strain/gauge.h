@@ -62,14 +62,10 @@ class StrainGauge {
 
   Ways strain(const Loads& on_pads, const ControlPositions& control) const;
   Excess excess(const Loads& on_pads, const ControlPositions& control) const;
-  // For each row the rows within two rings of the same kind: on a curve, beside one or inside, and
-  // with as many neighbours.
-  std::vector<std::vector<Index>> of_same_star() const;
 
  private:
-  using Kinds = std::vector<std::size_t>;
-  Kinds kinds(bool by_neighbours) const;
-  std::vector<std::vector<Index>> rows_of_same_kind(const Kinds& kinds) const;
+  // For each row the rows within two rings of the same kind: on a curve, beside one or inside.
+  std::vector<std::vector<Index>> rows_of_same_kind() const;
   void add_curve_rows();
   std::vector<Index> row_of_vertices() const {
     return numbered(std::size_t(problem_.mesh.vertex_count()), vertices_);
