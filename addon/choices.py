@@ -29,7 +29,7 @@ ENERGY_MEANINGS = {
 # numbered, because files keep the number
 INTERPOLATIONS = (
     ("AUTO", "Auto",
-     "Limit under a Subdivision Surface modifier, and for hollows or slits; Flats for bevelled bodies; else Through", 3),
+     "Limit under a Subdivision Surface modifier, and for sharp hollows or slits; Flats for bevelled bodies; else Through", 3),
     ("EXACT", "Through", "The surface passes exactly through every vertex of the source", 0),
     ("FLATS", "Flats",
      "Through every vertex, and large flat faces and walls between tight rims stay flat, as those of a phone or a can", 4),

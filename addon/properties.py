@@ -149,7 +149,7 @@ class FairingSettings:
     metric_exponent: factor(
         "Spacing",
         "How strongly edge lengths shape the surface: at 1 faces keep their proportions, at 0 all count the same. "
-        "With faces kept flat 0.85 at least",
+        "With faces kept flat 0.95 at least",
         0.5,
     )
     repair: choice("Defects", "What happens to a mesh with defects", REPAIRS)

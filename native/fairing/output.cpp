@@ -108,7 +108,7 @@ void to_world(const ControlPositions& control, const GridLevel& grid, const Fram
     double* to = world + 3 * std::size_t(grid.edge_base(Index(e)));
     for (const Vec3& p : control.world_curves.of(Index(e))) to = put_point(p, to);
   }
-  refine_outside_linearly(grid, given, world);
+  refine_outside(grid, given, control.world_curves.run, world);
 }
 
 double largest_deviation(const std::vector<Vec3>& cage, const double* world) {

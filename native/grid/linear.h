@@ -11,7 +11,9 @@ namespace fairing {
 void refine_linearly(const GridLevel& grid, std::span<const Vec3> control, Workers& workers,
                      double* x);
 
-// The same for edges and faces outside the region and on its joint only; the rest of x stays.
-void refine_outside_linearly(const GridLevel& grid, std::span<const Vec3> control, double* x);
+// The same for edges and faces outside the region and on its joint only; the rest of x stays. So do
+// points on curves, and the faces beside them follow. `curve`: one an edge; negative: it has none.
+void refine_outside(const GridLevel& grid, std::span<const Vec3> control,
+                    std::span<const Index> curve, double* x);
 
 }  // namespace fairing

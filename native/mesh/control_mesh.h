@@ -85,7 +85,7 @@ struct Spoke {
   bool outward;        // the centre is edge.vertex[0]
 };
 
-// A maximal run of feature edges between corners, or a closed loop without any corner.
+// A run of features, or of outlines of given flats, between corners; or a closed loop without any.
 struct Chain {
   // Input vertices, and edges that are not copies.
   std::vector<Index> vertices;  // m + 1 for m edges; a loop repeats no vertex (m vertices, m edges)

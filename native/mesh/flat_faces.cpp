@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/flat_outlines.h"
 #include "mesh/opposite.h"
 #include "mesh/region.h"
 #include "mesh/sharp_turn.h"
@@ -138,7 +139,10 @@ void hold_flat_parts(ControlMesh& control) {
     if (control.feature_edge[side.edge]) beside_curve[flat.part[side.face]] = 1;
   for (std::size_t f = 0; f < control.faces.size(); ++f)
     held.push_back(flat.face[f] && !beside_curve[flat.part[f]]);
-  if (std::ranges::find(held, 1) != held.end()) put_outside(held, control);
+  if (std::ranges::find(held, 1) != held.end()) {
+    put_outside(held, control);
+    add_flat_outlines(held, control);
+  }
 }
 
 std::vector<Flatness> flatness(const ControlMesh& control) {

@@ -17,6 +17,7 @@ void mark_flat_faces(std::span<const std::int64_t> faces, ControlMesh& control);
 
 // Takes plane parts out of the region, whose vertices do not move: their points are given then, and
 // what is around them is tangent to them. Parts beside curves, with which their points move, stay.
+// Outlines that are smooth become curves (mesh/flat_outlines.h).
 void hold_flat_parts(ControlMesh& control);
 
 // A vertex is flat if all faces around it lie in one plane. A face is `amid` flats if all its

@@ -46,7 +46,8 @@ class Ridges {
       for (const int s : long_sides(k)) pass(k, s, 0, 1.25 * share);
     }
     std::vector<std::array<double, 2>> of_faces(planes_.size());
-    for (std::size_t k = 0; k < shares_.size(); ++k) of_faces[k / 2][k % 2] = shares_[k];
+    for (std::size_t k = 0; k < shares_.size(); ++k)
+      of_faces[k / 2][k % 2] = shares_[k] * (mesh_.flat.face.empty() ? 1.0 : arc(k ^ 1));
     return of_faces;
   }
 
@@ -108,6 +109,29 @@ class Ridges {
     });
   }
 
+  // Between flats, for a quad whose long sides are those of k: the width that a cubic needs to be
+  // an arc, tangent to straight lines with speed one on both sides, relative to the chord.
+  double arc(std::size_t k) const {
+    if (!quad(k / 2)) return 1;
+    double turn = 0;
+    for (const int s : long_sides(k))
+      if (const Side* const other = beside(k / 2, s); other && !is_stiff(k / 2, s))
+        turn += angle_between(planes_[k / 2].normal, planes_[other->face].normal) /
+                (is_stiff(std::size_t(other->face), other->local) ? 1 : 2);
+    const double by = std::cos(std::min(turn, std::numbers::pi / 2) / 4);
+    return 1 / (by * by);
+  }
+
+  // Whether a face does not bend across its side s.
+  bool is_stiff(std::size_t f, int s) const {
+    if (mesh_.flat.face[f]) return true;
+    const Face& face = mesh_.faces[f];
+    const Vec3 side =
+        mesh_.positions[face.vertex[(s + 1) % face.size]] - mesh_.positions[face.vertex[s]];
+    return mesh_.flat.is_straight(Index(f)) &&
+           mesh_.flat.along[f].cross(side).norm() > std::abs(mesh_.flat.along[f].dot(side));
+  }
+
   // Starts with the strips that are ridges along their whole length.
   void find(double exponent) {
     std::vector<double> shares(shares_.size(), 1.0);  // of strips, by their leaders; 0: not a ridge
@@ -120,10 +144,30 @@ class Ridges {
         share = std::min(share, std::max(1.0, 1 / by) / std::pow(slenderness(k), exponent));
       }
     }
+    drop_rims(shares);
     for (std::size_t k = 0; k < shares.size(); ++k) {
       if (const double share = shares[strips_.lead(Index(k))]; share > 0) {
         lower(k, share);
       }
+    }
+  }
+
+  // Flat and straight faces hold the curvature across the strips between them, so these are no ridges.
+  void drop_rims(std::vector<double>& shares) {
+    const auto share = [&](std::size_t k) -> double& { return shares[strips_.lead(Index(k))]; };
+    std::vector<std::size_t> found;
+    for (std::size_t k = 0; k < shares.size(); ++k)
+      for (const int s : long_sides(k))
+        if (const Side* const other = beside(k / 2, s); other && mesh_.flat.is_kept(other->face))
+          found.push_back(k);
+    while (!found.empty()) {
+      const std::size_t k = found.back();
+      found.pop_back();
+      if (!(share(k) > 0)) continue;
+      share(k) = 0;
+      for (const int s : long_sides(k))
+        if (const Side* const other = beside(k / 2, s); joins(other))
+          found.push_back(std::size_t(along(*other, 0)));
     }
   }
 

@@ -22,8 +22,8 @@ struct FlatFace {
 // holds for any exponent up to 1.
 //
 // A quad becomes the parallelogram of its bilinear map's centre: sides |u|^b and |v|^b, and the
-// mean of the angles that fit its two diagonals. Along ridges it counts as shorter,
-// except at the exponent 1. Parts of several flat faces keep their shape. Throws
+// mean of the angles that fit its two diagonals. Along ridges it counts as shorter, and between flats
+// as wide as an arc, except at the exponent 1. Parts of several flat faces keep their shape. Throws
 // FairingError(cancelled).
 std::vector<FlatFace> flatten(const ControlMesh& mesh, double exponent);
 

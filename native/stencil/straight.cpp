@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/sharp_turn.h"
 #include "stencil/fit.h"
 #include "stencil/stiffness.h"
 
@@ -89,26 +90,58 @@ Vec2 direction_of(const ControlMesh& mesh, const Element& element, const Chart& 
   }
 }
 
-// The stiffness across an edge of a stiff face and another: the harmonic mean by their widths, as a
-// moment there bends the other one alone.
-double across_edge(const ControlMesh& mesh, Index e, const Chart& chart) {
-  const Edge& edge = mesh.edges[e];
-  if (edge.boundary()) return 1;
-  const Index left = mesh.sides[edge.side[0]].face, right = mesh.sides[edge.side[1]].face;
-  const auto stiff = [&](Index f, Index other) {
-    return mesh.flat.face[f] || (mesh.flat.is_straight(f) && !mesh.flat.is_kept(other));
-  };
-  const bool is_left = stiff(left, right);
-  if (is_left == stiff(right, left)) return 1;
-  const Vec2 on = chart.ring[0];
-  double most_left = 0, most_right = 0;
-  for (const Vec2& at : chart.ring) {
-    const double off = on.x() * at.y() - on.y() * at.x();
-    most_left = std::max(most_left, off);
-    most_right = std::max(most_right, -off);
-  }
-  const double other = is_left ? most_right : most_left, own = is_left ? most_left : most_right;
+// How far the ring extends on both sides of a line through the centre.
+double reach(const Chart& chart, const Vec2& line) {
+  double most = 0;
+  for (const Vec2& at : chart.ring) most = std::max(most, line.x() * at.y() - line.y() * at.x());
+  return most;
+}
+
+// The stiffness across a line with a stiff face on its left: the harmonic mean by the widths of both sides, as a
+// moment there bends the right one alone.
+double across_line(const Chart& chart, const Vec2& line) {
+  const double own = reach(chart, line), other = reach(chart, -line);
   return (own + other) / (own / flat_stiffness + other);
+}
+
+// 2: plane, 1: straight, 0: neither.
+int stiff(const ControlMesh& mesh, Index f) {
+  return mesh.flat.face[f] ? 2 : mesh.flat.is_straight(f) ? 1 : 0;
+}
+
+// The line through an edge with a stiffer face on its left; zero: none.
+Vec2 line_of_edge(const ControlMesh& mesh, Index e, const Chart& chart) {
+  const Edge& edge = mesh.edges[e];
+  if (edge.boundary()) return Vec2::Zero();
+  const int more = stiff(mesh, mesh.face_beside(e, 0)) - stiff(mesh, mesh.face_beside(e, 1));
+  return more == 0 ? Vec2(Vec2::Zero()) : more > 0 ? chart.ring[0] : Vec2(-chart.ring[0]);
+}
+
+// The line through a vertex, where it has two kinds of faces, each on one side of a line of edges.
+Vec2 line_of_vertex(const ControlMesh& mesh, Index v, const Chart& chart) {
+  const auto ring = mesh.ring(v);
+  if (!mesh.interior(v)) return Vec2::Zero();
+  Vec2 begin = Vec2::Zero(), end = Vec2::Zero();
+  int changes = 0;
+  std::size_t place = 0;
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const int before = stiff(mesh, ring[(k + ring.size() - 1) % ring.size()].face),
+              after = stiff(mesh, ring[k].face);
+    if (before != after) ++changes;
+    if (after > before) begin = chart.ring[place];
+    if (after < before) end = chart.ring[place];
+    place += mesh.faces[ring[k].face].quad() ? 2 : 1;
+  }
+  if (changes != 2 || begin.dot(end) > -sharp_turn * begin.norm() * end.norm()) return Vec2::Zero();
+  return begin.normalized() - end.normalized();
+}
+
+Vec2 line_of(const ControlMesh& mesh, const Element& element, const Chart& chart) {
+  switch (element.kind) {
+    case RunKind::vertex: return line_of_vertex(mesh, element.element, chart);
+    case RunKind::edge: return line_of_edge(mesh, element.element, chart);
+    default: return Vec2::Zero();
+  }
 }
 
 // Multiplies the stiffness in one direction, by its second difference f_dd in the fit's coefficients.
@@ -129,9 +162,8 @@ void stiffen_straight(const ControlMesh& mesh, const Element& element, const Cha
                       std::span<std::array<double, 3>> hessians) {
   if (mesh.flat.along.empty()) return;
   multiply(flat_stiffness, direction_of(mesh, element, chart), hessians);
-  if (element.kind != RunKind::edge) return;
-  const Vec2 on = chart.ring[0];
-  multiply(across_edge(mesh, element.element, chart), {-on.y(), on.x()}, hessians);
+  const Vec2 line = line_of(mesh, element, chart);
+  multiply(across_line(chart, line), {-line.y(), line.x()}, hessians);
 }
 
 }  // namespace fairing

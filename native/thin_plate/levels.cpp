@@ -96,7 +96,7 @@ void ThinPlateLevels::put_fixed(int level, const PlateData& data, double* x) con
         x[3 * std::size_t(lat.edge_point(Index(e), k)) + std::size_t(a)] =
             points[k * stride - 1][a];
   }
-  refine_outside_linearly(lat, data.targets, x);
+  refine_outside(lat, data.targets, data.curves.run, x);
 }
 
 void ThinPlateLevels::residual(int level, std::span<const Vec3> targets,

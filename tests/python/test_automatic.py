@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from bevelled_boxes import bevelled_box
 from discrete_fairing.control_mesh import ControlMesh
+from discrete_fairing.flats import SPACING
 from thin_walls import cup
 
 
@@ -83,7 +84,7 @@ def test_cages_pass_where_subdivision_surface_does(name, settings):
 
 def flats_kept(name, levels=1, **settings):
     """The surface with the flats of the cage `name` kept."""
-    kept = {"flat_faces": df.find_flats(*CAGES[name]), "metric_exponent": 0.85}
+    kept = {"flat_faces": df.find_flats(*CAGES[name]), "metric_exponent": SPACING}
     return df.fair(*CAGES[name], levels, **kept, **settings).vertices
 
 
@@ -211,7 +212,7 @@ def test_flats_may_end_at_creases_as_those_that_auto_keeps():
     plain, kept = (df.find_flats(half, faces, crease_edges=rim[:k]) for k in (0, len(rim)))
     assert set(plain) < set(kept)
     auto = df.fair(half, faces, 1, interpolation="auto", crease_edges=rim)
-    given = df.fair(half, faces, 1, flat_faces=kept, metric_exponent=0.85, crease_edges=rim)
+    given = df.fair(half, faces, 1, flat_faces=kept, metric_exponent=SPACING, crease_edges=rim)
     assert np.array_equal(auto.vertices, given.vertices)
 
 

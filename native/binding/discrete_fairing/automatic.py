@@ -67,17 +67,17 @@ def choice(mesh: ControlMesh, sharp: np.ndarray, may_keep: bool = True) -> Choic
     "limit": it is closed, with flats between tight rims of quads, a flat floor in a hollow, or slits. Through its
     vertices such a mesh is quilted; the floor and the walls of a hollow swing into what is behind them, and
     those of a slit into each other. "flats": it is closed and bevelled all around, with walls that are straight,
-    as a phone, a can or a box; limit positions make it smaller. "exact": all others. Open meshes are measured
+    as a phone, a can or a cup; limit positions make it smaller, or a hollow larger. "exact": all others. Open meshes are measured
     sheets, hulls and terrain as often as they are cages, and subdivision folds faces that are not star-shaped.
     """
     uses = mesh.edge_uses
     if not uses.any() or not np.isin(uses, (0, 2)).all():
         return "exact"
     parts = Parts.of(mesh, ANGLE, sharp)
-    hollow = _has_slits(mesh, sharp) or _has_floor(parts, sharp)
-    if may_keep and not hollow and _is_bevelled(parts, sharp):
+    slits = _has_slits(mesh, sharp)
+    if may_keep and not slits and _is_bevelled(parts, sharp):
         return "flats"
-    suits = hollow or _has_rims(mesh, flats_of(parts, tight=True))
+    suits = slits or _has_floor(parts, sharp) or _has_rims(mesh, flats_of(parts, tight=True))
     suits = suits or _has_chamfers_of_triangles(parts, sharp)
     return "limit" if suits and _are_star_shaped(mesh) else "exact"
 

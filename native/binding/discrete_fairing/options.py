@@ -73,8 +73,8 @@ class CommonSettings(TypedDict, total=False):
     ]
     """None: approximate where there is a tolerance or weights, else exact. Auto: as None, but unless other
     settings exclude it, for closed meshes with flat faces at tight rims or in hollows, or slits, such as
-    mugs and hands, limit; for those bevelled all around, such as cans, `flat_faces` as find_flats() has
-    them and a `metric_exponent` of 0.85 at least. Exact: control vertices stay, to the last bit.
+    mugs and hands, limit; for those bevelled all around, such as cans and cups, `flat_faces` as
+    find_flats() has them and a `metric_exponent` of 0.95 at least. Exact: control vertices stay, to the last bit.
     Approximate: they move, within `tolerance` or against `weights`; vertices on curves always stay. Limit: the surface passes exactly through the vertices' limit positions,
     where Catmull-Clark subdivision would take them, and charts are made of the surface through these:
     for cages drawn to look right under subdivision. The first n rows of `vertices` are then the limit
