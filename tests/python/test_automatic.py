@@ -66,10 +66,7 @@ def test_walls_of_a_slit_do_not_cross(degrees, slit):
     assert not slit or beyond("exact")[1] > 0.01
 
 
-CAGES = {
-    "cup": cup()[:2],
-    "bevelled box": bevelled_box((4, 3, 1), 0.05),
-}
+CAGES = {"cup": cup()[:2], "bevelled box": bevelled_box((4, 3, 1), 0.05)}
 
 
 @pytest.mark.parametrize(
@@ -125,12 +122,7 @@ def test_other_meshes_pass_through_their_vertices(mesh):
 
 @pytest.mark.parametrize(
     "settings",
-    [
-        {"tolerance": 0.1},
-        {"flat_faces": [0]},
-        {"region": [0, 1, 2, 3]},
-        {"crease_angle": 0.6},
-    ],
+    [{"tolerance": 0.1}, {"flat_faces": [0]}, {"region": [0, 1, 2, 3]}, {"crease_angle": 0.6}],
 )
 def test_settings_that_limit_positions_exclude_decide(settings):
     auto = df.fair(*CAGES["bevelled box"], 1, interpolation="auto", **settings)

@@ -87,11 +87,7 @@ def test_thinner_faces_leave_a_dome_as_it_is(levels, most):
 def test_steps_on_slivers_reach_their_end_where_levels_are_large():
     """They stopped after one, 0.0046 off, with the factor that total curvature had left."""
     result = df.fair(
-        *sliver_meshes.dome_of_rings(100),
-        2,
-        "minimum_variation",
-        metric_exponent=1,
-        threads=1,
+        *sliver_meshes.dome_of_rings(100), 2, "minimum_variation", metric_exponent=1, threads=1
     )
     assert finest(result)["converged"]
     assert error_of_dome(result) < 0.001

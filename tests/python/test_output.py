@@ -5,12 +5,7 @@ import control_meshes as meshes
 import discrete_fairing as df
 import numpy as np
 import pytest
-from surfaces import (
-    as_lists,
-    boundary_loops,
-    euler_characteristic,
-    output_faces,
-)
+from surfaces import as_lists, boundary_loops, euler_characteristic, output_faces
 
 NAMES = sorted(meshes.ALL)
 

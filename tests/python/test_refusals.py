@@ -147,13 +147,7 @@ REFUSED = {
     ),
     "clean": (
         partial(df.clean, *BALL),
-        each(
-            OPTION,
-            islands=[2.0],
-            largest=[-1.0],
-            progress=[1],
-            fixed=[[True]],
-        ),
+        each(OPTION, islands=[2.0], largest=[-1.0], progress=[1], fixed=[[True]]),
     ),
     "denoise": (
         lambda faces=BALL[1], **more: df.denoise(BALL[0], faces, **more),

@@ -119,9 +119,7 @@ def test_what_is_given_on_one_side_only_acts_on_that_side(option, side):
         "corner_vertices": {"corner_vertices": [at[side, 2], at[side, -2]]},
         "region": {"region": np.flatnonzero(side * vertices[faces].mean(1)[:, 0] > -1)},
         "crease_edges": {"crease_edges": [[at[side, 0], at[side, 1]], [at[side, 0], at[side, -1]]]},
-        "boundary_edges": {
-            "boundary_edges": {"linear": [[rim[0], rim[1]], [rim[1], rim[2]]]},
-        },
+        "boundary_edges": {"boundary_edges": {"linear": [[rim[0], rim[1]], [rim[1], rim[2]]]}},
     }[option]
     settled = {"step_tolerance": 1e-9, "max_steps": 60} | options
     off = vertices.copy()

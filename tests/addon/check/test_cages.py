@@ -160,13 +160,7 @@ def vertices_line():
     return [line for line in lines if line.startswith(("Limit: ", "Flats: ", "Through every"))]
 
 
-CAGES = {
-    "loops": phone,
-    "vase": vase,
-    "dish": dish,
-    "bowl": bowl,
-    "bowl inside out": flipped,
-}
+CAGES = {"loops": phone, "vase": vase, "dish": dish, "bowl": bowl, "bowl inside out": flipped}
 BEVELLED = {
     "chamfer": lambda: add_rounded_box(SIZE, LOOP, 1),
     "rim": lambda: add_rounded_box(SIZE, LOOP, 2),
@@ -232,12 +226,7 @@ def test_all_else_passes_through_its_vertices(name):
 
 
 @pytest.mark.parametrize(
-    "changes",
-    [
-        {"interpolation": "EXACT"},
-        {"use_selection": True},
-        {"use_crease_angle": True},
-    ],
+    "changes", [{"interpolation": "EXACT"}, {"use_selection": True}, {"use_crease_angle": True}]
 )
 def test_settings_that_decide_otherwise(changes):
     source = phone()

@@ -6,16 +6,7 @@ import bpy
 import numpy as np
 import pytest
 from fake_layout import draw
-from scenes import (
-    CUBE,
-    add,
-    computed,
-    fair,
-    positions,
-    recompute,
-    settings,
-    to_object_mode,
-)
+from scenes import CUBE, add, computed, fair, positions, recompute, settings, to_object_mode
 from shapes import fish, mug
 
 from addon.jobs.fair import Job

@@ -64,11 +64,7 @@ def cyclic(corners):
 MESHES = {
     "old faces with a new vertex, which a filling shares": (
         [(0.5, -1.0, 0.0)],
-        [
-            (0, [0, 10, 6], [0, 0, 2]),
-            (-1, [10, 1, 6]),
-            *map(old, range(1, 8)),
-        ],
+        [(0, [0, 10, 6], [0, 0, 2]), (-1, [10, 1, 6]), *map(old, range(1, 8))],
     ),
     "an old face with a new vertex of its own": (
         [(0.5, -1.0, 0.0)],
@@ -95,11 +91,7 @@ MESHES = {
     ),
     "a face where another was": (
         [(0.5, -1.0, 0.0)],
-        [
-            (0, [0, 10, 6], [0, 0, 2]),
-            (1, [0, 1, 6], [3, 1, 4]),
-            *map(old, range(2, 8)),
-        ],
+        [(0, [0, 10, 6], [0, 0, 2]), (1, [0, 1, 6], [3, 1, 4]), *map(old, range(2, 8))],
     ),
 }
 
