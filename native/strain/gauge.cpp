@@ -13,9 +13,8 @@
 namespace fairing {
 namespace {
 
-// The floor, in standard deviations: that of the largest of n normal numbers. Of a thousand strains
-// of pure scatter three are larger than 3.
-double deviations_out(std::size_t n) { return std::max(3.0, std::sqrt(2 * std::log(double(n)))); }
+// The floor, in standard deviations: of a thousand strains of pure scatter three are larger.
+constexpr double deviations_out = 3;
 
 }  // namespace
 
@@ -157,13 +156,12 @@ std::vector<std::vector<Index>> StrainGauge::rows_of_same_kind() const {
 // The floor of each row, from nearby rows of the same kind.
 std::vector<double> StrainGauge::floors_of(const std::vector<double>& lengths, double floor) const {
   std::vector<double> out(vertices_.size(), floor);
-  const double deviations = deviations_out(vertices_.size()) * deviation_over_median;
   const std::vector<std::vector<Index>> rows = rows_of_same_kind();
   for (std::size_t i = 0; i < rows.size(); ++i) {
     std::vector<double> known;
     for (const Index r : rows[i])
       if (!std::isnan(lengths[r])) known.push_back(lengths[r]);
-    out[i] = std::max(floor, deviations * median(std::move(known)));
+    out[i] = std::max(floor, deviations_out * deviation_over_median * median(std::move(known)));
   }
   return out;
 }
@@ -177,9 +175,8 @@ Excess StrainGauge::excess(const Loads& on_pads, const ControlPositions& control
     known.push_back(length);
     largest = std::max(largest, length);
   }
-  const double deviations = deviations_out(known.size()) * deviation_over_median;
   // The error of solves is a floor too.
-  const double floor = std::max(deviations * median(std::move(known)),
+  const double floor = std::max(deviations_out * deviation_over_median * median(std::move(known)),
                                 problem_.options.solve.relative_residual * largest);
   const StrainSystem straining{matrix_, normals_, images_};
   const std::vector<double> alone =

@@ -76,8 +76,14 @@ Strain strain_once(const PolygonMesh& mesh, const FairOptions& options, Monitor&
   return out;
 }
 
-// Corrects gross errors and measures again, as long as the largest falls below half. An error tilts
-// the normal, so a corrected vertex is off along the surface too, which strains its neighbours.
+double largest_wrong(const Excess& excess) {
+  double largest = 0;
+  for (std::size_t v = 0; v < excess.wrong.size(); ++v)
+    if (excess.wrong[v]) largest = std::max(largest, std::abs(excess.own.lengths[v]));
+  return largest;
+}
+
+// Corrects gross errors and measures again, as long as their number falls below half.
 Strain strain_of(const Mending& mending, Monitor& monitor) {
   PolygonMesh mesh = mending.mesh();
   std::vector<double> at(mesh.coordinates.begin(), mesh.coordinates.end());
@@ -88,22 +94,13 @@ Strain strain_of(const Mending& mending, Monitor& monitor) {
   Excess& excess = out.excess;
   std::vector<Vec3> ways(excess.wrong.size(), Vec3::Zero());
   std::vector<double> lengths(ways.size(), 0);
-  std::vector<std::uint8_t> corrected(ways.size(), 0);
-  const auto error_of = [&](std::size_t v) {
-    if (corrected[v]) return excess.own.ways[v].norm();
-    return excess.wrong[v] ? std::abs(excess.own.lengths[v]) : 0.0;
-  };
-  const auto largest_error = [&] {
-    double largest = 0;
-    for (std::size_t v = 0; v < ways.size(); ++v) largest = std::max(largest, error_of(v));
-    return largest;
-  };
-  double largest = largest_error();
+  std::vector<std::uint8_t> wrong(ways.size(), 0);
+  double largest = largest_wrong(excess);
   const double least = mending.options().solve.relative_residual * largest;
   while (largest > least && largest * echo > excess.floor) {
     for (std::size_t v = 0; v < ways.size(); ++v) {
-      if (error_of(v) < largest * echo) continue;
-      corrected[v] = 1;
+      if (!excess.wrong[v] || std::abs(excess.own.lengths[v]) < largest * echo) continue;
+      wrong[v] = 1;
       ways[v] += excess.own.ways[v];
       lengths[v] += excess.own.lengths[v];
       for (std::size_t a = 0; a < 3; ++a) at[3 * v + a] += excess.own.ways[v][a];
@@ -111,13 +108,13 @@ Strain strain_of(const Mending& mending, Monitor& monitor) {
     monitor.enter_part(1 - left, 1 - left / 2);
     left /= 2;
     excess = strain_once(mesh, mending.options(), monitor).excess;
-    const double before = std::exchange(largest, largest_error());
+    const double before = std::exchange(largest, largest_wrong(excess));
     if (largest > before / 2) break;
   }
   for (std::size_t v = 0; v < ways.size(); ++v) {
     excess.own.ways[v] += ways[v];
     excess.own.lengths[v] += lengths[v];
-    if (corrected[v]) excess.wrong[v] = std::abs(excess.own.lengths[v]) > excess.floor;
+    excess.wrong[v] |= wrong[v];
   }
   monitor.enter_part(0, 1);
   return out;

@@ -29,9 +29,9 @@ class Strain:
     excess, excess_ways: (n,), (n, 3) float64, mesh units: each vertex' own part, without the effect
     of borders, at which a plate ends without a moment, and, the most strained vertex first, without
     the effect of worse neighbours above the floor.
-    floor: float, mesh units: the excess that scatter explains. Three standard deviations, estimated by
-    the median; of n > 90 vertices √(2 ln n).
-    wrong: (k,) int64, the vertices whose excess is above the floor and above as many deviations of
+    floor: float, mesh units: the excess that scatter explains, three standard deviations estimated by
+    the median.
+    wrong: (k,) int64, the vertices whose excess is above the floor and above three deviations of
     their surroundings, the worst first. A grossly wrong vertex is corrected first, and the others are
     measured without it.
     noise: float, mesh units: the scatter along the normal, estimated from the median strain off
