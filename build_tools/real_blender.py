@@ -13,7 +13,7 @@ WINDOW = (1600, 1000)
 FIRST_SCREEN = 70
 # sockets in the root's own folder only: others would be shared by all roots of a machine
 SCREEN = "-screen 0 {}x{}x24 -nolisten local"
-TIME_LIMIT = 600  # seconds, after which a Blender counts as hanging
+TIME_LIMIT = 900  # seconds, after which a Blender counts as hanging
 
 
 @dataclass(frozen=True)

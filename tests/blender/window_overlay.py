@@ -10,7 +10,7 @@ import bpy
 import harness
 import numpy as np
 
-COMPILED = 120.0  # seconds until shaders must be there
+COMPILED = 240.0  # seconds until shaders must be there
 
 
 def pixels(name):
