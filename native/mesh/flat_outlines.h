@@ -8,9 +8,9 @@
 
 namespace fairing {
 
-// Adds the outlines of the flagged faces to the chains, as curves in their planes: so the cap of a can is a disc. At
-// most one fold leaves a smooth outline at each vertex, and it turns by 60 degrees at most; at others it has a
-// corner, as where two rims of a box meet.
+// Adds the outlines of the flagged faces to the chains, as curves in their planes: the cap of a can
+// becomes a disc. An outline is smooth at a vertex if at most one fold leaves it there and it turns
+// by at most 60 degrees; otherwise it has a corner, as where two rims of a box meet.
 void add_flat_outlines(std::span<const std::uint8_t> flat, ControlMesh& control);
 
 }  // namespace fairing

@@ -90,15 +90,15 @@ Vec2 direction_of(const ControlMesh& mesh, const Element& element, const Chart& 
   }
 }
 
-// How far the ring extends on both sides of a line through the centre.
+// How far the ring extends to the left of a line through the centre.
 double reach(const Chart& chart, const Vec2& line) {
   double most = 0;
   for (const Vec2& at : chart.ring) most = std::max(most, line.x() * at.y() - line.y() * at.x());
   return most;
 }
 
-// The stiffness across a line with a stiff face on its left: the harmonic mean by the widths of both sides, as a
-// moment there bends the right one alone.
+// The stiffness across a line with a stiff face on its left: the harmonic mean by the widths of
+// both sides, as a moment there bends the right one alone.
 double across_line(const Chart& chart, const Vec2& line) {
   const double own = reach(chart, line), other = reach(chart, -line);
   return (own + other) / (own / flat_stiffness + other);
