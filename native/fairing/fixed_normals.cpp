@@ -24,7 +24,7 @@ Vec3 normal_given(const FairOptions& options, std::size_t v) {
 // Input vertices inside chains, not at their ends, where the curve has one tangent.
 std::vector<std::uint8_t> smooth_vertices(const ControlMesh& mesh) {
   std::vector<std::uint8_t> out(std::size_t(mesh.input_vertices), 0);
-  for (const Chain& chain : mesh.chains) {
+  for (const Chain& chain : mesh.features()) {
     const std::size_t count = chain.vertices.size();
     const auto at = [&](std::size_t k) -> const Vec3& {
       return mesh.positions[chain.vertices[k % count]];

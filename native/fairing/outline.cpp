@@ -44,7 +44,7 @@ void set_edges(const ControlMesh& mesh, Outline& out) {
                                          (boundary ? boundary_edge : 0) |
                                          (mesh.inside_polygon(e) ? split_edge : 0)));
   }
-  for (const Chain& chain : mesh.chains)
+  for (const Chain& chain : mesh.features())
     for (const Index e : chain.edges)
       if (chain.straight && e < mesh.first_copied_edge()) out.edge_kind[e] |= straight_edge;
 }

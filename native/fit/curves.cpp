@@ -69,7 +69,7 @@ CurveFit::CurveFit(const FairingProblem& problem, const Scan& scan,
 
 void CurveFit::find_bends() {
   const std::vector<Vec3>& place = problem_.basis.working;
-  for (const Chain& chain : problem_.mesh.chains) {
+  for (const Chain& chain : problem_.mesh.features()) {
     if (chain.straight) continue;
     const std::size_t n = chain.vertices.size();
     const auto at = [&](std::size_t k) { return chain.vertices[k % n]; };

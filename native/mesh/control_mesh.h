@@ -164,12 +164,14 @@ struct ControlMesh {
   // Edges on a curve (a crease, or a boundary that is not free); vertices on a curve or at a
   // corner, which have no divided differences.
   std::vector<std::uint8_t> feature_edge, feature_vertex;
-  std::vector<Chain> chains;
+  std::vector<Chain> chains;       // of features, then of outlines of given flats
+  std::size_t feature_chains = 0;  // number of the former
   SoftCreases soft;
   FlatFaces flat;
   Region region;
 
   Index vertex_count() const { return Index(positions.size()); }
+  std::span<const Chain> features() const { return std::span(chains).first(feature_chains); }
 
   Index first_centre() const { return input_vertices + Index(copies.vertex.size()); }
   Index first_copied_centre() const { return vertex_count() - Index(copies.centre.size()); }

@@ -7,8 +7,8 @@
 
 #include "base/angle.h"
 #include "base/error.h"
+#include "mesh/chains.h"
 #include "mesh/polygon_shape.h"
-#include "mesh/sheets.h"
 #include "parallel/cancel.h"
 
 namespace fairing {
@@ -29,11 +29,7 @@ std::vector<Vec3> polygon_normals(const PolygonMesh& mesh) {
 class FeatureFinder {
  public:
   FeatureFinder(const PolygonMesh& mesh, const FeatureOptions& options, ControlMesh& control)
-      : mesh_(mesh),
-        options_(options),
-        control_(control),
-        joined_(control),
-        corner_(std::size_t(control.vertex_count()), 0) {}
+      : mesh_(mesh), options_(options), control_(control), chains_(control) {}
 
   void find() {
     control_.feature_edge.assign(control_.edges.size(), 0);
@@ -197,31 +193,10 @@ class FeatureFinder {
     }
   }
 
-  // The feature edges at v = joined_.first(v), without copies; valid until the next call.
-  const std::vector<Index>& feature_edges_at(Index v) {
-    found_.clear();
-    joined_.for_each(v, [&](Index w) {
-      for (const Spoke& spoke : control_.ring(w)) {
-        const Index e = control_.original_edge(spoke.edge);
-        if (!feature(e)) continue;
-        const bool again =
-            control_.shared_edge(e) && std::find(found_.begin(), found_.end(), e) != found_.end();
-        if (!again) found_.push_back(e);
-      }
-    });
-    return found_;
-  }
-
-  // The other end of the edge, seen from v = joined_.first(v).
-  Index across(Index e, Index v) const {
-    const Index first = joined_.first(edge(e).vertex[0]);
-    return first == v ? joined_.first(edge(e).vertex[1]) : first;
-  }
-
   bool turns_sharply(Index v, Index before, Index after) const {
     if (options_.corner_angle < 0) return false;
-    const Vec3 in = position(v) - position(across(before, v));
-    const Vec3 out = position(across(after, v)) - position(v);
+    const Vec3 in = position(v) - position(chains_.across(before, v));
+    const Vec3 out = position(chains_.across(after, v)) - position(v);
     return angle_between(in, out) > options_.corner_angle;
   }
 
@@ -235,11 +210,12 @@ class FeatureFinder {
   }
 
   void mark_corners() {
+    for (Index e = 0; e < Index(chains_.on.size()); ++e) chains_.on[e] = feature(e);
     for (const Index v : Cancellable(control_.vertex_count())) {
-      if (joined_.first(v) != v) continue;
-      const std::vector<Index>& edges = feature_edges_at(v);
-      corner_[v] = !edges.empty() && ends(v, edges);
-      joined_.for_each(v, [&](Index w) { control_.feature_vertex[w] = !edges.empty(); });
+      if (chains_.joined.first(v) != v) continue;
+      const std::vector<Index>& edges = chains_.at(v);
+      chains_.corner[v] = !edges.empty() && ends(v, edges);
+      chains_.joined.for_each(v, [&](Index w) { control_.feature_vertex[w] = !edges.empty(); });
     }
     std::vector<std::int64_t> unknown;
     for (std::int64_t v : options_.corner_vertices) {
@@ -247,55 +223,25 @@ class FeatureFinder {
         unknown.push_back(v);
         continue;
       }
-      control_.for_each_copy(
-          Index(v), [&](Index w) { control_.feature_vertex[w] = corner_[joined_.first(w)] = 1; });
+      control_.for_each_copy(Index(v), [&](Index w) {
+        control_.feature_vertex[w] = chains_.corner[chains_.joined.first(w)] = 1;
+      });
     }
     refuse_unknown(unknown, "corners");
   }
 
   void collect_chains() {
-    std::vector<std::uint8_t> visited(control_.edges.size(), 0);
-    const auto unseen = [&](Index e) { return curve(e) && !visited[e]; };
-    for (Index v = 0; v < control_.vertex_count(); ++v) {
-      if (!corner_[v]) continue;
-      joined_.for_each(v, [&](Index w) {
-        for (const Spoke& spoke : control_.ring(w))
-          if (const Index e = control_.original_edge(spoke.edge); unseen(e))
-            collect_chain(v, e, visited);
-      });
-    }
-    for (Index e = 0; e < control_.first_copied_edge(); ++e)  // the remaining curves are closed
-      if (unseen(e)) collect_chain(joined_.first(edge(e).vertex[0]), e, visited);
-  }
-
-  void collect_chain(Index start, Index first_edge, std::vector<std::uint8_t>& visited) {
-    Chain chain;
-    chain.vertices.push_back(control_.original_vertex(start));
-    Index v = start, e = first_edge;
-    for (;;) {
-      visited[e] = 1;
-      chain.edges.push_back(e);
-      v = across(e, v);
-      if (v == start && !corner_[v]) {
-        chain.closed = true;
-        break;
-      }
-      chain.vertices.push_back(control_.original_vertex(v));
-      if (corner_[v]) break;
-      const std::vector<Index>& edges = feature_edges_at(v);
-      e = edges[0] == e ? edges[1] : edges[0];
-    }
-    chain.straight = straight(first_edge);
-    control_.chains.push_back(std::move(chain));
+    for (Index e = 0; e < Index(chains_.on.size()); ++e) chains_.on[e] = curve(e);
+    chains_.collect();
+    for (Chain& chain : control_.chains) chain.straight = straight(chain.edges[0]);
+    control_.feature_chains = control_.chains.size();
   }
 
   const PolygonMesh& mesh_;
   const FeatureOptions& options_;
   ControlMesh& control_;
-  const JoinedVertices joined_;
-  std::vector<BoundaryMode> mode_;    // for edges that are not copies
-  std::vector<std::uint8_t> corner_;  // for the first of joined vertices
-  std::vector<Index> found_;
+  ChainFinder chains_;
+  std::vector<BoundaryMode> mode_;  // for edges that are not copies
 };
 
 }  // namespace

@@ -80,7 +80,7 @@ SharpRules::SharpRules(const ControlMesh& control, std::span<const std::int64_t>
                    [](const auto& a, const auto& b) { return a.first < b.first; });
 
   std::vector<int> ends(vertex_.size(), 0);
-  for (const Chain& chain : control.chains) {
+  for (const Chain& chain : control.features()) {
     if (!chain.closed) ++ends[chain.vertices.front()];
     if (!chain.closed) ++ends[chain.vertices.back()];
     if (chain.straight)

@@ -191,8 +191,7 @@ std::vector<double> border_moments(const GridLevel& grid, const ChartMaker& char
                                    std::span<const Vec3> positions) {
   const ControlMesh& mesh = grid.mesh();
   std::vector<double> forces;
-  for (const Chain& chain : mesh.chains) {
-    if (!mesh.feature_edge[chain.edges[0]]) continue;
+  for (const Chain& chain : mesh.features())
     for (const Stretch& stretch : stretches_of(chain, positions))
       for (const bool along : {true, false}) {
         Row row(grid, charts, pads, unknowns, positions);
@@ -204,7 +203,6 @@ std::vector<double> border_moments(const GridLevel& grid, const ChartMaker& char
         }
         row.bend(stretch.closed, forces);
       }
-  }
   return forces;
 }
 

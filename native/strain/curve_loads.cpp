@@ -52,8 +52,8 @@ CurveLoads::CurveLoads(const ControlMesh& mesh, std::span<const Vec3> positions,
       middle.push_back(0.5 * (at[3] - at[1]));
     }
   };
-  for (const Chain& chain : mesh.chains)
-    if (!chain.straight && mesh.feature_edge[chain.edges[0]])
+  for (const Chain& chain : mesh.features())
+    if (!chain.straight)
       for (const Stretch& stretch : stretches_of(chain, positions)) add(stretch);
   const double mean = sum / double(std::max<std::size_t>(vertices_.size(), 1));
   const auto root = [&](double share) { return std::sqrt(share / mean); };
