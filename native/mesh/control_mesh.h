@@ -142,6 +142,12 @@ struct FlatFaces {
 
   bool is_straight(Index f) const { return !along.empty() && along[f] != Vec3::Zero(); }
   bool is_kept(Index f) const { return !face.empty() && (face[f] || is_straight(f)); }
+  // Whether a face does not bend across a line in this direction.
+  bool is_stiff(Index f, const Vec3& line) const {
+    if (!is_kept(f) || face[f]) return is_kept(f);
+    const double both = along[f].dot(line);
+    return 2 * both * both < line.squaredNorm();
+  }
 };
 
 struct ControlMesh {

@@ -69,12 +69,9 @@ class Ridges {
     return &mesh_.sides[edge.side[edge.side[0] == own ? 1 : 0]];
   }
 
-  double length(std::size_t f, int s) const {
+  Vec3 side(std::size_t f, int s) const {
     const Face& face = mesh_.faces[f];
-    const auto at = [&](int c) -> const Vec3& {
-      return mesh_.positions[face.vertex[c % face.size]];
-    };
-    return (at(s + 1) - at(s)).norm();
+    return mesh_.positions[face.vertex[(s + 1) % face.size]] - mesh_.positions[face.vertex[s]];
   }
 
   // Positive if the mesh is convex.
@@ -123,14 +120,7 @@ class Ridges {
   }
 
   // Whether a face does not bend across its side s.
-  bool is_stiff(std::size_t f, int s) const {
-    if (mesh_.flat.face[f]) return true;
-    const Face& face = mesh_.faces[f];
-    const Vec3 side =
-        mesh_.positions[face.vertex[(s + 1) % face.size]] - mesh_.positions[face.vertex[s]];
-    return mesh_.flat.is_straight(Index(f)) &&
-           mesh_.flat.along[f].cross(side).norm() > std::abs(mesh_.flat.along[f].dot(side));
-  }
+  bool is_stiff(std::size_t f, int s) const { return mesh_.flat.is_stiff(Index(f), side(f, s)); }
 
   // Starts with the strips that are ridges along their whole length.
   void find(double exponent) {
@@ -173,7 +163,7 @@ class Ridges {
 
   double slenderness(std::size_t k) const {
     const auto sum = [&](const std::array<int, 2>& s) {
-      return length(k / 2, s[0]) + length(k / 2, s[1]);
+      return side(k / 2, s[0]).norm() + side(k / 2, s[1]).norm();
     };
     return sum(long_sides(k)) / sum(ends(k));
   }

@@ -104,17 +104,18 @@ double across_line(const Chart& chart, const Vec2& line) {
   return (own + other) / (own / flat_stiffness + other);
 }
 
-// 2: plane, 1: straight, 0: neither.
-int stiff(const ControlMesh& mesh, Index f) {
-  return mesh.flat.face[f] ? 2 : mesh.flat.is_straight(f) ? 1 : 0;
+// Which side of an edge off the border alone is stiff across it: 1 left, -1 right, 0 none.
+int stiffer_side(const ControlMesh& mesh, Index e) {
+  const auto [a, b] = mesh.edges[e].vertex;
+  const Vec3 line = mesh.positions[b] - mesh.positions[a];
+  return mesh.flat.is_stiff(mesh.face_beside(e, 0), line) -
+         mesh.flat.is_stiff(mesh.face_beside(e, 1), line);
 }
 
 // The line through an edge with a stiffer face on its left; zero: none.
 Vec2 line_of_edge(const ControlMesh& mesh, Index e, const Chart& chart) {
-  const Edge& edge = mesh.edges[e];
-  if (edge.boundary()) return Vec2::Zero();
-  const int more = stiff(mesh, mesh.face_beside(e, 0)) - stiff(mesh, mesh.face_beside(e, 1));
-  return more == 0 ? Vec2(Vec2::Zero()) : more > 0 ? chart.ring[0] : Vec2(-chart.ring[0]);
+  return mesh.edges[e].boundary() ? Vec2(Vec2::Zero())
+                                  : Vec2(stiffer_side(mesh, e) * chart.ring[0]);
 }
 
 // The line through a vertex, where it has two kinds of faces, each on one side of a line of edges.
@@ -125,11 +126,10 @@ Vec2 line_of_vertex(const ControlMesh& mesh, Index v, const Chart& chart) {
   int changes = 0;
   std::size_t place = 0;
   for (std::size_t k = 0; k < ring.size(); ++k) {
-    const int before = stiff(mesh, ring[(k + ring.size() - 1) % ring.size()].face),
-              after = stiff(mesh, ring[k].face);
-    if (before != after) ++changes;
-    if (after > before) begin = chart.ring[place];
-    if (after < before) end = chart.ring[place];
+    const int more = stiffer_side(mesh, ring[k].edge) * (ring[k].outward ? 1 : -1);
+    if (more != 0) ++changes;
+    if (more > 0) begin = chart.ring[place];
+    if (more < 0) end = chart.ring[place];
     place += mesh.faces[ring[k].face].quad() ? 2 : 1;
   }
   if (changes != 2 || begin.dot(end) > -sharp_turn * begin.norm() * end.norm()) return Vec2::Zero();
