@@ -24,12 +24,11 @@ def _modules() -> tuple[Any, ...]:
     from .surfaces import freshness
     from .live import switch, handlers, restored
     from .operators import (
-        fair, fill_holes, modal, in_place, curves, marks, live, check, joints,
-        clean, fit, inspect, offsets, hull, hydrostatics, sections, strain, ease, presets, purposes, step,
+        fair, modal, in_place, curves, marks, live, check, joints, clean, fit, inspect, offsets, hull, sections, strain,
+        presets, step,
     )  # fmt: skip
     from .ui import (
-        pictures, main, curves as curves_panel, inspect as inspect_panel, strain as strain_panel,
-        hull as hull_panel, check as check_panel, menus,
+        pictures, main, curves as curves_panel, inspect as inspect_panel, menus,
     )  # fmt: skip
     from . import cli
     # isort: on

@@ -13,7 +13,7 @@ import fit_shapes
 import numpy as np
 import rivals
 import table
-from discrete_fairing.stars import Stars
+from discrete_fairing.denoising import Stars
 
 LEVELS = 3
 NOISES = (0.0, 0.002, 0.005)  # of the size

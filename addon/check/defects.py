@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The results of a check: stored with the object, and selected in Edit Mode."""
+"""The results of a check: defects, and holes with their widths and places; stored with the object, and selected in Edit
+Mode.
+"""
 
 from collections.abc import Sequence
 from typing import Any
@@ -11,8 +13,8 @@ from .. import core, memory
 from ..blender import Context, Mesh, Object
 from ..mesh import mesh_changes
 from ..mesh.read import control_mesh, read_mesh
-from ..mesh.world_shape import world_shape
-from .holes import listed
+from ..mesh.world_shape import WorldShape, world_shape
+from ..transfer.hole_loops import holes_in, sides_of
 
 _RANK = {"vertex": 0, "edge": 1, "face": 2}
 
@@ -23,7 +25,7 @@ def check_object(context: Context, target: Object) -> list[dict[str, Any]]:
         arrays = read_mesh(mesh)
     found = core.module().check(arrays.positions, (arrays.corners, arrays.offsets))
     defects = as_dicts(found)
-    store_defects(context, target, defects, listed(arrays, world_shape(target)))
+    store_defects(context, target, defects, listed_holes(arrays, world_shape(target)))
     return defects
 
 
@@ -149,3 +151,36 @@ def _select(mesh: Mesh, groups: list[tuple[str, Sequence[Any]]], rank: int) -> i
     bm.select_flush_mode()
     bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
     return len(chosen)
+
+
+MOST_HOLES = 50  # the widest holes, which are kept; longer lists are of no use
+
+
+def loops_of(arrays: core.ControlArrays) -> list[list[int]]:
+    """The border loops of a mesh; none if the core refuses the mesh."""
+    if not (arrays.edge_uses == 1).any():
+        return []
+    try:
+        holes = holes_in(arrays.positions, (arrays.corners, arrays.offsets))
+    except core.module().FairingError:
+        return []
+    return [loop for hole in holes for loop in hole]
+
+
+def listed_holes(arrays: core.ControlArrays, shape: WorldShape) -> list[dict[str, Any]]:
+    """For each hole its `width`, the widest first, its number of `edges`, and one of them, `at`."""
+    points, width_of = shape.of(arrays.positions), core.module().hole_width
+    holes = [
+        {"width": width_of(points[loop]), "edges": len(loop), "at": loop[:2]}
+        for loop in loops_of(arrays)
+    ]
+    return sorted(holes, key=lambda hole: -hole["width"])[:MOST_HOLES]
+
+
+def edges_of(context: Context, target: Object, at: list[int]) -> list[list[int]]:
+    """The edges of the hole with the edge `at`, as pairs of vertices; none if it no longer exists."""
+    with control_mesh(context, target) as mesh:
+        arrays = read_mesh(mesh)
+    side = frozenset(at)
+    found = next((loop for loop in loops_of(arrays) if side in sides_of(loop)), None)
+    return [] if found is None else [list(pair) for pair in sides_of(found)]

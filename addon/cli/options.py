@@ -1,13 +1,37 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The options of the command line: settings, and options for files."""
+"""The options of the command line: settings, and options for files, of CAD too."""
 
 import argparse
 from typing import Any
 
 from ..properties import FAIRING_PG_settings
-from ..settings import NAMES, OF_NEAR, Settings
-from . import clean, fit, places, step
-from .rna import add, default, number, option
+from ..settings import NAMES, OF_NEAR, PatchOptions, Settings
+from . import clean, fit, places
+from .places import is_cad
+from .rna import OfOperator, add, default, number, option
+
+_OF_CAD = OfOperator(
+    "export_scene.fairing_step",
+    fit_tolerance="fit_tolerance",
+    fit_angle="fit_angle",
+    unit="unit",
+    force="force",
+)
+
+
+def _add_patch_options(parser: argparse.ArgumentParser) -> None:
+    group = parser.add_argument_group("files for CAD (OUT ends in .step or .stp)")
+    _OF_CAD.add(group)
+
+
+def patch_options_of(arguments: argparse.Namespace, settings: Settings) -> PatchOptions | None:
+    """The options for CAD files; None if none is written. Raises ValueError for options that need one."""
+    if not is_cad(arguments.output):
+        _OF_CAD.refuse(arguments, "an output that ends in .step")
+        return None
+    levels = settings.levels if "levels" in vars(arguments) else 0
+    return PatchOptions(fit_levels=levels, **_OF_CAD.said(arguments))
+
 
 # Settings that apply only in an open scene, or to data that OBJ, PLY and STL files do not have.
 NOT_HERE = frozenset(
@@ -159,7 +183,7 @@ def parser(version: str) -> argparse.ArgumentParser:
         "--version", action="version", version=version, help="print the versions and exit"
     )
     add_settings(made)
-    step.add_options(made)
+    _add_patch_options(made)
     fit.add_options(made)
     clean.add_options(made)
     return made

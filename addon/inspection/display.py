@@ -14,9 +14,17 @@ from ..mesh.world_shape import world_shape
 from ..mesh.write import NO_POINTS, faces_without_points
 from ..settings import is_evaluated
 from ..units import curvature_text, length_text
-from . import colours, deviation, viewport_material
+from . import colours, deviation
 from .curvature import curvature
-from .materials import COLOUR, CURVATURE_MODE, STRIPES, curvature_material, stripes_material
+from .materials import (
+    COLOUR,
+    CURVATURE_MODE,
+    STRIPES,
+    curvature_material,
+    put_on,
+    stripes_material,
+    take_off,
+)
 
 CURVATURES = {
     "MEAN": "fair_mean_curvature",
@@ -135,7 +143,7 @@ def show(target: Object, mode: str, settings: Any) -> None:
     if mode not in VALUES and target.mode != "EDIT" and not _shared_with_others(target):
         remove_values(target.data)
     if mode == "NONE":
-        viewport_material.take_off(target)
+        take_off(target)
     elif mode in VALUES and target.mode != "EDIT":
         write_values(target, mode, settings)
         write_colours(target.data, mode, settings)
@@ -183,9 +191,9 @@ def redraw(target: Object, settings: Any, mode: str = "") -> None:
     """Updates stripes and smoothness to the `settings` of the scene; measures nothing."""
     mode = mode or target.discrete_fairing_inspection.mode
     if mode in STRIPES:
-        viewport_material.put_on(target, mode, stripes_material(mode, settings), settings)
+        put_on(target, mode, stripes_material(mode, settings), settings)
     elif mode in VALUES:
-        viewport_material.put_on(target, CURVATURE_MODE, curvature_material(), settings)
+        put_on(target, CURVATURE_MODE, curvature_material(), settings)
 
 
 def _shared_with_others(target: Object) -> bool:

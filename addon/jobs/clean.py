@@ -8,8 +8,7 @@ import numpy as np
 
 from .. import core, errors
 from ..blender import Context, Object
-from ..check.defects import as_dicts, store_defects
-from ..check.holes import listed
+from ..check.defects import as_dicts, listed_holes, store_defects
 from ..mesh.read import control_mesh, read_mesh
 from ..mesh.timed_run import TimedRun
 from ..mesh.write_cleaned import Cleaned, write_cleaned
@@ -87,7 +86,7 @@ class CleanJob(TimedRun):
             write_cleaned(target, self.arrays, made)
         with control_mesh(context, target) as mesh:
             arrays = read_mesh(mesh)
-        store_defects(context, target, self._left(arrays), listed(arrays, self.shape), said)
+        store_defects(context, target, self._left(arrays), listed_holes(arrays, self.shape), said)
         self.note()
         return said
 

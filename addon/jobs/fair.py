@@ -13,8 +13,9 @@ import numpy as np
 
 from .. import core, errors, memory, prediction, size
 from ..blender import Context, Mesh, Object, scene_of
-from ..check import cages, prisms
+from ..check import cages
 from ..check.faults import find_faults
+from ..check.turns import prisms_text
 from ..choices import ENERGY_NAMES
 from ..errors import JobError
 from ..inspection import display
@@ -28,10 +29,9 @@ from ..mesh.timed_run import TimedRun
 from ..mesh.write import write_surface
 from ..preferences import preferences
 from ..settings import Settings, halves, is_evaluated, subdivision, wants_modifiers
-from ..surfaces import freshness, joint_normals, neighbours, place
+from ..surfaces import freshness, neighbours, place
 from ..transfer.attributes import AttributeTransfer
-from ..transfer.edges import edge_table
-from ..transfer.seams import sharp_pairs
+from ..transfer.seams import edge_table, sharp_pairs
 
 NOTICED_MEMORY = 2**28  # bytes: less is negligible beside Blender itself
 
@@ -101,7 +101,7 @@ class Job(TimedRun):
         self.notes = [*self.data.notes, *self._not_done()]
         if target is None and not (evaluated or settings.copy_modifiers):
             self.notes += left_out(source)
-        if said := prisms.prisms_text(world, self.settings):
+        if said := prisms_text(world, self.settings):
             self.notes.append(said)
         if by_shape != "EXACT" and subdivision(source) is None:
             self.notes.append(
@@ -242,8 +242,8 @@ class Job(TimedRun):
             place.note(source, target)
         else:
             place.follow(context, target)
-        joint_normals.update(context, target)
-        joint_normals.update_others(context, target)
+        neighbours.update_normals(context, target)
+        neighbours.update_normals_of_others(context, target)
         freshness.note(target, self._made)
         display.refresh(target, scene_of(target).discrete_fairing_inspection)
         self.note()

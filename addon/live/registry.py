@@ -1,18 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The live surfaces. They exist while Blender runs and are not stored in files."""
+"""The live surfaces. They exist while Blender runs and are not stored in files. Their control meshes are shown as wire, so
+that the surfaces are visible through them.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Literal, cast
 
 import bpy
 
 from ..blender import Object
-from ..memory import source_problem
+from ..memory import source_of, source_problem
 from ..mesh.object import Reference, session_key
-from . import cage
 
 if TYPE_CHECKING:
     from .session import Session
@@ -60,7 +61,7 @@ def add(session: Session) -> None:
     if target is not None:
         _known[session.key] = Reference(target)
         note(target, True)
-        cage.show(target)
+        show_cage(target)
 
 
 def note(target: Object, on: bool) -> None:
@@ -78,7 +79,7 @@ def remove(session: Session, reason: str = "", hand_back: bool = True) -> None:
     if target is not None:
         note(target, False)
         others = [other.objects()[1] for other in sessions()]
-        cage.restore(target, [other for other in others if other is not None])
+        restore_cage(target, [other for other in others if other is not None])
     if reason:
         _endings[session.key] = reason
 
@@ -114,3 +115,34 @@ def ignoring_updates() -> Iterator[None]:
 
 def ignores_updates() -> bool:
     return _ignoring > 0
+
+
+_WIRE: Literal["WIRE"] = "WIRE"
+_KINDS = cast(Any, bpy.types.Object.bl_rna.properties["display_type"]).enum_items.keys()
+
+
+def show_cage(target: Object) -> None:
+    """Shows it as wire; its previous display is stored with `target`."""
+    source, live = source_of(target), target.discrete_fairing_live
+    if source is None or not live.cage_as_wire or _is_linked(source, target):
+        return
+    if source.display_type != _WIRE:
+        live.cage_display = source.display_type
+        source.display_type = _WIRE
+
+
+def restore_cage(target: Object, others: Iterable[Object] = ()) -> None:
+    """Restores its display, unless the user has changed it; `others`: surfaces still live."""
+    source, live = source_of(target), target.discrete_fairing_live
+    if source is None or not live.cage_display or _is_linked(source, target):
+        return
+    before, live.cage_display = live.cage_display, ""
+    heir = next((o for o in others if o != target and source_of(o) == source), None)
+    if heir is not None and heir.discrete_fairing_live.cage_as_wire:
+        heir.discrete_fairing_live.cage_display = before
+    elif source.display_type == _WIRE and before in _KINDS:  # files may contain any text
+        source.display_type = cast(Any, before)
+
+
+def _is_linked(*objects: Object) -> bool:
+    return any(each.library is not None for each in objects)

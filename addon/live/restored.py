@@ -8,7 +8,7 @@ from typing import Any
 
 from .. import events
 from ..blender import Object, all_objects
-from . import cage, registry, switch
+from . import registry, switch
 
 
 def _note(*_: Any) -> None:
@@ -26,7 +26,7 @@ def _restore(*_: Any) -> None:
         if live.was_on and live.in_renders:
             switch.switch_on(target)
         if not switch.is_on(target):
-            cage.restore(target)
+            registry.restore_cage(target)
 
 
 def _surfaces() -> list[Object]:

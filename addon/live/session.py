@@ -18,7 +18,7 @@ from ..mesh.own import OwnData, carried_names, read_own, write_own
 from ..mesh.write import has_faces_of, write_positions, write_surface
 from ..queue import progress_text
 from ..settings import is_evaluated
-from ..surfaces import joint_normals, place
+from ..surfaces import neighbours, place
 from ..transfer.attributes import AttributeTransfer
 from ..transfer.seams import sharp_pairs
 from .full_level import FullLevel, Schedule
@@ -158,7 +158,7 @@ class Session:
                 target.discrete_fairing.unfinished = True
         else:
             write_positions(target.data, result.vertices)
-        joint_normals.update(current_context(), target, depsgraph)
+        neighbours.update_normals(current_context(), target, depsgraph)
         overlay.moved(target)
         display.remeasure(target, scene_of(target).discrete_fairing_inspection)
         self.level = made.level

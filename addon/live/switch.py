@@ -12,7 +12,7 @@ from ..memory import no_source_reason, source_of
 from ..mesh.object import session_key
 from ..poll import LINKED_SURFACE
 from ..size import count_text
-from . import cage, handlers, registry
+from . import handlers, registry
 from .registry import is_in_a_scene
 from .session import Session
 
@@ -137,9 +137,9 @@ def _cage_changed(group: Any, _context: Context) -> None:
     if not is_on(target):
         return
     if group.cage_as_wire:
-        cage.show(target)
+        registry.show_cage(target)
     else:
-        cage.restore(target)
+        registry.restore_cage(target)
 
 
 def _in_renders_changed(group: Any, _context: Context) -> None:

@@ -8,7 +8,7 @@ import numpy as np
 from ..blender import Mesh, Object
 from ..settings import Settings
 from ..transfer.attributes import AttributeTransfer
-from ..transfer.edges import mark_pairs
+from ..transfer.seams import mark_pairs
 from .layers import (
     Refined,
     SurfaceData,

@@ -13,6 +13,7 @@ from ..blender import Context, Object
 from ..check.defects import (
     bring_into_view,
     check_object,
+    edges_of,
     recall_defects,
     recall_holes,
     select_defects,
@@ -20,7 +21,6 @@ from ..check.defects import (
     store_defects,
 )
 from ..check.faults import faulty_vertices
-from ..check.holes import edges_of
 from ..fields import whole
 from ..jobs.clean import repair, repair_label
 from ..mesh.read import active_mesh, source_objects

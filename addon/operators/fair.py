@@ -24,7 +24,7 @@ from ..surfaces import curve_cage
 from ..surfaces.freshness import is_own, stale_surfaces
 from ..ui.layout import draw_settings
 from ..words import counted
-from . import redo
+from . import modal
 from .mixins import Action, refusing
 from .modal import ModalRun
 
@@ -63,7 +63,7 @@ class Fairing(ExplainedPoll, ModalRun):
 
     def _in_time(self, context: Context, jobs: list[Job]) -> Answer | None:
         """Makes the surfaces at once; None if the predicted or the actual time is too long to wait."""
-        if redo.predicted_seconds(jobs) > prediction.PATIENCE:
+        if modal.predicted_seconds(jobs) > prediction.PATIENCE:
             return None
         try:
             return self._block(context, jobs, Deadline(prediction.PATIENCE))
@@ -78,7 +78,7 @@ class Fairing(ExplainedPoll, ModalRun):
         """Makes surfaces of fewer levels, for Recompute to complete; JobError if too slow."""
         jobs = self._unused(context, tried)
         try:
-            self._block(context, redo.small_jobs(context, jobs), Deadline(redo.BUDGET))
+            self._block(context, modal.small_jobs(context, jobs), Deadline(modal.BUDGET))
         except JobCancelled as error:
             raise JobError(
                 "This takes too long here: set it in the panel, and press Recompute"
@@ -182,7 +182,7 @@ class WholeFairing(Fairing):
     """A run without a smaller result: Adjust Last Operation starts a long one in the background."""
 
     def _begin_small(self, context: Context, _tried: list[Job]) -> Answer:
-        redo.repeat_soon(context, self)
+        modal.repeat_soon(context, self)
         return {"FINISHED"}
 
 

@@ -19,7 +19,7 @@ from ..yard.hull_mesh import HullMesh, hull_mesh
 from ..yard.offsets import read
 from ..yard.sheet import UNITS, OffsetsError
 from .mixins import Action
-from .purposes import set_job
+from .presets import set_job
 
 _CROWDED = (
     "If the stations' names are no places, give places in a column x, or a row 'spacing, 1200' above the head. "

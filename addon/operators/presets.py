@@ -6,16 +6,35 @@ A preset is a script that sets the active operator's properties, like those of B
 panel runs and saves the same scripts with its settings in place of the operator.
 """
 
+from collections.abc import Iterable, Sequence
+from dataclasses import asdict
 from typing import Any, cast
 
 import bpy
+import numpy as np
 from bl_operators.presets import AddPresetBase
+from bpy.props import EnumProperty
 
-from ..blender import Answer, Context
+from ..blender import Answer, Context, Object
+from ..check.turns import SHARP, has_flat_ends, why_bending
+from ..control_arrays import ControlArrays
 from ..fields import text
-from ..purposes import FOLDER, PRESET_FOLDER
-from ..settings import NAMES
-from ..ui.active import active_settings
+from ..memory import source_of
+from ..mesh.read import control_mesh, control_meshes, read_mesh, source_objects
+from ..mesh.world_shape import world_shape
+from ..poll import ExplainedPoll, needs
+from ..purposes import (
+    EASED_FIRST,
+    FOLDER,
+    OPERATORS,
+    PRESET_FOLDER,
+    PURPOSES,
+    preset_file,
+)
+from ..settings import NAMES, Settings, are_mirrored, mirror_axis
+from ..transfer.seams import half_axes
+from ..ui.active import active_settings, fairing_operator, remembered
+from .fair import can_fair
 
 _FOLDER = str(FOLDER.parent)  # contains presets/
 # settings of the present work, not of a kind of object
@@ -62,3 +81,104 @@ def register() -> None:
 
 def unregister() -> None:
     bpy.utils.unregister_preset_path(_FOLDER)
+
+
+# an operator called by another one makes no undo step by itself; one called by a script makes none at
+# all
+_UNDO = True
+
+
+def set_job(context: Context, purpose: str, sources: Iterable[Object]) -> str:
+    """Gives the panel the settings of a job for these `sources`; sentences on what their shapes change."""
+    cast(Any, bpy.ops.object).fairing_preset_apply(filepath=str(preset_file(purpose)))
+    panel = active_settings(context)
+    found = [source_of(source) or source for source in sources]
+    said = []
+    if purpose not in EASED_FIRST and panel.symmetry_plane == "NONE" and are_mirrored(found):
+        panel.mesh_source = "EVALUATED"
+        said.append("The whole mesh is faired, with its Mirror modifier")
+    if purpose == "HULL":
+        for source in found:
+            cage = _cage(context, source)
+            if reason := why_bending(cage, Settings.of(panel)):
+                panel.energy = "THIN_PLATE"
+                said.append(f"Bending in place of Flow Lines for {source.name}: {reason}")
+                if has_flat_ends(cage):
+                    panel.use_crease_angle, panel.crease_angle = True, SHARP
+                    said.append(f"Edges folded by {np.degrees(SHARP):.0f}° and more are sharp")
+                break
+    return ". ".join(said)
+
+
+def _whole(context: Context, sources: Sequence[Object]) -> dict[str, Any]:
+    """Settings by which the next surface of halves under Mirror and Subdivision Surface is the whole. They are not
+    those of the panel, which the next mesh gets too.
+    """
+    axis = mirror_axis(sources)
+    is_set = remembered(context) is not None or active_settings(context).symmetry_plane != "NONE"
+    if is_set or not axis or not all(_is_half(context, source, axis) for source in sources):
+        return {}
+    return {"symmetry_plane": axis, "copy_modifiers": True}
+
+
+def _is_half(context: Context, source: Object, axis: str) -> bool:
+    with control_mesh(context, source) as mesh:
+        return "XYZ".index(axis) in half_axes(read_mesh(mesh))
+
+
+def _cage(context: Context, source: Object) -> ControlArrays:
+    with control_mesh(context, source) as mesh:
+        return world_shape(source).of_arrays(read_mesh(mesh))
+
+
+class OBJECT_OT_fairing_for(ExplainedPoll, bpy.types.Operator):
+    """Fair the selected meshes with the settings of a purpose; the panel then shows them"""
+
+    bl_idname = "object.fairing_for"
+    bl_label = "Fair for"
+    bl_options = {"INTERNAL"}  # the operators that it runs make their own undo steps
+
+    purpose: EnumProperty(name="Purpose", items=PURPOSES)
+
+    @classmethod
+    def description(cls, _context: Context, properties: Any) -> str:
+        return next(text for key, _, text, _ in PURPOSES if key == properties.purpose)
+
+    reasons = (can_fair, needs(source_objects, "Select a mesh object first"))
+
+    def invoke(self, context: Context, _event: bpy.types.Event) -> Answer:
+        return self._run_or_say(context, "INVOKE_DEFAULT")
+
+    def execute(self, context: Context) -> Answer:
+        return self._run_or_say(context, "EXEC_DEFAULT")
+
+    def _run_or_say(self, context: Context, how: str) -> Answer:
+        """Runs the operator; an error reported by it is an exception here, and is reported as a
+        message.
+        """
+        try:
+            return self._run(context, how)
+        except RuntimeError as error:
+            self.report({"ERROR"}, str(error).removeprefix("Error: ").strip())
+            return {"CANCELLED"}
+
+    def _run(self, context: Context, how: str) -> Answer:
+        operators: Any = bpy.ops.object
+        if self.purpose in OPERATORS:
+            return getattr(operators, OPERATORS[self.purpose])(how, _UNDO)
+        path = preset_file(self.purpose)
+        if path is None:
+            return operators.fairing_in_place(how, _UNDO, vertices="MEASURED")
+        sources = control_meshes(context)
+        said = set_job(context, self.purpose, sources)
+        if said:
+            self.report({"INFO"}, said)
+        whole = {} if self.purpose in EASED_FIRST else _whole(context, sources)
+        if self.purpose in EASED_FIRST:
+            if how == "INVOKE_DEFAULT":
+                return operators.fairing_ease(how, _UNDO, fair_afterwards=True)
+            operators.fairing_ease(how)
+        if how == "INVOKE_DEFAULT" or remembered(context) is not None:
+            return fairing_operator(context)(how, _UNDO, **whole)
+        settings = asdict(Settings.of(active_settings(context)))
+        return operators.fairing_surface(how, _UNDO, **(settings | whole))

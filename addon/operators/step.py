@@ -18,7 +18,7 @@ from ..memory import source_of
 from ..mesh.read import source_objects
 from ..poll import needs
 from ..settings import PatchOptions
-from . import fair, redo
+from . import fair, modal
 from .mixins import Shown, refusing
 from .written_files import ByFileBrowser, written
 
@@ -97,7 +97,7 @@ class OBJECT_OT_fairing_show_patches(_Fitting, bpy.types.Operator):
     @refusing
     def begin(self, context: Context) -> Answer:
         jobs = self._prepared(context)
-        if redo.predicted_seconds(jobs) > prediction.PATIENCE:
+        if modal.predicted_seconds(jobs) > prediction.PATIENCE:
             return self.start(context, jobs)
         return self._block(context, jobs)
 

@@ -16,8 +16,7 @@ from ..mesh.shape_keys import mixed_positions
 from ..mesh.timed_run import TimedRun
 from ..preferences import preferences
 from ..settings import Settings, halves
-from .knuckle import knuckle
-from .strained import Strained
+from .strained import Strained, knuckle
 
 _LEVELS = 2  # on which the core computes
 

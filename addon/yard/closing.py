@@ -26,7 +26,7 @@ class Whole:
     rim: np.ndarray  # (k, 2) edges between hull and caps, and between deck and transom
 
 
-def whole(positions: np.ndarray, corners: np.ndarray, offsets: np.ndarray) -> Whole:
+def whole_hull(positions: np.ndarray, corners: np.ndarray, offsets: np.ndarray) -> Whole:
     """The closed hull of a half that ends in the plane y = 0; raises NotHalf."""
     if not len(corners):
         raise NotHalf("it has no faces")

@@ -13,9 +13,9 @@ from addon.live import handlers
 from addon.memory import keep, recall, unset_unsound_settings
 from addon.registration import classes_of
 from addon.surfaces import freshness
-from addon.ui import check, inspect, main
+from addon.ui import inspect, main
 
-PANELS = [panel for module in (main, check, inspect) for panel in classes_of(module)]
+PANELS = [panel for module in (main, inspect) for panel in classes_of(module)]
 DEEP = "[" * 100_000 + "]" * 100_000
 VALUES = (None, -1, 10**400, float("nan"), "x", [{}], {"x": "x"})
 RECORDS = ("report", "carried", "made", "defects")

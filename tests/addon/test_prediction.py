@@ -12,7 +12,7 @@ from addon.errors import JobCancelled
 from addon.jobs.fair import Job
 from addon.live.pace import Deadline
 from addon.operators import fair as fairing
-from addon.operators import redo as redoing
+from addon.operators import modal as redoing
 from addon.surfaces.freshness import UNFINISHED, why_stale
 from addon.ui import main
 

@@ -9,7 +9,7 @@ from hole_scenes import ball, borders, is_closed, without
 from scenes import refused, to_object_mode
 
 from addon.check.defects import recall_defects, recall_holes
-from addon.ui import check as check_panel
+from addon.ui import inspect as check_panel
 
 
 def checked(target):

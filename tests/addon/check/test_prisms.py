@@ -5,7 +5,7 @@ import bpy
 import pytest
 from scenes import add_rounded_box, settings
 
-from addon.check.prisms import prisms_text
+from addon.check.turns import prisms_text
 from addon.jobs.fair import Job
 from addon.mesh.read import read_mesh
 

@@ -11,7 +11,6 @@ from cli_runs import contains, imported, run
 
 from addon import core
 from addon.cli import main as command
-from addon.cli import one_file
 
 WRITERS = {"obj": write_obj, "ply": write_ply, "stl": write_stl}
 
@@ -150,7 +149,7 @@ def test_without_the_native_module_it_is_three(monkeypatch, capfd):
 def test_an_interruption_and_a_fault_of_ours_write_nothing(interrupted, monkeypatch, capfd):
     write_obj("in.obj")
 
-    class Faulty(one_file.Job):
+    class Faulty(command.Job):
         def compute(self, **watchers):
             if interrupted:
                 signal.raise_signal(signal.SIGINT)
@@ -159,7 +158,7 @@ def test_an_interruption_and_a_fault_of_ours_write_nothing(interrupted, monkeypa
         def warnings(self):
             raise AttributeError("oops")
 
-    monkeypatch.setattr(one_file, "Job", Faulty)
+    monkeypatch.setattr(command, "Job", Faulty)
     code = run("in.obj", "out.obj")
     assert code == (command.INTERRUPTED if interrupted else command.FAILED)
     assert ("in.obj: interrupted" if interrupted else "oops") in capfd.readouterr().err

@@ -10,7 +10,7 @@ import pytest
 from addon.curves.cells import find_cells
 from addon.curves.cubics import Curve, points_at, through
 from addon.curves.network import network
-from addon.curves.words import remarks
+from addon.curves.settle import remarks
 
 pytestmark = pytest.mark.plain
 

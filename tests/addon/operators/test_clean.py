@@ -9,7 +9,7 @@ from hole_scenes import ball, is_closed, radii, without
 from scenes import bmesh_of, to_object_mode
 
 from addon.check.defects import recall_cleaned, recall_defects
-from addon.ui.check import VIEW3D_PT_fairing_check
+from addon.ui.inspect import VIEW3D_PT_fairing_check
 
 
 def spoiled():

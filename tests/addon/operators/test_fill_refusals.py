@@ -10,7 +10,7 @@ from hole_scenes import ball, borders, is_closed, without
 from scenes import add, bmesh_of, edit, refused, to_object_mode
 
 from addon.check.defects import recall_defects
-from addon.ui.check import VIEW3D_PT_fairing_check
+from addon.ui.inspect import VIEW3D_PT_fairing_check
 
 
 def with_a_fin():

@@ -12,7 +12,7 @@ from scenes import CUBE, add, edit, positions, refused, settings, to_object_mode
 from addon import prediction
 from addon.jobs.in_place import InPlaceJob, InPlaceOptions
 from addon.mesh.edited import edited
-from addon.operators import redo
+from addon.operators import modal as redo
 from addon.operators.fair import Fairing
 from addon.queue import Queue
 

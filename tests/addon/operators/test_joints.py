@@ -12,11 +12,11 @@ from scenes import activate, add_sheet, fair, positions, recompute, refused, to_
 from addon import core
 from addon.check import joints
 from addon.live import pace, registry
-from addon.operators import redo
+from addon.operators import modal as redo
 from addon.operators.fair import Fairing
 from addon.surfaces import neighbours
 from addon.surfaces.freshness import NEIGHBOUR_CHANGED, NEIGHBOUR_MOVED, UNFINISHED, why_stale
-from addon.ui import check as check_panel
+from addon.ui import inspect as check_panel
 from addon.ui.main import VIEW3D_PT_fairing
 
 

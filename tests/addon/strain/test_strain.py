@@ -15,7 +15,7 @@ from scenes import CUBE, add, again, computed, fair, refused, settings, snapshot
 from addon.mesh.shape_keys import EASED
 from addon.strain import cache
 from addon.strain.measure import StrainJob
-from addon.ui.strain import VIEW3D_PT_fairing_strain
+from addon.ui.inspect import VIEW3D_PT_fairing_strain
 
 
 def measured(source, **options):

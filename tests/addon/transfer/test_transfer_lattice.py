@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from addon.mesh.write import fill_mesh
-from addon.transfer.edges import edge_table
+from addon.transfer.seams import edge_table
 
 
 @pytest.mark.parametrize("levels", [0, 2])

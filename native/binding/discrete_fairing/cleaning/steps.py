@@ -13,7 +13,7 @@ import numpy as np
 from ..checking import Defect, check
 from ..errors import about, fairing_error
 from ..watching import SeveralRuns
-from . import crossed, holes, left, shape, topology
+from . import holes, left, shape, topology
 from .state import State
 
 
@@ -154,7 +154,7 @@ class Run:
         self.note("spikes", tips, "{spike|spikes} flattened")
         self.note("folds", folded, "folded {face|faces} flattened")
         if folds:
-            self.state, through = crossed.uncrossed(self.state, held, self.watchers)
+            self.state, through = shape.uncrossed(self.state, held, self.watchers)
             self.note("folds", through, "crossing {face|faces} moved back")
 
     def fill(self, largest: float, settings: dict[str, Any]) -> list[Any]:

@@ -13,10 +13,8 @@ from ..converters import vertex_pairs
 from ..errors import fairing_error
 from ..halves import Control
 from .border_fits import BorderFits, border_of
-from .borders import Border, Foot, border_edges, mesh_arrays
-from .halfway import Halfway
-from .strip import Strip, closed_faces
-from .turning import Turning, needed
+from .borders import Border, Foot, Halfway, border_edges, mesh_arrays
+from .turning import Strip, Turning, closed_faces, needed
 
 # Ends nearer to the neighbour's border than this share of a border edge lie on it.
 NEAR = 0.05

@@ -6,7 +6,7 @@ with every ring of control faces. So a piece with a few rings around it, faired 
 the whole mesh there, and pieces are independent.
 
 In the order of the data: `outline` asks the core for the decisions about the whole mesh; `cutting` assigns
-faces to pieces and cuts these out, with their `settings`; a `piece` is faired alone and returns its `part`
+faces to pieces and cuts these out, with their settings; a `piece` is faired alone and returns its `part`
 of the surface, whose points `numbering` has; `joining` joins the parts.
 """
 
