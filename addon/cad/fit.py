@@ -212,31 +212,14 @@ class PatchJob(Job):
         surface = colours.surface_of(context, f"{self.name} Patches", patches, paints, slots)
         return new_object(context, shown, surface)
 
-    @property
-    def off(self) -> float:
-        """The largest distance of patches from the fair surface, in Blender units of the world."""
-        return float(self._stretch.max() * self.patches.largest_off)
-
-    @property
-    def from_surface(self) -> float:
-        """The same from the refined surface, without what finer levels would change."""
-        return float(self._stretch.max() * self.patches.largest_residual)
-
-    @property
-    def known_to(self) -> float:
-        """About how far the refined surface is from the limit of finer levels, in the same units."""
-        return float(self._stretch.max() * self.patches.refinement_error.max(initial=0))
+    def length(self, own: float) -> float:
+        """A length of the patches in Blender units of the world."""
+        return float(self._stretch.max() * own)
 
     @property
     def allowed(self) -> float:
         """How far patches may be from the fair surface, in Blender units of the world."""
-        return float(self._stretch.max() * self.patches.tolerance * self.patches.size)
-
-    @property
-    def from_scan(self) -> tuple[float, float]:
-        """The distance that 95 % of a scan's points are within, and the largest; (0, 0) without."""
-        within, largest = self.patches.scan_within
-        return within * float(self._stretch.max()), largest * float(self._stretch.max())
+        return self.length(self.patches.tolerance * self.patches.size)
 
     @property
     def angle(self) -> float:
@@ -277,11 +260,9 @@ class PatchJob(Job):
 
     def _miss_text(self, faces: list[int]) -> str:
         off, angle = self.patches.worst(faces)
-        longest, most = float(self._stretch.max()), self.patches.normal_tolerance
-        told = self._units.lengths(self.allowed, 2)
-        return words.miss_text(
-            longest * off, self.allowed, longest * self.patches.size, angle, most, told
-        )
+        most, told = self.patches.normal_tolerance, self._units.lengths(self.allowed, 2)
+        size = self.length(self.patches.size)
+        return words.miss_text(self.length(off), self.allowed, size, angle, most, told)
 
     def note_defects(self, context: Context) -> None:
         """Lists the faults in the panel Check of the source, whose buttons select them."""

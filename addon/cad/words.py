@@ -5,25 +5,9 @@ from collections.abc import Iterable, Sequence
 from math import ceil, degrees, floor, log10
 
 from ..units import Text, digits_of
-from ..words import counted, listed
+from ..words import listed
 
 _LISTED = 8  # faces
-
-
-def summary(
-    patches: int, off: float, settled: float, unit: str, angle: float, apart: float | None = None
-) -> str:
-    """For example `96 patches, 0.003 mm off a surface known to 0.005 mm, 0.02° at edges, 0.2 mm from the
-    mesh shown`; lengths in `unit`, `apart` may be unknown, `angle` in radians.
-    """
-    known = f"{short(off)} {unit} off a surface known to {short(settled)} {unit}"
-    text = f"{counted(patches, '{patch|patches}')}, {known}, {short(degrees(angle))}° at edges"
-    return text if apart is None else f"{text}, {short(apart)} {unit} from the mesh shown"
-
-
-def allowed(off: str, angle: float) -> str:
-    """What patches near a scan may miss: `off`, a length in words, and `angle` in radians."""
-    return f"patches were allowed to be {off} off and to meet at {short(degrees(angle))}°"
 
 
 def short(value: float) -> str:
