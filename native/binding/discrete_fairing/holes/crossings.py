@@ -11,16 +11,19 @@ from .. import _native
 from ..mesh_part import MeshPart
 from ..watching import SeveralRuns
 from .near_hole import NearHole, Wanted
-from .rounds import Filling, RimEdges, numbered_on
+from .rounds import Filling, Fillings
 
 
 def in_whole(whole: MeshPart, part: MeshPart, fillings: Sequence[Filling]) -> list[Filling]:
     """The fillings of `part` with ids of the whole mesh; new vertices are numbered consecutively."""
-    numbered = numbered_on(fillings, len(part.points))
-    fresh = len(whole.points) + np.arange(sum(len(f.own) for f in numbered))
-    places = np.concatenate([part.vertex_ids, fresh])
-    shift = len(whole.points) - len(part.points)
-    return [Filling(f.own, places[f.faces], f.first + shift, f.made) for f in numbered]
+    first, found = len(whole.points), []
+    for f in fillings:
+        is_old = f.faces < len(part.points)
+        old = part.vertex_ids[np.where(is_old, f.faces, 0)]
+        faces = np.where(is_old, old, f.faces - f.first + first)
+        found.append(Filling(f.own, faces, first, f.made))
+        first += len(f.own)
+    return found
 
 
 class Surroundings:
@@ -90,31 +93,31 @@ def crossing_faces(
     return [np.unique(found[(found >= a) & (found < b)] - a) for a, b in zip(ends[:-1], ends[1:])]
 
 
-class _Chosen:
+class _Chosen(Fillings):
     """Fillings of all holes and their crossings; single fillings may be replaced."""
 
     def __init__(
         self, whole: MeshPart, part: MeshPart, fillings: Sequence[Filling], watched: SeveralRuns
     ) -> None:
-        self.fillings = list(fillings)
         self._whole, self._part, self._watched = whole, part, watched
         self._around = Surroundings(whole)
-        self._boxes = np.array([self._box(f) for f in fillings]).reshape(-1, 2, 3)
+        self._boxes = np.empty((len(fillings), 2, 3))
+        super().__init__(len(part.points), dict(enumerate(fillings)))
 
     def counts(self) -> list[int]:
-        if not self.fillings:
+        if not self.of:
             return []
-        return list(map(len, self._crossing(self.fillings, self._boxes)))
+        return list(map(len, self._crossing(list(self.of.values()), self._boxes)))
 
     def put(self, row: int, filling: Filling) -> None:
-        self.fillings[row] = filling
+        super().put(row, filling)
         self._boxes[row] = self._box(filling)
 
     def crossing(self, row: int) -> np.ndarray:
         low, high = self._boxes[row]
         beside = (self._boxes[:, 0] <= high) & (self._boxes[:, 1] >= low)
         others = np.setdiff1d(np.flatnonzero(beside.all(axis=1)), row)
-        (found,) = self._crossing([self.fillings[k] for k in (row, *others)], self._boxes[[row]])
+        (found,) = self._crossing([self.of[k] for k in (row, *others)], self._boxes[[row]])
         return found
 
     def _crossing(self, fillings: Sequence[Filling], boxes: np.ndarray) -> list[np.ndarray]:
@@ -141,11 +144,10 @@ def with_less_crossing(
     the crossing or folding places fixed at their triangulation, then flatter surfaces.
     """
     chosen = _Chosen(whole, part, fillings, watched)
-    edges = RimEdges(len(part.points), {row: f.faces for row, f in enumerate(fillings)})
     counts = chosen.counts()
     tried = False
     for row, (near, filling) in enumerate(zip(nears, fillings, strict=True)):
-        if not (counts[row] or filling.made.stands_in) or edges.are_taken(near.faces, row):
+        if not (counts[row] or filling.made.stands_in) or not chosen.have_room(row, near.faces):
             continue
         tried = True
         best, least = filling, (counts[row], filling.made.folds)
@@ -159,9 +161,8 @@ def with_less_crossing(
                 near.hold(faces, moved)
             last = now
             if sum(now) < sum(least) or (best.made.stands_in and now <= least):
-                best, least = chosen.fillings[row], now
+                best, least = chosen.of[row], now
             if not any(now):
                 break
         chosen.put(row, best)
-        edges.put(row, best.faces)
-    return chosen.fillings, chosen.counts() if tried else counts
+    return list(chosen.of.values()), chosen.counts() if tried else counts

@@ -98,13 +98,11 @@ def _apart(last: dict[int, Filling], best: dict[int, Filling], count: int) -> di
     """The best filling of each hole. If two fillings share an edge between vertices of the mesh (ids below
     `count`), the second one is replaced by that of the last round, where no fillings share edges.
     """
-    chosen = dict(last)
-    edges = RimEdges(count, {row: filling.faces for row, filling in last.items()})
+    chosen = Fillings(count, last)
     for row, filling in best.items():
-        if filling is not last[row] and not edges.are_taken(filling.faces, row):
-            chosen[row] = filling
-            edges.put(row, filling.faces)
-    return chosen
+        if filling is not last[row] and chosen.have_room(row, filling.faces):
+            chosen.put(row, filling)
+    return chosen.of
 
 
 _Rank = tuple[int, bool, bool, int]
@@ -129,45 +127,35 @@ def without_folds(
     mesh: MeshPart, fillings: dict[int, Filling], bare: dict[int, tuple[np.ndarray, np.ndarray]]
 ) -> dict[int, Filling]:
     """The `fillings`; a folding one is replaced by the `bare` triangles unless they fold."""
-    chosen = dict(fillings)
-    edges = RimEdges(len(mesh.points), {row: filling.faces for row, filling in fillings.items()})
+    chosen = Fillings(len(mesh.points), fillings)
     for row, near in zip(bare, near_holes(mesh, list(bare.values())), strict=True):
         plain = near.as_triangulated(True)
-        if not plain.folds and not edges.are_taken(near.faces, row):
-            chosen[row] = Filling(near.own, near.faces, near.first, plain)
-            edges.put(row, near.faces)
-    return chosen
+        if not plain.folds and chosen.have_room(row, near.faces):
+            chosen.put(row, Filling(near.own, near.faces, near.first, plain))
+    return chosen.of
 
 
-def numbered_on(fillings: Sequence[Filling], count: int) -> list[Filling]:
-    """The same fillings with new vertices numbered consecutively from `count`."""
-    fresh, found = count, []
-    for f in fillings:
-        faces = np.where(f.faces < count, f.faces, f.faces - f.first + fresh)
-        found.append(Filling(f.own, faces, fresh, f.made))
-        fresh += len(f.own)
-    return found
+class Fillings:
+    """Fillings by the number of their hole, no two with a common edge between vertices of the mesh (ids below `count`)."""
 
-
-class RimEdges:
-    """The fillings' edges between two vertices of the mesh (ids below `count`), by filling."""
-
-    def __init__(self, count: int, faces: Mapping[int, np.ndarray]) -> None:
+    def __init__(self, count: int, fillings: Mapping[int, Filling]) -> None:
+        self.of: dict[int, Filling] = {}
         self._count = count
-        self._of: dict[int, set[int]] = {}
+        self._edges: dict[int, set[int]] = {}
         self._uses: Counter[int] = Counter()
-        for row, its in faces.items():
-            self.put(row, its)
+        for row, filling in fillings.items():
+            self.put(row, filling)
 
-    def put(self, row: int, faces: np.ndarray) -> None:
-        self._uses.subtract(self._of.get(row, ()))
-        self._of[row] = self._keys(faces)
-        self._uses.update(self._of[row])
+    def put(self, row: int, filling: Filling) -> None:
+        self.of[row] = filling
+        self._uses.subtract(self._edges.get(row, ()))
+        self._edges[row] = self._keys(filling.faces)
+        self._uses.update(self._edges[row])
 
-    def are_taken(self, faces: np.ndarray, row: int) -> bool:
-        """Whether another filling than `row` has an edge of these `faces`."""
-        own = self._of.get(row, set())
-        return any(self._uses[key] > (key in own) for key in self._keys(faces))
+    def have_room(self, row: int, faces: np.ndarray) -> bool:
+        """Whether no other filling than `row` has an edge of these `faces`."""
+        own = self._edges[row]
+        return all(self._uses[key] <= (key in own) for key in self._keys(faces))
 
     def _keys(self, faces: np.ndarray) -> set[int]:
         """A number for each side between two vertices of the mesh."""
