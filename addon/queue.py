@@ -41,16 +41,6 @@ class Runnable(Protocol):
         """Runs the core with the `monitor` and `progress` in `watchers`; raises JobError."""
 
 
-class TimedJob(Runnable, Protocol):
-    """A job for one object of the user, with a predicted time."""
-
-    result: Any  # the computed result; None before
-
-    @property
-    def predicted_seconds(self) -> float:
-        """The predicted time of `compute`."""
-
-
 class Queue:
     """A sequence of jobs. Its thread runs only `compute`, and uses nothing of Blender."""
 

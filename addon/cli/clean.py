@@ -1,11 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`--clean` on the command line: its options, and the run."""
+"""`--clean` on the command line: its options."""
 
 import argparse
-from typing import Any
 
-from ..blender import Object, current_context
-from ..jobs.clean import STEPS, CleanJob, CleanOptions
+from ..jobs.clean import STEPS, CleanOptions
 from ..settings import NAMES
 from .places import is_cad
 from .rna import OfOperator, option
@@ -53,11 +51,3 @@ def options_of(arguments: argparse.Namespace) -> CleanOptions | None:
     steps = {name: name not in (arguments.clean_without or ()) for name in _NAMES}
     steps["noise"] = said["clean_noise"]
     return CleanOptions(steps, said["clean_islands"], said["largest_hole"])
-
-
-def run(source: Object, options: CleanOptions, **watchers: Any) -> tuple[list[str], bool]:
-    """Cleans an object's mesh; returns sentences, and whether nothing is left to do."""
-    job = CleanJob(current_context(), source, options)
-    job.compute(**watchers)
-    said, found = job.apply(current_context()), job.result
-    return said, found.watertight and not found.left

@@ -18,6 +18,7 @@ from ..cad import words
 from ..cad.fit import PatchJob, refused
 from ..cad.step import summary, write_jobs
 from ..errors import JobError, repairs_text
+from ..jobs.clean import CleanJob
 from ..jobs.fair import Job
 from ..jobs.fit import Fit, FitJob
 from ..queue import ConsoleProgress
@@ -41,9 +42,12 @@ class _Told:
     def warn(self, text: str) -> None:
         say(f"{self._name}: warning: {text}")
 
-    def progress(self, count: int) -> ConsoleProgress | None:
-        """The progress of so many meshes."""
-        return None if self._quiet else ConsoleProgress(self._name, count, sys.stderr)
+    def compute(self, jobs: Sequence[Any], **watchers: Any) -> None:
+        """Computes the jobs, one a mesh, and writes their progress."""
+        progress = ConsoleProgress(self._name, len(jobs), sys.stderr)
+        for job in jobs:
+            job.compute(**watchers | ({} if self._quiet else {"progress": progress}))
+            progress.end_run()
 
 
 def run_file(arguments: argparse.Namespace, settings: Settings) -> None:
@@ -64,12 +68,9 @@ def _fair(arguments: argparse.Namespace, settings: Settings, told: _Told) -> tup
     asked = {name: value for name in ("weld", "threads") if (value := getattr(arguments, name)) is not None}  # fmt: skip
     jobs = [_job(source, settings, patches, near) for source in sources]
     before = sum(len(job.arrays.face_sizes) for job in jobs)
-    progress = told.progress(len(jobs))
     for job in jobs:
         job.arguments |= asked
-        job.compute(**({} if progress is None else {"progress": progress}))
-        if progress is not None:
-            progress.end_run()
+    told.compute(jobs)
     _require_patches(jobs)
     for job in jobs:
         if mended := repairs_text(job.result.report["repairs"]):
@@ -89,19 +90,15 @@ def _fair(arguments: argparse.Namespace, settings: Settings, told: _Told) -> tup
 
 def _clean(arguments: argparse.Namespace, _settings: Settings, told: _Told) -> tuple[int, str]:
     sources = read_file(arguments.input)
-    before = _faces(sources)
-    progress = told.progress(len(sources))
-    watchers: dict[str, Any] = {} if progress is None else {"progress": progress}
-    if arguments.threads is not None:
-        watchers["threads"] = arguments.threads
-    for source in sources:
-        said, is_clean = clean.run(source, arguments.cleaning, **watchers)
-        for sentence in said if is_clean else said[:-1]:
-            told.note(f"{source.name}: {sentence}.")
-        if not is_clean:
-            told.warn(f"{source.name}: {said[-1]}.")
-        if progress is not None:
-            progress.end_run()
+    before, context = _faces(sources), current_context()
+    jobs = [CleanJob(context, source, arguments.cleaning) for source in sources]
+    told.compute(jobs, **({} if arguments.threads is None else {"threads": arguments.threads}))
+    for job in jobs:
+        *done, end = job.apply(context)
+        for sentence in done:
+            told.note(f"{job.name}: {sentence}.")
+        is_clean = job.result.watertight and not job.result.left
+        (told.note if is_clean else told.warn)(f"{job.name}: {end}.")
     write_file(arguments.output)
     return before, f"{_faces(sources):,} faces"
 

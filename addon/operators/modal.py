@@ -17,8 +17,9 @@ from ..errors import JobError
 from ..jobs.fair import Job
 from ..live.full_level import is_dragging
 from ..mesh.object import session_key
+from ..mesh.timed_run import TimedRun
 from ..poll import needs
-from ..queue import Queue, TimedJob, running, set_running, status_text
+from ..queue import Queue, running, set_running, status_text
 from ..redraw import Progress, tag_sidebars
 from ..settings import Settings
 from .mixins import Action, refusing
@@ -116,7 +117,7 @@ BUDGET = 0.5 * prediction.PATIENCE  # for computing; reading, writing and undo a
 _WITHOUT = "THIN_PLATE"  # replaces an energy that is too slow even for a small surface
 
 
-def predicted_seconds(jobs: Sequence[TimedJob]) -> float:
+def predicted_seconds(jobs: Sequence[TimedRun]) -> float:
     return sum(job.predicted_seconds for job in jobs)
 
 

@@ -95,12 +95,8 @@ def clean(
         It is taken off by denoise(), around each vertex as much as the scan there allows.
     fixed : (n,) bool
         Vertices that no step moves. None: none.
-    threads : int
-        0: all cores. The result is the same, to the last bit, for any number.
-    progress : callable(fraction, phase)
-        Called from this thread; returning False cancels.
-    monitor : Monitor
-        For watching and cancelling from another thread.
+    threads, progress, monitor
+        As of fair().
 
     Returns
     -------

@@ -101,12 +101,8 @@ def fill_holes(
     rim : "exact" or "noisy"
         Noisy: six rings of faces are continued, and all but the outermost may be missed, so that the
         noise of a scan does not continue. The rim itself does not move.
-    threads : int
-        0: all cores. The result is the same, to the last bit, for any number.
-    progress : callable(fraction, phase)
-        Called from this thread; returning False cancels.
-    monitor : Monitor
-        For watching and cancelling from another thread.
+    threads, progress, monitor
+        As of fair().
 
     Returns
     -------
