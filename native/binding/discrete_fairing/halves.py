@@ -19,18 +19,11 @@ from .arrays import face_arrays, following, vertex_array
 from .automatic import resolved
 from .converters import edges_with_values
 from .errors import about, fairing_error
-from .options import ONE_A_VERTEX, native_options
+from .options import EDGES_WITH_VALUES, FACE_IDS, ONE_A_VERTEX, VERTEX_IDS, native_options
 
 PLANES = {"x": 0, "y": 1, "z": 2}
 SNAP = 1e-6  # share of the mesh's size: border vertices nearer to the plane lie in it
 FAR = 1e100  # the core refuses larger coordinates, and NaN
-# settings that name elements, and the kind of these
-_IDS = {
-    "crease_edges": "vertex",
-    "corner_vertices": "vertex",
-    "region": "face",
-    "flat_faces": "face",
-}
 
 
 class Control:
@@ -203,10 +196,11 @@ class Half:
         normals = given.get("normals")
         if normals is not None and np.shape(normals) == (self.vertex_count, 3):
             given["normals"] = self._normals(normals)
-        for name, kind in _IDS.items():
+        for name in (*VERTEX_IDS, *FACE_IDS):
             if given.get(name) is not None:
+                kind = "face" if name in FACE_IDS else "vertex"
                 given[name] = self.with_images(name, kind, given[name])
-        for name in ("edge_sharpness", "soft_creases"):
+        for name in EDGES_WITH_VALUES:
             if given.get(name) is not None:
                 pairs, values = edges_with_values(name, given[name])
                 given[name] = (self.with_images(name, "vertex", pairs), np.tile(values, 2))

@@ -234,7 +234,10 @@ _HINTS = get_type_hints(AllSettings, include_extras=True)
 SETTINGS: dict[str, Callable[[str, Any], Any]] = {
     name: hint.__metadata__[0] for name, hint in _HINTS.items()
 }
-# settings of one number a vertex
-ONE_A_VERTEX = tuple(name for name, check in SETTINGS.items() if check is weight_array)
+# settings of one kind: one number a vertex, ids of vertices, ids of faces, pairs of vertices with a number each
+ONE_A_VERTEX, VERTEX_IDS, FACE_IDS, EDGES_WITH_VALUES = (
+    tuple(name for name, converter in SETTINGS.items() if converter in kind)
+    for kind in ([weight_array], [vertex_pairs, corner_ids], [face_ids], [edges_with_values])
+)
 # settings that may be None
 OPTIONAL = {name for name, hint in _HINTS.items() if type(None) in get_args(hint.__origin__)}

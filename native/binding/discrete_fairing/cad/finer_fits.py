@@ -13,11 +13,11 @@ from ..arrays import joined_faces
 from ..converters import whole
 from ..fairing import fair
 from ..lattice import Lattice, fine_edges
+from ..options import FACE_IDS
 from ..result import Result
 from ..scan_fitting import Fitted, fit
 
-# settings of the control mesh's faces; and of its edges, or met by the fit
-_BY_FACE = {"flat_faces", "region"}
+# settings of the control mesh's edges, or met by the fit
 _SETTLED = {"crease_edges", "crease_angle", "boundary_edges", "soft_creases", "tension"}
 _SETTLED |= {"repair", "weld"}
 
@@ -75,10 +75,10 @@ class FinerFits:
     def _settings_through(self) -> dict[str, Any]:
         given = self._settings
         own: dict[str, Any] = {} if "triangles" in self._scan else {"boundary": "free"}
-        own |= {name: given[name] for name in given if name not in _BY_FACE | _SETTLED}
+        own |= {name: given[name] for name in given if name not in {*FACE_IDS, *_SETTLED}}
         polygons = np.concatenate([self.fit.triangle_polygon, self.fit.quad_polygon])
-        for name in _BY_FACE & given.keys():
-            if given[name] is not None:
+        for name in FACE_IDS:
+            if given.get(name) is not None:
                 own[name] = np.flatnonzero(np.isin(polygons, given[name]))
         own["crease_edges"] = self._divided(self.fit.crease_edges)
         kinds = given.get("boundary_edges") or {}

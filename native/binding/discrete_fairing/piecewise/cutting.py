@@ -15,7 +15,7 @@ from ..automatic import resolved
 from ..converters import whole
 from ..errors import fairing_error
 from ..mesh_part import MeshPart
-from ..options import ONE_A_VERTEX, SETTINGS, Settings, native_options
+from ..options import FACE_IDS, ONE_A_VERTEX, SETTINGS, Settings, native_options
 from .outline import Outline
 from .piece import Piece
 
@@ -37,7 +37,7 @@ DECIDED = (
     "weld",
 )
 PER_VERTEX = ("tolerance", "normals", *ONE_A_VERTEX)
-BY_ID = ("region", "flat_faces", "corner_vertices", "edge_sharpness")
+BY_ID = (*FACE_IDS, "corner_vertices", "edge_sharpness")
 
 
 def checked(given: dict[str, Any], levels: int) -> tuple[dict[str, Any], _native.Options]:
@@ -90,7 +90,7 @@ class PieceSettings:
         self.local = np.full(count, -1, np.int64)  # scratch
         self.corner = marked(np.asarray(options.corner_vertices, np.int64), count)
         self.of_faces: dict[str, np.ndarray] = {}
-        for name in ("region", "flat_faces"):
+        for name in FACE_IDS:
             if settings.get(name) is not None:
                 ids = np.asarray(getattr(options, name), np.int64)
                 self.of_faces[name] = marked(ids, outline.polygon_count)
