@@ -2,8 +2,9 @@
 """`--clean` on the command line: its options."""
 
 import argparse
+from typing import Any
 
-from ..jobs.clean import STEPS, CleanOptions
+from ..jobs.clean import STEPS
 from ..settings import NAMES
 from .places import is_cad
 from .rna import OfOperator, option
@@ -35,7 +36,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     _OPTIONS.add(group)
 
 
-def options_of(arguments: argparse.Namespace) -> CleanOptions | None:
+def options_of(arguments: argparse.Namespace) -> dict[str, Any] | None:
     """None if meshes are faired. Raises ValueError for contradictory options."""
     if not arguments.clean:
         _OPTIONS.refuse(arguments, "--clean", "clean_without")
@@ -48,6 +49,9 @@ def options_of(arguments: argparse.Namespace) -> CleanOptions | None:
     if is_cad(arguments.output):
         raise ValueError("--clean writes meshes: OUT cannot be a STEP file")
     said = _OPTIONS.said(arguments)
-    steps = {name: name not in (arguments.clean_without or ()) for name in _NAMES}
-    steps["noise"] = said["clean_noise"]
-    return CleanOptions(steps, said["clean_islands"], said["largest_hole"])
+    return {
+        **{name: name not in (arguments.clean_without or ()) for name in _NAMES},
+        "noise": said["clean_noise"],
+        "islands": said["clean_islands"],
+        "largest": said["largest_hole"],
+    }

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Cleans a scan in its own mesh, to a closed surface."""
 
-from dataclasses import dataclass
 from typing import Any, cast
 
 import numpy as np
@@ -32,21 +31,13 @@ STEPS = (
 # fmt: on
 
 
-@dataclass(frozen=True)
-class CleanOptions:
-    """Arguments of discrete_fairing.clean."""
-
-    steps: dict[str, bool]
-    islands: float
-    largest: float
-
-
 class CleanJob(TimedRun):
     """The cleaning of one object: read, computed on any thread, then written."""
 
     kind, again = "CLEAN", "Run Clean Scan"
 
-    def __init__(self, context: Context, target: Object, options: CleanOptions) -> None:
+    def __init__(self, context: Context, target: Object, options: dict[str, Any]) -> None:
+        """`options`: arguments of discrete_fairing.clean."""
         self._options, self._units = options, Units.of(context.scene)
         with self._reading(context, target):
             pass
@@ -58,10 +49,8 @@ class CleanJob(TimedRun):
             self.result = core.module().clean(
                 self.shape.of(arrays.positions),
                 (arrays.corners, arrays.offsets),
-                islands=self._options.islands,
-                largest=self._options.largest,
                 fixed=_marked(arrays),
-                **self._options.steps,
+                **self._options,
                 **watchers,
             )
 
@@ -129,7 +118,7 @@ def repair_label(code: str) -> str:
 def repair(context: Context, target: Object, code: str) -> None:
     """Mends the defects of this kind by one step; raises JobError."""
     steps = dict.fromkeys((name for name, *_ in STEPS), False) | {_REPAIRS[code][1]: True}
-    job = CleanJob(context, target, CleanOptions(steps, islands=0.0, largest=0.0))
+    job = CleanJob(context, target, {**steps, "islands": 0.0})
     job.compute()
     job.apply(context)
 

@@ -13,7 +13,7 @@ from ..blender import Answer, Context, Object
 from ..choices import ENERGIES, FILL_JOINTS
 from ..errors import JobError
 from ..fields import choice, factor, length, number, switch
-from ..jobs.clean import STEPS, CleanJob, CleanOptions
+from ..jobs.clean import STEPS, CleanJob
 from ..jobs.fill import FillOptions, HoleJob, fill_warnings
 from ..mesh.read import source_objects
 from ..poll import of_meshes
@@ -163,8 +163,8 @@ class OBJECT_OT_fairing_clean(Shown, LargestHole, InMeshes, bpy.types.Operator):
                 yield "largest"
 
     def make_jobs(self, context: Context) -> list[CleanJob]:
-        steps = {name: bool(getattr(self, name)) for name, *_ in STEPS}
-        options = CleanOptions(steps, self.islands, self.largest)
+        names = (*(name for name, *_ in STEPS), "islands", "largest")
+        options = {name: getattr(self, name) for name in names}
         targets = {target.data: target for target in source_objects(context)}.values()
         return [CleanJob(context, target, options) for target in targets]
 
