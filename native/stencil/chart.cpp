@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stencil/chart.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "stencil/angle.h"
@@ -17,6 +19,33 @@ Vec2 polar(double radius, double angle) {
 
 // The point's share of the face's area at unit spacing, for one corner of one cell.
 double corner_share(const Face& face, const FlatFace& flat) { return flat.area / face.size; }
+
+bool is_flat(const ControlMesh& mesh, const Spoke& spoke) {
+  return spoke.face >= 0 && !mesh.flat.face.empty() && mesh.flat.face[spoke.face];
+}
+
+// The factors for the angles around a vertex, of faces that are [0] not flat, [1] flat. Where the
+// two are divided by a line that turns by at most 60 degrees, each side becomes a half turn, as
+// beside a smooth curve; elsewhere both have turn_scale().
+std::array<double, 2> turn_scales(const ControlMesh& mesh, const std::vector<FlatFace>& flat,
+                                  Index v) {
+  const auto ring = mesh.ring(v);
+  std::array<double, 2> total{};
+  int changes = 0;
+  bool before = is_flat(mesh, ring.back());
+  for (const Spoke& spoke : ring) {
+    const bool now = is_flat(mesh, spoke);
+    changes += now != before;
+    before = now;
+    if (spoke.face >= 0) total[now] += flat[spoke.face].angle[spoke.corner];
+  }
+  const double half = full_turn / 2;
+  const bool smooth =
+      std::ranges::all_of(total, [&](double angle) { return std::abs(angle - half) <= half / 3; });
+  if (mesh.interior(v) && changes == 2 && smooth) return {half / total[0], half / total[1]};
+  const double scale = turn_scale(mesh.interior(v), total[0] + total[1]);
+  return {scale, scale};
+}
 
 // Appends the row of the face on one side of an edge point, front to back, in a frame whose x axis
 // is the side. The face is scaled along the edge until its side has the edge's length: with
@@ -50,23 +79,21 @@ double turn_scale(bool closed, double total) {
 Chart ChartMaker::vertex(Index v) const {
   Chart chart;
   const auto ring = mesh_.ring(v);
-  double total = 0;
-  for (const Spoke& spoke : ring)
-    if (spoke.face >= 0) total += flat_[spoke.face].angle[spoke.corner];
   chart.closed = mesh_.interior(v);
-  const double scale = turn_scale(chart.closed, total);
+  const std::array<double, 2> scales = turn_scales(mesh_, flat_, v);
   double angle = 0;
   for (const Spoke& spoke : ring) {
-    chart.ring.push_back(polar(edge_length(mesh_, flat_, spoke.edge), scale * angle));
+    chart.ring.push_back(polar(edge_length(mesh_, flat_, spoke.edge), angle));
     if (spoke.face < 0) break;
     const Face& face = mesh_.faces[spoke.face];
     const FlatFace& shape = flat_[spoke.face];
     const auto c = std::size_t(spoke.corner);
+    const double scale = scales[is_flat(mesh_, spoke)];
     if (face.quad()) {
       const Vec2 far = Vec2(shape.length[c], 0) + polar(shape.length[(c + 3) % 4], shape.angle[c]);
-      chart.ring.push_back(polar(far.norm(), scale * (angle + std::atan2(far.y(), far.x()))));
+      chart.ring.push_back(polar(far.norm(), angle + scale * std::atan2(far.y(), far.x())));
     }
-    angle += shape.angle[c];
+    angle += scale * shape.angle[c];
     chart.area += corner_share(face, shape);
   }
   return chart;

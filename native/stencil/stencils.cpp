@@ -24,6 +24,27 @@ Chart chart_of(const ChartMaker& charts, const Element& element) {
   }
 }
 
+void set_energy(const ControlMesh& mesh, const Element& element, const Chart& chart,
+                const FitRows& rows, std::span<Stencils::Column> energy) {
+  const StiffSide side = stiff_side(mesh, element, chart);
+  Chart near = chart;
+  const double share = shorten(side, near);
+  const FitRows fitted = share < 1 ? fit(near) : rows;
+  const std::size_t size = energy.size();
+  const double root_weight = std::sqrt(near.area);
+  const auto number = [&](std::size_t j, Eigen::Index c) { return fitted(c + 2, Eigen::Index(j)); };
+  const bool in_face = element.kind == RunKind::face_row;
+  for (std::size_t j = 0; j < size; ++j)
+    for (Eigen::Index c = 0; c < 3; ++c)
+      energy[j][std::size_t(c)] =
+          root_weight *
+          (in_face ? 0.5 * (number(j, c) + number((j + size / 2) % size, c)) : number(j, c));
+  for (std::size_t j = side.begin; j < side.end; ++j)
+    for (double& each : energy[j % size]) each *= share;
+  stiffen_straight(mesh, element, chart, energy);
+  stiffen_across(side, near, energy);
+}
+
 void fill(const ControlMesh& mesh, const ChartMaker& charts, std::size_t e, Stencils& s) {
   const std::size_t first = s.begin[e], size = s.begin[e + 1] - first;
   const Element element = element_at(mesh, e);
@@ -35,21 +56,14 @@ void fill(const ControlMesh& mesh, const ChartMaker& charts, std::size_t e, Sten
   if (!s.has_fit[e]) return;
   const Chart chart = chart_of(charts, element);
   const FitRows rows = fit(chart);
-  const double root_weight = std::sqrt(chart.area);
-  for (std::size_t j = 0; j < size; ++j) {
-    const auto own = Eigen::Index(j), opposite = Eigen::Index((j + size / 2) % size);
-    for (Eigen::Index c = 0; c < 3; ++c)
-      s.energy[first + j][c] =
-          root_weight *
-          (in_face ? 0.5 * (rows(c + 2, own) + rows(c + 2, opposite)) : rows(c + 2, own));
-    if (in_face) continue;
+  set_energy(mesh, element, chart, rows, {s.energy.data() + first, size});
+  for (std::size_t j = 0; j < size && !in_face; ++j) {
     const Coefficients half = basis(0.5 * chart.ring[j]);
     for (std::size_t c = 0; c < 5; ++c) {
-      s.rows[5 * (first + j) + c] = float(rows(Eigen::Index(c), own));
+      s.rows[5 * (first + j) + c] = float(rows(Eigen::Index(c), Eigen::Index(j)));
       s.half[5 * (first + j) + c] = float(half(Eigen::Index(c)));
     }
   }
-  stiffen_straight(mesh, element, chart, {s.energy.data() + first, size});
 }
 
 }  // namespace

@@ -47,21 +47,26 @@ class StraightDirection {
                     chart_.ring[face.quad() ? 2 : 1]);
   }
 
+  // The mean of its faces' directions, so that the chart of a mirrored mesh has the mirrored one.
   Vec2 vertex(Index v) const {
     const auto ring = mesh_.ring(v);
     const auto kept = [&](const Spoke& s) { return s.face >= 0 && mesh_.flat.is_kept(s.face); };
     if (!std::ranges::all_of(ring, kept)) return Vec2::Zero();
+    Vec2 sum = Vec2::Zero();
     std::size_t place = 0;
     for (std::size_t k = 0; k < ring.size(); ++k) {
       const bool quad = mesh_.faces[ring[k].face].quad();
       const std::size_t next = place + (quad ? 2 : 1);
-      if (mesh_.flat.is_straight(ring[k].face))
-        return in_chart(mesh_.flat.along[ring[k].face], spoke(v, ring[k]),
-                        spoke(v, ring[(k + 1) % ring.size()]), chart_.ring[place],
-                        chart_.ring[next % chart_.ring.size()]);
+      if (mesh_.flat.is_straight(ring[k].face)) {
+        const Vec2 own = in_chart(mesh_.flat.along[ring[k].face], spoke(v, ring[k]),
+                                  spoke(v, ring[(k + 1) % ring.size()]), chart_.ring[place],
+                                  chart_.ring[next % chart_.ring.size()])
+                             .normalized();
+        sum += sum.dot(own) < 0 ? Vec2(-own) : own;
+      }
       place = next;
     }
-    return Vec2::Zero();
+    return sum;
   }
 
  private:
@@ -112,36 +117,31 @@ int stiffer_side(const ControlMesh& mesh, Index e) {
          mesh.flat.is_stiff(mesh.face_beside(e, 1), line);
 }
 
-// The line through an edge with a stiffer face on its left; zero: none.
-Vec2 line_of_edge(const ControlMesh& mesh, Index e, const Chart& chart) {
-  return mesh.edges[e].boundary() ? Vec2(Vec2::Zero())
-                                  : Vec2(stiffer_side(mesh, e) * chart.ring[0]);
+// The side of an element of an edge off the border, from the row of its left face on.
+StiffSide side_of_edge(const ControlMesh& mesh, Index e, const Chart& chart) {
+  const int more = mesh.edges[e].boundary() ? 0 : stiffer_side(mesh, e);
+  if (more == 0) return {};
+  const std::size_t back = mesh.faces[mesh.face_beside(e, 0)].quad() ? 4 : 3;
+  return more > 0 ? StiffSide{chart.ring[0], 1, back}
+                  : StiffSide{-chart.ring[0], back + 1, chart.ring.size()};
 }
 
-// The line through a vertex, where it has two kinds of faces, each on one side of a line of edges.
-Vec2 line_of_vertex(const ControlMesh& mesh, Index v, const Chart& chart) {
+// The same of a vertex with two kinds of faces, each on one side of a line of edges.
+StiffSide side_of_vertex(const ControlMesh& mesh, Index v, const Chart& chart) {
   const auto ring = mesh.ring(v);
-  if (!mesh.interior(v)) return Vec2::Zero();
-  Vec2 begin = Vec2::Zero(), end = Vec2::Zero();
+  if (!mesh.interior(v)) return {};
+  std::size_t place = 0, begin = 0, end = 0;
   int changes = 0;
-  std::size_t place = 0;
-  for (std::size_t k = 0; k < ring.size(); ++k) {
-    const int more = stiffer_side(mesh, ring[k].edge) * (ring[k].outward ? 1 : -1);
+  for (const Spoke& spoke : ring) {
+    const int more = stiffer_side(mesh, spoke.edge) * (spoke.outward ? 1 : -1);
     if (more != 0) ++changes;
-    if (more > 0) begin = chart.ring[place];
-    if (more < 0) end = chart.ring[place];
-    place += mesh.faces[ring[k].face].quad() ? 2 : 1;
+    if (more > 0) begin = place;
+    if (more < 0) end = place;
+    place += mesh.faces[spoke.face].quad() ? 2 : 1;
   }
-  if (changes != 2 || begin.dot(end) > -sharp_turn * begin.norm() * end.norm()) return Vec2::Zero();
-  return begin.normalized() - end.normalized();
-}
-
-Vec2 line_of(const ControlMesh& mesh, const Element& element, const Chart& chart) {
-  switch (element.kind) {
-    case RunKind::vertex: return line_of_vertex(mesh, element.element, chart);
-    case RunKind::edge: return line_of_edge(mesh, element.element, chart);
-    default: return Vec2::Zero();
-  }
+  const Vec2 first = chart.ring[begin].normalized(), last = chart.ring[end].normalized();
+  if (changes != 2 || first.dot(last) > -sharp_turn) return {};
+  return {first - last, begin + 1, end > begin ? end : end + place};
 }
 
 // Multiplies the stiffness in one direction, by its second difference f_dd in the fit's coefficients.
@@ -158,12 +158,33 @@ void multiply(double stiffness, const Vec2& direction, std::span<std::array<doub
 
 }  // namespace
 
+StiffSide stiff_side(const ControlMesh& mesh, const Element& element, const Chart& chart) {
+  if (mesh.flat.along.empty()) return {};
+  switch (element.kind) {
+    case RunKind::vertex: return side_of_vertex(mesh, element.element, chart);
+    case RunKind::edge: return side_of_edge(mesh, element.element, chart);
+    default: return {};
+  }
+}
+
+double shorten(const StiffSide& side, Chart& chart) {
+  const double own = reach(chart, side.line), other = reach(chart, -side.line);
+  if (!(own > other)) return 1;
+  const double share = other / own;
+  for (std::size_t j = side.begin; j < side.end; ++j) chart.ring[j % chart.ring.size()] *= share;
+  chart.area *= 2 * other / (own + other);
+  return share;
+}
+
 void stiffen_straight(const ControlMesh& mesh, const Element& element, const Chart& chart,
                       std::span<std::array<double, 3>> hessians) {
-  if (mesh.flat.along.empty()) return;
-  multiply(flat_stiffness, direction_of(mesh, element, chart), hessians);
-  const Vec2 line = line_of(mesh, element, chart);
-  multiply(across_line(chart, line), {-line.y(), line.x()}, hessians);
+  if (!mesh.flat.along.empty())
+    multiply(flat_stiffness, direction_of(mesh, element, chart), hessians);
+}
+
+void stiffen_across(const StiffSide& side, const Chart& chart,
+                    std::span<std::array<double, 3>> hessians) {
+  multiply(across_line(chart, side.line), {-side.line.y(), side.line.x()}, hessians);
 }
 
 }  // namespace fairing

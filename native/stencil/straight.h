@@ -12,12 +12,30 @@
 
 namespace fairing {
 
+// The side of a line of edges through a point on which the faces do not bend across it, while those
+// on the other side do: the line, with that side on its left, zero if there is none, and the
+// places of that side's points in the ring, modulo its size.
+struct StiffSide {
+  Vec2 line = Vec2::Zero();
+  std::size_t begin = 0, end = 0;
+};
+StiffSide stiff_side(const ControlMesh& mesh, const Element& element, const Chart& chart);
+
+// Draws the points of the stiff side, on which the surface is linear, to the centre, until the ring
+// reaches as far as on the other side: a rim beside a face a hundred times as wide would not
+// determine a quadratic, so that the edge would be a hinge. Returns their factor, at most 1: their
+// differences shrink with it.
+double shorten(const StiffSide& side, Chart& chart);
+
 // Multiplies the second difference in the direction in which an element's faces are straight; none
-// if not all of them are flat. An edge between two of them is straight itself. Across an edge where
-// the stiffness jumps, the second difference is multiplied by the harmonic mean of both: else the
-// edge would be a hinge as wide as the stiff face's cells. `hessians`: the last three of fit()'s
-// coefficients (stencil/fit.h), one set a neighbour.
+// if not all of them are flat. An edge between two of them is straight itself. `hessians`: the last
+// three of fit()'s coefficients (stencil/fit.h), one set a neighbour.
 void stiffen_straight(const ControlMesh& mesh, const Element& element, const Chart& chart,
                       std::span<std::array<double, 3>> hessians);
+
+// Multiplies the second difference across the line by the harmonic mean of the stiffness of both
+// sides: else it would be a hinge as wide as the stiff face's cells.
+void stiffen_across(const StiffSide& side, const Chart& chart,
+                    std::span<std::array<double, 3>> hessians);
 
 }  // namespace fairing

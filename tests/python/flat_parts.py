@@ -77,6 +77,25 @@ def can(radius, height, size=2.0):
     return turned([(0, 0.0, "flat"), *ring, (0, height, "")])
 
 
+def stacked(outlines):
+    """Outlines (k, 3) of equally many vertices, one above the other, closed by their first and last one."""
+    count = len(outlines[0])
+    rows = np.arange(count * len(outlines)).reshape(-1, count)
+    faces = [rows[0, ::-1].tolist(), rows[-1].tolist()]
+    for low, high in zip(rows, rows[1:]):
+        ring = np.stack([low, np.roll(low, -1), np.roll(high, -1), high], axis=1)
+        faces += ring.tolist()
+    return np.concatenate(outlines), faces
+
+
+def rounded_outline(length, width, radius, z, chords=4):
+    angle = np.linspace(0, np.pi / 2, chords + 1) + np.pi / 2 * np.arange(4)[:, None]
+    middle = np.array([length, width]) / 2 - radius
+    corner = np.array([[1, 1], [-1, 1], [-1, -1], [1, -1]])[:, None] * middle
+    arc = corner + radius * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    return np.concatenate([arc, np.full((4, chords + 1, 1), z)], axis=-1).reshape(-1, 3)
+
+
 def chamfered_cylinder(sides, fans=""):
     """(vertices, faces): radius 12.5, height 50, chamfers of 1.5; the wall is one face high, its faces the first ones.
 

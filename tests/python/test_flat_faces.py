@@ -229,3 +229,50 @@ def test_a_cup_is_round_and_its_flats_have_round_outlines():
     assert np.allclose(ends, [radius - size, inner + size, inner - size, radius - size], atol=0.01)
     walls = (z > size) & (z < lip) & (away > radius - wall / 2)
     assert np.abs(away[walls] - radius).max() < 0.08
+
+
+def section(rim_size):
+    """(inset, z) of a box of 60 with walls of 4: its rims, of two chords, all around."""
+    size, wall = rim_size, 4.0
+    profile = flat_parts.rim(-size, size, size, -np.pi / 2)
+    profile += flat_parts.rim(-size, 60 - size, size, 0.0)
+    profile += flat_parts.rim(size - wall, 60 - size, size, np.pi / 2)
+    profile += flat_parts.rim(-size - wall, wall + size, size, 0.0, -np.pi / 2)
+    return [(-away, z) for away, z in profile]
+
+
+@pytest.mark.parametrize("size", [0.5, 1.5])
+def test_rims_of_a_box_with_round_corners_are_straight_between_them(size):
+    """Between corners, rims waved by more than their width: they were held by nothing, and beside a floor a
+    hundred times as wide they were hinges."""
+    box = [
+        flat_parts.rounded_outline(160 - 2 * inset, 100 - 2 * inset, 20 - inset, z)
+        for inset, z in section(size)
+    ]
+    points, faces = flat_parts.stacked(box)
+    found = df.fair(points, faces, LEVEL, interpolation="auto")
+    assert turns(found.vertices, found.faces[1])[2].max() < 0.3
+    middle = found.vertices[np.abs(found.vertices[:, 0]) < 59]
+    inset, z = 50 - np.abs(middle[:, 1]), middle[:, 2]
+    walls = (z > 4 + size) & (z < 60 - size)
+    assert np.minimum(np.abs(inset), np.abs(inset - 4))[walls].max() < 0.005
+    lip = (z > 60 - size) & (inset < size)
+    assert np.abs(np.hypot(inset - size, z - 60 + size) - size)[lip].max() < 0.1 * size
+
+
+def test_straight_strips_beside_a_fan_are_as_even_as_the_fan():
+    """A flat of quads that fan out bent the chart around the outline's vertices, so that strips were stiff across."""
+
+    def outline(inset, z):
+        arcs = flat_parts.rounded_outline(80 - 2 * inset, 80 - 2 * inset, 10 - inset, z)
+        corners = arcs.reshape(4, -1, 3)
+        middles = (corners[:, -1] + np.roll(corners[:, 0], -1, axis=0)) / 2
+        return np.concatenate([corners, middles[:, None]], axis=1).reshape(-1, 3)
+
+    rims = flat_parts.rim(-2, 2, 2, -np.pi / 2) + flat_parts.rim(-2, 6, 2, 0.0)
+    rows = [outline(-away, z) for away, z in rims]
+    disc = 22 * rows[-1] / np.linalg.norm(rows[-1][:, :2], axis=1)[:, None]
+    points, faces = flat_parts.stacked([*rows, np.column_stack([disc[:, :2], rows[-1][:, 2]])])
+    found = df.fair(points, faces, LEVEL, interpolation="auto").vertices
+    rim = found[(np.abs(found[:, 0]) < 29) & (found[:, 1] > 38) & (found[:, 2] > 6)]
+    assert np.abs(np.hypot(rim[:, 1] - 38, rim[:, 2] - 6) - 2).max() < 0.05

@@ -99,7 +99,9 @@ def straights_of(parts: Parts) -> np.ndarray:
     ends = (rim | open_)[pairs].all(axis=2) & rim[pairs].any(axis=2)
     while True:
         straight = marked(owner[pairs[ends.any(axis=1), 0, 0]], count)
-        goes_on = open_ | (straight[np.where(open_, owner, beside)] & (turn <= _ROUND))
+        goes_on = open_ | (
+            (straight | (parts.plane & ~of_four))[np.where(open_, owner, beside)] & (turn <= _ROUND)
+        )
         kept = ends & goes_on[pairs[:, ::-1]].all(axis=2)
         if (kept == ends).all():
             return straight[parts.part]
