@@ -79,7 +79,8 @@ def straights_of(parts: Parts) -> np.ndarray:
     A part with four sides is straight between two opposite ones if the mesh turns away at both,
     the part is at least as deep as the part beside it, and it turns at most half as much per depth; one of them
     may be open. At its other two sides, unless these are open, the mesh turns by at most 60 degrees to another
-    such part. A side is all of the border to one other part.
+    such part, or to a plane one with other than four sides, as a floor with round corners. A side is all of the border
+    to one other part.
     """
     mesh = parts.mesh
     open_rows, count = parts.twin < 0, len(parts.plane)
