@@ -46,10 +46,6 @@ class ReadFile:
         return self._faces_of_edges.count(1)
 
     @property
-    def shared_edges(self) -> int:
-        return self._faces_of_edges.count(2)
-
-    @property
     def tolerance(self) -> float:
         """The farthest that an edge is from its faces and its ends, 1e-7 or more."""
         from OCP.ShapeAnalysis import ShapeAnalysis_ShapeTolerance

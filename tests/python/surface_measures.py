@@ -74,8 +74,3 @@ def dihedrals(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
     corner = points[triangles]
     _, length = rows_cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
     return np.degrees(turns(points, triangles[length > 0])[2])
-
-
-def largest_dihedral(points: np.ndarray, triangles: np.ndarray) -> float:
-    """The largest of them."""
-    return float(dihedrals(points, triangles).max())

@@ -207,15 +207,21 @@ def test_rims_turn_by_half_on_a_finer_level_and_are_round(size):
     assert max(off) < 5e-4
 
 
+def section(height, wall, size):
+    """(inset, z) of a vessel: its rims, of two chords, from the base to the floor."""
+    lip = height - size
+    profile = flat_parts.rim(-size, size, size, -np.pi / 2)
+    profile += flat_parts.rim(-size, lip, size, 0.0)
+    profile += flat_parts.rim(size - wall, lip, size, np.pi / 2)
+    profile += flat_parts.rim(-size - wall, wall + size, size, 0.0, -np.pi / 2)
+    return [(-away, z) for away, z in profile]
+
+
 def test_a_cup_is_round_and_its_flats_have_round_outlines():
     """Its rims, of two chords, are narrower than the chords around are far from a circle, 0.34."""
     radius, height, wall, size, sides = 40.0, 90.0, 4.0, 1.0, 24
     inner, lip = radius - wall, height - size
-    profile = flat_parts.rim(radius - size, size, size, -np.pi / 2)
-    profile += flat_parts.rim(radius - size, lip, size, 0.0)
-    profile += flat_parts.rim(inner + size, lip, size, np.pi / 2)
-    profile += flat_parts.rim(inner - size, wall + size, size, 0.0, -np.pi / 2)
-    rings = [(*place, "") for place in profile]
+    rings = [(radius - inset, z, "") for inset, z in section(height, wall, size)]
     points, faces, *_ = flat_parts.turned([(0, 0.0, ""), *rings, (0, wall, "")], sides)
     found = df.fair(points, faces, LEVEL, interpolation="auto").vertices
     assert np.array_equal(found[: len(points)], points)
@@ -231,23 +237,13 @@ def test_a_cup_is_round_and_its_flats_have_round_outlines():
     assert np.abs(away[walls] - radius).max() < 0.08
 
 
-def section(rim_size):
-    """(inset, z) of a box of 60 with walls of 4: its rims, of two chords, all around."""
-    size, wall = rim_size, 4.0
-    profile = flat_parts.rim(-size, size, size, -np.pi / 2)
-    profile += flat_parts.rim(-size, 60 - size, size, 0.0)
-    profile += flat_parts.rim(size - wall, 60 - size, size, np.pi / 2)
-    profile += flat_parts.rim(-size - wall, wall + size, size, 0.0, -np.pi / 2)
-    return [(-away, z) for away, z in profile]
-
-
 @pytest.mark.parametrize("size", [0.5, 1.5])
 def test_rims_of_a_box_with_round_corners_are_straight_between_them(size):
     """Between corners, rims waved by more than their width: they were held by nothing, and beside a floor a
     hundred times as wide they were hinges."""
     box = [
         flat_parts.rounded_outline(160 - 2 * inset, 100 - 2 * inset, 20 - inset, z)
-        for inset, z in section(size)
+        for inset, z in section(60.0, 4.0, size)
     ]
     points, faces = flat_parts.stacked(box)
     found = df.fair(points, faces, LEVEL, interpolation="auto")

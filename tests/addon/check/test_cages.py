@@ -100,13 +100,16 @@ def bracket():
     return source
 
 
-def of_triangles(make):
-    """The same cut into triangles: caps as fans, sides along their diagonals."""
-    source = make()
+def edited(source, operator):
     edit(source, "FACE", range(len(source.data.polygons)))
-    bpy.ops.mesh.quads_convert_to_tris()
+    operator()
     to_object_mode()
     return source
+
+
+def of_triangles(make):
+    """The same cut into triangles: caps as fans, sides along their diagonals."""
+    return edited(make(), bpy.ops.mesh.quads_convert_to_tris)
 
 
 def vase():
@@ -138,11 +141,7 @@ def bowl():
 
 
 def flipped():
-    source = bowl()
-    edit(source, "FACE", range(len(source.data.polygons)))
-    bpy.ops.mesh.flip_normals()
-    to_object_mode()
-    return source
+    return edited(bowl(), bpy.ops.mesh.flip_normals)
 
 
 def with_a_knob():

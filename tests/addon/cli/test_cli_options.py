@@ -60,8 +60,6 @@ def test_a_share_of_the_way_to_the_limit_says_that_it_is_meant():
     assert settings("--interpolation", "limit").limit == 1.0
     with pytest.raises(ValueError, match="--limit needs --interpolation limit"):
         settings("--interpolation", "exact", "--limit", "0.5")
-    with pytest.raises(ValueError, match="--tolerance needs --interpolation approximate"):
-        settings("--limit", "0.5", "--tolerance", "0.1")
 
 
 @pytest.mark.parametrize("number", ["nan", "inf", "-1", "x", "%", "-1%"])
