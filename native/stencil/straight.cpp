@@ -109,12 +109,21 @@ double across_line(const Chart& chart, const Vec2& line) {
   return (own + other) / (own / flat_stiffness + other);
 }
 
+// Whether a face holds the surface across a line. A straight one does unless the line is within 30
+// degrees of its direction: in inner corners, rims end at lines that are some 35 from them, and
+// folded beside the corner where they did not count.
+bool holds_across(const FlatFaces& flat, Index f, const Vec3& line) {
+  if (!flat.is_straight(f)) return flat.is_kept(f);
+  const double both = flat.along[f].dot(line);
+  return both * both < 0.75 * line.squaredNorm();
+}
+
 // Which side of an edge off the border alone is stiff across it: 1 left, -1 right, 0 none.
 int stiffer_side(const ControlMesh& mesh, Index e) {
   const auto [a, b] = mesh.edges[e].vertex;
   const Vec3 line = mesh.positions[b] - mesh.positions[a];
-  return mesh.flat.is_stiff(mesh.face_beside(e, 0), line) -
-         mesh.flat.is_stiff(mesh.face_beside(e, 1), line);
+  return holds_across(mesh.flat, mesh.face_beside(e, 0), line) -
+         holds_across(mesh.flat, mesh.face_beside(e, 1), line);
 }
 
 // The side of an element of an edge off the border, from the row of its left face on.

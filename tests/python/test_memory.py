@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Memory is predicted, and grows as the surface does."""
 
-
 import control_meshes as meshes
 import discrete_fairing as df
 import numpy as np
