@@ -142,11 +142,13 @@ struct FlatFaces {
 
   bool is_straight(Index f) const { return !along.empty() && along[f] != Vec3::Zero(); }
   bool is_kept(Index f) const { return !face.empty() && (face[f] || is_straight(f)); }
-  // Whether a face does not bend across a line in this direction.
+  // Whether a face does not bend across a line in this direction. A straight one does not unless
+  // the line is within 30 degrees of its direction: in inner corners, rims end at lines that are
+  // some 35 from them.
   bool is_stiff(Index f, const Vec3& line) const {
-    if (!is_kept(f) || face[f]) return is_kept(f);
+    if (!is_straight(f)) return is_kept(f);
     const double both = along[f].dot(line);
-    return 2 * both * both < line.squaredNorm();
+    return both * both < 0.75 * line.squaredNorm();
   }
 };
 

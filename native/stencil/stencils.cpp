@@ -2,6 +2,7 @@
 #include "stencil/stencils.h"
 
 #include <cmath>
+#include <utility>
 
 #include "parallel/cancel.h"
 #include "stencil/straight.h"
@@ -24,25 +25,30 @@ Chart chart_of(const ChartMaker& charts, const Element& element) {
   }
 }
 
-void set_energy(const ControlMesh& mesh, const Element& element, const Chart& chart,
-                const FitRows& rows, std::span<Stencils::Column> energy) {
-  const StiffSide side = stiff_side(mesh, element, chart);
-  Chart near = chart;
-  const double share = shorten(side, near);
-  const FitRows fitted = share < 1 ? fit(near) : rows;
+// The divided differences of second order of an element's points, times the root of its area.
+void set_differences(const Element& element, double area, const FitRows& rows,
+                     std::span<Stencils::Column> energy) {
   const std::size_t size = energy.size();
-  const double root_weight = std::sqrt(near.area);
-  const auto number = [&](std::size_t j, Eigen::Index c) { return fitted(c + 2, Eigen::Index(j)); };
+  const double root_weight = std::sqrt(area);
+  const auto number = [&](std::size_t j, Eigen::Index c) { return rows(c + 2, Eigen::Index(j)); };
   const bool in_face = element.kind == RunKind::face_row;
   for (std::size_t j = 0; j < size; ++j)
     for (Eigen::Index c = 0; c < 3; ++c)
       energy[j][std::size_t(c)] =
           root_weight *
           (in_face ? 0.5 * (number(j, c) + number((j + size / 2) % size, c)) : number(j, c));
+}
+
+void set_energy(const ControlMesh& mesh, const Element& element, Chart chart, const FitRows& rows,
+                std::span<Stencils::Column> energy) {
+  const StiffSide side = stiff_side(mesh, element, chart);
+  const bool beside = side.line != Vec2::Zero();
+  const double share = beside ? shorten(side, chart) : 1;
+  set_differences(element, chart.area, beside ? fit(chart) : rows, energy);
   for (std::size_t j = side.begin; j < side.end; ++j)
-    for (double& each : energy[j % size]) each *= share;
+    for (double& each : energy[j % energy.size()]) each *= share;
   stiffen_straight(mesh, element, chart, energy);
-  stiffen_across(side, near, energy);
+  stiffen_across(side, chart, energy);
 }
 
 void fill(const ControlMesh& mesh, const ChartMaker& charts, std::size_t e, Stencils& s) {
@@ -54,9 +60,8 @@ void fill(const ControlMesh& mesh, const ChartMaker& charts, std::size_t e, Sten
     if (!in_face) std::fill_n(numbers->data() + 5 * first, 5 * size, 0.0f);
   s.has_fit[e] = has_fit(mesh, element);
   if (!s.has_fit[e]) return;
-  const Chart chart = chart_of(charts, element);
+  Chart chart = chart_of(charts, element);
   const FitRows rows = fit(chart);
-  set_energy(mesh, element, chart, rows, {s.energy.data() + first, size});
   for (std::size_t j = 0; j < size && !in_face; ++j) {
     const Coefficients half = basis(0.5 * chart.ring[j]);
     for (std::size_t c = 0; c < 5; ++c) {
@@ -64,6 +69,7 @@ void fill(const ControlMesh& mesh, const ChartMaker& charts, std::size_t e, Sten
       s.half[5 * (first + j) + c] = float(half(Eigen::Index(c)));
     }
   }
+  set_energy(mesh, element, std::move(chart), rows, {s.energy.data() + first, size});
 }
 
 }  // namespace

@@ -33,38 +33,28 @@ class StraightDirection {
     return in_chart(mesh_.flat.along[f], a + c, b + d, chart_.ring[0], chart_.ring[2]);
   }
 
+  // Like a vertex's, the mean of its faces' directions: a mirrored mesh has the mirrored one.
   Vec2 edge(Index e) const {
     const Edge& edge = mesh_.edges[e];
     if (edge.boundary()) return Vec2::Zero();
     const Side &left = mesh_.sides[edge.side[0]], &right = mesh_.sides[edge.side[1]];
     if (!all_kept(left.face, right.face)) return Vec2::Zero();
     if (mesh_.flat.part[left.face] != mesh_.flat.part[right.face]) return chart_.ring[0];
-    const Face& face = mesh_.faces[left.face];
-    const int s = left.local, size = face.size;
-    const Vec3 a = at(face, (s + 1) % size) - at(face, s),
-               b = at(face, (s + size - 1) % size) - at(face, s);
-    return in_chart(mesh_.flat.along[left.face], a, b, chart_.ring[0],
-                    chart_.ring[face.quad() ? 2 : 1]);
+    Vec2 sum = Vec2::Zero();
+    add(left.face, left.local, 0, sum);
+    add(right.face, right.local, mesh_.faces[left.face].quad() ? 4 : 3, sum);
+    return sum;
   }
 
-  // The mean of its faces' directions, so that the chart of a mirrored mesh has the mirrored one.
   Vec2 vertex(Index v) const {
     const auto ring = mesh_.ring(v);
     const auto kept = [&](const Spoke& s) { return s.face >= 0 && mesh_.flat.is_kept(s.face); };
     if (!std::ranges::all_of(ring, kept)) return Vec2::Zero();
     Vec2 sum = Vec2::Zero();
     std::size_t place = 0;
-    for (std::size_t k = 0; k < ring.size(); ++k) {
-      const bool quad = mesh_.faces[ring[k].face].quad();
-      const std::size_t next = place + (quad ? 2 : 1);
-      if (mesh_.flat.is_straight(ring[k].face)) {
-        const Vec2 own = in_chart(mesh_.flat.along[ring[k].face], spoke(v, ring[k]),
-                                  spoke(v, ring[(k + 1) % ring.size()]), chart_.ring[place],
-                                  chart_.ring[next % chart_.ring.size()])
-                             .normalized();
-        sum += sum.dot(own) < 0 ? Vec2(-own) : own;
-      }
-      place = next;
+    for (const Spoke& spoke : ring) {
+      add(spoke.face, spoke.corner, place, sum);
+      place += mesh_.faces[spoke.face].quad() ? 2 : 1;
     }
     return sum;
   }
@@ -73,9 +63,17 @@ class StraightDirection {
   const Vec3& at(const Face& face, int corner) const {
     return mesh_.positions[face.vertex[corner]];
   }
-  Vec3 spoke(Index v, const Spoke& spoke) const {
-    const auto& ends = mesh_.edges[spoke.edge].vertex;
-    return mesh_.positions[ends[spoke.outward ? 1 : 0]] - mesh_.positions[v];
+  // Adds a face's direction to those of others around the centre, which is at its corner c. `place`:
+  // the next corner's in the ring.
+  void add(Index f, int c, std::size_t place, Vec2& sum) const {
+    if (!mesh_.flat.is_straight(f)) return;
+    const Face& face = mesh_.faces[f];
+    const Vec3 a = at(face, (c + 1) % face.size) - at(face, c),
+               b = at(face, (c + face.size - 1) % face.size) - at(face, c);
+    const std::size_t next = (place + (face.quad() ? 2 : 1)) % chart_.ring.size();
+    const Vec2 own =
+        in_chart(mesh_.flat.along[f], a, b, chart_.ring[place], chart_.ring[next]).normalized();
+    sum += sum.dot(own) < 0 ? Vec2(-own) : own;
   }
   bool all_kept(Index f, Index g) const {
     return mesh_.flat.is_kept(f) && mesh_.flat.is_kept(g) &&
@@ -109,21 +107,12 @@ double across_line(const Chart& chart, const Vec2& line) {
   return (own + other) / (own / flat_stiffness + other);
 }
 
-// Whether a face holds the surface across a line. A straight one does unless the line is within 30
-// degrees of its direction: in inner corners, rims end at lines that are some 35 from them, and
-// folded beside the corner where they did not count.
-bool holds_across(const FlatFaces& flat, Index f, const Vec3& line) {
-  if (!flat.is_straight(f)) return flat.is_kept(f);
-  const double both = flat.along[f].dot(line);
-  return both * both < 0.75 * line.squaredNorm();
-}
-
 // Which side of an edge off the border alone is stiff across it: 1 left, -1 right, 0 none.
 int stiffer_side(const ControlMesh& mesh, Index e) {
   const auto [a, b] = mesh.edges[e].vertex;
   const Vec3 line = mesh.positions[b] - mesh.positions[a];
-  return holds_across(mesh.flat, mesh.face_beside(e, 0), line) -
-         holds_across(mesh.flat, mesh.face_beside(e, 1), line);
+  return mesh.flat.is_stiff(mesh.face_beside(e, 0), line) -
+         mesh.flat.is_stiff(mesh.face_beside(e, 1), line);
 }
 
 // The side of an element of an edge off the border, from the row of its left face on.
